@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.errors import ProcedureError
+from mindrun.given_numbers import number, values
 from mindrun.procedure_text import examine, file_of, module_of
 
 
@@ -75,15 +76,16 @@ def call(calls: str, function: Callable[..., Any], outputs: int, inputs: NDArray
         return np.zeros(0, np.float32)
     try:
         answer = function(*inputs.tolist())
-        values = np.array([float(v) for v in (answer if isinstance(answer, tuple | list) else (answer,))])
+        found = values(answer)
+        given = [number(value) for value in ([answer] if found is None else found)]
     except KeyboardInterrupt:
         raise
     except BaseException as error:
         said = _error_text(error, file_of(calls))
         raise ProcedureError(f"procedure {calls} fails for {inputs.tolist()}{said}") from error
-    if len(values) != outputs:
-        raise ProcedureError(f"procedure {calls} returned {len(values)} values instead of {outputs}")
-    return values.astype(np.float32)
+    if len(given) != outputs:
+        raise ProcedureError(f"procedure {calls} returned {len(given)} values instead of {outputs}")
+    return np.array(given).astype(np.float32)
 
 
 def _error_text(error: BaseException, path: str) -> str:

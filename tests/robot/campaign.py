@@ -21,7 +21,7 @@ from pathlib import Path
 
 from mindrun.bundle import Bundle, write_bundle
 from mindrun.policy import Policy
-from mindrun.robot.guardian.client import MAX_REPLACEMENTS
+from mindrun.robot.guardian.processes import MAX_REPLACEMENTS
 from mindrun.robot.identity import adopt
 
 from tests.robot.devices import Devices, devices
@@ -69,12 +69,10 @@ class Round:
 
     @property
     def nobody_left(self) -> bool:
-        """Whether a guardian was lost, and with it its controller, or all that were to do its work."""
+        """Whether a guardian's first process was lost, and with it its controller, or all that were to do its work."""
         own = {process.pid for process in self.controllers}
-        victims = Counter(parent for pid, parent in self.guardians.items() if pid in self.lost)
-        return any(
-            parent in self.lost or parent not in own or times > MAX_REPLACEMENTS for parent, times in victims.items()
-        )
+        victims = Counter(parent for pid, parent in self.guardians.items() if pid in self.lost and parent in own)
+        return any(parent in self.lost or times > MAX_REPLACEMENTS for parent, times in victims.items())
 
     def _is_ours(self, process: Path) -> bool:
         try:

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from mindrun.robot.recording import read
 
-from tests.robot.driving import MINDRUN, until, write_procedure
+from tests.robot.driving import MINDRUN, mindrun, until, write_procedure
 
 HANGS = """
 calls = []
@@ -37,6 +37,12 @@ def test_one_signal_ends_a_procedure_that_hangs(
     assert process.returncode == 130, err
     assert "Traceback" not in err
     assert [row["tick"] for rows in read(day)[1] for row in rows] == list(range(8)), "what was recorded is whole"
+
+
+@pytest.mark.parametrize(("end", "code"), [("os._exit(0)", 1), ("os._exit(7)", 7), ("os.kill(os.getpid(), 9)", -9)])
+def test_what_ends_the_process_is_no_success(bundle: Path, end: str, code: int) -> None:
+    write_procedure(bundle, f"import os\ndef f(sense, pulse):\n    {end}\n")
+    assert mindrun(bundle, "--arm").returncode == code
 
 
 def python(lines: str) -> subprocess.CompletedProcess[str]:

@@ -22,6 +22,7 @@ from mindrun.robot.recording import About, Recorder
 from mindrun.robot.sampling import Sampler
 from mindrun.robot.seen_world import SeenWorld
 from mindrun.robot.stop_signals import Stop, stopping
+from mindrun.robot.sudden_end import refuse_success
 from mindrun.robot.temporary_recording import TemporaryRecorder
 from mindrun.wiring import Wiring, read_by
 
@@ -75,6 +76,7 @@ def drive(
         about = About.of(graph, digest, options.master or graph.master, tuple(wire.sensor for wire in wiring.sensors))
         recorder = stack.enter_context(_recorder(options, about, tell))
         stack.enter_context(options.view or nullcontext())
+        stack.enter_context(refuse_success())
         samplers = stack.enter_context(_sampling(wiring))
         guardian = stack.enter_context(Guardian(plan_of(graph.tick, neutrals, wiring), inherited=held))
         loop = Loop(engine, ReadingFilter(graph, samplers), guardian, Rate(graph.tick), options.armed, recorder, tell)

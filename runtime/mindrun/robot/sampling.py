@@ -1,12 +1,13 @@
 """Sensors read outside of the control loop: a thread each, so that a slow or hung one never delays a tick."""
 
 import threading
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from math import inf, isfinite
 from time import monotonic
 
 from mindrun.driver import DeviceError, SensorDevice
+from mindrun.given_numbers import is_truth, number, values
 from mindrun.wiring import SensorWire
 
 
@@ -74,22 +75,29 @@ class Sampler:
         return None, Sample((), began, why)
 
 
-def checked(values: Sequence[float | None], at: float, wire: SensorWire) -> Sample:
-    """A sample of these values, or of the fault that they are."""
+def checked(given: object, at: float, wire: SensorWire) -> Sample:
+    """A sample of the values that a device gave, whatever kind of numbers these are, or of the fault that they are."""
     low, high = getattr(wire.driver, "possible", (-inf, inf))
-    expected = wire.driver.readings
-    if not isinstance(values, Sequence) or isinstance(values, str) or len(values) != expected:
-        return Sample((), at, f"gave {values!r:.60}, not {expected} values")
-    for value in values:
+    expected, found = wire.driver.readings, values(given)
+    if found is None or len(found) != expected:
+        return Sample((), at, f"gave {given!r:.60}, not a list of {expected} value{'s' * (expected != 1)}")
+    measured: list[float | None] = []
+    for value in found:
         if value is None:
+            measured.append(None)
             continue
-        if isinstance(value, bool) or not isinstance(value, int | float):
+        try:
+            plain = number(value)
+        except TypeError:
+            plain = None
+        if plain is None or is_truth(value):
             return Sample((), at, f"gave {value!r:.60}, which is no number")
-        if not isfinite(value):
-            return Sample((), at, f"gave {value}")
-        if not low <= value <= high:
-            return Sample((), at, f"gave {value:g}, which is not between {low:g} and {high:g}")
-    return Sample(tuple(None if value is None else float(value) for value in values), at)
+        if not isfinite(plain):
+            return Sample((), at, f"gave {plain}")
+        if not low <= plain <= high:
+            return Sample((), at, f"gave {plain:g}, which is not between {low:g} and {high:g}")
+        measured.append(plain)
+    return Sample(tuple(measured), at)
 
 
 def _close(device: SensorDevice | None) -> None:

@@ -6,7 +6,7 @@ import threading
 import time
 from pathlib import Path
 
-from mindrun.robot.drivers.mock import MockActuator
+from mindrun.robot.drivers.lamp import Lamp
 from mindrun.robot.guardian.client import Guardian
 from mindrun.robot.guardian.plan import Channel, Plan
 
@@ -15,9 +15,9 @@ LOGGED = (sys.executable, "-P", str(Path(__file__).with_name("logged.py")))
 PLAN = Plan(
     TICK,
     (
-        Channel("left_wheel", 0.5, MockActuator()),
-        Channel("right_wheel", 0.5, MockActuator()),
-        Channel("claw", 0.0, MockActuator(), reversed=True),
+        Channel("left_wheel", 0.5, Lamp(0)),
+        Channel("right_wheel", 0.5, Lamp(1)),
+        Channel("claw", 0.0, Lamp(2), reversed=True),
     ),
 )
 

@@ -6,6 +6,7 @@ fails     refuses every move
 tired     refuses the first twenty of all writes
 stuck     refuses everything
 missing   cannot be opened
+late      cannot be opened at first
 crashes   takes the whole process with it when it is moved
 exits     raises SystemExit when it is moved
 """
@@ -16,18 +17,19 @@ import sys
 import time
 from dataclasses import dataclass
 from importlib import import_module
-from itertools import count
+from typing import Annotated
 
 from mindrun.driver import DeviceError
 from mindrun.registry import kind
+from mindrun.robot.driver_support import PIN
 from mindrun.robot.guardian.__main__ import main
 from mindrun.robot.guardian.plan import DRIVERS
 from mindrun.robot.guardian.realtime import import_little
 
 LOG = os.open(os.environ["MIND_LOG"], os.O_WRONLY | os.O_APPEND | os.O_CREAT)
 MANNERS = os.environ.get("MIND_MANNERS", "fine fine fine").split()
-NEUTRALS = tuple(map(float, os.environ.get("MIND_NEUTRALS", "0.5 0.5 1.0").split()))
-_channels = count()
+NEUTRALS = (0.5, 0.5, 1.0)
+_late = set[int]()
 
 
 @dataclass(slots=True)
@@ -62,20 +64,24 @@ class LoggedDevice:
 
 @dataclass(frozen=True, slots=True)
 class Logged:
-    """Takes the place of the mock, in this process alone."""
+    """Takes the place of the lamp, in this process alone; its pin is the channel."""
+
+    pin: Annotated[int, PIN]
+    frequency: float = 200.0
+    device = ""
 
     def open(self) -> LoggedDevice:
-        """The next channel."""
-        channel = next(_channels)
-        if MANNERS[channel] == "missing":
+        """The channel, unless it is missing; one that is `late` is so the first time."""
+        if MANNERS[self.pin] == "missing" or (MANNERS[self.pin] == "late" and self.pin not in _late):
+            _late.add(self.pin)
             raise DeviceError("nobody answers")
         if "MIND_PRINTS" in os.environ:
             print("ready or not")
-        return LoggedDevice(channel, MANNERS[channel])
+        return LoggedDevice(self.pin, MANNERS[self.pin])
 
 
 if __name__ == "__main__":
     import_little(DRIVERS)
-    import_module(f"{DRIVERS}.mock")  # which is replaced
-    kind("actuator driver", "mock")(Logged)
+    import_module(f"{DRIVERS}.lamp")  # which is replaced
+    kind("actuator driver", "lamp")(Logged)
     main()

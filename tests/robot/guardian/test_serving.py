@@ -252,6 +252,13 @@ def test_frames_after_the_end_change_nothing(robot: Robot) -> None:
     assert len(robot.happens) == 1
 
 
+def test_a_controller_that_ends_while_something_moves_has_said_no_word(robot: Robot) -> None:
+    robot.comes(0.0, 0, 0.75)
+    robot.ends(TICK)
+    robot.process.serve()
+    assert robot.reports == ["the controller has ended without a word"]
+
+
 def test_it_is_woken_though_its_pipe_is_full(robot: Robot) -> None:
     for _ in range(1 << 17):
         robot.process._nudge()

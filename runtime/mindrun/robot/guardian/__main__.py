@@ -5,18 +5,20 @@ With `--neutral FILE`, bring them to neutral once, and end: for systemd, after t
 
 import argparse
 import os
+from collections.abc import Callable
 from pathlib import Path
-from time import monotonic, sleep
 
 from mindrun.errors import MindError
 from mindrun.line_writer import LineWriter
 from mindrun.robot.guardian.plan import DRIVERS, MAX_PLAN_BYTES, Plan, from_json, read_plan
 from mindrun.robot.guardian.process import Process
 from mindrun.robot.guardian.realtime import import_little, set_realtime, wake_on_signals
+from mindrun.robot.guardian.status import OVER, REST, say
+from mindrun.robot.guardian.watch import rescued, watch
 
 OK, FAILED, USAGE, UNAVAILABLE, BROKEN = 0, 1, 64, 69, 70  # as in sysexits.h
 INPUT_DESCRIPTOR, OUTPUT_DESCRIPTOR, ERROR_DESCRIPTOR = 0, 1, 2
-RETRY_SECONDS = 0.05  # between two tries to open what could not be
+NOBODY = -1  # in place of a descriptor
 
 
 def main() -> None:
@@ -25,30 +27,26 @@ def main() -> None:
     if options.neutral in (None, "-"):  # a bundle needs all drivers to be read
         import_little(DRIVERS)
     set_realtime()
-    errors = LineWriter(ERROR_DESCRIPTOR, "guardian: ")
-    status = LineWriter(os.dup(OUTPUT_DESCRIPTOR))
+    status = os.dup(OUTPUT_DESCRIPTOR)
     os.dup2(ERROR_DESCRIPTOR, OUTPUT_DESCRIPTOR)  # what a driver prints is no status
     try:
         plan = _plan(options.neutral or "-")
     except MindError as error:
-        errors(str(error))
-        status(f"failed {error}")
-        code = USAGE
-    else:
-        if options.neutral:
-            code = bring(Process(plan, INPUT_DESCRIPTOR, errors), errors, options.within)
-        else:
-            code = guard(plan, errors, status)
-    errors.flush(0.2)
-    status.flush(0.2)
-    os._exit(code)  # a thread that hangs in a device's write would never be joined
+        os._exit(_refused(status, str(error)))
+    if options.neutral not in (None, "-"):  # nobody hears it, and a terminal must stay as it is
+        os.close(status)
+        os._exit(_brought(plan, NOBODY, options.within))
+    os.set_blocking(status, False)
+    os._exit(_brought(plan, status, options.within) if options.neutral else _guarded(plan, status))
 
 
-def guard(plan: Plan, report: LineWriter, status: LineWriter) -> int:
-    """Follow the frames on standard input; however this ends, every actuator is at neutral first."""
-    process = Process(plan, INPUT_DESCRIPTOR, report, status)
+def guard(
+    plan: Plan, frames: int, report: Callable[[str], None], status: Callable[[str], None], rests: Callable[[], None]
+) -> int:
+    """Follow the frames; however this ends, every actuator is at neutral first, and then `rests` is called."""
+    process = Process(plan, frames, report, status)
     wake_on_signals(process.wake)
-    code = OK
+    code, wrong = OK, None
     try:
         wrong = process.open()
         if wrong:
@@ -60,27 +58,51 @@ def guard(plan: Plan, report: LineWriter, status: LineWriter) -> int:
             status("ready")
             process.serve()
     except BaseException as error:
-        process.rest()
         report(f"broken: {type(error).__name__} {error}")
         code = BROKEN
     process.rest()
     process.settle()
+    if wrong is not None:  # what was not even tried to be opened is at neutral only by chance
+        rests()
     process.close()
     return code
 
 
-def bring(process: Process, report: LineWriter, seconds: float) -> int:
-    """Bring all that can be opened to neutral; whether that was all, and in time."""
-    wake_on_signals(process.wake)  # whoever tells it to end is told that it does, when it is done
-    until = monotonic() + seconds
-    while (wrong := process.open()) and monotonic() < until:  # a bus that is busy is free again
-        sleep(RETRY_SECONDS)
-    if not process.settle(max(until - monotonic(), RETRY_SECONDS)):
-        wrong.append(f"not everything was at neutral after {seconds:g} s")
-    process.close()
-    for line in wrong:
-        report(line)
-    return FAILED if wrong else OK
+def _guarded(plan: Plan, status: int) -> int:
+    """Guard in a process of its own, which this one watches."""
+    frames = os.dup(INPUT_DESCRIPTOR)
+    with open(os.devnull, "rb", buffering=0) as nothing:  # noqa: PTH123  so that what a driver starts reads no frame
+        os.dup2(nothing.fileno(), INPUT_DESCRIPTOR)
+
+    def work(word: int) -> int:
+        set_realtime()
+        errors, states = LineWriter(ERROR_DESCRIPTOR, "guardian: "), LineWriter(status)
+
+        def rests() -> None:
+            states.flush(1.0)
+            say(status, REST)
+            say(word, REST)
+
+        code = guard(plan, frames, errors, states, rests)
+        errors.flush(0.2)
+        return code
+
+    return watch(plan, frames, status, work)
+
+
+def _brought(plan: Plan, status: int, seconds: float) -> int:
+    """Bring all to neutral once; whether that was all, and in time."""
+    moving = rescued(plan, status, seconds)
+    say(status, OVER)
+    return FAILED if moving else OK
+
+
+def _refused(status: int, why: str) -> int:
+    say(status, "failed", " ".join(why.split()))
+    errors = LineWriter(ERROR_DESCRIPTOR, "guardian: ")
+    errors(why)
+    errors.flush(0.2)
+    return USAGE
 
 
 def _plan(path: str) -> Plan:

@@ -1,5 +1,6 @@
 """One actuator's writer: a thread of its own, so that a device that hangs keeps no other from its neutral."""
 
+import os
 from collections.abc import Callable
 from dataclasses import dataclass
 from threading import Condition, Thread
@@ -7,7 +8,14 @@ from time import monotonic
 
 from mindrun.driver import ActuatorDevice
 
+FORKED_EXIT_CODE = 70  # exit code of a process that a driver has forked and that has come back from it
 MIN_RETRY_SECONDS, MAX_RETRY_SECONDS = 0.002, 0.05  # seconds between two tries: at first, and in the end
+
+
+def end_in_child(process: int) -> None:
+    """End a process that a driver has forked and that has come back from it: only `process` drives."""
+    if os.getpid() != process:
+        os._exit(FORKED_EXIT_CODE)
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,6 +41,7 @@ class ActuatorOutput:
         self._wanted = Wanted(rest, True, clock())
         self._waiting: float | None = clock()  # since when nothing has been acknowledged that should have been
         self._closing = False
+        self._process = os.getpid()
         self._change = Condition()
         self._thread = Thread(target=self._run, name=name, daemon=True)
         self._device: ActuatorDevice
@@ -74,7 +83,9 @@ class ActuatorOutput:
             wanted = self._wanted
         try:
             self._device.write(wanted.value)
+            end_in_child(self._process)
         except BaseException as error:  # whatever a driver raises, this thread goes on
+            end_in_child(self._process)
             self.error = str(error) or type(error).__name__
             return wanted
         with self._change:

@@ -9,7 +9,7 @@ from time import monotonic
 
 from mindrun.robot.guardian.frames import FrameError, Reader
 from mindrun.robot.guardian.guard import FOLLOWING, LATCHED, NEUTRAL, NOT_ARMED, Guard, Move, Order, Rest
-from mindrun.robot.guardian.output import ActuatorOutput
+from mindrun.robot.guardian.output import ActuatorOutput, end_in_child
 from mindrun.robot.guardian.plan import Plan
 
 REPORT_SECONDS = 1.0  # between two reports on an actuator that is not at neutral
@@ -40,6 +40,7 @@ class Process:
         self.outputs = [ActuatorOutput(channel.actuator, rest, self._nudge, clock) for channel, rest in rests]
         self._opened: list[ActuatorOutput] = []
         self._ending = False
+        self._process = os.getpid()
         self._told = 0.0
 
     def open(self) -> list[str]:
@@ -52,8 +53,11 @@ class Process:
             if output in self._opened:
                 continue
             try:
-                output.start(channel.driver.open())
-            except Exception as error:
+                device = channel.driver.open()
+                end_in_child(self._process)
+                output.start(device)
+            except BaseException as error:  # a driver may raise SystemExit: no other stays closed for that
+                end_in_child(self._process)
                 hint = getattr(error, "hint", "")
                 wrong.append(f"{output.name} cannot be opened: {str(error) or type(error).__name__} {hint}".strip())
             else:
@@ -84,6 +88,8 @@ class Process:
             if self._frames in self._wait([self._frames], self._patience(self._clock())):
                 data = os.read(self._frames, 1 << 16)
                 if not data:
+                    if self.guard.state == FOLLOWING:
+                        self._report("the controller has ended without a word")
                     return
             self.step(data)
 
@@ -149,6 +155,11 @@ class Process:
                 late = ceil(output.late(now))
                 self._report(f"{output.name} is not at neutral after {late} s: {output.error or 'it does not answer'}")
 
+    @property
+    def at_rest(self) -> list[str]:
+        """The names of the actuators that have acknowledged neutral."""
+        return [output.name for output in self._opened if output.settled]
+
     def _settled(self) -> bool:
         return all(output.settled for output in self._opened)
 
@@ -164,5 +175,5 @@ class Process:
         return ready
 
     def _nudge(self) -> None:
-        with suppress(BlockingIOError):  # full: then it wakes as well
+        with suppress(OSError):  # full: then it wakes as well; or a driver has closed it, which is noticed elsewhere
             os.write(self.wake, b"\0")

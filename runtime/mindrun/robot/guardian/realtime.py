@@ -41,13 +41,18 @@ def set_realtime() -> None:
     gc.freeze()
 
 
+def ignore(*names: str) -> None:
+    """Let these signals do nothing from now on."""
+    for name in names:
+        signal.signal(signal.Signals[name], signal.SIG_IGN)
+
+
 def wake_on_signals(descriptor: int) -> None:
     """From now on a signal that ends programs writes its number there, and one of the terminal does nothing.
 
     Ctrl-C is the controller's to answer: when that ends, so do its frames.
     """
-    for name in IGNORED_SIGNALS:
-        signal.signal(signal.Signals[name], signal.SIG_IGN)
+    ignore(*IGNORED_SIGNALS)
     signal.set_wakeup_fd(descriptor, warn_on_full_buffer=False)
     for name in ENDING_SIGNALS:
         signal.signal(signal.Signals[name], lambda number, frame: None)

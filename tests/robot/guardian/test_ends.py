@@ -1,0 +1,42 @@
+"""However a guardian, a driver or a controller ends: at neutral is what can be, and what is said to be."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from mindrun.robot.guardian.plan import to_json
+
+from tests.robot.guardian.driven import PLAN
+from tests.robot.guardian.ends import PROGRAM, Round, rounds
+
+
+def test_random_ends(tmp_path: Path) -> None:
+    assert len([*rounds(24, 3, tmp_path, 4)]) == 24
+
+
+@pytest.mark.parametrize("how", ["_exit 0", "SIGSEGV"])
+@pytest.mark.parametrize("when", ["open", "neutral"])
+@pytest.mark.parametrize("device", ["", "/dev/one"])
+def test_a_driver_that_ends_the_process_takes_no_other_along(tmp_path: Path, how: str, when: str, device: str) -> None:
+    """Of one device they are opened together at first, since only one process may drive it."""
+    log = tmp_path / "log"
+    log.write_text("")
+    manners = ["fine", f"{how}@{when}", "fine"]
+    hostile = {"MIND_LOG": str(log), "MIND_MANNERS": ",".join(manners), "MIND_DEVICE": device}
+    command = [sys.executable, "-P", str(PROGRAM), "--neutral", "-"]
+    done = subprocess.run(
+        command, input=to_json(PLAN), text=True, capture_output=True, env={**os.environ, **hostile}, check=False
+    )
+    assert done.returncode == 1
+    assert done.stderr == "guardian: not known to be at neutral: right_wheel; cut the actuators' power\n"
+    *said, last = done.stdout.splitlines()
+    assert (sorted(said), last) == (["rest claw", "rest left_wheel"], "over")
+    assert Round(manners, "", log).is_at_rest
+    assert log.read_text().count(" harm 1 ") == 3
+
+
+@pytest.mark.slow
+def test_1000_random_ends(tmp_path: Path) -> None:
+    assert len([*rounds(1000, 4, tmp_path, 4)]) == 1000
