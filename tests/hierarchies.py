@@ -1,5 +1,6 @@
 """Hypothesis strategies for whole hierarchies, their weights and what they read."""
 
+from collections.abc import Collection
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -37,6 +38,7 @@ from mindrun.sensors.floor import Floor
 from mindrun.sensors.light import Light
 from mindrun.sensors.odometer import Odometer
 from mindrun.sensors.position import Position
+from mindrun.sensors.sensor import directions
 from mindrun.sensors.speed import Speed
 from mindrun.sensors.turn_rate import TurnRate
 from mindrun.weights import genes
@@ -197,6 +199,8 @@ def random_case(draw: st.DrawFn, ticks: int = 6) -> Case:
     own = [skill for skill in graph.skills if not skill.like]
     weights = {skill.name: draw(st.sampled_from(SCALES)) * rng.uniform(-0.7, 1, genes(skill)) for skill in own}
     readings = rng.random((ticks, graph.width), np.float32)
+    if draw(st.booleans()):
+        readings = (readings / 8 - np.float32(1 / 16)) % 1  # about where directions begin anew
     for _ in range(draw(st.integers(0, 6))):
         place = draw(st.tuples(st.integers(0, ticks - 1), st.integers(0, max(graph.width - 1, 0))))
         readings[place] = draw(st.sampled_from([np.nan, np.inf, -np.inf, -0.0, 0.0, 1.0, 7.0, -3.0, 3e38, 1e-42]))
@@ -221,7 +225,8 @@ def _senses(draw: st.DrawFn) -> tuple[tuple[Sensor, ...], tuple[Memory, ...]]:
     for number, kind in enumerate(kinds):
         width = getattr(kind, "width", 1)
         if isinstance(kind, str):
-            width, kind = draw(virtual_kinds(kind, widths))
+            around = directions({sensor.name: sensor.kind for sensor in sensors})
+            width, kind = draw(virtual_kinds(kind, widths, around))
         sensors.append(Sensor(f"s{number}", kind, start, width))
         widths[f"s{number}"] = width
         start += width
@@ -230,13 +235,18 @@ def _senses(draw: st.DrawFn) -> tuple[tuple[Sensor, ...], tuple[Memory, ...]]:
 
 
 @st.composite
-def virtual_kinds(draw: st.DrawFn, kind: str, widths: dict[str, int]) -> tuple[int, SensorKind]:
-    """A sensor that is computed, and how many readings it has; of a source, where there is one."""
+def virtual_kinds(
+    draw: st.DrawFn, kind: str, widths: dict[str, int], around: Collection[str] = ()
+) -> tuple[int, SensorKind]:
+    """A sensor that is computed, and how many readings it has; of a source, where there is one.
+
+    It is often of one of those that are read `around`, as directions are.
+    """
     if kind == "clock":
         return 1, Clock(draw(st.sampled_from([0.05, 0.3, 2.0])))
     if kind == "sine" or not widths:
         return 1, Sine(draw(st.sampled_from([0.05, 0.3, 2.0])))
-    of = draw(st.sampled_from(sorted(widths)))
+    of = draw(st.sampled_from([*sorted(widths), *3 * sorted(around)]))
     match kind:
         case "derivative":
             return widths[of], Derivative(of, draw(st.sampled_from([0.5, 1.0, 30.0])), draw(_dead_zones))

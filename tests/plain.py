@@ -75,13 +75,13 @@ class Plain:
         source = parts[kind.of]
         match kind:
             case Derivative():
-                return self.derivative(kind, source, i)
+                return self.derivative(kind, source, i, turns(source, parts))
             case Reading():
                 return self.readings[source.start + kind.reading - 1]
         past = self.past.setdefault((sensor.name, i), [])
         past.append(self.readings[source.start + i])
         if isinstance(kind, Average):
-            return self.average(past, kind.over)
+            return self.average(past, kind.over, turns(source, parts))
         state = f(0)
         for reading in past:
             state = f(1) if reading < f(kind.below) else state
@@ -89,16 +89,21 @@ class Plain:
         return state if math.isfinite(past[-1]) else f(np.nan)
 
     @staticmethod
-    def average(past, over):
-        """The mean of the last readings, in the order of their places in a ring."""
+    def average(past, over, turns):
+        """The mean of the last readings, in the order of their places in a ring; of the short ways from the newest."""
         newest = len(past) - 1
         last = sorted(range(max(0, newest - over + 1), newest + 1), key=lambda tick: tick % over)
         total = np.float64(0)
         for tick in last:
-            total = total + np.float64(past[tick])
-        return f(total / len(last))
+            way = np.float64(past[tick]) - np.float64(past[newest])
+            total = total + (way - np.rint(way) if turns else np.float64(past[tick]))
+        mean = total / len(last)
+        if turns:
+            mean = np.float64(past[newest]) + mean
+            mean = mean + 1 if mean < 0 else mean - 1 if mean > 1 else mean
+        return f(mean)
 
-    def derivative(self, kind, source, i):
+    def derivative(self, kind, source, i, turns):
         """One reading of a derivative."""
         if self.before is None:
             return f(0.5)
@@ -106,8 +111,7 @@ class Plain:
         if not (math.isfinite(now) and math.isfinite(before)):
             return f(np.nan)
         d = now - before
-        if isinstance(source.kind, Bearing | Compass):
-            d = d - f(1) if d > 0.5 else d + f(1) if d < -0.5 else d
+        d = d - np.rint(d) if turns else d
         v = clamp(f(0.5) + d * f(0.5 / (self.graph.tick * kind.range)))
         return f(0.5) if abs(v - f(0.5)) < f(kind.dead_zone) else v
 
@@ -189,6 +193,14 @@ class Plain:
             exec((PROCEDURES / f"{module}.py").read_text(), self.modules[skill.name])
         found = self.modules[skill.name][function](*map(float, inputs))
         return [f(value) for value in (found if isinstance(found, list | tuple) else [found])]
+
+
+def turns(part, parts):
+    """Whether a sensor or memory reads a direction."""
+    match part.kind:
+        case Average(of=of) | Reading(of=of):
+            return turns(parts[of], parts)
+    return isinstance(part.kind, Bearing | Compass)
 
 
 def layer(weights, values, count):

@@ -9,6 +9,7 @@ from typing import Any
 from mindrun.graph import Graph, Skill
 from mindrun.named_readings import reading_names
 from mindrun.registry import names
+from mindrun.virtual_sensors import scene_of
 
 from mindlang.view.columns import Columns
 from mindlang.view.texts import shown
@@ -82,8 +83,12 @@ class HierarchyData:
             yield "memory", place
 
     def curves(self, rewards: Sequence[str] = (), has_robot: bool = True) -> list[dict[str, Any]]:
-        """Every column that can be drawn over time, by name; of rewards where there are any, and of a robot."""
-        graph, reached = self.graph, {skill.name for skill in self.skills}
+        """Every column that can be drawn over time, by name; of rewards where there are any, and of a robot.
+
+        Those of directions are `circular`: no line leads from 1 to 0.
+        """
+        graph, reached, scene = self.graph, {skill.name for skill in self.skills}, scene_of(self.graph)
+        circular = {scene.starts[name] for name in scene.directions}
         named: list[tuple[str, str, list[tuple[int, str]]]] = [
             ("reading", "readings", [*enumerate(reading_names(graph))]),
             ("influence", "influence", [(i, s.name) for i, s in enumerate(graph.skills) if s.name in reached]),
@@ -95,6 +100,7 @@ class HierarchyData:
         ]
         return [
             {"name": shown(name), "group": group, "column": self.columns[of].column(place)}
+            | {"circular": of == "readings" and place in circular}
             for group, of, each in named
             if of in self.columns.groups and (has_robot or group != "world")
             for place, name in each

@@ -31,6 +31,17 @@ def clamp(v: Any) -> Any:
     return v if v < ONE else ONE
 
 
+def wrapped(v: Any) -> Any:
+    """A direction that is less than a turn beyond 0..1, where it is within: 1.02 is 0.02. What is within stays."""
+    v = v + ONE if v < ZERO else v
+    return v - ONE if v > ONE else v
+
+
+def short_way(d: Any) -> Any:
+    """What lies between two directions whose difference is `d`, the short way round: −0.5 to 0.5."""
+    return d - np.rint(d)
+
+
 def finite(v: Any) -> Any:
     """Whether a float32 is neither infinite nor NaN."""
     return abs(v) <= MAX_FLOAT32

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from mindrun.graph import Graph
-from mindrun.sensors.sensor import Scene
+from mindrun.sensors.sensor import Scene, directions
 from mindrun.validate import depths
 
 if TYPE_CHECKING:
@@ -16,7 +16,7 @@ def scene_of(graph: Graph) -> Scene:
     """What the sensors of a graph depend on beside their own arguments."""
     places = {memory.name: slice(memory.start, memory.start + 1) for memory in graph.memories}
     places |= {sensor.name: slice(sensor.start, sensor.start + sensor.width) for sensor in graph.sensors}
-    return Scene(graph.tick, places, {sensor.name for sensor in graph.sensors if sensor.kind.circular})
+    return Scene(graph.tick, places, directions({sensor.name: sensor.kind for sensor in graph.sensors}))
 
 
 def virtual_sensors(graph: Graph) -> tuple[tuple[slice, Reader], ...]:

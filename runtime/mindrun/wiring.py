@@ -29,10 +29,11 @@ ON_FAULT = Reference("reaction", get_args(OnFault))
 class SensorWire:
     """How a sensor is measured.
 
-    Its reading is 0 at the value `low` and 1 at `high`, which may be the smaller one; closer to `rest` than `dead_zone`
-    it is `rest`, as in training. `median` of so many values is taken, `rate` times a second. Where there is nothing to
-    measure it reads `blank`. What was measured more than `max_age` ago, or failed, is a fault: then every actuator goes
-    to neutral (`on_fault` "neutral"), the reading before is held for `hold` seconds more ("hold"), or it reads `blank`.
+    Its reading is 0 at the value `low` and 1 at `high`, which may be the smaller one. Beyond them it stays that; a
+    direction goes round. Closer to `rest` than `dead_zone` it is `rest`, as in training. `median` of so many values is
+    taken, `rate` times a second. Where there is nothing to measure it reads `blank`. What was measured more
+    than `max_age` ago, or failed, is a fault: then every actuator goes to neutral (`on_fault` "neutral"), the reading
+    before is held for `hold` seconds more ("hold"), or it reads `blank`.
     """
 
     sensor: str
@@ -78,15 +79,23 @@ class Wiring:
     actuators: tuple[ActuatorWire, ...]
 
 
-def reading(wire: SensorWire, raw: float | None) -> float:
-    """The reading of a raw value: `blank` for None; NaN, which is a fault, for what is not finite."""
+def reading(wire: SensorWire, raw: float | None, circular: bool | None = False) -> float:
+    """The reading of a raw value: `blank` for None; NaN, which is a fault, for what is not finite.
+
+    What is beyond `low` and `high` reads as that end, but goes round where it is a direction, which is `circular`.
+    """
     if raw is None:
         return wire.blank
     share = (raw - wire.low) / (wire.high - wire.low) if isfinite(raw) else nan
     if not isfinite(share):  # asked before it is clamped: max(0, min(1, NaN)) is 1
         return nan
-    share = max(0.0, min(1.0, share))
+    share = within_turn(share) if circular else max(0.0, min(1.0, share))
     return wire.rest if abs(share - wire.rest) < wire.dead_zone else share
+
+
+def within_turn(share: float) -> float:
+    """A direction in turns within 0..1: 1.25 is 0.25. What is within stays as it is."""
+    return (share if 0.0 <= share <= 1.0 else share % 1.0) + 0.0  # where it was −0.0, too
 
 
 def code_digests(wiring: Wiring) -> dict[str, str]:

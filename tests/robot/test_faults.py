@@ -102,6 +102,18 @@ def test_a_median_leaves_out_a_spike() -> None:
     np.testing.assert_allclose(readings, 0.6)
 
 
+@pytest.mark.parametrize("kind", ["bearing", "compass"])
+def test_a_median_of_directions_goes_round(kind: str) -> None:
+    script = [[0.99], [0.01], [0.02], [0.5], [0.98], [0.97]]
+    of = robot(kind, script, median=3)
+    readings = []
+    for _ in script:
+        of.tick()
+        readings.append(float(of.loop.engine.readings[0]))
+    np.testing.assert_allclose(readings[2:], [0.01, 0.02, 0.02, 0.97])
+    assert min(readings[1], 1 - readings[1]) < 1e-6
+
+
 def test_what_begins_and_ends_is_told() -> None:
     of = robot("bearing", [good, FAULTS["bus error"], FAULTS["bus error"], good])
     told: list[str] = []

@@ -59,6 +59,7 @@ def hold_readings(plain: PlainWorld, used: set[int], moment: Moment) -> None:
         if isinstance(sensor.kind, Physical) and sensor.start in used:
             for k, spans in enumerate(plain.seen(sensor)):
                 value = moment.readings[sensor.start + k]
+                assert 0 <= value <= 1
                 assert any(low - 3e-6 <= value <= high + 3e-6 for low, high in spans), (sensor, k, value, spans)
 
 

@@ -171,7 +171,11 @@ class PlainWorld:
         known = past[: at + 1] if blank is None and kind.lost else [past[at]]
         found = []
         for k in range(sensor.width):
-            spans = [(max(0.0, ticks[k][0] - kind.noise), min(1.0, ticks[k][1] + kind.noise)) for ticks in known]
+            spans = [(ticks[k][0] - kind.noise, ticks[k][1] + kind.noise) for ticks in known]
+            if isinstance(kind, sensors.Bearing | Compass):
+                spans = [(low + turn, high + turn) for low, high in spans for turn in (-1, 0, 1)]
+            else:
+                spans = [(max(0.0, low), min(1.0, high)) for low, high in spans]
             found.append([*spans, (blank, blank)] if kind.lost and blank is not None else spans)
         return found
 

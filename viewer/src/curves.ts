@@ -4,6 +4,7 @@ import uPlot from "uplot";
 import { digits, shown } from "./names";
 import type { Beside } from "./forks";
 import type { About, Column, Curve } from "./protocol";
+import { rounds } from "./rounds";
 import type { Rows, Series } from "./rows";
 import type { Theme } from "./theme";
 
@@ -178,8 +179,9 @@ export class Curves {
     return this.chosen.map((curve, place) => this.line(this.about.curves[curve], place, dashed));
   }
 
-  private line({ group }: Curve, place: number, dashed: boolean): uPlot.Series {
+  private line({ group, circular }: Curve, place: number, dashed: boolean): uPlot.Series {
     return {
+      ...(circular ? { gaps: rounds } : {}),
       ...(dashed ? { dash: [5, 4] } : {}),
       scale: SUMS.includes(group) ? "sum" : "unit",
       stroke: this.theme.skills[place % this.theme.skills.length],

@@ -23,6 +23,7 @@ export interface Curve {
   name: string;
   group: "reading" | "influence" | "command" | "reward" | "world";
   column: Column;
+  circular: boolean; // a direction, which goes round: 1 is 0
 }
 
 export interface Robot {

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from mindrun.graph import Graph, Sensor
 from mindrun.measured import measured_on_robot, rows_of
 from mindrun.robot.sampling import Sample
-from mindrun.wiring import SensorWire, reading
+from mindrun.wiring import SensorWire, reading, within_turn
 
 FINE, UNMEASURED, FAILED, STALE = range(4)  # what is wrong with a sensor in a tick
 FAULT_WORDS = ("fine", "not measured yet", "failed", "too old")
@@ -102,9 +102,20 @@ def _assess(state: _State, time: float) -> tuple[int, float, str]:
 
 def _filtered(state: _State) -> tuple[float, ...]:
     """The readings of the median of each value over the window; nothing there counts as `blank`."""
-    wire = state.source.wire
-    columns = zip(*([reading(wire, value) for value in sample.values] for sample in state.window), strict=True)
-    return tuple(float(median(column)) for column in columns)
+    wire, circular = state.source.wire, state.sensor.kind.circular
+    rows = ([reading(wire, value, circular) for value in sample.values] for sample in state.window)
+    middle = median_direction if circular else median
+    return tuple(float(middle(column)) for column in zip(*rows, strict=True))
+
+
+def median_direction(directions: Sequence[float]) -> float:
+    """The median of directions in turns, 0..1: about the one that is nearest to all, the short ways round."""
+
+    def ways(origin: float) -> list[float]:
+        return [(each - origin + 0.5) % 1 - 0.5 for each in directions]
+
+    origin = min(directions, key=lambda each: sum(map(abs, ways(each))))
+    return within_turn(origin + median(ways(origin)))
 
 
 def _answer(state: _State, fault: int, time: float) -> tuple[tuple[float, ...], bool]:

@@ -10,7 +10,10 @@ from mindrun.registry import kind
 from mindrun.sensors.sensor import Row, Scene, SensorKind
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
-    from mindrun.arithmetic import F
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from mindrun.arithmetic import F, short_way, wrapped
     from mindrun.arrays import Reader, Readings
 
 
@@ -19,11 +22,14 @@ if TYPE_CHECKING:  # a lane is given these when it is compiled
 class Average(SensorKind):
     """The mean of another sensor's readings over the last ticks; in the first ones, over as many as there were.
 
-    Of a bearing it is no direction: halfway between 0.99 and 0.01 is 0.5, which is the other way.
+    Of a direction it is one: the last reading, turned by the mean of the short ways from it to each. Of 0.98 and 0.01
+    that is 0.995; as numbers it would be 0.495, the other way.
     """
 
     of: Annotated[str, SENSOR]
     over: Annotated[int, WINDOW]
+
+    circular = None
 
     @property
     def remembered(self) -> int:  # type: ignore[override]
@@ -44,15 +50,22 @@ class Average(SensorKind):
         """The sum in float64, in the order in which the last readings lie in a ring, over how many they are."""
         import numpy as np
 
-        source = scene.places[self.of]
-        ring: list[Readings] = []
+        from mindrun.arithmetic import short_way
+
+        source, turns = scene.places[self.of], self.of in scene.directions
+        ring: list[NDArray[np.float64]] = []
 
         def read(number: int, now: Readings, before: Readings | None) -> Readings:
-            ring[number % self.over : number % self.over + 1] = [now[source].astype(np.float64)]
+            last = now[source].astype(np.float64)
+            ring[number % self.over : number % self.over + 1] = [last]
             total = np.zeros(source.stop - source.start)
             for readings in ring:
-                total = total + readings
-            return (total / len(ring)).astype(np.float32)
+                total = total + (short_way(readings - last) if turns else readings)
+            mean = total / len(ring)
+            if turns:
+                mean = last + mean
+                mean = np.where(mean < 0, mean + 1, np.where(mean > 1, mean - 1, mean))
+            return mean.astype(np.float32)
 
         return read
 
@@ -72,6 +85,9 @@ class Average(SensorKind):
                 total[p] = 0.0
             for i in range(sensor.over):
                 for p in range(n):
-                    total[p] += s.before[first + i, p] if i <= s.tick[p] else 0.0
+                    v = np.float64(s.before[first + i, p])
+                    v = short_way(v - now[p]) if sensor.turns else v
+                    total[p] += v if i <= s.tick[p] else 0.0
             for p in range(n):
-                out[p] = F(total[p] / min(s.tick[p] + 1, sensor.over))
+                mean = total[p] / min(s.tick[p] + 1, sensor.over)
+                out[p] = F(wrapped(now[p] + mean) if sensor.turns else mean)

@@ -16,8 +16,9 @@ if TYPE_CHECKING:  # a lane is given these when it is compiled
 @kind("sensor", "bearing")
 @dataclass(frozen=True, slots=True)
 class Bearing(Physical):
-    """Direction of a thing: 0.5 straight ahead, less on the left, more on the right, the seam behind; 0.5 without it.
+    """Direction of a thing: 0.5 straight ahead, less on the left, more on the right; 0.5 without it.
 
+    It goes round: noise leads from 0 to 1, which are both behind.
     0.5 − atan2(y, x)/2π in the body's frame, of several the nearest's; of an obstacle, a wall or a map its nearest
     point's. Within `dead_zone` of straight ahead it reads 0.5; with a `range`, a thing farther away than that, too.
     """

@@ -16,7 +16,7 @@ if TYPE_CHECKING:  # a lane is given these when it is compiled
 class Compass(Physical):
     """Direction of north, where the world's y axis points: 0.5 straight ahead, less on the left, more on the right.
 
-    Within `dead_zone` of straight ahead it reads 0.5; the seam is behind.
+    Within `dead_zone` of straight ahead it reads 0.5. It goes round: noise leads from 0 to 1, which are both behind.
     """
 
     dead_zone: Annotated[float, RATIO] = 0.0

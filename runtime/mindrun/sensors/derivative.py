@@ -12,14 +12,14 @@ from mindrun.sensors.sensor import Row, Scene, SensorKind, World
 if TYPE_CHECKING:  # a lane is given these when it is compiled
     import numpy as np
 
-    from mindrun.arithmetic import HALF, NAN, F, clamp, finite
+    from mindrun.arithmetic import HALF, NAN, clamp, finite, short_way
     from mindrun.arrays import Reader, Readings
 
 
 @kind("sensor", "derivative")
 @dataclass(frozen=True, slots=True)
 class Derivative(SensorKind):
-    """Change of another sensor's readings: 0.5 none, 1 rising by `range` a second. A bearing turns the short way."""
+    """Change of another sensor's readings: 0.5 none, 1 rising by `range` a second. A direction turns the short way."""
 
     of: Annotated[str, SENSOR]
     range: Annotated[float, POSITIVE] = 1.0
@@ -52,10 +52,10 @@ class Derivative(SensorKind):
         """0.5 in the first tick, NaN where a reading of the source is not finite now or was not."""
         import numpy as np
 
-        from mindrun.arithmetic import HALF, NAN, ONE
+        from mindrun.arithmetic import HALF, NAN, ONE, short_way
 
         gain, dead_zone = np.float32(0.5 / (scene.tick * self.range)), np.float32(self.dead_zone)
-        source, turns = scene.places[self.of], self.of in scene.circular
+        source, turns = scene.places[self.of], self.of in scene.directions
 
         def read(number: int, now: Readings, before: Readings | None) -> Readings | np.float32:
             if before is None:
@@ -63,7 +63,7 @@ class Derivative(SensorKind):
             change = now[source] - before[source]
             is_finite = np.isfinite(now[source]) & np.isfinite(before[source])
             if turns:
-                change = np.where(change > HALF, change - ONE, np.where(change < -HALF, change + ONE, change))
+                change = short_way(change)
             value = np.fmin(np.fmax(HALF + change * gain, np.float32(0.0)), ONE)
             value = np.where(np.abs(value - HALF) < dead_zone, HALF, value)
             return np.where(is_finite, value, NAN)
@@ -83,8 +83,7 @@ class Derivative(SensorKind):
             out, now, before = s.readings[sensor.start + k], s.readings[sensor.source + k], s.before[sensor.before + k]
             for p in range(n):
                 d = now[p] - before[p]
-                over = F(1 if d > HALF else 0) - F(1 if d < -HALF else 0)
-                d = d - over if sensor.turns else d
+                d = short_way(d) if sensor.turns else d
                 v = clamp(HALF + d * sensor.gain)
                 v = HALF if abs(v - HALF) < sensor.dead_zone else v
                 v = v if finite(d) else NAN  # of what is no number

@@ -28,6 +28,7 @@ class Latch(SensorKind):
     below: Annotated[float, RATIO]
     above: Annotated[float, RATIO]
 
+    compares = True
     remembered = 1
 
     @property

@@ -22,6 +22,8 @@ class Reading(SensorKind):
     reading: Annotated[int, COUNT]
     of: Annotated[str, SENSOR]
 
+    circular = None
+
     @property
     def source(self) -> str:
         """The wide sensor."""

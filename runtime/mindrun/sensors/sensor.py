@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, Protocol
 
 from mindrun.expression import Formula
 from mindrun.quantity import RATIO, TICKS
+from mindrun.reachability import reached_from
 from mindrun.registry import base
 from mindrun.slot import Slot
 from mindrun.things.about import AboutThing
@@ -39,12 +40,12 @@ class BatteryModel(NamedTuple):
 class Scene:
     """What a sensor can depend on beside its own arguments.
 
-    The length of a `tick` in seconds, where the readings of each sensor and memory stand, and which are `circular`.
+    The length of a `tick` in seconds, where the readings of each sensor and memory stand, and which are directions.
     """
 
     tick: float
     places: Mapping[str, slice]
-    circular: Set[str] = frozenset()
+    directions: Set[str] = frozenset()
 
     @property
     def starts(self) -> Mapping[str, int]:
@@ -92,7 +93,8 @@ class SensorKind(AboutThing):
     __slots__ = ()
 
     varying: tuple[str, ...] = ()  # the arguments that can differ from run to run
-    circular = False  # whether the readings 0 and 1 are neighbours
+    circular: bool | None = False  # whether it reads a direction, which goes round: 1 is 0; None where its source does
+    compares = False  # whether it compares its source with numbers
     scaled = False  # whether its values mean something by themselves, so that they need no calibration
     near: int | None = None  # the reading of what is near
     unit = ""  # of a driver that measures the same: m for a length, m/s for a speed
@@ -198,6 +200,15 @@ class SensorKind(AboutThing):
         A reader may remember: it is asked in every tick, from the first on, and made anew for another run.
         """
         return None
+
+
+def directions(kinds: Mapping[str, SensorKind]) -> Set[str]:
+    """The sensors whose reading is a direction: those that say so, and those that read what such a source reads."""
+    onward: dict[str, list[str]] = {}
+    for name, kind in kinds.items():
+        if kind.circular is None:
+            onward.setdefault(kind.source, []).append(name)
+    return reached_from((name for name, kind in kinds.items() if kind.circular), lambda name: onward.get(name, ()))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -14,11 +14,14 @@ from mindrun.sim.compiling import compiled, inlined
 
 bearing, clamp = inlined(arithmetic.bearing), inlined(arithmetic.clamp)
 finite, sine_cosine = inlined(arithmetic.finite), inlined(arithmetic.sine_cosine)
+wrapped, short_way = inlined(arithmetic.wrapped), inlined(arithmetic.short_way)
 in_claw, inside = compiled(arithmetic.in_claw), compiled(arithmetic.inside)
 _COMPILED: dict[Any, Callable[..., Any]] = {
     arithmetic.bearing: bearing,
     arithmetic.clamp: clamp,
     arithmetic.finite: finite,
+    arithmetic.wrapped: wrapped,
+    arithmetic.short_way: short_way,
     arithmetic.sine_cosine: sine_cosine,
     arithmetic.in_claw: in_claw,
     arithmetic.inside: inside,

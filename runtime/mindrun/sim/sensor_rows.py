@@ -54,7 +54,7 @@ def sensor_rows(graph: Graph, used: Used, task: Task, programs: Programs, parame
         row: dict[str, float] = {
             "kind": sensor_codes()[names()[type(kind)]], "start": sensor.start, "width": sensor.width,
             "thing": about.start, "things": len(about), "box": solid.start, "boxes": len(solid),
-            "turns": kind.source in scene.circular,
+            "turns": not scene.directions.isdisjoint({sensor.name, kind.source}),
             "is_aside": is_aside, "every": 1,
         }  # fmt: skip
         row["code"], row["length"] = programs.add(placed(kind.formula, scene.starts))

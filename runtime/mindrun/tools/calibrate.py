@@ -21,6 +21,7 @@ from mindrun.bundle import read_bundle
 from mindrun.errors import MindError
 from mindrun.printable import visible
 from mindrun.robot.sampling import Sample, Sampler
+from mindrun.sensors import SensorKind
 from mindrun.standard_streams import draw
 from mindrun.wiring import SensorWire, reading, still
 
@@ -39,20 +40,20 @@ def options(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Measure and print; the exit code, 0 where something was measured, else 1."""
-    wire, has_scale = _wire(options.bundle, options.sensor)
-    samples = _watched(wire, options.seconds)
+    wire, kind = _wire(options.bundle, options.sensor)
+    samples = _watched(wire, kind, options.seconds)
     good = [sample for sample in samples if not sample.fault]
     for why in sorted({sample.fault for sample in samples if sample.fault}):
         print(f"{wire.sensor} {why}", file=sys.stderr)
     if not good:
         print("nothing has been measured", file=sys.stderr)
         return 1
-    print("\n".join(lines(wire, good, has_scale)))
+    print("\n".join(lines(wire, good, kind)))
     return 0
 
 
-def _wire(path: Path, sensor: str) -> tuple[SensorWire, bool]:
-    """How a sensor is wired, and whether its scale means something by itself."""
+def _wire(path: Path, sensor: str) -> tuple[SensorWire, SensorKind]:
+    """How a sensor is wired, and what it is in the mind."""
     bundle = read_bundle(path)
     wiring = bundle.wiring
     if wiring is None:
@@ -61,10 +62,10 @@ def _wire(path: Path, sensor: str) -> tuple[SensorWire, bool]:
     if sensor not in names:
         raise MindError(f"no sensor {sensor} is wired", f"there are {', '.join(names)}")
     kind = next(known.kind for known in bundle.graph.sensors if known.name == sensor)
-    return still(wiring.sensors[names.index(sensor)]), kind.scaled
+    return still(wiring.sensors[names.index(sensor)]), kind
 
 
-def _watched(wire: SensorWire, seconds: float) -> list[Sample]:
+def _watched(wire: SensorWire, kind: SensorKind, seconds: float) -> list[Sample]:
     """What is measured in so many seconds or until Ctrl-C, shown as it comes."""
     sampler, samples = Sampler(wire), list[Sample]()
     until = monotonic() + seconds
@@ -74,7 +75,7 @@ def _watched(wire: SensorWire, seconds: float) -> list[Sample]:
             latest = sampler.latest
             if latest and (not samples or latest is not samples[-1]):
                 samples.append(latest)
-                _show(wire, latest)
+                _show(wire, kind, latest)
             sleep(0.2 / wire.rate)
     except KeyboardInterrupt:
         pass  # that is enough
@@ -85,10 +86,11 @@ def _watched(wire: SensorWire, seconds: float) -> list[Sample]:
     return samples
 
 
-def _show(wire: SensorWire, sample: Sample) -> None:
+def _show(wire: SensorWire, kind: SensorKind, sample: Sample) -> None:
     if not sys.stderr.isatty():
         return
-    pairs = (f"{'-' if raw is None else f'{raw:.3g}'} → {reading(wire, raw):.2f}" for raw in sample.values)
+    values = ((raw, reading(wire, raw, kind.circular)) for raw in sample.values)
+    pairs = (f"{'-' if raw is None else f'{raw:.3g}'} → {value:.2f}" for raw, value in values)
     draw(f"\r\033[K{visible(sample.fault or '  '.join(pairs))}"[:160])
 
 
@@ -102,22 +104,35 @@ class ReadingStatistics:
     lost: float
 
 
-def reading_statistics(values: Sequence[float | None]) -> ReadingStatistics | None:
-    """The statistics of these values, None standing for a lost one; None where all were lost."""
+def reading_statistics(values: Sequence[float | None], turn: float | None = None) -> ReadingStatistics | None:
+    """The statistics of these values, None standing for a lost one; None where all were lost.
+
+    Of directions, which begin anew after a whole `turn`, the range may go beyond one: 175 to 190.
+    """
     there = [value for value in values if value is not None]
     if not there:
         return None
     spans = [there[i : i + NOISE_VALUES] for i in range(max(1, len(there) - NOISE_VALUES + 1))]
-    noise = min(pstdev(span) for span in spans)
-    return ReadingStatistics(min(there), max(there), noise, 1 - len(there) / len(values))
+    noise = min(pstdev(_going_round(span, turn)) for span in spans)
+    ends = ((min(each), max(each)) for each in (there, _going_round(there, turn)))
+    low, high = min(ends, key=lambda each: each[1] - each[0])
+    return ReadingStatistics(low, high, noise, 1 - len(there) / len(values))
 
 
-def lines(wire: SensorWire, samples: Sequence[Sample], has_scale: bool) -> list[str]:
+def _going_round(values: Sequence[float], turn: float | None) -> Sequence[float]:
+    """Directions, each the short way from the first; all else as it is."""
+    first = values[0]
+    return [first + (value - first + turn / 2) % turn - turn / 2 for value in values] if turn else values
+
+
+def lines(wire: SensorWire, samples: Sequence[Sample], kind: SensorKind) -> list[str]:
     """The lines for robot.yaml, with what they rest on as comments.
 
-    Where the sensor `has_scale`, as distances and directions have, that of training stays.
+    Where the kind of the sensor is `scaled`, as distances and directions are, the range of training stays.
     """
-    columns = [reading_statistics(column) for column in zip(*(sample.values for sample in samples), strict=True)]
+    turn = abs(wire.high - wire.low) if kind.circular else None
+    values = zip(*(sample.values for sample in samples), strict=True)
+    columns = [reading_statistics(column, turn) for column in values]
     known = [column for column in columns if column]
     said = [f"# {wire.sensor}: {len(samples)} measurements, in {wire.driver.unit or 'units of its own'}"]
     for number, column in enumerate(columns):
@@ -128,7 +143,7 @@ def lines(wire: SensorWire, samples: Sequence[Sample], has_scale: bool) -> list[
     if not known:
         return said
     low, high = min(column.low for column in known), max(column.high for column in known)
-    if has_scale:
+    if kind.scaled:
         said.append(
             f"# from and to are those of training ({wire.low:g} to {wire.high:g}), and no matter of what was seen"
         )

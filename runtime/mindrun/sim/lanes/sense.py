@@ -7,7 +7,7 @@ import numpy as np
 
 from mindrun.arithmetic import BOX_COLUMNS, COSINE, DISTANCE, HALF_X, HALF_Y, MAX_FLOAT32, SINE, THING_ROWS, X, Y
 from mindrun.registry import kinds
-from mindrun.sim.arithmetic import ONE, ZERO, F, clamp, compiled_lane
+from mindrun.sim.arithmetic import ONE, ZERO, F, clamp, compiled_lane, wrapped
 from mindrun.sim.codes import AWAY, sensor_codes
 from mindrun.sim.compiling import compiled, part_of_tick
 from mindrun.sim.lanes.loose_sight import look_at_loose
@@ -122,7 +122,8 @@ def measure(random, numbers, sensor, true, before, lane):
     if lost > ZERO and uniform(random, lane, 0.0, 1.0) < lost:
         return before if sensor.blank < ZERO else sensor.blank
     if noise > ZERO:
-        return clamp(true + noise * F(uniform(random, lane, -1.0, 1.0)))
+        value = true + noise * F(uniform(random, lane, -1.0, 1.0))
+        return wrapped(value) if sensor.turns else clamp(value)
     return true
 
 
