@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from mindrun.errors import MindError
+from mindrun.tick_count import ticks as in_words
 from mindrun.train import NotFoundError
 
 from mindlang.cli._simulator_compilation import ensure_compiled
@@ -50,7 +51,7 @@ def _lines(found: Imported, lock: str, recording: str | None) -> Iterator[str]:
     yield (
         f"{found.incoming.path}: {len(found.incoming.genome):,} weights of {skill}; "
         f"{compared.reference} and the engine differ by at most {compared.difference:.3g} "
-        f"in {compared.ticks:,} ticks of {where}"
+        f"in {in_words(compared.ticks)} of {where}"
     )
     if compared.faults:
         yield f"{compared.faults:,} outputs were not finite, and are not sent"

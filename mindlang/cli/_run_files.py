@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from mindrun.errors import MindError
+from mindrun.tick_count import ticks as in_words
 
 from mindlang.cli._run_session import RunSession
 from mindlang.cli._terminal import MISUSE, fail, procedures_talk, refuse_unwritable, write_file
@@ -90,7 +91,7 @@ def _tabulate(session: RunSession, run: RecordedRun, path: Path) -> None:
     except MindError as error:
         fail(str(error), error.hint, MISUSE)
     write_file(path, data)
-    session.say(f"{path}: a row for each of {run.ticks:,} ticks")
+    session.say(f"{path}: a row for each of {in_words(run.ticks)}")
 
 
 def _record(session: RunSession, run: RecordedRun, setup: RunSetup, seed: int, path: Path) -> None:
@@ -101,4 +102,4 @@ def _record(session: RunSession, run: RecordedRun, setup: RunSetup, seed: int, p
     except MindError as error:
         fail(str(error), error.hint, MISUSE)
     write_file(path, data)
-    session.say(f"{path}: {run.ticks:,} ticks, to be seen with its source or a bundle of it that has no robot")
+    session.say(f"{path}: {in_words(run.ticks)}, to be seen with its source or a bundle of it that has no robot")

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, TextIO
 
 import click
 from mindrun.errors import MindError
+from mindrun.tick_count import ticks as in_words
 
 from mindlang.cli._run_session import RunSession
 from mindlang.cli._terminal import MISUSE, fail, procedures_talk, talk, write_file
@@ -74,6 +75,6 @@ class ViewOutput:
         everything = seen.ticks(0) | {"happened": viewed.happened, "stops": viewed.stops}
         page = exported(seen.about(edits=False), everything, viewed, images)
         write_file(path, page.encode())
-        session.say(f"{path}: {viewed.known:,} ticks, {len(page) / 1e6:.1f} MB, opens in any browser")
+        session.say(f"{path}: {in_words(viewed.known)}, {len(page) / 1e6:.1f} MB, opens in any browser")
         if images and images.note:
             session.say(f"note: {images.note}")

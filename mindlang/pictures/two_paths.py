@@ -6,6 +6,7 @@ from typing import Any
 
 import cv2
 import numpy as np
+from mindrun.tick_count import ticks as in_words
 
 from mindlang.number_format import score
 from mindlang.pictures.canvas import Canvas, Image, Viewport, blank, pasted, text_width
@@ -106,7 +107,7 @@ def _outcome(canvas: Canvas, way: Way, x: float, y: float, right: float) -> None
 def outcome_words(found: dict[str, Any]) -> str:
     """What came of a run, in a line."""
     counted = [f"{times} × {event}" for event, times in found["by_event"].items()]
-    return ", ".join([f"score {score(found['score'])}", *counted, f"{found['ticks']:,} ticks", ending_words(found)])
+    return ", ".join([f"score {score(found['score'])}", *counted, in_words(found["ticks"]), ending_words(found)])
 
 
 def _fitting(canvas: Canvas, x: float, y: float, text: str, size: float, right: float) -> None:

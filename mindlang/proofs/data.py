@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from mindrun.graph import Graph
+from mindrun.tick_count import ticks as in_words
 
 from mindlang.proofs.leak import Leak
 from mindlang.proofs.proof import DECLARATION, OfActuator, OfEdge, Proof
@@ -24,7 +25,7 @@ def rests_on(skills: Iterable[str], hashes: Hashes) -> list[str]:
 
 def run_of(run: Recorded) -> str:
     """A run, in words."""
-    return f"a run of {run.ticks:,} ticks of task {run.task}, seed {run.seed}"
+    return f"a run of {in_words(run.ticks)} of task {run.task}, seed {run.seed}"
 
 
 def as_data(proof: Proof, hashes: Hashes, run: Recorded | None) -> dict[str, Any]:

@@ -17,6 +17,7 @@ from mindrun.graph import Graph
 from mindrun.named_readings import physical
 from mindrun.robot.recording import About, read
 from mindrun.robot.replay import ComputedRow, computed_again
+from mindrun.tick_count import ticks as in_words
 from numpy.typing import NDArray
 
 from mindlang.compiler.diagnostic import listed
@@ -74,7 +75,7 @@ def compare_recording(
     computed = computed_again(path, about, chain.from_iterable(parts), ours)
     ticks = [(_thought(each), changed.tick(number, each.row)) for number, each in enumerate(computed, 1)]
     if len(ticks) < tick:
-        raise ChangeError(f"{path} has {len(ticks):,} ticks: there is no tick {tick:,}", "say an earlier one")
+        raise ChangeError(f"{path} has {in_words(len(ticks))}: there is no tick {tick:,}", "say an earlier one")
     was, now = ([*map(np.array, zip(*(each[i] for each in ticks), strict=True))] for i in (0, 1))
     return _compared(about.master, mind_columns(mind.graph, *was), mind_columns(theirs.graph, *now), tick)
 

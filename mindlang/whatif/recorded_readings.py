@@ -11,6 +11,7 @@ from mindrun.graph import Graph, Sensor
 from mindrun.named_readings import physical
 from mindrun.robot.recording import read
 from mindrun.robot.recording_header import About, RecordingError
+from mindrun.tick_count import ticks as in_words
 
 from mindlang.run.running_bundle import measured_in, running_bundle
 
@@ -49,7 +50,7 @@ def recorded_readings(
     nothing = np.zeros((0, sensor.width), np.float32)  # a recording may have no row
     rows = np.concatenate([nothing, *(part["readings"][:, columns] for part in parts)])
     if len(rows) < first:
-        raise ChangeError(f"{path} has {len(rows):,} ticks: there is no tick {first:,}", "say an earlier one")
+        raise ChangeError(f"{path} has {in_words(len(rows))}: there is no tick {first:,}", "say an earlier one")
     end = len(rows) if last is None else min(last, len(rows))
     read_then = rows[first - 1 : end].astype(float).T.tolist()
     return tuple(Change("reading", begin.row + k, tuple(column), first, end) for k, column in enumerate(read_then))

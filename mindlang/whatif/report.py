@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
+from mindrun.tick_count import ticks as in_words
 from rich.console import Group, RenderableType
 from rich.text import Text
 
@@ -77,7 +78,7 @@ def comparison_data(request: Request, compared: Compared) -> dict[str, Any]:
 def recording_summary(request: Request, name: str, found: OpenLoop) -> RenderableType:
     """What the mind would have sent for the readings of a recording."""
     return Group(
-        Text.assemble((name, "bold"), f" with {found.master} in charge, {found.ticks:,} ticks"),
+        Text.assemble((name, "bold"), f" with {found.master} in charge, {in_words(found.ticks)}"),
         Text(request.words),
         Text(OPEN_LOOP),
         "",

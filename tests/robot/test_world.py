@@ -383,7 +383,7 @@ def bundle(roam: Graph, tmp_path: Path) -> Path:
 
 def test_a_mind_lives_in_a_world_of_its_own_process(roam: Graph, bundle: Path) -> None:
     with simulated(bundle, "Chase", 3) as path:
-        wiring = dry(roam, path)
+        wiring = dry(roam, path, roam.master)
         assert list(flaws(wiring, roam)) == []
         sensors = [wire.driver.open() for wire in wiring.sensors]
         actuators = [wire.driver.open() for wire in wiring.actuators]

@@ -16,6 +16,7 @@ from mindrun.movers import driving, movers
 from mindrun.robot.drivers.simulated import status
 from mindrun.robot.loop import Loop
 from mindrun.status_line import StatusLine
+from mindrun.tick_count import ticks as in_words
 
 SHOW_SECONDS = 0.25  # from one state of the line to the next
 MAX_THINGS_NAMED = 6
@@ -35,7 +36,7 @@ def beginning(graph: Graph, task: Task, master: str, seed: int) -> list[str]:
     return [
         f"dry run: {task.name} with {master} in charge, in {_scene(task)}{_contents(task)}, seed {seed}",
         "no device is touched: the world is simulated, in real time",
-        f"it ends with its run, after {task.ticks:,} ticks ({seconds:,.0f} s) at the latest; Ctrl-C ends it now",
+        f"it ends with its run, after {in_words(task.ticks)} ({seconds:,.0f} s) at the latest; Ctrl-C ends it now",
     ]
 
 

@@ -7,6 +7,8 @@ from time import monotonic, sleep
 import numpy as np
 from numpy.typing import NDArray
 
+from mindrun.tick_count import ticks as in_words
+
 LATENESS_BINS = 400  # of lateness, each a hundredth of a tick
 
 
@@ -51,6 +53,8 @@ class Rate:
 
     def __str__(self) -> str:
         """A sentence."""
+        if not self.ticks:
+            return f"no tick of {self.tick * 1e3:.1f} ms"
         half, most = self.late(0.5) * 1e3, self.late(0.99) * 1e3
-        kept = f"{self.ticks:,} ticks of {self.tick * 1e3:.1f} ms, {self.missed} missed"
+        kept = f"{in_words(self.ticks)} of {self.tick * 1e3:.1f} ms, {self.missed} missed"
         return f"{kept}; half began within {half:.1f} ms, 99 % within {most:.1f} ms of their time"

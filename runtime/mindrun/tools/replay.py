@@ -10,6 +10,7 @@ from pathlib import Path
 
 from mindrun.robot.replay import replay_recording
 from mindrun.standard_streams import draw
+from mindrun.tick_count import ticks as in_words
 
 
 def options(parser: argparse.ArgumentParser) -> None:
@@ -23,9 +24,9 @@ def run(options: argparse.Namespace) -> int:
     found = replay_recording(options.recording, options.bundle, _show_progress)
     if found.differs:
         tick, what = found.differs
-        print(f"tick {tick:,} differs: {what} ({found.ticks:,} ticks before it are the same)")
+        print(f"tick {tick:,} differs: {what} (the same in {in_words(found.ticks)} before it)")
         return 1
-    print(f"{found.ticks:,} ticks, the same to the bit")
+    print(f"{in_words(found.ticks)}, the same to the bit")
     return 0
 
 
