@@ -90,7 +90,8 @@ def _show(case: Case) -> None:
 
 def _status(case: Case) -> None:
     if case.compiled.graph:
-        Console(file=StringIO()).print(report(rows(case.compiled.graph, [case.path])))
+        console = Console(file=StringIO())
+        console.print(report(rows(case.compiled.graph, [case.path]), console))
 
 
 def _prove(case: Case) -> None:

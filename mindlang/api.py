@@ -38,9 +38,9 @@ from mindlang.run.layouts import layouts
 from mindlang.run.many_runs import run_all
 from mindlang.run.outcome import bench_data
 from mindlang.run.recorded_run import record_run
-from mindlang.run.setup import RunSetup, master_of, set_up, skill_of, task_of, unknown, untaught_skills
+from mindlang.run.setup import RunSetup, master_of, set_up, skill_of, task_of, train_command, unknown, untaught_skills
 from mindlang.run.trace_file import trace_table
-from mindlang.training.lesson_choice import TrainOptions, chosen_lessons, is_due
+from mindlang.training.lesson_choice import TrainOptions, chosen_lessons
 from mindlang.training.results import Result
 from mindlang.training.subject import begin_run, open_subject, refuse_frozen
 from mindlang.training.teaching import teach
@@ -145,16 +145,16 @@ class Mind(ShortRepr):
         generation, after which `cancelled` is asked. Where that says so, or Ctrl-C comes, the run stays in its folder
         under `runs`, and the same call goes on with it, to the same bits. The result of each lesson that has ended.
         """
-        chosen, elsewhere = chosen_lessons(self.graph, curriculum, skills), executors.where(on)
         if not self.path.is_file():
             raise MindError(f"{self.path} is no file, and what is learnt is kept beside one", "save it, and load that")
-        results, threads = list[Result](), as_workers(workers)
+        subject = open_subject(self.path, self.compiled)
+        chosen = chosen_lessons(self.graph, curriculum, skills, subject.lock)
+        results, threads, elsewhere = list[Result](), as_workers(workers), executors.where(on)
         watch = Watch(lambda state, record: on_generation(record), warn, cancelled, perf_counter)
-        if skills:
-            refuse_frozen(open_subject(self.path, self.compiled), chosen)
+        refuse_frozen(subject, chosen if skills else ())
         for lesson in chosen:
             subject = open_subject(self.path, self.compiled)  # the lesson before has changed the lock
-            if not skills and not is_due(subject.graph, lesson, subject.standing(lesson)):
+            if not skills and not subject.is_due(lesson):
                 continue
             call = ("mindlang.Mind.train", *skills)
             run = begin_run(subject, options.applied(lesson), seed, Path(runs), datetime.now(UTC), call)
@@ -204,7 +204,7 @@ class Mind(ShortRepr):
         return MindError(first.message, first.hint or "mind.diagnostics says all that is wrong, and where")
 
     def _untaught(self, ready: ReadyMind) -> MindError:
-        return MindError(ready.refusals[-1], f"mind.train() teaches it, or: mindc train {self.path}")
+        return MindError(ready.refusals[-1], f"mind.train() teaches it, or: {train_command(self.path, ready)}")
 
 
 @dataclass(frozen=True, slots=True, repr=False)

@@ -2,7 +2,6 @@
 
 import json
 import secrets
-import shlex
 import signal
 import sys
 from collections.abc import Callable, Sequence
@@ -13,6 +12,7 @@ from time import perf_counter
 from types import FrameType
 from typing import Any
 
+from mindrun.command_line import command_line
 from mindrun.sim.rollout import Rollout, cores
 from mindrun.train import RunError
 from mindrun.train.attempts import AttemptExecutor
@@ -28,7 +28,7 @@ from mindlang.cli._training_progress import PrintedLines, ProgressBarLine, Silen
 from mindlang.executors import Where
 from mindlang.lock import LockError
 from mindlang.training.event_files import EventFiles
-from mindlang.training.lesson_choice import TrainOptions, chosen_lessons, is_due
+from mindlang.training.lesson_choice import TrainOptions, chosen_lessons
 from mindlang.training.results import Result, opening, outcome
 from mindlang.training.subject import Subject, begin_run, open_subject, refuse_changed, refuse_frozen
 from mindlang.training.teaching import TeachingResult, finish, has_ended, rollout_of, workers_of
@@ -62,17 +62,17 @@ class Trainer:
         seed = secrets.randbits(31) if seed is None else seed
         compiled = load_compiled(file)
         subject = open_subject(file, compiled)
-        chosen = chosen_lessons(subject.graph, curriculum, skills)
+        chosen = chosen_lessons(subject.graph, curriculum, skills, subject.lock)
         if skills or force:
             refuse_frozen(subject, chosen)
         command = ("mindc", *sys.argv[1:])
         taught = frozen = 0
         for lesson in chosen:
             subject = open_subject(file, compiled)  # the lesson before has changed the lock
-            if not (standing := subject.standing(lesson)):
+            if not subject.standing(lesson):
                 frozen += 1
                 self._say(f"{lesson.skill} is frozen, and is not taught")
-            elif skills or force or is_due(subject.graph, lesson, standing):
+            elif skills or force or subject.is_due(lesson):
                 wished = options.applied(lesson)
                 if lesson.needs and not wished.needs:
                     self._say(f"{lesson.skill} has fewer generations than its lesson says: nothing is needed of it")
@@ -132,7 +132,7 @@ class Trainer:
     def _rollout(self, run: RunFolder, subject: Subject) -> Rollout:
         self._say(opening(run))
         if self.event_files:
-            self._say(f"to watch: tensorboard --logdir {shlex.quote(str(run.folder))}")
+            self._say(f"to watch: {command_line('tensorboard', '--logdir', run.folder)}")
         rollout = rollout_of(run, subject, self.workers or cores())
         ensure_compiled(rollout, self._say)  # before the clock of the lesson starts
         return rollout
@@ -172,7 +172,7 @@ class Trainer:
 
     def _command(self, run: RunFolder) -> str:
         """What goes on with a run."""
-        return f"mindc train --resume {shlex.quote(str(run.folder))}" + " --tensorboard" * self.event_files
+        return command_line("mindc", "train", "--resume", run.folder) + " --tensorboard" * self.event_files
 
     def _say(self, *lines: str) -> None:
         for line in () if self.quiet else lines:

@@ -100,6 +100,7 @@ def _breakpoints(
     """The files of breakpoints, each against every bundle, or else a mind; it is said where there is neither."""
     if not files:
         return
+    from mindrun.command_line import command_line
     from mindrun.errors import MindError
 
     from mindlang.breakpoints.checking import mind_of, subject_of_bundle, subject_of_mind
@@ -114,7 +115,7 @@ def _breakpoints(
         except MindError as error:
             fail(str(error), error.hint, MISUSE)
         if not subjects:
-            hint = f"mindc check NAME.mind {file} looks for the names in it, too"
+            hint = f"{command_line('mindc', 'check', 'NAME.mind', Path(file))} looks for the names in it, too"
             talk.print(f"note: {file} is read without a mind that compiles, line by line; {hint}", markup=False)
         for subject in subjects or (None,):
             found = load_breakpoints(file, subject).diagnostics

@@ -33,26 +33,24 @@ def command(as_json: bool) -> None:
     from mindlang.cli._terminal import FINDINGS, OK, console, print_json
     from mindlang.diagnosis.checks import findings
     from mindlang.diagnosis.finding import State
+    from mindlang.text_columns import columns
 
     found = list(findings())
     is_fine = all(each.state is not State.WRONG for each in found)
     if as_json:
         print_json({"ok": is_fine, "checks": [asdict(each) | {"state": each.state.value} for each in found]})
     else:
-        width = max(len(each.what) for each in found)
-        for each in found:
-            console().print(_lines(each, width), end="")
+        console().print(columns(console(), [_row(each) for each in found]), end="")
         wrong = sum(each.state is State.WRONG for each in found)
         click.echo(f"{wrong} to be mended" if wrong else "all that is needed is there", err=True)
     sys.exit(OK if is_fine else FINDINGS)
 
 
-def _lines(of: Finding, width: int) -> Text:
-    """What was seen, and below it what mends it."""
+def _row(of: Finding) -> tuple[tuple[Text, Text], Text]:
+    """How it is and what it is about; then what was seen, and below it what mends it."""
     from mindrun.printable import visible
     from rich.text import Text
 
     mark, style = MARKS[of.state.value]
-    mend = f"{' ' * (len(mark) + width + 4)}{visible(of.mend)}\n" if of.mend else ""
-    seen = f"  {of.what:<{width}}  {visible(of.seen)}\n"
-    return Text.assemble((mark, style), seen, (mend, "cyan"))
+    seen = Text.assemble(visible(of.seen), (f"\n{visible(of.mend)}" * bool(of.mend), "cyan"))
+    return (Text(mark, style), Text(of.what)), seen

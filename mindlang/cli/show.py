@@ -31,4 +31,4 @@ def command(file: str, as_dot: bool, as_json: bool) -> None:
     elif as_dot:
         print_document(dot(compiled.mind) + "\n")
     else:
-        console().print(tree(compiled.mind))
+        console().print(tree(compiled.mind), soft_wrap=False)

@@ -37,7 +37,7 @@ def command(file: str, skills: tuple[str, ...], accept: bool, as_json: bool) -> 
 
     Ends with 0 when every skill that is shown, of those below the master, can act, else with 1.
     """
-    from mindlang.cli._terminal import FINDINGS, OK, load_compiled, print_json, print_table
+    from mindlang.cli._terminal import FINDINGS, OK, console, load_compiled, print_json
     from mindlang.lock import lock_sources
     from mindlang.lock.report import as_data, report, rows
 
@@ -51,7 +51,7 @@ def command(file: str, skills: tuple[str, ...], accept: bool, as_json: bool) -> 
     if as_json:
         print_json({"skills": [as_data(row) for row in found]})
     else:
-        print_table(report(found))
+        console().print(report(found, console()), end="")
     sys.exit(OK if all(row.is_fine for row in found if row.is_needed) else FINDINGS)
 
 

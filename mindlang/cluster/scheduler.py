@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from ipaddress import ip_address
 from pathlib import Path
 
+from mindrun.command_line import command_line
 from mindrun.regular_files import read_whole
 from mindrun.work import WorkError
 
@@ -97,7 +98,7 @@ def _address_in(path: Path) -> str:
 
 
 def _no_scheduler_file(path: Path) -> WorkError:
-    hint = f"dask scheduler --scheduler-file {path} writes one"
+    hint = f"{command_line('dask', 'scheduler', '--scheduler-file', path)} writes one"
     return WorkError(f"{path} is no scheduler file: it says no address", hint)
 
 

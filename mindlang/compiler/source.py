@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from pathlib import Path
 
+from mindrun.command_line import command_line
 from mindrun.regular_files import read_regular
 from mindrun.short_repr import ShortRepr
 
@@ -31,6 +32,10 @@ class Source(ShortRepr):
     def path(self) -> Path:
         """Where the file stands."""
         return self.folder / Path(self.name).name
+
+    def edit(self, edit: str, *arguments: str) -> str:
+        """The command of an edit of this file."""
+        return command_line("mindc", "edit", edit, Path(self.name), *arguments)
 
     def line(self, number: int) -> str:
         """The text of a line, counted from 1, without its end."""

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from mindrun.command_line import command_line
 from mindrun.graph import Graph
 
 from mindlang.compiler.compile import Compiled, compile_source, load
@@ -85,9 +86,8 @@ def _refuse_under_alias(change: MindChange) -> None:
         if alias := splice.source.alias:
             name = splice.source.name
             message = f"{name} is used as {alias}, and has other names for what it declares."
-            raise EditError(
-                message, f"Edit it by itself: mindc edit … {name}", Span(splice.source, splice.start, splice.end)
-            )
+            hint = f"Edit it by itself: mindc edit … {command_line(Path(name))}"
+            raise EditError(message, hint, Span(splice.source, splice.start, splice.end))
 
 
 def _refuse_captured(project: Project, change: MindChange, graph: Graph) -> None:

@@ -142,7 +142,7 @@ class Project:
         first, *others = (mention.name.span for mention in used)
         hint = "Take these lines out first."
         if any(mention.by is None for mention in used):
-            hint = f"Let another skill be the master first: mindc edit replace {self.main.source.name} {name} OTHER"
+            hint = "Let another skill be the master first: " + self.main.source.edit("replace", name, "OTHER")
         raise EditError(f"{name} is still used.", hint, first, *(Label(span, "and here") for span in others))
 
     def file_of(self, declaration: Declaration) -> File:
@@ -189,7 +189,7 @@ class Project:
         """EditError where a skill is like another, so that nothing but what it reads instead is said of it."""
         if (header := declaration.header).like:
             name, other = header.name.text, header.like.text
-            hint = f"Edit {other}, or first: mindc edit unshare {name}"
+            hint = f"Edit {other}, or first: {self.main.source.edit('unshare', name)}"
             raise EditError(f"{name} is like {other}, and says nothing of its own.", hint, header.span)
 
     def places(self, skill: str) -> Iterator[Mention]:

@@ -20,6 +20,6 @@ def disconnect(project: Project, skill: str, target: str) -> MindChange:
         raise EditError(message, hint, declaration.header.span)
     if len(found) > 1:
         labels = [Label(fact.span, "or this") for fact in found[1:]]
-        hint = f'Say which: mindc edit remove {project.main.source.name} "{found[0].span.text}" --from {skill}'
+        hint = f"Say which: {project.main.source.edit('remove', found[0].span.text, '--from', skill)}"
         raise EditError(f"{skill} reads {target} and drives it.", hint, found[0].span, *labels)
     return MindChange((without_fact(found[0]),))

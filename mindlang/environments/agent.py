@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from mindrun.command_line import command_line
 from mindrun.errors import MindError
 from mindrun.graph import Graph, Skill, Task
 from mindrun.policy import Policy
@@ -66,7 +67,7 @@ def _of_skill(mind: Mind, task: str | None, master: str | None, skill: str, lane
     played = _played(graph, leader, skill)
     ready = make_ready(graph, mind.compiled.sources, leader)
     if missing := [name for name in untaught_skills(ready) if name != played.owner]:
-        raise MindError(ready.refusals[-1], f"mindc train {mind.path} {' '.join(missing)}")
+        raise MindError(ready.refusals[-1], command_line("mindc", "train", mind.path, *missing))
     folder = mind.path.absolute().parent
     rollout = Rollout(ready.policy, chosen.name, leader, [skill], procedures=folder)
     number = ready.policy.graph.skill_numbers[skill]

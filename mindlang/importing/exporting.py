@@ -1,5 +1,6 @@
 """The weights of a skill as they leave a lock."""
 
+from mindrun.command_line import command_line
 from mindrun.errors import WeightsError
 from mindrun.weights import Weights
 
@@ -13,5 +14,5 @@ def outgoing(subject: Subject, skill: str) -> tuple[Network, Weights]:
     network = network_of(subject.graph, skill)
     weights, refusals = trained_weights(subject.graph, subject.lock, [skill])
     if refusals:
-        raise WeightsError(refusals[0], f"mindc train {subject.shown} {skill}")
+        raise WeightsError(refusals[0], command_line("mindc", "train", subject.shown, skill))
     return network, weights[skill]

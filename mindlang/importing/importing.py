@@ -7,6 +7,7 @@ from typing import Any
 from urllib.parse import quote
 
 import numpy as np
+from mindrun.command_line import command_line
 from mindrun.graph import Lesson
 from mindrun.train import RunError
 from mindrun.weights import Weights, learners
@@ -83,7 +84,7 @@ def read_incoming(subject: Subject, skill: str, path: Path) -> Incoming:
     network = network_of(subject.graph, skill)
     lesson = chosen_lessons(subject.graph, None, [skill])[-1]
     if skill not in learners(subject.graph, lesson):
-        raise RunError(f"{skill} is frozen", f"mindc edit unfreeze {subject.shown} {skill} --write")
+        raise RunError(f"{skill} is frozen", command_line("mindc", "edit", "unfreeze", subject.shown, skill, "--write"))
     data = read_bytes(path)
     return Incoming(path, network, lesson, genome_in(path, data, network), sha256(data).hexdigest())
 

@@ -5,6 +5,7 @@ from math import isfinite
 from pathlib import Path
 
 import numpy as np
+from mindrun.command_line import command_line
 from mindrun.graph import Lesson
 from mindrun.policy import Policy
 from mindrun.sim.rollout import Rollout
@@ -74,7 +75,7 @@ def open_trial(subject: Subject, lesson: Lesson, network: Network, shown: Path) 
         first = [each for each in reversed(needed) if each not in others]
         raise RunError(
             f"{name} cannot be tried on {lesson.task} yet: {listed(refusals, 'and')}",
-            f"first: mindc train {shown} {' '.join(first)}",
+            f"first: {command_line('mindc', 'train', shown, *first)}",
         )
     policy = Policy(subject.graph, others)
     rollout = rollout_for(policy, lesson.task, lesson.master, (name,), procedures=subject.folder)

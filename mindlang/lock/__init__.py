@@ -21,11 +21,12 @@ from mindrun.regular_files import read_regular
 from mindlang.compiler.source import Source
 from mindlang.lock.training_world import HEADING, TrainingWorld, world_of
 
-VERSIONS = ("# mind lock 1:", "# mind lock 2:", "# mind lock 3:", "# mind lock 4:")
+VERSIONS = ("# mind lock 1:", "# mind lock 2:", "# mind lock 3:", "# mind lock 4:", "# mind lock 5:")
 HEADER = (
     f"{VERSIONS[-1]} what has been taught. `mindc train` writes it; it belongs under version control, with weights/."
 )
 MAX_LOCK_BYTES = 64 << 20
+CONFLICT_MARKS = ("<<<<<<< ", "||||||| ", "=======", ">>>>>>> ")  # as git leaves them
 FILE_ORIGIN = "file:"  # before the name of a file, where weights begin with those in it; no skill's name has a colon
 
 _NAMES = r"[^\s|]+(?: [^\s|]+)*"
@@ -171,14 +172,19 @@ def read_lock(path: Path) -> dict[str, Entry]:
         raise LockError(f"{path} cannot be read: {error.strerror}") from error
     except UnicodeDecodeError as error:
         raise LockError(f"{path} is damaged: it is not text; get it back, or delete it and train") from error
-    header, *lines = text.replace("\r\n", "\n").split("\n")  # git may have written it for Windows
-    if not header.startswith(VERSIONS) or lines[-1:] != [""] or len(text) > MAX_LOCK_BYTES:
+    header, *rest = text.replace("\r\n", "\n").split("\n")  # git may have written it for Windows
+    lines = [(number, line) for number, line in enumerate(rest, 2) if line]
+    if marked := next((number for number, line in [(1, header), *lines] if line.startswith(CONFLICT_MARKS)), 0):
+        raise LockError(
+            f"{path}:{marked} stands where two branches could not be merged: keep one side, without the marks, or let "
+            "mindc lock merge do it, and merge again"
+        )
+    if not header.startswith(VERSIONS) or rest[-1:] != [""] or len(text) > MAX_LOCK_BYTES:
         raise LockError(f"{path} is damaged: it is not a whole lock of this mindc; get it back, or delete it and train")
-    lines = lines[:-1]
-    end = lines.index("") if "" in lines else len(lines)
-    worlds = _worlds(path, lines, end + 1)
+    end = next((place for place, (_, line) in enumerate(lines) if HEADING.fullmatch(line)), len(lines))
+    worlds = _worlds(path, lines[end:])
     entries: dict[str, Entry] = {}
-    for number, line in enumerate(lines[:end], 2):
+    for number, line in lines[:end]:
         entry = Entry.of(line, path.parent, worlds)
         if entry is None or entry.skill in entries:
             why = "this is not what mindc wrote" if entry is None else f"{visible(entry.skill)} has two lines"
@@ -187,22 +193,20 @@ def read_lock(path: Path) -> dict[str, Entry]:
     return entries
 
 
-def _worlds(path: Path, lines: Sequence[str], start: int) -> dict[str, TrainingWorld]:
-    """The worlds in the lines of a lock below the empty one before `start`, by name."""
-    headings = [number for number in range(start, len(lines)) if not lines[number].startswith(" ")]
+def _worlds(path: Path, lines: Sequence[tuple[int, str]]) -> dict[str, TrainingWorld]:
+    """The worlds in the numbered lines of a lock below its skills, by name."""
+    headings = [place for place, (_, line) in enumerate(lines) if not line.startswith(" ")]
     worlds: dict[str, TrainingWorld] = {}
-    try:
-        if start <= len(lines) and headings[:1] != [start]:
-            raise ValueError("this is not what mindc wrote")
-        for start, end in pairwise([*headings, len(lines)]):
-            heading = HEADING.fullmatch(lines[start])
+    for start, end in pairwise([*headings, len(lines)]):
+        number, line = lines[start]
+        try:
+            heading = HEADING.fullmatch(line)
             if heading is None:
                 raise ValueError("this is not what mindc wrote")
-            worlds[heading["name"]] = world_of(heading["name"], lines[start + 1 : end])
-    except ValueError as error:
-        number = min(start, len(lines) - 1) + 2
-        message = f"{path}:{number} is damaged: {visible(str(error))}; get it back, or delete it and train"
-        raise LockError(message) from error
+            worlds[heading["name"]] = world_of(heading["name"], [fact for _, fact in lines[start + 1 : end]])
+        except ValueError as error:
+            message = f"{path}:{number} is damaged: {visible(str(error))}; get it back, or delete it and train"
+            raise LockError(message) from error
     return worlds
 
 
@@ -216,9 +220,14 @@ def read_locks(sources: Iterable[Path]) -> dict[str, Entry]:
 
 def lock_text(entries: Lock) -> str:
     """A lock as it is written: sorted, a line per skill, then a block per world."""
-    worlds = {world.name: world for entry in entries.values() for world in entry.worlds}
+    return lock_of({skill: str(entry) for skill, entry in entries.items()}, entries.values())
+
+
+def lock_of(lines: Mapping[str, str], entries: Iterable[Entry]) -> str:
+    """The text of a lock with these lines by skill, and the worlds of these entries."""
+    worlds = {world.name: world for entry in entries for world in entry.worlds}
     blocks = ["", *(worlds[name].text() for name in sorted(worlds))] if worlds else []
-    return "\n".join([HEADER, *(str(entries[skill]) for skill in sorted(entries)), *blocks, ""])
+    return "\n".join([HEADER, *(lines[skill] for skill in sorted(lines)), *blocks, ""])
 
 
 def write_lock(path: Path, entries: Lock) -> None:

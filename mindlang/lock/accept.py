@@ -4,14 +4,15 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from mindrun.graph import Graph, Lesson
+from mindrun.graph import Graph
 from mindrun.skill_sets import learners, owner_of, owners, reachable
 
 from mindlang.lock import Entry, Lock, LockError, lock_path, read_lock, read_locks, write_lock
 from mindlang.lock.blobs import FOLDER, exclusive_folder
+from mindlang.lock.lessons import in_question, key_of, key_of_taught, last_lesson, lessons_of
 from mindlang.lock.status import Trained, status
-from mindlang.lock.training_world import LessonKey, TrainingWorld
-from mindlang.lock.world_facts import Worlds, in_question, key_of, key_of_taught, last_lesson
+from mindlang.lock.training_world import TrainingWorld
+from mindlang.lock.world_facts import Worlds
 
 
 def accept(graph: Graph, sources: Sequence[Path], skills: Sequence[str]) -> None:
@@ -43,9 +44,13 @@ def _write(path: Path, entries: Lock) -> None:
 
 def _accepted(graph: Graph, lock: Lock, folder: Path, entry: Entry) -> Entry:
     taught = entry.taught
-    keys = [world.lesson for world in entry.worlds] or [key_of_taught(taught)]
     last = last_lesson(graph.lessons, taught)
-    lessons = [lesson for key in keys if (lesson := _lesson(graph, key, entry.skill, last))]
+    teaching = [lesson for lesson in graph.lessons if entry.skill in learners(graph, lesson)]
+    if entry.worlds:
+        known = [lessons_of(graph, world, entry, teaching, last) for world in entry.worlds]
+    else:
+        known = [in_question([each for each in teaching if key_of(each) == key_of_taught(taught)], last)]
+    lessons = [found[0] for found in known if found]
     if not lessons:
         raise LockError(
             f"no lesson of the mind teaches {entry.skill} on {taught.task}, so its world cannot be accepted"
@@ -57,8 +62,3 @@ def _accepted(graph: Graph, lock: Lock, folder: Path, entry: Entry) -> Entry:
     if origin and (now := lock.get(owner_of(graph, origin[0]))):
         origin = origin[0], now.weights
     return replace(entry, worlds=worlds, subskills=subskills, origin=origin, accepted=True)
-
-
-def _lesson(graph: Graph, key: LessonKey, skill: str, last: Lesson | None) -> Lesson | None:
-    found = [lesson for lesson in graph.lessons if key_of(lesson) == key and skill in learners(graph, lesson)]
-    return next(iter(in_question(found, last)), None)

@@ -2,23 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from mindrun.graph import Graph, Skill
-from mindrun.skill_sets import reachable
+from mindrun.graph import Graph, Lesson, Skill
+from mindrun.skill_sets import learners, reachable
 
 from mindlang.compiler.diagnostic import listed
 from mindlang.lock import LockError, Taught, read_locks
 from mindlang.lock.arrange import arrange
 from mindlang.lock.blobs import load_weights
+from mindlang.lock.due import is_due
 from mindlang.lock.ready import elsewhere_sentences
 from mindlang.lock.status import UNKNOWN, NotLearning, Stale, Status, Trained, Untaught, status
+from mindlang.text_columns import columns
 
 if TYPE_CHECKING:
-    from rich.table import Table
+    from rich.console import Console
+    from rich.text import Text
 
 ACCEPTED = "accepted by a person"
 COLOURS = {
@@ -35,7 +38,8 @@ COLOURS = {
 class Row:
     """A skill, how it stands, and what is wrong with the file of its weights if anything is.
 
-    One that is not `needed` stands nowhere below the master, one that is `like` another has that one's weights.
+    One that is not `needed` stands nowhere below the master, one that is `like` another has that one's weights. The
+    lessons that are `due` teach one that is trained something else.
     """
 
     skill: str
@@ -44,6 +48,7 @@ class Row:
     is_needed: bool
     damage: str = ""
     like: str = ""
+    due: tuple[Lesson, ...] = ()
 
     @property
     def is_fine(self) -> bool:
@@ -75,7 +80,8 @@ class Row:
             case Trained(entry, changes):
                 if not entry.worlds:
                     return (*changes, f"taught {UNKNOWN}")
-                return (*changes, *[ACCEPTED] * entry.accepted)
+                due = (f"lesson {each.number} of {each.curriculum} is due, on {each.task}" for each in self.due)
+                return (*changes, *[ACCEPTED] * entry.accepted, *due)
         return ()
 
 
@@ -86,9 +92,21 @@ def rows(graph: Graph, sources: Sequence[Path]) -> list[Row]:
     states = status(graph, lock, sources[0].parent)
     needed = {skill.name for skill in reachable(graph, graph.master)}
     return [
-        Row(skill.name, state, skill.frozen, skill.name in needed, _damage(skill, state), skill.like)
-        for skill, state in ((skill, states[skill.name]) for skill in graph.skills)
+        Row(skill.name, state, skill.frozen, skill.name in needed, _damage(skill, state), skill.like, due)
+        for skill in graph.skills
+        for state, due in [(states[skill.name], _due(graph, skill.name, states))]
     ]
+
+
+def _due(graph: Graph, skill: str, states: Mapping[str, Status]) -> tuple[Lesson, ...]:
+    """The lessons that `mindc train` would teach a skill that is trained, in the first curriculum that teaches it."""
+    state = states[skill]
+    if not isinstance(state, Trained) or state.is_elsewhere:
+        return ()
+    teaching = [lesson for lesson in graph.lessons if lesson.skill == skill]
+    teaching = [lesson for lesson in teaching if lesson.curriculum == teaching[0].curriculum]
+    standing = {lesson: {name: states[name] for name in learners(graph, lesson)} for lesson in teaching}
+    return tuple(lesson for lesson, learning in standing.items() if is_due(graph, lesson, learning))
 
 
 def _damage(skill: Skill, state: Status) -> str:
@@ -101,18 +119,16 @@ def _damage(skill: Skill, state: Status) -> str:
     return ""
 
 
-def report(found: Sequence[Row]) -> Table:
-    """The rows as a table."""
-    from rich.table import Table
+def report(found: Sequence[Row], console: Console) -> Text:
+    """The rows as lines that a console has room for."""
     from rich.text import Text
 
-    table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0), show_header=False)
+    lines = []
     for row in found:
         word = f"{row.word}, frozen" if row.is_frozen else row.word
-        table.add_row(
-            Text(row.skill), Text(word, COLOURS[row.word]), Text("\n".join(filter(None, (_made(row), *row.remarks))))
-        )
-    return table
+        about = Text("\n".join(filter(None, (_made(row), *row.remarks))))
+        lines.append(((Text(row.skill), Text(word, COLOURS[row.word])), about))
+    return columns(console, lines)
 
 
 def _made(row: Row) -> str:

@@ -13,10 +13,11 @@ from mindrun.skill_sets import below, genes, learners, owners, reachable
 
 from mindlang.lock import Entry, Lock
 from mindlang.lock.blobs import load_weights
+from mindlang.lock.lessons import in_question, key_of, key_of_taught, last_lesson, lessons_of
 from mindlang.lock.signature import differences, reordered, signature
 from mindlang.lock.training_world import LessonKey, TrainingWorld
 from mindlang.lock.world_changes import changes
-from mindlang.lock.world_facts import Worlds, in_question, key_of, key_of_taught, last_lesson
+from mindlang.lock.world_facts import Worlds
 
 if TYPE_CHECKING:
     from mindrun.arrays import Weights
@@ -103,8 +104,10 @@ class _Standing:
         alike = self._lessons.get(key_of_taught(entry.taught), [])
         last, changed, outdated = last_lesson(alike, entry.taught), list[str](), set[Lesson]()
         for world in entry.worlds:
-            stand = [each for each in self._lessons.get(world.lesson, ()) if entry.skill in learners(self.graph, each)]
-            told = {lesson: self._world_changes(world, lesson) for lesson in in_question(stand, last)}
+            lessons = lessons_of(self.graph, world, entry, self._teaching.get(entry.skill, ()), last)
+            if not lessons and world != entry.worlds[-1]:
+                continue  # it has learnt something since, and nothing could teach it that again
+            told = {lesson: self._world_changes(world, lesson) for lesson in lessons}
             fewest: list[str] = min(told.values(), key=len) if told else self._world_changes(world, None)
             changed += fewest
             outdated |= {lesson for lesson, said in told.items() if said}
@@ -119,11 +122,13 @@ class _Standing:
     def _world_changes(self, world: TrainingWorld, lesson: Lesson | None) -> list[str]:
         """What has changed in the world of a lesson; None where none of the mind is of it."""
         key = world.lesson
+        if lesson:
+            return changes(world, self._worlds.of(lesson))
         if key.task not in self._tasks:
             return [f"its task {key.task} is gone"]
         if key.master not in self._skills:
             return [f"its master {key.master} is gone"]
-        return changes(world, self._worlds.of(lesson) if lesson else self._worlds.of_gone(key, world.facts["lesson"]))
+        return changes(world, self._worlds.of_gone(key, world.facts["lesson"]))
 
     def _subskill_changes(self, index: int, entry: Entry) -> Iterator[str]:
         """What is different about the learnt skills below one, but for what a lesson changed that it took part in."""
@@ -183,6 +188,15 @@ class _Standing:
     @cached_property
     def _skills(self) -> set[str]:
         return {skill.name for skill in self.graph.skills}
+
+    @cached_property
+    def _teaching(self) -> dict[str, list[Lesson]]:
+        """The lessons that teach a skill, by its name."""
+        found: dict[str, list[Lesson]] = {}
+        for lesson in self.graph.lessons:
+            for skill in learners(self.graph, lesson):
+                found.setdefault(skill, []).append(lesson)
+        return found
 
     @cached_property
     def _lessons(self) -> dict[LessonKey, list[Lesson]]:

@@ -103,6 +103,9 @@ def _is_valid_fact(subject: str, value: Any) -> bool:
             return isinstance(value, dict) and _is_task(value)
         case ["environment"]:
             return isinstance(value, dict) and value.keys() == {"text"} and isinstance(value["text"], str)
+        case ["physics"]:
+            known = {"pymunk": str, "world": int}
+            return isinstance(value, dict) and {key: type(part) for key, part in value.items()} == known
         case ["start"]:
             return (
                 isinstance(value, dict) and value.keys() == {"at", "facing"} and all(map(_is_argument, value.values()))

@@ -55,6 +55,8 @@ def argument(noun: str, kind: str, field: str, value: Any) -> str:
         words = " to ".join(" ".join(_converted(each, meaning) for each in place) for place in value)
     else:
         words = " ".join(_converted(each, meaning) for each in (value if isinstance(value, list) else [value]))
+    if not words:
+        return f"{field.removesuffix('_')} none"
     unit = next(iter(meaning.units), "") if isinstance(meaning, Quantity) else ""
     return f"{field.removesuffix('_')} {words} {unit}".rstrip()
 

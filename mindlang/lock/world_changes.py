@@ -21,6 +21,7 @@ def changes(old: TrainingWorld, now: TrainingWorld) -> list[str]:
 def _changes(old: Mapping[str, Any], now: Mapping[str, Any]) -> Iterator[str]:
     if old["tick"] != now["tick"]:
         yield f"taught with tick {_tick(old['tick'])}, now {_tick(now['tick'])}"
+    yield from _physics_changes(old.get("physics"), now.get("physics"))
     yield from _kind_changes("body", "body", old["body"], now["body"])
     for subject in sorted(old.keys() & now.keys()):
         noun, _, name = subject.partition(" ")
@@ -38,6 +39,14 @@ def _changes(old: Mapping[str, Any], now: Mapping[str, Any]) -> Iterator[str]:
 def _tick(seconds: float) -> str:
     a_second = 1.0 / seconds
     return f"1/{a_second:.6g} s" if abs(a_second - round(a_second)) < 1e-9 * a_second else f"{number(seconds)} s"
+
+
+def _physics_changes(old: Mapping[str, Any] | None, now: Mapping[str, Any] | None) -> Iterator[str]:
+    """What computes the world otherwise; nothing where the lock does not say what did."""
+    if old and now and old["pymunk"] != now["pymunk"]:
+        yield f"taught with pymunk {old['pymunk']}, now {now['pymunk']}"
+    if old and now and old["world"] != now["world"]:
+        yield f"taught in version {old['world']} of the simulated world, now {now['world']}"
 
 
 def _kind_changes(noun: str, name: str, old: Mapping[str, Any], now: Mapping[str, Any]) -> Iterator[str]:

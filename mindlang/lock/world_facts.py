@@ -5,7 +5,7 @@ counted, names of curricula, how many generations there are, and the weights of 
 since those may be taught again when it has learnt.
 """
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from hashlib import sha256
@@ -18,41 +18,15 @@ from mindrun.errors import ProcedureError
 from mindrun.expression import leaves
 from mindrun.functions.procedure import module_source
 from mindrun.graph import Edge, Graph, Lesson, Reward, Skill, Start, Task
+from mindrun.physics import physics
 from mindrun.reachability import reached_from
 from mindrun.registry import names
 from mindrun.sensors import SensorKind
 from mindrun.skill_sets import genes, reachable
 
 from mindlang.compiler.drawing import phrase
-from mindlang.lock import Taught
 from mindlang.lock.training_world import LessonKey, TrainingWorld
 from mindlang.lock.wording import Leaf, infix, number
-
-
-def key_of(lesson: Lesson) -> LessonKey:
-    """Which lesson it is, whatever its curriculum says of how it is learnt."""
-    return LessonKey(lesson.task, lesson.master, lesson.with_subskills)
-
-
-def key_of_taught(taught: Taught) -> LessonKey:
-    """Which lesson it was that a line of a lock tells of last."""
-    return LessonKey(taught.task, taught.master, taught.jointly)
-
-
-def last_lesson(lessons: Iterable[Lesson], taught: Taught) -> Lesson | None:
-    """Which of these lessons a line of a lock tells of; None where it does not say, or another stands there."""
-    said = taught.number, taught.curriculum, key_of_taught(taught)
-    return next((each for each in lessons if (each.number, each.curriculum, key_of(each)) == said), None)
-
-
-def in_question(lessons: Sequence[Lesson], last: Lesson | None) -> Sequence[Lesson]:
-    """Of lessons with the same key those that a world of a lock may be of; the one taught last, if known, comes first.
-
-    Of its curriculum it is the only one: the worlds of those before it are forgotten.
-    """
-    if last is None or last not in lessons:
-        return lessons
-    return [last, *(each for each in lessons if each.curriculum != last.curriculum)]
 
 
 @dataclass(frozen=True)
@@ -90,6 +64,8 @@ class Worlds:
         yield "task", said | ({"succeeds": successes} if successes else {})
         if text := self._text_of_environment(task.scene.environment):
             yield "environment", {"text": text}
+        if not task.scene.environment:
+            yield "physics", physics()
         if task.start != Start():
             yield "start", {"at": encode(task.start.at), "facing": task.start.facing}
         if varying := sorted([*_varying(task)]):

@@ -1,8 +1,7 @@
 """A lesson that comes before those of skills that it needs.
 
-A lesson runs the whole hierarchy below its master, and a skill that has not been taught yet has no weights: training
-stops there; and so does a lesson that begins `from` a skill without weights. Teach these first; lessons are taught in
-the order in which they stand.
+A lesson runs the whole hierarchy below its master, and a skill that has not been taught yet has no weights; nor can a
+lesson begin `from` a skill without weights. `mindc train` teaches these first where it can, so say it in this order.
 """
 
 from collections.abc import Sequence
@@ -90,6 +89,6 @@ def _early(study: Study, lessons: Sequence[Lesson], first: dict[str, int]) -> Fo
         if lesson.starts_from and first.get(origin := study.skills[lesson.starts_from].owner, -1) > needed:
             needed, skill, role = first[origin], origin, "it begins with"
         if needed > place and skill not in study.lock:
-            message = f"{lesson.skill} is taught before {skill}, which {role} and has no weights yet."
+            message = f"{lesson.skill} stands before {skill}, which {role} and has no weights yet."
             label = Label(lessons[needed].fact.span, f"{skill} is taught here")
             yield Finding(lesson.fact.span, message, f"Move this line below the lesson of {skill}.", (label,))

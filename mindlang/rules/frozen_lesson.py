@@ -31,7 +31,7 @@ def check(study: Study) -> Found:
         if lesson.skill not in (can_learn if lesson.with_subskills else study.learning):
             also = " and so do all that learn below it" * lesson.with_subskills
             fix = Fix("Remove the lesson", (without_fact(lesson.fact),), is_safe=False)
-            hint = f"mindc edit unfreeze {lesson.skill} lets it learn again; else take the lesson out."
+            hint = f"{study.main.edit('unfreeze', lesson.skill)} lets it learn again; else take the lesson out."
             message = f"{lesson.skill} stays frozen{also}: this lesson teaches nobody."
             yield Finding(lesson.fact.skill.span, message, hint, fix=fix)
 

@@ -24,6 +24,6 @@ def check(study: Study) -> Found:
     measures = {name for name, kind in kinds("measure").items() if not any(a.required for a in arguments(kind))}
     for name, declaration in (*study.mind.names.declarations("sensor"), *study.mind.names.declarations("memory")):
         if name in measures:
-            hint = f"Give it another name: mindc edit rename {name} NAME."
+            hint = f"Give it another name: {study.main.edit('rename', name, 'NAME')}"
             span = declaration.header.name.span
             yield Finding(span, f"{name} hides the measure of that name in rewards.", hint)

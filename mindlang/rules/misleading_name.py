@@ -32,6 +32,6 @@ def check(study: Study) -> Found:
             own = phrase.kind.text if phrase else ""
             other = next((kind for kind, parts in known.items() if said[-len(parts) :] == parts), own)
             if other != own and name not in outside and not {*known.get(own, ())} & {*said}:
-                hint = f"Rename it: mindc edit rename {name} NAME --noun {noun}."
+                hint = f"Rename it: {study.main.edit('rename', name, 'NAME', '--noun', noun)}"
                 span = declaration.header.name.span
                 yield Finding(span, f"{name} sounds like {other}, but its kind is {own}.", hint)

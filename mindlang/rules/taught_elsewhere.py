@@ -5,6 +5,10 @@ taught. Its weights still fit, so it acts, but in what it was never taught: `min
 does well all the same, `mindc status FILE --accept SKILL` says so, and the finding is gone.
 """
 
+from pathlib import Path
+
+from mindrun.command_line import command_line
+
 from mindlang.analysis.study import Finding, Found, Study
 from mindlang.lock.status import Trained, status
 from mindlang.lock.training_world import TrainingWorld
@@ -54,7 +58,8 @@ def check(study: Study) -> Found:
         if isinstance(state, Trained) and state.is_elsewhere and not study.skills[name].like:
             span = study.mind.names.table["skill"][name].header.name.span
             message = f"{name} was taught elsewhere: {'; '.join(state.changes)}."
-            hint = (
-                f"mindc train teaches it again; mindc status {study.main.path.name} --accept {name} leaves it as it is."
-            )
+            accept = command_line("mindc", "status", Path(study.main.path.name), "--accept", name)
+            hint = f"mindc train teaches it again; {accept} leaves it as it is."
+            if not state.outdated:
+                hint = f"No lesson teaches {name} in this world: write one, or take back what has changed."
             yield Finding(span, message, hint)

@@ -27,7 +27,7 @@ def check(study: Study) -> Found:
     for name, side, span in _sided(study):
         said = {*words(name)}
         if OPPOSITE_SIDES[side] in said and side not in said:
-            hint = f"Put it on the {OPPOSITE_SIDES[side]}, or rename it: mindc edit rename {name} NAME."
+            hint = f"Put it on the {OPPOSITE_SIDES[side]}, or rename it: {study.main.edit('rename', name, 'NAME')}"
             yield Finding(span, f"{name} is on the {side}.", hint)
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 from mindrun.bundle import Bundle, digest, pack, read_bundle
+from mindrun.command_line import command_line
 from mindrun.engine import procedure_sources
 from mindrun.graph import Task
 from mindrun.measured import measured_in_world, measured_on_robot, rows_of
@@ -60,7 +61,8 @@ def _built(path: Path, of: About) -> tuple[Bundle, str]:
     """The bundle of a source, under the master of the recording or, where that is not the one, under its own."""
     compiled = load(path)
     if compiled.graph is None:
-        raise RecordingError(f"{path} has mistakes, or cannot be read", f"mindc check {path} says them")
+        hint = f"{command_line('mindc', 'check', path)} says them"
+        raise RecordingError(f"{path} has mistakes, or cannot be read", hint)
     names = {skill.name for skill in compiled.graph.skills}
     found, sha = None, ""
     for master in dict.fromkeys([compiled.graph.master, *({of.master} & names)]):

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from mindrun.bundle import Bundle, pack
+from mindrun.command_line import command_line
 from mindrun.engine import procedure_sources
 from mindrun.graph import Task
 from mindrun.skill_sets import owners, reachable
@@ -61,8 +62,13 @@ def set_up(file: str, compiled: Compiled, task: str | None, master: str | None) 
     leader = master_of(compiled.graph, chosen, master)
     ready = make_ready(compiled.graph, compiled.sources, leader)
     if ready.refusals:
-        raise SetupError("\n".join(ready.refusals), f"mindc train {file} {' '.join(untaught_skills(ready))}")
+        raise SetupError("\n".join(ready.refusals), train_command(Path(file), ready))
     return RunSetup(chosen, leader, ready, compiled.sources[0].folder, note)
+
+
+def train_command(file: Path, ready: ReadyMind) -> str:
+    """The command that teaches the skills without weights that fit."""
+    return command_line("mindc", "train", file, *untaught_skills(ready))
 
 
 def untaught_skills(ready: ReadyMind) -> list[str]:

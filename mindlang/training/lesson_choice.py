@@ -1,6 +1,6 @@
 """Which lessons to teach: those of a curriculum, those asked for, and what must be taught before them."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 
 from mindrun.errors import MindError
@@ -10,8 +10,7 @@ from mindrun.weights import learners, owners, reachable
 
 from mindlang import bounds
 from mindlang.compiler.diagnostic import did_you_mean, listed
-from mindlang.lock.status import Status, Trained
-from mindlang.lock.world_facts import key_of, key_of_taught
+from mindlang.lock.lessons import needed_skills
 
 BOUNDS = {
     "generations": bounds.GENERATION_BOUNDS,
@@ -63,10 +62,14 @@ class TrainOptions:
         )
 
 
-def chosen_lessons(graph: Graph, curriculum: str | None, skills: Sequence[str]) -> tuple[Lesson, ...]:
+def chosen_lessons(
+    graph: Graph, curriculum: str | None, skills: Sequence[str], known: Collection[str] = ()
+) -> tuple[Lesson, ...]:
     """The lessons of a curriculum (the first where None), only those of `skills` where there are any.
 
-    A skill that the first curriculum does not teach is looked for in the others. NotFoundError for an unknown name.
+    They stand as in the curriculum, but for those of skills that an earlier one needs and that are not `known`, which
+    have no weights. A skill that the first curriculum does not teach is looked for in the others. NotFoundError for an
+    unknown name.
     """
     if not graph.lessons:
         raise RunError(
@@ -76,39 +79,30 @@ def chosen_lessons(graph: Graph, curriculum: str | None, skills: Sequence[str]) 
     if curriculum is not None and curriculum not in names:
         raise NotFoundError(f"there is no curriculum called {curriculum}", _suggestion(curriculum, names))
     if not skills:
-        return _of(graph, curriculum or names[0])
+        return _by_need(graph, _of(graph, curriculum or names[0]), known)
     searched = [curriculum] if curriculum else names
-    return tuple(lesson for skill in skills for lesson in _teaching(graph, searched, skill))
+    return _by_need(graph, [lesson for skill in skills for lesson in _teaching(graph, searched, skill)], known)
+
+
+def _by_need(graph: Graph, lessons: Sequence[Lesson], known: Collection[str]) -> tuple[Lesson, ...]:
+    """Lessons in their order, those that others wait for before these; where all wait for one another, in order."""
+    skills = {lesson: {*learners(graph, lesson)} for lesson in lessons}
+    needs = {lesson: needed_skills(graph, lesson) - {*known} for lesson in lessons}
+    left, ordered = list(dict.fromkeys(lessons)), list[Lesson]()
+    while left:
+        waits = (lesson for lesson in left if any(needs[lesson] & skills[other] for other in left if other != lesson))
+        blocked = {*waits}
+        following = next((lesson for lesson in left if lesson not in blocked), left[0])
+        left.remove(following)
+        ordered.append(following)
+        needs = {lesson: of - skills[following] for lesson, of in needs.items()}
+    return tuple(ordered)
 
 
 def subskills(graph: Graph, lesson: Lesson) -> tuple[str, ...]:
     """The skills whose weights a lesson needs: all that learn under its master, but the learners."""
     taught = learners(graph, lesson)
     return tuple(name for name in owners(reachable(graph, lesson.master)) if name not in taught)
-
-
-def is_due(graph: Graph, lesson: Lesson, states: Mapping[str, Status]) -> bool:
-    """Whether a lesson has yet to be taught, by how its learners stand.
-
-    Skills whose weights fit are left alone, except where they came from an earlier lesson that taught them, and where
-    the world of the lesson is another than the one in which they were taught.
-    """
-    before = graph.lessons[: graph.lessons.index(lesson)]
-    return any(
-        _is_due(lesson, [other for other in before if skill in learners(graph, other)], state)
-        for skill, state in states.items()
-    )
-
-
-def _is_due(lesson: Lesson, earlier: Iterable[Lesson], state: Status) -> bool:
-    if not isinstance(state, Trained):
-        return True
-    if lesson in state.outdated:
-        return True
-    if state.last and state.last.curriculum == lesson.curriculum:
-        return state.last.number < lesson.number
-    taught = key_of_taught(state.entry.taught)
-    return key_of(lesson) != taught and any(key_of(other) == taught for other in earlier)
 
 
 def _of(graph: Graph, curriculum: str) -> tuple[Lesson, ...]:

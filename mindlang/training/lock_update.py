@@ -18,10 +18,10 @@ from mindrun.weights import parts
 from mindlang.compiler.diagnostic import listed
 from mindlang.lock import Entry, LockError, Taught, read_lock
 from mindlang.lock.blobs import record
+from mindlang.lock.lessons import key_of
 from mindlang.lock.status import Trained, trained_weights
-from mindlang.lock.world_facts import Worlds, key_of
+from mindlang.lock.world_facts import Worlds
 from mindlang.number_format import number
-from mindlang.training.lesson_choice import is_due
 from mindlang.training.origin import origin_of
 from mindlang.training.subject import Subject
 
@@ -71,7 +71,7 @@ def keep(run: RunFolder, subject: Subject, state: LessonState, scorer: Scorer, f
     if force or not found.is_worse:
         return Kept(_record(run, subject, state, state.kept[0], state.reevaluated), found, True)
     lesson = declared(subject, run.manifest.lesson)
-    if is_due(subject.graph, lesson, subject.standing(lesson)):
+    if subject.is_due(lesson):
         return Kept(_record(run, subject, state, old, found.old), found, False)
     known = read_lock(subject.keep_path(lesson))
     return Kept({skill: known[skill] for skill in run.manifest.learners}, found, False)

@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from pathlib import Path
 
+from mindrun.command_line import command_line
 from mindrun.graph import Graph, Lesson, Skill
 from mindrun.train import RunError
 from mindrun.weights import Weights, learners, owner_of
@@ -30,7 +31,7 @@ def origin_weights(graph: Graph, lock: Lock, lesson: Lesson, shown: Path) -> dic
         weights, refusals = trained_weights(graph, lock, [needed])
         if refusals:
             message = f"{lesson.skill} cannot begin with the weights of {origin.name}: {refusals[0]}"
-            raise RunError(message, f"first: mindc train {shown} {skills[needed].owner}")
+            raise RunError(message, f"first: {command_line('mindc', 'train', shown, skills[needed].owner)}")
         known |= weights
     return {lesson.skill: _brought(graph, lesson, origin, known[origin.owner])}
 

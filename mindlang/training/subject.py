@@ -6,6 +6,7 @@ from datetime import datetime
 from hashlib import sha256
 from pathlib import Path
 
+from mindrun.command_line import command_line
 from mindrun.graph import Graph, Lesson
 from mindrun.train import RunError
 from mindrun.train.manifest import Manifest, fingerprint, hashes, processor, versions
@@ -17,6 +18,7 @@ from mindlang.compiler.compile import Compiled
 from mindlang.compiler.diagnostic import listed
 from mindlang.lock import Lock, lock_path, lock_sources, read_lock, read_locks
 from mindlang.lock.arrange import arrange
+from mindlang.lock.due import is_due
 from mindlang.lock.status import Status, status, trained_weights
 from mindlang.training.lesson_choice import subskills
 from mindlang.training.origin import origin_weights
@@ -63,6 +65,10 @@ class Subject:
         found = status(self.graph, read_lock(self.keep_path(lesson)), self.folder)
         return {skill: found[skill] for skill in learners(self.graph, lesson)}
 
+    def is_due(self, lesson: Lesson) -> bool:
+        """Whether a lesson has yet to be taught."""
+        return is_due(self.graph, lesson, self.standing(lesson))
+
 
 def open_subject(path: Path, compiled: Compiled) -> Subject:
     """The subject of a file that compiled; LockError where its lock is damaged."""
@@ -108,7 +114,7 @@ def refuse_frozen(subject: Subject, chosen: Iterable[Lesson]) -> None:
     """RunError where a lesson has nobody to teach."""
     for lesson in chosen:
         if not learners(subject.graph, lesson):
-            hint = f"mindc edit unfreeze {subject.shown} {lesson.skill} --write"
+            hint = command_line("mindc", "edit", "unfreeze", subject.shown, lesson.skill, "--write")
             raise RunError(f"{lesson.skill} is frozen", hint)
 
 
@@ -123,7 +129,7 @@ def refuse_changed(subject: Subject, run: RunFolder) -> None:
         raise RunError(
             f"{subject.shown} has changed since this run of {lesson.skill} began, so it cannot go on",
             f"undo the change ({run.folder / 'source'} has it as it was), or begin anew: "
-            f"mindc train {subject.shown} {lesson.skill}",
+            + command_line("mindc", "train", subject.shown, lesson.skill),
         )
 
 
@@ -140,7 +146,7 @@ def _needed(subject: Subject, lesson: Lesson) -> dict[str, Weights]:
         first = [skill for skill in reversed(skills) if skill not in weights]
         raise RunError(
             f"{lesson.skill} cannot be taught yet: {listed(refusals, 'and')}",
-            f"first: mindc train {subject.shown} {' '.join(first)}",
+            f"first: {command_line('mindc', 'train', subject.shown, *first)}",
         )
     return weights
 

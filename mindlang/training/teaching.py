@@ -1,11 +1,11 @@
 """The beginning and the end of a run of a lesson: what scores its genomes, and what becomes of what was learnt."""
 
-import shlex
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 
 from mindrun.bundle import Bundle, pack
+from mindrun.command_line import command_line
 from mindrun.engine import procedure_sources
 from mindrun.policy import Policy
 from mindrun.sim.rollout import Rollout
@@ -116,7 +116,7 @@ def _resumable(run: RunFolder) -> Iterator[None]:
     try:
         yield
     except WorkError as error:
-        resume = f"what was saved is intact; to go on: mindc train --resume {shlex.quote(str(run.folder))}"
+        resume = f"what was saved is intact; to go on: {command_line('mindc', 'train', '--resume', run.folder)}"
         raise WorkError(str(error), "; ".join(filter(None, (error.hint, resume)))) from error
 
 

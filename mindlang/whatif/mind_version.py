@@ -10,7 +10,7 @@ from mindrun.policy import Policy
 
 from mindlang.compiler.compile import Compiled
 from mindlang.lock.ready import make_ready
-from mindlang.run.setup import SetupError, untaught_skills
+from mindlang.run.setup import SetupError, train_command
 
 BUNDLE_SUFFIX = ".bundle"
 
@@ -41,5 +41,5 @@ def from_source(file: str, compiled: Compiled) -> MindVersion:
     assert compiled.graph is not None
     ready = make_ready(compiled.graph, compiled.sources)
     if ready.refusals:
-        raise SetupError("\n".join(ready.refusals), f"mindc train {file} {' '.join(untaught_skills(ready))}")
+        raise SetupError("\n".join(ready.refusals), train_command(Path(file), ready))
     return MindVersion(Path(file).name, ready.policy, compiled.sources[0].folder, ready.policy.graph.master)

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 from mindrun.bundle import Bundle
 from mindrun.changes import Change, ChangeError, change_of
+from mindrun.command_line import command_line
 from mindrun.graph import Graph, Sensor
 from mindrun.named_readings import physical
 from mindrun.robot.recording import read
@@ -58,7 +59,7 @@ def recorded_readings(
 
 def _bundle(path: Path, about: About, running: Path | None, name: str, is_said: bool) -> Bundle:
     """The bundle of a recording, which knows where the readings of each sensor stand in a row."""
-    hint = f"say the bundle that was running behind it: --sensor {name}={path},NAME.bundle"
+    hint = f"say the bundle that was running behind it: {command_line('--sensor', f'{name}={path},NAME.bundle')}"
     if running is None:
         raise ChangeError(f"nobody says which bundle was running when {path} was recorded", hint)
     try:

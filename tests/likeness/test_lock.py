@@ -124,7 +124,7 @@ def test_older_locks_are_read(tmp_path: Path, version: int) -> None:
     lock = tmp_path / "mind.lock"
     teach(lock, graph(GO, ALIKE, TOP), "Go")
     entries = read_lock(lock)
-    lock.write_text(lock.read_text().replace("# mind lock 4:", f"# mind lock {version}:"))
+    lock.write_text(lock.read_text().replace("# mind lock 5:", f"# mind lock {version}:"))
     assert read_lock(lock) == entries
     write_lock(lock, entries)
-    assert lock.read_text().startswith("# mind lock 4:")
+    assert lock.read_text().startswith("# mind lock 5:")

@@ -94,7 +94,7 @@ LOW_AT_WORK = "Low on Course under Top for 9 generations"
 
 def test_a_subskill_of_a_subskill_must_be_taught_before(found: Lint) -> None:
     assert found("early-lesson", HIERARCHY + lessons(LOW, MIDDLE, TOP)) == []
-    message = "Middle is taught before Low, which acts in this lesson and has no weights yet."
+    message = "Middle stands before Low, which acts in this lesson and has no weights yet."
     assert found("early-lesson", HIERARCHY + lessons(MIDDLE, LOW, TOP)) == [message]
 
 

@@ -1,5 +1,6 @@
 """The lock as text: there and back, and refused when it is damaged."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -7,6 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mindlang.lock import HEADER, Entry, LockError, Signature, Taught, read_lock, read_locks, write_lock
+from mindlang.lock.training_world import TrainingWorld
+from mindlang.rules.taught_elsewhere import WORLD
 
 NAMES = st.text("abcxyzABC_+:0123456789", min_size=1, max_size=8)
 HASHES = st.text("0123456789abcdef", min_size=64, max_size=64)
@@ -78,11 +81,12 @@ def test_a_file_knows_what_the_files_that_it_uses_have_learnt(tmp_path: Path) ->
     [
         (lambda text: "", "is damaged: it is not a whole lock"),
         (lambda text: text[:-1], "is damaged: it is not a whole lock"),
-        (lambda text: text.replace("lock 4", "lock 5"), "is damaged: it is not a whole lock"),
-        (lambda text: text + "\n", "a.lock:3 is damaged: this is not what mindc wrote"),
+        (lambda text: text.replace("lock 5", "lock 6"), "is damaged: it is not a whole lock"),
+        (lambda text: text + "\n\nx\n", "a.lock:5 is damaged: this is not what mindc wrote"),
         (lambda text: text.replace("abab", "abax"), "a.lock:2 is damaged: this is not what mindc wrote"),
         (lambda text: text + LINE + "\n", "a.lock:3 is damaged: Avoid has two lines"),
-        (lambda text: text.replace("Avoid is", "<<<<<<< HEAD\nAvoid is"), "a.lock:2 is damaged"),
+        (lambda text: text.replace("Avoid is", "<<<<<<< HEAD\nAvoid is"), "a.lock:2 stands where two branches"),
+        (lambda text: "<<<<<<< HEAD\n" + text, "a.lock:1 stands where two branches"),
         (lambda text: text + "x | " * 300_000, "is damaged"),
     ],
 )
@@ -94,6 +98,16 @@ def test_a_damaged_lock_is_refused(tmp_path: Path, damage, message: str) -> None
     path.write_text(damage(path.read_text()))
     with pytest.raises(LockError, match=message):
         read_lock(path)
+
+
+def test_blank_lines_mean_nothing(tmp_path: Path) -> None:
+    path = tmp_path / "a.lock"
+    entry = Entry.of(LINE, tmp_path)
+    assert entry
+    entry = replace(entry, worlds=(WORLD, TrainingWorld({**WORLD.facts, "tick": 1.0})))
+    write_lock(path, {"Avoid": entry})
+    path.write_text(path.read_text().replace("\n", "\n\n"))
+    assert read_lock(path) == {"Avoid": entry}
 
 
 def test_what_is_said_of_a_damaged_lock_commands_no_terminal(tmp_path: Path) -> None:

@@ -19,11 +19,12 @@ from mindlang.compiler.compile import compile_source, load
 from mindlang.compiler.source import Source
 from mindlang.lock import Lock, LockError, Taught, lock_path, lock_text, read_lock
 from mindlang.lock.blobs import record
+from mindlang.lock.lessons import last_lesson
 from mindlang.lock.report import rows, survival
 from mindlang.lock.status import Stale, Trained, status
 from mindlang.lock.training_world import TrainingWorld, world_of
 from mindlang.lock.world_changes import changes
-from mindlang.lock.world_facts import Worlds, last_lesson
+from mindlang.lock.world_facts import Worlds
 
 # One of everything that a lesson can depend on, all of it below Top.
 MIND = """\
@@ -499,8 +500,8 @@ def test_the_text_of_a_procedure_is_noticed(tmp_path: Path) -> None:
 
 
 def test_a_task_that_is_gone_is_told() -> None:
-    text = MIND.replace("task Fetch", "task Bring").replace("on Fetch", "on Bring")
-    state = status(compiled(text), LOCK)["Top"]
+    text = MIND.replace("task Fetch", "task Bring").replace("  teaches Top on Fetch for 3 generations\n", "")
+    state = status(compiled(text.replace("on Fetch", "on Bring")), LOCK)["Top"]
     assert isinstance(state, Trained)
     assert state.changes == ("its task Fetch is gone",)
 

@@ -9,9 +9,10 @@ from mindrun.weights import learners, parts
 
 from mindlang.compiler.compile import load
 from mindlang.lock import Entry, Signature, Taught
+from mindlang.lock.due import is_due
+from mindlang.lock.lessons import last_lesson
 from mindlang.lock.status import Trained, Untaught
-from mindlang.lock.world_facts import last_lesson
-from mindlang.training.lesson_choice import is_due, subskills
+from mindlang.training.lesson_choice import subskills
 from mindlang.training.subject import open_subject
 
 FOLDER = Path(__file__).parents[2] / "examples" / "collect"

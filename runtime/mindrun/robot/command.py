@@ -9,6 +9,7 @@ from functools import partial
 from pathlib import Path
 
 from mindrun.bundle import Bundle, digest, read_bundle
+from mindrun.command_line import command_line
 from mindrun.default_task import default_task
 from mindrun.driver import DeviceError
 from mindrun.errors import MindError
@@ -78,7 +79,7 @@ def _wired(options: argparse.Namespace, bundle: Bundle, drive_options: DriveOpti
         raise MindError("this bundle is wired to no robot", "mindc build … --robot robot.yaml, or try it with --dry")
     wiring = bundle.wiring
     if not is_adopted(wiring, bundle.graph):
-        remedy = f"if it is wired as this bundle has it: mindrun adopt {options.bundle}"
+        remedy = f"if it is wired as this bundle has it: {command_line('mindrun', 'adopt', options.bundle)}"
         if drive_options.armed:
             raise IdentityError("nothing may move yet: this robot has not said how it is wired", remedy)
         line.tell("this robot has not said how it is wired: no actuator is opened")

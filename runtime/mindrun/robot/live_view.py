@@ -12,9 +12,9 @@ from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from importlib.util import find_spec
 from pathlib import Path
-from shlex import quote
 from threading import Event, Thread
 
+from mindrun.command_line import command_line
 from mindrun.errors import reason
 from mindrun.printable import visible
 from mindrun.robot.device_locks import DrivenError, bound_address
@@ -42,8 +42,9 @@ def live_view(
     """
     if not find_spec("mindlang"):
         tell("mindlang is not installed here, so the page is served elsewhere. On your desk, type:")
-        pausing = f" --break {quote(breaks.name)}" if breaks else ""
-        tell(f"mindc view {quote(f'{_host()}:{recording.absolute()}')} {quote(bundle.name)} --follow{pausing}")
+        pausing = ("--break", Path(breaks.name)) if breaks else ()
+        seen = f"{_host()}:{recording.absolute()}"
+        tell(command_line("mindc", "view", seen, Path(bundle.name), "--follow", *pausing))
         yield
         return
     with ExitStack() as stack:

@@ -1,0 +1,50 @@
+"""`mindc lock`: what git does with locks."""
+
+import sys
+from pathlib import Path
+
+import click
+
+from mindlang.cli import Suggesting
+
+EXAMPLES = """\b
+Examples:
+  mindc lock merge %O %A %B --name %P     as git calls it
+"""
+Lockfile = click.Path(path_type=Path)
+
+
+@click.group(cls=Suggesting)
+def command() -> None:
+    """Bring together what two branches have taught."""
+
+
+@command.command(epilog=EXAMPLES)
+@click.argument("base", type=Lockfile)
+@click.argument("ours", type=Lockfile)
+@click.argument("theirs", type=Lockfile)
+@click.option("--name", default="", metavar="PATH", help="What the lock is called. Default: as OURS.")
+def merge(base: Path, ours: Path, theirs: Path, name: str) -> None:
+    """Merge the locks OURS and THEIRS, which both were BASE once, into OURS.
+
+    Each branch may have taught skills of its own: all lines and worlds are kept. Git does it by itself once
+    `.gitattributes` says `collect.lock merge=mind` and `git config merge.mind.driver` says the line below.
+
+    Ends with 1 where both have taught the same skill: then both lines stand between marks, and one is to be deleted.
+    """
+    from mindlang.cli._terminal import MISUSE, fail, write_file
+    from mindlang.compiler.diagnostic import listed
+    from mindlang.lock import LockError, read_lock
+    from mindlang.lock.merging import merge
+
+    try:
+        # git has an empty file where the branches have no lock in common
+        merged = merge(*({} if path.stat().st_size == 0 else read_lock(path) for path in (base, ours, theirs)))
+    except (OSError, LockError) as error:
+        fail(f"{name or ours} cannot be merged: {error}", code=MISUSE)
+    write_file(ours, merged.text().encode())
+    if merged.conflicts:
+        skills = listed(merged.conflicts, "and")
+        message = f"Both branches have taught {skills}."
+        fail(message, f"In {name or ours} keep one of the lines between the marks, and delete the other and the marks.")
+    sys.exit(0)

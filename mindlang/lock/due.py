@@ -1,0 +1,33 @@
+"""Whether a lesson has yet to be taught, by how those who learn in it stand to the lock."""
+
+from collections.abc import Iterable, Mapping
+
+from mindrun.graph import Graph, Lesson
+from mindrun.skill_sets import learners
+
+from mindlang.lock.lessons import key_of, key_of_taught
+from mindlang.lock.status import Status, Trained
+
+
+def is_due(graph: Graph, lesson: Lesson, states: Mapping[str, Status]) -> bool:
+    """Whether a lesson has yet to be taught, by how its learners stand.
+
+    Skills whose weights fit are left alone, except where they came from an earlier lesson that taught them, and where
+    the world of the lesson is another than the one in which they were taught.
+    """
+    before = graph.lessons[: graph.lessons.index(lesson)]
+    return any(
+        _is_due(lesson, [other for other in before if skill in learners(graph, other)], state)
+        for skill, state in states.items()
+    )
+
+
+def _is_due(lesson: Lesson, earlier: Iterable[Lesson], state: Status) -> bool:
+    if not isinstance(state, Trained):
+        return True
+    if lesson in state.outdated:
+        return True
+    if state.last and state.last.curriculum == lesson.curriculum:
+        return state.last.number < lesson.number
+    taught = key_of_taught(state.entry.taught)
+    return key_of(lesson) != taught and any(key_of(other) == taught for other in earlier)

@@ -1,0 +1,77 @@
+"""What `status`, `lint` and `train` say of lessons: the same; and in which order these are taught."""
+
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mindlang.compiler.compile import compile_source, load
+from mindlang.compiler.source import Source
+from mindlang.lock.lessons import needed_skills
+from mindlang.training.lesson_choice import chosen_lessons
+from mindlang.training.subject import open_subject
+from tests.calling import Call
+from tests.edits.taught import MIND, teach, write_mind
+
+LESSONS = tuple(f"  teaches {skill} on Roam for 3 generations\n" for skill in ("Go", "Avoid", "Drive"))
+OTHER_TASK = MIND.replace("task Roam", "task Walk").replace("on Roam", "on Walk")
+# By hand: how all skills stand then, and whether training has something to do.
+CHANGES = {
+    "another name of the task": (OTHER_TASK, "trained", False),
+    "another name, and something else": (OTHER_TASK.replace("rewards 10", "rewards 11"), "taught elsewhere", True),
+    "another name, and no lesson": (
+        OTHER_TASK.replace("".join(LESSONS).replace("Roam", "Walk"), LESSONS[0].replace("Roam", "Walk")),
+        "trained",
+        False,
+    ),
+    "something else": (MIND.replace("rewards 10", "rewards 11"), "taught elsewhere", True),
+}
+
+
+@pytest.mark.parametrize("change", CHANGES)
+def test_all_say_the_same(mindc: Call, tmp_path: Path, change: str) -> None:
+    text, word, is_due = CHANGES[change]
+    path = write_mind(tmp_path)
+    teach(path)
+    path.write_text(text)
+    said, found = mindc("status", path, "Go").out, mindc("lint", path)
+    assert said.split()[1 : 1 + len(word.split())] == word.split()
+    assert ("mindc train teaches it again" in found.out + found.err) == is_due
+    subject = open_subject(path, load(path))
+    assert any(map(subject.is_due, subject.graph.lessons)) == is_due
+    if not is_due:
+        assert "nothing to do" in mindc("train", path).err
+
+
+def test_what_nothing_teaches_is_not_sent_to_train(mindc: Call, tmp_path: Path) -> None:
+    path = write_mind(tmp_path)
+    teach(path)
+    path.write_text(MIND.replace(LESSONS[0], "").replace("rewards 10", "rewards 11"))
+    found = mindc("lint", path)
+    assert "No lesson teaches Go in this world: write one, or take back what has changed." in found.out + found.err
+
+
+def test_status_names_a_lesson_that_is_due(mindc: Call, tmp_path: Path) -> None:
+    path = write_mind(tmp_path)
+    teach(path)
+    far = "task Far in plain\n  contains ball is item size 1\n  lasts 90 ticks\n  rewards 10 on reach of ball\n\n"
+    path.write_text(MIND.replace("curriculum", f"{far}curriculum") + LESSONS[0].replace("Roam", "Far"))
+    said = mindc("status", path, "Go").out.splitlines()
+    assert said[0].split()[:2] == ["Go", "trained"]
+    assert said[1].strip() == "lesson 4 of School is due, on Far"
+
+
+@given(st.permutations(LESSONS), st.sets(st.sampled_from(["Go", "Avoid", "Drive"])))
+def test_lessons_come_after_what_they_need(lessons: list[str], known: set[str]) -> None:
+    text = MIND.replace("".join(LESSONS), "".join(lessons))
+    graph = compile_source(Source("drive.mind", text)).graph
+    assert graph
+    chosen = chosen_lessons(graph, None, (), known)
+    assert {*chosen} == {*graph.lessons}
+    has_weights = {*known}
+    for lesson in chosen:
+        assert needed_skills(graph, lesson) <= has_weights
+        has_weights.add(lesson.skill)
+    if {"Go", "Avoid"} <= known:
+        assert chosen == graph.lessons, "nothing waits, so nothing moves"
