@@ -18,6 +18,7 @@ from mindrun.robot.sampling import Sampler
 from mindrun.robot.timing_report import report
 from mindrun.wiring import SensorWire
 
+from tests.minds import always, mind, rule
 from tests.robot.faults import TICK, Clock, Scripted, Sent, bus_error, graph
 
 BUNDLE = "ab" * 32
@@ -54,6 +55,24 @@ def test_a_recording_says_what_happened(day: Path) -> None:
     assert rows["stopped"].sum() == (rows["faults"] > 0).sum() == TICKS // 40
     assert (rows["sent"][rows["stopped"] == 1] == [0.5, 0.5, 0]).all()
     np.testing.assert_allclose(np.diff(rows["time"]), TICK)
+
+
+def test_what_is_not_wired_is_no_number(tmp_path: Path) -> None:
+    path, of, clock = (
+        tmp_path / "day.rec",
+        mind(rule("Go", always("actuator", 0, 0.5), reads=(0,)), readings=2),
+        Clock(),
+    )
+    sampler = Sampler(SensorWire("r0", Scripted(1, [[0.25]]), 0.0, 1.0), clock)
+    sampler.latest = sampler.measured_once()
+    with Recorder(path, About.of(of, BUNDLE, of.master, ("r0",))) as recorder:
+        pace = Rate(TICK, clock, clock.sleep)
+        loop = Loop(Engine(Policy(of, {})), ReadingFilter(of, [sampler]), Sent(), pace, True, recorder)
+        loop.pace.begin()
+        loop.tick()
+    _, parts = read(path)
+    assert np.array_equal(np.concatenate([*parts])["readings"], [[0.25, np.nan]], equal_nan=True)
+    assert replay(path, BUNDLE, Engine(Policy(of, {}))).differs is None
 
 
 def test_it_is_computed_again_bit_for_bit(day: Path) -> None:
