@@ -10,6 +10,7 @@ from mindlang.wiring.direction import check_direction
 from mindlang.wiring.driver import Wired
 from mindlang.wiring.nodes import report_error
 from mindlang.wiring.scale import usual_ends
+from mindlang.wiring.speed import check_speed
 from mindlang.wiring.values import first_line, is_empty, number
 
 # What a driver may measure in, and how people may write it.
@@ -44,6 +45,7 @@ def sensor_wire(wired: Wired, sensor: Sensor, unit_metres: float | None, finding
     if len(errors(findings.diagnostics)) > before:
         return None
     check_direction(wired, wire, sensor, findings)
+    check_speed(wired, wire, findings)
     return wire
 
 

@@ -14,6 +14,7 @@ from mindlang.wiring.claims import check_claims
 from mindlang.wiring.nodes import Node, TableEntry, report_error
 from mindlang.wiring.read import read
 from mindlang.wiring.section import actuators, sensors
+from mindlang.wiring.speed import check_shared
 from mindlang.wiring.values import is_empty, missing_key, table, text, unknown_key
 
 MAX_WIRING_BYTES = 256 << 10
@@ -79,6 +80,7 @@ def _wiring(node: Node, graph: Graph, unit_metres: float | None, findings: Findi
     sensing = sensors(said.get("sensors"), graph, unit_metres, findings)
     acting = actuators(said.get("actuators"), graph, findings)
     check_claims([wired for wired, _ in (*sensing, *acting)], findings)
+    check_shared(sensing, acting, graph.tick, findings)
     name = _name(said.get("robot"), findings)
     wires = tuple(wire for _, wire in sensing if wire)
     return Wiring(name, wires, tuple(wire for _, wire in acting if wire)) if name else None

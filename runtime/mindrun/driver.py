@@ -52,7 +52,8 @@ class SensorDriver(Protocol):
     """How a sensor is wired: `unit` and number of its values; those that are `usual`ly the readings 0 and 1.
 
     It may have more: the values that are `possible`; that which means that something is `near` (0 m where it measures
-    metres); the same sensor `motionless`.
+    metres); the same sensor `motionless`. And what it can do: how many `seconds` a measurement takes, for how many of
+    these it needs its I2C `bus` (`bus_seconds`), and the `most` that it can measure.
     """
 
     @property
@@ -73,7 +74,8 @@ class SensorDriver(Protocol):
 class ActuatorDriver(Protocol):
     """How an actuator is wired; `device` is what only one process may drive, named as others would name it.
 
-    It is empty where there is none. A sensor's driver that moves something says it, too.
+    It is empty where there is none. A sensor's driver that moves something says it, too. `seconds` and `bus_seconds`
+    are those of a command.
     """
 
     @property

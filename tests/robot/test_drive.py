@@ -14,7 +14,7 @@ from mindrun.policy import Policy
 from mindrun.robot.recording import read
 from mindrun.tools.doctor import machine
 
-from tests.robot.driving import MINDRUN, NAME, children, mindrun, wiring
+from tests.robot.driving import MINDRUN, NAME, children, mindrun, recorded, until, wiring, write_procedure
 from tests.robot.faults import MIND, SENSORS, graph
 from tests.sim.minds import compile_text
 
@@ -120,21 +120,14 @@ def test_nothing_is_recorded_over(bundle: Path) -> None:
 
 
 def test_the_second_signal_ends_what_hangs(bundle: Path, tmp_path: Path) -> None:
-    text = MIND.format(kind=SENSORS["bearing"][0], function="procedure from hang.f").replace(
-        "left_wheel at 0.2 + pulse * 0.7", "left_wheel"
+    hangs = tmp_path / "hangs"
+    write_procedure(
+        bundle, f"def f(sense, pulse):\n    open({str(hangs)!r}, 'w').close()\n    while True:\n        pass\n"
     )
-    write_bundle(
-        bundle,
-        Bundle(
-            Policy(compile_text(text), {}), {"hang": "def f(sense, pulse):\n    while True:\n        pass\n"}, wiring()
-        ),
-    )
-    process = subprocess.Popen([*MINDRUN, bundle, "--record", tmp_path / "d.rec"], stderr=subprocess.PIPE, text=True)
-    while not (tmp_path / "d.rec").exists():
-        assert process.poll() is None
-    sleep(2)
+    process = subprocess.Popen([*MINDRUN, bundle], stderr=subprocess.PIPE, text=True)
+    until(hangs.exists, process)
     process.send_signal(signal.SIGINT)
-    sleep(0.5)
+    sleep(0.5)  # where both come as one, it ends later
     process.send_signal(signal.SIGINT)
     process.communicate(timeout=600)
     assert process.returncode == 130
@@ -260,16 +253,13 @@ def test_a_quiet_dry_run_says_nothing_and_ends_as_well(bundle: Path) -> None:
     assert all(line.startswith("guardian: ") for line in said.stderr.splitlines())
 
 
-def test_a_dry_run_ends_when_its_world_does(bundle: Path) -> None:
-    words = [*MINDRUN, bundle, "--dry", "--arm", "--task", "Play"]
+def test_a_dry_run_ends_when_its_world_does(bundle: Path, tmp_path: Path) -> None:
+    day = tmp_path / "day.rec"
+    words = [*MINDRUN, bundle, "--dry", "--arm", "--task", "Play", "--record", day]
     process = subprocess.Popen(words, stderr=subprocess.PIPE, text=True, start_new_session=True)
-    while not (worlds := children(process.pid, "mindrun.robot.simulated_world")) or not children(
-        process.pid, "guardian"
-    ):
-        assert process.poll() is None
-        sleep(0.1)
-    sleep(1)
-    os.kill(worlds[0], signal.SIGKILL)
+    until(lambda: recorded(day), process)
+    (world,) = children(process.pid, "mindrun.robot.simulated_world")
+    os.kill(world, signal.SIGKILL)
     _, err = process.communicate(timeout=600)
     assert process.returncode == 2
     assert "does not come to neutral" in err

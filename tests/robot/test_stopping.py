@@ -65,11 +65,11 @@ with stopping(0.05) as stop:
 
 def test_what_ends_in_order_is_not_interrupted_but_does_not_last_for_ever() -> None:
     done = python("""
-with stopping(0.2) as stop:
+with stopping(1.0) as stop:
     os.kill(os.getpid(), signal.SIGTERM)
     assert stop
     stop.in_order()
-    time.sleep(0.5)
+    time.sleep(1.1)
     print("still here", flush=True)
     time.sleep(60)
 """)
@@ -78,14 +78,14 @@ with stopping(0.2) as stop:
 
 def test_what_follows_an_interruption_is_not_interrupted_again() -> None:
     done = python("""
-with stopping(0.5):
+with stopping(2.0):
     try:
         for _ in range(2):
             os.kill(os.getpid(), signal.SIGTERM)
     except KeyboardInterrupt:
         for _ in range(3):
             os.kill(os.getpid(), signal.SIGTERM)
-        time.sleep(0.8)
+        time.sleep(2.1)
         print("at neutral", flush=True)
 """)
     assert (done.returncode, done.stdout) == (0, "at neutral\n"), done.stderr

@@ -17,6 +17,7 @@ from mindrun.robot.driver_support import library
 if TYPE_CHECKING:
     from mindrun.arrays import Frame
 
+FRAME_SECONDS = 1 / 30  # of most cameras
 STALE_SECONDS = 0.2  # for which the same frame may come
 RETRY_SECONDS = 0.02  # between two questions to a camera that has no frame
 AHEAD = Aim()

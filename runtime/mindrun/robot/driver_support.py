@@ -29,6 +29,7 @@ INSTALL_PINS = "sudo apt install python3-lgpio, or in a virtual environment: pip
 MAX_TRIES = 3
 RETRY_SECONDS = 0.002  # between two tries
 TRANSFER_SECONDS = 0.1  # seconds after which a transfer that failed is not tried again
+I2C_BYTE_SECONDS = 9 / 100_000  # seconds of a byte with its acknowledgement, at the usual 100 kHz
 I2C_TIMEOUT, KERNEL_TICKS = 0x0702, 5  # <linux/i2c-dev.h>; in units of 10 ms: for how long a part may hold the clock
 
 

@@ -7,7 +7,7 @@ from time import monotonic, sleep
 from typing import Literal, get_args
 
 from mindrun.quantity import Reference
-from mindrun.robot.driver_support import I2cDevice
+from mindrun.robot.driver_support import I2C_BYTE_SECONDS, I2cDevice
 
 WHO_AM_I, INERTIAL_CHIP_ID, MAGNETIC_CHIP_ID = 0x0F, 0x68, 0x3D  # 7.11 and 8.4
 GYROSCOPE_ON = ((0x22, 0x44), (0x10, 0x60))  # CTRL_REG8: whole values only; CTRL_REG1_G: 119 Hz, ±245 °/s
@@ -22,6 +22,7 @@ MILLIGAUSS_PER_COUNT = 0.14
 MEASURED_IN = 0.1  # seconds until a new value must be there; they come every 8 to 13 ms
 READ_IN = 0.5  # seconds until there must be enough of them
 SATURATED_COUNT = 32767
+BUS_SECONDS = 17 * I2C_BYTE_SECONDS  # who it is, whether there is a value, and the value
 Face = Literal["up", "down"]
 FACE = Reference("face", get_args(Face))
 

@@ -1,4 +1,4 @@
-"""A controller that does nothing but drive, at 50 Hz: `loop 0.1` and `read 0.1` on its standard input make it hang."""
+"""A controller that does nothing but drive, at 50 Hz: a line `loop 0` or `read 0` lets it hang, until another comes."""
 
 import os
 import sys
@@ -7,7 +7,7 @@ import time
 from pathlib import Path
 
 from mindrun.robot.drivers.lamp import Lamp
-from mindrun.robot.guardian.client import Guardian
+from mindrun.robot.guardian import client
 from mindrun.robot.guardian.plan import Channel, Plan
 
 TICK = 0.02
@@ -22,25 +22,35 @@ PLAN = Plan(
 )
 
 
-def loop(seconds: float) -> None:
+PATIENCE = 300.0  # seconds, which decide nothing: on a busy machine a guardian takes its time
+wanted: list[str] = []
+silent, other = os.pipe()
+
+
+def loop() -> None:
     """A procedure that does not end."""
-    until = time.monotonic() + seconds
-    while time.monotonic() < until:
+    while not wanted:
         pass
-
-
-def read(seconds: float) -> None:
-    """A sensor that does not answer."""
-    silent, other = os.pipe()
-    threading.Timer(seconds, os.write, (other, b"\0")).start()
     os.read(silent, 1)
+
+
+def read() -> None:
+    """A sensor that does not answer."""
+    os.read(silent, 1)
+
+
+def listen() -> None:
+    """Keep every line."""
+    for line in sys.stdin:
+        wanted.append(line)
+        os.write(other, b"\0")
 
 
 def main() -> None:
     """Drive until the end."""
-    wanted: list[str] = []
-    threading.Thread(target=lambda: wanted.extend(sys.stdin), daemon=True).start()
-    with Guardian(PLAN, program=LOGGED) as guardian:
+    threading.Thread(target=listen, daemon=True).start()
+    client.HANG_SECONDS = PATIENCE
+    with client.Guardian(PLAN, PATIENCE, LOGGED) as guardian:
         print(guardian.pid, flush=True)
         tick = 0
         begin = time.monotonic()
@@ -49,9 +59,11 @@ def main() -> None:
             guardian.send([0.6 + 0.3 * (tick % 2), 0.8, 1.0], armed=True)
             if wanted:
                 how, seconds = wanted.pop().split()
-                time.sleep(float(seconds) % TICK)
+                os.read(silent, 1)
+                time.sleep(float(seconds))
                 print(time.monotonic_ns(), flush=True)
-                {"loop": loop, "read": read}[how](float(seconds))
+                {"loop": loop, "read": read}[how]()
+                wanted.clear()
                 begin, tick = time.monotonic(), 0
             time.sleep(max(0.0, begin + tick * TICK - time.monotonic()))
 

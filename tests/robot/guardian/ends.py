@@ -124,7 +124,12 @@ def play(folder: Path, rng: random.Random) -> Round:
     round_ = Round(manners, rng.choice((*ENDS, *LOSSES)), log)
     inside = round_.ends if round_.ends in ("_exit", "error", "hang", "done") else "never"
     seconds = rng.uniform(0.0, 0.3)
-    environment = {**os.environ, "MIND_LOG": str(log), "MIND_MANNERS": ",".join(manners), "PYTHONPATH": str(Path.cwd())}
+    environment = {
+        **os.environ,
+        "MIND_LOG": str(log),
+        "MIND_MANNERS": ",".join(manners),
+        "PYTHONPATH": os.pathsep.join([str(Path.cwd()), *sys.path]),
+    }
     command = [sys.executable, str(PROGRAM), "drive", inside, str(seconds)]
     controller = subprocess.Popen(
         command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, start_new_session=True

@@ -16,13 +16,12 @@ from mindrun.robot.guardian.client import Guardian
 from mindrun.robot.guardian.frames import pack
 from mindrun.robot.guardian.plan import to_json
 
-from tests.robot.guardian.driven import LOGGED, PLAN, TICK
+from tests.robot.guardian.driven import LOGGED, PATIENCE, PLAN, TICK
 
 NEUTRALS = (0.5, 0.5, 1.0)  # as the devices count
 KILLS = (signal.SIGKILL, signal.SIGTERM, signal.SIGSEGV)
 LOSSES = (signal.SIGKILL, signal.SIGSTOP)  # of a guardian
 HANGS = ("stop", "loop", "read")
-HANG = 0.15  # seconds that one lasts
 DRIVEN = Path(__file__).with_name("driven.py")
 
 
@@ -72,12 +71,16 @@ class Robot:
         self.errors = self.process.stderr.read()
         self.process.wait()
 
-    def ask(self, text: str) -> str:
-        """The answer to a line."""
+    def say(self, text: str) -> None:
+        """A line."""
         assert self.process.stdin
-        assert self.process.stdout
         self.process.stdin.write(f"{text}\n")
         self.process.stdin.flush()
+
+    def ask(self, text: str) -> str:
+        """The answer to a line."""
+        assert self.process.stdout
+        self.say(text)
         return self.process.stdout.readline()
 
 
@@ -105,7 +108,7 @@ def robot(folder: Path, manners: str = "fine fine fine") -> Iterator[Robot]:
 
 def until_it_moves(log: Path, since: float = 0.0) -> None:
     """Wait until an actuator is anywhere else than at neutral."""
-    give_up = time.monotonic() + 30
+    give_up = time.monotonic() + PATIENCE
     while not any(write.time > since and not write.neutral for write in writes(log)):
         assert time.monotonic() < give_up, "it never moved"
         time.sleep(TICK / 2)
@@ -133,19 +136,22 @@ def lose(folder: Path, number: signal.Signals, rng: random.Random) -> float | No
     return at_rest(found.log, begin)
 
 
-def hang(found: Robot, how: str, rng: random.Random, seconds: float = HANG) -> float | None:
+def hang(found: Robot, how: str, rng: random.Random) -> float | None:
     """Hang a controller at a random moment: after how long all was at neutral; then it goes on."""
-    begin = time.monotonic()
-    until_it_moves(found.log, begin)
+    until_it_moves(found.log, time.monotonic())
     time.sleep(rng.uniform(0, 2 * TICK))
     if how == "stop":
         begin = time.monotonic()
         found.process.send_signal(signal.SIGSTOP)
     else:
-        begin = int(found.ask(f"{how} {seconds + rng.uniform(0, TICK)}")) / 1e9
-    time.sleep(max(0.0, begin + seconds - time.monotonic()))
-    rest = at_rest(found.log, begin, begin + seconds)
-    found.process.send_signal(signal.SIGCONT)
+        begin = int(found.ask(f"{how} {rng.uniform(0, TICK)}")) / 1e9
+    give_up = time.monotonic() + PATIENCE
+    while (rest := at_rest(found.log, begin)) is None and time.monotonic() < give_up:
+        time.sleep(TICK / 2)
+    if how == "stop":
+        found.process.send_signal(signal.SIGCONT)
+    else:
+        found.say("go on")
     return rest
 
 
@@ -159,7 +165,7 @@ def start(folder: Path, eager: bool) -> list[Write]:
         line = f"{to_json(PLAN)}\n".encode()
         subprocess.run(LOGGED, input=line + frames, env=environment, capture_output=True, check=True)
     else:
-        with patient(environment), Guardian(PLAN, program=LOGGED) as guardian:
+        with patient(environment), Guardian(PLAN, PATIENCE, LOGGED) as guardian:
             guardian.send((1, 1, 1), armed=True)
     return writes(log)
 

@@ -7,6 +7,7 @@ from typing import Annotated
 from mindrun.quantity import COUNT, RATIO
 from mindrun.registry import kind
 from mindrun.robot.ball_detection import distance
+from mindrun.robot.camera import FRAME_SECONDS
 from mindrun.robot.driver_support import DEGREES, METRES, PATH
 from mindrun.robot.drivers.ball_tracker import HUE, TOLERANCE, VIEW, BallTracker, BallTrackerDevice
 
@@ -63,6 +64,7 @@ class BallEye:
     brightness: Annotated[float, RATIO] = 0.5
 
     unit = "m"
+    seconds = FRAME_SECONDS
 
     @property
     def readings(self) -> int:

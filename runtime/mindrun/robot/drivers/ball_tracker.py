@@ -11,7 +11,7 @@ from mindrun.quantity import COUNT, RATIO, Quantity, Reference
 from mindrun.registry import kind
 from mindrun.robot import camera
 from mindrun.robot.ball_detection import BallTarget, PanTiltLimits, distance
-from mindrun.robot.camera import BallSighting, Joint, TrackingCamera
+from mindrun.robot.camera import FRAME_SECONDS, BallSighting, Joint, TrackingCamera
 from mindrun.robot.driver_support import ADDRESS, BUS, CHANNEL, DEGREES, METRES, MICROSECONDS, PATH, on_bus
 from mindrun.robot.drivers.pca9685 import Pca9685
 
@@ -120,6 +120,7 @@ class BallTracker:
     address: Annotated[int, ADDRESS] = 0x40
 
     readings = 1
+    seconds = FRAME_SECONDS
 
     @property
     def unit(self) -> str:

@@ -1,6 +1,7 @@
 """How far, how fast, or to where a wheel has turned, by a rotary encoder."""
 
 from dataclasses import dataclass
+from math import inf
 from time import monotonic, sleep
 from typing import Annotated, Any, Literal, get_args
 
@@ -11,6 +12,7 @@ from mindrun.robot.driver_support import METRES, PIN, library, pins
 Measure = Literal["speed", "distance", "angle"]
 MEASURE = Reference("measure", get_args(Measure))
 STEPS = Quantity("steps of a turn", {"": 1.0}, low=1, high=100_000, whole=True)
+MAX_STEPS_PER_SECOND = 1000  # that a program counts
 LEAST_SPEED_SECONDS = 0.02  # seconds over which a speed is taken at least
 
 
@@ -53,7 +55,8 @@ class Encoder:
     `measure` says what is read: metres a second, for an `odometer` (0.5 standing, 1 forward) or a `speed`; the distance
     in metres since it was opened, or the angle of the wheel, 0 to 360 degrees. `circumference` is the wheel's. A wheel
     that counts the wrong way has `a` and `b` the other way round. Its outputs connect to ground; those that put out 5 V
-    need a level shifter. Steps are counted by a program: some 1,000 a second at most.
+    need a level shifter. Steps are counted by a program, some 1,000 a second at most: a wheel that turns faster reads
+    slower than it is.
     """
 
     a: Annotated[int, PIN]
@@ -64,6 +67,16 @@ class Encoder:
 
     readings = 1
     near = None  # metres that were travelled are no distance to anything
+
+    @property
+    def seconds(self) -> float:
+        """For how long a speed is taken at least."""
+        return LEAST_SPEED_SECONDS if self.measure == "speed" else 0.0
+
+    @property
+    def most(self) -> float:
+        """The speed at which steps come as fast as they are counted; of a distance and an angle nobody knows."""
+        return MAX_STEPS_PER_SECOND / self.steps * self.circumference if self.measure == "speed" else inf
 
     @property
     def unit(self) -> str:

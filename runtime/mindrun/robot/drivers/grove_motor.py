@@ -9,7 +9,7 @@ from typing import Annotated
 from mindrun.driver import DeviceError
 from mindrun.quantity import Quantity
 from mindrun.registry import kind
-from mindrun.robot.driver_support import ADDRESS, BUS, I2cDevice, on_bus, share
+from mindrun.robot.driver_support import ADDRESS, BUS, I2C_BYTE_SECONDS, I2cDevice, on_bus, share
 
 MOTOR = Quantity("a motor of the board", {"": 1.0}, low=1, high=2, whole=True)
 SPEED, FREQUENCY, DIRECTION = 0x82, 0x84, 0xAA
@@ -108,6 +108,9 @@ class GroveMotor:
     motor: Annotated[int, MOTOR]
     bus: Annotated[int, BUS] = 1
     address: Annotated[int, ADDRESS] = 0x0F
+
+    seconds = COMMAND_GAP_SECONDS  # of the board
+    bus_seconds = 4 * I2C_BYTE_SECONDS
 
     @property
     def device(self) -> str:

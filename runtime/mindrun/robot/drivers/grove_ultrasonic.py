@@ -13,6 +13,7 @@ RANGER_COMMAND, VERSION_COMMAND = 7, 8  # commands
 BUSY_BYTE, IDLE_BUS_BYTE = 23, 255  # first bytes of an answer: still measuring; nobody drives the bus
 UNUSED_BYTE = 0
 POLL_SECONDS = 0.003  # seconds between two questions
+RANGER_SECONDS = 0.04  # that a ranger may take, of the 10 to 40 ms
 ANSWERED_IN = 0.15  # seconds; the board itself listens for 75 ms
 MAX_DISTANCE_METRES = 5.2  # metres: where nothing echoes the ranger's pulse ends at about 5 m, and is longer on some
 
@@ -76,6 +77,11 @@ class GroveUltrasonic:
     def readings(self) -> int:
         """How many there are."""
         return len(self.ports)
+
+    @property
+    def seconds(self) -> float:
+        """For how long the board may listen to all of them."""
+        return len(self.ports) * RANGER_SECONDS
 
     @property
     def usual(self) -> tuple[float, float]:

@@ -8,6 +8,7 @@ from mindrun.quantity import Quantity
 from mindrun.registry import kind
 from mindrun.robot.driver_support import ADDRESS, BUS, DEGREES, I2cDevice
 from mindrun.robot.lsm9ds1 import (
+    BUS_SECONDS,
     FACE,
     MAGNETIC_CHIP_ID,
     MAGNETOMETER_ON,
@@ -45,6 +46,8 @@ class MagneticCompass:
     readings = 1
     usual = (180.0, -180.0)
     possible = (-180.0, 180.0)
+    seconds = 1 / 80
+    bus_seconds = BUS_SECONDS
 
     def open(self) -> NineDofDevice:
         """The magnetometer."""

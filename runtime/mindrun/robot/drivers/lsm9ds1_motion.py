@@ -14,6 +14,7 @@ from mindrun.robot.driver_support import ADDRESS, BUS, I2cDevice
 from mindrun.robot.lsm9ds1 import (
     ACCELERATION_PER_COUNT,
     ACCELEROMETER_ON,
+    BUS_SECONDS,
     INERTIAL_CHIP_ID,
     OUT_ACCELEROMETER,
     STANDARD_GRAVITY,
@@ -71,6 +72,8 @@ class Motion:
     readings = 1
     usual = (0.05, 1.0)
     possible = (0.0, 60.0)
+    seconds = 1 / 119
+    bus_seconds = BUS_SECONDS
 
     def open(self) -> NineDofDevice:
         """The accelerometer."""

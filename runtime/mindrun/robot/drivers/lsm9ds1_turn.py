@@ -7,6 +7,7 @@ from mindrun.quantity import NUMBER
 from mindrun.registry import kind
 from mindrun.robot.driver_support import ADDRESS, BUS, I2cDevice
 from mindrun.robot.lsm9ds1 import (
+    BUS_SECONDS,
     DEGREES_PER_SECOND_PER_COUNT,
     FACE,
     GYROSCOPE_ON,
@@ -37,6 +38,8 @@ class Turn:
     readings = 1
     usual = (180.0, -180.0)
     possible = (-600.0, 600.0)
+    seconds = 1 / 119
+    bus_seconds = BUS_SECONDS
 
     def open(self) -> NineDofDevice:
         """The gyroscope."""

@@ -6,7 +6,7 @@ from typing import Annotated
 
 from mindrun.quantity import NUMBER
 from mindrun.registry import kind
-from mindrun.robot.driver_support import ADDRESS, BUS, I2cDevice
+from mindrun.robot.driver_support import ADDRESS, BUS, I2C_BYTE_SECONDS, I2cDevice
 from mindrun.robot.lsm9ds1 import FACE, Face
 
 WHO_AM_I, CHIP_ID = 0x75, 0x68  # 4.32
@@ -90,6 +90,8 @@ class Mpu6050:
     readings = 1
     usual = (180.0, -180.0)
     possible = (-1000.0, 1000.0)
+    seconds = 0.01
+    bus_seconds = 13 * I2C_BYTE_SECONDS  # who it is, whether there is a value, and the value
 
     def open(self) -> GyroscopeDevice:
         """The gyroscope, awake."""

@@ -5,7 +5,7 @@ from time import sleep
 from typing import Annotated
 
 from mindrun.registry import kind
-from mindrun.robot.driver_support import ADDRESS, BUS, CHANNEL, MICROSECONDS, I2cDevice, on_bus, share
+from mindrun.robot.driver_support import ADDRESS, BUS, CHANNEL, I2C_BYTE_SECONDS, MICROSECONDS, I2cDevice, on_bus, share
 
 MODE1, MODE2, LED0, ALL_OFF_HIGH, PRESCALE = 0x00, 0x01, 0x06, 0xFD, 0xFE  # table 4
 RESTART, AUTO_INCREMENT, SLEEP = 0x80, 0x20, 0x10  # bits of MODE1, table 5
@@ -79,6 +79,8 @@ class Pca9685:
     longest: Annotated[float, MICROSECONDS] = 2000.0
     bus: Annotated[int, BUS] = 1
     address: Annotated[int, ADDRESS] = 0x40
+
+    bus_seconds = 14 * I2C_BYTE_SECONDS  # a pulse, and two questions whether the card has lost its settings
 
     @property
     def device(self) -> str:

@@ -132,6 +132,11 @@ class Ultrasonic:
         return len(self.trigger)
 
     @property
+    def seconds(self) -> float:
+        """For how long all of them are listened to."""
+        return len(self.trigger) * 2 * self.range / SOUND_METRES_PER_SECOND
+
+    @property
     def usual(self) -> tuple[float, float]:
         """Touching, and clear within the range."""
         return 0.0, self.range

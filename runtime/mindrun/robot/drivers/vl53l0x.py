@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import Annotated
 
 from mindrun.registry import kind
-from mindrun.robot.driver_support import ADDRESS, BUS, METRES, I2cDevice
+from mindrun.robot.driver_support import ADDRESS, BUS, I2C_BYTE_SECONDS, METRES, I2cDevice
 from mindrun.robot.vl53l0x import RangeChip
 
 
@@ -41,6 +41,8 @@ class Vl53l0x:
 
     unit = "m"
     readings = 1
+    seconds = 0.033
+    bus_seconds = 16 * I2C_BYTE_SECONDS  # whether it has measured, what, and that this has been read
 
     @property
     def usual(self) -> tuple[float, float]:
