@@ -120,11 +120,12 @@ class Mind(ShortRepr):
         `count_…` is of the events that the task counts, `score_…` of the rewards; `mind.trace` repeats `best_seed`.
         """
         setup, seeds = self._set_up(task, master), layouts(seed, runs)
+        seeds = seeds[:1] if setup.is_one_world else seeds
         refuse_too_many(setup.task, runs)
         rollout, began = setup.rollout(workers=as_workers(workers)), perf_counter()
         refuse_too_large(rollout, 1, runs)
         data = bench_data(setup.task, run_all(rollout, seeds), seeds, perf_counter() - began)
-        notes = [*setup.ready.notes, *rollout.notes]
+        notes = [*setup.ready.notes, *setup.world_notes, *rollout.notes]
         return {"task": setup.task.name, "master": setup.master, "seed": int(seed), "notes": notes} | data
 
     def train(

@@ -136,6 +136,12 @@ class Study:
 
         return reached_from(unknown(names), lambda name: unknown(self.skills[name].subskills))
 
+    def goals(self, task: Task) -> frozenset[str]:
+        """The things on which no run of a task begins."""
+        from mindrun.goals import goals
+
+        return goals(self.graph, next(each for each in self.graph.tasks if each.name == task.name))
+
     def learners(self, lesson: Lesson) -> tuple[str, ...]:
         """The skills that a lesson of the graph teaches."""
         from mindrun.skill_sets import learners

@@ -104,14 +104,17 @@ def _bench(who: Contender, chosen: BenchChoice, table: Path | None, as_json: boo
     session = RunSession(quiet)
     cast = chosen.task, who.master, chosen.interrupt, chosen.workers, chosen.runs
     setup, rollout = session.prepare(who.file, *cast)
-    seeds = layouts(chosen.seed, chosen.runs)
+    session.say(*(f"note: {note}" for note in setup.world_notes))
+    seeds = layouts(chosen.seed, chosen.runs)[: 1 if setup.is_one_world else None]
     with session.scorer(setup, rollout, chosen) as scorer:
         scores, seconds = session.score(scorer, seeds)
     found = {"task": setup.task.name, "master": setup.master, "seed": chosen.seed, **chosen.by}
-    found |= outcome.bench_data(setup.task, scores, seeds, seconds) | {"notes": [*setup.ready.notes, *rollout.notes]}
+    found |= outcome.bench_data(setup.task, scores, seeds, seconds) | {
+        "notes": [*setup.ready.notes, *setup.world_notes, *rollout.notes]
+    }
     if table:
         write_file(table, csv_parts(runs_table(setup.task, scores, seeds)))
-        session.say(f"{table}: a row for each of {chosen.runs:,} runs")
+        session.say(f"{table}: a row for each of {len(seeds):,} runs")
     if as_json:
         print_json(found)
     else:

@@ -3,11 +3,11 @@
 from collections.abc import Collection, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from difflib import get_close_matches
 from itertools import chain
 from pathlib import Path
 from typing import Literal
 
+from mindrun.nearest_name import nearest
 from mindrun.short_repr import ShortRepr
 
 from mindlang.compiler.source import Span
@@ -95,13 +95,6 @@ def distinct(diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
         place = (each.span.source.path, each.span.start, each.span.end) if each.span else ()
         found.setdefault((each.code, each.message, *place), each)
     return list(found.values())
-
-
-def nearest(word: str, known: Iterable[str]) -> str | None:
-    """The known word that is most similar to `word`; None where none is similar enough."""
-    by_lower = {name.lower(): name for name in known}
-    near = get_close_matches(word.lower()[:100], by_lower, n=1, cutoff=0.6)
-    return by_lower[near[0]] if near else None
 
 
 def did_you_mean(word: str, known: Iterable[str]) -> str:

@@ -84,11 +84,18 @@ def encoded(path: Path, text: str) -> bytes:
 
 
 def within(text: str) -> str:
-    """The text itself; ValueError, as `decode` raises it, where it is larger than a source file may be."""
+    """The text itself; ValueError, as `decode` raises it, where it is too large or its lines do not end."""
     if len(text) > MAX_SOURCE_BYTES or (
         not text.isascii() and len(text.encode("utf-8", "surrogatepass")) > MAX_SOURCE_BYTES
     ):
         raise ValueError(TOO_LARGE)
+    return in_lines(text)
+
+
+def in_lines(text: str) -> str:
+    """The text itself; ValueError where its lines end in CR alone, which would make it one line."""
+    if "\r" in text.rstrip("\r") and "\n" not in text:
+        raise ValueError(r"ends its lines in CR alone, as a classic Mac did: tr '\r' '\n' makes them ends of lines")
     return text
 
 
@@ -99,7 +106,8 @@ def decode(data: bytes) -> str:
     if b"\0" in data:
         raise ValueError("is a binary file")
     try:
-        return data.decode("utf-8-sig")
+        text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line = data.count(b"\n", 0, error.start) + 1
         raise ValueError(f"is not UTF-8 text (line {line})") from error
+    return in_lines(text)

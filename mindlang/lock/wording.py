@@ -5,11 +5,13 @@ from typing import Any
 
 from mindrun.expression import TRUTHS, fold
 from mindrun.graph import Program
-from mindrun.quantity import EXPRESSION, Quantity, Reference
+from mindrun.quantity import EXPRESSION, UNSAID, Quantity, Reference
 from mindrun.registry import arguments, kinds
 
 PRECEDENCE = {"or": -2, "and": -1, **dict.fromkeys(TRUTHS[:4], 0), "+": 1, "-": 1, "*": 2, "/": 2}
 NEGATION_PRECEDENCE, EXTREME_PRECEDENCE, ATOM_PRECEDENCE = 3, 4, 5
+
+UNSAID_VALUES: tuple[Any, ...] = ([], "", None, {"by": None, "first": UNSAID.first, "last": UNSAID.last})
 
 Leaf = Callable[[str, float], str]
 Part = tuple[str, int]  # of an expression: its text, and how tightly it binds
@@ -46,7 +48,9 @@ def number(value: float) -> str:
 
 
 def argument(noun: str, kind: str, field: str, value: Any) -> str:
-    """An argument of a kind, as plain data, in words: range 12, at 0 22.5 deg, size 3 to 1 by 0.1."""
+    """An argument of a kind, as plain data, in words: range 12, at 0 22.5 deg, size 3 to 1 by 0.1; without along."""
+    if value in UNSAID_VALUES:
+        return f"without {field.removesuffix('_')}"
     known = {each.field: each for each in arguments(kinds(noun)[kind])} if kind in kinds(noun) else {}
     meaning = known[field].type if field in known else None
     if meaning == EXPRESSION:

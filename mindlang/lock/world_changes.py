@@ -58,9 +58,8 @@ def _kind_changes(noun: str, name: str, old: Mapping[str, Any], now: Mapping[str
         if field != "is" and field in old and old[field] != now[field] and _are_lines(now[field]):
             yield f"the text of {name} has changed"
         elif field != "is" and field in old and old[field] != now[field]:
-            before = argument(noun, now["is"], field, old[field])
-            after = argument(noun, now["is"], field, now[field]).partition(" ")[2]
-            yield f"taught with {name} {before}, now {after}"
+            before, after = (argument(noun, now["is"], field, each[field]) for each in (old, now))
+            yield f"taught with {name} {before}, now {after.removeprefix(before.partition(' ')[0] + ' ')}"
 
 
 def _are_lines(value: Any) -> bool:

@@ -32,7 +32,7 @@ def check(study: Study) -> Found:
     """Tasks of which some worlds that are drawn lack a place for something."""
     told: set[Span] = set()
     for task in study.mind.tasks:
-        lacking, worlds = _lacking(task, study.mind.body.kind.radius)
+        lacking, worlds = _lacking(study, task)
         if not lacking:
             continue
         name = lacking.most_common(1)[0][0]
@@ -46,11 +46,12 @@ def check(study: Study) -> Found:
 HINT = "Make the arena larger, or what is in it smaller or fewer, or say where it stands: at 10 -5."
 
 
-def _lacking(task: Task, radius: float) -> tuple[Counter[str], int]:
+def _lacking(study: Study, task: Task) -> tuple[Counter[str], int]:
     """In how many worlds something is the first to find no place, by its name, and how many were drawn."""
     found, looks, random = Counter[str](), 0, Random(1)
+    body, claw, never = study.mind.body.kind, study.graph.claw_reach, study.goals(task)
     for number in range(MAX_WORLDS if not task.scene.environment else 0):
-        world = DrawnWorld(task.scene, radius, random)
+        world = DrawnWorld(task.scene, body, claw, never, random)
         if name := world.draw(task):
             found[name] += 1
         looks += world.looks

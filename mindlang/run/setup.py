@@ -10,6 +10,7 @@ from mindrun.bundle import Bundle, pack
 from mindrun.command_line import command_line
 from mindrun.engine import procedure_sources
 from mindrun.graph import Task
+from mindrun.one_world import is_one_world
 from mindrun.skill_sets import owners, reachable
 from mindrun.work.assignment import Assignment
 
@@ -34,6 +35,19 @@ class RunSetup:
     ready: ReadyMind
     folder: Path
     note: str = ""
+
+    @property
+    def is_one_world(self) -> bool:
+        """Whether nothing of the task is drawn, so that all of its runs are one."""
+        return is_one_world(self.ready.policy.graph, self.task, self.master)
+
+    @property
+    def world_notes(self) -> tuple[str, ...]:
+        """That there is one world, where it is so."""
+        said = (
+            f"1 world: nothing is drawn in {self.task.name}, so that one run is made, and any other would be the same"
+        )
+        return (said,) if self.is_one_world else ()
 
     def rollout(self, interrupt: bool = True, workers: int = 1) -> Rollout:
         """The task under the master, in the simulator. Runs the text of the procedures' modules."""

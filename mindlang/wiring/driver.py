@@ -6,9 +6,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from mindrun.errors import MindError
+from mindrun.nearest_name import nearest
 from mindrun.quantity import Quantity, Reference
 
-from mindlang.compiler.diagnostic import Findings, errors, listed, nearest
+from mindlang.compiler.diagnostic import Findings, errors, listed
 from mindlang.compiler.source import Span
 from mindlang.wiring.nodes import Scalar, Table, TableEntry, report_error, shortened
 from mindlang.wiring.options import DRIVER, DriverOption, driver_options, drivers, own_options

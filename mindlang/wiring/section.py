@@ -5,9 +5,10 @@ from typing import Any, TypeVar
 
 from mindrun.graph import Actuator, Graph, Sensor
 from mindrun.named_readings import physical
+from mindrun.nearest_name import nearest
 from mindrun.wiring import ActuatorWire, SensorWire, read_by
 
-from mindlang.compiler.diagnostic import Findings, a, listed, nearest
+from mindlang.compiler.diagnostic import Findings, a, listed
 from mindlang.wiring.driver import Wired, wired
 from mindlang.wiring.nodes import Scalar, Table, TableEntry, report_error, shortened
 from mindlang.wiring.scale import seeing_as_far

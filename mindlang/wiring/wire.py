@@ -5,10 +5,11 @@ from pathlib import Path
 
 from mindrun.errors import reason
 from mindrun.graph import Graph
+from mindrun.nearest_name import nearest
 from mindrun.regular_files import read_regular
 from mindrun.wiring import Wiring
 
-from mindlang.compiler.diagnostic import Diagnostic, Findings, errors, near_file, nearest
+from mindlang.compiler.diagnostic import Diagnostic, Findings, errors, near_file
 from mindlang.compiler.source import Source, decode
 from mindlang.wiring.claims import check_claims
 from mindlang.wiring.nodes import Node, TableEntry, report_error

@@ -2,12 +2,12 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from difflib import get_close_matches
 from math import isfinite
 from typing import Literal
 
 from mindrun.errors import MindError
 from mindrun.graph import Graph
+from mindrun.nearest_name import nearest
 
 What = Literal["reading", "influence", "memory"]
 
@@ -108,7 +108,7 @@ def _place(graph: Graph, what: What, name: str) -> tuple[str, int, int]:
         case "memory":
             noun, places = "memory", {memory.name: (memory.start, 1) for memory in graph.memories}
     if name not in places:
-        near = get_close_matches(name, places, 1) or sorted(places)
+        near = [one] if (one := nearest(name, places)) else sorted(places)
         raise ChangeError(f"there is no {noun} called {name}", f"there is {', '.join(near)}" if near else "")
     return noun, *places[name]
 

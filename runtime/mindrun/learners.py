@@ -11,6 +11,8 @@ SPREAD = Quantity("a number above zero", {"": 1.0}, low=1e-6, high=1000.0)
 PATIENCE_GENERATIONS = replace(GENERATIONS, low=0)
 RUNGS = Quantity("a whole number up to 16", {"": 1.0}, low=0, high=16, whole=True)
 FOUNDERS = Quantity("a whole number", {"": 1.0}, low=0, high=100_000, whole=True)
+FEW_CHILDREN = 0.1  # of a population that is bred anew
+NEAR_WEIGHT = 0.01  # so near to another a weight does as that does
 POPULATION = Quantity("a whole number of at least 4", {"": 1.0}, low=4, high=100_000, whole=True)
 
 
@@ -38,6 +40,24 @@ class Genetic:
     patience: Annotated[int, PATIENCE_GENERATIONS] = 0
     founders: Annotated[int, FOUNDERS] = 0
     rungs: Annotated[int, RUNGS] = 0
+
+    def standstill(self, weights: int, generations: int) -> str:
+        """Why it finds nothing in so many generations that its first genomes are not, as a sentence; empty if it may.
+
+        `weights` is how many a genome has.
+        """
+        children = self.population - min(max(1, round(self.elite * self.population)), self.population - 1)
+        bred = children * (generations - 1)
+        if not bred:
+            return "One generation is the first genomes alone, and nothing is bred from them"
+        if children <= FEW_CHILDREN * self.population:
+            return f"An elite of {self.elite:.0%} leaves {children} of {self.population} genomes to be bred anew"
+        most = 2**self.octaves  # times as often and as far as is said
+        if self.mutated * most * weights * bred < 1:
+            return (
+                f"With {self.mutated:.2g} of the weights mutated none ever is, and children mix the first genomes alone"
+            )
+        return _no_steps(self.mutation * most, generations)
 
 
 @kind("curriculum", "restarting")
@@ -72,6 +92,17 @@ class EvolutionStrategy:
     patience: Annotated[int, PATIENCE_GENERATIONS] = 0
     founders: Annotated[int, FOUNDERS] = 0
     rungs: Annotated[int, RUNGS] = 0
+
+    def standstill(self, weights: int, generations: int) -> str:
+        """Why it comes nowhere in so many generations, as a sentence; empty where it may."""
+        return _no_steps(self.mutation, generations)
+
+
+def _no_steps(spread: float, generations: int) -> str:
+    """That steps of a spread come nowhere, where no weight is elsewhere after so many of them."""
+    if spread * generations >= NEAR_WEIGHT:
+        return ""
+    return f"Steps of {spread:g} leave every weight where it was, in {generations} generations"
 
 
 Learner = Genetic | Restarting | EvolutionStrategy

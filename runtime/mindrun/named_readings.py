@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Container, Mapping
-from difflib import get_close_matches
 from typing import TYPE_CHECKING, Any
 
 from mindrun.errors import ReadingsError
 from mindrun.graph import Graph, Sensor
+from mindrun.nearest_name import nearest
 from mindrun.sensors import Physical
 
 if TYPE_CHECKING:
@@ -70,5 +70,5 @@ def _checked(sensor: Sensor, given: Any) -> list[float]:
 def _unknown(graph: Graph, name: str) -> str:
     if name in {s.name for s in graph.sensors} | {m.name for m in graph.memories}:
         return f"{name} is computed by the mind itself, leave it out"
-    near = get_close_matches(name, physical(graph), 1)
-    return f"there is no sensor {name}" + (f"; did you mean {near[0]}?" if near else "")
+    near = nearest(name, physical(graph))
+    return f"there is no sensor {name}" + (f"; did you mean {near}?" if near else "")

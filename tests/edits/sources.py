@@ -250,7 +250,8 @@ def _more(rng: Random, noun: str, line: str) -> str:
     kind, *words = re.split(" is | in ", line)[1].split()
     if noun == "content":
         is_placed = not {"at", "along", "grid"}.isdisjoint(words)
-        words += ["away", "grid", "count"] * is_placed + ["at", "along"]  # a place has to be free
+        words += ["away", "grid", "count", "size"] * is_placed + ["at", "along"]  # a place has to be free
+    words += ["size"] * (noun == "body")  # and there is as much room for the robot
     often = 0.5 if noun in ("curriculum", "body", "actuator") else 0.2
     for argument in arguments(kinds(noun)[kind]):
         if not argument.required and argument.key not in words and rng.random() < often:

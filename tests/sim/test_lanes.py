@@ -149,7 +149,7 @@ def test_lanes_that_close_ranks_keep_what_waits() -> None:
     rewards = (Reward("", (("number", 1.0),), 0), Reward("", (("reading", 0),), None))
     world = task(300, scene=Arena(30.0), things=things, events=events, ends=(End(1),), rewards=rewards, counts=(0,))
     graph = replace(base, sensors=(bearing,), tasks=(world,))
-    seeds = list(range(40))
+    seeds = list(range(80))
     alone = Rollout(Policy(graph, {}), "World", "Top", lanes=1).score(NOBODY, seeds)
     assert len(np.unique(alone.ticks)) > 5
     together = Rollout(Policy(graph, {}), "World", "Top", lanes=32).score(NOBODY, seeds)

@@ -5,8 +5,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import lru_cache
 
+from mindrun.nearest_name import nearest
+
 from mindlang.compiler import syntax
-from mindlang.compiler.diagnostic import Findings, nearest
+from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.parse.explain import explain, proper
 from mindlang.compiler.parse.shape import parse_line
 from mindlang.compiler.source import Source, Span

@@ -202,6 +202,18 @@ def _taken(kind: type | None) -> str:
     return listed(each.key for each in named_arguments(kind)) if named_arguments(kind) else "no arguments"
 
 
+def _without_value(key: str, code: str, here: Span) -> Diagnostic:
+    """A line that ends in a word after which a value should stand, if its kind has an argument of that name."""
+    noun, kind = code.split()[0], re.search(r"\bis ([a-z]\w*)", code)
+    cls = kinds("content" if noun == "contains" else noun).get(kind[1]) if kind else None
+    if kind and cls and key not in {each.key for each in arguments(cls)}:
+        takes = listed([each.key for each in named_arguments(cls)] or ["no arguments"], "and")
+        message = f"{kind[1]} has no argument called {key}."
+        return Diagnostic("unknown-argument", message, here, f"{kind[1]} takes {takes}.")
+    hint = f"Write its value after {key}, or leave {key} out."
+    return Diagnostic("missing-value", f"After {key} a value is missing.", here, hint)
+
+
 def unexpected(error: "UnexpectedInput", code: str, line: Span, example: str) -> Diagnostic:
     """Where the line is not as the grammar has it; `example` is such a line as it should be."""
     from lark import UnexpectedToken
@@ -215,8 +227,7 @@ def unexpected(error: "UnexpectedInput", code: str, line: Span, example: str) ->
         end = word.end() if word else start
     key = re.search(r"(?<=\s)([a-z]\w*)\s*$", code[:start])
     if key and key[1] not in JOINTS and not code[start:end] and {"NAME", "NUMBER"} <= expected:
-        hint = f"Write its value after {key[1]}, or leave {key[1]} out."
-        return Diagnostic("missing-value", f"After {key[1]} a value is missing.", _at(line, *key.span(1)), hint)
+        return _without_value(key[1], code, _at(line, *key.span(1)))
     if "NUMBER" in expected:
         expected -= {"SIGN", "MINUS"}
     words = [_WORDS[name] for name in _WORDS if name in expected]

@@ -9,10 +9,11 @@ from mindrun.errors import reason
 from mindrun.quantity import Place
 from mindrun.regular_files import read_regular
 from mindrun.scenes import SceneKind
-from mindrun.things.map import FLOOR
+from mindrun.things.map import FLOOR, WALL
 
 from mindlang.compiler.diagnostic import Findings, listed
 from mindlang.compiler.model import Part
+from mindlang.compiler.resolve.foreign_map import recognise_bytes, recognise_text
 from mindlang.compiler.source import MAX_SOURCE_BYTES, decode
 from mindlang.compiler.syntax import Contains, File, Text, Value
 
@@ -33,11 +34,16 @@ def text_lines(value: Value, root: Path | None, findings: Findings) -> tuple[str
         findings.error("outside-project", value.span, f'"{value.text}" is not inside the project.', hint)
         return None
     try:
-        text = decode(read_regular(path, MAX_SOURCE_BYTES + 1))
+        data = read_regular(path, MAX_SOURCE_BYTES + 1)
+        found = recognise_bytes(data)
+        text = "" if found else decode(data)
     except (OSError, ValueError, RuntimeError) as error:
         why = f": {reason(error)}" if isinstance(error, OSError) else f": it {error}"
         hint = "The path is relative to the file in which it stands; a map is a text of # and . and letters."
         findings.error("unreadable-map", value.span, f"{value.text} cannot be read{why}.", hint)
+        return None
+    if found := found or recognise_text(text):
+        findings.error("foreign-map", value.span, f"{value.text} {found[0]}.", found[1])
         return None
     return tuple(line.rstrip() for line in text.rstrip().split("\n"))
 
@@ -93,7 +99,7 @@ def _refuse(letters: Sequence[str], drawn: Part[Any], findings: Findings) -> Non
     names = [letter for letter in letters if letter.isalpha() and letter.islower()]
     add = f"Add contains {names[0]} is item to the task, or write" if names else "Write"
     message = f"The map has {listed(shown + more, 'and')}, which no thing of the task begins with."
-    findings.error("unknown-letter", drawn.span, message, f"{add} {FLOOR} for floor.")
+    findings.error("unknown-letter", drawn.span, message, f"{add} {FLOOR} for floor and {WALL} for wall.")
 
 
 def _placed(

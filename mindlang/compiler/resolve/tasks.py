@@ -5,14 +5,18 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, TypeVar
 
+from mindrun.actuators.gripper import REACH_UNITS
+from mindrun.bodies import BodyKind
 from mindrun.quantity import SECONDS, TICKS, Quantity
 from mindrun.scenes import SceneKind
 from mindrun.things import ThingKind
-from mindrun.things.thing import MAX_OBSTACLES, MAX_THINGS
+from mindrun.things.thing import MAX_OBSTACLES
 
 from mindlang.compiler import model
+from mindlang.compiler.beginning import beginning
 from mindlang.compiler.diagnostic import Findings, Label
 from mindlang.compiler.names import Names, things_of
+from mindlang.compiler.resolve.decided import check_decided
 from mindlang.compiler.resolve.expressions import Visible, condition, resolve
 from mindlang.compiler.resolve.kinds import Scope, make
 from mindlang.compiler.resolve.maps import with_places
@@ -63,6 +67,16 @@ class RobotFacts:
     sensors: tuple[model.Part[Any], ...]
 
     @property
+    def body_kind(self) -> BodyKind | None:
+        """The body; None where none is well said."""
+        return self.body.kind if self.body else None
+
+    @property
+    def claw(self) -> float:
+        """How far ahead of the body things come into reach, with a claw or without."""
+        return next((each.kind.reach for each in self.actuators if each.kind.reach is not None), REACH_UNITS)
+
+    @property
     def has_battery(self) -> bool:
         """Whether any sensor reads one."""
         return any(sensor.kind.battery for sensor in self.sensors)
@@ -95,7 +109,7 @@ def tasks(robot: RobotFacts, findings: Findings) -> tuple[model.Task, ...]:
         with findings.each_once():
             refuse_facts(scene, SCENE_FACTS, findings)
             world = _world(scene, robot, findings)
-            start_of(scene, world.scene, world.things, findings)
+            start_of(scene, world.scene, world.things, robot.body_kind, findings)
             variations(scene, world.variable(robot), findings)
             failures(scene, world.variable(robot), findings)
     found = []
@@ -119,15 +133,19 @@ def _world(declaration: Declaration, robot: RobotFacts, findings: Findings) -> W
 def _task(name: str, declaration: Declaration, robot: RobotFacts, findings: Findings) -> model.Task:
     refuse_facts(declaration, TASK_FACTS, findings)
     world = _world(declaration, robot, findings)
+    start = start_of(declaration, world.scene, world.things, robot.body_kind, findings)
+    ends = _ends(declaration, world, robot, findings)
+    begun = beginning(world.scene, world.things, start, robot.body_kind, robot.claw)
+    check_decided(ends, begun, [sensor.kind for sensor in robot.sensors], findings)
     return model.Task(
         name,
         world.scene,
         world.things,
-        start_of(declaration, world.scene, world.things, findings),
+        start,
         variations(declaration, world.variable(robot), findings),
         failures(declaration, world.variable(robot), findings),
         _ticks(declaration, robot.tick, findings),
-        _ends(declaration, world, robot, findings),
+        ends,
         tuple(_reward(fact, world, robot, findings) for fact in _facts(declaration, Rewards)),
         tuple(event_in(fact.event, world, findings) for fact in _facts(declaration, Counts)),
         declaration.facts,
@@ -155,22 +173,8 @@ def _things(declaration: Declaration, scene: Any, scope: Scope, findings: Findin
         found.setdefault(name, model.Part(name, kind, fact.name.span))
     is_task = declaration.header.noun.text == "task"  # which has all that a scene lacks
     things = with_places(tuple(found.values()), scene, is_task, findings)
-    _check_things(things, findings)
     check_places(things, scene, findings)
     return things
-
-
-def _check_things(things: tuple[model.Part[Any], ...], findings: Findings) -> None:
-    """A world looks at all of its things in every tick, and has so many."""
-    apart = [
-        thing
-        for thing in things
-        if not (thing.kind and thing.kind.is_obstacle)
-        for _ in range(thing.kind.copies if thing.kind else 1)
-    ]
-    if len(apart) > MAX_THINGS:
-        hint = f"A world takes {MAX_THINGS} beside its obstacles: leave some out."
-        findings.error("too-many-things", apart[MAX_THINGS].span, f"That is thing number {MAX_THINGS + 1}.", hint)
 
 
 def _check_obstacles(kind: ThingKind, scene: SceneKind | None, before: int, phrase: Phrase, findings: Findings) -> None:

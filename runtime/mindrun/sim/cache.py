@@ -35,9 +35,8 @@ def stamp() -> str:
     """What all machine code depends on but the processor: numba would not notice when a callee elsewhere changes."""
     versions = f"{sys.implementation.cache_tag} {numba.__version__} {llvmlite.__version__}"
     digest = sha256(versions.encode())
-    beside = [
-        SIM_FOLDER.parent / name for name in ("arithmetic.py", "sigmoid.py", "stack_machine.py", "trigonometry.py")
-    ]
+    names = ("arithmetic.py", "beginning.py", "sigmoid.py", "stack_machine.py", "trigonometry.py")
+    beside = [SIM_FOLDER.parent / name for name in names]
     kinds = (path for noun in ("sensors", "functions") for path in SIM_FOLDER.parent.glob(f"{noun}/*.py"))
     for path in sorted([*SIM_FOLDER.glob("*.py"), *SIM_FOLDER.glob("lanes/*.py"), *kinds, *beside]):
         digest.update(path.read_bytes())

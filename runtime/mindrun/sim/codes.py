@@ -77,7 +77,7 @@ MEMORY = _row(row="i8", decay="f4", rest="f4", start="f4")
 THING = _row(
     kind="i8", first="f8", last="f8", by="f8", low="f8", high="f8", hold="f8", drawn="i8", is_round="i8",
     is_fixed="i8", x="f8", y="f8", reached="i8", delivered="i8", is_reached="i8", is_delivered="i8", is_area="i8",
-    loose="i8", settles="i8", walker="i8",
+    loose="i8", settles="i8", walker="i8", is_goal="i8",
 )  # fmt: skip
 LOOSE = _row(thing="i8", is_round="i8", density="i8", friction="i8", slower="i8")
 WALKING = _row(thing="i8", step="f8", turn="f8", first="i8", places="i8", begins="i8")

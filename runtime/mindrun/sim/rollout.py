@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from mindrun.errors import MindError
 from mindrun.graph import Task
+from mindrun.one_world import is_one_world
 from mindrun.policy import Policy
 from mindrun.reward_sums import score_of
 from mindrun.run_scores import Scores
@@ -67,6 +68,7 @@ class Rollout:
         if self.simulates and (name := self.task.scene.environment):
             said = f"{task} is in the environment {name}, which cannot be simulated otherwise"
             raise MindError(said, "mindc run, bench, train and view step it.")
+        self.is_one_world = is_one_world(graph, self.task, master)
         self.procedures = Procedures(graph, master, procedures)
         self.interrupt, self.workers, self.lanes = interrupt, workers, lanes
         learning = {*learners}

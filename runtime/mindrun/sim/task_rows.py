@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.arithmetic import BOX_COLUMNS, NAN
+from mindrun.goals import goals
 from mindrun.graph import End, Graph, Reward, Sensor, Task, Thing
 from mindrun.registry import names
 from mindrun.sensors import Battery
@@ -74,6 +75,7 @@ def thing_rows(graph: Graph, task: Task) -> Array:
     """Rows of THING, the items, zones and powers in the order of the source."""
     rows: list[Row] = []
     asked = {(event.outcome, event.thing) for event in task.events if event.outcome}
+    never = goals(graph, task)
     loose, walkers, zones = count(), count(), [thing.kind for thing in task.things if thing.kind.takes_items]
     zones_stay = all(outcome == STAYS for zone in zones for outcome in zone.outcomes.values())
     first = {name: found.start for name, found in rows_by_name(task).items()}
@@ -90,6 +92,7 @@ def thing_rows(graph: Graph, task: Task) -> Array:
             "is_round": kind.is_round,
             "is_area": kind.is_area, "loose": next(loose) if kind.is_loose else -1,
             "settles": kind.is_loose and zones_stay, "walker": next(walkers) if kind.walks else -1,
+            "is_goal": thing.name in never,
         }  # fmt: skip
         for what in ("reached", "delivered"):
             outcome = kind.outcomes.get(what, STAYS)

@@ -48,9 +48,10 @@ class Obstacle(ThingKind):
         columns, rows = self.grid_lines(scene)
         return columns * rows if self.grid else self.count or len(self.at)
 
-    def standing(self, scene: SceneKind | None) -> Iterable[Rectangle]:
-        """What the smallest of them covers wherever jitter moves it."""
-        half = min(self.size.first, self.size.last) / 2 - self.jitter
+    def standing(self, scene: SceneKind | None, may: bool = False) -> Iterable[Rectangle]:
+        """What the smallest of them covers wherever jitter moves it; with `may` all that the largest can cover."""
+        least, most = sorted((self.size.first, self.size.last))
+        half = most / 2 + self.jitter if may else least / 2 - self.jitter
         columns, rows = self.grid_lines(scene) if self.grid else (1, 1)
         if half <= 0 or not (self.grid or self.at) or columns * rows > MAX_OBSTACLES:
             return

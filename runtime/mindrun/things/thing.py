@@ -52,6 +52,7 @@ class ThingKind:
     is_solid = False  # whether it stands in the way, although nobody holds it
     is_loose = False  # whether it gives way when it is pushed
     walks = False  # whether it moves by itself
+    wanders = False  # whether it goes another way in each run
     speed = 0.0  # at which it does, in units per second
     can_be_held = False  # whether a claw can take it
     can_be_delivered = False  # whether it counts as delivered when it comes into a zone
@@ -78,6 +79,12 @@ class ThingKind:
         return max(self.size.first, self.size.last)
 
     @property
+    def begins(self) -> tuple[float, float]:
+        """The least and the greatest size that it begins with: the first of a schedule, any of its span otherwise."""
+        first, last = self.size.first, self.size.last
+        return (first, first) if self.size.by is not None else (min(first, last), max(first, last))
+
+    @property
     def outcomes(self) -> Mapping[str, Outcome]:
         """What becomes of it, by what happens to it: `reached`, `delivered`. It stays where nothing is said."""
         return {}
@@ -92,8 +99,11 @@ class ThingKind:
         """How many squares it puts in the way; `scene` is None where that is not known."""
         return 0
 
-    def standing(self, scene: SceneKind | None) -> Iterable[Rectangle]:
-        """What it fills with something solid in every run; `scene` is None where that is not known."""
+    def standing(self, scene: SceneKind | None, may: bool = False) -> Iterable[Rectangle]:
+        """What it fills with something solid in every run, or in some, where it `may`.
+
+        `scene` is None where that is not known.
+        """
         return self.walls
 
     @property

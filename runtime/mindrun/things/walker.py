@@ -43,6 +43,11 @@ class Walker(ThingKind):
         return self.along or self.at
 
     @property
+    def wanders(self) -> bool:  # type: ignore[override]
+        """Where it has no way."""
+        return not self.along
+
+    @property
     def outcomes(self) -> Mapping[str, Outcome]:
         """When it is caught."""
         return {"reached": self.reached}

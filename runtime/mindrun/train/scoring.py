@@ -1,7 +1,7 @@
 """Genomes scored on layouts, by whatever simulates them."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import inf
 from typing import Any, Protocol
 
@@ -61,9 +61,20 @@ class Marks:
     faults: int
 
 
+def is_one_world(scorer: Scorer) -> bool:
+    """Whether a scorer says that every seed is the same world to it; most have never heard of that."""
+    return bool(getattr(scorer, "is_one_world", False))
+
+
 def mark(scorer: Scorer, genomes: Genomes, seeds: Seeds | Sequence[int]) -> Marks:
-    """Score every genome on every seed; a genome with a fault anywhere has -inf."""
-    return marks_of(scorer.score(genomes, seeds))
+    """Score every genome on every seed; a genome with a fault anywhere has -inf.
+
+    Where all worlds are one a genome has one run, whose score stands for all of its seeds.
+    """
+    if not is_one_world(scorer):
+        return marks_of(scorer.score(genomes, seeds))
+    marks = marks_of(scorer.score(genomes, seeds[:1]))
+    return replace(marks, each=np.repeat(marks.each, len(seeds), axis=1))
 
 
 def marks_of(results: Results) -> Marks:

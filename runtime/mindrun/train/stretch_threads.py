@@ -11,7 +11,7 @@ from mindrun.graph import Task
 from mindrun.train.lesson import Clock
 from mindrun.train.lesson_state import Course
 from mindrun.train.population import Genomes
-from mindrun.train.scoring import Results
+from mindrun.train.scoring import Results, is_one_world
 from mindrun.train.segment import Segment, Stretch, advance
 
 TAKE_SECONDS = 0.2  # to wait for a segment before who asks may look at something else
@@ -78,6 +78,7 @@ class Stoppable:
         self._scorer, self._stop = scorer, stop
         self.genome_length: int = scorer.genome_length
         self.task: Task = scorer.task
+        self.is_one_world = is_one_world(scorer)
 
     def draw(self, count: int, rng: np.random.Generator) -> Genomes:
         """Random genomes [count, genome_length] for learning to begin with."""

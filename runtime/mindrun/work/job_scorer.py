@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from mindrun.graph import Task
 from mindrun.run_scores import Scores
 from mindrun.train.population import Genomes
+from mindrun.train.scoring import is_one_world
 from mindrun.work.blocks import Block, Blocks, empty_scores, place, runs_in_a_job
 from mindrun.work.effort import Effort, Tally, effort_of, tally_of
 from mindrun.work.executor import JobExecutor, job_about
@@ -26,6 +27,7 @@ class JobScorer:
         self.rollout, self.jobs = rollout, jobs
         self.task: Task = rollout.task
         self.genome_length: int = rollout.genome_length
+        self.is_one_world = is_one_world(rollout)
         self._seconds: float | None = None  # that a run takes, by the last job
         self._about = job_about(jobs.assignment)
         self._asked = 0

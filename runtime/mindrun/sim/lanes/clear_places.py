@@ -1,7 +1,10 @@
-"""Whether a place is clear of what stands already."""
+"""Whether a place is clear of what stands already, and whether a robot would begin in something or on a goal."""
 
 from mindrun.arithmetic import BOX_COLUMNS, HALF_X, HALF_Y, SIZE, THING_ROWS, X, Y
+from mindrun.beginning import meets_robot
 from mindrun.sim.compiling import compiled
+
+meets = compiled(meets_robot)
 
 
 @compiled
@@ -41,3 +44,22 @@ def clear_of_things(things, x, y, extent, but, lane):
         if i != but and abs(things[thing + X, lane] - x) < gap and abs(things[thing + Y, lane] - y) < gap:
             return False
     return True
+
+
+@compiled
+def is_open(tables, x, y):
+    """Whether nothing with a place of its own keeps a robot from beginning at a point."""
+    for i in range(len(tables.things)):
+        thing = tables.things[i]
+        size = max(thing.first, thing.last) if thing.drawn else thing.first
+        if thing.is_fixed and stands_on(tables, i, size, thing.x - x, thing.y - y):
+            return False
+    return True
+
+
+@compiled
+def stands_on(tables, i, size, dx, dy):
+    """Whether the robot, so far from the middle of thing i, would be in it, or would have reached it as a goal."""
+    thing, constants = tables.things[i], tables.world[0]
+    is_area, is_round, is_goal = thing.is_area == 1, thing.is_round == 1, thing.is_goal == 1
+    return meets(is_area, is_round, is_goal, size, dx, dy, constants.radius, constants.front + constants.claw)

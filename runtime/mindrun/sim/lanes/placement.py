@@ -10,7 +10,7 @@ from mindrun.arithmetic import ANGLE, BOX_COLUMNS, HALF_X, HALF_Y, SIZE, THING_R
 from mindrun.sim.arithmetic import sine_cosine
 from mindrun.sim.codes import FAR
 from mindrun.sim.compiling import compiled
-from mindrun.sim.lanes.clear_places import clear, clear_of_all, clear_of_things
+from mindrun.sim.lanes.clear_places import clear, clear_of_all, clear_of_things, is_open, stands_on
 from mindrun.sim.lanes.loose import stand
 
 GOLDEN, MIX_1, MIX_2 = np.uint64(0x9E3779B97F4A7C15), np.uint64(0xBF58476D1CE4E5B9), np.uint64(0x94D049BB133111EB)
@@ -112,10 +112,11 @@ def draw_grid(world, obstacle, box, lane):
 def start(tables, world, lane):
     """The robot at rest: where its task says, or in the origin of a plain scene, or anywhere clear in an arena.
 
-    Clear by its own width all around; where no try succeeds, the last one where it touches nothing.
+    Clear by its own width all around, and on no goal; where no try succeeds, the last of the best: touching something
+    solid is worse than a goal, and that is worse than being near to something.
     """
     body, random, constants, radius = world.body, world.random, tables.world[0], tables.world[0].radius
-    room_x, room_y = constants.half_x - 3 * radius, constants.half_y - 3 * radius
+    room_x, room_y = start_room(constants.half_x, radius), start_room(constants.half_y, radius)
     body[:, lane] = 0.0
     if constants.is_placed:
         body[X, lane], body[Y, lane] = constants.start_x, constants.start_y
@@ -125,21 +126,30 @@ def start(tables, world, lane):
             x, y = uniform(random, lane, -room_x, room_x), uniform(random, lane, -room_y, room_y)
             fits = 0
             if clear_of_all(tables, world, x, y, radius, lane):
-                fits = 2 if clear_of_all(tables, world, x, y, 3 * radius, lane) else 1
+                fits = 1
+                if is_open(tables, x, y):
+                    fits = 3 if clear_of_all(tables, world, x, y, 3 * radius, lane) else 2
             if fits >= best:
                 best, body[X, lane], body[Y, lane] = fits, x, y
-            if fits == 2:
+            if fits == 3:
                 break
     body[ANGLE, lane] = constants.facing if constants.is_faced else uniform(random, lane, 0.0, 2 * np.pi)
+
+
+@compiled
+def start_room(half, radius):
+    """How far from the middle of an arena the robot may begin: its own width from the border, if there is room."""
+    return half - 3 * radius if half > 3 * radius else max(half - radius, 0.0)
 
 
 @compiled
 def find(tables, world, low, high, room, extent, but, lane):
     """A place for something of that half size: low..high from the robot, clear of obstacles, walls and other things.
 
-    Along one of the axes it is at least `room` from the robot's centre.
-    Where no try succeeds the last of the best: what is nearer to the robot than it may be is worse than what stands in
-    an obstacle, and that is worse than what covers a thing.
+    Along one of the axes it is at least `room` from the robot's centre; it is for thing number `but`, or, where that is
+    −1, for an obstacle. A thing that the robot would be in, or would have reached as a goal, has no place there.
+    Where no try succeeds the last of the best: what is nearer to the robot than it may be is worse than what meets it,
+    that is worse than what stands in an obstacle, and that is worse than what covers a thing.
     """
     constants, margin, body = tables.world[0], extent + 2 * tables.world[0].radius, world.body
     best, best_x, best_y = 0, 0.0, 0.0
@@ -159,9 +169,11 @@ def find(tables, world, low, high, room, extent, but, lane):
             fits = 1
             if clear(world.boxes, x, y, margin, lane):
                 fits = 3 if clear_of_things(world.things, x, y, extent, but, lane) else 2
+            if but < 0 or not stands_on(tables, but, 2 * extent, dx, dy):
+                fits += 3
         if fits >= best:
             best, best_x, best_y = fits, x, y
-        if fits == 3:
+        if fits == 6:
             break
     return best_x, best_y
 

@@ -5,7 +5,6 @@ import sys
 import warnings
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, redirect_stdout, suppress
-from difflib import get_close_matches
 from functools import cache
 from importlib import import_module, invalidate_caches
 from importlib.util import find_spec
@@ -15,6 +14,7 @@ from typing import Any
 
 from mindrun.environment_module import module_beside
 from mindrun.errors import MindError
+from mindrun.nearest_name import nearest
 from mindrun.sim.outside.foreign import first_line, foreign_code
 
 NO_TIME_LIMIT = -1  # of steps: how long a run is, the task says
@@ -159,8 +159,8 @@ def _lacks_module(error: BaseException, name: str) -> bool:
 
 def _instead(name: str, known: Any) -> str:
     module, colon, own = name.partition(":")
-    if near := get_close_matches(own if colon else name, list(known), 1):
-        return f"Did you mean {module + colon if colon else ''}{near[0]}?"
+    if near := nearest(own if colon else name, known):
+        return f"Did you mean {module + colon if colon else ''}{near}?"
     if colon:
         return f'{module} has to register it: gymnasium.register("{own}", "{module}:NAME_OF_CLASS").'
     return f"One of another package has its module before it: gymnasium package:{name}."

@@ -1,0 +1,146 @@
+"""What is where when a run begins, as far as a task says: what is in one place, and what is reached by nothing.
+
+One rule for each two of all that has a place: **bodies** (the robot, items, boxes, balls, walkers) take up room, what
+is **fixed** (obstacles, walls, maps) does, too, and what lies on the **floor** (zones, powers) takes up none. Two
+bodies are never in one place, nor is a body in what is fixed, nor the middle of what lies on the floor. All else may
+be: walls cross, a zone lies under a box.
+"""
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from math import cos, hypot, sin
+from typing import Any, Literal
+
+from mindrun.bodies import BodyKind
+from mindrun.graph import Start
+from mindrun.quantity import Place
+from mindrun.scenes import SceneKind
+from mindrun.things import ThingKind
+from mindrun.things.rectangle import Rectangle
+
+from mindlang.compiler.model import Part
+from mindlang.compiler.outline import Outline, disc, meet, rectangle, turned
+
+Role = Literal["body", "fixed", "floor"]
+APART: frozenset[frozenset[Role]] = frozenset({
+    frozenset[Role]({"body"}), frozenset[Role]({"body", "fixed"}), frozenset[Role]({"floor", "fixed"}),
+})  # fmt: skip
+PLAIN_START: Place = (0.0, 0.0)  # where a robot starts in a plain scene that says nothing else
+
+
+def role(kind: ThingKind) -> Role:
+    """What a kind of thing is to all others."""
+    return "fixed" if kind.is_obstacle else "floor" if kind.is_area else "body"
+
+
+@dataclass(frozen=True, slots=True)
+class Beginning:
+    """A scene and its things with a place, and the robot: what all of it covers in every run.
+
+    With `may`, what it covers in some: the largest of each size, wherever jitter moves it, whichever way the robot
+    faces where that is drawn. `at` is None where the robot's place is drawn, `body` where it is not known.
+    """
+
+    scene: SceneKind | None
+    things: Sequence[Part[Any]]
+    at: Place | None
+    facing: float | None
+    body: BodyKind | None
+    claw: float
+    may: bool = False
+
+    def outlines(self, kind: ThingKind) -> list[Outline]:
+        """One for each copy of a thing that has a place; the middle alone of what lies on the floor."""
+        if kind.is_obstacle:
+            return [rectangle(each) for each in kind.standing(self.scene, self.may)]
+        half = self.half(kind)
+        square = not kind.is_round and not kind.is_area
+        return [
+            rectangle(Rectangle(*place, half, half)) if square else disc(place, 0.0 if kind.is_area else half)
+            for place in kind.places[: kind.copies]
+        ]
+
+    def half(self, kind: ThingKind) -> float:
+        """Half of the size with which a thing begins."""
+        return kind.begins[1 if self.may else 0] / 2
+
+    @property
+    def robot(self) -> Outline | None:
+        """What the robot covers where it starts; None where that is drawn."""
+        if self.at is None:
+            return None
+        if self.body is None:
+            return disc(self.at, 0.0)
+        if self.body.outline and self.facing is not None:
+            return turned(self.at, self.facing, self.body.outline)
+        return disc(self.at, self.body.radius if self.may else min(self.body.side, self.body.front))
+
+    @property
+    def is_inside(self) -> bool:
+        """Whether the robot is within the walls of its scene: in the middle at least, where its place is drawn."""
+        robot = self.robot or replace(self, at=PLAIN_START).robot
+        if self.scene is None or robot is None:
+            return True
+        return all(abs(end) <= side / 2 for end, side in zip(robot.ends, self.scene.sides * 2, strict=True))
+
+    def meeting(self) -> Iterator[tuple[Part[Any], Part[Any]]]:
+        """Things that are in one place, what is fixed after what is not; of a way, all its places are looked at."""
+        parts = sorted((each for each in self.things if each.kind), key=lambda each: not each.kind.is_obstacle)
+        found = [(each, role(each.kind), self.outlines(each.kind)) for each in parts]
+        for number, (thing, its, outlines) in enumerate(found):
+            if its == "body" and any(meet(a, b) for i, a in enumerate(outlines) for b in outlines[:i]):
+                yield thing, thing
+            spots = [*outlines, *(disc(place, 0.0) for place in thing.kind.places)]
+            for other, other_role, others in found[:number]:
+                mine = spots if other_role == "fixed" else outlines
+                if {its, other_role} in APART and any(meet(a, b) for a in mine for b in others):
+                    yield thing, other
+
+    def on_robot(self) -> Part[Any] | None:
+        """The first thing that is where the robot starts."""
+        robot = self.robot
+        bodies = (thing for thing in self.things if thing.kind and role(thing.kind) != "floor")
+        return next((each for each in bodies if robot and self._meets(robot, each.kind)), None)
+
+    def _meets(self, robot: Outline, kind: ThingKind) -> bool:
+        return any(meet(robot, outline) for outline in self.outlines(kind))
+
+    def reached(self, name: str) -> int:
+        """How many things of a name the robot has reached where it starts."""
+        return sum(self._is_reached(kind, place) for kind, place in self._placed(name))
+
+    def delivered(self, name: str, to: str) -> int:
+        """How many boxes and balls of a name stand in a zone, or in one of the name `to` if that is not empty."""
+        zones = [each.kind for each in self.things if each.kind and each.kind.takes_items and to in ("", each.name)]
+        inside = [(zone, place) for zone in zones for place in zone.places]
+        placed = (place for kind, place in self._placed(name) if kind.is_loose)
+        return sum(any(self._is_inside(zone, middle, place) for zone, middle in inside) for place in placed)
+
+    def _placed(self, name: str) -> Iterable[tuple[ThingKind, Place]]:
+        kinds = (each.kind for each in self.things if each.kind and each.name == name)
+        return ((kind, place) for kind in kinds for place in kind.places[: kind.copies])
+
+    def _is_inside(self, area: ThingKind, middle: Place, place: Place) -> bool:
+        return max(abs(middle[0] - place[0]), abs(middle[1] - place[1])) <= self.half(area)
+
+    def _is_reached(self, kind: ThingKind, place: Place) -> bool:
+        """Whether the robot is inside of what lies on the floor, or has anything else in its claw's reach."""
+        if self.at is None or self.body is None:
+            return False
+        if kind.is_area:
+            return self._is_inside(kind, place, self.at)
+        dx, dy = place[0] - self.at[0], place[1] - self.at[1]
+        reach = self.claw + self.half(kind)
+        if self.facing is None:
+            return self.may and hypot(dx, dy) <= self.body.front + reach
+        c, s = cos(self.facing), sin(self.facing)
+        ahead, aside = c * dx + s * dy - self.body.front, c * dy - s * dx
+        return ahead >= 0 and hypot(ahead, aside) <= reach
+
+
+def beginning(
+    scene: SceneKind | None, things: Sequence[Part[Any]], start: Start, body: BodyKind | None, claw: float
+) -> Beginning:
+    """The beginning of a task's runs."""
+    is_in_middle = scene is not None and not scene.is_bounded
+    return Beginning(scene, things, start.at or (PLAIN_START if is_in_middle else None), start.facing, body, claw)

@@ -1,0 +1,21 @@
+"""The things of a task on which no run begins, since a robot that stood there would have reached them by nothing."""
+
+from mindrun.expression import leaves
+from mindrun.graph import Graph, Task
+from mindrun.sources import sensors_behind
+from mindrun.things import STAYS
+
+
+def goals(graph: Graph, task: Task) -> frozenset[str]:
+    """The names of what is no longer as it was once it is reached, and of what an end of the task is about.
+
+    An end is about what its event is about, and about what the sensors of its condition are about. What is only counted
+    or rewarded is no goal: what measures changes no world.
+    """
+    gone = {thing.name for thing in task.things if thing.kind.outcomes.get("reached", STAYS) != STAYS}
+    events = (task.events[end.event] for end in task.ends if end.event is not None)
+    reached = {event.thing for event in events if event.outcome == "reached"}
+    read = {row for end in task.ends if end.when is not None for row in leaves(end.when, "reading")}
+    behind = sensors_behind(graph, read)
+    sensed = {sensor.kind.thing for sensor in graph.sensors if sensor.name in behind}
+    return frozenset(gone | reached | sensed)

@@ -1,0 +1,55 @@
+"""Whether anything of a task is drawn: where nothing is, all of its runs are one."""
+
+from mindrun.expression import leaves
+from mindrun.graph import Graph, Task
+from mindrun.skill_sets import reachable
+from mindrun.sources import sensors_behind
+from mindrun.things import MOVES
+
+ROUGH = ("noise", "lost", "slip")  # arguments of sensors and actuators of which something is drawn in every tick
+
+
+def is_one_world(graph: Graph, task: Task, master: str) -> bool:
+    """Whether every run of a task under a master is the same, as far as anybody can know.
+
+    Nobody knows what an environment of somebody else's draws, or a procedure.
+    """
+    if task.scene.environment or task.varies or task.fails or task.start.facing is None:
+        return False
+    if task.scene.is_bounded and task.start.at is None:
+        return False
+    return not _draws_things(graph, task) and not _draws_in_ticks(graph, task, master)
+
+
+def _draws_things(graph: Graph, task: Task) -> bool:
+    """Whether a place or a size is drawn, when a run begins or when something moves."""
+    can_deliver = any(thing.kind.takes_items for thing in task.things)
+    can_hold = any(actuator.kind.can_hold for actuator in graph.actuators)
+    for kind in (thing.kind for thing in task.things):
+        is_drawn = kind.begins[0] != kind.begins[1]
+        if kind.is_obstacle:
+            rows = [*kind.rows(task.scene)]
+            if any(row["count"] or (row["columns"] * row["rows"] and (row["jitter"] or is_drawn)) for row in rows):
+                return True
+            continue
+        delivers = can_deliver and (kind.is_loose or can_hold)
+        if is_drawn or not kind.places or kind.wanders:
+            return True
+        if kind.outcomes.get("reached") == MOVES or (delivers and kind.outcomes.get("delivered") == MOVES):
+            return True
+    return False
+
+
+def _draws_in_ticks(graph: Graph, task: Task, master: str) -> bool:
+    """Whether a tick draws anything: noise of what somebody reads, or of what acts, or what a procedure does."""
+    skills = reachable(graph, master)
+    if any(skill.function.calls for skill in skills):
+        return True
+    programs = [program for skill in skills for edge in skill.edges for program in edge.programs]
+    read = {row for program in (*programs, *task.programs) for row in leaves(program, "reading")}
+    read |= {row for skill in skills for row in skill.inputs}
+    read |= {row for reward in task.rewards if reward.each for row in range(reward.each[0], sum(reward.each))}
+    behind = sensors_behind(graph, read)
+    kinds: list[object] = [sensor.kind for sensor in graph.sensors if sensor.name in behind]
+    kinds += [actuator.kind for actuator in graph.actuators]
+    return any(getattr(kind, argument, 0.0) for kind in kinds for argument in ROUGH)
