@@ -2,7 +2,7 @@
 
 from mindrun.expression import leaves
 from mindrun.graph import Graph, Task
-from mindrun.sources import sensors_behind
+from mindrun.measured import with_sources
 from mindrun.things import STAYS
 
 
@@ -16,6 +16,4 @@ def goals(graph: Graph, task: Task) -> frozenset[str]:
     events = (task.events[end.event] for end in task.ends if end.event is not None)
     reached = {event.thing for event in events if event.outcome == "reached"}
     read = {row for end in task.ends if end.when is not None for row in leaves(end.when, "reading")}
-    behind = sensors_behind(graph, read)
-    sensed = {sensor.kind.thing for sensor in graph.sensors if sensor.name in behind}
-    return frozenset(gone | reached | sensed)
+    return frozenset(gone | reached | {sensor.kind.thing for sensor in with_sources(graph, read)})

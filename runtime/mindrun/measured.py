@@ -34,8 +34,8 @@ class Used:
 
 def used_sensors(graph: Graph, reached: Iterable[Skill], task: Task) -> Used:
     """The sensors that a reached skill or a reward reads."""
-    skills = _with_sources(graph, {row for skill in reached for row in skill.inputs})
-    rewards = _with_sources(graph, _rewarded(task))
+    skills = with_sources(graph, {row for skill in reached for row in skill.inputs})
+    rewards = with_sources(graph, _rewarded(task))
     return Used(skills, [sensor for sensor in rewards if sensor not in skills])
 
 
@@ -47,7 +47,7 @@ def measured_in_world(graph: Graph, master: str, task: Task) -> list[Sensor]:
 def measured_on_robot(graph: Graph, wired: Collection[str]) -> list[Sensor]:
     """These physical sensors, and those that are computed of nothing else."""
     missing = physical(graph).keys() - {*wired}
-    sources = ((sensor, _with_sources(graph, {sensor.start})) for sensor in graph.sensors)
+    sources = ((sensor, with_sources(graph, {sensor.start})) for sensor in graph.sensors)
     return [sensor for sensor, each in sources if missing.isdisjoint(source.name for source in each)]
 
 
@@ -70,7 +70,7 @@ def _rewarded(task: Task) -> set[int]:
     return rows
 
 
-def _with_sources(graph: Graph, rows: set[int]) -> list[Sensor]:
+def with_sources(graph: Graph, rows: set[int]) -> list[Sensor]:
     """The sensors that have these readings, and what those derive from; sources first."""
     by_name = {sensor.name: sensor for sensor in graph.sensors}
     ordered: dict[str, Sensor] = {}

@@ -1,9 +1,8 @@
 """Whether anything of a task is drawn: where nothing is, all of its runs are one."""
 
-from mindrun.expression import leaves
 from mindrun.graph import Graph, Task
+from mindrun.measured import measured_in_world
 from mindrun.skill_sets import reachable
-from mindrun.sources import sensors_behind
 from mindrun.things import MOVES
 
 ROUGH = ("noise", "lost", "slip")  # arguments of sensors and actuators of which something is drawn in every tick
@@ -41,15 +40,9 @@ def _draws_things(graph: Graph, task: Task) -> bool:
 
 
 def _draws_in_ticks(graph: Graph, task: Task, master: str) -> bool:
-    """Whether a tick draws anything: noise of what somebody reads, or of what acts, or what a procedure does."""
-    skills = reachable(graph, master)
-    if any(skill.function.calls for skill in skills):
+    """Whether a tick draws anything: noise of what is measured, or of what acts, or what a procedure does."""
+    if any(skill.function.calls for skill in reachable(graph, master)):
         return True
-    programs = [program for skill in skills for edge in skill.edges for program in edge.programs]
-    read = {row for program in (*programs, *task.programs) for row in leaves(program, "reading")}
-    read |= {row for skill in skills for row in skill.inputs}
-    read |= {row for reward in task.rewards if reward.each for row in range(reward.each[0], sum(reward.each))}
-    behind = sensors_behind(graph, read)
-    kinds: list[object] = [sensor.kind for sensor in graph.sensors if sensor.name in behind]
+    kinds: list[object] = [sensor.kind for sensor in measured_in_world(graph, master, task)]
     kinds += [actuator.kind for actuator in graph.actuators]
     return any(getattr(kind, argument, 0.0) for kind in kinds for argument in ROUGH)
