@@ -34,7 +34,6 @@ from mindlang.editing.writing import write
 from mindlang.lock.ready import ReadyMind, make_ready
 from mindlang.resource_limits import refuse_too_large, refuse_too_many
 from mindlang.run.columns import Column
-from mindlang.run.layouts import layouts
 from mindlang.run.many_runs import run_all
 from mindlang.run.outcome import bench_data
 from mindlang.run.recorded_run import record_run
@@ -119,14 +118,13 @@ class Mind(ShortRepr):
 
         `count_…` is of the events that the task counts, `score_…` of the rewards; `mind.trace` repeats `best_seed`.
         """
-        setup, seeds = self._set_up(task, master), layouts(seed, runs)
-        seeds = seeds[:1] if setup.is_one_world else seeds
+        setup = self._set_up(task, master)
+        seeds = setup.layouts(seed, runs)
         refuse_too_many(setup.task, runs)
         rollout, began = setup.rollout(workers=as_workers(workers)), perf_counter()
         refuse_too_large(rollout, 1, runs)
-        data = bench_data(setup.task, run_all(rollout, seeds), seeds, perf_counter() - began)
-        notes = [*setup.ready.notes, *setup.world_notes, *rollout.notes]
-        return {"task": setup.task.name, "master": setup.master, "seed": int(seed), "notes": notes} | data
+        ran = bench_data(setup.task, run_all(rollout, seeds), seeds, perf_counter() - began)
+        return {"task": setup.task.name, "master": setup.master, "seed": int(seed), "notes": setup.notes(rollout)} | ran
 
     def train(
         self,

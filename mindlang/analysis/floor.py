@@ -15,7 +15,7 @@ from mindrun.things.rectangle import Rectangle
 
 MAX_CELLS = 250_000
 ROOM_UNITS = 1e-6  # that a passage is wider than it is
-CHAMFER = 0.7071  # half of the side of a square in a disc of radius 1, and a little less
+CHAMFER_SHARE = 0.7071  # half of the side of a square in a disc of radius 1, and a little less
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +40,7 @@ class Floor:
 
 def floor(sides: tuple[float, float], walls: Iterable[Rectangle], radius: float) -> Floor | None:
     """The floor of an arena with walls for a robot of that radius; None where it has too many cells to be looked at."""
-    r, chamfer = radius - ROOM_UNITS, radius * CHAMFER
+    r, chamfer = radius - ROOM_UNITS, radius * CHAMFER_SHARE
     grown = [
         (wall.x - wall.half_x - a, wall.y - wall.half_y - b, wall.x + wall.half_x + a, wall.y + wall.half_y + b)
         for wall in walls

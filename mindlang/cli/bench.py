@@ -97,7 +97,6 @@ def _bench(who: Contender, chosen: BenchChoice, table: Path | None, as_json: boo
     from mindlang.cli._terminal import console, print_json, write_file
     from mindlang.run import outcome
     from mindlang.run.columns import csv_parts
-    from mindlang.run.layouts import layouts
     from mindlang.run.runs_table import runs_table
     from mindlang.run.summary import bench_summary
 
@@ -105,13 +104,11 @@ def _bench(who: Contender, chosen: BenchChoice, table: Path | None, as_json: boo
     cast = chosen.task, who.master, chosen.interrupt, chosen.workers, chosen.runs
     setup, rollout = session.prepare(who.file, *cast)
     session.say(*(f"note: {note}" for note in setup.world_notes))
-    seeds = layouts(chosen.seed, chosen.runs)[: 1 if setup.is_one_world else None]
+    seeds = setup.layouts(chosen.seed, chosen.runs)
     with session.scorer(setup, rollout, chosen) as scorer:
         scores, seconds = session.score(scorer, seeds)
     found = {"task": setup.task.name, "master": setup.master, "seed": chosen.seed, **chosen.by}
-    found |= outcome.bench_data(setup.task, scores, seeds, seconds) | {
-        "notes": [*setup.ready.notes, *setup.world_notes, *rollout.notes]
-    }
+    found |= outcome.bench_data(setup.task, scores, seeds, seconds) | {"notes": setup.notes(rollout)}
     if table:
         write_file(table, csv_parts(runs_table(setup.task, scores, seeds)))
         session.say(f"{table}: a row for each of {len(seeds):,} runs")

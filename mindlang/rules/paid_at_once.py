@@ -54,14 +54,14 @@ def check(study: Study) -> Found:
     told: set[Span] = set()
     for task in study.mind.tasks:
         begun = beginning(task.scene, task.things, task.start, study.mind.body.kind, study.graph.claw_reach)
-        for finding in _Look(study, task, begun).found():
+        for finding in _FirstTick(study, task, begun).found():
             if finding.span not in told:  # several tasks have it from one line
                 told.add(finding.span)
                 yield finding
 
 
 @dataclass(frozen=True, slots=True)
-class _Look:
+class _FirstTick:
     study: Study
     task: Task
     begun: Beginning

@@ -31,6 +31,7 @@ BAD = (
     SCHOOL.format("evolution_strategy mutation 0.0001", ""),
     SCHOOL.format("genetic", "").replace("20 generations", "1 generations"),
 )
+MORE_HINT = "Write more generations: for 100 generations."
 HINT = "Leave it out: what the learner does where nothing is said is what has learnt best."
 
 
@@ -40,7 +41,4 @@ def check(study: Study) -> Found:
     for written, lesson in zip(study.mind.lessons, study.graph.lessons, strict=True):
         weights = sum(genes(skills[name]) for name in study.learners(lesson))
         if weights and (why := lesson.learner.standstill(weights, lesson.generations)):
-            yield Finding(written.fact.span, f"{why}.", HINT if lesson.generations > 1 else MORE)
-
-
-MORE = "Write more generations: for 100 generations."
+            yield Finding(written.fact.span, f"{why}.", HINT if lesson.generations > 1 else MORE_HINT)

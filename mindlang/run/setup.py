@@ -21,6 +21,7 @@ from mindlang.run.chosen_task import master_of as master_of
 from mindlang.run.chosen_task import skill_of as skill_of
 from mindlang.run.chosen_task import task_of as task_of
 from mindlang.run.chosen_task import unknown as unknown
+from mindlang.run.layouts import layouts
 
 if TYPE_CHECKING:
     from mindrun.sim.rollout import Rollout
@@ -48,6 +49,14 @@ class RunSetup:
             f"1 world: nothing is drawn in {self.task.name}, so that one run is made, and any other would be the same"
         )
         return (said,) if self.is_one_world else ()
+
+    def layouts(self, seed: int, runs: int) -> list[int]:
+        """The seeds of so many runs, the first alone where there is one world; MindError where these are none."""
+        return layouts(seed, runs)[: 1 if self.is_one_world else None]
+
+    def notes(self, rollout: Rollout) -> list[str]:
+        """What somebody should know of runs that have been made."""
+        return [*self.ready.notes, *self.world_notes, *rollout.notes]
 
     def rollout(self, interrupt: bool = True, workers: int = 1) -> Rollout:
         """The task under the master, in the simulator. Runs the text of the procedures' modules."""
