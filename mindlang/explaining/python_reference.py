@@ -7,6 +7,8 @@ from inspect import cleandoc, getsource, isclass, isroutine
 from textwrap import dedent
 from types import ModuleType
 
+from mindrun.short_repr import ShortRepr
+
 LINE_CHARACTERS = 100  # of a signature
 ARGUMENT = re.compile(r", (?=\w+[:=]|\*)")  # before the next one: no comma of a type
 Function = ast.FunctionDef | ast.AsyncFunctionDef
@@ -24,7 +26,7 @@ def python_reference(package: ModuleType) -> Iterator[str]:
 
 
 def _class(node: ast.ClassDef) -> Iterator[str]:
-    bases = ", ".join(ast.unparse(base) for base in node.bases)
+    bases = ", ".join(name for name in map(ast.unparse, node.bases) if name != ShortRepr.__name__)  # how it is printed
     fields = [ast.unparse(each) for each in node.body if isinstance(each, ast.AnnAssign) and _is_public(each.target)]
     yield from _code(
         f"class {node.name}({bases})" if bases else f"class {node.name}", *(f"    {each}" for each in fields)
