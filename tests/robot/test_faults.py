@@ -114,6 +114,17 @@ def test_a_median_of_directions_goes_round(kind: str) -> None:
     assert min(readings[1], 1 - readings[1]) < 1e-6
 
 
+@pytest.mark.parametrize(("kind", "expected"), [("compass", [0.25, 0.75, 0.4]), ("inertial", [1, 0, 0.4])])
+def test_beyond_its_ends_a_direction_goes_round_and_nothing_else(kind: str, expected: list[float]) -> None:
+    of = robot(kind, [[1.25], [-0.25], [0.4]])
+    of.driver.possible = -9.0, 9.0
+    readings = []
+    for _ in expected:
+        of.tick()
+        readings.append(float(of.loop.engine.readings[0]))
+    np.testing.assert_allclose(readings, expected, rtol=1e-6)
+
+
 def test_what_begins_and_ends_is_told() -> None:
     of = robot("bearing", [good, FAULTS["bus error"], FAULTS["bus error"], good])
     told: list[str] = []
