@@ -1,17 +1,21 @@
-"""How often the interval of `mindc bench A B` contains the true difference: python benchmarks/intervals.py [RUNS].
+"""How often the interval of `mindc bench A B` contains the true difference: python benchmarks/intervals.py [--minds].
 
-Pairs of minds of examples/collect run on RUNS common layouts (default: 10,000), whose mean difference stands for the
-true one. Comparisons of 20 to 1,000 of these runs are drawn from them with replacement; of each kind of interval,
-the share that contains it, and how wide it is beside Student's of the pairs.
+Scores of two minds are drawn in ways that are hard for intervals (CASES); with --minds pairs of minds of
+examples/collect run on common layouts, and comparisons are drawn from these with replacement. For each number of runs:
+of 4,000 comparisons, the share of those with an interval that contains the mean difference, beside it Student's; how
+wide it is beside Student's in the median; how often there is none; how often it is said that unseen layouts made it so
+wide. Every sentence says of how rare a layout the runs need have no example.
 """
 
-import sys
+import argparse
 from collections.abc import Callable
-from math import sqrt
+from dataclasses import dataclass
+from math import exp, sqrt
 from pathlib import Path
+from typing import Any
 
 import numpy as np
-from mindrun.sim.rollout import cores
+from mindrun.cores import cores
 from numpy.typing import NDArray
 
 from mindlang.compiler.compile import load
@@ -19,79 +23,156 @@ from mindlang.run.layouts import NO_GENOME, layouts
 from mindlang.run.paired_difference import difference, t_quantile
 from mindlang.run.setup import set_up
 
-Floats = NDArray[np.float64]
-Intervals = Callable[[Floats, Floats, np.random.Generator], tuple[Floats, Floats]]  # of scores [comparisons, runs]
+Floats = NDArray[np.floating[Any]]
+Rng = np.random.Generator
 COLLECT = Path(__file__).resolve().parent.parent / "examples" / "collect"
 PAIRS = {  # task: two minds, each with its master
     "Collect": (("collect.mind", "Collect"), ("best.mind", "Deliver")),
     "GoToObject": (("collect.mind", "GoToObject"), ("collect.mind", "Collect")),
     "Avoid": (("collect.mind", "Avoid"), ("best.mind", "Avoid")),
 }
-RUNS_COMPARED = 20, 50, 200, 1000
-COMPARISONS_DRAWN, RESAMPLED_MEANS = 2000, 1000
-LAYOUT_SEED = 17
+RUNS_COMPARED = 5, 10, 20, 50, 100, 200, 1000
+COMPARISONS_DRAWN = 4000
+LAYOUT_SEED, LAYOUT_COUNT = 17, 10_000
+NOISE_STD = 0.001  # in which minds differ that are as good as the same
+HEAD = f"  {'runs':>5}  {'covers':>7}  {'Student':>7}  {'width':>7}  {'none':>6}  {'unseen':>6}"
+
+
+@dataclass(frozen=True, slots=True)
+class Case:
+    """Scores of two minds, drawn [comparisons, runs], and their true mean difference."""
+
+    draw: Callable[[Rng, tuple[int, int]], tuple[Floats, Floats]]
+    truth: float
+
+
+def collapsing(share: float, to: float = 0.0) -> Case:
+    """One mind is the other, but for a share of the layouts."""
+
+    def draw(rng: Rng, shape: tuple[int, int]) -> tuple[Floats, Floats]:
+        first = rng.normal(10, 3, shape)
+        second = first + rng.normal(0, NOISE_STD, shape)
+        return first, np.where(rng.random(shape) < share, to, second)
+
+    return Case(draw, share * (to - 10))
+
+
+def paying(share: float, pays: float, noise: float = 0.0) -> Case:
+    """One mind alone is paid, on a share of the layouts."""
+
+    def draw(rng: Rng, shape: tuple[int, int]) -> tuple[Floats, Floats]:
+        return rng.normal(0, noise, shape), rng.normal(0, noise, shape) + pays * (rng.random(shape) < share)
+
+    return Case(draw, share * pays)
+
+
+def jackpot(rng: Rng, shape: tuple[int, int]) -> tuple[Floats, Floats]:
+    """100 on one layout in a hundred, 0.1 on 30 % of the others."""
+    some = np.where(rng.random(shape) < 0.3, 0.1, 0.0)
+    return np.zeros(shape), np.where(rng.random(shape) < 0.01, 100.0, some)
+
+
+def normal(correlation: float) -> Case:
+    """Scores as most are."""
+
+    def draw(rng: Rng, shape: tuple[int, int]) -> tuple[Floats, Floats]:
+        first = rng.normal(0, 3, shape)
+        return 10 + first, 11 + correlation * first + sqrt(1 - correlation**2) * rng.normal(0, 3, shape)
+
+    return Case(draw, 1.0)
+
+
+def succeeding(first: float, second: float) -> Case:
+    """Each succeeds with a probability of its own."""
+    return Case(
+        lambda rng, shape: ((rng.random(shape) < first) * 1.0, (rng.random(shape) < second) * 1.0), second - first
+    )
+
+
+def bimodal(rng: Rng, shape: tuple[int, int]) -> tuple[Floats, Floats]:
+    """Nothing or 20: the second gets there on 60 % of the layouts, the first on half of them."""
+    both = [np.where(rng.random(shape) < share, 20.0, 0.0) + rng.normal(0, 1, shape) for share in (0.5, 0.6)]
+    return both[0], both[1]
+
+
+def tied(rng: Rng, shape: tuple[int, int]) -> tuple[Floats, Floats]:
+    """The same count on 70 % of the layouts, one more on the others."""
+    first = rng.poisson(3.0, shape).astype(float)
+    return first, first + (rng.random(shape) < 0.3)
+
+
+CASES = {
+    "collapses on 2 %": collapsing(0.02),
+    "collapses on 0.5 %": collapsing(0.005),
+    "collapses on 10 %": collapsing(0.1),
+    "alone solves 3 %, 0 or 100": paying(0.03, 100.0),
+    "alone solves 3 %, 0 or 100, and noise": paying(0.03, 100.0, NOISE_STD),
+    "alone solves 20 %, 0 or 100, and noise": paying(0.2, 100.0, NOISE_STD),
+    "jackpot of 100 on 1 %, 0.1 on 30 %": Case(jackpot, 1.0 + 0.99 * 0.03),
+    "lognormal, σ 2": Case(lambda rng, shape: (np.zeros(shape), rng.lognormal(0, 2, shape)), exp(2)),
+    "lognormal, σ 1": Case(lambda rng, shape: (np.zeros(shape), rng.lognormal(0, 1, shape)), exp(0.5)),
+    "normal, correlation 0": normal(0.0),
+    "normal, correlation 0.5": normal(0.5),
+    "normal, correlation 0.95": normal(0.95),
+    "Student's t of 3": Case(lambda rng, shape: (rng.standard_t(3, shape), rng.standard_t(3, shape) + 1), 1.0),
+    "exponential": Case(lambda rng, shape: (rng.exponential(1, shape), rng.exponential(1.5, shape)), 0.5),
+    "counts": Case(lambda rng, shape: (rng.poisson(2.0, shape) * 1.0, rng.poisson(2.3, shape) * 1.0), 0.3),
+    "counts, most of them the same": Case(tied, 0.3),
+    "success 90 and 95 %": succeeding(0.9, 0.95),
+    "success 0 and 3 %": succeeding(0.0, 0.03),
+    "nothing or 20": Case(bimodal, 2.0),
+}
 
 
 def main() -> None:
     """Measure and print."""
-    runs = int(sys.argv[1]) if len(sys.argv) > 1 else 10_000
-    for task, minds in PAIRS.items():
-        first, second = (scores(*mind, task, runs) for mind in minds)
-        correlation = np.corrcoef(first, second)[0, 1]
-        print(f"{task}: {runs:,} pairs, difference {(second - first).mean():.3g}, correlation {correlation:.2f}")
-        for compared in RUNS_COMPARED:
-            print(f"  {compared:3} runs  " + ", ".join(coverage(first, second, compared)))
+    parser = argparse.ArgumentParser(allow_abbrev=False, description=__doc__)
+    parser.add_argument("--minds", action="store_true", help="pairs of shipped minds instead")
+    parser.add_argument("--comparisons", type=int, default=COMPARISONS_DRAWN)
+    options = parser.parse_args()
+    cases = {task: resampled(task) for task in PAIRS} if options.minds else CASES
+    for name, case in cases.items():
+        print(f"{name}: the difference is {case.truth:.4g}\n{HEAD}")
+        for runs in RUNS_COMPARED:
+            print(row(case, runs, options.comparisons), flush=True)
 
 
-def scores(file: str, master: str, task: str, runs: int) -> Floats:
-    """What a mind scores on each layout [runs]."""
+def resampled(task: str) -> Case:
+    """Two minds on so many layouts, which stand for all."""
+    first, second = (_scores(*mind, task) for mind in PAIRS[task])
+    print(f"correlation {np.corrcoef(first, second)[0, 1]:.2f}")
+
+    def draw(rng: Rng, shape: tuple[int, int]) -> tuple[Floats, Floats]:
+        drawn = rng.integers(len(first), size=shape)
+        return first[drawn], second[drawn]
+
+    return Case(draw, float((second - first).mean()))
+
+
+def row(case: Case, runs: int, comparisons: int) -> str:
+    """Of comparisons of so many runs, how often the interval contains the truth, and what else is said of it."""
+    first, second = case.draw(np.random.default_rng(runs), (comparisons, runs))
+    found = [difference(*both) for both in zip(first.astype(float), second.astype(float), strict=True)]
+    told = [each for each in found if each.low is not None and each.high is not None]
+    widened = np.mean([each.is_widened for each in found])
+    line = f"  {runs:5}  " + " " * 25 + f"  {1 - len(told) / len(found):6.1%}  {widened:6.1%}"
+    if not told:
+        return line
+    low, high = np.array([(each.low, each.high) for each in told], float).T
+    mean, error = np.array([(each.mean, each.standard_error) for each in told], float).T
+    half = t_quantile(runs - 1) * error
+    ours = np.mean((low <= case.truth) & (case.truth <= high))
+    student = np.mean(np.abs(mean - case.truth) <= half)
+    width = np.median((high - low)[half > 0] / (2 * half[half > 0]))
+    return f"  {runs:5}  {ours:7.1%}  {student:7.1%}  {width:7.2f}" + line[33:]
+
+
+def _scores(file: str, master: str, task: str) -> Floats:
+    """What a mind scores on each layout [LAYOUT_COUNT]."""
     setup = set_up(file, load(COLLECT / file), task, master)
-    found: Floats = setup.rollout(workers=cores()).score(NO_GENOME, layouts(LAYOUT_SEED, runs)).total[0]
+    found: Floats = setup.rollout(workers=cores()).score(NO_GENOME, layouts(LAYOUT_SEED, LAYOUT_COUNT)).total[0]
     return found
 
-
-def coverage(first: Floats, second: Floats, runs: int) -> list[str]:
-    """Of each kind of interval, how often it contains the mean difference, and how wide it is."""
-    rng = np.random.default_rng(runs)
-    drawn = rng.integers(len(first), size=(COMPARISONS_DRAWN, runs))
-    truth = (second - first).mean()
-    found = {name: of(first[drawn], second[drawn], rng) for name, of in KINDS.items()}
-    width = np.mean(np.subtract(*found["Student"][::-1]))
-    return [
-        f"{name} {np.mean((low <= truth) & (truth <= high)):.1%} ({np.mean(high - low) / width:.2f})"
-        for name, (low, high) in found.items()
-    ]
-
-
-def _ours(first: Floats, second: Floats, rng: np.random.Generator) -> tuple[Floats, Floats]:
-    """What `mindc bench A B` says."""
-    found = [difference(*both) for both in zip(first, second, strict=True)]
-    return np.array([each.low for each in found]), np.array([each.high for each in found])
-
-
-def _student(first: Floats, second: Floats, rng: np.random.Generator) -> tuple[Floats, Floats]:
-    return _around((second - first).mean(axis=1), (second - first).std(axis=1, ddof=1), first.shape[1])
-
-
-def _unpaired(first: Floats, second: Floats, rng: np.random.Generator) -> tuple[Floats, Floats]:
-    spread = np.hypot(first.std(axis=1, ddof=1), second.std(axis=1, ddof=1))
-    return _around(second.mean(axis=1) - first.mean(axis=1), spread, first.shape[1])
-
-
-def _bootstrap(first: Floats, second: Floats, rng: np.random.Generator) -> tuple[Floats, Floats]:
-    """Percentiles of the means of resampled differences."""
-    each, runs = second - first, first.shape[1]
-    means = (row[rng.integers(runs, size=(RESAMPLED_MEANS, runs))].mean(axis=1) for row in each)
-    bounds = [np.percentile(mean, [2.5, 97.5]) for mean in means]
-    return np.array(bounds)[:, 0], np.array(bounds)[:, 1]
-
-
-def _around(mean: Floats, spread: Floats, runs: int) -> tuple[Floats, Floats]:
-    half = t_quantile(runs - 1) * spread / sqrt(runs)
-    return mean - half, mean + half
-
-
-KINDS: dict[str, Intervals] = {"ours": _ours, "Student": _student, "bootstrap": _bootstrap, "unpaired": _unpaired}
 
 if __name__ == "__main__":
     main()

@@ -22,9 +22,10 @@ from multiprocessing import get_context
 from typing import Any
 
 import numpy as np
+from mindrun.cores import cores
 from mindrun.graph import Lesson
 from mindrun.learners import EvolutionStrategy, Genetic, Restarting
-from mindrun.sim.rollout import Rollout, cores
+from mindrun.sim.rollout import Rollout
 from mindrun.train.attempt import REEVALUATED_CANDIDATES, REEVALUATION_GENERATIONS, judge
 from mindrun.train.attempt import REEVALUATION_LAYOUTS as TRIES
 from mindrun.train.lesson import ended, generation

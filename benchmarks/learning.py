@@ -12,9 +12,10 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
+from mindrun.cores import cores
 from mindrun.graph import Graph, Lesson
 from mindrun.policy import Policy
-from mindrun.sim.rollout import Rollout, cores
+from mindrun.sim.rollout import Rollout
 from mindrun.train.lesson import teach
 from mindrun.train.lesson_state import Course, begin
 

@@ -14,7 +14,7 @@ from shutil import copy
 from tempfile import TemporaryDirectory
 
 import numpy as np
-from mindrun.sim.rollout import cores
+from mindrun.cores import cores
 
 import mindlang
 

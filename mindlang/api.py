@@ -34,7 +34,7 @@ from mindlang.editing.writing import write
 from mindlang.lock.ready import ReadyMind, make_ready
 from mindlang.resource_limits import refuse_too_large, refuse_too_many
 from mindlang.run.columns import Column
-from mindlang.run.many_runs import run_all
+from mindlang.run.many_runs import run_timed
 from mindlang.run.outcome import bench_data
 from mindlang.run.recorded_run import record_run
 from mindlang.run.setup import RunSetup, master_of, set_up, skill_of, task_of, train_command, unknown, untaught_skills
@@ -63,8 +63,8 @@ class Mind(ShortRepr):
 
     @property
     def is_valid(self) -> bool:
-        """Whether it compiles."""
-        return self.compiled.graph is not None
+        """Whether it compiles, and its procedures can be called."""
+        return self.compiled.is_valid
 
     @property
     def graph(self) -> Graph:
@@ -90,7 +90,7 @@ class Mind(ShortRepr):
     ) -> Rollout:
         """Simulated runs of a task (default: that of the master's first lesson), many at once.
 
-        `rollout.score(genomes, seeds)` takes genomes [genomes, weights] of the `learners`, one after the other, and
+        `rollout.score(genomes, seeds)` takes genomes [genomes, weights] of the `learners`, in the order given here, and
         gives scores, counts and lengths as arrays [genomes, seeds].
         """
         (chosen, _), threads = task_of(self.graph, task), as_workers(workers)
@@ -121,10 +121,11 @@ class Mind(ShortRepr):
         setup = self._set_up(task, master)
         seeds = setup.layouts(seed, runs)
         refuse_too_many(setup.task, runs)
-        rollout, began = setup.rollout(workers=as_workers(workers)), perf_counter()
+        rollout = setup.rollout(workers=as_workers(workers))
         refuse_too_large(rollout, 1, runs)
-        ran = bench_data(setup.task, run_all(rollout, seeds), seeds, perf_counter() - began)
-        return {"task": setup.task.name, "master": setup.master, "seed": int(seed), "notes": setup.notes(rollout)} | ran
+        scores, *took = run_timed(rollout, seeds)
+        data = bench_data(setup.task, scores, seeds, *took) | {"notes": setup.notes(rollout)}
+        return {"task": setup.task.name, "master": setup.master, "seed": int(seed)} | data
 
     def train(
         self,

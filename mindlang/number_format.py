@@ -13,11 +13,12 @@ def number(value: float | None) -> str:
     return f"{value:.2f}" if value is not None and isfinite(value) else "–"
 
 
-def rate(ticks_per_second: float) -> str:
-    """A number of ticks per second for reading."""
+def rate(ticks_per_second: float, of: str = "") -> str:
+    """A number of ticks per second for reading, or of what else they are per."""
+    per = f" ticks per {of}" if of else " ticks/s"
     if ticks_per_second >= 1e6:
-        return f"{ticks_per_second / 1e6:.1f} M ticks/s"
-    return f"{ticks_per_second / 1e3:.0f} k ticks/s"
+        return f"{ticks_per_second / 1e6:.1f} M{per}"
+    return f"{ticks_per_second / 1e3:.0f} k{per}"
 
 
 def duration(seconds: float) -> str:

@@ -1,6 +1,5 @@
 """What all tests share."""
 
-import os
 import signal
 import subprocess
 import sys
@@ -8,6 +7,7 @@ from pathlib import Path
 
 import pytest
 from hypothesis import settings
+from mindrun.cores import cores
 
 from tests.calling import Call, caller, write_rules
 
@@ -25,7 +25,7 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
 @pytest.hookimpl(optionalhook=True)
 def pytest_xdist_auto_num_workers() -> int:
     """Of `--numprocesses auto`: twice as many as processors, for a test often waits for a program or a clock."""
-    return 2 * (len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1)
+    return 2 * cores()
 
 
 def pytest_sessionstart(session: pytest.Session) -> None:

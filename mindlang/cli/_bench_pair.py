@@ -62,10 +62,10 @@ def compare_benched(
     benched, minds = [], []
     for each, (setup, rollout) in zip(both, cast, strict=True):
         with session.scorer(setup, rollout, chosen) as scorer:
-            scores, seconds = session.score(scorer, seeds, f"{each.name}: ")
+            scores, seconds, cpu = session.score(scorer, seeds, f"{each.name}: ")
         benched.append(Benched(each.name, setup.task, scores))
         about = {"name": each.name, "file": each.file, "master": setup.master}
-        data = outcome.bench_data(setup.task, scores, seeds, seconds)
+        data = outcome.bench_data(setup.task, scores, seeds, seconds, None if chosen.where else cpu)
         minds.append(about | data | {"notes": [*setup.ready.notes, *rollout.notes]})
     compared = compare(*benched)
     found: dict[str, Any] = {"task": benched[0].task.name, "seed": chosen.seed, "runs": chosen.runs, **chosen.by}

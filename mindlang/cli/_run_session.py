@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
-from time import perf_counter
 from typing import TYPE_CHECKING
 
 from mindrun.errors import MindError
@@ -19,7 +18,8 @@ from mindlang.cli._terminal import FINDINGS, MISUSE, fail, load_compiled, proced
 from mindlang.compiler.compile import Compiled
 from mindlang.executors import Where, scorer_on
 from mindlang.resource_limits import refuse_too_large, refuse_too_many
-from mindlang.run.many_runs import run_all
+from mindlang.run.layouts import NO_GENOME
+from mindlang.run.many_runs import run_timed
 from mindlang.run.setup import RunSetup, SetupError, set_up
 
 if TYPE_CHECKING:
@@ -108,21 +108,20 @@ class RunSession:
         return scorer_on(chosen.where, rollout, lambda: setup.assignment(chosen.interrupt), chosen.workers, self.say)
 
     @procedures_talk()
-    def score(self, scorer: Rollout | JobScorer, seeds: Sequence[int], whose: str = "") -> tuple[Scores, float]:
-        """All runs, and the seconds that they took; notes say `whose` they are."""
+    def score(self, scorer: Rollout | JobScorer, seeds: Sequence[int], whose: str = "") -> tuple[Scores, float, float]:
+        """All runs, the seconds that they took, and those of processors here; notes say `whose` they are."""
         with self.progress() as progress:
             bar = progress.add_task(f"{scorer.task.name}", total=len(seeds))
-            begin = perf_counter()
-            scores = run_all(scorer, seeds, lambda runs: progress.advance(bar, runs))
-            seconds = perf_counter() - begin
+            found = run_timed(scorer, seeds, lambda runs: progress.advance(bar, runs))
         self.say(*(f"note: {whose}{note}" for note in scorer.notes))
-        return scores, seconds
+        return found
 
     @procedures_talk()
     def record(self, setup: RunSetup, rollout: Rollout, seed: int) -> Course:
         """A run written down tick by tick, and what came of it."""
         from mindlang.run.course import course
 
+        rollout.make_again(NO_GENOME[0], seed)
         made = course(setup, rollout, seed)
         self.say(*(f"note: {note}" for note in rollout.notes))
         return made

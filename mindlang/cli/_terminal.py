@@ -130,7 +130,7 @@ def load_compiled(path: Path | str) -> Compiled:
 
     take_back(path)
     compiled = load(path)
-    print_report(compiled.diagnostics, console(stderr=True))
     if compiled.graph is None:
+        print_report(compiled.diagnostics, console(stderr=True))
         sys.exit(FINDINGS if compiled.readable else MISUSE)
     return compiled

@@ -13,7 +13,9 @@ from types import FrameType
 from typing import Any
 
 from mindrun.command_line import command_line
-from mindrun.sim.rollout import Rollout, cores
+from mindrun.cores import cores
+from mindrun.cpu_time import cpu_seconds
+from mindrun.sim.rollout import Rollout
 from mindrun.train import RunError
 from mindrun.train.attempts import AttemptExecutor
 from mindrun.train.lesson_state import LessonState, Record
@@ -31,7 +33,7 @@ from mindlang.training.event_files import EventFiles
 from mindlang.training.lesson_choice import TrainOptions, chosen_lessons
 from mindlang.training.results import Result, opening, outcome
 from mindlang.training.subject import Subject, begin_run, open_subject, refuse_changed, refuse_frozen
-from mindlang.training.teaching import TeachingResult, finish, has_ended, rollout_of, workers_of
+from mindlang.training.teaching import TeachingResult, finish, has_ended, make_again, rollout_of, workers_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,26 +106,28 @@ class Trainer:
             return True
         rollout = self._rollout(run, subject)
         by = self.where, self.workers or cores(), self._say, perf_counter
+        counted, cpu_begin = CountedTicks(), cpu_seconds()
         with workers_of(run, subject, rollout, *by) as (scorer, executor):
             try:
-                state = self._watched(run, scorer, executor)
+                state = self._watched(run, scorer, executor, counted)
             except StoppedError:
                 state = None
             if state is None or not has_ended(run, state):
                 talk.print(f"saved; to go on: {self._command(run)}", markup=False)
                 return False
-            taught = self._finished(run, subject, state, scorer, force)
+            taught = self._finished(run, subject, state, scorer, force, rollout.notes)
+            result = taught.result | counted.rate(None if self.where else cpu_seconds() - cpu_begin)
         self._say(*(f"note: {note}" for note in rollout.notes))
-        self._say(*outcome(run, taught.result, taught.kept, subject.keep_path(run.manifest.lesson).name))
-        self._print(taught.result)
+        self._say(*outcome(run, result, taught.kept, subject.keep_path(run.manifest.lesson).name))
+        self._print(result)
         return True
 
     @procedures_talk()
     def _finished(
-        self, run: RunFolder, subject: Subject, state: LessonState, scorer: Scorer, force: bool
+        self, run: RunFolder, subject: Subject, state: LessonState, scorer: Scorer, force: bool, notes: Sequence[str]
     ) -> TeachingResult:
         try:
-            return finish(run, subject, state, scorer, force)
+            return finish(run, subject, state, scorer, force, notes)
         except LockError as error:
             hint = f"what was learnt is safe; mend that, then: {self._command(run)}"
             raise RunError(str(error), hint) from error
@@ -135,10 +139,14 @@ class Trainer:
             self._say(f"to watch: {command_line('tensorboard', '--logdir', run.folder)}")
         rollout = rollout_of(run, subject, self.workers or cores())
         ensure_compiled(rollout, self._say)  # before the clock of the lesson starts
+        make_again(run, rollout)
+        self._say(*(f"note: {note}" for note in rollout.notes))
         return rollout
 
     @procedures_talk()
-    def _watched(self, run: RunFolder, scorer: Scorer, executor: AttemptExecutor | None) -> LessonState:
+    def _watched(
+        self, run: RunFolder, scorer: Scorer, executor: AttemptExecutor | None, counted: "CountedTicks"
+    ) -> LessonState:
         lesson = run.manifest.lesson
         pace = TimeLeft.of(run, perf_counter())
         watcher = self._watcher(run, pace)
@@ -152,6 +160,7 @@ class Trainer:
             self._say(f"{what}; Ctrl-C again stops at once, to go on then: {self._command(run)}")
 
         def report(state: LessonState, record: Record) -> None:
+            counted.ticks += record.ticks
             before = record.attempt if record.verdict is not None else record.attempt - 1
             done = before * lesson.generations + (record.generation if record.verdict is None else 0)
             for each in watchers:
@@ -181,6 +190,20 @@ class Trainer:
     def _print(self, result: Result) -> None:
         if self.as_json:
             print(json.dumps(result, allow_nan=False), flush=True)
+
+
+@dataclass(slots=True)
+class CountedTicks:
+    """What was simulated since a run was begun, or gone on with, here."""
+
+    ticks: int = 0
+
+    def rate(self, cpu_seconds: float | None) -> dict[str, float | None]:
+        """For a result, where it is known how much time of processors that took."""
+        return {
+            "cpu_seconds": None if cpu_seconds is None else round(cpu_seconds, 3),
+            "ticks_per_cpu_second": None if cpu_seconds is None else round(self.ticks / max(cpu_seconds, 1e-3)),
+        }
 
 
 class StoppedError(KeyboardInterrupt):

@@ -75,7 +75,7 @@ def command(
     With OTHER, or two masters, both run on the same layouts: how much they differ, with a confidence interval, and what
     may be said of it. It is said of the weights that both have, not of how such minds are taught in general.
     """
-    from mindrun.sim.rollout import cores
+    from mindrun.cores import cores
 
     from mindlang.cli._bench_pair import compare_benched, contenders
     from mindlang.cli._run_session import BenchChoice
@@ -106,9 +106,10 @@ def _bench(who: Contender, chosen: BenchChoice, table: Path | None, as_json: boo
     session.say(*(f"note: {note}" for note in setup.world_notes))
     seeds = setup.layouts(chosen.seed, chosen.runs)
     with session.scorer(setup, rollout, chosen) as scorer:
-        scores, seconds = session.score(scorer, seeds)
-    found = {"task": setup.task.name, "master": setup.master, "seed": chosen.seed, **chosen.by}
-    found |= outcome.bench_data(setup.task, scores, seeds, seconds) | {"notes": setup.notes(rollout)}
+        scores, seconds, cpu = session.score(scorer, seeds)
+    found: dict[str, Any] = {"task": setup.task.name, "master": setup.master, "seed": chosen.seed, **chosen.by}
+    found |= outcome.bench_data(setup.task, scores, seeds, seconds, None if chosen.where else cpu)
+    found["notes"] = setup.notes(rollout)
     if table:
         write_file(table, csv_parts(runs_table(setup.task, scores, seeds)))
         session.say(f"{table}: a row for each of {len(seeds):,} runs")

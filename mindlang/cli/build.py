@@ -57,7 +57,7 @@ def command(file: str, output: Path, master: str | None, robot: Path | None, as_
     skills = [skill.name for skill in compiled.graph.skills]
     if master is not None and master not in skills:
         fail(f"There is no skill {master}.", did_you_mean(master, skills), MISUSE)
-    _refuse_procedures(compiled, master)
+    _refuse_procedures(compiled, master or compiled.graph.master)
     wiring = _wiring(robot, compiled, master) if robot else None
     try:
         ready = make_ready(compiled.graph, compiled.sources, master)
@@ -68,10 +68,11 @@ def command(file: str, output: Path, master: str | None, robot: Path | None, as_
         fail(str(error), code=MISUSE)
     except OSError as error:
         fail(f"{output} cannot be written: {error.strerror}")
-    for note in ready.notes:
+    notes = [*ready.notes, *_needed_modules(ready, compiled.sources[0].folder)]
+    for note in notes:
         say(f"note: {note}")
     if as_json:
-        print_json(_built(output, digest, ready, wiring))
+        print_json(_built(output, digest, ready, wiring) | {"notes": notes})
     elif not quiet:
         wired = f", wired to {wiring.robot}" if wiring else ""
         click.echo(f"{output}: {ready.policy.graph.master} in charge, {_taught(ready)}{wired}", err=True)
@@ -94,16 +95,32 @@ def _refuse_missing(ready: ReadyMind, file: str) -> None:
         fail(ready.refusals[-1], command_line("mindc", "train", Path(file)))
 
 
-def _refuse_procedures(compiled: Compiled, master: str | None) -> None:
-    """End the program where a procedure cannot be what its skill needs."""
+def _refuse_procedures(compiled: Compiled, master: str) -> None:
+    """Say what is wrong with the procedures that travel; end the program where one cannot be what its skill needs."""
+    from mindrun.skill_sets import reachable
+
     from mindlang.cli._diagnostic_printer import print_report
     from mindlang.cli._terminal import FINDINGS, console
     from mindlang.compiler.procedures import mistakes
 
     assert compiled.graph is not None
-    if found := mistakes(compiled, master or compiled.graph.master):
-        print_report(found, console(stderr=True))
+    assert compiled.mind is not None
+    found = [*mistakes(reachable(compiled.graph, master), compiled.mind, compiled.sources[0].folder)]
+    print_report(found, console(stderr=True))
+    if any(each.severity == "error" for each in found):
         sys.exit(FINDINGS)
+
+
+def _needed_modules(ready: ReadyMind, folder: Path) -> list[str]:
+    """What has to be installed on the robot beside mindrun, in a sentence."""
+    from mindrun.skill_sets import reachable
+
+    from mindlang.compiler.diagnostic import listed
+    from mindlang.compiler.procedures import needed_modules
+
+    graph = ready.policy.graph
+    needed = [f"{module} {where}" for module, where in needed_modules(reachable(graph, graph.master), folder).items()]
+    return [f"the robot needs {listed(needed, 'and')}, which no bundle holds"] if needed else []
 
 
 def _wiring(path: Path, compiled: Compiled, master: str | None) -> Wiring:
@@ -136,6 +153,5 @@ def _built(output: Path, digest: str, ready: ReadyMind, wiring: Wiring | None) -
         "sha256": digest,
         "master": ready.policy.graph.master,
         "skills": sorted(ready.policy.weights),
-        "notes": list(ready.notes),
         **robot,
     }

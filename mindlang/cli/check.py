@@ -74,7 +74,8 @@ def command(files: tuple[str, ...], task: str | None, master: str | None, as_jso
         raise click.UsageError("--task and --master are for files of breakpoints, and none is given.")
     bundles = [file for file in named if breaks and Path(file).suffix == ".bundle"]
     compiled = minds(file for file in named if file not in (*breaks, *bundles))
-    checked = [*_minds(compiled), *_breakpoints(breaks, bundles, compiled, task, master)]
+    checked = [_Checked(file, each.diagnostics, each.readable, bool(each.graph)) for file, each in compiled.items()]
+    checked += [*_breakpoints(breaks, bundles, compiled, task, master)]
     found = distinct(diagnostic for each in checked for diagnostic in each.diagnostics)
     if as_json:
         files_data = [{"file": each.file, "ok": each.is_whole and not each.diagnostics} for each in checked]
@@ -85,13 +86,6 @@ def command(files: tuple[str, ...], task: str | None, master: str | None, as_jso
     else:
         click.echo(f"nothing wrong{in_files(files, named)}", err=True)
     sys.exit(MISUSE if not all(each.is_readable for each in checked) else FINDINGS if found else OK)
-
-
-def _minds(compiled: Mapping[str, Compiled]) -> Iterator[_Checked]:
-    from mindlang.compiler.procedures import mistakes
-
-    for file, each in compiled.items():
-        yield _Checked(file, (*each.diagnostics, *mistakes(each)), each.readable, bool(each.graph))
 
 
 def _breakpoints(

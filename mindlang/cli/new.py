@@ -114,7 +114,7 @@ def _asked_name() -> str:
 
 def _say_what_is_next(name: str, robot: Robot, task: Task) -> None:
     """Which folder was made, and the commands to go on with."""
-    click.echo(f"{name}: a {robot.name} robot for the task {task.name}", err=True)
+    click.echo(f"{name}: a {robot.name} robot, and how it learns to {task.name}", err=True)
     click.echo(f"  cd {name}", err=True)
     click.echo(f"  mindc train {name}.mind --seed 1     # in about a minute", err=True)
     click.echo(f"  mindc run {name}.mind --seed {task.picture_seed} --picture {name}.png", err=True)

@@ -1,7 +1,7 @@
 """The way through: text → File → Mind → Graph, for any input without an exception."""
 
 import sys
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -24,12 +24,20 @@ NO_TEXTS: Mapping[Path, str] = {}
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Compiled(ShortRepr):
-    """What became of a file. `graph` and `mind` are None where the diagnostics hold an error."""
+    """What became of a file. `graph` and `mind` are None where its text has errors.
+
+    What is wrong with the module of a procedure is an error, too, but leaves them: it stands in another file.
+    """
 
     graph: Graph | None
     mind: Mind | None
     diagnostics: tuple[Diagnostic, ...]
     sources: tuple[Source, ...]
+
+    @property
+    def is_valid(self) -> bool:
+        """Whether nothing is wrong; warnings are nothing."""
+        return self.graph is not None and all(each.severity != "error" for each in self.diagnostics)
 
     @property
     def readable(self) -> bool:
@@ -79,7 +87,17 @@ def compile_source(source: Source, path: Path = Path("-"), texts: Mapping[Path, 
     parsed, complete = files(source, path, findings, texts)
     mind = resolve(parsed, findings) if complete else None  # names of a missing file would all seem unknown
     graph = lower(mind) if mind else None
+    if graph and mind:
+        findings.diagnostics += _procedure_mistakes(graph, mind, source.folder)
     return Compiled(graph, mind, _sorted(findings, parsed), tuple(file.source for file in parsed))
+
+
+def _procedure_mistakes(graph: Graph, mind: Mind, folder: Path) -> Iterator[Diagnostic]:
+    """What is wrong with the modules of procedures."""
+    if any(skill.function.calls is not None for skill in graph.skills):  # else nothing of Python's has to be imported
+        from mindlang.compiler.procedures import mistakes
+
+        yield from mistakes(graph.skills, mind, folder)
 
 
 def _sorted(findings: Findings, parsed: list[File]) -> tuple[Diagnostic, ...]:

@@ -1,47 +1,59 @@
 """What the texts of a mind's procedures say of them: whether they can be what the skills need. Nothing is run."""
 
-from collections.abc import Iterator
+import sys
+from collections.abc import Iterable, Iterator
+from importlib.util import find_spec
 from pathlib import Path
 
 from mindrun.errors import ProcedureError
-from mindrun.functions.procedure import module_source
-from mindrun.procedure_text import file_of, fit, imports
-from mindrun.skill_sets import reachable
+from mindrun.graph import Skill
+from mindrun.procedure_source import source_of
+from mindrun.procedure_text import file_of, imports
 
-from mindlang.compiler.compile import Compiled
 from mindlang.compiler.diagnostic import Diagnostic
+from mindlang.compiler.model import Mind
+
+BESIDE_MINDRUN = {"mindrun", "numpy"}  # modules that are wherever a bundle runs, beside those of Python itself
 
 
-def mistakes(compiled: Compiled, master: str | None = None) -> tuple[Diagnostic, ...]:
-    """What is wrong with the procedures of a compiled mind: of all skills, or of those that a master reaches."""
-    if compiled.graph is None or compiled.mind is None:
-        return ()
-    skills = compiled.graph.skills if master is None else reachable(compiled.graph, master)
-    declared = {skill.name: skill.declaration.header for skill in compiled.mind.skills}
-    found = []
+def mistakes(skills: Iterable[Skill], mind: Mind, folder: Path) -> Iterator[Diagnostic]:
+    """What is wrong with the procedures among these skills, whose modules are in a folder.
+
+    That a module of others is not installed here is a warning: it may be on the robot.
+    """
+    declared = {skill.name: skill.declaration.header for skill in mind.skills}
     for skill in skills:
-        if skill.function.calls is not None:
-            try:
-                _check(skill.function.calls, compiled.sources[0].folder, len(skill.inputs), skill.outputs)
-            except ProcedureError as error:
-                header, text = declared[skill.name], str(error)
-                span = header.phrase.span if header.phrase else header.name.span
-                found.append(Diagnostic("faulty-procedure", f"{text[0].upper()}{text[1:]}.", span, error.hint))
-    return tuple(found)
+        if skill.function.calls is None:
+            continue
+        header = declared[skill.name]
+        span = header.phrase.span if header.phrase else header.name.span
+        try:
+            source_of(skill, folder)
+        except ProcedureError as error:
+            text = str(error)
+            yield Diagnostic("faulty-procedure", f"{text[0].upper()}{text[1:]}.", span, error.hint)
+            continue
+        for module, where in needed_modules([skill], folder).items():
+            if not _is_installed(module):
+                message = f"Procedure from {skill.function.calls}: imports {module}, which is not installed here"
+                hint = f"Without it {skill.name} runs neither here nor on a robot: install it on both."
+                yield Diagnostic("faulty-procedure", f"{message} {where}.", span, hint, severity="warning")
 
 
-def _check(calls: str, folder: Path, inputs: int, outputs: int) -> None:
-    source = module_source(calls, folder)
-    fit(calls, source, inputs, outputs)
-    for line, module in _neighbours(source, folder):
-        where = f"({file_of(calls)}, line {line})"
-        message = f"procedure from {calls}: imports {module}, a file that no bundle holds {where}"
-        raise ProcedureError(message, "A module stands alone: write what it needs into it.")
+def needed_modules(skills: Iterable[Skill], folder: Path) -> dict[str, str]:
+    """The modules of others that procedures cannot do without, and where the first import of each stands."""
+    found: dict[str, str] = {}
+    for skill in skills:
+        if (calls := skill.function.calls) is not None:
+            for line, module, may_be_missing in imports(calls, source_of(skill, folder)):
+                top = module.partition(".")[0]
+                if not may_be_missing and top not in sys.stdlib_module_names and top not in BESIDE_MINDRUN:
+                    found.setdefault(top, f"({file_of(calls)}, line {line})")
+    return found
 
 
-def _neighbours(source: str, folder: Path) -> Iterator[tuple[int, str]]:
-    """The lines that import what stands beside the mind, and what that is."""
-    for line, module in imports(source):
-        top = module.partition(".")[0]
-        if not top or (folder / f"{top}.py").is_file() or (folder / top / "__init__.py").is_file():
-            yield line, module
+def _is_installed(module: str) -> bool:
+    try:
+        return find_spec(module) is not None
+    except ValueError:  # what is imported already, and from no file
+        return True

@@ -15,7 +15,7 @@ Floats = NDArray[np.float32]
 Mask = NDArray[np.bool_]
 SEED_COUNT = 1 << 64  # layouts
 REAL_NUMBERS = "biuf"  # kinds of arrays: truth values, whole numbers, others
-MAX_DRAWN_SEED = 1 << 31  # as those that `mindc run` draws: short enough to be written down
+MAX_DRAWN_SEED = 1 << 63  # so many that no two episodes are drawn the same
 
 
 class Episodes:

@@ -8,6 +8,7 @@ from gymnasium.vector import AutoresetMode
 from stable_baselines3.common.vec_env import VecEnv
 
 from mindlang.environments.task_vector_env import TaskVectorEnv
+from mindlang.run.layouts import layouts
 
 Indices = None | int | Iterable[int]
 
@@ -22,6 +23,11 @@ class StableBaselinesEnv(VecEnv):
             )
         self.env = env
         super().__init__(env.num_envs, env.single_observation_space, env.single_action_space)
+
+    def seed(self, seed: int | None = None) -> Sequence[int | None]:
+        """Let the next `reset` begin with a seed: the layout of each robot, as `TaskVectorEnv.reset` has it of one."""
+        self._seeds = [*layouts(super().seed(seed)[0], self.num_envs)]  # theirs are seed + i
+        return self._seeds
 
     def reset(self) -> Any:
         """The first observations."""

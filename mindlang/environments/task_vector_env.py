@@ -19,6 +19,7 @@ from mindlang.environments.image import image_of
 from mindlang.environments.render_modes import refuse_unknown_mode
 from mindlang.environments.task_env import unit_box
 from mindlang.pictures.canvas import Image
+from mindlang.run.layouts import layouts as children
 
 Seeds = SupportsIndex | Sequence[SupportsIndex | None] | NDArray[np.integer] | None
 Step = tuple[Floats, NDArray[np.float64], Mask, Mask, dict[str, Any]]
@@ -27,8 +28,9 @@ Step = tuple[Floats, NDArray[np.float64], Mask, Mask, dict[str, Any]]
 class TaskVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]], EzPickle):
     """`num_envs` episodes of a task: those that as many `TaskEnv`s would have, to the bit.
 
-    `reset(seed=n)` gives robot i the seed n + i. After an episode the next step begins another one and ignores the
-    action ("NextStep"); with `autoreset_mode="SameStep"` the last step does, and `info["final_obs"]` has what was seen.
+    `reset(seed=n)` gives robot i the layout of `mindc run --seed n/i`, from 1 on, which no other seed has. After an
+    episode the next step begins another one and ignores the action ("NextStep"); with `autoreset_mode="SameStep"` the
+    last step does, and `info["final_obs"]` has what was seen.
     """
 
     metadata: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 60}  # noqa: RUF012  # as gymnasium has it
@@ -136,7 +138,7 @@ def _seeds(given: Seeds, count: int) -> list[int | None]:
         case None:
             return [None] * count
         case SupportsIndex():
-            return [index(given) + i for i in range(count)]
+            return [*children(index(given), count)]
         case str() | bytes() | Mapping():
             raise MindError(f"{given!r:.60} is no seed", "a seed is a whole number, 0 or more")
     try:

@@ -1,8 +1,8 @@
 """Processes on this machine, which share its cores."""
 
 from collections.abc import Callable
-from os import sched_getaffinity
 
+from mindrun.cores import cores
 from mindrun.shell_completion import Answer
 from mindrun.work.assignment import Assignment
 from mindrun.work.executor import JobExecutor
@@ -22,14 +22,12 @@ def flaw(argument: str) -> str:
 
 def completed(argument: str) -> list[Answer]:
     """As many as there are cores, and half as many, and half of them."""
-    cores = len(sched_getaffinity(0))
-    counts = [cores >> halved for halved in range(cores.bit_length())]
+    most = cores()
+    counts = [most >> halved for halved in range(most.bit_length())]
     return [Answer(f"{count}", "processes") for count in counts if f"{count}".startswith(argument)]
 
 
 def begin(argument: str, assignment: Assignment, say: Callable[[str], object]) -> JobExecutor:
     """So many processes."""
-    from mindrun.sim.rollout import cores
-
     count = int(argument)
     return local_workers(count, max(1, cores() // count), assignment)

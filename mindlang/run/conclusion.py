@@ -1,7 +1,7 @@
 """What may be said of two minds that ran on the same layouts: a sentence, and no more than its interval says."""
 
 from collections.abc import Mapping
-from math import floor, log10
+from math import ceil, floor, log10
 
 from mindlang.number_format import score
 from mindlang.run.paired_difference import CONFIDENCE_LEVEL, MIN_DIFFERING_RUNS, Difference
@@ -34,7 +34,7 @@ def conclusion(first: str, second: str, task: str, differences: Mapping[str, Dif
     verb, of_what = _words(name)
     return (
         f"{_runs(found.runs)} do not tell {second} from {first}: on layouts of {task}, {second} {verb} from {low} less "
-        f"to {high} more{of_what} on average ({PERCENT} confidence)."
+        f"to {high} more{of_what} on average ({PERCENT} confidence){_unseen(found)}."
     )
 
 
@@ -52,11 +52,16 @@ def _which_does_more(first: str, second: str, task: str, name: str, found: Diffe
     if high < 0:
         better, worse, bounds = first, second, (-high, -low)
     verb, of_what = _words(name)
-    mean, least, most = (amount(name, value, found) for value in (sum(bounds) / 2, *bounds))
+    mean, least, most = (amount(name, value, found) for value in (abs(found.mean or 0.0), *bounds))
     return (
         f"On layouts of {task}, {better} {verb} {mean} more{of_what} than {worse} on average, and with {PERCENT} "
-        f"confidence {least} to {most} more."
+        f"confidence {least} to {most} more{_unseen(found)}."
     )
+
+
+def _unseen(found: Difference) -> str:
+    """What the runs need not have shown."""
+    return f", but for what happens on less than 1 layout in {ceil(1 / found.most_that_differ)}"
 
 
 def _words(name: str) -> tuple[str, str]:

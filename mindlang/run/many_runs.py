@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from time import perf_counter
 from typing import TYPE_CHECKING
 
+from mindrun.cpu_time import cpu_seconds
 from mindrun.run_scores import Scores
 from mindrun.work.blocks import Block, empty_scores, place
 from mindrun.work.job_scorer import JobScorer
@@ -28,3 +30,16 @@ def run_all(
         block = Block(slice(0, 1), slice(first, min(len(seeds), first + SLICE_RUNS)))
         place(block, scorer.score(NO_GENOME, seeds[block.seeds], ran), whole)
     return whole
+
+
+def run_timed(
+    scorer: Rollout | JobScorer, seeds: Sequence[int], ran: Callable[[float], None] = lambda runs: None
+) -> tuple[Scores, float, float]:
+    """A run of each seed, the seconds that all of them took, and those of the processors of this machine.
+
+    The first is made twice before where it may not be the same again, which is in the scorer's notes then.
+    """
+    scorer.make_again(NO_GENOME[0], seeds[0])
+    began, cpu_began = perf_counter(), cpu_seconds()
+    scores = run_all(scorer, seeds, ran)
+    return scores, perf_counter() - began, cpu_seconds() - cpu_began

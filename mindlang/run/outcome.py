@@ -83,11 +83,14 @@ def rewards_data(task: Task, paid: NDArray[np.float64]) -> dict[str, Any]:
     }
 
 
-def bench_data(task: Task, scores: Scores, seeds: Sequence[int], seconds: float) -> dict[str, Any]:
+def bench_data(
+    task: Task, scores: Scores, seeds: Sequence[int], seconds: float, cpu_seconds: float | None = None
+) -> dict[str, Any]:
     """All runs of one genome; the best and the worst run are named by their number, from 1 on, and seed.
 
     A `std` is that of the sample, how far single runs are apart; a `standard_error` how far the mean may be off. One
-    run knows neither, and where nothing is counted there is no count: None.
+    run knows neither, and where nothing is counted there is no count: None. Of the `cpu_seconds` of all processors
+    nobody may know.
     """
     totals, ticks = scores.total[0], int(scores.ticks.sum())
     happened, ended = events(task), Counter(scores.ended_by[0].tolist())
@@ -109,6 +112,8 @@ def bench_data(task: Task, scores: Scores, seeds: Sequence[int], seconds: float)
         "ticks": ticks,
         "seconds": round(seconds, 3),
         "ticks_per_second": round(ticks / max(seconds, 1e-9)),
+        "cpu_seconds": None if cpu_seconds is None else round(cpu_seconds, 3),
+        "ticks_per_cpu_second": None if cpu_seconds is None else round(ticks / max(cpu_seconds, 1e-3)),
     }
 
 

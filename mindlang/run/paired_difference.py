@@ -1,12 +1,18 @@
 """How much two minds differ over runs that began on the same layouts, and what that says of all layouts.
 
 Runs on one layout share what is easy or hard about it, so the difference of each pair varies less than two means do.
-The interval is Student's for the mean of the differences d of n runs, mean ± t · std(d) / √n, and never narrower than
-what layouts can do of which no run is an example. With 95 % confidence these are no more than the share 1 − 0.05^(1/n)
-of all; on them two minds that nearly agree elsewhere can differ as scores do from layout to layout: mean ± share · σ.
+The interval is Student's for the mean of the differences d of n runs, mean ± t · std(d) / √n, but
+
+- where they are skewed it goes as far to either side as that of Hall (1992), who takes the skewness out of t;
+- to neither side it ends before what layouts can do of which no run is an example. With 95 % confidence these are no
+  more than the share 1 − 0.05^(1/n) of all; on them either mind can be as far from the mean as any score that was
+  seen, at the distance D: mean ± share · D.
+
+What no score has shown, it does not contain: layouts rarer than one in 1 / share that bring more than any run did.
 """
 
 from dataclasses import asdict, dataclass
+from functools import cache
 from math import atan, ceil, exp, isfinite, lgamma, log, pi, sqrt
 
 import numpy as np
@@ -17,6 +23,8 @@ NORMAL_TWO_SIDED, NORMAL_POWER = 1.9600, 0.8416  # quantiles of the normal distr
 MIN_DIFFERING_RUNS = 10  # runs: with fewer, the mean of the differences is far from normal
 MAX_RUNS = 10_000_000  # that `mindc bench` takes
 MAX_QUANTILE, QUADRATURE_NODES, MAX_BISECTIONS = 13.0, 64, 60
+REACH_OF_OTHER_RUNS = 1.2  # times as far as those that were seen
+BEND_TOLERANCE = 1e-9  # from which on skewness bends an interval
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,7 +32,8 @@ class Difference:
     """The second less the first, over `runs` pairs, of which in `more` it was more, in `less` less, in `equal` neither.
 
     `low` to `high` is the 95 % confidence interval of the mean; None where fewer than MIN_DIFFERING_RUNS pairs differ.
-    It is never narrower than `unseen` to both sides: what layouts without an example could do to the mean.
+    It is never narrower than `unseen` to both sides: what the `unseen_share` of layouts, of which no run need be an
+    example, could do to the mean within the scores that were seen.
     `detectable` is the difference that so many runs would tell from 0 four times in five, and `runs_to_tell` how many
     it would take if the true difference were `mean`; None beyond MAX_RUNS. All are None where a figure is not finite,
     in `not_finite` pairs.
@@ -41,6 +50,7 @@ class Difference:
     low: float | None = None
     high: float | None = None
     unseen: float | None = None
+    unseen_share: float | None = None
     detectable: float | None = None
     runs_to_tell: int | None = None
 
@@ -62,7 +72,9 @@ class Difference:
     @property
     def is_widened(self) -> bool:
         """Whether layouts without an example make the interval as wide as it is."""
-        return self.high is not None and self.unseen is not None and self.high == (self.mean or 0.0) + self.unseen
+        if self.mean is None or self.unseen is None:
+            return False
+        return self.low == self.mean - self.unseen or self.high == self.mean + self.unseen
 
     def data(self) -> dict[str, float | int | None]:
         """As plain data."""
@@ -85,13 +97,36 @@ def difference(first: NDArray[np.float64], second: NDArray[np.float64]) -> Diffe
     error = std / sqrt(runs)
     if counts[1] + counts[2] < MIN_DIFFERING_RUNS:
         return Difference(*counts, mean, std, error)
-    spread = sqrt((float(np.var(first)) + float(np.var(second))) / 2)
-    unseen = unseen_share(runs) * spread
-    half = max(t_quantile(runs - 1) * error, unseen)
+    farthest = _farthest(first, second)
+    share = unseen_share(runs)
+    unseen = share * farthest
+    below, above = _sides(each, mean, std)
+    low, high = mean - max(below, unseen), mean + max(above, unseen)
     detectable = max(NORMAL_TWO_SIDED * error, unseen) + NORMAL_POWER * error
-    return Difference(
-        *counts, mean, std, error, mean - half, mean + half, unseen, detectable, _runs_to_tell(abs(mean), std, spread)
-    )
+    needed = _runs_to_tell(abs(mean), std, farthest)
+    return Difference(*counts, mean, std, error, low, high, unseen, share, detectable, needed)
+
+
+def _sides(each: NDArray[np.float64], mean: float, std: float) -> tuple[float, float]:
+    """How far below and above the mean of differences of this std the interval reaches, for what the runs show.
+
+    Of the skewness γ: t' = t + a t² + a² t³ / 3 + a / 2, a = γ / (3 √n), whose inverse is in closed form.
+    """
+    runs = len(each)
+    half, error = t_quantile(runs - 1), std / sqrt(runs)
+    scale = float(np.sqrt(np.mean((each - mean) ** 2)))
+    bend = float(np.mean(((each - mean) / scale) ** 3)) / (3 * sqrt(runs)) if scale else 0.0
+    if abs(bend) < BEND_TOLERANCE:
+        return half * error, half * error
+    ends = [float(np.cbrt(1 + 3 * bend * (end - bend / 2)) - 1) / bend for end in (half, -half)]
+    return max(half, ends[0]) * error, max(half, -ends[1]) * error
+
+
+def _farthest(first: NDArray[np.float64], second: NDArray[np.float64]) -> float:
+    """How far any run of both minds is from the mean of either."""
+    means = float(first.mean()), float(second.mean())
+    most, least = max(first.max(), second.max()), min(first.min(), second.min())
+    return float(max(most - min(means), max(means) - least))
 
 
 def unseen_share(runs: int) -> float:
@@ -99,6 +134,7 @@ def unseen_share(runs: int) -> float:
     return float(1 - (1 - CONFIDENCE_LEVEL) ** (1 / runs))
 
 
+@cache
 def t_quantile(degrees: int) -> float:
     """How many standard errors to both sides of a mean are 95 % of Student's distribution with so many degrees ν.
 
@@ -115,14 +151,14 @@ def t_quantile(degrees: int) -> float:
     return (low + high) / 2
 
 
-def _runs_to_tell(mean: float, std: float, spread: float) -> int | None:
+def _runs_to_tell(mean: float, std: float, farthest: float) -> int | None:
     """How many runs it takes until the mean is as far from 0 as half the interval and what 80 % of the means vary.
 
     The share without an example is at most −ln(0.05) / n: a quadratic equation in 1 / √n.
     """
     if not mean:
         return None
-    unseen, varies = -log(1 - CONFIDENCE_LEVEL) * spread, NORMAL_POWER * std
+    unseen, varies = -log(1 - CONFIDENCE_LEVEL) * REACH_OF_OTHER_RUNS * farthest, NORMAL_POWER * std
     roots = [(NORMAL_TWO_SIDED + NORMAL_POWER) * std / mean]
     roots.append((varies + sqrt(varies**2 + 4 * unseen * mean)) / (2 * mean))
     runs = max(roots) ** 2

@@ -8,6 +8,7 @@ from rich.text import Text
 
 from mindlang.number_format import duration, rate, score
 from mindlang.run.outcome import TIME
+from mindlang.run.paired_difference import unseen_share
 
 
 def run_summary(found: dict[str, Any]) -> RenderableType:
@@ -38,16 +39,22 @@ def bench_summary(found: dict[str, Any]) -> RenderableType:
     facts = _facts(
         ("runs", f"{runs} from seed {found['seed']}{error}"),
         *_counted({event: f"{_mean(spread, '')}   " for event, spread in found["by_event"].items()}),
-        ("success", _share(found["success"]) if "success" in found else ""),
+        ("success", _share(found["success"], runs) if "success" in found else ""),
         ("score", _mean(found, "score_")),
         ("run time", f"{found['runtime_mean']:.1%} of the task's ticks"),
         ("ended by", ended),
         ("best run", f"seed {best}: mindc run --seed {best} repeats it"),
         ("worst run", f"seed {found['seed']}/{found['worst_run']}"),
-        ("speed", f"{rate(found['ticks_per_second'])} {who}, in {duration(found['seconds'])}"),
+        ("speed", f"{_rate(found)} {who}, in {duration(found['seconds'])}"),
         ("faults", _faults(found)),
     )
     return Group(_title(found), facts)
+
+
+def _rate(found: dict[str, Any]) -> str:
+    """Of a second of a processor, which says the same on a busy machine; where it is not known, of a clock's."""
+    cpu = found["ticks_per_cpu_second"]
+    return rate(found["ticks_per_second"]) if cpu is None else rate(cpu, "CPU second")
 
 
 def _title(found: dict[str, Any]) -> Text:
@@ -59,9 +66,13 @@ def _mean(found: dict[str, Any], of: str) -> str:
     return score(found[f"{of}mean"]) + (f" ± {error:.2f}" if error is not None else "")
 
 
-def _share(found: dict[str, Any]) -> str:
-    error = found["standard_error"]
-    return f"{found['mean']:.1%}" + (f" ± {error:.1%}" if error is not None else "") + " of the runs"
+def _share(found: dict[str, Any], runs: int) -> str:
+    """A share of the runs; where it is all or none, which of all layouts that may be true of instead of ± 0."""
+    error, mean, unseen = found["standard_error"], found["mean"], unseen_share(runs)
+    if error == 0:
+        bound = f"at least {1 - unseen:.1%}" if mean else f"at most {unseen:.1%}"
+        return f"{mean:.1%} of the runs, {bound} of all layouts (95 % confidence)"
+    return f"{mean:.1%}" + (f" ± {error:.1%}" if error is not None else "") + " of the runs"
 
 
 def _counted(counts: dict[str, str]) -> list[tuple[str, str]]:

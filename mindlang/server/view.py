@@ -54,13 +54,12 @@ class MindView:
     @cached_property
     def findings(self) -> tuple[Diagnostic, ...]:
         """What is wrong, and where nothing is, what is hardly meant; a damaged lock is a finding, too."""
-        from mindlang.compiler.procedures import mistakes
         from mindlang.linting.lint import lint
         from mindlang.linting.settings_file import settings_of
 
         settings = settings_of(self.main)
         try:
-            found = (*lint(self.compiled, settings.codes(self.main)), *mistakes(self.compiled))
+            found = lint(self.compiled, settings.codes(self.main))
             return (*map(self._in_first_line, settings.wrong), *found)
         except MindError as error:
             where = Span(self.compiled.sources[0], 0, 0)

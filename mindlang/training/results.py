@@ -68,9 +68,11 @@ def closing(result: Result) -> str:
     generations = "1 generation" if result["bred"] == 1 else f"{result['bred']} generations"
     if result["attempts"] > 1:
         generations += f" in {result['attempts']} attempts"
+    cpu = result.get("ticks_per_cpu_second")
+    speed = rate(result["ticks_per_second"]) if cpu is None else rate(cpu, "CPU second")
     return (
         f"{result['skill']} has learnt: {number(result['reevaluated'])} on fresh layouts after "
-        f"{generations}, in {duration(result['seconds'])} at {rate(result['ticks_per_second'])}"
+        f"{generations}, in {duration(result['seconds'])} at {speed}"
     )
 
 

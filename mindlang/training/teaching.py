@@ -1,6 +1,6 @@
 """The beginning and the end of a run of a lesson: what scores its genomes, and what becomes of what was learnt."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 
@@ -15,6 +15,7 @@ from mindrun.train.lesson_state import Course, LessonState, is_over
 from mindrun.train.population import founder_count
 from mindrun.train.run_folder import RunFolder, keep_result, read_result
 from mindrun.train.scoring import Scorer
+from mindrun.train.seeds import breeding_generator, layouts
 from mindrun.train.stretch_threads import StretchThreads
 from mindrun.train.training import Watch, train
 from mindrun.work import WorkError
@@ -55,6 +56,13 @@ def rollout_of(run: RunFolder, subject: Subject, workers: int) -> Rollout:
     refuse_too_large(rollout.on(-(-rollout.workers // side_by_side)), first, learner.layouts, side_by_side)
     refuse_too_long(rollout, (first + learner.population * (lesson.generations - 1)) * learner.layouts)
     return rollout
+
+
+def make_again(run: RunFolder, rollout: Rollout) -> None:
+    """Make a run of a first genome twice; what is not the same again is in the rollout's `notes`."""
+    seed = run.manifest.seed
+    [genome] = rollout.draw(1, breeding_generator(seed, 0, 0))
+    rollout.make_again(genome, int(layouts(seed, 0, 0, 1)[0]))
 
 
 def assignment_of(run: RunFolder, subject: Subject) -> Assignment:
@@ -129,19 +137,26 @@ def teach(run: RunFolder, subject: Subject, workers: int, watch: Watch, where: W
     if (result := read_result(run.folder)) is not None:
         return result
     rollout = rollout_of(run, subject, workers)
+    make_again(run, rollout)
+    for note in rollout.notes:
+        watch.warn(note)
     processes = workers if workers > 1 else 0  # what was registered in this one is not known in others
     with workers_of(run, subject, rollout, where, processes, watch.warn, watch.clock) as (scorer, executor):
         state = train(run, scorer, watch, executor)
-        return finish(run, subject, state, scorer, force=False).result if has_ended(run, state) else None
+        return finish(run, subject, state, scorer, False, rollout.notes).result if has_ended(run, state) else None
 
 
-def finish(run: RunFolder, subject: Subject, state: LessonState, scorer: Scorer, force: bool) -> TeachingResult:
+def finish(
+    run: RunFolder, subject: Subject, state: LessonState, scorer: Scorer, force: bool, notes: Sequence[str] = ()
+) -> TeachingResult:
     """Put what a run has taught into the lock, unless what is there does better; with `force` even then.
+
+    The result has the `notes`.
 
     MindError where nothing was learnt, or the lock is damaged.
     """
     kept = keep(run, subject, state, scorer, force)
-    result = result_of(run, subject, state, kept)
+    result = result_of(run, subject, state, kept) | {"notes": [*notes]}
     keep_result(run.folder, result)
     return TeachingResult(result, kept)
 

@@ -8,9 +8,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from mindrun.errors import MindError, ReadingsError
 from mindrun.functions.function import Stateful
-from mindrun.functions.procedure import module_source
 from mindrun.graph import Graph
 from mindrun.policy import Policy
+from mindrun.procedure_source import source_of
 from mindrun.procedure_text import module_of
 from mindrun.think import Thought, hierarchy, think
 from mindrun.virtual_sensors import virtual_sensors
@@ -18,9 +18,12 @@ from mindrun.weights import reachable
 
 
 def procedure_sources(graph: Graph, folder: Path, master: str | None = None) -> dict[str, str]:
-    """The text of each module that the skills below `master` (default: the mind's) call, by dotted name."""
-    functions = [skill.function for skill in reachable(graph, master or graph.master)]
-    return {module_of(f.calls): module_source(f.calls, folder) for f in functions if f.calls is not None}
+    """The text of each module that the skills below `master` (default: the mind's) call, by dotted name.
+
+    ProcedureError where one cannot be what its skill needs (`source_of`).
+    """
+    skills = reachable(graph, master or graph.master)
+    return {module_of(calls): source_of(s, folder) for s in skills if (calls := s.function.calls) is not None}
 
 
 class Engine:

@@ -9,12 +9,12 @@ from dataclasses import dataclass
 from functools import lru_cache
 from warnings import catch_warnings
 
+from mindrun import procedure_use as use
 from mindrun.errors import ProcedureError
 
-DRAWN = "random.", "secrets.", "numpy.random."  # of modules whose numbers are other ones in every run
-SEEDED = {"Random", "default_rng", "SeedSequence", "PCG64", "MT19937", "Philox", "SFC64", "Generator", "RandomState"}
 BLOCKS = ast.If | ast.Try | ast.With | ast.For | ast.While
 FUNCTIONS = ast.FunctionDef | ast.AsyncFunctionDef
+STANDS_ALONE = "A module stands alone: write what it needs into it."
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,12 +40,13 @@ def file_of(from_: str) -> str:
     return f"{from_.rpartition('.')[0].replace('.', '/')}.py"
 
 
+@lru_cache(16)
 def examine(from_: str, source: str) -> Shape | None:
     """What the function is, None where only running could tell; ProcedureError where it can be none."""
     try:
         return _examined(from_, source)
     except RecursionError:
-        raise _fault(from_, "its module is nested too deep") from None
+        raise fault(from_, "its module is nested too deep") from None
 
 
 def _examined(from_: str, source: str) -> Shape | None:
@@ -53,19 +54,21 @@ def _examined(from_: str, source: str) -> Shape | None:
     functions = [node for node in _statements(tree.body) if isinstance(node, FUNCTIONS) and node.name == name]
     given = _given(tree)
     if not functions and not given & {name, "*"}:
-        raise _fault(from_, "its module has no such function")
-    for line, drawn in _drawn(tree):
+        raise fault(from_, "its module has no such function")
+    for line, drawn in use.drawn(tree):
         hint = "Draw from a generator of its own, with a seed: random.Random(1). Each run then begins with it anew."
-        raise _fault(from_, f"its module draws from {drawn}, so no run could be made again", line, hint)
+        raise fault(from_, f"its module draws from {drawn}, so no run could be made again", line, hint)
+    for line, by in use.opened(tree):
+        raise fault(from_, f"its module looks for a file with {by}, and no bundle holds one", line, STANDS_ALONE)
     if len(functions) != 1 or name in given:
         return None
     [function] = functions
     inside = list(_own(function))
     if isinstance(function, ast.AsyncFunctionDef):
         hint = f"Write def {name} without async."
-        raise _fault(from_, "is async, and a procedure answers at once", function.lineno, hint)
+        raise fault(from_, "is async, and a procedure answers at once", function.lineno, hint)
     if any(isinstance(node, ast.Yield | ast.YieldFrom) for node in inside):
-        raise _fault(from_, "yields, and a procedure returns", function.lineno, "Write return instead of yield.")
+        raise fault(from_, "yields, and a procedure returns", function.lineno, "Write return instead of yield.")
     return None if function.decorator_list else _shape(function, inside)
 
 
@@ -81,25 +84,26 @@ def fit(from_: str, source: str, inputs: int, outputs: int) -> None:
         hint = (
             "Each reading is an argument of its own, those of a wide sensor one after the other; *readings takes all."
         )
-        raise _fault(from_, message, shape.line, hint)
+        raise fault(from_, message, shape.line, hint)
     for line, count in shape.returned:
         if count != outputs:
             message = f"returns {count} values, and the skill needs {outputs}"
             hint = "Return one number for each line drives or influences without at, in their order."
-            raise _fault(from_, message, line, hint)
+            raise fault(from_, message, line, hint)
 
 
-def imports(source: str) -> Iterator[tuple[int, str]]:
-    """The lines of a text that import, and the modules; what is relative begins with a dot."""
-    for node in ast.walk(_parsed(".", source)):
-        match node:
-            case ast.Import(names=names):
-                yield from ((node.lineno, alias.name) for alias in names)
-            case ast.ImportFrom(module=module, level=level):
-                yield node.lineno, "." * level + (module or "")
+def imports(from_: str, source: str) -> Iterator[tuple[int, str, bool]]:
+    """Each line that imports, the module (what is relative begins with a dot), and whether it may be missing."""
+    return use.imports(_parsed(from_, source))
 
 
-def _fault(from_: str, message: str, line: int = 0, hint: str = "") -> ProcedureError:
+def texts(from_: str, source: str) -> Iterator[tuple[int, str]]:
+    """The texts in a module and their lines, without docstrings and the names of what is only written."""
+    return use.texts(_parsed(from_, source))
+
+
+def fault(from_: str, message: str, line: int = 0, hint: str = "") -> ProcedureError:
+    """What is wrong with a procedure, with the file and the line."""
     where = f" ({file_of(from_)}, line {line})" if line else ""
     return ProcedureError(f"procedure from {from_}: {message}{where}", hint)
 
@@ -111,9 +115,9 @@ def _parsed(from_: str, source: str) -> ast.Module:
             compile(source, file_of(from_), "exec")  # finds more than the parser does: return outside of a function
             return ast.parse(source)
     except SyntaxError as error:
-        raise _fault(from_, f"SyntaxError: {error.msg}", error.lineno or 1) from error
+        raise fault(from_, f"SyntaxError: {error.msg}", error.lineno or 1) from error
     except (ValueError, RecursionError, MemoryError) as error:
-        raise _fault(from_, f"it is no Python that can be read: {error or 'nested too deep'}") from error
+        raise fault(from_, f"it is no Python that can be read: {error or 'nested too deep'}") from error
 
 
 def _statements(body: list[ast.stmt]) -> Iterator[ast.stmt]:
@@ -162,43 +166,3 @@ def _shape(function: ast.FunctionDef, inside: list[ast.AST]) -> Shape:
     if not any(isinstance(node, ast.Return | ast.Raise) for node in inside):
         returned.append((function.lineno, 0))
     return Shape(plain - len(given.defaults), None if given.vararg else plain, tuple(returned), function.lineno)
-
-
-def _drawn(tree: ast.Module) -> Iterator[tuple[int, str]]:
-    """Lines that use numbers drawn at random, from no generator with a seed, and what they use."""
-    known = _imported(tree)
-    for node in ast.walk(tree):
-        match node:
-            case ast.Attribute() | ast.Name(ctx=ast.Load()):
-                path = _path(node, known)
-                if path.startswith(DRAWN) and path.rpartition(".")[2] not in SEEDED:
-                    yield node.lineno, path
-            case ast.Call(func=func, args=[], keywords=[]):
-                path = _path(func, known)
-                if path.startswith(DRAWN) and path.rpartition(".")[2] in SEEDED:
-                    yield node.lineno, f"{path} without a seed"
-
-
-def _imported(tree: ast.Module) -> dict[str, str]:
-    """Names in the text, and the modules, or what of them, that they stand for."""
-    known: dict[str, str] = {}
-    for node in ast.walk(tree):
-        match node:
-            case ast.Import(names=aliases):
-                for alias in aliases:
-                    top = alias.name.split(".")[0]
-                    known[alias.asname or top] = alias.name if alias.asname else top
-            case ast.ImportFrom(module=str(module), names=aliases, level=0):
-                known |= {alias.asname or alias.name: f"{module}.{alias.name}" for alias in aliases}
-    return known
-
-
-def _path(node: ast.expr, known: dict[str, str]) -> str:
-    """The dotted name of what an expression stands for, where it is a module's."""
-    parts = []
-    while isinstance(node, ast.Attribute):
-        parts.append(node.attr)
-        node = node.value
-    if isinstance(node, ast.Name) and node.id in known:
-        return ".".join([known[node.id], *reversed(parts)])
-    return ""

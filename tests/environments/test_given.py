@@ -15,6 +15,7 @@ pytest.importorskip("gymnasium")
 
 from mindlang.environments import TaskEnv, TaskVectorEnv
 from mindlang.environments.episodes import numbers
+from mindlang.run.layouts import layouts
 
 
 @pytest.fixture(scope="module")
@@ -40,20 +41,20 @@ def test_numbers_of_numpy_are_numbers_of_robots(roam: Path, count: Any) -> None:
 
 
 LAYOUTS = {
-    "one": (4, [4, 5, 6]),
-    "numpy": (np.int64(4), [4, 5, 6]),
+    "one": (4, layouts(4, 3)),
+    "numpy": (np.int64(4), layouts(4, 3)),
     "array": (np.array([7, 8, 9]), [7, 8, 9]),
     "unsigned": (np.array([7, 2**64 - 1, 2**63], np.uint64), [7, 2**64 - 1, 2**63]),
     "tuple": ((1, np.uint8(2), 3), [1, 2, 3]),
-    "large": (2**64 - 2, [2**64 - 2, 2**64 - 1, 0]),
+    "large": (2**63 - 1, layouts(2**63 - 1, 3)),
 }
 
 
 @pytest.mark.parametrize("case", LAYOUTS)
 def test_seeds_of_any_kind_of_whole_number(many: TaskVectorEnv, case: str) -> None:
-    seed, layouts = LAYOUTS[case]
+    seed, right = LAYOUTS[case]
     _, info = many.reset(seed=seed)
-    assert [int(layout) for layout in info["layout"]] == layouts
+    assert [int(layout) for layout in info["layout"]] == right
 
 
 @pytest.mark.parametrize("mode", ["NextStep", "SameStep"])
@@ -61,16 +62,16 @@ def test_a_layout_beyond_63_bits_is_said_when_it_ends(roam: Path, tmp_path: Path
     short = tmp_path / "short.mind"
     short.write_text(roam.read_text("utf-8").replace("lasts 600 ticks", "lasts 2 ticks"), "utf-8")
     env = TaskVectorEnv(short, "Roam", num_envs=2, autoreset_mode=mode)
-    env.reset(seed=2**64 - 2)
+    env.reset(seed=[2**64 - 2, 2**64 - 1])
     env.step(np.zeros((2, 2), np.float32))
     info = env.step(np.zeros((2, 2), np.float32))[4]
     ended = info["final_info"] if mode == "SameStep" else info
     assert [int(layout) for layout in ended["layout"]] == [2**64 - 2, 2**64 - 1]
 
 
-@pytest.mark.parametrize("seed", ["abc", b"abc", 1.5, [1, 2, "x"], [1, 2, 3.5], {1: 2}, [1, 2]])
+@pytest.mark.parametrize("seed", ["abc", b"abc", -1, 2**63, 1.5, [1, 2, "x"], [1, 2, 3.5], {1: 2}, [1, 2]])
 def test_what_is_no_seed(many: TaskVectorEnv, seed: Any) -> None:
-    with pytest.raises(MindError, match=r"no seed|2 seeds for 3 robots"):
+    with pytest.raises(MindError, match=r"no seed|seed cannot be|2 seeds for 3 robots"):
         many.reset(seed=seed)
     many.reset(seed=1)
 

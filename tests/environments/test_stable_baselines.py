@@ -16,6 +16,7 @@ from stable_baselines3.common.env_checker import check_env
 from stable_baselines3.common.vec_env import DummyVecEnv
 
 from mindlang.environments import StableBaselinesEnv, TaskEnv, TaskVectorEnv
+from mindlang.run.layouts import layouts
 
 
 @pytest.fixture
@@ -29,8 +30,8 @@ def many(roam: Path, mode: str = "SameStep") -> TaskVectorEnv:
 
 def test_it_does_what_theirs_does(roam: Path) -> None:
     theirs, ours = DummyVecEnv([partial(TaskEnv, roam, "Roam")] * 3), StableBaselinesEnv(many(roam))
-    for each in (theirs, ours):
-        each.seed(4)
+    assert ours.seed(4) == layouts(4, 3)
+    theirs._seeds = layouts(4, 3)  # theirs would begin with 4, 5, 6
     assert np.array_equal(theirs.reset(), ours.reset())
     assert theirs.reset_infos == ours.reset_infos
     rng, ended = np.random.default_rng(1), 0

@@ -3,9 +3,12 @@
 import pickle
 from functools import partial
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from mindrun.errors import MindError
 
 from tests.calling import write_rules
@@ -16,6 +19,7 @@ from gymnasium.error import ResetNeeded  # noqa: E402
 from gymnasium.vector import AutoresetMode, SyncVectorEnv  # noqa: E402
 
 from mindlang.environments import TaskEnv, TaskVectorEnv, register  # noqa: E402
+from mindlang.run.layouts import layouts  # noqa: E402
 
 ROBOTS, TICKS = 5, 700  # several episodes of up to 200 ticks
 
@@ -53,7 +57,7 @@ def test_it_is_as_many_single_ones(roam: Path, mode: str, skill: str | None) -> 
     assert ours.metadata["autoreset_mode"] == theirs.metadata["autoreset_mode"] == AutoresetMode(mode)
     assert ours.observation_space == theirs.observation_space
     assert ours.action_space == theirs.action_space
-    for mine, other in zip(ours.reset(seed=9), theirs.reset(seed=9), strict=True):
+    for mine, other in zip(ours.reset(seed=[*range(9, 9 + ROBOTS)]), theirs.reset(seed=9), strict=True):
         assert_same(mine, other)
     rng, ended = np.random.default_rng(3), np.zeros(2, int)
     for _ in range(TICKS):
@@ -65,6 +69,24 @@ def test_it_is_as_many_single_ones(roam: Path, mode: str, skill: str | None) -> 
     assert (ended > 0).all(), ended
     for mine, other in zip(ours.reset(), theirs.reset(), strict=True):
         assert_same(mine, other)
+
+
+@settings(max_examples=10)
+@given(st.lists(st.integers(0, 2**63 - 1) | st.integers(0, 5), min_size=2, max_size=3, unique=True))
+def test_two_seeds_have_no_layout_in_common(seeds: list[int]) -> None:
+    """Neither neighbours nor any others, now or in the episodes that follow."""
+    with TemporaryDirectory() as folder:
+        short = write_rules(Path(folder))
+        short.write_text(short.read_text("utf-8").replace("lasts 600 ticks", "lasts 1 ticks"), "utf-8")
+        env, all_begun = TaskVectorEnv(short, "Roam", num_envs=ROBOTS), []
+        for seed in seeds:
+            begun = [*env.reset(seed=seed)[1]["layout"].tolist()]
+            assert begun == layouts(seed, ROBOTS)
+            for _ in range(40):
+                infos = env.step(np.full((ROBOTS, 2), 0.5, np.float32))[4]
+                begun += infos["layout"][infos["_layout"]].tolist()
+            all_begun += [*dict.fromkeys(begun)]
+        assert len(all_begun) == len({*all_begun}) > 20 * ROBOTS * len(seeds)
 
 
 def test_gymnasium_makes_it(roam: Path) -> None:

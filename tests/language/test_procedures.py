@@ -1,11 +1,14 @@
-"""What is said of procedures from their text: by check and build, before anything runs."""
+"""What is said of procedures from their text: by every door alike, before anything runs."""
 
+import json
 from pathlib import Path
 
 import pytest
 from mindrun.errors import ProcedureError
 from mindrun.procedure_text import fit
 
+import mindlang
+from mindlang.server.view import view
 from tests.calling import RULES, Call
 
 CALLING = RULES.replace("skill Turn is rule", "skill Turn is procedure from turning.turn\n  reads feeler").replace(
@@ -27,6 +30,15 @@ WRONG = {
     "import random\ndef turn(a, b, c): return random.random(), 2": "draws from random.random",
     "from numpy.random import rand as r\ndef turn(a, b, c): return r(), 2": "draws from numpy.random.rand",
     "import numpy as np\ndef turn(a, b, c): return np.random.default_rng().random(), 2": "default_rng without a seed",
+    "import importlib\nx = importlib.import_module('rules')\ndef turn(a, b, c): return 1, 2": "imports rules, a file",
+    "x = open('none')\ndef turn(a, b, c): return 1, 2": "looks for a file with open, and no bundle holds one",
+    "def turn(a, b, c):\n  with open(mode='r+', file=a): return 1, 2": "looks for a file with open",
+    "import numpy as n\nW = n.load('w.npy')\ndef turn(a, b, c): return 1, 2": "looks for a file with numpy.load",
+    "from torch.jit import load as l\nW = l('w')\ndef turn(a, b, c): return 1, 2": "a file with torch.jit.load",
+    "from pathlib import Path\nW = Path('w').read_text()\ndef turn(a, b, c): return 1, 2": "a file with read_text",
+    "import pathlib\ndef turn(a, b, c):\n  with a.open(): return 1, 2": "looks for a file with open",
+    "HERE = __file__\ndef turn(a, b, c): return 1, 2": "looks for a file with __file__",
+    "import cv2\nN = cv2.dnn.Net(model='policy.onnx')\ndef turn(a, b, c): return 1, 2": "names policy.onnx, a file",
     "x = " + "(" * 1000 + ")" * 1000: "",
     "\0": "",
 }
@@ -38,29 +50,78 @@ FINE = (
     "def turn(*given): return list(given)[:2]",
     "import random\nDICE = random.Random(3)\ndef turn(a, b, c): return DICE.random(), 1",
     "if True:\n    def turn(a, b, c): return 1, 2\nelse:\n    def turn(a): return 1",
+    "'policy.onnx'\ndef turn(a, b, c):\n    'policy.onnx'\n    return len('policy.mind'), 2",
+    "def open(a): return a\ndef turn(a, b, c): return open(a), 2",
+    "import json, io, numpy\nW = numpy.load(io.BytesIO(b''))\nX = json.loads('1')\ndef turn(a, b, c): return 1, 2",
+    "def turn(a, b, c):\n    with open('policy.onnx', 'w') as log: log.write('a')\n    return 1, 2",
+    "try:\n    import cv2_of_the_robot\nexcept ImportError:\n    cv2 = None\ndef turn(a, b, c): return 1, 2",
     "def turn(a, b, c):\n    def inner(): return 1, 2, 3\n    return inner()[:2]",
 )
 
 
-@pytest.mark.parametrize("source", WRONG)
-def test_check_and_build_say_what_is_wrong(mindc: Call, tmp_path: Path, source: str) -> None:
+@pytest.fixture
+def calling(tmp_path: Path) -> Path:
     (tmp_path / "calling.mind").write_text(CALLING)
     (tmp_path / "rules.py").touch()
-    (tmp_path / "turning.py").write_text(source)
-    checked = mindc("check", tmp_path / "calling.mind")
-    built = mindc("build", tmp_path / "calling.mind", "-o", tmp_path / "x.bundle", "--master", "Turn")
-    for said in (checked, built):
-        assert said.code == 1
-        assert "[faulty-procedure]" in said.err
-        assert WRONG[source] in said.err
-    assert not (tmp_path / "x.bundle").exists()
+    (tmp_path / "policy.onnx").touch()
+    return tmp_path / "calling.mind"
+
+
+@pytest.mark.parametrize("source", WRONG)
+def test_every_door_says_what_is_wrong(mindc: Call, calling: Path, source: str) -> None:
+    (calling.parent / "turning.py").write_text(source)
+    bundle = calling.parent / "x.bundle"
+    for words in (["check"], ["lint"], ["build", "-o", bundle, "--master", "Turn"]):
+        done = mindc(words[0], calling, *words[1:])
+        assert done.code == 1
+        assert "[faulty-procedure]" in done.out + done.err
+        assert WRONG[source] in done.out + done.err
+    assert not bundle.exists()
+    mind = mindlang.load(calling)
+    assert not mind.is_valid
+    for found in (mind.diagnostics, view(calling, {}).findings):
+        [fault] = [each for each in found if each.code == "faulty-procedure"]
+        assert fault.severity == "error"
+        assert WRONG[source] in fault.message
+    ran = mindc("run", calling, "--task", "Roam", "--master", "Turn")
+    assert ran.code == 2
+    assert WRONG[source] in ran.err
+    with pytest.raises(ProcedureError):
+        mind.engine("Turn")
+
+
+def test_what_another_skill_calls_is_in_nobodys_way(mindc: Call, calling: Path) -> None:
+    """A hierarchy can be shown and edited before its module is written, and others of its skills are built."""
+    assert mindc("show", calling).code == 0
+    assert mindc("edit", "rename", calling, "Turn", "Swing", "--noun", "skill").code == 0
+    assert mindc("build", calling, "-o", calling.parent / "x.bundle", "--master", "Chase").code == 0
+
+
+def test_what_the_robot_needs_is_said(mindc: Call, calling: Path) -> None:
+    """Of modules that are not here it is said everywhere, and nothing is refused: they may be on the robot."""
+    text = "import {}\nimport numpy, json\n" + RIGHT
+    bundle = calling.parent / "x.bundle"
+    build = "build", calling, "-o", bundle, "--master", "Turn"
+    (calling.parent / "turning.py").write_text(text.format("hypothesis.strategies as st"))
+    assert mindc("check", calling).code == 0
+    note = "the robot needs {} (turning.py, line 1), which no bundle holds"
+    assert note.format("hypothesis") in mindc(*build).err
+    (calling.parent / "turning.py").write_text(text.format("eyes_of_the_robot"))
+    missing = "imports eyes_of_the_robot, which is not installed here (turning.py, line 1)"
+    assert missing in mindc("check", calling).err
+    assert missing in mindc("lint", calling).out
+    assert [each.severity for each in mindlang.load(calling).diagnostics] == ["warning"]
+    assert mindlang.load(calling).is_valid
+    built = mindc(*build, "--json")
+    assert built.code == 0
+    assert missing in built.err
+    assert json.loads(built.out)["notes"] == [note.format("eyes_of_the_robot")]
 
 
 @pytest.mark.parametrize("source", FINE)
-def test_nothing_is_said_of_what_may_be_right(mindc: Call, tmp_path: Path, source: str) -> None:
-    (tmp_path / "calling.mind").write_text(CALLING)
-    (tmp_path / "turning.py").write_text(source, encoding="utf-8")
-    assert mindc("check", tmp_path / "calling.mind").code == 0
+def test_nothing_is_said_of_what_may_be_right(mindc: Call, calling: Path, source: str) -> None:
+    (calling.parent / "turning.py").write_text(source, encoding="utf-8")
+    assert mindc("check", calling).code == 0
 
 
 def test_nothing_is_run(mindc: Call, tmp_path: Path) -> None:

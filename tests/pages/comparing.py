@@ -3,7 +3,9 @@
 import re
 
 # How long and how fast it was here, when, and on how many cores.
-MEASURED = re.compile(r"\d[\d,.]*(?: [kM])? ticks/s|\d[\d,.]* (?:ms|s|min)\b|\d{8}T\d{6}Z|on \d+ cores?")
+MEASURED = re.compile(
+    r"\d[\d,.]*(?: [kM])? ticks(?:/s| per CPU second)|\d[\d,.]* (?:ms|s|min)\b|\d{8}T\d{6}Z|on \d+ cores?"
+)
 # What is said while something takes long: a line every few seconds, on a page none.
 MEANWHILE = re.compile(
     r"(?:\S+: (?:attempt \d+ of \d+, )?generation \d+ of \d+.*|compiling (?:the simulator|the stages of a tick).*)\n"

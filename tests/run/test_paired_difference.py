@@ -35,15 +35,15 @@ def test_every_pair_is_counted_and_the_other_way_round_the_signs_change(pairs: l
 
 def test_the_interval_contains_the_truth_as_often_as_it_says() -> None:
     rng = np.random.default_rng(1)
-    layouts = rng.exponential(300, (2000, 40))  # what is common to both: far more than what differs
+    layouts = rng.exponential(100, (2000, 40))  # what is common to both: as much as what differs
     first = layouts + rng.exponential(100, layouts.shape)
     second = layouts + 3 + rng.exponential(100, layouts.shape)
     found = [difference(*both) for both in zip(first, second, strict=True)]
     share = np.mean([each.low <= 3 <= each.high for each in found])  # type: ignore[operator]
     assert 0.935 < share < 0.965
     unpaired = np.hypot(first.std(axis=1), second.std(axis=1)) / sqrt(40)
-    assert np.mean([each.standard_error or 0 for each in found]) < 0.6 * unpaired.mean()
-    assert np.mean([each.is_widened for each in found]) < 0.01
+    assert np.mean([each.standard_error or 0 for each in found]) < 0.75 * unpaired.mean()
+    assert np.mean([each.is_widened for each in found]) < 0.25
 
 
 @pytest.mark.parametrize("runs", [20, 50, 200, 1000])
@@ -55,7 +55,7 @@ def test_minds_that_rarely_differ_are_not_told_apart_by_the_runs_in_which_they_a
     found = [difference(*both) for both in zip(scores, other, strict=True)]
     assert np.mean([each.low <= -0.19 <= each.high for each in found]) > 0.93  # type: ignore[operator]
     assert np.mean([each.low > 0 for each in found]) < 0.01  # type: ignore[operator]
-    assert (np.mean([each.is_widened for each in found]) > 0.9) == (runs <= 200)
+    assert np.mean([each.is_widened for each in found]) > 0.9
 
 
 @pytest.mark.parametrize("std", [1.0, 30.0])

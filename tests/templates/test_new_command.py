@@ -51,7 +51,7 @@ def test_a_folder_is_made(mindc: Call, folder: Path) -> None:
     said = mindc("new", "rover", "--robot", "differential", "--task", "patrol")
     assert (said.code, said.out) == (0, "")
     assert said.err == (
-        "rover: a differential robot for the task patrol\n"
+        "rover: a differential robot, and how it learns to patrol\n"
         "  cd rover\n"
         "  mindc train rover.mind --seed 1     # in about a minute\n"
         "  mindc run rover.mind --seed 1 --picture rover.png\n"
@@ -62,9 +62,9 @@ def test_a_folder_is_made(mindc: Call, folder: Path) -> None:
 
 
 def test_what_is_not_said_goes_together_with_what_is(mindc: Call) -> None:
-    assert mindc("new", "a").err.startswith("a: a differential robot for the task patrol\n")
-    assert mindc("new", "b", "--task", "fetch").err.startswith("b: a gripper robot for the task fetch\n")
-    assert mindc("new", "c", "--robot", "photocell").err.startswith("c: a photocell robot for the task light")
+    assert mindc("new", "a").err.startswith("a: a differential robot, and how it learns to patrol\n")
+    assert mindc("new", "b", "--task", "fetch").err.startswith("b: a gripper robot, and how it learns to fetch\n")
+    assert mindc("new", "c", "--robot", "photocell").err.startswith("c: a photocell robot, and how it learns to light")
 
 
 def test_nothing_is_overwritten(mindc: Call, folder: Path) -> None:
@@ -205,7 +205,7 @@ def test_on_a_terminal_what_is_not_said_is_asked(folder: Path) -> None:
     code, said = asked(folder, "gripper\ncarrier\n")
     assert code == 0, said
     assert "Which robot?" in said
-    assert "carrier: a gripper robot for the task fetch" in said
+    assert "carrier: a gripper robot, and how it learns to fetch" in said
     assert (folder / "carrier" / "carrier.mind").is_file()
 
 
@@ -213,7 +213,7 @@ def test_a_number_and_nothing_answer_as_well(folder: Path) -> None:
     code, said = asked(folder, "9\n1\n\n\n")
     assert code == 0, said
     assert "'9' is not one of" in said
-    assert "rover: a differential robot for the task patrol" in said
+    assert "rover: a differential robot, and how it learns to patrol" in said
 
 
 def test_what_is_said_is_not_asked(folder: Path) -> None:

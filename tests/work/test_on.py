@@ -27,6 +27,7 @@ with subprocess.Popen(sys.argv[3:], stdout=subprocess.PIPE, bufsize=0) as worker
         sys.stdout.buffer.flush()
         kept = kept[whole:]
 """
+TIMES = "seconds", "ticks_per_second", "cpu_seconds", "ticks_per_cpu_second", "workers", "on"
 RUN = "runs/Go-on-Reach/*"
 
 
@@ -93,9 +94,7 @@ def test_a_procedure_that_prints_and_reads_takes_no_answer_and_no_job(tmp_path: 
 def timeless(value: object) -> object:
     """What is said of runs but for how fast they were made, and by whom."""
     if isinstance(value, dict):
-        return {
-            k: timeless(each) for k, each in value.items() if k not in ("seconds", "ticks_per_second", "workers", "on")
-        }
+        return {k: timeless(each) for k, each in value.items() if k not in TIMES}
     return [timeless(each) for each in value] if isinstance(value, list) else value
 
 

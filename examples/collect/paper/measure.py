@@ -6,9 +6,10 @@ from functools import cache
 from math import sqrt
 from pathlib import Path
 
+from mindrun.cores import cores
 from mindrun.errors import MindError
 from mindrun.graph import Lesson
-from mindrun.sim.rollout import Rollout, cores
+from mindrun.sim.rollout import Rollout
 from mindrun.weights import Weights, learners, reachable
 from plan import read_plan
 from protocol import Case

@@ -4,6 +4,8 @@ import os
 import platform
 from collections.abc import Iterator
 
+from mindrun.cores import cores
+
 from mindlang import resource_limits
 from mindlang.diagnosis.finding import Finding, State
 
@@ -13,7 +15,7 @@ SMALL_MEMORY_BYTES = 512 << 20  # below which compiling the simulator may fail
 def check() -> Iterator[Finding]:
     """Cores and memory."""
     all_cores = os.cpu_count() or 1
-    usable = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else all_cores
+    usable = cores()
     words = f"{usable} cores" if usable == all_cores else f"{usable} of {all_cores} cores"
     yield Finding("machine", State.FINE, f"{platform.machine()}, {platform.system()}, {words} to use")
     free = resource_limits.available()

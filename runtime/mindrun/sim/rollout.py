@@ -1,6 +1,5 @@
 """Rollouts: genomes on layouts, scored in lanes on every core. A result depends on its genome and its seed alone."""
 
-import os
 from collections.abc import Callable, Sequence
 from copy import copy
 from dataclasses import dataclass
@@ -44,7 +43,7 @@ class Tile:
 
 
 class Rollout:
-    """Runs a task under a master of a policy; a genome has the weights of the `learners`, one after the other.
+    """Runs a task under a master of a policy; a genome has the weights of the `learners`, in the order given.
 
     MindError where the task is in an environment: `sim.rollouts.rollout_for` chooses.
     """
@@ -71,8 +70,8 @@ class Rollout:
         self.is_one_world = is_one_world(graph, self.task, master)
         self.procedures = Procedures(graph, master, procedures)
         self.interrupt, self.workers, self.lanes = interrupt, workers, lanes
-        learning = {*learners}
-        self.learners = tuple(skill for skill in graph.skills if skill.name in learning)
+        named, learners = {skill.name: skill for skill in graph.skills}, [*dict.fromkeys(learners)]
+        self.learners = tuple(named[name] for name in learners)
         self.genome_length = genome_length(graph, learners)
         self.tables: Tables
         self.sizes: Sizes
@@ -169,6 +168,9 @@ class Rollout:
         """What somebody should know of the runs so far."""
         return ()
 
+    def make_again(self, genome: NDArray[np.float32], seed: int) -> None:
+        """Make a run twice where it may not be the same again: the lanes' own worlds always are."""
+
     def observe(self, tile: Tile, jobs: Jobs) -> None:
         """What comes from outside of the lanes, before a tick: nothing here."""
 
@@ -193,11 +195,6 @@ class Rollout:
 def scores_of(jobs: Jobs, task: Task) -> Scores:
     """What came of all jobs, every genome on every seed."""
     return _scores([jobs], [np.arange(len(jobs.genome))], (len(jobs.genomes), len(jobs.seeds)), task.counts)
-
-
-def cores() -> int:
-    """How many cores this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def lanes_for(jobs: int, most: int) -> int:

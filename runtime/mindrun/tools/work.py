@@ -18,6 +18,7 @@ from typing import Any, NoReturn
 
 from mindrun import standard_streams
 from mindrun.arguments import whole
+from mindrun.cores import cores
 from mindrun.errors import MindError
 from mindrun.work.assigned import drop, scorer_of
 from mindrun.work.assignment import Assignment
@@ -62,7 +63,7 @@ def run(options: argparse.Namespace) -> int:
         raise MindError("mindrun work is begun by another program, which sends it jobs", BEGUN_BY)
     requests, answers = own_streams()
     sys.path += [f"{options.folder}"] if options.folder else []
-    threads = options.threads or len(os.sched_getaffinity(0))
+    threads = options.threads or cores()
     seconds = options.step_seconds
 
     last_step = None if options.last_step is None else LastStep(options.last_step)

@@ -38,6 +38,10 @@ class JobScorer:
         notes: tuple[str, ...] = self.rollout.notes
         return notes
 
+    def make_again(self, genome: NDArray[np.float32], seed: int) -> None:
+        """Make a run twice here, where it may not be the same again."""
+        self.rollout.make_again(genome, seed)
+
     def draw(self, count: int, rng: np.random.Generator) -> Genomes:
         """Random genomes [count, genome_length] for learning to begin with."""
         genomes: Genomes = self.rollout.draw(count, rng)

@@ -65,7 +65,7 @@ def _options() -> argparse.Namespace:
     parser.add_argument("--seed", type=_seed, default=0, help="of the layout (default: 0)")
     parser.add_argument("--speed", type=_speed, default=1.0, help="times real time (default: 1)")
     parser.add_argument("--master", default="", help="the skill in charge (default: the mind's master)")
-    parser.add_argument("--again", action="store_true", help="begin the next seed when a run ends")
+    parser.add_argument("--again", action="store_true", help="begin another world when a run ends")
     return parser.parse_args()
 
 

@@ -70,7 +70,8 @@ class SimulatedScene:
         self.world.step(list(self.commands.values()))
         if self.again and self.world.ended:
             self.past[self.world.ended] += 1
-            self.world.begin((self.world.seed + 1) % SEED_COUNT)
+            [seed] = np.random.SeedSequence(self.world.seed).generate_state(1, np.uint64).tolist()
+            self.world.begin(seed)  # not seed + 1, which may be where another robot began
         self._sense()
 
     def answer(self, what: bytes, name: str, value: float) -> bytes:

@@ -11,7 +11,7 @@ from mindrun.sim.outside.asking import Asking
 from mindrun.sim.outside.foreign import first_line, foreign_code
 from mindrun.sim.outside.making import BrokenEnvironmentError
 from mindrun.sim.outside.parts import formed
-from mindrun.sim.outside.taking import Taking
+from mindrun.sim.outside.taking import Taking, number_of, truth_of
 from mindrun.work.last_step import place_of
 
 T = TypeVar("T")
@@ -70,7 +70,9 @@ class Episode:
     def _stepped(self, action: Any) -> None:
         observation, reward, terminated, truncated, _ = self._environment.step(action)
         self._taking.take(observation, self.observed)
-        self.reward, self.is_terminated, self.is_truncated = float(reward), bool(terminated), bool(truncated)
+        self.reward = number_of("the reward", reward)
+        self.is_terminated = truth_of("terminated", terminated)
+        self.is_truncated = truth_of("truncated", truncated)
 
     def _asked(self, ask: Callable[[], T]) -> T:
         self._asking.begin(self._seed, self._steps)

@@ -1,7 +1,10 @@
 """Rollouts whose worlds are environments: these are stepped one by one, and the skills think in lanes between."""
 
 from collections.abc import Callable, Sequence
+from contextlib import suppress
+from copy import copy
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 from typing import Any
 from weakref import finalize
@@ -9,10 +12,12 @@ from weakref import finalize
 import numpy as np
 from numpy.typing import NDArray
 
+from mindrun.errors import MindError
 from mindrun.policy import Policy
 from mindrun.sim.codes import BROKEN_OFF
 from mindrun.sim.lanes.stages import act, before, conclude, run_skills
 from mindrun.sim.outside.asking import Asked
+from mindrun.sim.outside.repeating import CHECKED_TICKS, WrittenDown
 from mindrun.sim.outside.stepper import Run, Stepper
 from mindrun.sim.outside.steppers import stepper_for
 from mindrun.sim.outside.wiring import Wiring, wiring_of
@@ -55,11 +60,13 @@ class EnvironmentRollout(Rollout):
         steppers: Callable[[str, Path | None], Stepper] | None = None,
     ) -> None:
         super().__init__(policy, task, master, learners, procedures=procedures, interrupt=interrupt, lanes=lanes)
-        self._stepper = (steppers or stepper_for)(self.task.scene.environment, procedures)
+        self._another_stepper = partial(steppers or stepper_for, self.task.scene.environment, procedures)
+        self._stepper: Stepper = self._another_stepper()
         self.wiring: Wiring = wiring_of(self.graph, self._stepper.spaces)
         self.slice_ticks = SLOW_SLICE_TICKS
         self._measured = self.sizes.measured[self.wiring.rows]
         self.observed, self.clipped = 0, np.zeros(len(self.wiring.rows), np.int64)
+        self._flaw = ""
         self._open: set[Run] = set()
         finalize(self, _close, self._open)
         self._rough = np.array([bool(row["is_rough"]) for row in self.tables.actuators], bool)
@@ -74,6 +81,18 @@ class EnvironmentRollout(Rollout):
         """Write each step there from now on, for who looks on from outside."""
         self._stepper.write_steps(last_step)
 
+    def make_again(self, genome: NDArray[np.float32], seed: int) -> None:
+        """Make the run of a genome and a seed twice; what is not the same again is in `notes` from then on."""
+        probe = copy(self)
+        probe._stepper = once = WrittenDown(self._stepper)  # type: ignore[assignment]  # it is asked for nothing else
+        probe.observed, probe.clipped = 0, np.zeros_like(self.clipped)
+        tile, jobs = self.tile(1), self.jobs(genome[None], np.array([seed], np.uint64))
+        with suppress(MindError):  # the run itself will say it
+            probe.fill(tile, jobs)
+            probe.advance(tile, jobs, CHECKED_TICKS)
+            probe._release(tile.kept, set())
+            self._flaw = once.flaw(self._another_stepper(), self.wiring.names, bool(self._rewards))
+
     def tally(self) -> NDArray[np.int64]:
         """How often was observed, and for each sensor how often beyond its range."""
         return np.array([self.observed, *self.clipped], np.int64)
@@ -85,10 +104,11 @@ class EnvironmentRollout(Rollout):
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Which sensors were beyond their ranges, and how often, in one sentence."""
+        """What the environment does not do again, and which sensors were beyond their ranges, and how often."""
         shares = zip(self.wiring.names, (self.clipped / max(1, self.observed)).tolist(), strict=True)
         said = [f"{name} in {_percent(share)}" for name, share in shares if share]
-        return (f"readings beyond their range: {', '.join(said)} of the ticks",) if said else ()
+        beyond = f"readings beyond their range: {', '.join(said)} of the ticks" if said else ""
+        return tuple(filter(None, (self._flaw, beyond)))
 
     @property
     def entries(self) -> tuple[Any, ...]:

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from numbers import Real
 from typing import Any
 
 import numpy as np
@@ -48,6 +49,22 @@ def taking_of(parts: Mapping[str, Part], places: Sequence[Place]) -> Taking:
         indices = np.array([places[slot][1] for slot in to], np.int64)
         sources.append(Source(name, parts[name], indices, np.array(to, np.int64)))
     return Taking(tuple(sources), len(places))
+
+
+def number_of(what: str, value: Any) -> float:
+    """A number, or an array of one; TypeError where it is a text, which Python would read as one."""
+    value = value.item() if isinstance(value, np.ndarray) else value
+    if isinstance(value, str | bytes | bytearray):
+        raise TypeError(f"{what} is the text {value!r:.40}, which is no number")
+    return float(value)
+
+
+def truth_of(what: str, value: Any) -> bool:
+    """A truth value, or a number that is 0 or 1, or an array of one; TypeError where it is anything else."""
+    value = value.item() if isinstance(value, np.ndarray | np.generic) else value
+    if isinstance(value, Real) and value in (0, 1):
+        return bool(value)
+    raise TypeError(f"{what} is {value!r:.40}, which is neither true nor false")
 
 
 def _flaw(source: Source, seen: NDArray[Any]) -> str:
