@@ -43,7 +43,7 @@ def text_lines(value: Value, root: Path | None, findings: Findings) -> tuple[str
         findings.error("unreadable-map", value.span, f"{value.text} cannot be read{why}.", hint)
         return None
     if found := found or recognise_text(text):
-        findings.error("foreign-map", value.span, f"{value.text} {found[0]}.", found[1])
+        findings.error("unreadable-map", value.span, f"{value.text} {found[0]}.", found[1])
         return None
     return tuple(line.rstrip() for line in text.rstrip().split("\n"))
 
