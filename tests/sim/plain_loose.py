@@ -5,6 +5,8 @@ import math
 import pymunk
 from mindrun import things
 
+from tests.sim.plain_strides import Mover
+
 REST = 1e-3  # units and radians per second, below which what is loose stands still
 
 
@@ -18,6 +20,7 @@ class PlainLoose:
 
     def __init__(self, space, kinds, places, dt):
         self.space, self.kinds, self.dt, self.there = space, kinds, dt, {}
+        self.are_any = any(isinstance(kind, things.LooseBox | things.Ball) for kind in kinds)
         for i, kind in enumerate(kinds):
             if isinstance(kind, things.LooseBox | things.Ball):
                 self.add(i, kind, places[i])
@@ -53,6 +56,21 @@ class PlainLoose:
             rests = max(abs(x * slower), abs(y * slower), abs(spin)) < REST
             body.velocity = (0.0, 0.0) if rests else (x * slower, y * slower)
             body.angular_velocity = 0.0 if rests else spin
+
+    def rest(self):
+        """What hardly moves stands."""
+        for body, _ in self.there.values():
+            if max(abs(body.velocity.x), abs(body.velocity.y), abs(body.angular_velocity)) < REST:
+                body.velocity, body.angular_velocity = (0.0, 0.0), 0.0
+
+    def movers(self, places):
+        """As what moves, beside the robot."""
+        found = []
+        for i, (body, shape) in self.there.items():
+            is_ball, size = isinstance(shape, pymunk.Circle), places[i][2]
+            reach = size * (0.5 if is_ball else 0.7072)
+            found.append(Mover(body, size / 2, reach, 0.0 if is_ball else reach))
+        return found
 
     def distances(self, of, angle, more):
         """How far a ray from the robot's centre goes to each loose thing that it meets, if these are `more` larger."""

@@ -28,7 +28,7 @@ class PlainWalkers:
                 continue
             x, y = place[0] + cosine(self.directions[i]) * step, place[1] + sine(self.directions[i]) * step
             half = place[2] / 2
-            if self.is_free(x, y, half) or not self.is_free(*place[:2], half):
+            if self.may_step(place[:2], (x, y), half, step):
                 place[:2] = x, y
                 self.turned[i] = kind.turning * math.sqrt(3 * self.of.graph.tick)
             else:
@@ -44,6 +44,13 @@ class PlainWalkers:
             self.goals[i] += 1
         else:
             place[:2] = place[0] + dx * (step / far), place[1] + dy * (step / far)
+
+    def may_step(self, begin, end, half, step):
+        """Whether a square may go there; of one that stands where it has no room the middle alone counts."""
+        solids = self.of.body.solids
+        if not self.is_free(*begin, half):
+            return not solids.bar(begin, end)
+        return self.is_free(*end, half) and (step <= half / 2 or not solids.bar(begin, end, half))
 
     def is_free(self, x, y, half):
         """Whether there is room for a square, as there is none beyond 1e9 units."""

@@ -15,9 +15,11 @@ from tests.sim.plain import CATCH
 from tests.sim.plain_bodies import front_of, radius_of, rim_of, side_of, sides_of
 from tests.sim.plain_loose import PlainLoose
 from tests.sim.plain_sensors import sensed
+from tests.sim.plain_strides import MOST, Mover, Solids, Watch, stride
 from tests.sim.plain_walkers import PlainWalkers
 
 TRAIL = 20
+MOVABLE = things.Item | things.LooseBox | things.Ball
 
 
 class PlainWorld:
@@ -196,7 +198,15 @@ class PlainWorld:
                     self.held = -1
                 elif self.held < 0:
                     items = [i for i, thing in enumerate(self.things) if isinstance(thing.kind, things.Item)]
-                    self.held = next((i for i in items if self.in_claw(i, actuator.kind.reach)), -1)
+                    near = (i for i in items if self.in_claw(i, actuator.kind.reach))
+                    self.held = next((i for i in near if self.has_room(i)), -1)
+
+    def has_room(self, i):
+        """Whether nothing solid is between the robot and an item in its claw, or in the way there."""
+        ahead = front_of(self.graph.body) + self.body.largest[i] / 2
+        there = self.x + cosine(self.angle) * ahead, self.y + sine(self.angle) * ahead
+        ways = ((self.x, self.y), tuple(self.places[i][:2]))
+        return not any(self.body.solids.bar(begin, there) for begin in ways)
 
     def step(self, acting, kept):
         """One tick of physics, the battery, and what is carried; each actuator has kept a share of its force."""
@@ -369,18 +379,15 @@ class PlainBody:
         kind, dt = graph.body, graph.tick
         self.dt, self.kind, self.actuators = dt, kind, [a.kind for a in graph.actuators]
         self.linear, self.angular = 1 / (1 + dt * kind.linear_damping), 1 / (1 + dt * kind.angular_damping)
-        self.space = pymunk.Space()
-        self.space.iterations = 8
-        self.space.use_spatial_hash(20.0, 20)
-        for x, y, wide, high in of.boxes:
-            self.box(x - wide, y - high, x + wide, y + high)
-        if of.half[0] < math.inf:
-            (a, b), (c, d) = of.half, (half + 2 for half in of.half)
-            for sides in ((-c, -d, -a, d), (a, -d, c, d), (-c, -d, c, -b), (-c, b, c, d)):
-                self.box(*sides)
+        spans = [thing.kind.size for thing in of.things]
+        moving = [span for thing, span in zip(of.things, spans, strict=True) if isinstance(thing.kind, MOVABLE)]
+        self.half = min(front_of(kind), side_of(kind))
+        least = min([self.half, *(min(span.first, span.last) / 2 for span in moving)])
+        self.slop = min(pymunk.Space().collision_slop, 0.25 * max(least, 1e-3))
+        self.solids, self.last = Solids(of.boxes, of.half), math.inf
+        self.space = self.room()
         self.body = self.solid()
         self.body.position, self.body.angle = (of.x, of.y), of.angle
-        spans = [thing.kind.size for thing in of.things]
         self.largest = [max(span.first, span.last) for span in spans]
         self.items = {
             i: self.add(pymunk.Circle(self.body, 1.0, (front_of(kind) + self.largest[i] / 2, 0.0)), CATCH)
@@ -389,6 +396,39 @@ class PlainBody:
         }
         self.loose = PlainLoose(self.space, [thing.kind for thing in of.things], of.places, self.dt)
         self.touches = False
+
+    def room(self):
+        """A Space with what never moves."""
+        self.space = pymunk.Space()
+        self.space.iterations = 8
+        self.space.collision_slop = self.slop
+        self.space.use_spatial_hash(20.0, 20)
+        for x, y, wide, high in self.solids.boxes:
+            self.box(x - wide, y - high, x + wide, y + high)
+        if self.solids.half[0] < math.inf:
+            (a, b), (c, d) = self.solids.half, (half + 2 for half in self.solids.half)
+            for sides in ((-c, -d, -a, d), (a, -d, c, d), (-c, -d, c, -b), (-c, b, c, d)):
+                self.box(*sides)
+        return self.space
+
+    def forget(self, movers):
+        """All that moves into a Space that remembers nothing, with bodies that do not either."""
+        old = self.space
+        shapes = [shape for shape in old.shapes if shape.body is not old.static_body]
+        old.remove(*shapes, *old.bodies)
+        self.loose.space = self.room()
+        for mover in movers:
+            before, mover.body = mover.body, pymunk.Body(mover.body.mass, mover.body.moment)
+            mover.body.position, mover.body.angle = before.position, before.angle
+            mover.body.velocity, mover.body.angular_velocity = before.velocity, before.angular_velocity
+            self.space.add(mover.body)
+            for shape in [*before.shapes]:
+                shape.body = mover.body
+        for shape in shapes:
+            self.space.add(shape)
+        self.body = movers[0].body
+        there = zip(self.loose.there.items(), movers[1:], strict=True)
+        self.loose.there = {i: (mover.body, shape) for (i, (_, shape)), mover in there}
 
     def solid(self):
         """The body with its outline."""
@@ -433,11 +473,41 @@ class PlainBody:
             self.roll(turned, c, s)
         body.force, body.torque = (ahead * c - aside * s, ahead * s + aside * c), torque
         self.loose.damp()
-        self.space.step(self.dt)
-        contacts = []
-        body.each_arbiter(lambda arbiter: contacts.extend(arbiter.shapes))
-        self.touches = any(shape.body is self.space.static_body for shape in contacts)
+        self.stride(held, places)
+        body = self.body
         return (*body.position, body.angle, *body.velocity, body.angular_velocity)
+
+    def stride(self, held, places):
+        """A tick in as many steps as it takes; the force acts in the last of them."""
+        kind, left, self.touches = self.kind, self.dt, False
+        force, torque, reach = self.body.force, self.body.torque, radius_of(kind)
+        item = (front_of(kind) + self.largest[held] / 2, places[held][2] / 2) if held >= 0 else None
+        movers = [Mover(self.body, self.half, reach, 0.0 if isinstance(kind, Disc | Holonomic) else reach, item)]
+        movers += self.loose.movers(places)
+        is_swift = stride(movers, self.solids, self.dt) < self.dt
+        watch = Watch(movers, self.solids, lambda angle: (cosine(angle), sine(angle)))
+        if held >= 0:
+            watch.begin[0][1] = tuple(places[held][:2]), item[1]
+        for number in range(MOST):
+            most = stride(movers, self.solids, self.dt) if is_swift else self.dt
+            is_last = most >= left or number == MOST - 1
+            seconds = min(most, left) if is_last else min(most, left / 2)
+            if seconds > self.last:
+                self.forget(movers)
+            share = self.dt / seconds if is_last else 0.0
+            self.body.force, self.body.torque = (force[0] * share, force[1] * share), torque * share
+            watch.look()
+            self.space.step(seconds)
+            contacts = []
+            self.body.each_arbiter(lambda arbiter: contacts.extend(arbiter.shapes))  # noqa: B023
+            touches = any(shape.body is self.space.static_body for shape in contacts)
+            self.touches |= touches
+            self.last = seconds if self.touches or self.loose.are_any else math.inf
+            self.loose.rest()
+            watch.hold_back()
+            left -= seconds
+            if is_last:
+                break
 
     def pushes(self, commands, kept):
         """The force ahead and to the left, the torque, and how far to the left the wheels of a car are turned."""

@@ -24,7 +24,7 @@ AWAY = st.sampled_from([Span(-1.0, -1.0), Span(0.0, 3.0), Span(0.0, 6.0), Span(2
 PLACES = st.tuples(st.sampled_from([-6.0, 0.0, 4.5]), st.sampled_from([-4.0, 0.5, 3.0]))
 WAYS = [((-9.0, -5.0), (-2.0, -5.0)), ((6.0, 6.0), (6.0, -3.0), (9.5, -3.0)), ((3.0, 7.0), (-3.0, 7.0))]
 PATHS = [((-5.0, 0.0), (5.0, 2.0)), ((0.0, 0.0), (3.0, 0.0), (3.0, -6.0))]
-SPEEDS, TURNINGS = st.sampled_from([0.5, 3.0, 20.0]), st.sampled_from([0.0, 1.5, 10.0])
+SPEEDS, TURNINGS = st.sampled_from([0.5, 3.0, 20.0, 300.0]), st.sampled_from([0.0, 1.5, 10.0])
 MAZES = [("#..#", "....", "##.."), ("#.#", "...", "###", "..#")]
 NEUTRAL = st.sampled_from([0.0, 0.4, 0.5, 0.9, 1.0])
 OUTCOMES = st.sampled_from(["stays", "moves", "moves", "vanishes"])
@@ -193,7 +193,7 @@ def _things(draw: st.DrawFn, scene: SceneKind) -> tuple[Thing, ...]:
     if draw(st.integers(0, 3)) == 0:
         things.append(Thing("maze", Map(draw(st.sampled_from(MAZES)), draw(st.sampled_from([2.0, 3.5])))))
     if draw(st.booleans()):
-        things.append(Thing("fence", Wall(draw(st.sampled_from(WAYS)), draw(st.sampled_from([1.0, 0.5, 2.5])))))
+        things.append(Thing("fence", Wall(draw(st.sampled_from(WAYS)), draw(st.sampled_from([1.0, 0.5, 2.5, 0.05])))))
     return tuple(draw(st.permutations(things)))
 
 

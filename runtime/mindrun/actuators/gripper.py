@@ -17,6 +17,7 @@ CLOSED_COMMAND = 0.5  # command, above which it closes
 class Gripper(ActuatorKind):
     """A claw at the front of the body: closed above 0.5. It takes an item ahead of it whose rim is within `reach`.
 
+    It takes none through a wall, and none for which a wall leaves no room in front of it.
     A command acts `delay` ticks after the tick that computed it, with up to `noise` more or less.
     """
 

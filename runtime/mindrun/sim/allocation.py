@@ -10,7 +10,20 @@ from mindrun.arithmetic import BOX_COLUMNS, HALF_X, HALF_Y, LOOSE_ROWS, THING_RO
 from mindrun.sensors.inertial import TRAIL_TICKS
 from mindrun.sim import chipmunk_internals as chipmunk
 from mindrun.sim.codes import AWAY, PUSH_ROWS
-from mindrun.sim.state import FIRST_RAY, FRAME_ROWS, PLACE_ROWS, SIDES, Contact, Judge, Mind, Run, Sight, State, World
+from mindrun.sim.state import (
+    FIRST_RAY,
+    FRAME_ROWS,
+    PLACE_ROWS,
+    SIDES,
+    WAY,
+    Contact,
+    Judge,
+    Mind,
+    Run,
+    Sight,
+    State,
+    World,
+)
 from mindrun.sim.tables import Sizes, Tables
 from mindrun.sim.vector import VECTOR_LANES
 
@@ -133,7 +146,10 @@ def _contact(tables: Tables, sizes: Sizes, room: _Room) -> Contact:
         loose=room.columns(chipmunk.LOOSE_HANDLES * len(tables.loose), np.uint64),
         sizes=room.columns(len(tables.loose)),
         placed=room.columns(len(tables.loose), np.uint8),
+        last=room.each(np.float64),
         gap=room.each(np.float64),
+        swift=room.each(),
+        ways=room.columns(WAY * (2 + len(tables.loose))),
         floats=room.columns(chipmunk.BODY_FLOATS),
         batch=room.columns(chipmunk.BATCH_WORDS, np.int64),
         tally=room.columns(chipmunk.TALLY_WORDS, np.int64),

@@ -36,13 +36,13 @@ FUNCTIONS = (
     "cpBodyFree", "cpPolyShapeNewRaw", "cpShapeFree", "cpShapeSetBody", "cpShapeSetFriction", "cpShapeSetSensor",
     "cpCircleShapeSetRadius", "pmSpaceBodyGetIteratorFuncBatched", "pmSpaceBodySetIteratorFuncBatched",
     "cpBodyEachArbiter", "cpArbiterGetBodies", "cpCircleShapeNew", "cpPolyShapeSetVertsRaw", "cpBodySetMass",
-    "cpBodySetMoment",
+    "cpBodySetMoment", "cpSpaceSetCollisionSlop",
 )  # fmt: skip
 (
     SPACE_NEW, SPACE_FREE, SPACE_ITERATIONS, SPACE_HASH, SPACE_STATIC, SPACE_ADD_BODY, SPACE_ADD_SHAPE,
     SPACE_REMOVE_BODY, SPACE_REMOVE_SHAPE, SPACE_STEP, BODY_NEW, BODY_FREE, POLY_NEW, SHAPE_FREE, SHAPE_BODY,
     SHAPE_FRICTION, SHAPE_SENSOR, CIRCLE_RADIUS, BODY_GET, BODY_SET, EACH_ARBITER,
-    ARBITER_BODIES, CIRCLE_NEW, POLY_CORNERS, BODY_MASS, BODY_MOMENT, COUNT,
+    ARBITER_BODIES, CIRCLE_NEW, POLY_CORNERS, BODY_MASS, BODY_MOMENT, SPACE_SLOP, COUNT,
 ) = range(len(FUNCTIONS) + 1)  # fmt: skip
 
 # Columns of `handles`; after the shapes that can be held come the boxes, then the walls.

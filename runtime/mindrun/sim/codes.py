@@ -94,7 +94,8 @@ END = _row(event="i8", times="i8", when="i8", whens="i8", succeeds="i8")
 REWARD = _row(code="i8", length="i8", on="i8", each="i8", eachs="i8", when="i8", whens="i8")
 WORLD = _row(
     dt="f8", linear="i8", angular="i8", friction="i8", mass="i8", moment="i8", mass_inv="i8", moment_inv="i8",
-    radius="f8", front="f8", side="f8", is_round="i8", axles="f8", half_x="f8", half_y="f8",
+    radius="f8", front="f8", side="f8", arm="f8", least="f8", slop="f8", is_round="i8", axles="f8",
+    half_x="f8", half_y="f8",
     is_placed="i8", start_x="f8", start_y="f8", is_faced="i8", facing="f8",
     ticks="i8", start="f8", drain="f8", charge="f8", rays="i8",
     near="f8", master="i8", claw="f8", battery="i8", cell="f8",

@@ -15,6 +15,7 @@ SIGHT_COSINE, SIGHT_SINE, SIGHT_X, SIGHT_Y, FIRST_RAY = range(5)  # rows of `sig
 LEFT, RIGHT, LOW, HIGH, SIDES = range(5)  # rows of a box in `sides`, and how many
 LOOSE_COSINE, LOOSE_SINE, LOOSE_X, LOOSE_Y, LOOSE_HALF, FRAME_ROWS = range(6)  # of the frame of a loose thing
 FAILED_SKILL, FAILED_COLUMN = range(2)  # of `failed`
+BEGIN_X, BEGIN_Y, FROM_X, FROM_Y, FROM_ANGLE, TO_X, TO_Y, HALF, WAY = range(9)  # columns of each way in `ways`
 
 
 class World(NamedTuple):
@@ -96,8 +97,11 @@ class Contact(NamedTuple):
     loose: Array  # [lane, LOOSE_HANDLES·loose] uint64: body and shape of each loose thing
     sizes: Array  # [lane, loose] float64: of which size these are
     placed: Array  # [lane, loose] uint8: 1 where a body stands still just where its settled thing does
+    last: Array  # float64: the seconds of Chipmunk's last step, infinitely many where nothing can have touched
     # for this tick
     gap: Array  # float64: to what is nearest after it
+    swift: Array  # int64: 1 where something is so fast that it could pass something
+    ways: Array  # [lane, WAY·(2 + loose)] float64: where what moves was and is (lanes/hold_back)
     floats: Array  # [lane, …] float64: a body's state on its way to Chipmunk and back
     batch: Array  # [lane, …] int64: pymunk's structures that point at `floats`
     tally: Array  # [lane, TALLY_WORDS] int64: contacts of the last step, and what it takes to count them

@@ -29,11 +29,14 @@ from mindrun.sim.codes import (
 from mindrun.sim.parameter_rows import Parameters, Step
 from mindrun.sim.programs import Programs
 from mindrun.sim.records import Row, records
-from mindrun.things import OUTCOMES, STAYS
+from mindrun.things import OUTCOMES, STAYS, ThingKind
 
 Array = NDArray[Any]
 MIN_CELL_UNITS = 20.0  # the side of a cell of Chipmunk's hash, in which what is large takes only so many
 CELLS_PER_SHAPE, CELLS_PER_WALL = 4, 64
+SLOP_UNITS = float(np.float32(0.1))  # how deep Chipmunk lets things stand in each other, if nobody says anything else
+SLOP_SHARE = 0.25  # of their least half side is the most
+LEAST_SOLID_UNITS = 1e-3  # half a side that is smaller counts as this
 MIN_NEAR_UNITS = 1.0  # beyond the body's rim
 HALF_DIAGONAL = 0.7072  # of a square with side 1, and a little more
 NOWHERE = range(-1, -1)  # rows of a thing that the task does not contain
@@ -184,13 +187,29 @@ def world_row(
     spread = max([*walls, *(scene.sides if scene.is_bounded else ()), 0.0]) / CELLS_PER_WALL
     cell = max([MIN_CELL_UNITS, spread, *(size / CELLS_PER_SHAPE for size in (2 * body.radius, *held, *solid))])
     row = (
-        dt, *_body_rows(graph, parameters), body.radius, body.front, body.side, not body.outline, body.axle_distance,
-        *(side / 2 for side in scene.sides),
+        dt, *_body_rows(graph, parameters), body.radius, body.front, body.side, *_solidity(graph, task),
+        not body.outline, body.axle_distance, *(side / 2 for side in scene.sides),
         begin.at is not None, *(begin.at or (0.0, 0.0)), begin.facing is not None, begin.facing or 0.0, task.ticks,
         battery.start if powered else NAN, battery.drain, battery.charge, rays, near, index, graph.claw_reach, powered,
         cell,
     )  # fmt: skip
     return np.array([row], WORLD)
+
+
+def _solidity(graph: Graph, task: Task) -> tuple[float, float, float]:
+    """How far from the robot's middle its turns swing anything, the least half side of it or of what it can hold, and
+    how deep Chipmunk lets things stand in each other: less than by itself where something that moves is small.
+    """
+    body, loose = graph.body, [thing.kind for thing in task.things if thing.kind.is_loose]
+    held = [thing.kind for thing in task.things if thing.kind.can_be_held]
+    arm = max([body.radius if body.outline else 0.0, *(body.front + kind.largest / 2 for kind in held)])
+    least = min([body.front, body.side, *(_half(kind) for kind in held)])
+    least_of_all = max(min([least, *(_half(kind) for kind in loose)]), LEAST_SOLID_UNITS)
+    return arm, least, min(SLOP_UNITS, SLOP_SHARE * least_of_all)
+
+
+def _half(kind: ThingKind) -> float:
+    return min(kind.size.first, kind.size.last) / 2
 
 
 def _body_rows(graph: Graph, parameters: Parameters) -> tuple[int, ...]:

@@ -5,6 +5,7 @@ from mindrun.sim.arithmetic import HALF, ONE, ZERO, F, clamp, finite, in_claw
 from mindrun.sim.codes import GRIPPER, ITEM
 from mindrun.sim.compiling import compiled, part_of_tick
 from mindrun.sim.lanes.placement import uniform
+from mindrun.sim.lanes.solid import CLOSED_UNITS, is_barred
 
 UNDRIVEN = F(-1)
 
@@ -26,7 +27,7 @@ def act(tables, state, lanes, clock):
             slide(world.random, world.numbers[actuator.slip], world.grip[i], lanes)
         if actuator.kind == GRIPPER:
             acting = world.acting[i] if actuator.is_rough else commands
-            grip(acting, world, tables.things, tables.world[0].front, actuator.reach, lanes)
+            grip(acting, world, tables.things, tables.world[0], actuator.reach, lanes)
 
 
 @compiled
@@ -97,8 +98,8 @@ def remember(cell, command, decay, rest, lanes):
 
 
 @compiled
-def grip(commands, world, kinds, front, reach, lanes):
-    """Close above 0.5 on the first item in reach; open and the item stays where it is."""
+def grip(commands, world, kinds, constants, reach, lanes):
+    """Close above 0.5 on the first item in reach that can come into the claw; open and the item stays where it is."""
     held, body, heading, things = world.held, world.body, world.heading, world.things
     for lane in range(lanes):
         held[lane] = -1 if commands[lane] <= HALF else held[lane]
@@ -106,8 +107,19 @@ def grip(commands, world, kinds, front, reach, lanes):
         if commands[lane] > HALF and held[lane] < 0:
             for i in range(len(kinds)):
                 is_free = kinds[i].kind == ITEM and held[lane] < 0
-                if is_free and in_claw(body, heading, things, front, reach, i, lane):
-                    held[lane] = i
+                if is_free and in_claw(body, heading, things, constants.front, reach, i, lane):
+                    held[lane] = i if has_room(world, kinds, constants, i, lane) else -1
+
+
+@compiled
+def has_room(world, kinds, constants, i, lane):
+    """Whether no wall is between the robot and item i in its claw, or in the item's way there."""
+    body, hold, boxes = world.body, kinds[i].hold, world.boxes
+    x, y = world.things[THING_ROWS * i + X, lane], world.things[THING_ROWS * i + Y, lane]
+    to_x = body[X, lane] + world.heading[COSINE, lane] * hold
+    to_y = body[Y, lane] + world.heading[SINE, lane] * hold
+    is_shut_off = is_barred(boxes, constants, body[X, lane], body[Y, lane], to_x, to_y, CLOSED_UNITS, lane)
+    return not (is_shut_off or is_barred(boxes, constants, x, y, to_x, to_y, CLOSED_UNITS, lane))
 
 
 @compiled

@@ -4,6 +4,8 @@ The robot's body with its shapes, and the boxes and walls of one lane, live in a
 something could touch for the first time. `chipmunk_internals` has what is known of the library.
 """
 
+import numpy as np
+
 from mindrun.arithmetic import BOX_COLUMNS, HALF_X, HALF_Y, SIZE, THING_ROWS, X, Y
 from mindrun.sim.chipmunk_internals import (
     ARRAY_NUMBERS,
@@ -39,6 +41,7 @@ from mindrun.sim.chipmunk_internals import (
     SPACE_NEW,
     SPACE_REMOVE_BODY,
     SPACE_REMOVE_SHAPE,
+    SPACE_SLOP,
     SPACE_STATIC,
     SPACE_STEP,
     TALLIED,
@@ -60,6 +63,7 @@ def open_space(tables, world, contact, lane):
     library, constants, handles = tables.library, tables.world[0], contact.handles[lane]
     space = call(library[SPACE_NEW])
     call(library[SPACE_ITERATIONS], space, SOLVER_ITERATIONS)
+    call(library[SPACE_SLOP], space, constants.slop)
     call(library[SPACE_HASH], space, constants.cell, HASH_COUNT)
     add_boxes(library, space, world.boxes[lane], constants, handles, len(tables.things), contact.floats[lane])
     mass, moment = world.numbers[constants.mass, lane], world.numbers[constants.moment, lane]
@@ -72,6 +76,7 @@ def open_space(tables, world, contact, lane):
     call(library[SHAPE_FRICTION], handles[ROBOT], world.numbers[constants.friction, lane])
     handles[SPACE], handles[BODY] = space, body
     contact.tally[lane, FIXED_BODY] = call(library[SPACE_STATIC], space)
+    contact.last[lane] = np.inf
     add_loose(tables, world, space, contact, lane)
 
 
@@ -128,13 +133,15 @@ def close_space(tables, contact, lane):
 
 
 @compiled
-def push_body(tables, world, contact, lane):
-    """A lane's state, force and torque into its body; what the claw holds becomes solid, what it dropped does not."""
+def push_body(tables, world, contact, share, lane):
+    """A lane's state, a share of its force and torque into its body; what the claw holds becomes solid, what it dropped
+    does not.
+    """
     library, floats, batch, handles = tables.library, contact.floats[lane], contact.batch[lane], contact.handles[lane]
     for i in range(MOTION_FLOATS):
         floats[i] = world.body[i, lane]
-    floats[FLOAT_FORCE_X], floats[FLOAT_FORCE_Y] = world.push[FORCE_X, lane], world.push[FORCE_Y, lane]
-    floats[FLOAT_TORQUE] = world.push[TORQUE, lane]
+    floats[FLOAT_FORCE_X], floats[FLOAT_FORCE_Y] = world.push[FORCE_X, lane] * share, world.push[FORCE_Y, lane] * share
+    floats[FLOAT_TORQUE] = world.push[TORQUE, lane] * share
     batch[ARRAY_NUMBERS] = EMPTY_ARRAY
     call(library[BODY_SET], handles[BODY], batch[SET_BATCH:].ctypes.data)
     for i in range(len(tables.things)):
@@ -147,10 +154,10 @@ def push_body(tables, world, contact, lane):
 
 
 @compiled
-def step_space(tables, world, contact, lane):
-    """Step a lane's Space, take the state of its bodies back, and count what its robot runs into."""
+def step_space(tables, world, contact, seconds, lane):
+    """Step a lane's Space by some seconds, take the state of its bodies back, and count what its robot runs into."""
     library, batch, handles = tables.library, contact.batch[lane], contact.handles[lane]
-    call(library[SPACE_STEP], handles[SPACE], tables.world[0].dt)
+    call(library[SPACE_STEP], handles[SPACE], seconds)
     batch[ARRAY_NUMBERS] = EMPTY_ARRAY
     call(library[BODY_GET], handles[BODY], batch[GET_BATCH:].ctypes.data)
     for i in range(MOTION_FLOATS):

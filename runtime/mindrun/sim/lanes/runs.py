@@ -152,6 +152,7 @@ def move(state, source, target):
             handles[source, i], handles[target, i] = handles[target, i], handles[source, i]
     copy_row(contact.sizes, source, target)
     copy_row(contact.placed, source, target)
+    contact.last[target] = contact.last[source]
     contact.tally[target, FIXED_BODY] = contact.tally[source, FIXED_BODY]
 
 

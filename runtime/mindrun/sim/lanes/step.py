@@ -16,14 +16,15 @@ from mindrun.arithmetic import (
     Y,
 )
 from mindrun.sim.arithmetic import sine_cosine
-from mindrun.sim.chipmunk_internals import PERSISTENCE_TICKS, SPACE
+from mindrun.sim.chipmunk_internals import PERSISTENCE_TICKS
 from mindrun.sim.codes import FORCE, FORCE_ASIDE, FORCE_X, FORCE_Y, PUSH, STEERING, TORQUE
 from mindrun.sim.compiling import compiled, part_of_tick
 from mindrun.sim.lanes.act import carry
-from mindrun.sim.lanes.chipmunk import open_space, push_body, step_space
 from mindrun.sim.lanes.loose import approach_loose, could_touch, slide, slow_down
 from mindrun.sim.lanes.places import within
 from mindrun.sim.lanes.sense import CULLING_SLACK_UNITS
+from mindrun.sim.lanes.strides import find_swift
+from mindrun.sim.lanes.ticks import make_tick
 from mindrun.sim.lanes.walk import walk
 
 CONTACT_MARGIN_UNITS = 0.01  # beyond the rounding of any distance here
@@ -45,10 +46,7 @@ def step(tables, state, lanes):
         touching[lane] <<= 1  # bit 0 this tick, bit 1 the tick before
         touching[lane] &= 3
         if contact.near[lane] > 0:
-            if contact.handles[lane, SPACE] == 0:
-                open_space(tables, world, contact, lane)
-            push_body(tables, world, contact, lane)
-            if step_space(tables, world, contact, lane) > 0:
+            if make_tick(tables, world, contact, lane) > 0:
                 touching[lane] |= 1
         elif world.restless[lane] > 0:
             slide(tables, world, lane)
@@ -204,6 +202,9 @@ def find_near(tables, world, sight, contact, lanes):
         x, y = body[X, lane] + body[SPEED_X, lane] * dt, body[Y, lane] + body[SPEED_Y, lane] * dt
         there = within(x, y, body[ANGLE, lane] + body[SPIN, lane] * dt)
         near[lane] = near[lane] if there else 0
+    if find_swift(tables, world, contact.swift, lanes) > 0:
+        for lane in range(lanes):
+            near[lane] = CONTACT_TICKS if contact.swift[lane] > 0 else near[lane]
 
 
 @compiled

@@ -8,6 +8,7 @@ from mindrun.sim.compiling import compiled
 from mindrun.sim.lanes.clear_places import clear
 from mindrun.sim.lanes.placement import uniform
 from mindrun.sim.lanes.places import within
+from mindrun.sim.lanes.solid import CLOSED_UNITS, is_barred
 
 
 @compiled
@@ -31,12 +32,26 @@ def wander(tables, world, i, place, lane):
     x, y = world.things[place + X, lane], world.things[place + Y, lane]
     step, half = tables.walkers[i].step, world.things[place + SIZE, lane] / 2
     to_x, to_y = x + cosine * step, y + sine * step
-    if is_free(tables, world, to_x, to_y, half, lane) or not is_free(tables, world, x, y, half, lane):
+    if may_step(tables, world, step, x, y, to_x, to_y, half, lane):
         world.things[place + X, lane], world.things[place + Y, lane] = to_x, to_y
         turn = tables.walkers[i].turn
         world.direction[i, lane] += uniform(world.random, lane, -turn, turn)
     else:
         world.direction[i, lane] = uniform(world.random, lane, 0.0, 2 * np.pi)
+
+
+@compiled
+def may_step(tables, world, step, x, y, to_x, to_y, half, lane):
+    """Whether nothing is in the way of a square of that half side; of its middle alone where it has no room already.
+
+    What steps by no more than a quarter of its side passes nothing where it arrives free.
+    """
+    boxes, constants = world.boxes, tables.world[0]
+    if not is_free(tables, world, x, y, half, lane):
+        return not is_barred(boxes, constants, x, y, to_x, to_y, CLOSED_UNITS, lane)
+    if not is_free(tables, world, to_x, to_y, half, lane):
+        return False
+    return step <= half / 2 or not is_barred(boxes, constants, x, y, to_x, to_y, half, lane)
 
 
 @compiled
