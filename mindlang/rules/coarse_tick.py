@@ -26,8 +26,8 @@ BAD = (
     WHEELS.format("1/10 s", 2, 600, 600),
     WHEELS.format("1/60 s", 2, 80, 80) + "  varies density of Robot 0.01 to 2\n",
 )
-MOST = 0.75  # of its lesser side
-DIRECTIONS = 180  # that are tried
+MOST_SIZES = 0.75  # of its lesser side
+TRIED_DIRECTIONS = 180  # that are tried
 
 
 def check(study: Study) -> Found:
@@ -36,11 +36,10 @@ def check(study: Study) -> Found:
     tasks = [task for task in graph.tasks if not task.scene.environment]
     far, task = max(((step_of(graph, task), task.name) for task in tasks), default=(0.0, ""))
     size = 2 * min(graph.body.front, graph.body.side)
-    if far > MOST * size:
+    if far > MOST_SIZES * size:
         moves = f"{body.name} moves {far:.3g} units in a tick of {task}"
-        hint = (
-            f"Give it at most {MOST * size / far:.2g} of its thrust, or a shorter tick, more density or linear_damping."
-        )
+        share = MOST_SIZES * size / far
+        hint = f"Give it at most {share:.2g} of its thrust, a shorter tick, more density or more linear_damping."
         yield Finding(body.span, f"At full thrust {moves}, {far / size:.2g} times its size.", hint)
 
 
@@ -52,7 +51,7 @@ def step_of(graph: Graph, task: Task) -> float:
         if "thrust" in row:
             thrust = max(abs(value) for value in _values(task, "actuator", actuator.name, "thrust", row["thrust"]))
             pushed.append((thrust * row["ahead"], thrust * row["aside"]))
-    angles = (pi * i / DIRECTIONS for i in range(DIRECTIONS))
+    angles = (pi * i / TRIED_DIRECTIONS for i in range(TRIED_DIRECTIONS))
     force = max(sum(abs(ahead * cos(at) + aside * sin(at)) for ahead, aside in pushed) for at in angles)
     density = min(_values(task, "body", "", "density", body.density))
     damping = min(_values(task, "body", "", "linear_damping", body.linear_damping))

@@ -14,7 +14,7 @@ from mindrun.sim.lanes.solid import CLOSED_UNITS, is_barred, meets
 from mindrun.sim.state import BEGIN_X, BEGIN_Y, FROM_ANGLE, FROM_X, FROM_Y, HALF, TO_X, TO_Y, WAY
 
 HELD, FIRST_LOOSE = WAY, 2 * WAY  # where they stand in `ways`; the robot comes first
-CLOSEST = 0.125  # of both half sides together: so near come the middles of two that move
+CLOSEST_SHARE = 0.125  # of both half sides together: so near come the middles of two that move
 
 
 @compiled
@@ -79,7 +79,7 @@ def passes(tables, world, ways, way, last, lane):
         return True
     for other in range(FIRST_LOOSE if way < FIRST_LOOSE else 0, last, WAY):
         if other != way and not np.isnan(ways[other + TO_X]):
-            near = CLOSEST * (ways[way + HALF] + ways[other + HALF])
+            near = CLOSEST_SHARE * (ways[way + HALF] + ways[other + HALF])
             its_dx, its_dy = ways[other + TO_X] - ways[other + BEGIN_X], ways[other + TO_Y] - ways[other + BEGIN_Y]
             dx, dy = to_x - x - its_dx, to_y - y - its_dy
             if meets(ways[other + BEGIN_X] - x, ways[other + BEGIN_Y] - y, dx, dy, near, near):

@@ -1,7 +1,7 @@
 """Strides: for how long a lane may go on at once so that nothing in it passes anything.
 
-A lane in which something is so swift that a tick takes it by more than SWIFT of its least half side makes its tick in
-several strides: in each everything moves by at most SHARE of that, or by what is free around it.
+A lane in which something is so swift that a tick takes it by more than SWIFT_SHARE of its least half side makes its
+tick in several strides: in each everything moves by at most STRIDE_SHARE of that, or by what is free around it.
 """
 
 import numpy as np
@@ -24,7 +24,7 @@ from mindrun.arithmetic import (
 )
 from mindrun.sim.compiling import compiled
 from mindrun.sim.lanes.loose import HALF_DIAGONAL, extent_of
-from mindrun.sim.strides import SHARE, SWIFT
+from mindrun.sim.strides import STRIDE_SHARE, SWIFT_SHARE
 
 
 @compiled
@@ -34,7 +34,7 @@ def find_swift(tables, world, swift, lanes):
     arm, least, dt = constants.arm, constants.least, constants.dt
     for lane in range(lanes):
         speed = abs(body[SPEED_X, lane]) + abs(body[SPEED_Y, lane]) + abs(body[SPIN, lane]) * arm
-        swift[lane] = speed * dt > SWIFT * least
+        swift[lane] = speed * dt > SWIFT_SHARE * least
     for i in range(len(tables.loose)):
         row, place = LOOSE_ROWS * i, THING_ROWS * tables.loose[i].thing
         of_size = 0.0 if tables.loose[i].is_round else HALF_DIAGONAL
@@ -42,7 +42,7 @@ def find_swift(tables, world, swift, lanes):
             size = world.things[place + SIZE, lane]
             speed = abs(world.loose[row + PUSHED_X, lane]) + abs(world.loose[row + PUSHED_Y, lane])
             speed += abs(world.loose[row + PUSHED_SPIN, lane]) * (size * of_size)
-            swift[lane] |= speed * dt > SWIFT * size / 2
+            swift[lane] |= speed * dt > SWIFT_SHARE * size / 2
     for lane in range(lanes):
         count += swift[lane]
     for lane in range(lanes if count > 0 else 0):
@@ -62,8 +62,8 @@ def stride(tables, world, lane):
         half, arm, reach = min(half, own), max(arm, hold), max(reach, hold + own)
     x, y, longest = body[X, lane], body[Y, lane], np.inf
     speed = abs(body[SPEED_X, lane]) + abs(body[SPEED_Y, lane]) + abs(body[SPIN, lane]) * arm
-    if speed * constants.dt > SWIFT * half:
-        longest = max(SHARE * half, room_around(tables, world, x, y, reach, -1, lane)) / speed
+    if speed * constants.dt > SWIFT_SHARE * half:
+        longest = max(STRIDE_SHARE * half, room_around(tables, world, x, y, reach, -1, lane)) / speed
     for i in range(len(tables.loose)):
         longest = min(longest, stride_of(tables, world, i, x, y, reach, lane))
     return longest
@@ -76,12 +76,12 @@ def stride_of(tables, world, i, x, y, reach, lane):
     half, extent = world.things[place + SIZE, lane] / 2, extent_of(tables, world, i, lane)
     speed = abs(world.loose[row + PUSHED_X, lane]) + abs(world.loose[row + PUSHED_Y, lane])
     speed += 0.0 if tables.loose[i].is_round else abs(world.loose[row + PUSHED_SPIN, lane]) * extent
-    if not speed * tables.world[0].dt > SWIFT * half:
+    if not speed * tables.world[0].dt > SWIFT_SHARE * half:
         return np.inf
     its_x, its_y = world.things[place + X, lane], world.things[place + Y, lane]
     room = room_around(tables, world, its_x, its_y, extent, i, lane)
     room = min(room, (max(abs(its_x - x), abs(its_y - y)) - reach - extent) / 2)
-    return max(SHARE * half, room) / speed
+    return max(STRIDE_SHARE * half, room) / speed
 
 
 @compiled
