@@ -22,14 +22,17 @@ from tests.robot.guardian.driven import PLAN
 
 MOVING = (0.875, 0.25, 1.0)
 PATIENCE = 300.0  # seconds for another process to do what it has to; they decide nothing
-# What is said at the start, once the plan is read; what is done then; what one says that brings to neutral, or does.
+# What is said at the start, once the plan is read (a part after @ when the controller has begun); what is done then;
+# what one says that brings to neutral, or does.
 SCRIPT = """
 import os, sys, time
 log, says, then, ends = sys.argv[1:5]
 out = open(log + ("-neutral" if "--neutral" in sys.argv else ""), "ab", buffering=0)
 def say(text):
     for part in text.split("|"):
-        sys.stdout.write(part)
+        while part.startswith("@") and not os.path.exists(log + "-begun"):
+            time.sleep(0.002)
+        sys.stdout.write(part.lstrip("@"))
         sys.stdout.flush()
         time.sleep(0.02)
 if "--neutral" in sys.argv:
@@ -77,6 +80,7 @@ def start(tmp_path: Path) -> Iterator[Start]:
     def started(says: str = "ready\n", then: str = RESTS, ends: str = ALL, patience: float = PATIENCE) -> Guardian:
         words = (sys.executable, "-c", SCRIPT, str(tmp_path / "log"), says, then, ends)
         begun.append(Guardian(PLAN, patience, words))
+        (tmp_path / "log-begun").touch()
         return begun[-1]
 
     yield started
@@ -182,19 +186,19 @@ def test_one_that_is_never_ready_is_made_to_end(start: Start, monkeypatch: pytes
 
 
 def test_what_comes_in_pieces_is_one_word(start: Start) -> None:
-    with start("re|ady|\nfoll|owing\n") as guardian:
+    with start("re|ady|\n|@foll|owing\n") as guardian:
         until(lambda: heard(guardian).state == "following")
         assert guardian.why == ""
 
 
 def test_of_all_that_was_said_the_last_holds(start: Start) -> None:
-    with start("ready\n|following\nneutral no frame for two ticks\nla", f"\n{RESTS}") as guardian:
+    with start("ready\n|@following\nneutral no frame for two ticks\nla", f"\n{RESTS}") as guardian:
         until(lambda: heard(guardian).why != "started")
         assert (guardian.state, guardian.why) == ("neutral", "no frame for two ticks")
 
 
 def test_a_latched_one_takes_no_frame(start: Start, tmp_path: Path) -> None:
-    with start("ready\n|latched a frame that is damaged\n") as guardian:
+    with start("ready\n|@latched a frame that is damaged\n") as guardian:
         until(lambda: heard(guardian).state == "latched")
         with pytest.raises(GuardianError, match="holds every actuator at neutral: a frame that is damaged") as caught:
             guardian.send(MOVING, armed=True)
@@ -205,7 +209,7 @@ def test_a_latched_one_takes_no_frame(start: Start, tmp_path: Path) -> None:
 def test_all_that_was_said_is_heard_before_the_next_frame(start: Start) -> None:
     """Half of it would be a frame for a guardian that has latched, and the reason a tick later."""
     said = "following\n" * 9 + "latched a frame that is damaged\n"
-    with start(f"ready\n|{said}") as guardian:
+    with start(f"ready\n|@{said}") as guardian:
         until(lambda: waiting(guardian) == len(said))
         with pytest.raises(GuardianError, match="a frame that is damaged"):
             guardian.send(MOVING, armed=True)
@@ -237,7 +241,7 @@ def test_a_process_that_a_procedure_has_forked_is_no_controller(start: Start, tm
 
 @pytest.mark.parametrize("code", [0, 70])
 def test_one_that_has_said_that_all_rests_is_not_replaced(start: Start, tmp_path: Path, code: int) -> None:
-    guardian = start(says="ready\n|rest\n", then=f"exits {code}")
+    guardian = start(says="ready\n|@rest\n", then=f"exits {code}")
     assert guardian._processes.first.wait(PATIENCE) == code
     with pytest.raises(GuardianError) as caught:
         guardian.send(MOVING, armed=True)
@@ -260,7 +264,7 @@ def test_an_exit_code_says_nothing(start: Start, tmp_path: Path, code: int, send
 
 
 def test_what_its_own_watcher_says_is_enough(start: Start, tmp_path: Path) -> None:
-    guardian = start(says=f"ready\n|{ALL}", then="stays")
+    guardian = start(says=f"ready\n|@{ALL}", then="stays")
     until(lambda: heard(guardian)._heard.is_over)
     with pytest.raises(GuardianError) as caught:
         guardian.send(MOVING, armed=True)
