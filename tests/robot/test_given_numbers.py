@@ -94,7 +94,7 @@ def test_what_is_not_finite_is_a_fault(wrap: Callable[[float], Any], value: floa
     assert not isfinite(returned(listed([wrap(value)]), 1)[0])  # which the engine does not send
 
 
-@pytest.mark.parametrize("value", NONE, ids=repr)
+@pytest.mark.parametrize("value", NONE)
 def test_what_is_no_number_is_a_fault(value: object) -> None:
     assert sampled((value,), 1).fault == f"gave {value!r:.60}, which is no number"
     if isinstance(value, bool | np.bool_):
