@@ -32,8 +32,8 @@ class Difference:
     """The second less the first, over `runs` pairs, of which in `more` it was more, in `less` less, in `equal` neither.
 
     `low` to `high` is the 95 % confidence interval of the mean; None where fewer than MIN_DIFFERING_RUNS pairs differ.
-    It is never narrower than `unseen` to both sides: what the `unseen_share` of layouts, of which no run need be an
-    example, could do to the mean within the scores that were seen.
+    It is never narrower than `unseen` to both sides: what layouts of which no run need be an example, up to the share
+    `most_that_differ` of all, could do to the mean within the scores that were seen.
     `detectable` is the difference that so many runs would tell from 0 four times in five, and `runs_to_tell` how many
     it would take if the true difference were `mean`; None beyond MAX_RUNS. All are None where a figure is not finite,
     in `not_finite` pairs.
@@ -50,7 +50,6 @@ class Difference:
     low: float | None = None
     high: float | None = None
     unseen: float | None = None
-    unseen_share: float | None = None
     detectable: float | None = None
     runs_to_tell: int | None = None
 
@@ -66,7 +65,7 @@ class Difference:
 
     @property
     def most_that_differ(self) -> float:
-        """Where no run differs: the largest share of layouts on which they could, with 95 % confidence."""
+        """The largest share of layouts of which no run need be an example, with 95 % confidence."""
         return unseen_share(self.runs)
 
     @property
@@ -98,13 +97,12 @@ def difference(first: NDArray[np.float64], second: NDArray[np.float64]) -> Diffe
     if counts[1] + counts[2] < MIN_DIFFERING_RUNS:
         return Difference(*counts, mean, std, error)
     farthest = _farthest(first, second)
-    share = unseen_share(runs)
-    unseen = share * farthest
+    unseen = unseen_share(runs) * farthest
     below, above = _sides(each, mean, std)
     low, high = mean - max(below, unseen), mean + max(above, unseen)
     detectable = max(NORMAL_TWO_SIDED * error, unseen) + NORMAL_POWER * error
     needed = _runs_to_tell(abs(mean), std, farthest)
-    return Difference(*counts, mean, std, error, low, high, unseen, share, detectable, needed)
+    return Difference(*counts, mean, std, error, low, high, unseen, detectable, needed)
 
 
 def _sides(each: NDArray[np.float64], mean: float, std: float) -> tuple[float, float]:
