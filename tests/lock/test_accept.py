@@ -24,8 +24,8 @@ def test_what_a_person_accepts_is_not_taught_again(mindc: Call, drive: Path) -> 
 
 
 def test_what_cannot_be_accepted(mindc: Call, drive: Path) -> None:
-    said = mindc("status", drive, "--accept", "Gone")
-    assert (said.code, said.err.splitlines()) == (2, ["There is no skill Gone.", "  Did you mean Go?"])
+    said = mindc("status", drive, "--accept", "Goo")
+    assert (said.code, said.err.splitlines()) == (2, ["There is no skill Goo.", "  Did you mean Go?"])
     said = mindc("status", drive, "--accept", "Go")
     assert (said.code, said.err.splitlines()) == (1, ["Go has no weights that fit, and none can be accepted."])
     said = mindc("status", drive, "--accept")
