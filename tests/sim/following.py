@@ -99,7 +99,7 @@ def hold_things(plain: PlainWorld, moment: Moment) -> None:
     plain.places, plain.held = moment.things.copy(), moment.held
     plain.body.loose.replace(plain.places, plain.changed)
     plain.walkers.turn(moment.turned)
-    assert plain.charge == moment.battery or np.isnan(moment.battery)  # which nobody asks for
+    assert plain.charge == moment.battery if plain.runs_down else np.isnan(moment.battery)
 
 
 def hold_size(span: Span, before: float, now: float) -> None:

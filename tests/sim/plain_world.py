@@ -504,7 +504,8 @@ class PlainBody:
             self.touches |= touches
             self.last = seconds if self.touches or self.loose.are_any else math.inf
             self.loose.rest()
-            watch.hold_back()
+            if self.last < math.inf:
+                watch.hold_back()
             left -= seconds
             if is_last:
                 break

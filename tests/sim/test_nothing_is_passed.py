@@ -2,6 +2,7 @@
 
 from collections import Counter
 from dataclasses import replace
+from itertools import pairwise
 from random import Random
 
 import numpy as np
@@ -30,18 +31,24 @@ def passed(rollout: Rollout, seed: int, seen: Counter[str]) -> list[str]:
     before = [run.begin[:2], *(place[:2] for place in run.things)]
     was_inside = [is_inside(run.boxes, half, place) for place in before]  # where there was no room, and may get out
     found, least = [], min(rollout.graph.body.front, rollout.graph.body.side)
+    pose, held = run.begin, -1
     for moment in run.moments:
         now = [moment.body[:2], *(place[:2] for place in moment.things)]
         for i, (begin, end) in enumerate(zip(before, now, strict=True)):
             inside = is_inside(run.boxes, half, end)
-            if not was_inside[i] and (inside or crosses(run.boxes, begin, end)):
+            ways = [[begin, end]]
+            if i > 0 and moment.held == i - 1 != held:  # by way of where the claw was, before that moved
+                ahead = rollout.graph.body.front + kinds[i - 1].largest / 2
+                ways += [[begin, pose[:2] + ahead * np.array([np.cos(pose[2]), np.sin(pose[2])]), end]]
+            is_barred = all(any(crosses(run.boxes, *leg) for leg in pairwise(way)) for way in ways)
+            if not was_inside[i] and (inside or is_barred):
                 found.append(f"{kinds[i - 1] if i else 'robot'} from {begin} to {end} in tick {moment.tick}")
             was_inside[i] &= inside
             seen["a thing that moves"] += i > 0 and bool((begin != end).any())
         seen["something held"] += moment.held >= 0
         seen["a contact"] += moment.touching
         seen["a leap"] += bool(np.abs(now[0] - before[0]).max() > 2 * least)
-        before = now
+        before, pose, held = now, moment.body, moment.held
     return found
 
 
