@@ -96,7 +96,7 @@ def bimodal(rng: Rng, shape: tuple[int, int]) -> tuple[Floats, Floats]:
 
 
 def tied(rng: Rng, shape: tuple[int, int]) -> tuple[Floats, Floats]:
-    """The same count on 70 % of the layouts, one more on the others."""
+    """Counts that are equal on 70 % of the layouts, and one more for the second on the others."""
     first = rng.poisson(3.0, shape).astype(float)
     return first, first + (rng.random(shape) < 0.3)
 
@@ -150,7 +150,7 @@ def resampled(task: str) -> Case:
 
 
 def row(case: Case, runs: int, comparisons: int) -> str:
-    """Of comparisons of so many runs, how often the interval contains the truth, and what else is said of it."""
+    """A line of the table: how often the interval of so many runs contains the truth, and what else is said of it."""
     first, second = case.draw(np.random.default_rng(runs), (comparisons, runs))
     found = [difference(*both) for both in zip(first.astype(float), second.astype(float), strict=True)]
     told = [each for each in found if each.low is not None and each.high is not None]

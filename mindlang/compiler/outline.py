@@ -18,7 +18,7 @@ class Outline(NamedTuple):
 
     @property
     def ends(self) -> tuple[float, float, float, float]:
-        """Its least x and y, and its greatest."""
+        """The least x and y of the shape, then the greatest."""
         xs, ys = zip(*self.corners, strict=True)
         return min(xs) - self.rim, min(ys) - self.rim, max(xs) + self.rim, max(ys) + self.rim
 

@@ -121,7 +121,7 @@ class TaskVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]], EzPickle):
             self._add_info(infos, {"final_obs": seen, "final_info": self._outcome(lane)}, lane)
 
     def _outcome(self, lane: int) -> dict[str, Any]:
-        """The same as of one robot; a layout may be larger than what numpy makes of an int."""
+        """What came of a robot's episode, and its layout, which may be larger than what numpy makes of an int."""
         return self._episodes.outcome(lane) | {"layout": self._episodes.seeds[lane]}
 
     def _begun(self, lanes: Mask, infos: dict[str, Any]) -> dict[str, Any]:
