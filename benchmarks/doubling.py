@@ -19,6 +19,7 @@ from rich.console import Console
 from benchmarks.call_count import CallCount
 from benchmarks.shapes import SHAPES
 from mindlang.cli._diagnostic_printer import as_data, print_report
+from mindlang.cli.status import report
 from mindlang.compiler.comparison import differences
 from mindlang.compiler.compile import Compiled, compile_source
 from mindlang.compiler.drawing import dot, tree
@@ -30,7 +31,7 @@ from mindlang.editing.summary import diff, summarise
 from mindlang.edits import edit
 from mindlang.linting.fixing import fixed
 from mindlang.linting.lint import lint
-from mindlang.lock.report import report, rows
+from mindlang.lock.report import rows
 from mindlang.proofs.proof import prove
 from mindlang.server.changing import perform
 from mindlang.server.completing import complete

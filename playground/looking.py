@@ -11,7 +11,6 @@ from mindlang.compiler.drawing import phrase, text_after_name
 from mindlang.compiler.format import formatted
 from mindlang.compiler.model import Mind, Skill
 from mindlang.compiler.parse import parse
-from mindlang.compiler.procedures import mistakes
 from mindlang.compiler.source import Source, Span
 from mindlang.linting.lint import lint
 from mindlang.rules import all_rules
@@ -33,7 +32,7 @@ def look(text: str) -> str:
 
 def _found(compiled: Compiled) -> Iterator[dict[str, Any]]:
     codes = [code for code in all_rules() if code not in LEFT_OUT]
-    for each in (*lint(compiled, codes), *mistakes(compiled)):
+    for each in lint(compiled, codes):
         yield _finding(each, compiled.sources[0])
 
 

@@ -31,9 +31,9 @@ def command(as_json: bool) -> None:
     from dataclasses import asdict
 
     from mindlang.cli._terminal import FINDINGS, OK, console, print_json
+    from mindlang.cli._text_columns import columns
     from mindlang.diagnosis.checks import findings
     from mindlang.diagnosis.finding import State
-    from mindlang.text_columns import columns
 
     found = list(findings())
     is_fine = all(each.state is not State.WRONG for each in found)

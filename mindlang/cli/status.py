@@ -13,6 +13,19 @@ from mindlang.cli._declared_names import SKILLS
 
 if TYPE_CHECKING:
     from mindrun.graph import Graph
+    from rich.console import Console
+    from rich.text import Text
+
+    from mindlang.lock.report import Row
+
+COLOURS = {
+    "trained": "green",
+    "taught elsewhere": "magenta",
+    "damaged": "red",
+    "stale": "red",
+    "untaught": "yellow",
+    "does not learn": "dim",
+}
 
 EXAMPLES = """\b
 Examples:
@@ -39,7 +52,7 @@ def command(file: str, skills: tuple[str, ...], accept: bool, as_json: bool) -> 
     """
     from mindlang.cli._terminal import FINDINGS, OK, console, load_compiled, print_json
     from mindlang.lock import lock_sources
-    from mindlang.lock.report import as_data, report, rows
+    from mindlang.lock.report import as_data, rows
 
     compiled = load_compiled(file)
     assert compiled.graph is not None
@@ -53,6 +66,21 @@ def command(file: str, skills: tuple[str, ...], accept: bool, as_json: bool) -> 
     else:
         console().print(report(found, console()), end="")
     sys.exit(OK if all(row.is_fine for row in found if row.is_needed) else FINDINGS)
+
+
+def report(found: Sequence[Row], console: Console) -> Text:
+    """The rows as lines that a console has room for."""
+    from rich.text import Text
+
+    from mindlang.cli._text_columns import columns
+    from mindlang.lock.report import made
+
+    lines = []
+    for row in found:
+        word = f"{row.word}, frozen" if row.is_frozen else row.word
+        about = Text("\n".join(filter(None, (made(row), *row.remarks))))
+        lines.append(((Text(row.skill), Text(word, COLOURS[row.word])), about))
+    return columns(console, lines)
 
 
 def _refuse_unknown(graph: Graph, skills: Sequence[str]) -> None:

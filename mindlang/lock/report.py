@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from mindrun.graph import Graph, Lesson, Skill
 from mindrun.skill_sets import learners, reachable
@@ -17,21 +17,8 @@ from mindlang.lock.blobs import load_weights
 from mindlang.lock.due import is_due
 from mindlang.lock.ready import elsewhere_sentences
 from mindlang.lock.status import UNKNOWN, NotLearning, Stale, Status, Trained, Untaught, status
-from mindlang.text_columns import columns
-
-if TYPE_CHECKING:
-    from rich.console import Console
-    from rich.text import Text
 
 ACCEPTED = "accepted by a person"
-COLOURS = {
-    "trained": "green",
-    "taught elsewhere": "magenta",
-    "damaged": "red",
-    "stale": "red",
-    "untaught": "yellow",
-    "does not learn": "dim",
-}
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,19 +106,7 @@ def _damage(skill: Skill, state: Status) -> str:
     return ""
 
 
-def report(found: Sequence[Row], console: Console) -> Text:
-    """The rows as lines that a console has room for."""
-    from rich.text import Text
-
-    lines = []
-    for row in found:
-        word = f"{row.word}, frozen" if row.is_frozen else row.word
-        about = Text("\n".join(filter(None, (_made(row), *row.remarks))))
-        lines.append(((Text(row.skill), Text(word, COLOURS[row.word])), about))
-    return columns(console, lines)
-
-
-def _made(row: Row) -> str:
+def made(row: Row) -> str:
     """Which weights a skill has, and how they came about."""
     if not isinstance(row.status, Trained):
         return f"like {row.like}" * bool(row.like)

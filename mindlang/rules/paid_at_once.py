@@ -11,7 +11,6 @@ from dataclasses import dataclass, replace
 from math import pi
 
 from mindrun.events import EventKind
-from mindrun.sensors import Battery, Held, Inside
 
 from mindlang.analysis.conditions import why_always
 from mindlang.analysis.intervals import UNIT_INTERVAL, Interval, interval
@@ -101,16 +100,16 @@ class _FirstTick:
 
     def _first(self, name: str) -> Interval:
         """What a sensor or a memory reads in the first tick, as far as that is known."""
-        kind = self.study.sensors.get(name)
+        if name in self.study.sensors:
+            return self.study.sensors[name].first(self._is_within) or UNIT_INTERVAL
         start = next((each.kind.start for each in self.study.mind.memories if each.name == name), None)
-        match kind:
-            case Battery():
-                return max(0.0, kind.start - kind.noise), min(1.0, kind.start + kind.noise)
-            case Held():
-                start = 0.0 if not kind.noise else None
-            case Inside() if self.begun.at is not None and not kind.noise:
-                there = self.begun.reached(kind.of)
-                may = replace(self.begun, may=True).reached(kind.of)
-                drawn = any(each.name == kind.of and not each.kind.places for each in self.task.things)
-                start = 1.0 if there else None if may or drawn else 0.0
         return UNIT_INTERVAL if start is None else (start, start)
+
+    def _is_within(self, thing: str) -> bool | None:
+        """Whether the robot begins inside of a thing; None where that is drawn."""
+        if self.begun.at is None:
+            return None
+        if self.begun.reached(thing):
+            return True
+        is_drawn = any(each.name == thing and not each.kind.places for each in self.task.things)
+        return None if is_drawn or replace(self.begun, may=True).reached(thing) else False

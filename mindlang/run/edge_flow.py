@@ -147,7 +147,8 @@ def edge_flows(
 
 def accumulated(edges: NDArray[np.floating]) -> Singles:
     """The sums [rows] over edges [rows, edges], as the engine adds them up: one after the other, in float32."""
-    sums: NDArray[np.float32] = np.add.accumulate(edges, axis=1, dtype=np.float32)
+    with np.errstate(all="ignore"):  # what is too large is infinite, as in the engine
+        sums: NDArray[np.float32] = np.add.accumulate(edges, axis=1, dtype=np.float32)
     return sums[:, -1] if sums.shape[1] else np.zeros(len(edges), np.float32)
 
 

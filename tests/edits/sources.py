@@ -53,8 +53,11 @@ ROBOTS = [  # a body, and what moves it
     ("body Robot is disc size 2", WHEELS),
     ("body Robot is disc density 2 size 1.5", WHEELS),
     ("body Robot is box", WHEELS),
+    ("body Robot is box size 2 1", WHEELS),
     ("body Robot is holonomic", THRUSTERS),
+    ("body Robot is holonomic size 1.5", THRUSTERS),
     ("body Robot is car", STEERED),
+    ("body Robot is car size 2 1.5", STEERED),
 ]
 ACTUATORS = {**WHEELS, "claw": CLAW, "mast": MAST}
 SENSORS = {
@@ -250,7 +253,7 @@ def _more(rng: Random, noun: str, line: str) -> str:
     kind, *words = re.split(" is | in ", line)[1].split()
     if noun == "content":
         is_placed = not {"at", "along", "grid"}.isdisjoint(words)
-        words += ["away", "grid", "count", "size"] * is_placed + ["at", "along"]  # a place has to be free
+        words += ["away", "count", "size"] * is_placed + ["grid", "at", "along"]  # a place has to be free
     words += ["size"] * (noun == "body")  # and there is as much room for the robot
     often = 0.5 if noun in ("curriculum", "body", "actuator") else 0.2
     for argument in arguments(kinds(noun)[kind]):

@@ -135,7 +135,7 @@ def test_what_lies_beside_is_in_nobodys_way(mindc: Call, drive: Path, boss: Path
     (folder / "junk.mind").write_bytes(b'use "\0')
     said = mindc("edit", "rename", "Avoid", "Dodge", "--noun", "skill", drive, "--write")
     assert said.code == 0, said.err
-    assert "boss.lock is damaged" in said.err
+    assert "boss.lock:1 stands where two branches could not be merged" in said.err
     assert lock_path(boss).stat().st_size == damaged
     assert "Dodge" in boss.read_text()
 

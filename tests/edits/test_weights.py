@@ -329,7 +329,8 @@ def test_widened_skills_do_the_same_to_the_bit(
         place = len(readings) - memories
         moved = np.concatenate([readings[:place], more[-1:], readings[place:]])
         assert engines[0].tick(readings).tobytes() == engines[1].tick(moved).tobytes()
-        assert engines[0].influence.tobytes() == engines[1].influence[order].tobytes()
+        known = ~np.isnan(engines[0].influence)  # what was out of the master's reach may be in it now
+        assert engines[0].influence[known].tobytes() == engines[1].influence[order][known].tobytes()
 
 
 def _wider(graph: Graph, draw: Any) -> Graph:

@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 from rich.console import Console
 from rich.text import Text
 
-from mindlang.text_columns import columns
+from mindlang.cli._text_columns import columns
 
 WORDS = st.text("abcdefGH+_", min_size=1, max_size=18)
 ROWS = st.lists(st.tuples(WORDS, WORDS, st.lists(WORDS | st.just("\n"), max_size=12)), max_size=5)

@@ -85,11 +85,11 @@ def test_things_of_a_kind_are_told_apart(rules: Path) -> None:
 def test_an_eye_that_sees_nothing_draws_no_ray_through_a_wall(rules: Path) -> None:
     """Only what it looks for ends a ray: whether something hides that, a reading of 1 does not say."""
     eye = "sensor camera is eye of ball at 0 deg range 30\n\nskill Chase"
-    wall = "  contains fence is wall from 3 -20 to 3 20\n  contains ball is item size 2 at 10 0\n"
+    wall = "  contains fence is wall from 3 -20 to 3 20\n  contains ball is item size 0.8 at 10 0\n"
     task = f"  starts at 0 0 facing 0 deg\n  lasts 1 ticks\n{wall}"
     told_of = RULES.replace("skill Chase", eye, 1).replace("reads feeler", "reads feeler\n  reads camera")
     head, _, _ = told_of.partition("task Roam")
-    for ball_at, is_seen in ((10, False), (-10, False), (2, True)):
+    for ball_at, is_seen in ((10, False), (-10, False), (1.8, True)):
         rules.write_text(f"{head}task Roam in arena size 40\n{task.replace('10 0', f'{ball_at} 0')}")
         story, image = told(rules, "Roam")
         assert bool(story.readings[0, 4] < 1) == is_seen

@@ -134,7 +134,7 @@ def test_thrusters_throw_away_from_where_they_push(tmp_path: Path) -> None:
 
 
 def test_names_of_things_that_are_close_do_not_overlap(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    things = "".join(f"  contains thing_{i} is item size 1 at {3 + i * 0.4} {2 + i % 2 * 0.3}\n" for i in range(6))
+    things = "".join(f"  contains thing_{i} is item size 0.3 at {3 + i * 0.4} {2 + i % 2 * 0.3}\n" for i in range(6))
     run = recorded(tmp_path, CAR.replace("LAMP", "0") + things)
     said: list[Label] = []
 

@@ -42,6 +42,7 @@ TIMED = {
     "api.py": "a lesson notes when it began, and counts its seconds",
     "cluster/answering.py": "what a worker of Dask runs, as mindrun work is what one behind pipes runs",
     "cluster/jobs.py": "a scheduler is asked for its workers once a second",
+    "run/many_runs.py": "a bench counts the seconds of its runs",
 }
 
 

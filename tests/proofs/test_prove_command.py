@@ -169,8 +169,8 @@ def test_what_cannot_be_proved(mindc: Call, rules: Path, tmp_path: Path) -> None
     assert mindc("prove", rules, "--leak", 0).code == 2
     assert mindc("prove", rules, "--leak", "nan").code == 2
     assert mindc("prove", rules, "--task", "Roam").code == 2
-    said = mindc("prove", rules, "--run", "--task", "Rome")
-    assert (said.code, said.err) == (2, "--run: there is no task called Rome\n  Did you mean Roam?\n")
+    said = mindc("prove", rules, "--run", "--task", "Roma")
+    assert (said.code, said.err) == (2, "--run: there is no task called Roma\n  Did you mean Roam?\n")
     untaught = write_mind(tmp_path)
     said = mindc("prove", untaught, "--run")
     assert said.code == 1

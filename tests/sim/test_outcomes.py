@@ -53,6 +53,8 @@ skill Fetch is rule
   drives claw at ready + holding
 skill Charge is rule
   reads plug_bearing
+  reads in_plug
+  reads charge
   reads holding
   drives left_wheel at 0.8 + 4 * (plug_bearing - 0.5)
   drives right_wheel at 0.8 - 4 * (plug_bearing - 0.5)

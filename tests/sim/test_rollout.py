@@ -69,14 +69,14 @@ def test_a_genome_that_is_not_finite_is_refused(collect: Graph) -> None:
         rollout.score(genomes, [1])
 
 
-def test_random_genomes_are_drawn_skill_by_skill_in_the_order_of_the_genome(collect: Graph) -> None:
+def test_random_genomes_are_drawn_skill_by_skill_in_the_order_in_which_they_are_named(collect: Graph) -> None:
     taught = [skill for skill in collect.skills if skill.name in ("Avoid", "GoToObject")]
     rollout = Rollout(
         Policy(collect, some_weights(collect)), "Avoid", "Avoid", [skill.name for skill in reversed(taught)]
     )
     genomes, rng = rollout.draw(5, np.random.default_rng(1)), np.random.default_rng(1)
     assert genomes.shape == (5, rollout.genome_length)
-    each = [skill.function.draw(len(skill.inputs), skill.outputs, 5, rng) for skill in taught]
+    each = [skill.function.draw(len(skill.inputs), skill.outputs, 5, rng) for skill in reversed(taught)]
     np.testing.assert_array_equal(genomes, np.concatenate(each, axis=1))
     none = Rollout(Policy(collect, some_weights(collect)), "Avoid", "Avoid")
     assert none.draw(5, rng).shape == (5, 0)

@@ -1,5 +1,6 @@
 """How full the battery is."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -32,6 +33,10 @@ class Battery(Physical):
         """Its start, where nothing drains it, and nothing charges it or it is full."""
         is_still = self.drain == 0 and (self.start == 1 or not (self.charge and world.charges))
         return self.start if is_still else None
+
+    def first(self, is_within: Callable[[str], bool | None]) -> tuple[float, float]:
+        """Its start, as far off as the noise is."""
+        return max(0.0, self.start - self.noise), min(1.0, self.start + self.noise)
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:

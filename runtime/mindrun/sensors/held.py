@@ -1,5 +1,6 @@
 """Whether the claw holds a thing."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -30,6 +31,10 @@ class Held(Physical):
     def constant(self, world: World) -> float | None:
         """0 without the thing, and where no claw ever closes."""
         return None if self.of in world.things and world.can_hold else 0.0
+
+    def first(self, is_within: Callable[[str], bool | None]) -> tuple[float, float] | None:
+        """0: a claw begins empty."""
+        return None if self.noise else (0.0, 0.0)
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:

@@ -1,5 +1,6 @@
 """Whether the robot is inside of a thing."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -27,6 +28,11 @@ class Inside(Physical):
     def constant(self, world: World) -> float | None:
         """0 without the thing."""
         return None if self.of in world.things else 0.0
+
+    def first(self, is_within: Callable[[str], bool | None]) -> tuple[float, float] | None:
+        """1 where the robot begins inside of the thing, 0 where it does not."""
+        there = None if self.noise else is_within(self.of)
+        return None if there is None else (float(there), float(there))
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:

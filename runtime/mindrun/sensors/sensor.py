@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Set
+from collections.abc import Callable, Mapping, Set
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, Protocol
 
@@ -192,6 +192,13 @@ class SensorKind(AboutThing):
 
     def constant(self, world: World) -> float | None:
         """What it always reads in a world; None where that varies, or nobody knows."""
+        return None
+
+    def first(self, is_within: Callable[[str], bool | None]) -> tuple[float, float] | None:
+        """The least and greatest of its readings in the first tick of a run; None where nobody knows.
+
+        `is_within` says whether the robot begins inside of a thing: None where that is drawn.
+        """
         return None
 
     def reader(self, scene: Scene) -> Reader | None:
