@@ -145,10 +145,10 @@ class Mind(ShortRepr):
         generation, after which `cancelled` is asked. Where that says so, or Ctrl-C comes, the run stays in its folder
         under `runs`, and the same call goes on with it, to the same bits. The result of each lesson that has ended.
         """
+        if self.graph and not self.path.is_file():  # a mind that does not compile says so first
+            raise MindError(f"{self.path} is no file, and what is learnt is kept beside one", "save it, and load that")
         subject = open_subject(self.path, self.compiled)
         chosen = chosen_lessons(self.graph, curriculum, skills, subject.lock)
-        if not self.path.is_file():
-            raise MindError(f"{self.path} is no file, and what is learnt is kept beside one", "save it, and load that")
         results, threads, elsewhere = list[Result](), as_workers(workers), executors.where(on)
         watch = Watch(lambda state, record: on_generation(record), warn, cancelled, perf_counter)
         refuse_frozen(subject, chosen if skills else ())
