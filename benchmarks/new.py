@@ -16,7 +16,7 @@ from statistics import mean
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from benchmarks.curriculum import MINDC, mindc
+from benchmarks.curriculum import MINDC, documents, mindc
 from mindlang.templates.catalogue import Robot, Task, can, robots, tasks
 
 LINE = "| {project} | {figure} | {good} of {seeds} | {cpu:.0f} s | {wall:.0f} s |"
@@ -32,7 +32,8 @@ def made(robot: Robot, task: Task, seed: int, runs: int) -> dict[str, Any]:
         call(path, "train", "rover.mind", "--seed", str(seed), "--quiet")
         call(path, "run", "rover.mind", "--seed", "1", "--picture", "rover.png")
         wall, cpu = time.perf_counter() - begin, child_seconds() - cpu
-        (found,) = mindc(str(path), "bench", "rover.mind", "--runs", str(runs), "--seed", "20261123")
+        bench = mindc(str(path), "bench", "rover.mind", "--runs", str(runs), "--seed", "20261123")
+        (found,) = documents(bench.stdout)
         words = (MINDC[0], "-m", "pytest", "-q", "-p", "no:cacheprovider")
         tested = subprocess.run(words, cwd=path, capture_output=True)
     return {"seed": seed, "cpu": cpu, "wall": wall, "passes": tested.returncode == 0, **figures(found)}

@@ -61,7 +61,7 @@ class Child:
         except OSError as error:
             raise LostError(f"{error.strerror}") from error
         if self._is_over:  # it was killed while it was begun
-            self._end_process()
+            self.end_process()
         self._pipes = Pipes(self.process, START_SECONDS, self._hear)
         self._pipes.silent_seconds = _silent_seconds(self._first(self._pipes))
 
@@ -97,11 +97,11 @@ class Child:
     def kill(self) -> None:
         """End the process, and one that is just being begun; whoever waits for it is told by its pipes."""
         self._is_over = True
-        self._end_process()
+        self.end_process()
 
     def end(self) -> None:
         """End the process, whatever it does."""
-        self._end_process()
+        self.end_process()
         pipes, self._pipes = self._pipes, None
         if pipes is not None:
             pipes.close()
@@ -130,7 +130,8 @@ class Child:
             pass_fds=inherited,
         )
 
-    def _end_process(self) -> None:
+    def end_process(self) -> None:
+        """End the process alone; whoever waits for it is told by its pipes, and the next question begins another."""
         if (process := self.process) is not None:
             with suppress(OSError):
                 process.kill()

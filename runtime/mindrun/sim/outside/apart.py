@@ -62,6 +62,10 @@ class EnvironmentProcess:
         """Whether it is there."""
         return self._child.has_begun
 
+    def break_off(self) -> None:
+        """End the process, from another thread; who waits for an answer of it is told that there is none."""
+        self._child.end_process()
+
     def ask(self, kind: str, environment: str, about: Mapping[str, Any], **arrays: Any) -> Frame:
         """The answer to a question; BrokenEnvironmentError where there is none, or says why not."""
         with self._lock:
@@ -161,6 +165,10 @@ class Apart:
     def asked(self) -> Asked | None:
         """Nothing in this process."""
         return None
+
+    def break_off(self) -> None:
+        """End the process, whatever it does; the next question begins another."""
+        self._process.break_off()
 
     def write_steps(self, last_step: LastStep) -> None:
         """Nothing: no step is made here."""

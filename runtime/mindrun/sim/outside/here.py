@@ -43,6 +43,9 @@ class Here:
         """What has not been answered, seen from another thread."""
         return self._asking.asked()
 
+    def break_off(self) -> None:
+        """Nothing: what is asked of this process has to answer."""
+
     def write_steps(self, last_step: LastStep) -> None:
         """Write each step there from now on."""
         self._asking.last_step = last_step

@@ -1,6 +1,8 @@
 """Whether an environment does the same again: a run that was made is made once more, and held against itself."""
 
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from threading import Event, Timer
 from typing import Any
 
 import numpy as np
@@ -11,6 +13,8 @@ from mindrun.sim.outside.stepper import Run, Stepper
 from mindrun.sim.outside.taking import Place
 
 CHECKED_TICKS = 1000  # of a run: what is the same so far is taken to stay so
+CHECKED_SECONDS = 20.0  # for all that is done again
+SLOW = "whether {name} does the same again is not known: it has not made its first run again in {seconds:g} s"
 FLAW = "{name} does not do the same again, so no figure of it can be repeated: with seed {seed} {where}"
 WORN = (
     "{name} does otherwise where it is reset again than where it is new: with seed {seed} {where}; each run has a new "
@@ -71,6 +75,25 @@ class WrittenDown:
                     tick = ticks + (place < len(names))  # what is observed after a step is read in the next tick
                     return f"{words[place]} in tick {tick} was {row[place]:.9g}, and {other[place]:.9g} then"
         return ""
+
+
+@contextmanager
+def in_time(*steppers: Stepper) -> Iterator[Event]:
+    """Meanwhile steppers have so long, and no longer, for all that they are asked; the event says that it was over."""
+    is_late = Event()
+
+    def break_off() -> None:
+        is_late.set()
+        for each in steppers:
+            each.break_off()
+
+    timer = Timer(CHECKED_SECONDS, break_off)
+    timer.daemon = True
+    timer.start()
+    try:
+        yield is_late
+    finally:
+        timer.cancel()
 
 
 def _rows(stepper: Stepper, runs: Sequence[Run], actions: Sequence[Mapping[str, Any]]) -> Iterator[list[Row]]:

@@ -17,7 +17,7 @@ from mindrun.policy import Policy
 from mindrun.sim.codes import BROKEN_OFF
 from mindrun.sim.lanes.stages import act, before, conclude, run_skills
 from mindrun.sim.outside.asking import Asked
-from mindrun.sim.outside.repeating import CHECKED_TICKS, WrittenDown
+from mindrun.sim.outside.repeating import CHECKED_SECONDS, CHECKED_TICKS, SLOW, WrittenDown, in_time
 from mindrun.sim.outside.stepper import Run, Stepper
 from mindrun.sim.outside.steppers import stepper_for
 from mindrun.sim.outside.wiring import Wiring, wiring_of
@@ -82,16 +82,21 @@ class EnvironmentRollout(Rollout):
         self._stepper.write_steps(last_step)
 
     def make_again(self, genome: NDArray[np.float32], seed: int) -> None:
-        """Make the run of a genome and a seed twice; what is not the same again is in `notes` from then on."""
+        """Make the run of a genome and a seed twice; what is not the same again is in `notes` from then on.
+
+        So it is where that takes too long. An environment that fails says so in the run itself.
+        """
         probe = copy(self)
         probe._stepper = once = WrittenDown(self._stepper)  # type: ignore[assignment]  # it is asked for nothing else
         probe.observed, probe.clipped = 0, np.zeros_like(self.clipped)
         tile, jobs = self.tile(1), self.jobs(genome[None], np.array([seed], np.uint64))
-        with suppress(MindError):  # the run itself will say it
+        another, found = self._another_stepper(), ""
+        with in_time(self._stepper, another) as is_late, suppress(MindError):
             probe.fill(tile, jobs)
             probe.advance(tile, jobs, CHECKED_TICKS)
             probe._release(tile.kept, set())
-            self._flaw = once.flaw(self._another_stepper(), self.wiring.names, bool(self._rewards))
+            found = once.flaw(another, self.wiring.names, bool(self._rewards))
+        self._flaw = SLOW.format(name=once.environment, seconds=CHECKED_SECONDS) if is_late.is_set() else found
 
     def tally(self) -> NDArray[np.int64]:
         """How often was observed, and for each sensor how often beyond its range."""

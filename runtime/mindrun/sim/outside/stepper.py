@@ -51,5 +51,8 @@ class Stepper(Protocol):
     def asked(self) -> Asked | None:
         """What an environment in this process has been asked and has not answered, seen from another thread."""
 
+    def break_off(self) -> None:
+        """End what is asked of another process, from another thread: whoever waits for an answer is told."""
+
     def write_steps(self, last_step: LastStep) -> None:
         """Write each step there from now on, where this process makes them."""
