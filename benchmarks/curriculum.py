@@ -1,9 +1,9 @@
-"""From nothing to Collect: python benchmarks/curriculum.py [--seeds 5] [--file best.mind --curriculum Best --force].
+"""From nothing to Collect: python -m benchmarks.curriculum [--seeds 5] [--file best.mind --curriculum Best --known].
 
 Every seed teaches the whole curriculum with `mindc train` in a folder of its own, on all cores, and what it has learnt
-runs on 200 layouts that the training has not seen. What the file's own lock knows is forgotten, what those of the files
-know that it uses is there. A seed fails where a lesson does not reach what it needs, and where what came of it delivers
-too little, or drives for too little of the run. The first compilation is not counted; starting Python is.
+runs on 200 layouts that the training has not seen. What was learnt before is forgotten; with `--known`, what
+the files know that it uses is there. A seed fails where a lesson does not reach what it needs, and where what came of
+it delivers too little, or drives for too little of the run. The first compilation is not counted; starting Python is.
 """
 
 import argparse
@@ -28,14 +28,13 @@ LINE = "seed {seed:>3}: {seconds:5.0f} s, {objects:5.2f} ± {error:.2f} objects,
 FAILED = "seed {seed:>3}: {seconds:5.0f} s, {why}"
 
 
-def learn(file: str, curriculum: str, seed: int, runs: int, force: bool) -> dict[str, Any]:
+def learn(file: str, curriculum: str, seed: int, runs: int, is_known: bool) -> dict[str, Any]:
     """One seed: how long it took, and what came of it."""
     with TemporaryDirectory() as folder:
         for source in load(COLLECT.with_name(file)).sources:
-            bring(Path(source.name), Path(folder), known=Path(source.name).name != file)
+            bring(Path(source.name), Path(folder), known=is_known and Path(source.name).name != file)
         begin = time.perf_counter()
-        options = ("--force",) if force else ()
-        done = mindc(folder, "train", file, "--curriculum", curriculum, "--seed", str(seed), *options)
+        done = mindc(folder, "train", file, "--curriculum", curriculum, "--seed", str(seed), "--force")
         seconds = time.perf_counter() - begin
         if done.returncode:
             return {"seed": seed, "seconds": seconds, "why": done.stderr.strip()}
@@ -82,21 +81,21 @@ def documents(text: str) -> Sequence[dict[str, Any]]:
 def main() -> None:
     """Teach, try, print."""
     parser = argparse.ArgumentParser(allow_abbrev=False, description=__doc__)
-    parser.add_argument("--file", default=COLLECT.name, help="one of the examples' folder collect/")
+    parser.add_argument("--file", default="quick.mind", help="one of the examples' folder collect/")
     parser.add_argument("--curriculum", default="Quick")
     parser.add_argument("--seeds", type=int, default=5)
     parser.add_argument("--first-seed", type=int, default=1)
     parser.add_argument("--runs", type=int, default=200)
     parser.add_argument("--at-least", type=float, default=4.63, help="objects from which a seed has succeeded")
     parser.add_argument("--of-the-run", type=float, default=0.0, help="the share of the run that it has to drive for")
-    parser.add_argument("--force", action="store_true", help="go on from what does worse than what was known, too")
+    parser.add_argument("--known", action="store_true", help="begin with what is shipped of the files that it uses")
     parser.add_argument("--json", action="store_true")
     options = parser.parse_args()
     graph, weights, _ = collect()
     prepared(graph, weights, "Collect", 1)
     runs = []
     for seed in range(options.first_seed, options.first_seed + options.seeds):
-        runs.append(learn(options.file, options.curriculum, seed, options.runs, options.force))
+        runs.append(learn(options.file, options.curriculum, seed, options.runs, options.known))
         if not options.json:
             line = FAILED if "why" in runs[-1] else LINE
             print(line.format(**runs[-1]), runs[-1].get("lessons", ""), flush=True)
