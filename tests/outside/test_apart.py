@@ -14,6 +14,7 @@ pytest.importorskip("gymnasium")
 import numpy as np
 from mindrun.errors import MindError
 from mindrun.policy import Policy
+from mindrun.sim.outside import repeating
 from mindrun.sim.outside.apart import Apart
 from mindrun.sim.outside.here import Here
 from mindrun.sim.outside.rollout import EnvironmentRollout
@@ -101,6 +102,15 @@ def test_a_run_that_another_mind_takes_over_is_stepped_where_it_was_begun() -> N
     ours, theirs = (EnvironmentRollout(policy, "Go", "Go", steppers=Apart) for _ in range(2))
     plain = [moment.readings.tolist() for moment in trace(ours, 7).moments]
     assert [moment.readings.tolist() for moment in take_over(ours, 7, 4, theirs).moments] == plain[3:]
+
+
+def test_a_check_of_what_hangs_ends_and_says_that_nothing_is_known(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(repeating, "CHECKED_SECONDS", 0.2)
+    name = "tests.outside.kept:tests/Hanging-v0"
+    rollout = minds.rollout_of(minds.text(scene=name))
+    rollout.make_again(minds.genomes(rollout, 1)[0], 1)
+    [note] = rollout.notes
+    assert note.startswith(f"whether {name} does the same again is not known: ")
 
 
 def test_what_a_program_registers_itself_is_stepped_there() -> None:
