@@ -84,7 +84,7 @@ class FlowWalker:
             return EdgeFlow(value, behind, carried, np.where(self._drives, behind, carried), influence)
 
     def parts(self, rows: Places) -> Iterator[tuple[slice, EdgeFlow]]:
-        """The same of as many rows at a time as fit into memory, with their places among these."""
+        """What flows in these rows, as many at a time as fit into memory, each part with its places among them."""
         most = max(1, PART_EDGES // max(1, len(self._sources)))
         for first in range(0, len(rows), most):
             part = slice(first, first + most)
@@ -99,7 +99,7 @@ class FlowWalker:
 
     @property
     def kept_bytes(self) -> int:
-        """Of what is kept for rows that have been asked for."""
+        """How many bytes are kept of rows that have been asked for."""
         return self._values.kept_bytes
 
     def go_on(self, end: int) -> None:

@@ -76,7 +76,7 @@ class Difference:
         return self.low == self.mean - self.unseen or self.high == self.mean + self.unseen
 
     def data(self) -> dict[str, float | int | None]:
-        """As plain data."""
+        """The figures of the difference by their names, as plain data."""
         return asdict(self)
 
 

@@ -26,16 +26,16 @@ class Battery(Physical):
 
     @property
     def battery(self) -> BatteryModel:
-        """As its arguments say."""
+        """How the battery drains and charges, as the arguments of the sensor say."""
         return BatteryModel(self.start, self.drain, self.charge)
 
     def constant(self, world: World) -> float | None:
-        """Its start, where nothing drains it, and nothing charges it or it is full."""
+        """The charge of a battery that nothing drains, and that nothing charges or that is full; else None."""
         is_still = self.drain == 0 and (self.start == 1 or not (self.charge and world.charges))
         return self.start if is_still else None
 
     def first(self, is_within: Callable[[str], bool | None]) -> tuple[float, float]:
-        """Its start, as far off as the noise is."""
+        """The charge with which the battery starts, give or take the noise."""
         return max(0.0, self.start - self.noise), min(1.0, self.start + self.noise)
 
     @staticmethod

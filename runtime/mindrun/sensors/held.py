@@ -33,7 +33,7 @@ class Held(Physical):
         return None if self.of in world.things and world.can_hold else 0.0
 
     def first(self, is_within: Callable[[str], bool | None]) -> tuple[float, float] | None:
-        """0: a claw begins empty."""
+        """0, since a claw begins empty; None where noise hides that."""
         return None if self.noise else (0.0, 0.0)
 
     @staticmethod

@@ -38,7 +38,7 @@ class Episodes:
 
 
 class EnvironmentRollout(Rollout):
-    """As `Rollout`, for a task in an environment: a run of a seed begins with its `reset(seed)`.
+    """Runs a task in an environment, as `Rollout` does one in its own world: a run of a seed begins with `reset(seed)`.
 
     Every run has an environment of its own, and this thread has all of them stepped, in the process that
     `steppers` says. `clipped` counts for each observed
