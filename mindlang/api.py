@@ -49,8 +49,8 @@ from mindlang.training.teaching import teach
 class Mind(ShortRepr):
     """A file of the mind language, and those that it uses, as they were when it was loaded.
 
-    All but `diagnostics` and `is_valid` raise MindError where the file has errors, and where weights are needed that
-    were not taught, or fit no longer; its `hint` says what to do. What was taught is read when it is needed.
+    All but `diagnostics` and `is_valid` raise MindError where its text has errors, where a procedure is needed that
+    cannot be called, and where weights are that were not taught, or fit no longer; its `hint` says what to do.
     """
 
     path: Path
@@ -148,7 +148,7 @@ class Mind(ShortRepr):
         if self.graph and not self.path.is_file():  # a mind that does not compile says so first
             raise MindError(f"{self.path} is no file, and what is learnt is kept beside one", "save it, and load that")
         subject = open_subject(self.path, self.compiled)
-        chosen = chosen_lessons(self.graph, curriculum, skills, subject.lock)
+        chosen = chosen_lessons(self.graph, curriculum, skills, subject.trained)
         results, threads, elsewhere = list[Result](), as_workers(workers), executors.where(on)
         watch = Watch(lambda state, record: on_generation(record), warn, cancelled, perf_counter)
         refuse_frozen(subject, chosen if skills else ())
@@ -168,9 +168,7 @@ class Mind(ShortRepr):
 
         Arguments and options are those of the command; EditError, a MindError, where it is impossible.
         """
-        if not self.is_valid:
-            raise self._invalid()
-        if name not in edits.names():
+        if self.graph and name not in edits.names():
             unknown("edit", name, edits.names())
         of, project = edits.edit(name), open_project(self.compiled)
         several = {each for each, many in of.arguments if many} | {each.name for each in of.options if each.many}
@@ -187,7 +185,7 @@ class Mind(ShortRepr):
         return self.path.absolute().parent
 
     def _set_up(self, task: str | None, master: str | None) -> RunSetup:
-        if not self.is_valid:
+        if self.compiled.graph is None:
             raise self._invalid()
         return set_up(str(self.path), self.compiled, task, master)
 

@@ -1,5 +1,6 @@
 """What all tests share."""
 
+import os
 import signal
 import subprocess
 import sys
@@ -10,11 +11,12 @@ from hypothesis import settings
 from mindrun.cores import cores
 
 from tests.calling import Call, caller, write_rules
+from tests.draws import EXPLORE
 
 # A shared machine takes its time. What decides over a commit draws the same cases whenever it is run;
 # `make test-slow` draws new ones: pytest --hypothesis-profile explore
-settings.register_profile("same", deadline=None, derandomize=True)
-settings.register_profile("explore", deadline=None)
+settings.register_profile("same", deadline=None, derandomize=True, max_examples=20)
+settings.register_profile(EXPLORE, deadline=None)
 settings.load_profile("same")
 
 # A shell that starts the tests in the background has them ignore Ctrl-C, and so every program that they start.
@@ -26,6 +28,11 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
 def pytest_xdist_auto_num_workers() -> int:
     """Of `--numprocesses auto`: twice as many as processors, for a test often waits for a program or a clock."""
     return 2 * cores()
+
+
+# Hundreds of programs are started here, and each would compile all of its modules anew.
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+sys.dont_write_bytecode = False
 
 
 def pytest_sessionstart(session: pytest.Session) -> None:

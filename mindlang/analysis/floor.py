@@ -30,12 +30,15 @@ class Floor:
     def parts_near(self, place: Place, half: float) -> set[int]:
         """The parts that come so near to a place, along both axes."""
         (x, y), found = place, set[int]()
-        columns = range(max(0, bisect_right(self.xs, x - half) - 1), bisect_left(self.xs, x + half))
-        for row in range(max(0, bisect_right(self.ys, y - half) - 1), bisect_left(self.ys, y + half)):
-            found |= {
-                self.parts[row][column] for column in columns if row < len(self.parts) and column < len(self.parts[row])
-            }
+        columns, rows = _cells(self.xs, x - half, x + half), _cells(self.ys, y - half, y + half)
+        for row in rows:
+            found |= {self.parts[row][column] for column in columns}
         return found - {-1}
+
+
+def _cells(edges: Sequence[float], low: float, high: float) -> range:
+    """The cells that a stretch lies in or touches: both where it is a point on the edge between two."""
+    return range(max(0, bisect_left(edges, low) - 1), min(bisect_right(edges, high), len(edges) - 1))
 
 
 def floor(sides: tuple[float, float], walls: Iterable[Rectangle], radius: float) -> Floor | None:

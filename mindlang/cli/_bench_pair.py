@@ -56,7 +56,8 @@ def compare_benched(
     """Run both on the same layouts, and print what differs."""
     session = RunSession(quiet)
     cast = _cast(session, both, chosen)
-    seeds = layouts(chosen.seed, chosen.runs)
+    is_one_world = all(setup.is_one_world for setup, _ in cast)
+    seeds = layouts(chosen.seed, chosen.runs)[: 1 if is_one_world else None]
     notes = differing_tasks(both[1].file, cast[0][0].task, cast[1][0].task)
     session.say(*(f"note: {note}" for note in notes))
     benched, minds = [], []
@@ -66,14 +67,14 @@ def compare_benched(
         benched.append(Benched(each.name, setup.task, scores))
         about = {"name": each.name, "file": each.file, "master": setup.master}
         data = outcome.bench_data(setup.task, scores, seeds, seconds, None if chosen.where else cpu)
-        minds.append(about | data | {"notes": [*setup.ready.notes, *rollout.notes]})
-    compared = compare(*benched)
-    found: dict[str, Any] = {"task": benched[0].task.name, "seed": chosen.seed, "runs": chosen.runs, **chosen.by}
+        minds.append(about | data | {"notes": setup.notes(rollout)})
+    compared = compare(benched[0], benched[1], is_one_world)
+    found: dict[str, Any] = {"task": benched[0].task.name, "seed": chosen.seed, "runs": len(seeds), **chosen.by}
     found |= {"minds": minds, **compared.data(), "notes": notes}
     if table:
         rows = {each.name: runs_table(each.task, each.scores, seeds) for each in benched}
         write_file(table, csv_parts(joined(rows)))
-        session.say(f"{table}: a row for each of 2 × {chosen.runs:,} runs")
+        session.say(f"{table}: a row for each of 2 × {len(seeds):,} runs")
     if as_json:
         print_json(found)
     else:

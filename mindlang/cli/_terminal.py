@@ -124,7 +124,10 @@ def take_back(path: Path | str) -> None:
 
 
 def load_compiled(path: Path | str) -> Compiled:
-    """The compiled file; its report goes to stderr, and a file with errors ends the program (2 when unreadable)."""
+    """The compiled file; one whose text has errors is reported to stderr, and ends the program (2 when unreadable).
+
+    Of procedures that cannot be called nothing is said: who calls one does.
+    """
     from mindlang.cli._diagnostic_printer import print_report
     from mindlang.compiler.compile import load
 

@@ -28,7 +28,9 @@ def columns(console: Console, rows: Sequence[tuple[Sequence[Text], Text]]) -> Te
         line = Text()
         for text, width in zip(short, widths, strict=True):
             line.append_text(text).append(" " * (width - cell_len(text.plain) + 2))
-        lines = [each for part in body.split("\n") if part for each in part.wrap(console, console.width - indent)]
+        lines = [
+            each for part in body.split("\n") if part for each in part.wrap(console, max(1, console.width - indent))
+        ]
         lines = [Text(" " * indent).append_text(each) for each in lines]
         if is_beside and lines:
             lines[0] = line.append_text(lines[0][indent:])

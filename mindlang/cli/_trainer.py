@@ -64,7 +64,7 @@ class Trainer:
         seed = secrets.randbits(31) if seed is None else seed
         compiled = load_compiled(file)
         subject = open_subject(file, compiled)
-        chosen = chosen_lessons(subject.graph, curriculum, skills, subject.lock)
+        chosen = chosen_lessons(subject.graph, curriculum, skills, subject.trained)
         if skills or force:
             refuse_frozen(subject, chosen)
         command = ("mindc", *sys.argv[1:])
@@ -105,6 +105,7 @@ class Trainer:
             self._print(result)
             return True
         rollout = self._rollout(run, subject)
+        said = rollout.notes
         by = self.where, self.workers or cores(), self._say, perf_counter
         counted, cpu_begin = CountedTicks(), cpu_seconds()
         with workers_of(run, subject, rollout, *by) as (scorer, executor):
@@ -117,7 +118,7 @@ class Trainer:
                 return False
             taught = self._finished(run, subject, state, scorer, force, rollout.notes)
             result = taught.result | counted.rate(None if self.where else cpu_seconds() - cpu_begin)
-        self._say(*(f"note: {note}" for note in rollout.notes))
+        self._say(*(f"note: {note}" for note in rollout.notes if note not in said))
         self._say(*outcome(run, result, taught.kept, subject.keep_path(run.manifest.lesson).name))
         self._print(result)
         return True

@@ -85,14 +85,13 @@ def _taught(ready: ReadyMind) -> str:
 
 def _refuse_missing(ready: ReadyMind, file: str) -> None:
     """End the program where a skill that can act has no weights that fit."""
-    from mindrun.command_line import command_line
-
     from mindlang.cli._terminal import fail, say
+    from mindlang.run.setup import train_command
 
     for refusal in ready.refusals[:-1]:
         say(refusal)
     if ready.refusals:
-        fail(ready.refusals[-1], command_line("mindc", "train", Path(file)))
+        fail(ready.refusals[-1], train_command(Path(file), ready))
 
 
 def _refuse_procedures(compiled: Compiled, master: str) -> None:

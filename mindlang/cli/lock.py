@@ -30,8 +30,11 @@ def merge(base: Path, ours: Path, theirs: Path, name: str) -> None:
     Each branch may have taught skills of its own: all lines and worlds are kept. Git does it by itself once
     `.gitattributes` says `collect.lock merge=mind` and `git config merge.mind.driver` says the line below.
 
-    Ends with 1 where both have taught the same skill: then both lines stand between marks, and one is to be deleted.
+    Ends with 1 where both have changed the line of a skill: then what each says stands between marks, and one of these
+    is to be deleted; where one branch has taken the line out, it says nothing there.
     """
+    from mindrun.errors import reason
+
     from mindlang.cli._terminal import MISUSE, fail, write_file
     from mindlang.compiler.diagnostic import listed
     from mindlang.lock import LockError, read_lock
@@ -40,11 +43,15 @@ def merge(base: Path, ours: Path, theirs: Path, name: str) -> None:
     try:
         # git has an empty file where the branches have no lock in common
         merged = merge(*({} if path.stat().st_size == 0 else read_lock(path) for path in (base, ours, theirs)))
-    except (OSError, LockError) as error:
+    except OSError as error:
+        fail(f"{error.filename} cannot be read: {reason(error)}", code=MISUSE)
+    except LockError as error:
         fail(f"{name or ours} cannot be merged: {error}", code=MISUSE)
     write_file(ours, merged.text().encode())
     if merged.conflicts:
         skills = listed(merged.conflicts, "and")
-        message = f"Both branches have taught {skills}."
-        fail(message, f"In {name or ours} keep one of the lines between the marks, and delete the other and the marks.")
+        taken_out = any(None in sides for sides in merged.conflicts.values())
+        message = f"Both branches have {'taught or taken out' if taken_out else 'taught'} {skills}."
+        hint = f"In {name or ours} keep what one of them says between the marks, and delete the other and the marks."
+        fail(message, hint)
     sys.exit(0)

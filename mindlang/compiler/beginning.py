@@ -14,7 +14,7 @@ from typing import Any, Literal
 from mindrun.bodies import BodyKind
 from mindrun.graph import Start
 from mindrun.quantity import Place
-from mindrun.scenes import SceneKind
+from mindrun.scenes import TOUCHING_UNITS, SceneKind
 from mindrun.things import ThingKind
 from mindrun.things.rectangle import Rectangle
 
@@ -81,7 +81,8 @@ class Beginning:
         robot = self.robot or replace(self, at=PLAIN_START).robot
         if self.scene is None or robot is None:
             return True
-        return all(abs(end) <= side / 2 for end, side in zip(robot.ends, self.scene.sides * 2, strict=True))
+        ends = zip(robot.ends, self.scene.sides * 2, strict=True)
+        return all(abs(end) <= side / 2 + TOUCHING_UNITS for end, side in ends)
 
     def meeting(self) -> Iterator[tuple[Part[Any], Part[Any]]]:
         """Things that are in one place, what is fixed after what is not; of a way, all its places are looked at."""

@@ -5,9 +5,8 @@ from math import cos, hypot, inf, sin
 from typing import NamedTuple
 
 from mindrun.quantity import Place
+from mindrun.scenes import TOUCHING_UNITS
 from mindrun.things.rectangle import Rectangle
-
-TOUCHING_UNITS = 1e-6  # what is so little in one another only touches
 
 
 class Outline(NamedTuple):

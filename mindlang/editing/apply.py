@@ -110,15 +110,26 @@ def _texts(change: MindChange) -> dict[Path, str]:
 
 def _compiled(project: Project, texts: dict[Path, str]) -> Graph:
     """What the files of a project come to with these texts; EditError where they do not compile."""
-    now = {path: file.source.text for path, file in project.paths.items()} | texts
+    now = _texts_of(project) | texts
     main = project.main.source
     compiled = compile_source(replace(main, text=now[main.path]), main.path, now)
-    if compiled.graph is None:
-        worst = next(diagnostic for diagnostic in compiled.diagnostics if diagnostic.severity == "error")
+    worst = next((each for each in compiled.diagnostics if each.severity == "error"), None)
+    if compiled.graph is None or (worst and (worst := _new_mistake(project, compiled))):
+        assert worst
         error = EditError(f"After this edit the mind would not compile. {worst.message}", worst.hint)
         error.diagnostic = replace(_as_edited(worst), message=str(error))
         raise error
     return compiled.graph
+
+
+def _new_mistake(project: Project, edited: Compiled) -> Diagnostic | None:
+    """The first error that was not there before: what was wrong with a procedure may stay so."""
+    before = {each.message for each in load(project.main.source.path, _texts_of(project)).diagnostics}
+    return next((each for each in edited.diagnostics if each.severity == "error" and each.message not in before), None)
+
+
+def _texts_of(project: Project) -> dict[Path, str]:
+    return {path: file.source.text for path, file in project.paths.items()}
 
 
 def _as_edited(diagnostic: Diagnostic) -> Diagnostic:

@@ -58,5 +58,10 @@ def _may_be(now: LessonKey, key: LessonKey, tasks: Collection[str], masters: Col
 
 def needed_skills(graph: Graph, lesson: Lesson) -> set[str]:
     """The skills without whose weights a lesson cannot begin: those that act in it and do not learn, and its origin."""
-    acting = {*owners(reachable(graph, lesson.master))} - {*learners(graph, lesson)}
-    return acting | ({owner_of(graph, lesson.starts_from)} if lesson.starts_from else set())
+    return {*subskills(graph, lesson)} | ({owner_of(graph, lesson.starts_from)} if lesson.starts_from else set())
+
+
+def subskills(graph: Graph, lesson: Lesson) -> tuple[str, ...]:
+    """The skills whose weights act in a lesson and do not learn: all below its master but the learners."""
+    taught = learners(graph, lesson)
+    return tuple(name for name in owners(reachable(graph, lesson.master)) if name not in taught)

@@ -68,6 +68,11 @@ class NotLearning:
 Status = Trained | Stale | Untaught | NotLearning
 
 
+def trained_names(graph: Graph, lock: Lock) -> frozenset[str]:
+    """The skills whose weights fit, wherever they were taught."""
+    return frozenset(name for name, state in status(graph, lock).items() if isinstance(state, Trained))
+
+
 def status(graph: Graph, lock: Lock, folder: Path | None = None) -> dict[str, Status]:
     """How each skill of a mind stands to its lock, one that is like another as that one; reads no weights.
 

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Set
 
 from mindrun.sensors.sensor import directions
 
-from mindlang.analysis.conditions import TURNED, UPPER
+from mindlang.analysis.conditions import STRICT, TURNED, UPPER
 from mindlang.analysis.intervals import interval, is_constant
 from mindlang.analysis.study import Finding, Found, Study
 from mindlang.compiler.model import Comparison, Reading, When
@@ -22,6 +22,7 @@ GOOD = (
     f"{SENSORS}{SKILL} north > 90% or north < 10%\n",
     f"{SENSORS}{SKILL} north > 0.5\n",
     f"{SENSORS}{SKILL} north > 90% and north <= 1\n",
+    f"{SENSORS}{SKILL} north > 1\n",
 )
 BAD = (
     f"{SENSORS}sensor behind is latch of north below 20% above 80%\n",
@@ -53,19 +54,26 @@ def _one_sided(when: When | None, known: Set[str]) -> Iterator[Finding]:
     """The directions of which a condition asks for one side of what is behind, and nothing else."""
     sides = [[side for each in all_ if (side := _side(each, known))] for all_ in (when.alternatives if when else ())]
     asked = Counter(reading.name for all_ in sides for reading, *_ in all_)
-    for reading, is_left, number in (side for all_ in sides for side in all_):
-        if asked[reading.name] == 1 and (number <= 0.25 if is_left else number >= 0.75):
+    for reading, compare, number in (side for all_ in sides for side in all_):
+        is_left = compare in UPPER
+        if asked[reading.name] == 1 and _is_behind(compare, number):
             here, there = ("left", "right") if is_left else ("right", "left")
-            other = f"{reading.name} {'>' if is_left else '<'} {1 - number:g}"
+            other = f"{reading.name} {TURNED[compare]} {1 - number:g}"
             same = f"{reading.name} {'>= 0' if is_left else '<= 1'}"
             message = f"{reading.name} is a direction, and this is behind on the {here} alone, not on the {there}."
             yield Finding(reading.span, message, f"Add or {other}, or, where one side is meant, and {same}.")
 
 
-def _side(each: Comparison, known: Set[str]) -> tuple[Reading, bool, float] | None:
-    """The direction that is compared with a number, whether it has to be below that, and the number."""
+def _is_behind(compare: str, number: float) -> bool:
+    """Whether a direction can be so to a number, and only behind the robot."""
+    off = number if compare in UPPER else 1 - number
+    return off <= 0.25 and (off > 0 or (off == 0 and compare not in STRICT))
+
+
+def _side(each: Comparison, known: Set[str]) -> tuple[Reading, str, float] | None:
+    """The direction that is compared with a number, how, and the number."""
     for side, other, compare in ((each.left, each.right, each.compare), (each.right, each.left, TURNED[each.compare])):
         match side.terms:
             case (Reading(name) as reading,) if name in known and is_constant(other):
-                return reading, compare in UPPER, interval(other)[0]
+                return reading, compare, interval(other)[0]
     return None

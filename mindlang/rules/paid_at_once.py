@@ -17,7 +17,7 @@ from mindlang.analysis.intervals import UNIT_INTERVAL, Interval, interval
 from mindlang.analysis.study import Finding, Found, Study
 from mindlang.compiler.beginning import Beginning, beginning
 from mindlang.compiler.model import Task
-from mindlang.compiler.resolve.decided import happens_at_once
+from mindlang.compiler.resolve.decided import happens_at_once, hint_apart
 from mindlang.compiler.source import Span
 
 LEAST_SHARE = 0.01  # of runs that are worth a word
@@ -45,7 +45,6 @@ BAD = (
     TASK.replace("-10 0\n", "9 0\n  succeeds when in_goal > 0.5\n").replace("  rewards 1 on reach of goal\n", ""),
     TASK.replace("  starts at -10 0\n", ""),
 )
-HINT = "Write another place for one of the two, or which way the robot faces."
 
 
 def check(study: Study) -> Found:
@@ -69,12 +68,19 @@ class _FirstTick:
         """What is met or paid at once, line by line."""
         for end in self.task.ends:
             if end.event and (often := self._often(end.event, end.times)):
-                yield Finding(end.fact.span, f"This ends {often} in the first tick.", HINT)
+                yield Finding(end.fact.span, f"This ends {often} in the first tick.", self._hint(end.event))
             if end.when and (why := why_always(end.when, lambda of: interval(of, self._first))):
                 yield Finding(end.fact.span, f"This ends every run in its first tick: {why}.", "Compare otherwise.")
         for reward in self.task.rewards:
             if reward.on and (often := self._often(reward.on, 1) or self._often_drawn(reward.on)):
-                yield Finding(reward.fact.span, f"This is paid in the first tick of {often}, for nothing.", HINT)
+                message = f"This is paid in the first tick of {often}, for nothing."
+                yield Finding(reward.fact.span, message, self._hint(reward.on))
+
+    def _hint(self, event: EventKind) -> str:
+        """What to do about an event that comes at once: which way a robot faces changes what its claw has reached."""
+        kinds = [each.kind for each in self.task.things if each.name == event.thing]
+        faces = event.outcome == "reached" and not any(kind.is_area for kind in kinds)
+        return hint_apart(event) + (" Or write which way the robot faces." if faces else "")
 
     def _often(self, event: EventKind, times: int) -> str:
         """In how many runs an event happens so many times in the first tick, where the robot's place is said."""

@@ -22,7 +22,12 @@ task Hall in arena size 40
   lasts 9 s
   succeeds on reach of goal
 """
-GOOD = (HALL.format(15, ""), HALL.format(17.9, ""), HALL.format(20, " at 0 10\n  starts at 5 5"))
+GOOD = (
+    HALL.format(15, ""),
+    HALL.format(17.9, ""),
+    HALL.format(20, " at 0 10\n  starts at 5 5"),
+    HALL.format(15, " at 0 10\n  starts at 15 5"),
+)
 BAD = (
     HALL.format(20, ""),
     HALL.format("18.1", ""),

@@ -7,9 +7,10 @@ condition, `1 / ahead per tick when ahead > 0.05`; that is looked at for reading
 """
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
 from math import inf, nextafter
 
-from mindlang.analysis.conditions import TURNED, UPPER
+from mindlang.analysis.conditions import OPPOSITES, TURNED, UPPER
 from mindlang.analysis.intervals import UNIT_INTERVAL, Interval, divisors, formula_divisors, interval, is_constant
 from mindlang.analysis.study import Finding, Found, Study
 from mindlang.analysis.worlds import AnalysedWorld, any_world, world
@@ -25,13 +26,15 @@ RATIO = "sensor near is range_finder at 0 deg\nsensor far is range_finder at 90 
 GOOD = (
     f"{READS}  drives left_wheel at 0.1 / (eye + 0.1)\n",
     f"{READS}  drives left_wheel at 0.1 / eye when eye > 0 otherwise 1\n",
+    f"{READS}  drives left_wheel at 1 when eye < 0.1 otherwise 0.1 / eye\n",
+    f"{COURSE}  ends when eye > 10% and 0.01 / eye > 9%\n",
     f"{COURSE}  rewards 1 / eye per tick when eye >= 5%\n",
     f"{COURSE}  rewards eye / 2 per tick\n",
     f"{RATIO}sensor ratio is computed at near / (near + far + 0.01)\n",
 )
 BAD = (
     f"{READS}  drives left_wheel at 0.1 / eye\n",
-    f"{READS}  drives left_wheel at 1 when eye > 0.5 otherwise 0.1 / (1 - eye)\n",
+    f"{READS}  drives left_wheel at 1 when eye > 0.5 otherwise 0.1 / eye\n",
     f"{COURSE}  rewards 1 / eye per tick\n",
     f"{COURSE}  rewards 1 / eye per tick when eye >= 0\n",
     f"{COURSE}  ends when 1 / eye > 9\n",
@@ -56,8 +59,13 @@ def _of_skills(study: Study, place: AnalysedWorld) -> Iterator[Expression]:
         when = edge.gate.when if edge.gate else None
         if edge.at and _divides_by_zero(edge.at, place, when):
             yield edge.at
-        unguarded = (*(when.expressions if when else ()), *(value for value in edge.values if value is not edge.at))
-        yield from (each for each in unguarded if _divides_by_zero(each, place))
+        if (
+            edge.gate
+            and edge.gate.otherwise
+            and _divides_by_zero(edge.gate.otherwise, place, _opposite(edge.gate.when))
+        ):
+            yield edge.gate.otherwise
+        yield from _of_condition(when, place)
 
 
 def _of_tasks(study: Study) -> Iterator[Expression]:
@@ -67,10 +75,28 @@ def _of_tasks(study: Study) -> Iterator[Expression]:
             each = place.each(reward)
             if _divides_by_zero(reward.amount, place, reward.when, each):
                 yield reward.amount
-            asked = reward.when.expressions if reward.when else ()
-            yield from (side for side in asked if _divides_by_zero(side, place, None, each))
-        ends = (side for end in task.ends if end.when for side in end.when.expressions)
-        yield from (side for side in ends if _divides_by_zero(side, place))
+            yield from _of_condition(reward.when, place, each)
+        for end in task.ends:
+            yield from _of_condition(end.when, place)
+
+
+def _of_condition(when: When | None, place: AnalysedWorld, each: Interval = UNIT_INTERVAL) -> Iterator[Expression]:
+    """What a condition compares that can be a division by 0 while the comparisons beside it hold."""
+    if when is None:
+        return
+    for all_ in when.alternatives:
+        for comparison in all_:
+            beside = replace(when, alternatives=(tuple(other for other in all_ if other is not comparison),))
+            sides = (comparison.left, comparison.right)
+            yield from (side for side in sides if _divides_by_zero(side, place, beside, each))
+
+
+def _opposite(when: When) -> When | None:
+    """What holds where a condition of one comparison does not; None of others, of which that is not one `and`."""
+    match when.alternatives:
+        case ((only,),):
+            return replace(when, alternatives=((replace(only, compare=OPPOSITES[only.compare]),),))
+    return None
 
 
 def _divides_by_zero(

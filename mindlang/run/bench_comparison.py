@@ -11,7 +11,7 @@ from mindrun.graph import Task
 from mindrun.train.scoring import succeeded
 from numpy.typing import NDArray
 
-from mindlang.run.conclusion import SCORE, SUCCESS, conclusion
+from mindlang.run.conclusion import SCORE, SUCCESS, conclusion, conclusion_of_one_world
 from mindlang.run.outcome import events
 from mindlang.run.paired_difference import CONFIDENCE_LEVEL, Difference, difference
 
@@ -42,11 +42,14 @@ class Comparison:
     first: Benched
     second: Benched
     differences: Mapping[str, Difference]
+    is_one_world: bool = False
 
     @property
     def conclusion(self) -> str:
         """What may be said, in a sentence."""
         names = self.first.name, self.second.name
+        if self.is_one_world:
+            return conclusion_of_one_world(*names, self.second.task.name, self.differences)
         return conclusion(*names, self.second.task.name, self.differences)
 
     def data(self) -> dict[str, Any]:
@@ -57,13 +60,16 @@ class Comparison:
         return {"confidence": CONFIDENCE_LEVEL, "differences": differences, "conclusion": self.conclusion}
 
 
-def compare(first: Benched, second: Benched) -> Comparison:
-    """The differences in what both say in the same words; of the score only where it is paid for the same."""
+def compare(first: Benched, second: Benched, is_one_world: bool = False) -> Comparison:
+    """The differences in what both say in the same words; of the score only where it is paid for the same.
+
+    In one world, where nothing is drawn for either, each has made its only run.
+    """
     ours, theirs = first.figures(), second.figures()
     if _paid_for(first.task) != _paid_for(second.task):
         del ours[SCORE]
     both = [name for name in ours if name in theirs]
-    return Comparison(first, second, {name: difference(ours[name], theirs[name]) for name in both})
+    return Comparison(first, second, {name: difference(ours[name], theirs[name]) for name in both}, is_one_world)
 
 
 def differing_tasks(file: str, ours: Task, theirs: Task) -> list[str]:

@@ -18,7 +18,8 @@ Row = tuple[str, ...]
 def comparison_summary(found: dict[str, Any], comparison: Comparison) -> RenderableType:
     """Both means of each figure, their difference with its interval, how often which did better, and what that says."""
     runs, seed = found["runs"], found["seed"]
-    title = Text.assemble((found["task"], "bold"), f" on the same layouts, {runs:,} runs from seed {seed}")
+    where = " in its one world" if comparison.is_one_world else f" on the same layouts, {runs:,} runs from seed {seed}"
+    title = Text.assemble((found["task"], "bold"), where)
     minds = [
         Text(f"  {place}  {each['file']} with {each['master']} in charge")
         for place, each in zip("AB", found["minds"], strict=True)
@@ -29,7 +30,8 @@ def comparison_summary(found: dict[str, Any], comparison: Comparison) -> Rendera
         (name, _mean(name, ours[name].mean()), _mean(name, theirs[name].mean()), *_difference(name, each))
         for name, each in comparison.differences.items()
     ]
-    facts = [Text(line, "dim") for each in [*comparison.differences.items()][:1] for line in _facts(*each)]
+    told = () if comparison.is_one_world else [*comparison.differences.items()][:1]
+    facts = [Text(line, "dim") for each in told for line in _facts(*each)]
     return Group(title, *minds, "", *_aligned([head, *rows]), "", *facts, Text(comparison.conclusion, "bold"))
 
 

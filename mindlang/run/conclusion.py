@@ -9,12 +9,13 @@ from mindlang.run.paired_difference import CONFIDENCE_LEVEL, MIN_DIFFERING_RUNS,
 SCORE, SUCCESS = "score", "success"  # the figures that are no events
 PERCENT = f"{CONFIDENCE_LEVEL:.0%}".replace("%", " %")
 MIN_DIGITS = 2  # behind the point
+NOTHING_IN_COMMON = "There is no figure that both have: they are paid for other rewards, and count other events."
 
 
 def conclusion(first: str, second: str, task: str, differences: Mapping[str, Difference]) -> str:
     """Which of two minds does better on a task, by the first of the figures."""
     if not differences:
-        return "There is no figure that both have: they are paid for other rewards, and count other events."
+        return NOTHING_IN_COMMON
     name, found = next(iter(differences.items()))
     if found.not_finite:
         return f"In {_runs(found.not_finite)} the {name} is not a finite number, so that nothing can be said."
@@ -36,6 +37,21 @@ def conclusion(first: str, second: str, task: str, differences: Mapping[str, Dif
         f"{_runs(found.runs)} do not tell {second} from {first}: on layouts of {task}, {second} {verb} from {low} less "
         f"to {high} more{of_what} on average ({PERCENT} confidence){_unseen(found)}."
     )
+
+
+def conclusion_of_one_world(first: str, second: str, task: str, differences: Mapping[str, Difference]) -> str:
+    """Which of two minds does better where nothing is drawn: each has one run, and that says it all."""
+    if not differences:
+        return NOTHING_IN_COMMON
+    name, found = next(iter(differences.items()))
+    if found.mean is None:
+        return f"The {name} is not a finite number, so that nothing can be said."
+    if not found.differing:
+        return f"{first} and {second} come to the same {name} in the one world of {task}."
+    better, worse = (second, first) if found.mean > 0 else (first, second)
+    verb, of_what = _words(name)
+    more = amount(name, abs(found.mean), found)
+    return f"In the one world of {task}, {better} {verb} {more} more{of_what} than {worse}."
 
 
 def amount(name: str, value: float, found: Difference) -> str:

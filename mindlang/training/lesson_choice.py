@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from mindrun.errors import MindError
 from mindrun.graph import Graph, Lesson
 from mindrun.train import NotFoundError, RunError
-from mindrun.weights import learners, owners, reachable
+from mindrun.weights import learners
 
 from mindlang import bounds
 from mindlang.compiler.diagnostic import did_you_mean, listed
@@ -68,8 +68,8 @@ def chosen_lessons(
     """The lessons of a curriculum (the first where None), only those of `skills` where there are any.
 
     They stand as in the curriculum, but for those of skills that an earlier one needs and that are not `known`, which
-    have no weights. A skill that the first curriculum does not teach is looked for in the others. NotFoundError for an
-    unknown name.
+    have no weights that fit; those that teach one skill stay in order. A skill that the first curriculum does not teach
+    is looked for in the others. NotFoundError for an unknown name.
     """
     if not graph.lessons:
         raise RunError(
@@ -85,24 +85,25 @@ def chosen_lessons(
 
 
 def _by_need(graph: Graph, lessons: Sequence[Lesson], known: Collection[str]) -> tuple[Lesson, ...]:
-    """Lessons in their order, those that others wait for before these; where all wait for one another, in order."""
+    """Lessons in their order, those that others wait for before these; where all wait for one another, in order.
+
+    A lesson waits for those that teach what it needs, and for those before it that teach the same skill.
+    """
     skills = {lesson: {*learners(graph, lesson)} for lesson in lessons}
     needs = {lesson: needed_skills(graph, lesson) - {*known} for lesson in lessons}
     left, ordered = list(dict.fromkeys(lessons)), list[Lesson]()
     while left:
-        waits = (lesson for lesson in left if any(needs[lesson] & skills[other] for other in left if other != lesson))
-        blocked = {*waits}
-        following = next((lesson for lesson in left if lesson not in blocked), left[0])
+        free = (
+            lesson
+            for place, lesson in enumerate(left)
+            if not any(needs[lesson] & skills[other] for other in left if other != lesson)
+            and not any(skills[lesson] & skills[other] for other in left[:place])
+        )
+        following = next(free, left[0])
         left.remove(following)
         ordered.append(following)
         needs = {lesson: of - skills[following] for lesson, of in needs.items()}
     return tuple(ordered)
-
-
-def subskills(graph: Graph, lesson: Lesson) -> tuple[str, ...]:
-    """The skills whose weights a lesson needs: all that learn under its master, but the learners."""
-    taught = learners(graph, lesson)
-    return tuple(name for name in owners(reachable(graph, lesson.master)) if name not in taught)
 
 
 def _of(graph: Graph, curriculum: str) -> tuple[Lesson, ...]:

@@ -11,7 +11,7 @@ from mindrun.train.attempt import VERDICT_LAYOUTS
 from mindrun.train.lesson_state import LessonState
 from mindrun.train.population import Genomes
 from mindrun.train.run_folder import WEIGHTS, RunFolder
-from mindrun.train.scoring import Scorer, mark
+from mindrun.train.scoring import Scorer, is_one_world, mark, succeeded
 from mindrun.train.seeds import Purpose, layouts
 from mindrun.weights import parts
 
@@ -63,7 +63,7 @@ def keep(run: RunFolder, subject: Subject, state: LessonState, scorer: Scorer, f
     RunError where nothing was learnt, or not what the lesson needs. LockError where the lock cannot be read or written.
     """
     refuse_nothing(run, state, scorer)
-    refuse_failed(run, state)
+    refuse_failed(run, state, scorer)
     old = _genome_there(run, subject)
     if old is None or np.array_equal(old, state.kept[0]):
         return Kept(_record(run, subject, state, state.kept[0], state.reevaluated), None, True)
@@ -83,7 +83,8 @@ def refuse_nothing(run: RunFolder, state: LessonState, scorer: Scorer) -> None:
     if not isfinite(state.reevaluated):
         seeds = layouts(run.manifest.seed, 0, lesson.generations, 2 * VERDICT_LAYOUTS, Purpose.VERDICT)
         faulty = mark(scorer, state.kept, seeds).faults
-        why = f"on {faulty} of {len(seeds)} fresh layouts a reward or a command of the best genome was no finite number"
+        where = "in its one world" if is_one_world(scorer) else f"on {faulty} of {len(seeds)} fresh layouts"
+        why = f"{where} a reward or a command of the best genome was no finite number"
         hint = f"look at the rewards of the task {lesson.task}: mindc lint says what is divided by what can be 0"
     elif not state.told_apart:
         why = f"every genome of a generation scored the same, {number(state.best)} at best"
@@ -96,16 +97,20 @@ def refuse_nothing(run: RunFolder, state: LessonState, scorer: Scorer) -> None:
     raise RunError(f"{lesson.skill} has learnt nothing: {why}; the lock stays as it is", hint)
 
 
-def refuse_failed(run: RunFolder, state: LessonState) -> None:
+def refuse_failed(run: RunFolder, state: LessonState, scorer: Scorer) -> None:
     """RunError where no attempt has met what its lesson needs: nothing is to be taught on top of that."""
     lesson = run.manifest.lesson
     if not lesson.needs or state.passed.any():
         return
     which = "its only attempt" if state.attempt == 1 else f"the best of {state.attempt} attempts"
-    needed = listed(map(str, lesson.needs), "and")
+    needed, reached = listed(map(str, lesson.needs), "and"), f"scored {number(state.reevaluated)}"
+    if any(need.measure == "success" for need in lesson.needs):
+        seeds = layouts(run.manifest.seed, 0, lesson.generations, 2 * VERDICT_LAYOUTS, Purpose.VERDICT)
+        share = succeeded(scorer.task, scorer.score(state.kept, seeds)).mean()
+        reached += f" and succeeded in {share:.0%} of its runs"
     raise RunError(
-        f"{lesson.skill} has failed its lesson, which needs {needed} on fresh layouts: {which} scored "
-        f"{number(state.reevaluated)} there; the lock stays as it is, and nothing is taught on top of it",
+        f"{lesson.skill} has failed its lesson, which needs {needed} on fresh layouts: {which} "
+        f"{reached} there; the lock stays as it is, and nothing is taught on top of it",
         f"try more --attempts, more generations or another --seed; what it has learnt is in {run.folder / WEIGHTS}",
     )
 

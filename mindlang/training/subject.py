@@ -19,8 +19,8 @@ from mindlang.compiler.diagnostic import listed
 from mindlang.lock import Lock, lock_path, lock_sources, read_lock, read_locks
 from mindlang.lock.arrange import arrange
 from mindlang.lock.due import is_due
-from mindlang.lock.status import Status, status, trained_weights
-from mindlang.training.lesson_choice import subskills
+from mindlang.lock.lessons import subskills
+from mindlang.lock.status import Status, status, trained_names, trained_weights
 from mindlang.training.origin import origin_weights
 
 
@@ -59,6 +59,11 @@ class Subject:
         paths = [lock_path(path) for path in self.taught]
         known = (path for path in paths if not read_lock(path).keys().isdisjoint(learners(self.graph, lesson)))
         return min([lock_path(home), *known], key=paths.index)
+
+    @property
+    def trained(self) -> frozenset[str]:
+        """The skills whose weights fit."""
+        return trained_names(self.graph, self.lock)
 
     def standing(self, lesson: Lesson) -> dict[str, Status]:
         """How the learners of a lesson stand to that lock."""

@@ -65,5 +65,7 @@ def _seconds(driver: object) -> float:
 
 def _below(number: float) -> float:
     """The same number or a little less, in three digits."""
+    if number == 0:
+        return 0.0
     unit = 10.0 ** (floor(log10(number)) - 2)
     return floor(number / unit * ROUNDING_FACTOR) * unit

@@ -24,6 +24,7 @@ from mindlang.run.recorded_run import record_run
 from mindlang.run.run_recording import run_bytes
 from mindlang.run.setup import RunSetup
 from tests.calling import Call
+from tests.draws import cases
 from tests.hierarchies import PROCEDURES, SCALES
 from tests.sim.test_random_worlds import weights_for
 from tests.sim.worlds import random_world
@@ -47,7 +48,7 @@ def breakpoints(graph: Graph, actuators: int) -> Iterator[Breakpoint]:
         yield Breakpoint(line, "", cause)
 
 
-@settings(max_examples=20, suppress_health_check=SLOW)
+@settings(max_examples=cases(20), suppress_health_check=SLOW)
 @given(random_world(), st.sampled_from(SCALES), st.integers(0, 2**64 - 1), st.lists(st.floats(0, 1), max_size=4))
 def test_the_recording_of_a_run_stops_where_the_run_does(
     graph: Graph, scale: float, seed: int, cuts: list[float]

@@ -31,7 +31,7 @@ from mindlang.cluster.scheduler import destination
 COURSE = Course(lesson(250, attempts=5, rungs=2), 1, np.empty((0, LENGTH), np.float32))
 ROOT = Path(__file__).parents[2]
 KILLS = 2
-pytestmark = pytest.mark.filterwarnings("ignore")  # of Dask's own
+pytestmark = [pytest.mark.slow, pytest.mark.filterwarnings("ignore")]  # of Dask's own
 
 
 @pytest.fixture(scope="module", autouse=True)

@@ -80,6 +80,7 @@ def weights(project: Path, *words: str) -> dict[str, str]:
     return found
 
 
+@pytest.mark.slow
 def test_the_weights_are_those_of_threads(project: Path, cluster: str, pem: str) -> None:
     expected = weights(project, *TAUGHT, "--runs", "threads")
     (project / "scheduler.json").write_text(json.dumps({"type": "Scheduler", "address": cluster}))
@@ -102,6 +103,7 @@ def test_the_runs_are_those_of_threads(project: Path, cluster: str) -> None:
     assert f"by dask:{cluster}, in" in " ".join(done.stdout.split())
 
 
+@pytest.mark.slow
 def test_ctrl_c_leaves_a_run_that_goes_on_to_the_same_weights(project: Path, cluster: str) -> None:
     expected = weights(project, *LONG, "--runs", "undisturbed")
     command = [sys.executable, "-c", "from mindlang.cli import main; main()", "train", *LONG, "--on", f"dask:{cluster}"]

@@ -19,7 +19,7 @@ from mindlang.editing.project import EditError, Project
 from mindlang.edits import edit, names
 from tests.edits.sources import ACTUATORS, LIKE, MAIN, PARTS, SENSORS, SKILLS, Texts, minds
 
-OFTEN, SELDOM = 5000, 100  # cases of each test in the slow suite, and in the other
+OFTEN, SELDOM = 5000, 40  # cases of each test in the slow suite, and in the other
 FREE = ("New", "Go+New", "Roam", "Over")
 WORDS = (
     *SKILLS,

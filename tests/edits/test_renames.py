@@ -25,7 +25,7 @@ from mindlang.lock.world_facts import Worlds
 from tests.edits.sources import MAIN, Texts, minds
 from tests.language.examples import ROOT
 
-OFTEN, SELDOM = 3000, 60  # cases of each test in the slow suite, and in the other
+OFTEN, SELDOM = 3000, 20  # cases of each test in the slow suite, and in the other
 NEW = {
     False: ("fresh", "fresh", "p", "on", "when", "of", "ball", "eye", "left_wheel", "mood"),
     True: ("Fresh", "Fresh", "Go", "World"),

@@ -28,6 +28,7 @@ from mindlang.lock.arrange import arrange
 from mindlang.lock.blobs import FOLDER, blob
 from mindlang.lock.ready import make_ready
 from mindlang.lock.status import NotLearning, Stale, Trained, Untaught
+from tests.draws import cases
 from tests.edits.taught import MIND, statuses, teach, write_mind
 from tests.hierarchies import PROCEDURES, random_graph
 from tests.lock.test_trained import _whole_sensors as whole_sensors
@@ -304,7 +305,7 @@ def test_weights_that_were_stale_before_are_not_widened(drive: Path) -> None:
 
 
 @given(random_graph(alike=False), st.data())
-@settings(max_examples=60, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=cases(60), suppress_health_check=[HealthCheck.too_slow])
 def test_widened_skills_do_the_same_to_the_bit(
     tmp_path_factory: pytest.TempPathFactory, graph: Graph, data: st.DataObject
 ) -> None:

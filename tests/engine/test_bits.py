@@ -11,12 +11,13 @@ from mindrun.policy import Policy
 from mindrun.sigmoid import sigmoid
 from mindrun.trigonometry import cosine, sine
 
+from tests.draws import cases
 from tests.hierarchies import PROCEDURES, Case, random_case
 from tests.plain import Plain
 
 
 @given(random_case(), st.data())
-@settings(max_examples=300, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=cases(300), suppress_health_check=[HealthCheck.too_slow])
 def test_same_bits_as_plain_python(case: Case, data: st.DataObject) -> None:
     master = data.draw(st.sampled_from([skill.name for skill in case.graph.skills]))
     engine, plain = (

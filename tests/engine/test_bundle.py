@@ -28,13 +28,14 @@ from mindrun.robot.drivers.mock import MockSensor
 from mindrun.weights import genes
 from mindrun.wiring import Wiring
 
+from tests.draws import cases
 from tests.engine.bundles import example, wired
 from tests.engine.resealed import resealed
 from tests.hierarchies import PROCEDURES, random_graph
 
 
 @given(random_graph(fewest_hidden=1), st.integers(0, 2**32 - 1))
-@settings(max_examples=25)
+@settings(max_examples=cases(25))
 def test_there_and_back(graph: Graph, seed: int) -> None:
     rng = np.random.default_rng(seed)
     weights = {
@@ -93,7 +94,7 @@ def test_no_bit_can_flip() -> None:
 
 
 @given(st.data())
-@settings(max_examples=300, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=cases(300), suppress_health_check=[HealthCheck.too_slow])
 def test_a_bundle_forged_with_care_is_read_or_refused(data: st.DataObject) -> None:
     """The hash at the end made right again after a change: still no other exception."""
     body = bytearray(pack(example())[:-64])

@@ -20,6 +20,7 @@ from mindrun.registry import arguments, kinds, names
 from mindrun.things import Zone
 from mindrun.wiring import Wiring
 
+from tests.draws import cases
 from tests.engine.bundles import example, wired
 from tests.sim.worlds import random_world
 
@@ -81,7 +82,7 @@ def well_typed(hint: Any, value: Any) -> bool:
 
 
 @given(random_world())
-@settings(max_examples=40)
+@settings(max_examples=cases(40))
 def test_whatever_can_be_said_comes_back(graph: Graph) -> None:
     back = decode(json.loads(json.dumps(encode(graph))))
     assert back == graph
@@ -189,7 +190,7 @@ def test_no_text_can_have_what_a_terminal_obeys(name: str) -> None:
 
 @both
 @given(st.data())
-@settings(max_examples=300)
+@settings(max_examples=cases(300))
 def test_what_is_changed_is_refused_or_read_as_it_is(name: str, data: st.DataObject) -> None:
     whole, read = WHOLE[name]
     tree = deepcopy(whole)

@@ -12,6 +12,7 @@ from mindlang.compiler.model import Mind
 from mindlang.compiler.source import Source
 from mindlang.compiler.syntax import NOUNS, SETTINGS
 from tests.calling import RULES
+from tests.draws import cases
 from tests.edits.sources import Texts, minds
 from tests.language.examples import COLLECT, compiled
 
@@ -200,7 +201,7 @@ def test_a_map_drawn_otherwise_is_a_difference(tmp_path: Path) -> None:
 
 
 @given(minds(), st.randoms(use_true_random=False))
-@settings(max_examples=40)
+@settings(max_examples=cases(40))
 def test_a_mind_written_otherwise_is_the_same(texts: Texts, rng) -> None:
     """Without comments and blank lines, with other line ends and its declarations in another order."""
     both = "\n".join(texts.files.values()).replace('use "parts.mind"', "")

@@ -95,6 +95,18 @@ def test_what_another_skill_calls_is_in_nobodys_way(mindc: Call, calling: Path) 
     assert mindc("show", calling).code == 0
     assert mindc("edit", "rename", calling, "Turn", "Swing", "--noun", "skill").code == 0
     assert mindc("build", calling, "-o", calling.parent / "x.bundle", "--master", "Chase").code == 0
+    mind = mindlang.load(calling)
+    assert mind.edit("rename", old="Turn", new="Swing", noun="skill").diff
+    assert mind.bench("Chase", runs=2, master="Chase")["runs"] == 2
+
+
+def test_no_edit_breaks_a_procedure(mindc: Call, calling: Path) -> None:
+    """One more sensor is one more number, which the function does not take."""
+    (calling.parent / "turning.py").write_text(RIGHT, encoding="utf-8")
+    said = mindc("edit", "connect", calling, "Turn", "ball_bearing", "--write")
+    assert said.code != 0
+    assert "After this edit the mind would not compile" in said.err
+    assert mindc("check", calling).code == 0
 
 
 def test_what_the_robot_needs_is_said(mindc: Call, calling: Path) -> None:

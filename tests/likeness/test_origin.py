@@ -17,6 +17,7 @@ from mindlang.lock import read_lock
 from mindlang.lock.arrange import arrange
 from mindlang.training.lesson_choice import TrainOptions, chosen_lessons
 from mindlang.training.origin import origin_weights
+from tests.draws import cases
 from tests.likeness.test_lock import teach
 from tests.likeness.test_meaning import ALIKE, GO, SCHOOL, TOP, compiled, graph, named
 
@@ -56,7 +57,7 @@ def test_a_skill_stands_for_the_one_that_it_began_as() -> None:
     st.permutations(range(3)),
     st.integers(0, 2**32 - 1),
 )
-@settings(max_examples=60)
+@settings(max_examples=cases(60))
 def test_reordered_weights_do_the_same(function: Function, inputs: list[int], outputs: list[int], seed: int) -> None:
     """But for rounding: the sums are taken in another order."""
     rng = np.random.default_rng(seed)
@@ -87,7 +88,7 @@ def test_weights_are_copied_into_the_order_of_the_learner(tmp_path: Path) -> Non
     st.permutations(["influences Back", "influences Own", "drives left_wheel"]),
     st.integers(0, 2**32 - 1),
 )
-@settings(max_examples=60)
+@settings(max_examples=cases(60))
 def test_who_reads_and_influences_more_does_the_same_at_first(
     function: str, reads: list[str], sends: list[str], seed: int
 ) -> None:

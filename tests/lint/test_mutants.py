@@ -16,7 +16,7 @@ from mindlang.linting.lint import lint
 from tests.fmt.test_format import comments, meaning
 from tests.language.test_fuzz import SEEDS, delete, duplicate, flip, insert, splice, swap_lines
 
-OFTEN, SELDOM = 100_000, 2_000  # in the slow suite, and in the other
+OFTEN, SELDOM = 100_000, 400  # in the slow suite, and in the other
 MOST_CALLS = 3_000_000  # a mutant takes 300,000 at most: ten times as many is another order of work
 HERE = Path(__file__).parent
 

@@ -94,7 +94,7 @@ def test_stale_weights_are_refused_with_the_difference(source: Path) -> None:
     assert said.returncode == 1
     assert said.stderr.splitlines() == [
         "the weights of Go are stale: reads pulse is gone",
-        f"  mindc train {source}",
+        f"  mindc train {source} Go",
     ]
     assert not source.with_suffix(".bundle").exists()
 

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from mindlang.lock import HEADER, Entry, LockError, Signature, Taught, read_lock, read_locks, write_lock
 from mindlang.lock.training_world import TrainingWorld
 from mindlang.rules.taught_elsewhere import WORLD
+from tests.draws import cases
 
 NAMES = st.text("abcxyzABC_+:0123456789", min_size=1, max_size=8)
 HASHES = st.text("0123456789abcdef", min_size=64, max_size=64)
@@ -126,7 +127,7 @@ def test_other_bytes_are_refused(tmp_path: Path, data: bytes) -> None:
 
 
 @given(st.data())
-@settings(max_examples=200)
+@settings(max_examples=cases(200))
 def test_no_change_of_a_character_is_a_crash(tmp_path_factory: pytest.TempPathFactory, data: st.DataObject) -> None:
     place = data.draw(st.integers(0, len(LINE)))
     changed = LINE[:place] + data.draw(st.text(max_size=3)) + LINE[place + data.draw(st.integers(0, 3)) :]

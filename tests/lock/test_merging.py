@@ -14,6 +14,7 @@ from mindlang.lock import Entry, Lock, LockError, lock_text, read_lock, write_lo
 from mindlang.lock.merging import merge
 from mindlang.lock.training_world import TrainingWorld
 from mindlang.rules.taught_elsewhere import WORLD
+from tests.draws import cases
 from tests.lock.test_lock import ENTRIES
 
 SKILLS = ("Avoid", "Drive", "Go", "Seek")
@@ -34,7 +35,7 @@ def after(lock: Lock, done: Mapping[str, Entry | None]) -> dict[str, Entry]:
 
 
 @given(trained(), trained(), trained())
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=cases(200), deadline=None)
 def test_each_branch_keeps_what_it_has_taught(tmp_path_factory: pytest.TempPathFactory, first, own, other) -> None:
     path = tmp_path_factory.mktemp("merged") / "m.lock"
     base = after({}, first)

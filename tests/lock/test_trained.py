@@ -18,6 +18,7 @@ from mindlang.lock import LockError, Taught, read_lock
 from mindlang.lock.arrange import arrange
 from mindlang.lock.blobs import FOLDER, digest, record
 from mindlang.lock.status import NotLearning, Stale, Trained, Untaught, status, trained_weights
+from tests.draws import cases
 from tests.hierarchies import PROCEDURES, random_graph
 from tests.minds import CLAW, WHEELS, always, mind, rule, skill
 
@@ -200,7 +201,7 @@ def test_damaged_weights_are_refused(tmp_path: Path, damage: str) -> None:
 
 
 @given(random_graph(fewest_hidden=1, alike=False), st.data())
-@settings(max_examples=60, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=cases(60), suppress_health_check=[HealthCheck.too_slow])
 def test_reordering_the_source_changes_no_bit(
     tmp_path_factory: pytest.TempPathFactory, graph: Graph, data: st.DataObject
 ) -> None:

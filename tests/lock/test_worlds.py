@@ -25,6 +25,7 @@ from mindlang.lock.status import Stale, Trained, status
 from mindlang.lock.training_world import TrainingWorld, world_of
 from mindlang.lock.world_changes import changes
 from mindlang.lock.world_facts import Worlds
+from tests.draws import cases
 
 # One of everything that a lesson can depend on, all of it below Top.
 MIND = """\
@@ -574,7 +575,7 @@ PLACES = [path for path in _places(PLAIN) if path]
 
 
 @given(st.sampled_from(PLACES), JSON)
-@settings(max_examples=300)
+@settings(max_examples=cases(300))
 def test_a_world_with_a_right_hash_and_odd_facts_is_refused_or_told(path: tuple[Any, ...], new: Any) -> None:
     world = TrainingWorld(_with(PLAIN, path, new))
     heading, *lines = world.text().split("\n")

@@ -1,6 +1,7 @@
 """Minds in the environments of the tests."""
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from mindrun.actuators.action import Action
@@ -50,10 +51,10 @@ def graph_of(source: str) -> Graph:
     return found.graph
 
 
-def rollout_of(source: str, lanes: int = 8, interrupt: bool = True) -> EnvironmentRollout:
+def rollout_of(source: str, lanes: int = 8, interrupt: bool = True, **options: Any) -> EnvironmentRollout:
     """What scores genomes of its skill."""
     graph = graph_of(source)
-    return EnvironmentRollout(Policy(graph, {}), "Go", "Go", ["Go"], lanes=lanes, interrupt=interrupt)
+    return EnvironmentRollout(Policy(graph, {}), "Go", "Go", ["Go"], lanes=lanes, interrupt=interrupt, **options)
 
 
 def genomes(

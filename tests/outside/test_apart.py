@@ -107,7 +107,7 @@ def test_a_run_that_another_mind_takes_over_is_stepped_where_it_was_begun() -> N
 def test_a_check_of_what_hangs_ends_and_says_that_nothing_is_known(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(repeating, "CHECKED_SECONDS", 0.2)
     name = "tests.outside.kept:tests/Hanging-v0"
-    rollout = minds.rollout_of(minds.text(scene=name))
+    rollout = minds.rollout_of(minds.text(scene=name), steppers=Apart)
     rollout.make_again(minds.genomes(rollout, 1)[0], 1)
     [note] = rollout.notes
     assert note.startswith(f"whether {name} does the same again is not known: ")

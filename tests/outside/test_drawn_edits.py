@@ -24,6 +24,7 @@ from mindlang.editing.writing import write
 from mindlang.edits import edit
 from mindlang.lock.ready import make_ready
 from mindlang.lock.status import Trained
+from tests.draws import cases
 from tests.edits.taught import statuses, teach
 from tests.outside import drawn_worlds
 from tests.outside.drawn import environment_mind
@@ -67,7 +68,7 @@ def declared(path: Path) -> list[tuple[str, str]]:
     return [(noun, name) for noun, name in found if noun in NEW]
 
 
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=cases(15), deadline=None)
 @given(number=st.integers(0, 100_000), seed=st.integers(0, 2**64 - 1), choice=st.integers(0, 1000))
 def test_names_and_freezing_change_no_bit(number: int, seed: int, choice: int) -> None:
     with TemporaryDirectory() as folder:
@@ -86,7 +87,7 @@ def test_names_and_freezing_change_no_bit(number: int, seed: int, choice: int) -
         assert statuses(path) == states
 
 
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=cases(15), deadline=None)
 @given(number=st.integers(0, 100_000), seed=st.integers(0, 2**64 - 1))
 def test_what_is_read_more_changes_no_bit_where_its_weights_are_kept(number: int, seed: int) -> None:
     with TemporaryDirectory() as folder:

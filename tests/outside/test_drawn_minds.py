@@ -17,6 +17,7 @@ from mindrun.weights import genes
 
 from mindlang.compiler.compile import compile_source
 from mindlang.compiler.source import Source
+from tests.draws import cases
 from tests.outside import drawn_worlds
 from tests.outside.drawn import environment_mind
 from tests.outside.plain_outside import PlainOutside
@@ -39,7 +40,7 @@ def rollout_of(graph: Graph, lanes: int = 8) -> EnvironmentRollout:
     return EnvironmentRollout(Policy(graph, {}), "Go", "Go", names, lanes=lanes)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=cases(60), deadline=None)
 @given(number=st.integers(0, 100_000), seed=SEEDS)
 def test_a_run_is_what_plain_python_makes_of_it(number: int, seed: int) -> None:
     graph = graph_of(number)
@@ -65,7 +66,7 @@ def test_a_run_is_what_plain_python_makes_of_it(number: int, seed: int) -> None:
     assert jobs.counts[0].tolist() == plain.counts
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=cases(20), deadline=None)
 @given(
     number=st.integers(0, 100_000),
     lanes=st.integers(1, 9),

@@ -19,6 +19,7 @@ from mindlang.linting.lint import lint
 from mindlang.server.completing import complete
 from mindlang.server.hovering import hover
 from mindlang.server.workspace import Workspace
+from tests.draws import cases
 from tests.outside.drawn import environment_mind
 
 PATH = Path("/nowhere/drawn.mind")
@@ -42,7 +43,7 @@ def graph_of(source: str) -> Graph:
     return found.graph
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=cases(60), deadline=None)
 @given(NUMBERS)
 def test_its_spaces_mean_nothing(number: int) -> None:
     source, rng = text(number), Random(number)
@@ -53,7 +54,7 @@ def test_its_spaces_mean_nothing(number: int) -> None:
     assert graph_of(untidy) == graph_of(source) == graph_of(tidy)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=cases(60), deadline=None)
 @given(NUMBERS)
 def test_a_bundle_has_the_same_graph(number: int) -> None:
     graph = graph_of(text(number))
@@ -61,7 +62,7 @@ def test_a_bundle_has_the_same_graph(number: int) -> None:
     assert unpack(pack(Bundle(Policy(graph, weights), {}))).graph == graph
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=cases(40), deadline=None)
 @given(NUMBERS)
 def test_lint_says_nothing_that_no_line_is_at_fault_for(number: int) -> None:
     for found in lint(compiled(text(number))):
@@ -69,7 +70,7 @@ def test_lint_says_nothing_that_no_line_is_at_fault_for(number: int) -> None:
         assert found.span.text.strip()
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=cases(40), deadline=None)
 @given(NUMBERS, st.integers(0, 10_000))
 def test_an_editor_may_ask_anywhere(number: int, place: int) -> None:
     source = text(number)

@@ -53,6 +53,7 @@ def taught(folder: Path, *words: str, world: str = "Line") -> dict[str, str]:
     return weights
 
 
+@pytest.mark.slow
 def test_the_weights_are_those_of_any_number_of_processes(tmp_path: Path) -> None:
     expected = taught(tmp_path / "one", "--workers", "1")
     assert taught(tmp_path / "three", "--workers", "3") == expected
@@ -74,6 +75,7 @@ def test_many_runs_are_the_same_in_any_number_of_processes(tmp_path: Path) -> No
     assert [each[1][0] for each in found[1:]] == [found[0][1][0]] * 2
 
 
+@pytest.mark.slow
 def test_a_module_beside_the_mind_is_found_from_elsewhere(tmp_path: Path) -> None:
     folder = tmp_path / "beside"
     folder.mkdir()
@@ -111,6 +113,7 @@ def test_what_an_environment_does_wrong_in_a_process_is_one_message(
     assert workers_of(folder) == []
 
 
+@pytest.mark.slow
 def test_workers_end_with_who_asked_them_even_in_a_step_that_hangs(tmp_path: Path) -> None:
     folder = project(tmp_path, "tests/Hanging")
     path = os.pathsep.join([str(ROOT), str(ROOT / "runtime")])

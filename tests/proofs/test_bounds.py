@@ -23,6 +23,7 @@ from mindlang.proofs.batch import think, values
 from mindlang.proofs.interval import SIGMOID_ERROR
 from mindlang.proofs.proof import OfActuator, Proof, prove
 from mindlang.proofs.reach import MIN_INFLUENCE, ProvedReach, reach
+from tests.draws import cases
 from tests.hierarchies import PROCEDURES, SCALES, random_graph
 from tests.minds import always, mind, rule, skill
 
@@ -87,7 +88,7 @@ def looked_into(graph: Graph) -> Graph:
     return replace(graph, skills=tuple(replace(s, function=Mlp(1)) if s.function.opaque else s for s in graph.skills))
 
 
-@settings(max_examples=60)
+@settings(max_examples=cases(60))
 @given(random_graph(), st.sampled_from(SCALES), SEEDS)
 def test_random_hierarchies(graph: Graph, scale: float, seed: int) -> None:
     rng = np.random.default_rng(seed)
@@ -98,7 +99,7 @@ def test_random_hierarchies(graph: Graph, scale: float, seed: int) -> None:
     lies_inside(plain, weights, in_the_box(graph, 400, rng), prove(graph, of_graph, 0.01), reach(graph, of_graph))
 
 
-@settings(max_examples=60)
+@settings(max_examples=cases(60))
 @given(random_graph(), st.sampled_from(SCALES), SEEDS)
 def test_what_the_real_engine_does(graph: Graph, scale: float, seed: int) -> None:
     """Everything above is computed for many readings at once; here the engine itself says that it is the same."""

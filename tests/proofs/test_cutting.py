@@ -20,6 +20,7 @@ from mindlang.proofs.branch_and_bound import (
     sway_of,
 )
 from mindlang.proofs.interval import Boxes, SentBounds
+from tests.draws import cases
 from tests.hierarchies import random_graph
 from tests.minds import always, rule, skill
 
@@ -148,7 +149,7 @@ def test_what_was_seen_is_clamped() -> None:
     assert range_of((*R0, *number(3), ("*", 0), *number(1), ("-", 0)), 9) == EdgeRange(0.0, 1.0, True, (0.0, 1.0))
 
 
-@settings(max_examples=15)
+@settings(max_examples=cases(15))
 @given(random_graph(), st.integers(0, 2**32 - 1))
 def test_a_skill_by_itself_sends_the_same(graph: Graph, seed: int) -> None:
     """Of readings that are numbered anew."""
@@ -161,7 +162,7 @@ def test_a_skill_by_itself_sends_the_same(graph: Graph, seed: int) -> None:
         assert np.array_equal(found, values(each, weights, readings), equal_nan=True)
 
 
-@settings(max_examples=40)
+@settings(max_examples=cases(40))
 @given(st.lists(st.floats(-2, 2, width=32), min_size=9, max_size=9))
 def test_bounds_are_close_to_what_a_small_perceptron_sends(weights: list[float]) -> None:
     """Nothing but rounding, and what lies between readings that are tried, is left after enough cuts."""

@@ -13,6 +13,7 @@ from mindlang.proofs import joint, reach
 from mindlang.proofs.batch import think
 from mindlang.proofs.proof import OfActuator, prove
 from mindlang.proofs.reach import ROUNDING_MARGIN, Bound, Driven
+from tests.draws import cases
 from tests.hierarchies import doubling
 from tests.minds import CLAW, WHEELS, always, mind, rule, skill
 from tests.proofs.samples import ONE_LESS_R0, R0, drives, sends
@@ -46,7 +47,7 @@ def separate(draw: st.DrawFn) -> Graph:
     return mind(*skills, readings=width)
 
 
-@settings(max_examples=40)
+@settings(max_examples=cases(40))
 @given(separate())
 def test_influence_attains_its_bounds(graph: Graph) -> None:
     """With all readings 0, and with all of them 1: to the bit, for every skill and every actuator."""
@@ -61,7 +62,7 @@ def test_influence_attains_its_bounds(graph: Graph) -> None:
         assert (driven.command is None) == (high == 0)
 
 
-@settings(max_examples=40)
+@settings(max_examples=cases(40))
 @given(separate())
 def test_a_command_is_bounded_by_what_its_drivers_send(graph: Graph) -> None:
     """And by a margin for each of them that may have influence, and two more, as docs/proofs.md has it."""
@@ -298,7 +299,7 @@ def test_a_joint_claim_rests_on_all_weights_on_the_way() -> None:
     assert (right.neutral, right.weights) == ("can be", ())
 
 
-@settings(max_examples=20)
+@settings(max_examples=cases(20))
 @given(separate())
 def test_engine_is_neutral_exactly_where_nothing_drives(graph: Graph) -> None:
     """In the corner where all readings are 0, which is the least of all."""

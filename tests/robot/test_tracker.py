@@ -19,6 +19,7 @@ from mindrun.robot.ball_detection import (
     follow,
 )
 
+from tests.draws import cases
 from tests.robot.drivers.frames import (
     HEIGHT,
     VIEW,
@@ -43,7 +44,7 @@ def off(found: Ball | None, x: float) -> float:
 
 
 @given(st.floats(40, 280), st.floats(40, 200), st.floats(8, 60), st.integers(0, 1000), st.floats(0, 12))
-@settings(max_examples=40)
+@settings(max_examples=cases(40))
 def test_a_ball_is_found_where_it_is(x: float, y: float, diameter: float, seed: int, noise: float) -> None:
     found = find_ball(taken(ball(room(), x, y, diameter), noise, seed), LOOK)
     assert off(found, x) < 0.35
@@ -52,7 +53,7 @@ def test_a_ball_is_found_where_it_is(x: float, y: float, diameter: float, seed: 
 
 
 @given(st.integers(0, 1000), st.floats(0, 25), st.floats(0, 200))
-@settings(max_examples=20)
+@settings(max_examples=cases(20))
 def test_no_ball_is_no_ball(seed: int, noise: float, brightness: float) -> None:
     assert find_ball(taken(room(brightness), noise, seed), LOOK) is None
 

@@ -145,6 +145,22 @@ def test_a_mind_beside_itself_differs_in_nothing(mindc: Call, rules: Path) -> No
     assert "come to the same score in 12 runs" in found["conclusion"]
 
 
+def test_in_one_world_one_run_says_it_all(mindc: Call, rules: Path, slower: Path) -> None:
+    for path, text in ((rules, RULES), (slower, SLOWER)):
+        placed = text.replace(
+            "size 2 reached moves\n  lasts 1200", "size 2 at 9 4\n  starts at 0 0 facing 30 deg\n  lasts 1200"
+        )
+        path.write_text(placed, encoding="utf-8")
+    said = mindc("bench", rules, slower, "--task", "Chase", "--runs", 12)
+    found = json.loads(mindc("bench", rules, slower, "--task", "Chase", "--runs", 12, "--json").out)
+    jsonschema.validate(found, SCHEMA)
+    assert (found["runs"], found["differences"]["score"]["runs"]) == (1, 1)
+    assert all("1 world" in note for mind in found["minds"] for note in mind["notes"])
+    better = slower if found["differences"]["score"]["mean"] > 0 else rules
+    assert found["conclusion"].startswith(f"In the one world of Chase, {better} scores ")
+    assert "confidence" not in said.out.split("\n")[-2]
+
+
 def test_workers_change_nothing(mindc: Call, rules: Path, slower: Path) -> None:
     both = [
         json.loads(mindc("bench", rules, slower, "--runs", 9, "--workers", workers, "--json").out) for workers in (1, 2)

@@ -25,6 +25,7 @@ from mindlang.run.run_recording import run_bytes
 from mindlang.run.setup import RunSetup
 from mindlang.run.trace_file import trace_bytes, trace_table
 from mindlang.view.viewed_recording import viewed_recording
+from tests.draws import cases
 from tests.hierarchies import PROCEDURES, SCALES
 from tests.sim.test_random_worlds import Weights, weights_for
 from tests.sim.worlds import random_world
@@ -70,7 +71,7 @@ def recorded(graph: Graph, weights: Weights, seed: int) -> tuple[RecordedRun, Ru
     return record_run(setup, setup.rollout(), seed), setup
 
 
-@settings(max_examples=25, suppress_health_check=SLOW)
+@settings(max_examples=cases(25), suppress_health_check=SLOW)
 @given(partly_read(), st.sampled_from(SCALES), st.integers(0, 2**32 - 1))
 def test_every_number_is_that_of_a_mind_that_reads_all_or_there_is_none(graph: Graph, scale: float, seed: int) -> None:
     weights = weights_for(graph, scale, np.random.default_rng(seed))

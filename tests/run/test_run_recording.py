@@ -27,6 +27,7 @@ from mindlang.view.viewed import Viewed
 from mindlang.view.viewed_recording import viewed_recording
 from mindlang.view.viewed_run import ViewedRun
 from tests.calling import Call
+from tests.draws import cases
 from tests.hierarchies import PROCEDURES, SCALES
 from tests.sim.test_random_worlds import weights_for
 from tests.sim.worlds import random_world
@@ -45,7 +46,7 @@ def assert_same(now: RecordedRun, then: RecordedRun) -> None:
         assert np.array_equal(a, b, equal_nan=name not in ("events", "held", "touching", "ended")), name
 
 
-@settings(max_examples=40, suppress_health_check=SLOW)
+@settings(max_examples=cases(40), suppress_health_check=SLOW)
 @given(random_world(), st.sampled_from(SCALES), st.integers(0, 2**64 - 1))
 def test_any_run_is_read_again_and_computed_again(graph: Graph, scale: float, seed: int) -> None:
     """Whatever its sensors lose, delay or add: what the skills read is what was recorded."""

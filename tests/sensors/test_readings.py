@@ -28,6 +28,7 @@ from mindrun.sim.rollout import Rollout
 from mindrun.sim.state import FIRST_RAY, FRAME_ROWS
 from mindrun.trigonometry import cosine, sine
 
+from tests.draws import cases
 from tests.hierarchies import WORLDLY
 from tests.minds import always, mind, rule
 from tests.sensors.plain_lanes import plain_lane
@@ -223,7 +224,7 @@ def known(graph: Graph) -> World:
     return World(is_solid=is_solid, can_hold=True, things=names)
 
 
-@settings(max_examples=60, suppress_health_check=list(HealthCheck))
+@settings(max_examples=cases(60), suppress_health_check=list(HealthCheck))
 @given(
     random_world(), st.lists(st.sampled_from(PURE), min_size=1, max_size=8),
     st.tuples(st.floats(0, 1), st.floats(0, 1)), st.integers(0, 2**32 - 1),

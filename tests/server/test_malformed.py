@@ -8,6 +8,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from tests.draws import cases
 from tests.language.examples import RIGHT
 from tests.server.client import Editor, editing, uri
 
@@ -126,7 +127,7 @@ KEYS = ("textDocument", "position", "range", "context", "options", "query", "com
 
 
 @settings(
-    max_examples=150,
+    max_examples=cases(150),
     deadline=None,
     derandomize=True,
     database=None,

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from itertools import combinations
 from math import cos, hypot, sin
 from typing import NamedTuple
+from unittest.mock import patch
 
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
@@ -15,6 +16,8 @@ from mindlang.compiler.compile import compile_source
 from mindlang.compiler.model import Mind, Task
 from mindlang.compiler.source import Source
 from mindlang.linting.lint import lint
+from mindlang.rules import crowded_world
+from tests.draws import cases
 
 ROBOT = """
 tick 1/20 s
@@ -116,7 +119,9 @@ def decided(mind: Mind, things: list[tuple[float, float, float]], begin: tuple[f
     return found
 
 
-@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.filter_too_much])
+@settings(
+    max_examples=cases(60), deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.filter_too_much]
+)
 @given(worlds(), st.integers(0, 2**31))
 def test_no_run_begins_decided_or_in_something(text: str, seed: int) -> None:
     compiled = compile_source(Source("hall.mind", text))
@@ -125,7 +130,8 @@ def test_no_run_begins_decided_or_in_something(text: str, seed: int) -> None:
     assume(compiled.graph is not None)
     assert compiled.mind
     assert compiled.graph
-    assume(not lint(compiled, RULES))
+    with patch.object(crowded_world, "MAX_WORLDS", 100), patch.object(crowded_world, "MAX_LOOKS", 10_000_000):
+        assume(not lint(compiled, RULES))  # a world of which one layout in a hundred lacks a place is no case
     [task], rollout = compiled.mind.tasks, Rollout(Policy(compiled.graph, {}), "Hall", "Stand")
     scores = rollout.score(Rollout.draw(rollout, 1, None), [seed, seed + 1, seed + 2])
     assert not scores.ended_by[scores.ticks < 2].size, text
@@ -141,7 +147,7 @@ def test_no_run_begins_decided_or_in_something(text: str, seed: int) -> None:
         assert not decided(compiled.mind, things, begin) & ended, text
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=cases(150), deadline=None)
 @given(worlds())
 def test_check_says_of_places_what_geometry_says(text: str) -> None:
     """An error where two are in one place with their least sizes, a finding where they are so with their largest."""

@@ -15,6 +15,7 @@ from mindrun.policy import Policy
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import Moment, trace
 
+from tests.draws import cases
 from tests.hierarchies import PROCEDURES, SCALES
 from tests.sim.minds import compile_text
 from tests.sim.test_random_worlds import Weights, weights_for
@@ -61,7 +62,7 @@ def all_same(some: Sequence[Moment], others: Sequence[Moment], but: Sequence[str
     return len(some) == len(others) and all(same(a, b, but) for a, b in zip(some, others, strict=True))
 
 
-@settings(max_examples=40, suppress_health_check=SLOW)
+@settings(max_examples=cases(40), suppress_health_check=SLOW)
 @given(random_world(), st.data(), st.sampled_from(SCALES), SEEDS)
 def test_the_engine_makes_the_same_of_a_change(graph: Graph, data: Any, scale: float, seed: int) -> None:
     """Also where what is replaced is a source of other sensors, or is computed itself."""
@@ -85,7 +86,7 @@ def test_the_engine_makes_the_same_of_a_change(graph: Graph, data: Any, scale: f
     assert run.jobs.faults[0] == faults
 
 
-@settings(max_examples=25, suppress_health_check=SLOW)
+@settings(max_examples=cases(25), suppress_health_check=SLOW)
 @given(random_world(), st.data(), st.sampled_from(SCALES), SEEDS)
 def test_what_changes_nothing_changes_no_bit(graph: Graph, data: Any, scale: float, seed: int) -> None:
     """In every tick what was read and thought anyway is put in the place of itself."""
@@ -100,7 +101,7 @@ def test_what_changes_nothing_changes_no_bit(graph: Graph, data: Any, scale: flo
     assert all_same(plain, moments(rollout, seed % 1000, changes))
 
 
-@settings(max_examples=25, suppress_health_check=SLOW)
+@settings(max_examples=cases(25), suppress_health_check=SLOW)
 @given(random_world(), st.data(), st.sampled_from(SCALES), SEEDS)
 def test_nothing_differs_before_the_change(graph: Graph, data: Any, scale: float, seed: int) -> None:
     rollout = rollout_of(graph, weights_for(graph, scale, np.random.default_rng(seed)))
@@ -110,7 +111,7 @@ def test_nothing_differs_before_the_change(graph: Graph, data: Any, scale: float
     assert all_same(plain[:calm], other[:calm])
 
 
-@settings(max_examples=25, suppress_health_check=SLOW)
+@settings(max_examples=cases(25), suppress_health_check=SLOW)
 @given(random_world(), st.data(), st.sampled_from(SCALES), SEEDS)
 def test_silenced_is_as_if_all_edges_to_it_were_cut(graph: Graph, data: Any, scale: float, seed: int) -> None:
     weights = weights_for(graph, scale, np.random.default_rng(seed))

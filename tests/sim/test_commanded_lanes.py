@@ -15,6 +15,7 @@ from mindrun.sim.rollout import Rollout
 from mindrun.weights import reachable, weights_of
 
 from mindlang.compiler.compile import load
+from tests.draws import cases
 from tests.hierarchies import PROCEDURES, SCALES
 from tests.sim.test_random_worlds import SLOW, Weights, weights_for
 from tests.sim.test_rollout import COLLECT
@@ -77,7 +78,7 @@ def playable(graph: Graph, weights: Weights) -> list[Skill]:
     return [skill for skill in chosen if not isinstance(ready[skill.name], Stateful)]
 
 
-@settings(max_examples=40, suppress_health_check=SLOW)
+@settings(max_examples=cases(40), suppress_health_check=SLOW)
 @given(random_world(), st.sampled_from(SCALES), st.integers(0, 2**32 - 1), st.integers(1, 3))
 def test_runs_are_those_of_a_rollout(graph: Graph, scale: float, seed: int, count: int) -> None:
     """Of the whole mind, and of one of which a skill is played from outside."""

@@ -13,6 +13,7 @@ from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 from numpy.typing import NDArray
 
+from tests.draws import cases
 from tests.sim.minds import compile_text
 
 MIND = """
@@ -79,7 +80,7 @@ def apart(one: NDArray[np.float64], other: NDArray[np.float64]) -> NDArray[np.fl
     return np.minimum(between, 1 - between)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=cases(60), deadline=None)
 @given(ROUGH, st.integers(1, 6), NEAR_THE_SEAM, NEAR_THE_SEAM, NEAR_THE_SEAM, st.floats(-0.3, 0.3), st.integers(0, 99))
 @example("noise 0.03", 5, 0.0, 0.25, 0.0, 0.0, 1)
 def test_turned_and_read_is_read_and_turned(

@@ -18,6 +18,7 @@ from mindrun.things import Item, Obstacle
 from mindrun.weights import genes
 
 from mindlang.compiler.compile import load
+from tests.draws import cases
 from tests.hierarchies import PROCEDURES, SCALES, random_graph
 from tests.sim.test_rollout import COLLECT, some_weights
 
@@ -63,7 +64,7 @@ WORLD = Task(
 )
 
 
-@settings(max_examples=150)
+@settings(max_examples=cases(150))
 @given(random_graph(), st.sampled_from(SCALES), st.integers(0, 2**32 - 1))
 def test_random_hierarchies(graph: Graph, scale: float, seed: int) -> None:
     rng = np.random.default_rng(seed)

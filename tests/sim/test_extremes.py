@@ -17,6 +17,7 @@ from mindrun.policy import Policy
 from mindrun.quantity import Quantity
 from mindrun.sim.rollout import Rollout
 
+from tests.draws import cases
 from tests.sim.minds import compile_text
 
 MIND = """
@@ -101,7 +102,7 @@ def test_a_robot_that_flies_for_ever_ends_its_run(seed: int) -> None:
 
 
 @pytest.mark.slow
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=cases(300), deadline=None)
 @given(said=st.lists(worlds, min_size=20, max_size=20))
 def test_no_world_ends_in_a_signal(said: list[dict[str, object]]) -> None:
     lines = "".join(json.dumps(MIND.format(**PLAIN | each)) + "\n" for each in said)

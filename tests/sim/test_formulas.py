@@ -13,6 +13,8 @@ from mindrun.sim.exact import OPERATIONS, exactly
 from mindrun.sim.formula_terms import NoFormulaError
 from mindrun.sim.formulas import formula
 
+from tests.draws import cases
+
 HEAD = "import math\nfrom math import sin, pi as PI\nGAIN, STEPS, ON = 0.3, 7, True\n"
 NUMBERS = (
     "0",
@@ -114,7 +116,7 @@ def check(source: str, inputs: list[tuple[float, float]], *, is_compiled: bool) 
 
 
 @given(source=functions(), inputs=st.lists(st.tuples(readings, readings), min_size=1, max_size=5))
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=cases(100), deadline=None)
 def test_a_formula_means_what_python_means(source: str, inputs: list[tuple[float, float]]) -> None:
     check(source, inputs, is_compiled=False)
 
@@ -127,7 +129,7 @@ def test_a_compiled_formula_has_the_bits_of_python(source: str, inputs: list[tup
 
 @pytest.mark.slow
 @given(source=functions(), inputs=st.lists(st.tuples(readings, readings), min_size=20, max_size=40))
-@settings(max_examples=1000, deadline=None)
+@settings(max_examples=cases(1000), deadline=None)
 def test_many_compiled_formulas_have_the_bits_of_python(source: str, inputs: list[tuple[float, float]]) -> None:
     check(source, inputs, is_compiled=True)
 

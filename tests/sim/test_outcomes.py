@@ -13,6 +13,7 @@ from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import Moment, trace
 from mindrun.things import OUTCOMES
 
+from tests.draws import cases
 from tests.sim.minds import compile_text
 from tests.sim.outcomes import PlainWorld
 
@@ -115,7 +116,7 @@ def moments(of: Graph, seed: int) -> list[Moment]:
     return list(trace(Rollout(Policy(of, {}), "Test", "Carry"), seed).moments)
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=cases(20), deadline=None)
 @given(worlds(), st.lists(st.sampled_from(MEASURING), unique=True), st.integers(0, 2**31))
 def test_what_measures_changes_nothing(task: str, lines: list[str], seed: int) -> None:
     """Bit for bit the same run, whatever is counted and rewarded besides."""
@@ -132,7 +133,7 @@ def test_what_measures_changes_nothing(task: str, lines: list[str], seed: int) -
         assert a.lines[0] == b.lines[0]
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=cases(20), deadline=None)
 @given(worlds(), st.integers(0, 2**31))
 def test_outcomes_are_those_of_plain_python(task: str, seed: int) -> None:
     lines = ["counts reach of ball", "counts reach of home", "counts reach of plug", "counts delivery of ball"]

@@ -13,6 +13,7 @@ from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 from mindrun.weights import genes
 
+from tests.draws import cases
 from tests.hierarchies import PROCEDURES, SCALES
 from tests.sim.following import follow
 from tests.sim.test_rollout import same
@@ -31,7 +32,7 @@ def followed(graph: Graph, weights: Weights, seed: int) -> Counter[str]:
     return follow(rollout, Engine(Policy(graph, weights), PROCEDURES), seed % 1000)
 
 
-@settings(max_examples=50, suppress_health_check=SLOW)
+@settings(max_examples=cases(50), suppress_health_check=SLOW)
 @given(random_world(), st.sampled_from(SCALES), st.integers(0, 2**32 - 1))
 def test_every_tick_is_what_plain_python_says(graph: Graph, scale: float, seed: int) -> None:
     weights = weights_for(graph, scale, np.random.default_rng(seed))
@@ -39,7 +40,7 @@ def test_every_tick_is_what_plain_python_says(graph: Graph, scale: float, seed: 
         event(f"{happening} happens")
 
 
-@settings(max_examples=15, suppress_health_check=SLOW)
+@settings(max_examples=cases(15), suppress_health_check=SLOW)
 @given(random_world(most=25), st.sampled_from(SCALES), st.integers(0, 2**32 - 1))
 def test_a_result_is_the_same_in_any_company(graph: Graph, scale: float, seed: int) -> None:
     """Of its genome and its seed alone: whatever the lane, the batch, the worker and the order."""
@@ -63,7 +64,7 @@ def test_a_result_is_the_same_in_any_company(graph: Graph, scale: float, seed: i
 
 
 @pytest.mark.slow
-@settings(max_examples=3000, suppress_health_check=SLOW)
+@settings(max_examples=cases(3000), suppress_health_check=SLOW)
 @given(random_world(most=120), st.sampled_from(SCALES), st.integers(0, 2**32 - 1))
 def test_many_worlds(graph: Graph, scale: float, seed: int) -> None:
     rng = np.random.default_rng(seed)

@@ -14,6 +14,7 @@ from mindrun.sim.rollout import Rollout, scores_of
 from mindrun.sim.takeover import take_over
 from mindrun.sim.trace import trace
 
+from tests.draws import cases
 from tests.hierarchies import SCALES
 from tests.sim.test_changed_ticks import SEEDS, SLOW, gaze, rollout_of, same
 from tests.sim.test_random_worlds import weights_for
@@ -21,7 +22,7 @@ from tests.sim.test_rollout import same as same_scores
 from tests.sim.worlds import random_world
 
 
-@settings(max_examples=30, suppress_health_check=SLOW)
+@settings(max_examples=cases(30), suppress_health_check=SLOW)
 @given(random_world(), st.integers(0, 40), st.sampled_from(SCALES), SEEDS)
 def test_the_same_mind_goes_on_to_the_bit(graph: Graph, after: int, scale: float, seed: int) -> None:
     weights = weights_for(graph, scale, np.random.default_rng(seed))

@@ -15,6 +15,7 @@ from mindrun.train.lesson_state import Course, LessonState, Record, begin
 from mindrun.train.segment import Segment, Stretch, advance
 from mindrun.train.step import Ahead, Step
 
+from tests.draws import cases
 from tests.train.climbing import LENGTH, Faulty, Flat, Sphere, lesson
 
 UNKNOWN = np.empty((0, LENGTH), np.float32)
@@ -72,7 +73,7 @@ def timeless(state: LessonState) -> bytes:
 
 
 @given(COURSES, st.sampled_from(SCORERS), st.integers(1, 9), st.integers(0, 2**32))
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=cases(150), deadline=None)
 def test_whatever_order_they_end_in_the_lesson_is_the_same(
     course: Course, scorer: Sphere, room: int, seed: int
 ) -> None:
@@ -85,7 +86,7 @@ def test_whatever_order_they_end_in_the_lesson_is_the_same(
 
 
 @given(COURSES, st.sampled_from(SCORERS), st.integers(1, 9), st.integers(0, 2**32), st.data())
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=cases(60), deadline=None)
 def test_stopped_after_any_step_it_goes_on_to_the_same_bits(
     course: Course, scorer: Sphere, room: int, seed: int, data: st.DataObject
 ) -> None:

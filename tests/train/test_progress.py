@@ -17,6 +17,7 @@ from mindrun.train.lesson_state import Course, LessonState, Record, begin
 from mindrun.train.population import Population
 from mindrun.train.progress import LINES, TABLE, ProgressLog, read_progress
 
+from tests.draws import cases
 from tests.train.climbing import LENGTH, lesson
 
 FIRST = Record(1, 1, 2.5, -1.25, 3.0, None, 100, 0.5, 0)
@@ -48,7 +49,7 @@ def finite(record: Record) -> dict[str, object]:
 
 
 @given(st.lists(RECORDS, max_size=6))
-@settings(max_examples=25)
+@settings(max_examples=cases(25))
 def test_what_is_logged_is_read(tmp_path_factory: pytest.TempPathFactory, records: list[Record]) -> None:
     folder = tmp_path_factory.mktemp("run")
     with ProgressLog(folder, at(0, 0)) as progress:

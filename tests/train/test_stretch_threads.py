@@ -19,6 +19,7 @@ from mindrun.train.stretch_threads import StretchThreads
 from mindrun.train.training import Watch, train
 from numpy.typing import NDArray
 
+from tests.draws import cases
 from tests.train.climbing import LENGTH, Results, Sphere, forget, lesson, manifest
 from tests.train.test_attempts import COURSES, SCORERS, UNKNOWN, one_by_one, timeless
 
@@ -62,7 +63,7 @@ def no_thread_is_left(before: set[Thread]) -> bool:
 
 
 @given(COURSES, st.sampled_from(SCORERS), st.integers(2, 5))
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=cases(40), deadline=None)
 def test_in_threads_the_lesson_is_the_same(course: Course, scorer: Sphere, cores: int) -> None:
     threads = StretchThreads(course, cores, Told(scorer).on, perf_counter)
     steps = list(side_by_side(course, threads, begin(course), lambda: False))

@@ -15,6 +15,7 @@ from mindlang.compiler.compile import load
 from mindlang.importing.comparison import compare
 from mindlang.lock.arrange import arrange
 from mindlang.weights.network import Network, network_of
+from tests.draws import cases
 from tests.edits.taught import MIND, recorded, teach, write_mind
 
 torch = pytest.importorskip("torch", reason="PyTorch is not installed: pip install 'mindlang[torch]'")
@@ -33,7 +34,7 @@ def network(folder: Path, function: str) -> Network:
     return network_of(arrange(graph, {}), "Avoid")
 
 
-@settings(max_examples=40)
+@settings(max_examples=cases(40))
 @given(st.sampled_from(SHAPES), st.integers(0, 2**32), st.sampled_from([0.1, 4.0, 1e4, 1e20, 3e38]))
 def test_it_computes_the_bits_of_the_engine(
     tmp_path_factory: pytest.TempPathFactory, function: str, seed: int, spread: float

@@ -29,6 +29,7 @@ with subprocess.Popen(sys.argv[3:], stdout=subprocess.PIPE, bufsize=0) as worker
 """
 TIMES = "seconds", "ticks_per_second", "cpu_seconds", "ticks_per_cpu_second", "workers", "on"
 RUN = "runs/Go-on-Reach/*"
+pytestmark = pytest.mark.slow  # the next issue takes this out: Dask alone is to make runs elsewhere
 
 
 def weights(folder: Path, *words: str) -> dict[str, str]:

@@ -204,14 +204,22 @@ def _taken(kind: type | None) -> str:
 
 def _without_value(key: str, code: str, here: Span) -> Diagnostic:
     """A line that ends in a word after which a value should stand, if its kind has an argument of that name."""
-    noun, kind = code.split()[0], re.search(r"\bis ([a-z]\w*)", code)
+    noun, kind = code.split()[0], re.search(r"\b(?:is|in) ([a-z]\w*)", code)
     cls = kinds("content" if noun == "contains" else noun).get(kind[1]) if kind else None
     if kind and cls and key not in {each.key for each in arguments(cls)}:
         takes = listed([each.key for each in named_arguments(cls)] or ["no arguments"], "and")
         message = f"{kind[1]} has no argument called {key}."
         return Diagnostic("unknown-argument", message, here, f"{kind[1]} takes {takes}.")
+    if noun == "teaches" and (meant := _argument_of_lessons(key)):
+        return Diagnostic("unknown-argument", f"A lesson has no argument called {key}.", here, meant)
     hint = f"Write its value after {key}, or leave {key} out."
     return Diagnostic("missing-value", f"After {key} a value is missing.", here, hint)
+
+
+def _argument_of_lessons(key: str) -> str:
+    """Which argument of a learner a word was meant to be; empty where it is one, or like none."""
+    known = {argument.key for kind in kinds("curriculum").values() for argument in arguments(kind)}
+    return "" if key in known else did_you_mean(key, known)
 
 
 def unexpected(error: "UnexpectedInput", code: str, line: Span, example: str) -> Diagnostic:

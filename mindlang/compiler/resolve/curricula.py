@@ -14,7 +14,7 @@ from mindlang.compiler.hierarchy import skills_reached
 from mindlang.compiler.names import Names
 from mindlang.compiler.resolve.kinds import Scope, a_name, make, once, overrides
 from mindlang.compiler.resolve.origin import check_origin
-from mindlang.compiler.resolve.parts import refuse_facts
+from mindlang.compiler.resolve.parts import refuse_facts, refuse_repeated
 from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.syntax import Argument, Name, Needs, Phrase, Teaches
 
@@ -86,7 +86,7 @@ class _Curriculum:
             if starts_from:
                 taught = self.skills[fact.skill.text]
                 check_origin(starts_from, taught, self.skills, self.widths, self.heirs, self.findings)
-        needs = tuple(filter(None, (self._need(need, fact.task.text) for need in fact.needs)))
+        needs = self._needs(fact)
         if learner is None or generations is None or len(self.findings.diagnostics) > before:
             return None
         return model.Lesson(
@@ -121,6 +121,13 @@ class _Curriculum:
         own = (argument for argument in fact.arguments if argument.key.text not in {*SWITCHES, USING})
         return replace(learner, **overrides(type(learner), said_by, own, self.findings))
 
+    def _needs(self, fact: Teaches) -> tuple[Need, ...]:
+        """What a lesson needs, each measure once."""
+        for measure in MEASURED:
+            again = [need for need in fact.needs if need.measure.text == measure]
+            refuse_repeated(again, f"What {measure} is needed is said already.", "Say it once.", self.findings)
+        return tuple(filter(None, (self._need(need, fact.task.text) for need in fact.needs)))
+
     def _need(self, need: Needs, task: str) -> Need | None:
         """What a lesson on a task needs; None after reporting what is wrong with it."""
         before, (measure, span) = len(self.findings.diagnostics), (need.measure.text, need.measure.span)
@@ -135,6 +142,9 @@ class _Curriculum:
         if measure == "success" and task in self.hopeless:
             hint = "Add a line to it: succeeds on 5 delivery of red; or write needs score > 300."
             self.findings.error("needs-success", need.span, f"{task} does not say what a success is.", hint)
+        if measure == "success" and above is not None and above >= 1:
+            hint = "Write a share that can be exceeded: needs success > 95%."
+            self.findings.error("needs-more", need.above.span, "More than all runs cannot succeed.", hint)
         if above is None or len(self.findings.diagnostics) > before:
             return None
         return Need(cast(Any, measure), above)

@@ -31,9 +31,14 @@ def check_decided(ends: Iterable[End], begun: Beginning, sensors: Iterable[Senso
         if end.event is None or happens_at_once(end.event, begun, kinds) < end.times:
             continue
         there = (Label(each.span, "this one") for each in begun.things if each.name == end.event.thing)
-        hint = f"Write another place for {end.event.thing} or the robot."
-        if end.event.is_of_battery:
-            hint = "Let the battery start above 0."
-        elif end.event.outcome == "delivered":
-            hint = f"Write another place for {end.event.thing}, outside of where it is to come."
-        findings.error("decided-start", end.fact.span, "This ends every run in its first tick.", hint, *there)
+        message = "This ends every run in its first tick."
+        findings.error("decided-start", end.fact.span, message, hint_apart(end.event), *there)
+
+
+def hint_apart(event: EventKind) -> str:
+    """What to do about an event that comes in the first tick."""
+    if event.is_of_battery:
+        return "Let the battery start above 0."
+    if event.outcome == "delivered":
+        return f"Write another place for {event.thing}, outside of where it is to come."
+    return f"Write another place for {event.thing} or the robot."

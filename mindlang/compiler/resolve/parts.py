@@ -14,7 +14,7 @@ from mindlang.compiler.names import Names
 from mindlang.compiler.resolve.expressions import Visible, resolve
 from mindlang.compiler.resolve.kinds import Scope, make
 from mindlang.compiler.source import Span
-from mindlang.compiler.syntax import Declaration, Fact, Operator
+from mindlang.compiler.syntax import Declaration, Fact, Needs, Operator
 
 MOST_READINGS = 20_000
 ONE_LINE = "All that there is to say of it stands in its one line; set the fact below the skill or task it belongs to."
@@ -51,7 +51,7 @@ def refuse_facts(declaration: Declaration, allowed: tuple[type[Fact], ...], find
             findings.error("foreign-fact", fact.span, f"{verb} does not belong to {a(noun)}.", hint)
 
 
-def refuse_repeated(facts: Sequence[Fact], message: str, hint: str, findings: Findings) -> None:
+def refuse_repeated(facts: Sequence[Fact | Needs], message: str, hint: str, findings: Findings) -> None:
     """Report all but the first of facts that say the same."""
     for again in facts[1:]:
         findings.error("repeated-fact", again.span, message, hint, Label(facts[0].span, "first said here"))

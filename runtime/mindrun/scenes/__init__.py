@@ -4,9 +4,9 @@ from mindrun.registry import register_all, share_kinds
 from mindrun.scenes.arena import Arena
 from mindrun.scenes.gymnasium import Gymnasium
 from mindrun.scenes.plain import Plain
-from mindrun.scenes.scene import SceneKind
+from mindrun.scenes.scene import TOUCHING_UNITS, SceneKind
 
 register_all(__name__, __path__)
 share_kinds("scene", of="task")
 
-__all__ = ["Arena", "Gymnasium", "Plain", "SceneKind"]
+__all__ = ["TOUCHING_UNITS", "Arena", "Gymnasium", "Plain", "SceneKind"]

@@ -5,6 +5,8 @@ from math import inf
 from mindrun.quantity import Place
 from mindrun.registry import base
 
+TOUCHING_UNITS = 1e-6  # what is so little beyond something, or in it, only touches it: sums of decimals are rounded
+
 
 @base("task")
 class SceneKind:
@@ -29,7 +31,7 @@ class SceneKind:
 
     def has_room(self, place: Place, extent: float) -> bool:
         """Whether something of that half size, at a place, is inside its walls."""
-        return all(abs(where) + extent <= side / 2 for where, side in zip(place, self.sides, strict=True))
+        return all(abs(at) + extent <= side / 2 + TOUCHING_UNITS for at, side in zip(place, self.sides, strict=True))
 
     def distances(self, least: float) -> tuple[float, float]:
         """How near to the robot and how far from it a thing is placed that does not say so.

@@ -9,6 +9,8 @@ from mindrun.robot.guardian.frames import Frame
 from mindrun.robot.guardian.guard import Guard, Move, Order, Rest
 from mindrun.robot.guardian.plan import Channel, Plan
 
+from tests.draws import cases
+
 TICK = 1 / 16  # with times and shares in whole 128ths all sums are exact: bounds are met, not only neared
 SOME = st.sampled_from([0, 1, 4, 7, 8, 9, 12, 15, 16, 17, 40]).map(lambda steps: steps / 128)
 SHARES = st.integers(0, 128).map(lambda steps: steps / 128)
@@ -96,7 +98,7 @@ EVENTS = st.integers(0, 5).flatmap(lambda some: FRAMES if some else SELDOM)
 
 
 @given(st.tuples(CHANNELS, CHANNELS), st.lists(EVENTS, max_size=40))
-@settings(max_examples=150)
+@settings(max_examples=cases(150))
 def test_whatever_comes_it_does_what_the_table_says(
     channels: tuple[Channel, Channel],
     events: list[tuple],  # type: ignore[type-arg]

@@ -17,6 +17,7 @@ from mindrun.robot.guardian.guard import FOLLOWING
 from mindrun.robot.guardian.output import ActuatorOutput
 from mindrun.robot.guardian.plan import Channel
 
+from tests.draws import cases
 from tests.robot.guardian.faked import TICK, Faked, faked
 
 PATIENCE = 300.0  # seconds for a thread to do what it has to
@@ -122,7 +123,7 @@ class Whimsical:
         """Nothing."""
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=cases(25), deadline=None)
 @given(st.integers(0, 2**32), st.lists(st.one_of(st.none(), st.floats(0, 1)), max_size=60))
 def test_whatever_is_ordered_whenever_settled_is_at_neutral(seed: int, orders: list[float | None]) -> None:
     device, pauses = Whimsical(seed), random.Random(seed)
