@@ -100,7 +100,7 @@ class Contact(NamedTuple):
     last: Array  # float64: the seconds of Chipmunk's last step, infinitely many where nothing can have touched
     # for this tick
     gap: Array  # float64: to what is nearest after it
-    swift: Array  # int64: 1 where something is so fast that it could pass something
+    swift: Array  # int64: 1 where something is so fast that it could pass something, until the tick is made
     ways: Array  # [lane, WAY·(2 + loose)] float64: where what moves was and is (lanes/hold_back)
     floats: Array  # [lane, …] float64: a body's state on its way to Chipmunk and back
     batch: Array  # [lane, …] int64: pymunk's structures that point at `floats`

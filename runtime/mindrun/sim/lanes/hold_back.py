@@ -9,7 +9,7 @@ import numpy as np
 
 from mindrun.arithmetic import ANGLE, LOOSE_ROWS, SIZE, SPEED_X, SPEED_Y, SPIN, THING_ROWS, TURN, X, Y
 from mindrun.sim.arithmetic import sine_cosine
-from mindrun.sim.compiling import compiled
+from mindrun.sim.compiling import compiled, part_of_tick
 from mindrun.sim.lanes.solid import CLOSED_UNITS, is_barred, meets
 from mindrun.sim.state import BEGIN_X, BEGIN_Y, FROM_ANGLE, FROM_X, FROM_Y, HALF, TO_X, TO_Y, WAY
 
@@ -17,7 +17,7 @@ HELD, FIRST_LOOSE = WAY, 2 * WAY  # where they stand in `ways`; the robot comes 
 CLOSEST_SHARE = 0.125  # of both half sides together: so near come the middles of two that move
 
 
-@compiled
+@part_of_tick
 def note_begin(tables, world, ways, lane):
     """Where everything that moves is when a tick begins, and half its least side; NaN where nothing is held."""
     constants, held = tables.world[0], world.held[lane]
@@ -33,7 +33,7 @@ def note_begin(tables, world, ways, lane):
         ways[way + HALF] = world.things[place + SIZE, lane] / 2
 
 
-@compiled
+@part_of_tick
 def note_places(tables, world, ways, x, y, lane):
     """Where everything that moves is before a step of Chipmunk, or after it: into columns `x` and `y` of its way."""
     ways[x], ways[y] = world.body[X, lane], world.body[Y, lane]
@@ -47,7 +47,7 @@ def note_places(tables, world, ways, x, y, lane):
         ways[way + x], ways[way + y] = world.things[place + X, lane], world.things[place + Y, lane]
 
 
-@compiled
+@part_of_tick
 def note_before(tables, world, ways, lane):
     """Where everything that moves is before a step, and how it is turned."""
     note_places(tables, world, ways, FROM_X, FROM_Y, lane)

@@ -29,12 +29,17 @@ from mindrun.sim.strides import STRIDE_SHARE, SWIFT_SHARE
 
 @compiled
 def find_swift(tables, world, swift, lanes):
-    """Whether a tick could take something in each lane through something else; 0 where it is so in none."""
-    body, constants, count = world.body, tables.world[0], 0
+    """In how many lanes something may be swift; which of them have to make strides into `swift`, where any may be.
+
+    Who makes a lane's tick sets it back to 0.
+    """
+    body, held, constants, count = world.body, world.held, tables.world[0], 0
+    own_arm, own_least = 0.0 if constants.is_round else constants.radius, min(constants.front, constants.side)
     arm, least, dt = constants.arm, constants.least, constants.dt
     for lane in range(lanes):
-        speed = abs(body[SPEED_X, lane]) + abs(body[SPEED_Y, lane]) + abs(body[SPIN, lane]) * arm
-        swift[lane] = speed * dt > SWIFT_SHARE * least
+        spin = abs(body[SPIN, lane]) * (own_arm if held[lane] < 0 else arm)
+        speed = abs(body[SPEED_X, lane]) + abs(body[SPEED_Y, lane]) + spin
+        count += speed * dt > SWIFT_SHARE * (own_least if held[lane] < 0 else least)
     for i in range(len(tables.loose)):
         row, place = LOOSE_ROWS * i, THING_ROWS * tables.loose[i].thing
         of_size = 0.0 if tables.loose[i].is_round else HALF_DIAGONAL
@@ -42,12 +47,9 @@ def find_swift(tables, world, swift, lanes):
             size = world.things[place + SIZE, lane]
             speed = abs(world.loose[row + PUSHED_X, lane]) + abs(world.loose[row + PUSHED_Y, lane])
             speed += abs(world.loose[row + PUSHED_SPIN, lane]) * (size * of_size)
-            swift[lane] |= speed * dt > SWIFT_SHARE * size / 2
-    for lane in range(lanes):
-        count += swift[lane]
+            count += speed * dt > SWIFT_SHARE * size / 2
     for lane in range(lanes if count > 0 else 0):
-        if swift[lane] > 0:
-            swift[lane] = 1 if stride(tables, world, lane) < dt else 0
+        swift[lane] = 1 if stride(tables, world, lane) < dt else 0
     return count
 
 

@@ -20,6 +20,7 @@ from mindrun.sim.strides import MOST_STRIDES
 def make_tick(tables, world, contact, lane):
     """One tick of a lane in its Space; how often its robot has run into what never moves."""
     dt, is_swift, touching = tables.world[0].dt, contact.swift[lane] > 0, 0
+    contact.swift[lane] = 0
     left = dt
     note_begin(tables, world, contact.ways[lane], lane)
     for number in range(MOST_STRIDES):
