@@ -1,13 +1,12 @@
 """Agent-ticks per second of CPU time for many workloads: python benchmarks/rates.py [--against COMMIT] [NAME…].
 
-With --against, a commit's checkout and this one take turns, a process each, and the ratio is printed beside the rates;
-each measures itself, with its own copy of this program: one that had none yet cannot be compared. CPU time is of all
-threads; `first start` is the CPU time in seconds of an import and a compilation into an empty cache, and its ratio is
-of the speeds.
+With --against, a commit's checkout and this one take turns, a process each, and the ratio is printed beside the rates,
+with the range in which half of all turns lie; each measures itself, with its own copy of this program: one that had
+none yet cannot be compared. CPU time is of all threads; `first start` is the CPU time in seconds of an import and a
+compilation into an empty cache, and its ratio is of the speeds.
 """
 
 import argparse
-import json
 import os
 import subprocess
 import sys
@@ -125,17 +124,13 @@ def first_start() -> float:
     return float(said.stdout)
 
 
-def measured(names: list[str]) -> dict[str, float]:
-    """Each workload once, after a first time that counts for nothing."""
-    found = {}
-    for name in names:
-        if name == START:
-            found[name] = first_start()
-        else:
-            measure = WORKLOADS[name]()
-            measure()
-            found[name] = measure()
-    return found
+def measured(name: str) -> float:
+    """A workload once, after a first time that counts for nothing."""
+    if name == START:
+        return first_start()
+    measure = WORKLOADS[name]()
+    measure()
+    return measure()
 
 
 @contextmanager
@@ -147,31 +142,57 @@ def checkout(commit: str) -> Iterator[Path]:
         yield Path(folder)
 
 
-def in_checkout(root: Path, cache: Path, names: list[str]) -> dict[str, float]:
-    """What a checkout's own program measures of it, in a process of its own: names change from commit to commit."""
-    folders = (root, root / "runtime", root / "benchmarks")  # where older ones look for their neighbours
+@contextmanager
+def measuring(root: Path, cache: Path, name: str) -> Iterator[Measure]:
+    """What a checkout's own program measures of itself, in a process of its own that is ready."""
+    folders = (root / "benchmarks", root, root / "runtime")  # where older ones look for their neighbours
     environment = os.environ | {"PYTHONPATH": os.pathsep.join(map(str, folders)), "NUMBA_CACHE_DIR": str(cache)}
-    command = [sys.executable, str(root / "benchmarks" / "rates.py"), "--once", *names]
-    found: dict[str, float] = json.loads(
-        subprocess.run(command, env=environment, check=True, stdout=subprocess.PIPE).stdout
-    )
-    return found
+    command, pipe = [sys.executable, "-c", MEASURING, name], subprocess.PIPE
+    with subprocess.Popen(command, cwd=cache, env=environment, stdin=pipe, stdout=pipe, text=True) as process:
+        assert process.stdin
+        assert process.stdout
+        asked, told = process.stdin, process.stdout
+        told.readline()
+
+        def measure() -> float:
+            print(file=asked, flush=True)
+            return float(told.readline())
+
+        yield measure
+
+
+MEASURING = """
+import sys, rates
+measure = rates.first_start
+if sys.argv[1] in rates.WORKLOADS:
+    measure = rates.WORKLOADS[sys.argv[1]]()
+    measure()
+print(flush=True)
+for _ in sys.stdin:
+    print(measure(), flush=True)
+"""
 
 
 def take_turns(commit: str, names: list[str], rounds: int) -> None:
-    """Print the medians of both, and the median of their ratios."""
+    """Print the medians of both, the median of their ratios, and between which two half of these lie.
+
+    A ratio is of a measurement here to the two of the commit before and after it: what a busy machine takes from one,
+    it takes from the others.
+    """
+    print(f"{'medians of ' + str(rounds) + ' rounds':<56}{commit[:9]:>10}{'here':>10}{'ratio':>8}{'half of them':>15}")
     with checkout(commit) as before, tempfile.TemporaryDirectory() as caches:
-        pairs: list[tuple[dict[str, float], dict[str, float]]] = []
-        for number in range(rounds + 1):  # the first compiles
-            turn = [name for name in names if name != START or number == 1]
-            sides = [in_checkout(root, Path(caches) / side, turn) for root, side in ((before, "a"), (ROOT, "b"))]
-            pairs += [(sides[0], sides[1])] * bool(number)
-    print(f"{'medians of ' + str(rounds) + ' rounds':<56}{commit:>10}{'here':>10}{'ratio':>8}")
-    for name in names:
-        found = [(old[name], new[name]) for old, new in pairs if name in old]
-        old, new = (median(side) for side in zip(*found, strict=True))
-        ratio = median(new / old if name != START else old / new for old, new in found)
-        print(f"{name:<56}{_said(name, old):>10}{_said(name, new):>10}{ratio:>8.2f}", flush=True)
+        sides = [(root, Path(caches) / side) for root, side in ((before, "a"), (ROOT, "b"))]
+        for _, cache in sides:
+            cache.mkdir()
+        for name in names:
+            with measuring(*sides[0], name) as theirs, measuring(*sides[1], name) as ours:
+                found = [(theirs(), ours(), theirs()) for _ in range(rounds if name != START else 1)]
+            ratios = sorted(new / ((old + again) / 2) for old, new, again in found)
+            if name == START:
+                ratios = [1 / ratio for ratio in ratios]
+            old, new = median(old for old, _, _ in found), median(new for _, new, _ in found)
+            half = f"{ratios[len(ratios) // 4]:.2f} to {ratios[3 * len(ratios) // 4]:.2f}"
+            print(f"{name:<56}{_said(name, old):>10}{_said(name, new):>10}{median(ratios):>8.3f}{half:>15}", flush=True)
 
 
 def _said(name: str, value: float) -> str:
@@ -185,12 +206,8 @@ def main() -> None:
     )
     parser.add_argument("names", nargs="*", metavar="NAME", help="only workloads whose name contains one of these")
     parser.add_argument("--against", metavar="COMMIT", help="another commit takes turns with this checkout")
-    parser.add_argument("--rounds", type=int, default=3)
-    parser.add_argument("--once", action="store_true", help=argparse.SUPPRESS)
+    parser.add_argument("--rounds", type=int, default=20)
     options = parser.parse_args()
-    if options.once:
-        print(json.dumps(measured(options.names)))
-        return
     names = [
         name
         for name in (*WORKLOADS, START)
@@ -202,7 +219,7 @@ def main() -> None:
         take_turns(options.against, names, options.rounds)
         return
     for name in names:
-        rounds = [measured([name])[name] for _ in range(1 if name == START else options.rounds)]
+        rounds = [measured(name) for _ in range(1 if name == START else min(3, options.rounds))]
         print(f"{name:<56}{_said(name, median(rounds)):>10}", flush=True)
 
 
