@@ -103,14 +103,14 @@ def refuse_failed(run: RunFolder, state: LessonState, scorer: Scorer) -> None:
     if not lesson.needs or state.passed.any():
         return
     which = "its only attempt" if state.attempt == 1 else f"the best of {state.attempt} attempts"
-    needed, reached = listed(map(str, lesson.needs), "and"), f"scored {number(state.reevaluated)}"
+    needed, reached = listed(map(str, lesson.needs), "and"), "scored " + " and ".join(map(number, state.verdict))
     if any(need.measure == "success" for need in lesson.needs):
         seeds = layouts(run.manifest.seed, 0, lesson.generations, 2 * VERDICT_LAYOUTS, Purpose.VERDICT)
-        share = succeeded(scorer.task, scorer.score(state.kept, seeds)).mean()
-        reached += f" and succeeded in {share:.0%} of its runs"
+        shares = succeeded(scorer.task, scorer.score(state.kept, seeds)).reshape(2, VERDICT_LAYOUTS).mean(axis=1)
+        reached += f", and succeeded in {shares[0]:.0%} and {shares[1]:.0%} of the runs"
     raise RunError(
-        f"{lesson.skill} has failed its lesson, which needs {needed} on fresh layouts: {which} "
-        f"{reached} there; the lock stays as it is, and nothing is taught on top of it",
+        f"{lesson.skill} has failed its lesson, which needs {needed} on two sets of fresh layouts: {which} "
+        f"{reached}; the lock stays as it is, and nothing is taught on top of it",
         f"try more --attempts, more generations or another --seed; what it has learnt is in {run.folder / WEIGHTS}",
     )
 

@@ -85,9 +85,15 @@ def test_a_lesson_that_fails_keeps_nothing_and_nothing_is_taught_on_top_of_it(mi
     drive.write_text(text.replace("NEEDS", "needs score > 1000"))
     said = mindc("train", drive, "--seed", 1, "--force")
     assert said.code == 1
-    assert "Go has failed its lesson, which needs score > 1000 on fresh layouts: the best of 4 attempts" in said.err
+    failed = "Go has failed its lesson, which needs {} on two sets of fresh layouts: the best of 4 attempts scored"
+    assert failed.format("score > 1000") in said.err
     assert not lock_path(drive).exists()
     assert [each.name for each in (drive.parent / "runs").iterdir()] == ["Go-on-Reach"]
+    can_succeed = text.replace("  rewards 10 on reach of object\n", "  succeeds on 99 reach of object\n", 1)
+    drive.write_text(can_succeed.replace("NEEDS", "needs success > 50%"))
+    said = mindc("train", drive, "--seed", 1, "--force")
+    assert failed.format("success > 50%") in said.err
+    assert ", and succeeded in 0% and 0% of the runs; the lock stays as it is" in said.err
     drive.write_text(text.replace("NEEDS", "needs score > -1000"))
     taught = mindc("train", drive, "--seed", 1, "--json")
     assert taught.code == 0, taught.err

@@ -88,9 +88,17 @@ class LessonState:
         return int(self.lengths[self._best[0]]) if len(self.lengths) else 0
 
     @property
+    def verdict(self) -> tuple[float, float]:
+        """Both scores of the kept one on layouts that its generations never saw; -inf before an attempt has ended."""
+        if not len(self.verdicts):
+            return -inf, -inf
+        first, second = self.verdicts[self._best[0]].tolist()
+        return first, second
+
+    @property
     def reevaluated(self) -> float:
         """The score of the kept one on layouts that chose nothing; -inf before an attempt has ended."""
-        return float(self.verdicts[self._best[0], 1]) if len(self.verdicts) else -inf
+        return self.verdict[1]
 
 
 @dataclass(frozen=True, slots=True)
