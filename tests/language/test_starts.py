@@ -71,3 +71,14 @@ def test_another_start_is_another_world() -> None:
         "its task has changed: starts at 1 3 facing 90 deg, before starts at 1 2"
     ]
     assert changes(world("starts at 1 2"), world("")) == ["its task has changed: starts anywhere, before starts at 1 2"]
+
+
+@pytest.mark.parametrize(("side", "size"), [(0.6, 0.2), (1.1, 0.7), (3.3, 1.1)])
+def test_a_robot_may_touch_the_border_whatever_decimals_add_up_to(side: float, size: float) -> None:
+    text = MIND.replace("disc size 1", f"disc size {size}").replace("arena size 40\n", f"arena size {side}\n")
+    at = round((side - size) / 2, 3)
+    for start in (f"{at} 0", f"0 -{at}"):
+        graph = compile_source(Source("a.mind", text.replace("START", f"  starts at {start}\n"), Path())).graph
+        assert graph, start
+    beyond = compile_source(Source("a.mind", text.replace("START", f"  starts at {at + 0.001} 0\n"), Path()))
+    assert [each.code for each in beyond.diagnostics] == ["outside-arena"]

@@ -63,7 +63,7 @@ def codes(found: Checked) -> list[str]:
     return [diagnostic.code for diagnostic in found.diagnostics]
 
 
-@given(st.integers(1, 2000), st.integers(5, 100), st.integers(-40, 40), st.integers(-40, 40))
+@given(st.integers(1, 2000), st.just(0) | st.integers(5, 100), st.integers(-40, 40), st.integers(-40, 40))
 def test_an_encoder_counts_a_thousand_steps_a_second(
     folder: Path, steps: int, centimetres: int, low: int, high: int
 ) -> None:
