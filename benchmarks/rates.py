@@ -87,7 +87,7 @@ def crowded() -> Lanes:
 
 
 def skilled(count: int) -> Lanes:
-    """So many skills, all under influence, in robots that keep moving."""
+    """Robots with so many skills, all under influence, that keep moving."""
     return Lanes(*with_skills(count))
 
 
@@ -206,7 +206,7 @@ def main() -> None:
     )
     parser.add_argument("names", nargs="*", metavar="NAME", help="only workloads whose name contains one of these")
     parser.add_argument("--against", metavar="COMMIT", help="another commit takes turns with this checkout")
-    parser.add_argument("--rounds", type=int, default=20)
+    parser.add_argument("--rounds", type=int, help="turns with --against (default: 20), else measurements (default: 3)")
     options = parser.parse_args()
     names = [
         name
@@ -216,10 +216,10 @@ def main() -> None:
     if not names:
         parser.error(f"no workload is called that; there are: {'; '.join((*WORKLOADS, START))}")
     if options.against:
-        take_turns(options.against, names, options.rounds)
+        take_turns(options.against, names, options.rounds or 20)
         return
     for name in names:
-        rounds = [measured(name) for _ in range(1 if name == START else min(3, options.rounds))]
+        rounds = [measured(name) for _ in range(1 if name == START else options.rounds or 3)]
         print(f"{name:<56}{_said(name, median(rounds)):>10}", flush=True)
 
 

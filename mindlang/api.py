@@ -69,9 +69,9 @@ class Mind(ShortRepr):
     @property
     def graph(self) -> Graph:
         """The compiled hierarchy, as plain data."""
-        if self.compiled.graph is None:
-            raise self._invalid()
-        return self.compiled.graph
+        graph = self._without_errors().graph
+        assert graph
+        return graph
 
     def policy(self, master: str | None = None) -> Policy:
         """The hierarchy with the weights that `master` (default: the mind's) needs to act."""
@@ -168,9 +168,10 @@ class Mind(ShortRepr):
 
         Arguments and options are those of the command; EditError, a MindError, where it is impossible.
         """
-        if self.graph and name not in edits.names():
+        compiled = self._without_errors()
+        if name not in edits.names():
             unknown("edit", name, edits.names())
-        of, project = edits.edit(name), open_project(self.compiled)
+        of, project = edits.edit(name), open_project(compiled)
         several = {each for each, many in of.arguments if many} | {each.name for each in of.options if each.many}
         said = {k: (v,) if k in several and isinstance(v, str) else v for k, v in arguments.items()}
         return EditedMind(self.path, apply_edit(project, of.function(project, **said), keep_weights))
@@ -185,9 +186,14 @@ class Mind(ShortRepr):
         return self.path.absolute().parent
 
     def _set_up(self, task: str | None, master: str | None) -> RunSetup:
+        return set_up(str(self.path), self._without_errors(), task, master)
+
+    def _without_errors(self) -> Compiled:
+        """What it compiled to; MindError where its text has errors."""
         if self.compiled.graph is None:
-            raise self._invalid()
-        return set_up(str(self.path), self.compiled, task, master)
+            first = next((each for each in self.diagnostics if each.severity == "error"), self.diagnostics[0])
+            raise MindError(first.message, first.hint or "mind.diagnostics says all that is wrong, and where")
+        return self.compiled
 
     def _ready(self, master: str | None) -> ReadyMind:
         if master is not None:
@@ -196,10 +202,6 @@ class Mind(ShortRepr):
         if ready.refusals:
             raise self._untaught(ready)
         return ready
-
-    def _invalid(self) -> MindError:
-        first = next((each for each in self.diagnostics if each.severity == "error"), self.diagnostics[0])
-        return MindError(first.message, first.hint or "mind.diagnostics says all that is wrong, and where")
 
     def _untaught(self, ready: ReadyMind) -> MindError:
         return MindError(ready.refusals[-1], f"mind.train() teaches it, or: {train_command(self.path, ready)}")

@@ -15,7 +15,6 @@ from mindlang.run import outcome
 from mindlang.run.bench_comparison import Benched, compare, differing_tasks
 from mindlang.run.columns import csv_parts
 from mindlang.run.comparison_summary import comparison_summary
-from mindlang.run.layouts import layouts
 from mindlang.run.runs_table import joined, runs_table
 from mindlang.run.setup import RunSetup
 
@@ -57,7 +56,7 @@ def compare_benched(
     session = RunSession(quiet)
     cast = _cast(session, both, chosen)
     is_one_world = all(setup.is_one_world for setup, _ in cast)
-    seeds = layouts(chosen.seed, chosen.runs)[: 1 if is_one_world else None]
+    seeds = max((setup.layouts(chosen.seed, chosen.runs) for setup, _ in cast), key=len)
     notes = differing_tasks(both[1].file, cast[0][0].task, cast[1][0].task)
     session.say(*(f"note: {note}" for note in notes))
     benched, minds = [], []

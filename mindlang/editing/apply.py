@@ -113,19 +113,21 @@ def _compiled(project: Project, texts: dict[Path, str]) -> Graph:
     now = _texts_of(project) | texts
     main = project.main.source
     compiled = compile_source(replace(main, text=now[main.path]), main.path, now)
-    worst = next((each for each in compiled.diagnostics if each.severity == "error"), None)
-    if compiled.graph is None or (worst and (worst := _new_mistake(project, compiled))):
-        assert worst
+    if worst := _new_mistake(project, compiled):
         error = EditError(f"After this edit the mind would not compile. {worst.message}", worst.hint)
         error.diagnostic = replace(_as_edited(worst), message=str(error))
         raise error
+    assert compiled.graph
     return compiled.graph
 
 
 def _new_mistake(project: Project, edited: Compiled) -> Diagnostic | None:
     """The first error that was not there before: what was wrong with a procedure may stay so."""
-    before = {each.message for each in load(project.main.source.path, _texts_of(project)).diagnostics}
-    return next((each for each in edited.diagnostics if each.severity == "error" and each.message not in before), None)
+    errors = [each for each in edited.diagnostics if each.severity == "error"]
+    main = project.main.source
+    before = compile_source(main, main.path, _texts_of(project)).diagnostics if errors else ()
+    known = {each.message for each in before}
+    return next((each for each in errors if each.message not in known), None)
 
 
 def _texts_of(project: Project) -> dict[Path, str]:

@@ -26,7 +26,7 @@ def last_lesson(lessons: Iterable[Lesson], taught: Taught) -> Lesson | None:
 
 
 def in_question(lessons: Sequence[Lesson], last: Lesson | None) -> Sequence[Lesson]:
-    """Of lessons with the same key those that a world of a lock may be of; the one taught last, if known, comes first.
+    """The lessons that a world of a lock may be of, out of some with its key; the one taught last, if known, is first.
 
     Of its curriculum it is the only one: the worlds of those before it are forgotten.
     """

@@ -8,7 +8,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from mindrun.graph import Graph, Lesson
+from mindrun.graph import Graph, Lesson, Skill
 from mindrun.skill_sets import below, genes, learners, owners, reachable
 
 from mindlang.lock import Entry, Lock
@@ -27,7 +27,8 @@ UNKNOWN = "in a world that the lock does not know (mindc status --accept says th
 
 @dataclass(frozen=True, slots=True)
 class Trained:
-    """Its weights fit. Where `changes` are, sentences, it was taught elsewhere: in a world that is not the mind's.
+    """A skill whose weights fit. Where `changes` are, sentences, it was taught elsewhere: in a world that is not the
+    mind's.
 
     `last` is the lesson that it was taught last, where that is known; `outdated` are those that have changed since.
     """
@@ -50,7 +51,7 @@ class Trained:
 
 @dataclass(frozen=True, slots=True)
 class Stale:
-    """Its weights belong to another declaration; each difference is a sentence."""
+    """A skill that has changed since it was taught: its weights fit no longer; each difference is a sentence."""
 
     differences: tuple[str, ...]
 
@@ -68,9 +69,9 @@ class NotLearning:
 Status = Trained | Stale | Untaught | NotLearning
 
 
-def trained_names(graph: Graph, lock: Lock) -> frozenset[str]:
-    """The skills whose weights fit, wherever they were taught."""
-    return frozenset(name for name, state in status(graph, lock).items() if isinstance(state, Trained))
+def mismatches(graph: Graph, skill: Skill, entry: Entry) -> tuple[str, ...]:
+    """What differs between a skill and the declaration that the weights of its line in a lock fit, in sentences."""
+    return differences(entry.signature, signature(graph, skill), skill.function.derived)
 
 
 def status(graph: Graph, lock: Lock, folder: Path | None = None) -> dict[str, Status]:
@@ -99,10 +100,7 @@ class _Standing:
         entry = self.lock.get(skill.name)
         if entry is None:
             return Untaught()
-        found = (
-            *differences(entry.signature, signature(self.graph, skill), skill.function.derived),
-            *reordered(entry, self.graph),
-        )
+        found = (*mismatches(self.graph, skill, entry), *reordered(entry, self.graph))
         return Stale(found) if found else self._trained(index, entry)
 
     def _trained(self, index: int, entry: Entry) -> Trained:

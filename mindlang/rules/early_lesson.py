@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from mindlang.analysis.study import Finding, Found, Study
 from mindlang.compiler.diagnostic import Label
 from mindlang.compiler.model import Lesson
-from mindlang.lock.status import trained_names
+from mindlang.lock.status import mismatches
 
 HIERARCHY = """
 master Live
@@ -83,13 +83,19 @@ def _latest(study: Study, first: dict[str, int]) -> Latest:
 
 
 def _early(study: Study, lessons: Sequence[Lesson], first: dict[str, int]) -> Found:
-    latest, trained = _latest(study, first), trained_names(study.graph, study.lock)
+    latest = _latest(study, first)
     for place, lesson in enumerate(lessons):
         needed, skill = latest[lesson.master]
         role = "acts in this lesson"
         if lesson.starts_from and first.get(origin := study.skills[lesson.starts_from].owner, -1) > needed:
             needed, skill, role = first[origin], origin, "it begins with"
-        if needed > place and skill not in trained:
+        if needed > place and not _has_weights(study, skill):
             message = f"{lesson.skill} stands before {skill}, which {role} and has no weights yet."
             label = Label(lessons[needed].fact.span, f"{skill} is taught here")
             yield Finding(lesson.fact.span, message, f"Move this line below the lesson of {skill}.", (label,))
+
+
+def _has_weights(study: Study, name: str) -> bool:
+    """Whether the lock has weights of a skill that fit."""
+    entry = study.lock.get(name)
+    return entry is not None and not mismatches(study.graph, study.graph.skills[study.graph.skill_numbers[name]], entry)

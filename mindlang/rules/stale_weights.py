@@ -9,7 +9,7 @@ from mindrun.graph import Graph, Skill
 
 from mindlang.analysis.study import Finding, Found, Study
 from mindlang.lock import Entry
-from mindlang.lock.signature import differences, signature
+from mindlang.lock.status import mismatches
 
 HEADER = "# mind lock 1: what has been taught.\n"
 LEARNS = """
@@ -42,4 +42,4 @@ def _differences(graph: Graph, skill: Skill, entry: Entry) -> tuple[str, ...]:
     """As `mindc status` finds them, without its notes on subskills, for which it goes down from every skill."""
     if not skill.function.learns:
         return ()
-    return differences(entry.signature, signature(graph, skill), skill.function.derived)
+    return mismatches(graph, skill, entry)

@@ -20,7 +20,7 @@ from mindlang.lock import Lock, lock_path, lock_sources, read_lock, read_locks
 from mindlang.lock.arrange import arrange
 from mindlang.lock.due import is_due
 from mindlang.lock.lessons import subskills
-from mindlang.lock.status import Status, status, trained_names, trained_weights
+from mindlang.lock.status import Status, Trained, status, trained_weights
 from mindlang.training.origin import origin_weights
 
 
@@ -63,7 +63,7 @@ class Subject:
     @property
     def trained(self) -> frozenset[str]:
         """The skills whose weights fit."""
-        return trained_names(self.graph, self.lock)
+        return frozenset(name for name, each in status(self.graph, self.lock).items() if isinstance(each, Trained))
 
     def standing(self, lesson: Lesson) -> dict[str, Status]:
         """How the learners of a lesson stand to that lock."""

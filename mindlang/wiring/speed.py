@@ -64,7 +64,7 @@ def _seconds(driver: object) -> float:
 
 
 def _below(number: float) -> float:
-    """The same number or a little less, in three digits."""
+    """A number rounded down to three digits, for a hint: no more than it."""
     if number == 0:
         return 0.0
     unit = 10.0 ** (floor(log10(number)) - 2)

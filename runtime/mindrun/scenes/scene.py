@@ -21,7 +21,7 @@ class SceneKind:
 
     @property
     def sides(self) -> tuple[float, float]:
-        """Its lengths along x and y in world units; infinite where it has no walls. The origin is its middle."""
+        """A scene's lengths along x and y in world units; infinite where it has no walls. The origin is its middle."""
         return inf, inf
 
     @property
