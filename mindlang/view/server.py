@@ -11,6 +11,7 @@ from asyncio import BaseTransport
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any
 
 from mindrun.errors import MindError
@@ -24,7 +25,7 @@ from mindlang.view.messages import MAX_MESSAGE_BYTES, Plain, RefusedError, messa
 from mindlang.view.session import MAX_HAPPENED, Session
 
 LOOPBACK = "127.0.0.1"
-MAX_VIEWERS, MAX_CONNECTIONS = 16, 64
+MAX_VIEWERS, MAX_STRANGERS = 16, 64
 MAX_QUEUED_FRAMES = 4  # of what one viewer has said and nobody has read
 OPEN_SECONDS, TOKEN_SECONDS, SEND_SECONDS, CLOSE_SECONDS = 5.0, 5.0, 10.0, 0.5
 
@@ -42,14 +43,25 @@ class PortError(MindError):
         return cls(f"port {port} of this machine cannot be opened: {why}", hint)
 
 
-class BoundedConnection(ServerConnection):
-    """One of so many that are open at the same time, whatever they say or do not say."""
+class StrangerConnection(ServerConnection):
+    """One of so many that are open without having said the token: one more, and the oldest is closed."""
+
+    def __init__(self, strangers: list[ServerConnection], *given: Any, **options: Any) -> None:
+        super().__init__(*given, **options)
+        self._strangers = strangers
 
     def connection_made(self, transport: BaseTransport) -> None:
-        """As the library does it; one too many is closed."""
+        """As the library does it."""
         super().connection_made(transport)
-        if len(self.server.handler_tasks) > MAX_CONNECTIONS:
-            self.transport.abort()
+        self._strangers.append(self)
+        if len(self._strangers) > MAX_STRANGERS:
+            self._strangers.pop(0).transport.abort()
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        """As the library does it."""
+        super().connection_lost(exc)
+        with suppress(ValueError):  # it has said the token, or was closed
+            self._strangers.remove(self)
 
 
 @dataclass(eq=False, slots=True)
@@ -82,6 +94,7 @@ class ViewServer:
         self.port = port
         self._session = session
         self._viewers: list[Viewer] = []
+        self._strangers: list[ServerConnection] = []
         session.changed = self._changed
 
     @property
@@ -117,7 +130,7 @@ class ViewServer:
             process_response=lambda connection, request, response: self._answers.secured(connection, request, response),
             server_header=None,
             compression=None,
-            create_connection=BoundedConnection,
+            create_connection=partial(StrangerConnection, self._strangers),  # type: ignore[arg-type]  # as good as a class
             open_timeout=OPEN_SECONDS,
             close_timeout=CLOSE_SECONDS,
             max_size=MAX_MESSAGE_BYTES,
@@ -129,6 +142,8 @@ class ViewServer:
         if not await self._has_token(connection):
             await connection.close(CloseCode.POLICY_VIOLATION)
             return
+        with suppress(ValueError):  # it was closed just now
+            self._strangers.remove(connection)
         if len(self._viewers) >= MAX_VIEWERS:
             await connection.close(CloseCode.TRY_AGAIN_LATER)
             return

@@ -139,12 +139,18 @@ def test_too_many_viewers_are_sent_away(path: Path, monkeypatch: pytest.MonkeyPa
         first.run(10)
 
 
-def test_too_many_connections_are_closed(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Also those that say nothing."""
-    monkeypatch.setattr(server, "MAX_CONNECTIONS", 3)
-    with served(simulated(path)) as view:
+def test_those_who_say_nothing_keep_no_viewer_out(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of too many the oldest are closed, but no viewer is."""
+    monkeypatch.setattr(server, "MAX_STRANGERS", 3)
+    monkeypatch.setattr(server, "OPEN_SECONDS", 600.0)
+    with served(simulated(path)) as view, view.viewer() as first:
+        first.hear("about")
         silent = [socket.create_connection(("127.0.0.1", view.port), ANSWER_SECONDS) for _ in range(5)]
-        assert [one.recv(1) for one in silent[3:]] == [b"", b""]
+        assert [one.recv(1) for one in silent[:2]] == [b"", b""]
+        with view.viewer() as second:
+            second.hear("about")
+        assert silent[2].recv(1) == b""
+        first.run(10)
         for one in silent:
             one.close()
 
