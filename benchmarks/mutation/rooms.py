@@ -133,4 +133,68 @@ ROOMS = {
         ),
         interpreted=True,
     ),
+    "why": Room(("mindlang/why/*.py",), ("tests/why",)),
+    "whatif": Room(
+        ("mindlang/whatif/*.py",),
+        tuple(f"tests/run/test_{name}.py" for name in ("whatif_texts", "whatif", "whatif_recording")),
+    ),
+    "breakpoints": Room(("mindlang/breakpoints/*.py",), ("tests/breakpoints",)),
+    "environments": Room(
+        ("mindlang/environments/*.py",),
+        (
+            *(f"tests/environments/test_{name}.py" for name in ("given", "task_env", "task_vector_env", "extras")),
+            "tests/environments/test_live_view.py",
+        ),
+        but=("mindlang/environments/stable_baselines.py",),  # whose tests need a library that a mutant's may not have
+    ),
+    "importing": Room(
+        ("mindlang/importing/*.py",),
+        (
+            *(f"tests/weights/test_{name}.py" for name in ("commands", "network", "without_torch")),
+            "tests/outside/test_weights_from_elsewhere.py",
+        ),
+        but=("mindlang/importing/torch_outputs.py",),  # whose tests need a library that a mutant's may not have
+    ),
+    "beginnings": Room(
+        (
+            *(f"mindlang/compiler/{name}.py" for name in ("beginning", "resolve/places", "resolve/decided")),
+            *(f"mindlang/analysis/{name}.py" for name in ("drawn_world", "floor")),
+            *(f"mindlang/rules/{name}.py" for name in ("chance_meeting", "nothing_drawn", "paid_at_once")),
+            *(f"mindlang/rules/{name}.py" for name in ("walled_off", "wall_on_the_way", "standing_learner")),
+        ),
+        (
+            "tests/language/test_messages.py",
+            "tests/language/test_starts.py",
+            *(f"tests/lint/test_{name}.py" for name in ("rule_cases", "rule_examples", "rules", "crowded_world")),
+            "tests/sim/test_beginnings.py",
+        ),
+    ),
+    "names": Room(
+        (
+            *(f"mindlang/editing/{name}.py" for name in ("world_names", "graph_names", "lock_update")),
+            *(f"mindlang/lock/{name}.py" for name in ("merging", "lessons", "due", "status")),
+        ),
+        (
+            "tests/lock",
+            *(f"tests/edits/test_{name}.py" for name in ("renames", "edits", "weights", "properties")),
+            "tests/train/test_lesson_order.py",
+        ),
+    ),
+    "numbers": Room(
+        (
+            *(f"{R}{name}.py" for name in ("measured", "given_numbers", "one_world", "nearest_name", "short_repr")),
+            *(f"mindlang/{name}.py" for name in ("analysis/intervals", "run/paired_difference", "wiring/speed")),
+            *(f"mindlang/rules/{name}.py" for name in ("zero_division", "direction_as_number", "coarse_tick")),
+        ),
+        (
+            "tests/robot/test_given_numbers.py",
+            "tests/wiring/test_speed.py",
+            "tests/run/test_paired_difference.py",
+            "tests/run/test_bench_pair.py",
+            "tests/run/test_measured.py",
+            "tests/api/test_repr.py",
+            *(f"tests/lint/test_{name}.py" for name in ("rule_cases", "rule_examples", "rules")),
+            "tests/sim/test_top_speed.py",
+        ),
+    ),
 }

@@ -5,13 +5,12 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-from mindrun.functions.function import Stateful
 from mindrun.weights import Weights
 from numpy.typing import NDArray
 
+from mindlang.importing.torch_outputs import Rows, in_torch
 from mindlang.weights.network import Network, matrices_of
 
-Rows = NDArray[np.float32]  # [ticks, values]
 Compute = Callable[[Rows], Rows]  # inputs [ticks, inputs] of a run to outputs [ticks, outputs], in 0..1
 
 
@@ -42,8 +41,6 @@ def compare(network: Network, genome: Weights, inputs: Rows) -> Comparison:
 def _engine(network: Network, genome: Weights, inputs: Rows) -> Rows:
     """Tick by tick, as on a robot."""
     compute = network.skill.function.ready(network.inputs, network.outputs, genome, {})
-    if isinstance(compute, Stateful):
-        compute.reset()
     values = np.array([compute(row) for row in inputs], np.float32).reshape(len(inputs), network.outputs)
     return _clamped(values)
 
@@ -57,23 +54,7 @@ def _reference(network: Network, genome: Weights) -> tuple[str, Compute]:
         import torch
     except ImportError:
         return "float64", partial(_in_float64, network, genome)
-    return f"PyTorch {torch.__version__}", partial(_in_torch, network, genome)
-
-
-def _in_torch(network: Network, genome: Weights, inputs: Rows) -> Rows:
-    import torch
-
-    from mindlang.torch.module import NetworkModule
-
-    module, rows = NetworkModule(network, genome), torch.from_numpy(inputs)
-    with torch.no_grad():
-        if not network.state:
-            return np.asarray(module(rows).numpy())
-        found, state = [], None
-        for row in rows:
-            outputs, state = module(row, state)
-            found.append(outputs.numpy())
-    return np.array(found, np.float32).reshape(len(inputs), network.outputs)
+    return f"PyTorch {torch.__version__}", partial(in_torch, network, genome)
 
 
 def _in_float64(network: Network, genome: Weights, inputs: Rows) -> Rows:

@@ -17,7 +17,7 @@ from mindlang.importing.trial import Trial
 from mindlang.lock import FILE_ORIGIN, LockError, Taught, read_lock, read_locks
 from mindlang.lock.blobs import Origin, digest, record
 from mindlang.lock.ready import elsewhere_sentences
-from mindlang.lock.status import Trained, status, trained_weights
+from mindlang.lock.status import status, trained_weights
 from mindlang.lock.world_facts import Worlds
 from mindlang.training.lesson_choice import chosen_lessons
 from mindlang.training.lock_update import Comparison as ScoreComparison
@@ -133,9 +133,5 @@ def _write(trial: Trial, incoming: Incoming, score: float) -> tuple[str, ...]:
     )
     before = status(subject.graph, subject.lock, subject.folder)
     now = status(subject.graph, read_locks(subject.taught), subject.folder)
-    changed = {
-        skill: state
-        for skill, state in now.items()
-        if isinstance(state, Trained) and state.is_elsewhere and state != before[skill]
-    }
+    changed = {skill: state for skill, state in now.items() if state != before[skill]}
     return (*elsewhere_sentences(changed),)

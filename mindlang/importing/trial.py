@@ -58,7 +58,8 @@ class Trial:
 
         RunError where the new ones have no score that is a finite number.
         """
-        seeds = layouts(LAYOUTS_SEED, 0, self.lesson.generations, COMPARED_LAYOUTS, Purpose.COMPARISON)
+        last = self.lesson.generations
+        seeds = layouts(LAYOUTS_SEED, attempt=0, generation=last, count=COMPARED_LAYOUTS, purpose=Purpose.COMPARISON)
         scores = mark(self.rollout, np.stack([genome] if old is None else [genome, old]), seeds).scores
         if not isfinite(scores[0]):
             why = f"{self.network.skill.name} with these weights: a reward or a command was not a finite number"

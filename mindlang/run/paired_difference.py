@@ -13,7 +13,7 @@ What no score has shown, it does not contain: layouts rarer than one in 1 / shar
 
 from dataclasses import asdict, dataclass
 from functools import cache
-from math import atan, ceil, exp, isfinite, lgamma, log, pi, sqrt
+from math import atan, ceil, exp, lgamma, log, pi, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
@@ -159,5 +159,5 @@ def _runs_to_tell(mean: float, std: float, farthest: float) -> int | None:
     unseen, varies = -log(1 - CONFIDENCE_LEVEL) * REACH_OF_OTHER_RUNS * farthest, NORMAL_POWER * std
     roots = [(NORMAL_TWO_SIDED + NORMAL_POWER) * std / mean]
     roots.append((varies + sqrt(varies**2 + 4 * unseen * mean)) / (2 * mean))
-    runs = max(roots) ** 2
-    return max(ceil(runs), MIN_DIFFERING_RUNS) if isfinite(runs) and runs <= MAX_RUNS else None
+    runs = max(roots) * max(roots)  # ∞ where ** would raise
+    return max(ceil(runs), MIN_DIFFERING_RUNS) if runs <= MAX_RUNS else None

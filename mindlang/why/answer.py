@@ -66,7 +66,8 @@ def _unknown(course: Course, what: str) -> QuestionError:
         return QuestionError(f"{what} is not below {master}, which is in charge", _instead(course, what))
     below = [graph.skills[index].name for index in course.flows.skills]
     acting = [*(actuator.name for actuator in graph.actuators), *(memory.name for memory in graph.memories)]
-    hint = did_you_mean(what, [*acting, *below, REWARD]) or f"There is {listed([*acting, REWARD], 'and')}."
+    acting += [REWARD] if course.run else []
+    hint = did_you_mean(what, [*acting, *below]) or f"There is {listed(acting, 'and')}."
     return QuestionError(f"there is no actuator, memory or skill called {what}", hint)
 
 
@@ -75,8 +76,8 @@ def _instead(course: Course, skill: str) -> str:
     if "recording" in course.about:
         return "It had no influence while this was recorded."
     graph = course.flows.graph
-    above = (each.name for each in graph.skills if skill in {below.name for below in reachable(graph, each.name)})
-    return f"It is below another: --master {next(above)}"
+    above = next(each.name for each in graph.skills if skill in {below.name for below in reachable(graph, each.name)})
+    return f"{'It is below another' if above != skill else 'Nothing is above it'}: --master {above}"
 
 
 def _shares(course: Course, target: Sink, rows: range, paths: int) -> dict[str, Any]:

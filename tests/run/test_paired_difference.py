@@ -1,6 +1,7 @@
 """Paired differences: their interval holds what it promises, and says nothing where the numbers say nothing."""
 
-from math import inf, nan, sqrt
+from math import inf, log, nan, sqrt
+from statistics import fmean, pstdev, stdev
 
 import numpy as np
 import pytest
@@ -8,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mindlang.run.conclusion import SCORE, SUCCESS, conclusion
-from mindlang.run.paired_difference import MAX_RUNS, MIN_DIFFERING_RUNS, difference, t_quantile
+from mindlang.run.paired_difference import MAX_RUNS, MIN_DIFFERING_RUNS, Difference, difference, t_quantile
 
 STUDENT = {1: 12.7062, 2: 4.30265, 4: 2.77645, 9: 2.26216, 30: 2.04227, 199: 1.97196, 10**6: 1.95997}  # any table
 WHOLE = st.lists(st.tuples(st.integers(-50, 50), st.integers(-50, 50)), min_size=2, max_size=60)
@@ -31,6 +32,66 @@ def test_every_pair_is_counted_and_the_other_way_round_the_signs_change(pairs: l
         assert turned.high == pytest.approx(-found.low)
         assert found.low <= found.mean <= (found.high or 0)
         assert found.leaves_zero_out == turned.leaves_zero_out == (found.low > 0 or (found.high or 0) < 0)
+
+
+@pytest.mark.parametrize("turned", [1, -1])
+@pytest.mark.parametrize("offset", [-3.0, 0.2])
+def test_its_figures_are_those_of_the_books(turned: int, offset: float) -> None:
+    """Of skewed differences: Student's interval to one side, and Hall's, whose t bends, to the other."""
+    each = (turned * (np.random.default_rng(7).exponential(1, 40) ** 2 + offset)).tolist()
+    found, error = difference(np.zeros(40), np.array(each)), stdev(each) / sqrt(40)
+    assert (found.runs, found.more, found.less) == (40, sum(d > 0 for d in each), sum(d < 0 for d in each))
+    assert (found.mean, found.std, found.standard_error) == pytest.approx((fmean(each), stdev(each), error))
+    a = fmean([((d - fmean(each)) / pstdev(each)) ** 3 for d in each]) / (3 * sqrt(40))
+    ends = [(fmean(each) - end) / error for end in (found.high or 0, found.low or 0)]
+    student, hall = ends if turned < 0 else ends[::-1]
+    assert abs(student) == pytest.approx(2.02269, abs=1e-5)
+    assert abs(hall + a * hall**2 + a**2 * hall**3 / 3 + a / 2) == pytest.approx(2.02269, abs=1e-5)
+    assert abs(hall) > 3
+    farthest = max(abs(score - mean) for score in [0.0, *each] for mean in (0.0, fmean(each)))
+    assert found.unseen == pytest.approx((1 - 0.05 ** (1 / 40)) * farthest)
+    assert found.most_that_differ == pytest.approx(0.0721575, abs=1e-6)
+    assert found.detectable == pytest.approx(max(1.96 * error, found.unseen or 0) + 0.8416 * error, rel=1e-4)
+    assert not found.is_widened
+    data = found.data()
+    assert Difference(**data) == found  # type: ignore[arg-type]
+
+
+@given(st.floats(0.01, 20), st.floats(0.01, 10), st.booleans())
+def test_one_run_less_than_it_says_would_not_tell(mean: float, std: float, turned: bool) -> None:
+    each = np.tile([-std, std], 20) + mean * (-1 if turned else 1)
+    found = difference(np.zeros(40), each)
+
+    def tells(runs: int) -> bool:
+        left = mean - 0.8416 * (found.std or 0) / sqrt(runs)
+        return left > max(1.96 * (found.std or 0) / sqrt(runs), log(20) * 1.2 * (mean + std) / runs)
+
+    assert found.runs_to_tell
+    assert found.runs_to_tell >= MIN_DIFFERING_RUNS
+    assert tells(found.runs_to_tell + 1)
+    assert found.runs_to_tell == MIN_DIFFERING_RUNS or not tells(found.runs_to_tell - 1)
+
+
+def test_an_interval_is_as_wide_as_layouts_without_an_example_make_it() -> None:
+    scores = np.tile([0.0, 100.0], 20)
+    found = difference(scores, scores + np.tile([0.0, 0.0, 1.0, 1.0], 10))
+    assert (found.low, found.high) == pytest.approx((0.5 - found.unseen, 0.5 + found.unseen))  # type: ignore[operator]
+    assert found.unseen == pytest.approx(51 * 0.0721575, rel=1e-5)
+    assert found.is_widened
+    assert not found.leaves_zero_out
+    same = difference(scores, scores + 100)
+    assert (same.low, same.high) == pytest.approx((100 - same.unseen, 100 + same.unseen))  # type: ignore[operator]
+    assert same.leaves_zero_out
+    with_one_end = Difference(12, 12, 0, 0, 0, 1.0, low=0.5, high=9.0, unseen=0.5)
+    assert with_one_end.is_widened
+
+
+def test_of_few_runs_less_is_known() -> None:
+    zeros, ones = np.zeros(12), np.arange(12) % 2.0
+    assert difference(zeros[:1], ones[1:2]) == Difference(1, 1, 0, 0, 0, 1.0)
+    assert difference(zeros[:4], ones[:4]) == Difference(
+        4, 2, 0, 2, 0, 0.5, pytest.approx(0.57735), pytest.approx(0.288675)
+    )
 
 
 def test_the_interval_contains_the_truth_as_often_as_it_says() -> None:
@@ -101,6 +162,7 @@ def test_what_no_number_of_runs_tells_has_no_number() -> None:
     assert difference(np.zeros(40), alike).runs_to_tell is None
     barely = alike + 1.0 / MAX_RUNS
     assert difference(np.zeros(40), barely).runs_to_tell is None
+    assert difference(np.zeros(41), np.array([*alike, 1e-170])).runs_to_tell is None
 
 
 @pytest.mark.parametrize("broken", [nan, inf, -inf])

@@ -1,12 +1,19 @@
 """`mindc weights import` and `export`, as their users call them."""
 
 import json
+from hashlib import sha256
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from mindlang.lock import lock_path, read_lock
+from mindlang.compiler.compile import load
+from mindlang.importing.importing import read_incoming
+from mindlang.importing.trial import Trial, open_trial
+from mindlang.lock import Taught, lock_path, read_lock
+from mindlang.training.lock_update import compare
+from mindlang.training.subject import open_subject
 from tests.calling import Call
 from tests.edits.taught import MIND, teach, write_mind
 
@@ -38,10 +45,13 @@ def changed(path: Path, seed: int = 5) -> Path:
 def test_there_and_back_is_the_same_to_the_bit(mindc: Call, path: Path) -> None:
     assert mindc("weights", "export", path, "Go", "go.safetensors").code == 0
     before = snapshot(path.parent)
-    said = mindc("weights", "import", path, "Go", "go.safetensors")
+    said = mindc("weights", "import", path, "Go", "go.safetensors", "--json")
     assert said.code == 0, said.err
     assert "drive.lock has these weights already, and stays as it is" in said.err
     assert snapshot(path.parent) == before
+    data = json.loads(said.out)
+    assert (data["kept"], data["score_before"], data["notes"]) == (True, None, [])
+    assert data["weights"] == read_lock(lock_path(path))["Go"].weights
 
 
 def test_the_lock_says_where_weights_are_from(mindc: Call, path: Path) -> None:
@@ -55,11 +65,14 @@ def test_the_lock_says_where_weights_are_from(mindc: Call, path: Path) -> None:
     assert entry.origin == ("file:my%20go.safetensors", data["file_sha256"])
     assert entry.origin_file == "my go.safetensors"
     assert entry.accepted
-    assert entry.taught.score == data["score"]
-    assert data["kept"]
-    assert data["ticks"] == 60
+    assert entry.taught == Taught("Roam", "Go", False, 0, 0, 0, data["score"], 1, "School")
     assert data["difference"] <= (0 if data["reference"] != "float64" else 1e-5)
-    assert f"Drive was taught elsewhere: taught with another Go ({old[:4]}…, now {entry.weights[:4]}…)" in data["notes"]
+    assert data == {
+        "skill": "Go", "file": "my go.safetensors", "weights": entry.weights, "kept": True, "ticks": 60, "faults": 0,
+        "file_sha256": sha256(Path("my go.safetensors").read_bytes()).hexdigest(), "task": "Roam", "master": "Go",
+        "notes": [f"Drive was taught elsewhere: taught with another Go ({old[:4]}…, now {entry.weights[:4]}…)"],
+        **{measured: data[measured] for measured in ("reference", "difference", "score", "score_before")},
+    }  # fmt: skip
     status = mindc("status", path)
     assert status.code == 0
     assert "not taught here, begun as my go.safetensors" in status.out
@@ -103,6 +116,46 @@ def test_a_skill_that_remembers(mindc: Call, path: Path) -> None:
     said = mindc("weights", "import", path, "Go", "go.safetensors", "--force", "--json")
     assert said.code == 0, said.err
     assert json.loads(said.out)["difference"] <= 1e-5
+
+
+def trial_of(path: Path, skill: str) -> Trial:
+    """The trial of weights that stand in a file of the skill's name."""
+    subject = open_subject(path, load(path))
+    incoming = read_incoming(subject, skill, Path(f"{skill}.safetensors"))
+    return open_trial(subject, incoming.lesson, incoming.network, path)
+
+
+def test_weights_are_tried_as_those_that_were_taught(mindc: Call, path: Path) -> None:
+    """On the first of all runs, which can be recorded, and on the layouts of a training with the seed 0."""
+    mindc("weights", "export", path, "Drive", "Drive.safetensors")
+    trial = trial_of(path, "Drive")
+    lesson, taught = trial.lesson, open_subject(path, load(path))
+    genome = read_incoming(taught, "Drive", Path("Drive.safetensors")).genome
+    assert mindc("run", path, "--master", "Drive", "--seed", 1, "--record", "day.rec").code == 0
+    assert np.array_equal(trial.recorded("day.rec"), trial.readings(genome))
+    assert len({column.tobytes() for column in trial.readings(genome).T}) > 1, "which is which is seen"
+    run = SimpleNamespace(manifest=SimpleNamespace(seed=0, lesson=lesson))
+    found = compare(run, trial.rollout, np.stack([genome, genome / 2]))  # type: ignore[arg-type]
+    assert trial.score(genome / 2, genome) == (found.new, found)
+    assert trial.score(genome, None) == (found.old, None)
+
+
+def test_only_those_are_told_of_whom_something_changes(mindc: Call, path: Path) -> None:
+    mindc("weights", "export", path, "Go", "go.safetensors")
+    path.write_text(path.read_text().replace("item size 2", "item size 3"))
+    assert "Drive, Avoid and Go were taught elsewhere" in mindc("run", path).err
+    said = mindc("weights", "import", path, "Go", changed(Path("go.safetensors")), "--force", "--json")
+    [note] = json.loads(said.out)["notes"]
+    assert note.startswith("Drive was taught elsewhere: taught with another Go")
+
+
+def test_weights_without_a_score_are_not_taken(mindc: Call, path: Path) -> None:
+    mindc("weights", "export", path, "Go", "go.safetensors")
+    path.write_text(path.read_text().replace("progress toward ball", "1 / (charge - charge)"))
+    before = lock_path(path).read_bytes()
+    said = mindc("weights", "import", path, "Go", changed(Path("go.safetensors")), "--force")
+    assert (said.code, lock_path(path).read_bytes()) == (1, before)
+    assert "Go with these weights: a reward or a command was not a finite number" in said.err
 
 
 def test_readings_of_a_recording(mindc: Call, path: Path) -> None:
@@ -182,6 +235,13 @@ def test_skills_below_have_to_be_taught_first(mindc: Call, path: Path) -> None:
     assert said.code == 1
     assert "Drive cannot be tried on Roam yet: Avoid has not been taught and Go has not been taught" in said.err
     assert "first: mindc train drive.mind Go Avoid" in said.err
+    teach(path, "Go")
+    said = mindc("weights", "import", path, "Drive", "drive.safetensors")
+    assert "Drive cannot be tried on Roam yet: Avoid has not been taught" in said.err
+    assert "first: mindc train drive.mind Avoid" in said.err
+    said = mindc("weights", "export", path, "Drive", "drive.safetensors")
+    assert (said.code, "Drive has not been taught" in said.err) == (1, True)
+    assert "mindc train drive.mind Drive" in said.err
 
 
 def test_a_skill_without_a_lesson_is_refused(mindc: Call, path: Path) -> None:

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from mindrun.errors import WeightsError
 
 from mindlang.compiler.compile import load
-from mindlang.importing.comparison import compare
+from mindlang.importing.comparison import Comparison, compare
 from mindlang.lock.arrange import arrange
 from mindlang.weights.network import Network, matrices_of, network_of, to_genome, to_tensors
 from mindlang.weights.safetensors import Tensors
@@ -60,10 +60,32 @@ def test_the_engine_computes_what_stands_in_a_book(tmp_path: Path, text: str, mo
     monkeypatch.setitem(__import__("sys").modules, "torch", None)
     own = network(tmp_path, text)
     rows = np.random.default_rng(2).random((50, own.inputs)).astype(np.float32)
-    rows[7] = np.nan
+    rows[7, 0] = np.nan
     found = compare(own, genome_of(own), rows)
     assert (found.reference, found.ticks, found.faults) == ("float64", 49, 0)
     assert 0 < found.difference < 1e-4
+
+
+@pytest.mark.parametrize("text", KINDS.values(), ids=KINDS)
+def test_of_no_readings_nothing_is_computed(tmp_path: Path, text: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(__import__("sys").modules, "torch", None)
+    own = network(tmp_path, text)
+    rows = np.full((3, own.inputs), np.nan, np.float32)
+    assert compare(own, genome_of(own), rows) == Comparison("float64", 0, 0.0, 0)
+
+
+@pytest.mark.parametrize(
+    ("weights", "difference"), [((3e7, 1.6, -3e7), 0.0), ((3e7, 0.6, -3e7), 0.6), ((3e7, -1.6, -3e7), 0.0)]
+)
+def test_they_differ_by_what_is_sent(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, weights: tuple[float, ...], difference: float
+) -> None:
+    """In single precision a number beside a large one is an even one; what is beyond 0..1 is the same for a motor."""
+    monkeypatch.setitem(__import__("sys").modules, "torch", None)
+    own = network(tmp_path, MIND.replace("skill Avoid is mlp hidden 2", "skill Avoid is mlp hidden 0"))
+    genome = np.tile(np.array(weights, np.float32), own.outputs)
+    found = compare(own, genome, np.ones((2, own.inputs), np.float32))
+    assert found.difference == pytest.approx(difference, rel=1e-6)
 
 
 def test_what_overflows_is_a_fault(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,6 +1,7 @@
 """`mindc why`: who made a command, an influence or a reward, of a run in the simulator."""
 
 import json
+from collections import Counter
 from math import fsum
 from pathlib import Path
 from typing import Any
@@ -63,6 +64,23 @@ def test_paths_that_are_not_named_are_the_rest(mindc: Call, rules: Path) -> None
     said = mindc("why", rules, *ASKED, "--tick", 100, "left_wheel", "--paths", 1)
     assert "   0.1500   16.7% over 1 path more\n" in said.out
     assert "Turn" not in said.out
+    turns = "skill Turn{} is rule\n  drives left_wheel at 0.9\n\n"
+    text = rules.read_text().replace("skill Roam", "".join(map(turns.format, range(9))) + "skill Roam")
+    rules.write_text(text.replace("at 0.2\n", "at 0.2\n" + "".join(f"  influences Turn{i} at 0.1\n" for i in range(9))))
+    data = found(mindc, rules, *ASKED, "--tick", 100, "left_wheel")
+    assert (len(data["paths"]), data["rest"]["paths"]) == (10, 1)
+
+
+def test_what_takes_too_long_for_one_answer_is_refused(
+    mindc: Call, rules: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("mindlang.why.answer.MAX_EDGE_TICKS", 65)  # of six edges
+    assert mindc("why", rules, *ASKED, "--tick", "41..50", "left_wheel").code == 0
+    message = "11 ticks of 6 edges are too much for one answer\n  Ask for 10 ticks at most: --tick 41..50\n"
+    assert mindc("why", rules, *ASKED, "--tick", "41..51", "left_wheel") == (2, "", message)
+    monkeypatch.setattr("mindlang.why.answer.MAX_EDGE_TICKS", 5)
+    assert "Ask for 1 ticks at most: --tick 41..41\n" in mindc("why", rules, *ASKED, "--tick", 41, "left_wheel").err
+
 
 
 def test_what_each_reward_line_paid_adds_up_to_the_score(mindc: Call, rules: Path) -> None:
@@ -71,8 +89,11 @@ def test_what_each_reward_line_paid_adds_up_to_the_score(mindc: Call, rules: Pat
     assert whole["score"] == pytest.approx(outcome["score"], rel=1e-12)
     assert whole["by_line"] == pytest.approx(outcome["by_line"], rel=1e-12)
     assert whole["by_event"] == {text: times for text, times in outcome["by_event"].items() if times}
-    parts = [found(mindc, rules, *ASKED, "--tick", span, "reward") for span in ("1", "2..700", "701..1200")]
+    spans = ("1", "2", "3..700", "701..1200")
+    parts = [found(mindc, rules, *ASKED, "--tick", span, "reward") for span in spans]
     assert fsum(part["score"] for part in parts) == pytest.approx(whole["score"], rel=1e-9)
+    assert sum((Counter(part["by_event"]) for part in parts), Counter()) == whole["by_event"]
+    assert (parts[0]["by_event"], parts[0]["ticks"], parts[3]["ticks"]) == ({}, [1, 1], [701, 1200])
     said = mindc("why", rules, *ASKED, "reward")
     assert said.out.splitlines()[-1].startswith("happened: ")
 
@@ -111,6 +132,16 @@ def test_nothing_influences_what_is_sent_its_neutral(mindc: Call, rules: Path) -
             ["Turn", "--master", "Chase"],
             "Turn is not below Chase, which is in charge",
             "It is below another: --master Roam",
+        ),
+        (
+            ["Roam", "--master", "Chase"],
+            "Roam is not below Chase, which is in charge",
+            "Nothing is above it: --master Roam",
+        ),
+        (
+            ["nothing"],
+            "there is no actuator, memory or skill called nothing",
+            "There is left_wheel, right_wheel and reward.",
         ),
         (["left_wheel", "--task", "Chas"], "there is no task called Chas", "Did you mean Chase?"),
     ],

@@ -6,26 +6,44 @@ from typing import Any
 
 import numpy as np
 import pytest
-from mindrun.bundle import digest, read_bundle
+from mindrun.bundle import Bundle, digest, write_bundle
 from mindrun.engine import Engine
+from mindrun.policy import Policy
 from mindrun.robot.recording import About, Recorder
+from mindrun.weights import genes
+from numpy.typing import NDArray
 
+from mindlang.compiler.compile import load
 from tests.calling import Call
 from tests.run.test_whatif_recording import MIND
 
 TICKS, ANEW, STOPPED = 120, 80, 30  # so many, the row in which the program was started again, the row when it stood
+BLIND = 10  # the row in which a reading was no number
+REMEMBERING = (
+    MIND.replace("  drives mood", "  influences Recall at 0.3\n  drives mood")
+    + """
+skill Recall is elman width 2
+  reads glow
+  drives right_wheel
+skill Alone is rule
+  drives left_wheel at 1
+"""
+)
 
 
 @pytest.fixture
 def day(tmp_path: Path, mindc: Call) -> tuple[Path, Path]:
     """A recording of noise, in which the robot was stopped once, and the bundle that was running."""
     source, bundle, path = tmp_path / "ball.mind", tmp_path / "ball.bundle", tmp_path / "day.rec"
-    source.write_text(MIND)
-    assert mindc("build", source, "-o", bundle).code == 0
-    mind = read_bundle(bundle)
-    engine, neutral = Engine(mind.policy, mind.procedures), np.full(2, 0.5, np.float32)
-    readings = np.random.default_rng(5).random((TICKS, mind.graph.width)).astype(np.float32)
-    with Recorder(path, About.of(mind.graph, digest(bundle), mind.graph.master, ("eyes", "glow"))) as recorder:
+    source.write_text(REMEMBERING)
+    graph = load(source).graph
+    assert graph
+    recall = next(skill for skill in graph.skills if skill.name == "Recall")
+    weights = {"Recall": np.random.default_rng(5).uniform(-2, 2, genes(recall)).astype(np.float32)}
+    write_bundle(bundle, Bundle(Policy(graph, weights), {}))
+    engine, neutral = Engine(Policy(graph, weights), {}), np.full(2, 0.5, np.float32)
+    readings = noise(graph.width)
+    with Recorder(path, About.of(graph, digest(bundle), graph.master, ("eyes", "glow"))) as recorder:
         for number, row in enumerate(readings):
             if number == ANEW:
                 engine.reset()
@@ -41,6 +59,13 @@ def day(tmp_path: Path, mindc: Call) -> tuple[Path, Path]:
                 stopped=stands,
             )
     return path, bundle
+
+
+def noise(width: int) -> NDArray[np.float32]:
+    """What there was to be read: first both readings of the eyes, then that of the glow."""
+    readings = np.random.default_rng(6).random((TICKS, width)).astype(np.float32)
+    readings[BLIND, 1] = np.nan
+    return readings
 
 
 def found(mindc: Call, day: tuple[Path, Path], *words: object) -> dict[str, Any]:
@@ -61,12 +86,20 @@ def test_the_command_is_the_recorded_one_and_what_was_read_is_whole(
     assert wander
     assert wander["value"] == pytest.approx(min(1.0, 0.2 + wander["reads"]["mood"][0]), rel=1e-6)
     assert sum(each["share"] for each in data["paths"]) == pytest.approx(data["command"], rel=1e-6)
+    other = found(mindc, day, "--tick", row + 1, "right_wheel")  # to which Recall sends what it remembers
+    assert other["command"] == other["acted"]
+    assert "Recall" in {each["path"][1] for each in other["paths"]}
 
 
 def test_a_memory_is_sent_something_as_well(mindc: Call, day: tuple[Path, Path]) -> None:
-    data = found(mindc, day, "--tick", 3, "mood")
-    assert [each["path"] for each in data["paths"]] == [["Go", "mood"]]
-    assert data["command"] == pytest.approx(data["paths"][0]["reads"]["glow"][0])
+    data = found(mindc, day, "--tick", f"3..{BLIND}", "mood")
+    (only,) = data["paths"]
+    assert only["path"] == ["Go", "mood"]
+    assert data["command"] == pytest.approx(only["reads"]["glow"][0])
+    mean = noise(3)[2:BLIND].mean(axis=0)
+    assert only["reads"] == {"eyes": pytest.approx(mean[:2]), "glow": pytest.approx(mean[2:])}
+    over = found(mindc, day, "--tick", f"3..{BLIND + 1}", "mood")["paths"][0]
+    assert (over["reads"]["eyes"][0] is None, over["reads"]["eyes"][1]) == (False, None)
 
 
 def test_a_robot_that_was_stopped_was_sent_something_else(mindc: Call, day: tuple[Path, Path]) -> None:
@@ -82,7 +115,9 @@ def test_a_robot_that_was_stopped_was_sent_something_else(mindc: Call, day: tupl
     [
         (["reward"], "a robot's recording has no rewards"),
         (["--tick", 121, "left_wheel"], "there is no tick 121: it was over after 120 ticks"),
-        (["left_whel"], "there is no actuator, memory or skill called left_whel"),
+        (["left_whel"], "there is no actuator, memory or skill called left_whel\n  Did you mean left_wheel?"),
+        (["rewards"], "\n  There is left_wheel, right_wheel and mood.\n"),
+        (["Alone"], "Alone is not below Go, which is in charge\n  It had no influence while this was recorded.\n"),
         (["--seed", 3, "left_wheel"], "are of runs, not of recordings."),
     ],
 )
@@ -99,3 +134,6 @@ def test_another_bundle_or_no_recording_is_refused(mindc: Call, day: tuple[Path,
     assert (said.code, said.out) == (2, "")
     assert "this was recorded with another bundle" in said.err
     assert mindc("why", tmp_path / "none.rec", day[1], "left_wheel").code == 2
+    empty = tmp_path / "empty.rec"
+    empty.write_bytes(day[0].read_bytes().partition(b"\n")[0] + b"\n")
+    assert "empty.rec has no tick in it" in mindc("why", empty, day[1], "left_wheel").err
