@@ -26,7 +26,7 @@ class RecordedRun:
     `readings` as its skills read them, `influence`, `commands` before the noise of their actuators, `lines` (the sum of
     each reward line so far), `touching`, `battery`, `events` (how often each has happened so far) and `counts` (of the
     counted ones) have a row per tick. `ended` is what ended it, as in a recording; `acting` are the commands with the
-    noise of their actuators and what has failed, None where nobody knows them.
+    noise of their actuators and what has failed, None where nobody knows them. In environments `body` is NaN.
     """
 
     setup: RunSetup
@@ -129,10 +129,11 @@ def record_run(setup: RunSetup, rollout: Rollout, seed: int) -> RecordedRun:
 def recorded(setup: RunSetup, run: Trace) -> RecordedRun:
     """A run that is about to begin, made and written down."""
     ticks = joined(run.chunks)
+    body = np.concatenate([run.begin[None], ticks.body[:, :3]])
     return RecordedRun(
         setup,
         run.boxes,
-        np.concatenate([run.begin[None], ticks.body[:, :3]]),
+        np.full_like(body, np.nan) if setup.task.scene.environment else body,  # where it is, only the environment knows
         np.concatenate([run.things[None], ticks.things]),
         np.concatenate([run.turned[None], ticks.turned]),
         np.concatenate([[-1], ticks.held]),

@@ -129,7 +129,11 @@ def test_a_recording_is_replayed_explained_and_asked(mindc: Call, mind: Path, tm
     assert mindc("run", mind, "--seed", 3, "--record", recording).code == 0
     assert mindc("build", mind, "-o", bundle).code == 0
     from mindrun import replay_recording
+    from mindrun.robot.recording import read
 
+    about, parts = read(recording)
+    assert about.world
+    assert (about.world.begin[:3], np.isnan(next(parts)["world"]["pose"]).all()) == ((None, None, None), True)
     assert replay_recording(str(recording), str(bundle)).differs is None
     assert "command to push" in mindc("why", recording, bundle, "--tick", 5, "push").out
     assert "open loop" in mindc("whatif", recording, bundle, "--set", "place=1", "--tick", 3).out
