@@ -77,6 +77,7 @@ def command(files: tuple[str, ...], task: str | None, master: str | None, as_jso
     checked = [_Checked(file, each.diagnostics, each.readable, bool(each.graph)) for file, each in compiled.items()]
     checked += [*_breakpoints(breaks, bundles, compiled, task, master)]
     found = distinct(diagnostic for each in checked for diagnostic in each.diagnostics)
+    _note_speeds(compiled)
     if as_json:
         files_data = [{"file": each.file, "ok": each.is_whole and not each.diagnostics} for each in checked]
         print_json({"files": files_data, "diagnostics": [as_data(diagnostic) for diagnostic in found]})
@@ -86,6 +87,20 @@ def command(files: tuple[str, ...], task: str | None, master: str | None, as_jso
     else:
         click.echo(f"nothing wrong{in_files(files, named)}", err=True)
     sys.exit(MISUSE if not all(each.is_readable for each in checked) else FINDINGS if found else OK)
+
+
+def _note_speeds(compiled: Mapping[str, Compiled]) -> None:
+    """Say which robots are so fast that a tick of theirs cannot be simulated whole."""
+    from mindrun.command_line import command_line
+
+    from mindlang.cli._terminal import talk
+    from mindlang.rules.coarse_tick import farthest_step, simulated_step
+
+    for file, each in compiled.items():
+        if each.graph and (far := farthest_step(each.graph))[0] > (most := simulated_step(each.graph)):
+            moves = f"its robot moves {far[0]:.3g} units in a tick of {far[1]} at full thrust"
+            hint = f"{command_line('mindc', 'lint', Path(file))} says what helps"
+            talk.print(f"note: {file}: {moves}; beside a wall {most:.3g} of them are simulated; {hint}", markup=False)
 
 
 def _breakpoints(

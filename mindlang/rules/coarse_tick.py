@@ -27,20 +27,31 @@ BAD = (
     WHEELS.format("1/60 s", 2, 80, 80) + "  varies density of Robot 0.01 to 2\n",
 )
 MOST_SIZES = 0.75  # of its lesser side
+SIMULATED_SIZES = 25.0  # of its lesser side, in one tick: mindrun.sim.strides, whose import is slow
 TRIED_DIRECTIONS = 180  # that are tried
 
 
 def check(study: Study) -> Found:
     """A body that full thrust moves further in a tick of any task than it may."""
     graph, body = study.graph, study.mind.body
-    tasks = [task for task in graph.tasks if not task.scene.environment]
-    far, task = max(((step_of(graph, task), task.name) for task in tasks), default=(0.0, ""))
+    far, task = farthest_step(graph)
     size = 2 * min(graph.body.front, graph.body.side)
     if far > MOST_SIZES * size:
         moves = f"{body.name} moves {far:.3g} units in a tick of {task}"
         share = MOST_SIZES * size / far
         hint = f"Give it at most {share:.2g} of its thrust, a shorter tick, more density or more linear_damping."
         yield Finding(body.span, f"At full thrust {moves}, {far / size:.2g} times its size.", hint)
+
+
+def simulated_step(graph: Graph) -> float:
+    """How far a tick takes a body beside something solid at most; what time is left then is lost."""
+    return SIMULATED_SIZES * 2 * min(graph.body.front, graph.body.side)
+
+
+def farthest_step(graph: Graph) -> tuple[float, str]:
+    """How far a body goes in a tick at its top speed, in world units, and in which task; 0 without a world of ours."""
+    tasks = [task for task in graph.tasks if not task.scene.environment]
+    return max(((step_of(graph, task), task.name) for task in tasks), default=(0.0, ""))
 
 
 def step_of(graph: Graph, task: Task) -> float:

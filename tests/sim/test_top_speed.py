@@ -1,14 +1,17 @@
 """The top speed that `coarse-tick` tells is the one that a robot reaches."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 from mindrun.policy import Policy
 from mindrun.sim.rollout import Rollout
+from mindrun.sim.strides import MOST_STRIDES, STRIDE_SHARE
 from mindrun.sim.trace import trace
 
 from mindlang.rules.coarse_tick import step_of
+from tests.calling import Call
 from tests.sim.minds import compile_text
 
 MIND = """
@@ -56,3 +59,23 @@ def test_it_is_what_a_robot_reaches(body: str, actuators: str, other: float, tic
     assert moved == pytest.approx(step_of(graph, graph.tasks[0]), rel=0.01)
     twice = replace(graph, tick=graph.tick / 2)
     assert step_of(twice, graph.tasks[0]) < step_of(graph, graph.tasks[0])
+
+
+def test_check_says_whose_tick_is_not_simulated_whole(mindc: Call, tmp_path: Path) -> None:
+    assert mindc("check", written(tmp_path, 47)).err == "nothing wrong\n"
+    found = mindc("check", fast := written(tmp_path, 47.2))
+    assert found.code == 0
+    assert MOST_STRIDES * STRIDE_SHARE * 0.1 == 5.0  # half of its size
+    assert found.err == (
+        f"note: {fast}: its robot moves 5.01 units in a tick of World at full thrust; beside a wall 5 of them are "
+        f"simulated; mindc lint {fast} says what helps\nnothing wrong\n"
+    )
+
+
+def written(folder: Path, thrust: float) -> Path:
+    """A small robot of that thrust, in a file."""
+    text = MIND.format(
+        tick="1/60", body="disc size 0.2", actuators=WHEELS.format(thrust), other=1, ticks=400, varies=""
+    )
+    (folder / "fast.mind").write_text(text.lstrip())
+    return folder / "fast.mind"
