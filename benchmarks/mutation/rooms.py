@@ -30,6 +30,38 @@ QUICK_TASKS = (
     "test_a_delay_shifts_the_commands",
     "test_a_reading_that_is_not_a_number_reaches_no_actuator",
 )
+QUICK_WORLDS = (
+    "test_a_task_that_is_gone_is_told",
+    "test_an_earlier_lesson_is_known_too",
+    "test_the_lesson_that_a_line_tells_of_is_known_by_curriculum_and_number",
+)
+MISPLACED = (
+    *("box-in-box", "box-in-its-zone", "empty-battery", "item-half-in-wall", "item-in-reach-at-once"),
+    *("no-room-for-the-robot", "place-in-grid", "place-in-obstacle", "place-in-wall", "place-outside", "starts-twice"),
+    *("start-half-in-the-border", "start-in-box", "start-in-middle-of-plain", "start-in-wall", "start-on-item"),
+    *("start-outside", "starts-on-goal", "too-many-copies", "two-of-one-name-in-one-place", "walker-way-in-wall"),
+)
+QUICK_VIEWS = (
+    "test_a_step_is_a_row_and_an_episode_a_run",
+    "test_its_rows_are_those_of_a_recording",
+    "test_while_nothing_comes_nothing_is_added",
+    "test_the_end_of_an_episode_is_said",
+    "test_what_the_hierarchy_does_around_a_skill_that_is_played_is_shown",
+    "test_without_a_browser_the_address_is_logged",
+    "test_another_way_to_render_is_refused",
+)
+QUICK_ENVIRONMENTS = (
+    "test_gymnasium_finds_nothing_wrong",
+    "test_every_task_has_a_name",
+    "test_any_mind_has_a_name_without_being_registered",
+    "test_a_mind_may_be_registered_twice",
+    "test_the_mind_that_is_registered_last_has_the_name",
+    "test_a_task_in_an_environment_of_gymnasium_is_refused",
+    "test_layouts_are_drawn_from_the_seed",
+    "test_it_is_seen_as_an_image",
+    "test_what_is_not_there_is_said",
+    "test_actions_of_another_shape_are_refused",
+)
 GUARDIAN = ("frames", "urgent", "main", "decisions", "guard", "plan", "output", "serving", "client", "process")
 ROOMS = {
     "engine": Room(
@@ -142,8 +174,9 @@ ROOMS = {
     "environments": Room(
         ("mindlang/environments/*.py",),
         (
-            *(f"tests/environments/test_{name}.py" for name in ("given", "task_env", "task_vector_env", "extras")),
-            "tests/environments/test_live_view.py",
+            *(f"tests/environments/test_{name}.py" for name in ("extras", "same_run", "given", "task_vector_env")),
+            *(f"tests/environments/test_live_view.py::{name}" for name in QUICK_VIEWS),
+            *(f"tests/environments/test_task_env.py::{name}" for name in QUICK_ENVIRONMENTS),
         ),
         but=("mindlang/environments/stable_baselines.py",),  # whose tests need a library that a mutant's may not have
     ),
@@ -163,9 +196,13 @@ ROOMS = {
             *(f"mindlang/rules/{name}.py" for name in ("walled_off", "wall_on_the_way", "standing_learner")),
         ),
         (
-            "tests/language/test_messages.py",
+            "tests/lint/test_floor.py",
+            *(f"tests/language/test_messages.py::test_one_message_for_one_mistake[{name}]" for name in MISPLACED),
+            "tests/lint/test_world_rules.py",
+            "tests/lint/test_paid_at_once.py",
+            "tests/sim/test_drawn_world.py",
             "tests/language/test_starts.py",
-            *(f"tests/lint/test_{name}.py" for name in ("rule_cases", "rule_examples", "rules", "crowded_world")),
+            "tests/lint/test_rules.py",
             "tests/sim/test_beginnings.py",
         ),
     ),
@@ -175,9 +212,13 @@ ROOMS = {
             *(f"mindlang/lock/{name}.py" for name in ("merging", "lessons", "due", "status")),
         ),
         (
-            "tests/lock",
-            *(f"tests/edits/test_{name}.py" for name in ("renames", "edits", "weights", "properties")),
-            "tests/train/test_lesson_order.py",
+            "tests/likeness/test_lock.py",
+            "tests/lock/test_trained.py",
+            *(f"tests/train/test_{name}.py" for name in ("teaching", "lesson_order")),
+            *(f"tests/lock/test_worlds.py::{name}" for name in QUICK_WORLDS),
+            *(f"tests/edits/test_{name}.py" for name in ("weights", "neighbours")),
+            *(f"tests/lock/test_{name}.py" for name in ("accept", "merging", "status_command")),
+            "tests/edits/test_renames.py::test_a_rename_of_anything_in_any_mind",
         ),
     ),
     "numbers": Room(
@@ -187,13 +228,16 @@ ROOMS = {
             *(f"mindlang/rules/{name}.py" for name in ("zero_division", "direction_as_number", "coarse_tick")),
         ),
         (
-            "tests/robot/test_given_numbers.py",
-            "tests/wiring/test_speed.py",
             "tests/run/test_paired_difference.py",
-            "tests/run/test_bench_pair.py",
-            "tests/run/test_measured.py",
-            "tests/api/test_repr.py",
-            *(f"tests/lint/test_{name}.py" for name in ("rule_cases", "rule_examples", "rules")),
+            "tests/lint/test_intervals.py",
+            "tests/language/test_nearest_name.py",
+            "tests/api/test_short_repr.py",
+            "tests/robot/test_given_numbers.py",
+            "tests/run/test_used_sensors.py",
+            "tests/wiring/test_speed.py",
+            "tests/lint/test_number_rules.py",
+            "tests/run/test_one_world.py",
+            "tests/lint/test_rules.py",
             "tests/sim/test_top_speed.py",
         ),
     ),

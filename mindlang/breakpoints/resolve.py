@@ -181,5 +181,5 @@ def _named(
         skill, target = subject.graph.skills[each.skill].name, subject.graph.named(each.to, each.target)
         words["measure", number] = f"{skill} influences {target}"
     for word, operand in dict.fromkeys(program):
-        if (word, int(operand)) in words and word != "number":
+        if (word, operand) in words:
             yield words[word, int(operand)], (word, int(operand))

@@ -39,7 +39,7 @@ class Transmissions:
         self._begins: set[int] = set()
         self._walker = FlowWalker(replace(mind, skills=tuple(senders)), self._rows, self._begins)
         self._fed = 0  # rows, before those of now
-        self._now: tuple[Singles, Singles] = np.zeros((0, 0), np.float32), np.zeros((0, len(mind.calm)), np.float32)
+        self._now: tuple[Singles, Singles]  # those rows
 
     def feed(self, readings: Singles, influence: Singles, begins: Iterable[int] = ()) -> NDArray[np.float64]:
         """The weights [transmissions, rows] over the next readings [rows, width] and influence [rows, skills].

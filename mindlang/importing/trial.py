@@ -42,7 +42,7 @@ class Trial:
         """What the skill reads [ticks, inputs] in a run of the lesson's task with these weights."""
         inputs = list(self.network.skill.inputs)
         moments = trace(self.rollout, READINGS_SEED, genome).moments
-        return np.array([moment.readings[inputs] for moment in moments], np.float32).reshape(-1, len(inputs))
+        return np.array([moment.readings[inputs] for moment in moments], np.float32)
 
     def recorded(self, said: str) -> NDArray[np.float32]:
         """What it has read in a recording, `day.rec` or `day.rec,ball.bundle`; MindError where that cannot be said."""

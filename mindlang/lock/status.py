@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from mindrun.graph import Graph, Lesson, Skill
-from mindrun.skill_sets import below, genes, learners, owners, reachable
+from mindrun.skill_sets import below, genes, learners, owner_of, owners, reachable
 
 from mindlang.lock import Entry, Lock
 from mindlang.lock.blobs import load_weights
@@ -114,8 +114,8 @@ class _Standing:
             fewest: list[str] = min(told.values(), key=len) if told else self._world_changes(world, None)
             changed += fewest
             outdated |= {lesson for lesson, said in told.items() if said}
-        if other := self._other_origin(entry):
-            changed.append(other)
+        if other := [*self._other_origin(entry)]:
+            changed += other
             outdated |= self._lessons_from(entry)
         subskills = [*self._subskill_changes(index, entry)]
         if subskills:
@@ -147,17 +147,16 @@ class _Standing:
         known = {skill for skill, _ in entry.subskills}
         yield from (f"taught without {skill}" for skill in sorted(subskills - known))
 
-    def _other_origin(self, entry: Entry) -> str:
+    def _other_origin(self, entry: Entry) -> Iterator[str]:
         """What is different about another skill's weights that a skill began with, but for lessons of both."""
         if entry.origin is None or entry.origin_file:
-            return ""
+            return
         name, weights = entry.origin
-        now = self.lock.get(self._owners.get(name, name))
+        now = self.lock.get(owner_of(self.graph, name))
         if now is None:
-            return f"began with {name} ({weights[:4]}…), which has no weights now"
-        if now.weights == weights or self._took_part(entry.skill, now):
-            return ""
-        return f"began with another {name} ({weights[:4]}…, now {now.weights[:4]}…)"
+            yield f"began with {name} ({weights[:4]}…), which has no weights now"
+        elif now.weights != weights and not self._took_part(entry.skill, now):
+            yield f"began with another {name} ({weights[:4]}…, now {now.weights[:4]}…)"
 
     def _lessons_from(self, entry: Entry) -> set[Lesson]:
         """The lessons in which a skill begins with the weights of another."""
@@ -175,10 +174,6 @@ class _Standing:
     def _acting(self) -> dict[str, set[str]]:
         """The skills that a master reaches, by master, as far as they were asked for."""
         return {}
-
-    @cached_property
-    def _owners(self) -> dict[str, str]:
-        return {skill.name: skill.owner for skill in self.graph.skills}
 
     @cached_property
     def _worlds(self) -> Worlds:

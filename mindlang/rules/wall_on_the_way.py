@@ -30,7 +30,7 @@ def check(study: Study) -> Found:
     """Stretches of ways, the last of which leads back to the first place, that are in what is fixed."""
     told: set[Span] = set()
     for task in study.mind.tasks:
-        fixed = [(each, [*each.kind.standing(task.scene)]) for each in task.things if each.kind.is_obstacle]
+        fixed = [(each, [*each.kind.standing(task.scene)]) for each in task.things]
         for thing in (each for each in task.things if each.kind.walks and each.span not in told):
             swept = [Outline(stretch, thing.kind.begins[0] / 2) for stretch in _stretches(thing)]
             wall = next((each for each, its in fixed if any(meet(a, rectangle(b)) for a in swept for b in its)), None)

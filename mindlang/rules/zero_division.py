@@ -6,8 +6,9 @@ is enough, in which a range finder touches something. A number that is added bel
 condition, `1 / ahead per tick when ahead > 0.05`; that is looked at for readings and numbers alone.
 """
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from math import inf, nextafter
 
 from mindlang.analysis.conditions import OPPOSITES, TURNED, UPPER
@@ -103,16 +104,27 @@ def _divides_by_zero(
     of: Expression, place: AnalysedWorld, when: When | None = None, each: Interval = UNIT_INTERVAL
 ) -> bool:
     """Whether something in it is divided by what can be 0 while a condition holds."""
-    alternatives = when.alternatives if when else ((),)
-    return any(_has_zero(divisors(of, _narrowed(place, all_), each)) for all_ in alternatives)
+    for all_ in when.alternatives if when else ((),):
+        ranges = _narrowed(place, all_)
+        can_hold = all(low <= high for low, high in ranges.values())
+        if can_hold and _has_zero(divisors(of, partial(_reading, place, ranges), each)):
+            return True
+    return False
 
 
 def _has_zero(found: Iterable[Interval]) -> bool:
     return any(low <= 0 <= high for low, high in found)
 
 
-def _narrowed(place: AnalysedWorld, all_: Sequence[Comparison]) -> Callable[[str], Interval]:
-    """The ranges of readings while these comparisons hold, of which those of a reading with a number say something."""
+def _reading(place: AnalysedWorld, ranges: Mapping[str, Interval], name: str) -> Interval:
+    return ranges.get(name, place.reading(name))
+
+
+def _narrowed(place: AnalysedWorld, all_: Sequence[Comparison]) -> dict[str, Interval]:
+    """The ranges of readings of which these comparisons say something by a number, while all of them hold.
+
+    Where they never do, one ends before it begins.
+    """
     found: dict[str, Interval] = {}
     for comparison in all_:
         for side, number, compare in (
@@ -122,7 +134,7 @@ def _narrowed(place: AnalysedWorld, all_: Sequence[Comparison]) -> Callable[[str
             match side.terms:
                 case (Reading(name),) if is_constant(number):
                     found[name] = _within(found.get(name, place.reading(name)), compare, interval(number)[0])
-    return lambda name: found.get(name, place.reading(name))
+    return found
 
 
 def _within(of: Interval, compare: str, number: float) -> Interval:

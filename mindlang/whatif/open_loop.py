@@ -18,6 +18,7 @@ from mindrun.named_readings import physical
 from mindrun.robot.recording import About, read
 from mindrun.robot.replay import ComputedRow, computed_again
 from mindrun.tick_count import ticks as in_words
+from mindrun.wiring import read_by
 from numpy.typing import NDArray
 
 from mindlang.compiler.diagnostic import listed
@@ -96,22 +97,23 @@ class _Changed:
         """What it reads, thinks and sends for what was measured."""
         if row["tick"] == 0:  # begun anew
             self.engine.reset()
-        given = np.append(row["readings"], np.float32(0.0))[self.places]
+        given = np.append(row["readings"], np.float32(np.nan))[self.places]
         commands = self.engine.tick_with(given, in_tick(self.changes, number))
         return self.engine.readings, self.engine.influence, commands
 
 
 def _places(about: About, graph: Graph, other: MindVersion) -> NDArray[np.intp]:
-    """Where in a recorded row each reading of another mind stands; the place after the last reads 0."""
-    if other.graph == graph:
-        return np.arange(graph.width)
+    """Where in a recorded row each reading of another mind stands; the place after the last is what nobody measured."""
     known = {name: sensor for name, sensor in physical(graph).items() if name in about.sensors}
-    places = np.full(other.graph.width, graph.width, np.intp)
     wanted = physical(other.graph)
-    missing = [name for name in wanted if name not in known or known[name].width != wanted[name].width]
+    found = [name for name in wanted if name in known and known[name].width == wanted[name].width]
+    read = read_by(other.graph, other.master)
+    missing = [name for name in wanted if name in read and name not in found]
     if missing:
         raise ChangeError(f"the recording has no {listed(missing, 'and')}, which {other.name} reads")
-    for name, sensor in wanted.items():
+    places = np.full(other.graph.width, graph.width, np.intp)
+    for name in found:
+        sensor = wanted[name]
         places[sensor.start : sensor.start + sensor.width] = known[name].start + np.arange(sensor.width)
     return places
 
@@ -131,7 +133,6 @@ def _from(columns: dict[str, Columns], begin: int) -> dict[str, Columns]:
 
 
 def _sent(name: str, was: Columns, now: Columns, begin: int) -> Sent:
-    apart = np.abs(now[name].astype(np.float64) - was[name])
-    apart[:begin] = 0.0
-    later = apart[begin:]
-    return Sent(name, int(np.count_nonzero(later)), float(later.mean()), float(apart.max()), int(apart.argmax()) + 1)
+    apart = np.abs(now[name][begin:].astype(np.float64) - was[name][begin:])
+    most_tick = begin + 1 + int(apart.argmax())
+    return Sent(name, int(np.count_nonzero(apart)), float(apart.mean()), float(apart.max()), most_tick)

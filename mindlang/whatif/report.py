@@ -120,7 +120,7 @@ def _outcome(found: dict[str, Any]) -> dict[str, Any]:
 
 def _rows(was: dict[str, Any], now: dict[str, Any]) -> Iterable[tuple[str, str, str]]:
     """Outcome beside outcome: how both ended, what they counted, what each reward line paid."""
-    columns = zip(_column(was, was, now), _column(now, was, now), strict=True)
+    columns = zip(*(_column(found, was, now) for found in (was, now)), strict=True)
     return [(name, before, after) for (name, before), (_, after) in columns]
 
 

@@ -101,19 +101,17 @@ def _parts(words: str) -> tuple[str, str]:
 
 
 def _what(graph: Graph, name: str) -> What:
-    """Whether a name is that of a sensor, a memory or a skill; ChangeError where it is none, or of several."""
+    """Whether a name is that of a sensor, a memory or a skill; ChangeError where it is none."""
     known: dict[What, Sequence[str]] = {
         "reading": [sensor.name for sensor in graph.sensors],
         "memory": [memory.name for memory in graph.memories],
         "influence": [skill.name for skill in graph.skills],
     }
-    found = [what for what, names in known.items() if name in names]
-    if len(found) > 1:
-        raise ChangeError(f"{name} is a sensor and a skill", f"say --sensor {name}=…, or --without {name}")
-    if not found:
-        hint = did_you_mean(name, [each for names in known.values() for each in names])
-        raise ChangeError(f"there is no sensor, memory or skill called {name}", hint)
-    return found[0]
+    for what, names in known.items():
+        if name in names:
+            return what
+    hint = did_you_mean(name, [each for names in known.values() for each in names])
+    raise ChangeError(f"there is no sensor, memory or skill called {name}", hint)
 
 
 def _refuse_unreached(graph: Graph, master: str, skill: str) -> None:

@@ -50,9 +50,9 @@ def _within(course: Course, span: tuple[int, int] | None) -> tuple[int, int]:
         raise QuestionError(
             f"there is no tick {last:,}: it was over after {many}", f"Say one from 1 to {course.ticks}."
         )
-    edges = max(1, len(course.flows.links))
+    edges = len(course.flows.links)
     if (last - first + 1) * edges > MAX_EDGE_TICKS:
-        most = max(1, MAX_EDGE_TICKS // edges)
+        most = MAX_EDGE_TICKS // edges
         raise QuestionError(
             f"{last - first + 1:,} ticks of {edges:,} edges are too much for one answer",
             f"Ask for {most:,} ticks at most: --tick {first}..{first + most - 1}",
@@ -96,7 +96,7 @@ def _shares(course: Course, target: Sink, rows: range, paths: int) -> dict[str, 
 def _reads(course: Course, of: Contribution, rows: range) -> dict[str, list[float | None]]:
     """What the skill that sent it read, by sensor or memory; the mean over the ticks, None where that is no number."""
     graph = course.flows.graph
-    name = of.path[-2] if len(of.path) > 1 else of.path[0]
+    name = of.path[-2:][0]  # before what was asked about, unless that is the master
     inputs = next(skill.inputs for skill in graph.skills if skill.name == name)
     means = course.flows.walker.rows(np.array(rows))[0][:, list(inputs)].astype(float).mean(axis=0).tolist()
     owners = {place: each.name for each in graph.sensors for place in range(each.start, each.start + each.width)}

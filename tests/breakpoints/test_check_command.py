@@ -7,6 +7,8 @@ import pytest
 
 from tests.calling import Call
 
+WIRED = (("sensors", "ball_bearing", "feeler"), ("actuators", "left_wheel", "right_wheel"))
+
 
 @pytest.fixture
 def breaks(rules: Path) -> Path:
@@ -32,6 +34,11 @@ def test_it_is_held_against_the_mind_that_is_given(mindc: Call, rules: Path, bre
     data = json.loads(mindc("check", other, rules, "--json").out)
     assert data["files"] == [{"file": str(rules), "ok": True}, {"file": str(other), "ok": False}]
     assert [each["code"] for each in data["diagnostics"]] == ["unknown-reading"]
+    second = rules.with_name("second.mind")
+    second.write_text(rules.read_text().replace("ball_bearing", "bal_bearing"))
+    assert f"note: {other} is read without a mind" in mindc("check", other, rules, second).err
+    breaks.write_text("stop when ball_bearing < 1\n")
+    assert mindc("check", breaks, rules, second) == (0, "", "nothing wrong\n")
 
 
 def test_it_is_about_a_task(mindc: Call, breaks: Path) -> None:
@@ -80,3 +87,18 @@ def test_with_a_bundle_it_is_held_against_what_its_robot_records(mindc: Call, ru
     assert f"{breaks}:2:9: error: Task Roam did not notice this event." in said.err
     assert mindc("check", breaks, bundle, "--master", "Chas").code == 2
     assert mindc("check", breaks, bundle.with_name("none.bundle")).code == 2
+
+
+def test_of_a_robot_that_is_wired_there_are_the_sensors_that_are(mindc: Call, rules: Path, breaks: Path) -> None:
+    text = rules.read_text().replace("at 0 30 330 deg", "at 30 deg\nsensor gap is range_finder at 0 deg")
+    rules.write_text(text)
+    bundle, wiring = rules.with_suffix(".bundle"), rules.with_name("robot.yaml")
+    devices = ("{}:\n  {}: {{driver: mock}}\n  {}: {{driver: mock}}\n".format(*names) for names in WIRED)
+    wiring.write_text("robot: Robot\n" + "".join(devices))
+    assert mindc("build", rules, "--robot", wiring, "-o", bundle).code == 0
+    breaks.write_text("stop on fault of gap\n")
+    said = mindc("check", breaks, bundle)
+    assert (said.code, said.err.count("Wired are ball_bearing and feeler.")) == (1, 1)
+    assert mindc("check", breaks, bundle, "--task", "Roam") == (0, "", "nothing wrong\n")
+    breaks.write_text("stop when gap < 0.5\n")
+    assert "[unmeasured-reading]" in mindc("check", breaks, bundle).err

@@ -6,6 +6,7 @@ After a change of words: UPDATE=1 pytest tests/breakpoints/test_messages.py, and
 """
 
 import os
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -17,6 +18,7 @@ from mindlang.breakpoints.parse import parse
 from mindlang.breakpoints.robot_events import Fault, Stopped
 from mindlang.cli._diagnostic_printer import plain
 from mindlang.compiler.diagnostic import Findings
+from mindlang.compiler.parse import MAX_UNREADABLE_LINES
 from mindlang.compiler.parse.mistakes import Mistake
 from mindlang.compiler.source import Source
 from tests.breakpoints.subjects import subject
@@ -80,6 +82,18 @@ def test_of_a_recording_there_are_no_events() -> None:
     assert len(found.breakpoints) == 2
 
 
+def test_a_file_of_something_else_is_not_read_to_its_end() -> None:
+    found = read("stop on collision\n" + "halt\n" * (MAX_UNREADABLE_LINES + 2))
+    assert len(found.breakpoints) == 1
+    assert len(found.diagnostics) == MAX_UNREADABLE_LINES + 2
+    assert found.diagnostics[-1].code == "too-many-mistakes"
+    assert [each.code for each in read("1\n- stop on collision\nstopp\n").diagnostics] == [
+        "no-stop",
+        "list-dash",
+        "no-stop",
+    ]
+
+
 def test_of_a_recording_there_are_the_events_of_the_robot() -> None:
     found = read("stop on stopped\nstop on 3 fault\nstop on fault of eyes", has_task=False)
     assert found.diagnostics == ()
@@ -88,6 +102,12 @@ def test_of_a_recording_there_are_the_events_of_the_robot() -> None:
         Happens(Fault(), 3),
         Happens(Fault("eyes"), 0),
     ]
+
+
+def test_a_robot_without_sensors_has_no_fault_of_one() -> None:
+    blind = replace(subject(has_task=False), sensors=())
+    (found,) = breakpoints_of(Source("a.break", "stop on fault of eyes"), blind).diagnostics
+    assert (found.code, found.hint) == ("unknown-sensor", "No sensor of this robot is wired.")
 
 
 @pytest.mark.parametrize("text", ["\x0b", "stop \u200bon collision", "stop when " + "(" * 99, "stop " + "x" * 9999])

@@ -1,6 +1,7 @@
 """The recording of a run stops where the run does, whatever world it is of, in parts of any size."""
 
 from collections.abc import Iterator
+from itertools import pairwise, product
 from pathlib import Path
 
 import numpy as np
@@ -11,18 +12,20 @@ from mindrun.engine import procedure_sources
 from mindrun.graph import Graph
 from mindrun.policy import Policy
 from mindrun.robot.recording import whole_rows
-from mindrun.robot.recording_header import about_of_line
+from mindrun.robot.recording_header import About, about_of_line
 from mindrun.weights import reachable
 
 from mindlang.breakpoints.breakpoint import Breakpoint, Happens, Holds, Reaches, Transmission
 from mindlang.breakpoints.file import breakpoints_of
 from mindlang.breakpoints.recorded import RecordingWatcher, recording_subject
+from mindlang.breakpoints.robot_events import Fault, Stopped
 from mindlang.breakpoints.watch import watcher
 from mindlang.compiler.source import Source
 from mindlang.lock.ready import ReadyMind
 from mindlang.run.recorded_run import record_run
 from mindlang.run.run_recording import run_bytes
 from mindlang.run.setup import RunSetup
+from tests.breakpoints.subjects import subject
 from tests.calling import Call
 from tests.draws import cases
 from tests.hierarchies import PROCEDURES, SCALES
@@ -69,6 +72,34 @@ def test_the_recording_of_a_run_stops_where_the_run_does(
     assert found == [(stop.tick, stop.breakpoint.line) for stop in watcher(asked, setup).feed(run)]
 
 
+@given(st.lists(st.tuples(*[st.integers(0, 2)] * 4), min_size=1, max_size=12), st.lists(st.integers(0, 12), max_size=3))
+def test_what_happens_to_a_robot_is_found_where_it_begins(facts: list[tuple[int, ...]], cuts: list[int]) -> None:
+    """Of each row whether it had to stop, and the faults of its sensors."""
+    graph = subject().graph
+    bundle = Bundle(Policy(graph, weights_for(graph, 1.0, np.random.default_rng(1))), {})
+    about = About.of(graph, "0" * 64, "Go", ("eyes", "ball_bearing", "holding"))
+    rows = np.zeros(len(facts), about.row)
+    rows["stopped"], rows["faults"] = [fact[0] for fact in facts], [fact[1:] for fact in facts]
+    begun = np.array(
+        [[now > 0 and then == 0 for then, now in zip(*both, strict=True)] for both in pairwise([(0,) * 4, *facts])]
+    )
+    happened = {Stopped(): begun[:, 0], Fault(): begun[:, 1:].sum(axis=1), Fault("holding"): begun[:, 3]}
+    asked = [
+        Breakpoint(line, "", Happens(event, times)) for line, (event, times) in enumerate(product(happened, (0, 2)))
+    ]
+    watching, stops = RecordingWatcher(asked, about, bundle), []
+    for part in np.split(rows, sorted(cuts)):
+        stops += watching.feed(part, part["readings"])
+    expected = []
+    for row, each in product(range(len(facts)), asked):
+        assert isinstance(each.cause, Happens)
+        of = happened[each.cause.event]
+        then, now = of[:row].sum(), of[: row + 1].sum()
+        if then < each.cause.times <= now if each.cause.times else now > then:
+            expected.append((row + 1, each.line))
+    assert [(stop.tick, stop.breakpoint.line) for stop in stops] == expected
+
+
 def test_events_of_its_task_are_found_in_a_recording_with_a_world(mindc: Call, rules: Path, tmp_path: Path) -> None:
     from mindrun.robot.recording import read
 
@@ -83,5 +114,11 @@ def test_events_of_its_task_are_found_in_a_recording_with_a_world(mindc: Call, r
     assert found.diagnostics == ()
     stops = RecordingWatcher(found.breakpoints, about, bundle).feed(rows, rows["readings"])
     assert [(stop.tick, stop.breakpoint.line) for stop in stops] == [(1, 3), (len(rows), 1)]
-    other = breakpoints_of(Source("a.break", "stop on visit of patch size 4"), recording_subject(about, bundle))
-    assert [each.code for each in other.diagnostics] == ["unnoticed-event"]
+    for wrong, code, hint in (
+        ("visit of patch size 4", "unnoticed-event", "Write a condition instead; only events of which a line"),
+        ("reach of bal", "unknown-thing", "Did you mean ball?"),
+        ("colision", "unknown-kind", "Did you mean collision?"),
+        ("stoped", "unknown-kind", "Did you mean stopped?"),
+    ):
+        other = breakpoints_of(Source("a.break", f"stop on {wrong}"), recording_subject(about, bundle))
+        assert [(each.code, each.hint.startswith(hint)) for each in other.diagnostics] == [(code, True)]

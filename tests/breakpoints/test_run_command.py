@@ -120,6 +120,10 @@ def test_a_stop_on_a_share_is_where_the_share_is(rules: Path) -> None:
     assert stops == [(1, 1)]  # 0.2 in float32 is a little more
     _, stops = recorded(rules, "Chase", "stop when Roam influences Turn above 21%\n")
     assert stops == []
+    text = rules.read_text().replace("actuator left", "memory mood is cell decay 0.9\nactuator left")
+    rules.write_text(text.replace("  drives left_wheel at 0.9", "  drives mood at 1\n  drives left_wheel at 0.9"))
+    said = "stop when Turn influences left_wheel below 17%\nstop when Turn influences mood above 99%\n"
+    assert recorded(rules, "Chase", said)[1] == [(1, 1), (1, 2)]
 
 
 def test_the_picture_is_of_the_run_until_there(mindc: Call, rules: Path, breaks: Path, tmp_path: Path) -> None:
@@ -134,6 +138,11 @@ def test_mistakes_are_reported_and_nothing_runs(mindc: Call, rules: Path, breaks
     said = mindc("run", rules, *CHASE, "--break", breaks)
     assert (said.code, said.out) == (1, "")
     assert "Did you mean collision?" in said.err
+    rules.write_text(rules.read_text().replace("\n\nskill", "\nsensor gap is range_finder at 0 deg\n\nskill", 1))
+    breaks.write_text("stop when left_wheel > 0 and 1 - gap > 0.5\n")
+    said = mindc("run", rules, *CHASE, "--break", breaks)
+    assert "Nobody measures gap in this run. [unmeasured-reading]" in said.err
+    assert "Name a sensor that a skill below Roam or a reward reads, or that is wired." in said.err
     missing = mindc("run", rules, *CHASE, "--break", breaks.with_name("no.break"))
     assert (missing.code, missing.out) == (2, "")
     assert "cannot be read" in missing.err

@@ -104,15 +104,8 @@ def test_rows_that_come_in_parts_stop_a_run_where_they_do_at_once(watched: Watch
 @given(random_case())
 def test_all_weights_together_are_what_thinking_adds_up(case: Case) -> None:
     """Toward a skill its influence; toward what is driven the whole, or nothing where nothing drives it."""
-    graph = case.graph
-    thinking, watching = (ready(case) for _ in range(2))  # each with the state of its own functions
-    with np.errstate(all="ignore"):
-        influence = np.array([think(thinking, row).influence for row in case.readings])
-    asked = [
-        Transmission(skill.index, to, target)
-        for skill in watching.skills
-        for to, target in {(edge.to, edge.target) for edge in graph.skills[skill.index].edges}
-    ]
+    graph, watching = case.graph, ready(case)
+    influence, asked = influence_of(case, case.readings), all_sent(case)
     weights = Transmissions(asked, watching, len(graph.actuators)).feed(case.readings, influence)
     for to, target in {(each.to, each.target) for each in asked}:
         arriving = [
@@ -124,6 +117,38 @@ def test_all_weights_together_are_what_thinking_adds_up(case: Case) -> None:
             assert np.allclose(whole[certain], influence[certain, target], rtol=1e-5)
         else:
             assert np.isin(np.round(whole[certain], 5), [0, 1]).all()
+
+
+@given(random_case(), st.integers(0, 100))
+def test_where_a_mind_is_begun_anew_its_weights_are_as_at_the_beginning(case: Case, cut: int) -> None:
+    halves = np.split(case.readings, [cut % (len(case.readings) + 1)])
+    influence, asked = [influence_of(case, half) for half in halves], all_sent(case)
+    whole, parts = (Transmissions(asked, ready(case), len(case.graph.actuators)) for _ in range(2))
+    alone = [
+        Transmissions(asked, ready(case), len(case.graph.actuators)).feed(*half)
+        for half in zip(halves, influence, strict=True)
+    ]
+    found = whole.feed(case.readings, np.concatenate(influence), [0, len(halves[0])])
+    assert np.array_equal(found, np.concatenate(alone, axis=1), equal_nan=True)
+    for fed, expected in zip(zip(halves, influence, strict=True), alone, strict=True):
+        assert np.array_equal(parts.feed(*fed, [0]), expected, equal_nan=True)
+
+
+def influence_of(case: Case, readings: NDArray[np.float32]) -> NDArray[np.float32]:
+    """What a mind thinks from its beginning on."""
+    mind = ready(case)
+    with np.errstate(all="ignore"):
+        thought = [think(mind, row).influence for row in readings]
+    return np.array(thought, np.float32).reshape(len(readings), len(case.graph.skills))
+
+
+def all_sent(case: Case) -> list[Transmission]:
+    """From each skill to each of its targets."""
+    return [
+        Transmission(skill.index, to, target)
+        for skill in ready(case).skills
+        for to, target in {(edge.to, edge.target) for edge in case.graph.skills[skill.index].edges}
+    ]
 
 
 def ready(case: Case) -> Hierarchy:

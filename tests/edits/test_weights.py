@@ -23,7 +23,7 @@ from mindlang.editing.project import EditError, MindChange, open_project
 from mindlang.editing.summary import summarise
 from mindlang.editing.writing import write
 from mindlang.edits import edit
-from mindlang.lock import lock_path, read_lock
+from mindlang.lock import lock_path, read_lock, write_lock
 from mindlang.lock.arrange import arrange
 from mindlang.lock.blobs import FOLDER, blob
 from mindlang.lock.ready import make_ready
@@ -91,6 +91,34 @@ def test_a_rename_relabels(drive: Path, noun: str, old: str, new: str) -> None:
     assert _elsewhere(drive) == {}, "the worlds follow, too"
 
 
+SPREAD = "  varies noise of eye 0 to 10%\n  varies noise of left_wheel 0 to 10%\n  fails right_wheel 1% per s\n"
+
+
+@pytest.mark.parametrize("old", ["eye", "left_wheel", "right_wheel"])
+def test_a_rename_relabels_what_differs_from_run_to_run(tmp_path: Path, old: str) -> None:
+    path = write_mind(tmp_path, MIND.replace("  lasts 60", f"{SPREAD}  lasts 60"))
+    teach(path)
+    made(path, "rename", old=old, new="other")
+    text = lock_path(path).read_text()
+    assert (_stands("other", text), _stands(old, text)) == (True, False)
+    assert _elsewhere(path) == {}
+
+
+def test_a_rename_leaves_a_thing_that_is_called_like_a_memory(tmp_path: Path) -> None:
+    path = write_mind(tmp_path, MIND.replace("of ball", "of mood").replace("contains ball", "contains mood"))
+    teach(path)
+    made(path, "rename", old="mood", new="temper", noun="memory")
+    assert _elsewhere(path) == {}
+
+
+def test_a_rename_relabels_what_a_mind_says_no_more(drive: Path) -> None:
+    text = drive.read_text().replace("bearing of ball", "bearing of stone").replace("reach of ball", "reach of stone")
+    drive.write_text(text.replace("  contains ball", "  contains stone is item\n  contains ball"))
+    made(drive, "rename", old="ball", new="cup", noun="thing")
+    lock = lock_path(drive).read_text()
+    assert (_stands("cup", lock), _stands("ball", lock)) == (True, False)
+
+
 def _elsewhere(path: Path) -> dict[str, tuple[str, ...]]:
     """The skills that were taught elsewhere, and why."""
     states = statuses(path).items()
@@ -108,6 +136,9 @@ def test_a_rename_relabels_the_lock_of_a_used_file_and_nothing_else(tmp_path: Pa
     main.write_text(f'use "parts.mind"\nmaster Drive\n{lessons}')
     teach(parts)
     teach(main, "Drive", seed=2)
+    known = read_lock(lock_path(parts))
+    origin = known["Avoid"].weights
+    write_lock(lock_path(parts), {**known, "Go": replace(known["Go"], origin=("Avoid", origin))})
     readings = some_readings(main)
     before, old = commands(main, readings), read_lock(lock_path(parts))
     made(main, "rename", old="Avoid", new="Dodge", noun="skill")
@@ -116,7 +147,7 @@ def test_a_rename_relabels_the_lock_of_a_used_file_and_nothing_else(tmp_path: Pa
     taught = replace(old["Avoid"].taught, master="Dodge")
     assert now["Dodge"] == replace(old["Avoid"], skill="Dodge", taught=taught, worlds=now["Dodge"].worlds)
     assert [world.lesson.master for world in now["Dodge"].worlds] == ["Dodge"]
-    assert now["Go"] == old["Go"]
+    assert now["Go"] == replace(old["Go"], origin=("Dodge", origin))
     assert _elsewhere(parts) == {}
     assert now["Drive"].subskills == (("Dodge", old["Avoid"].weights), ("Go", old["Go"].weights))
     assert read_lock(lock_path(main))["Drive"].signature.sends == ("Go", "Dodge")

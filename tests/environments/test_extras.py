@@ -27,3 +27,11 @@ def test_an_extra_that_is_missing(monkeypatch: pytest.MonkeyPatch, name: str, mo
 def test_what_is_no_part_of_it() -> None:
     with pytest.raises(AttributeError, match="has no attribute 'Nothing'"):
         environments.Nothing  # noqa: B018
+
+
+def test_what_is_missing_of_our_own_is_no_extra(monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("gymnasium")
+    monkeypatch.setitem(sys.modules, "mindlang.environments.image", None)
+    monkeypatch.delitem(sys.modules, "mindlang.environments.task_env", raising=False)
+    with pytest.raises(ModuleNotFoundError, match=r"mindlang\.environments\.image"):
+        environments.TaskEnv  # noqa: B018

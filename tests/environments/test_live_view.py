@@ -7,15 +7,20 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
+from queue import SimpleQueue
 from typing import Any
 
 import numpy as np
 import pytest
 from mindrun.robot.rate import Rate
+from mindrun.robot.recording import read
 from websockets.sync.client import connect
 from websockets.typing import Origin
 
+from mindlang.run.recorded_run import record_run
+from mindlang.run.run_recording import run_bytes
 from tests.calling import write_rules
 from tests.view.serving import ViewingClient
 
@@ -119,6 +124,46 @@ def test_a_step_is_a_row_and_an_episode_a_run(roam: Path, opened: list[str]) -> 
 def seen_at(address: str) -> Iterator[None]:
     with connect(re.sub("^http(.*)/#.*", r"ws\1/rows", address)):
         yield
+
+
+def test_its_rows_are_those_of_a_recording(roam: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """Of the run with the same commands; but for influence, as no skill acts."""
+    added: list[Any] = []
+
+    class Coming(SimpleQueue):  # type: ignore[type-arg]
+        def put(self, item: Any, block: bool = True, timeout: float | None = None) -> None:
+            added.append(item)
+            super().put(item, block, timeout)
+
+    monkeypatch.setattr(live_view, "SimpleQueue", Coming)
+    env = TaskEnv(roam, "Roam", render_mode="human")
+    setup = env._episodes.agent.setup
+    run = record_run(setup, setup.rollout(), 4)
+    (tmp_path / "run.rec").write_bytes(run_bytes(run, setup, 4))
+    about, parts = read(tmp_path / "run.rec")
+    env.reset(seed=4)
+    for commands in run.commands:
+        env.step(commands)
+    assert env._view
+    assert replace(env._view._about, world=None) == replace(about, world=None, bundle="", sensors=())
+    env.close()
+    assert [each is None for each in added] == [True, *[False] * run.ticks, True]
+    rows, expected = np.concatenate([each for each in added if each is not None]), np.concatenate([*parts])
+    for name in ("tick", "time", "armed", "readings", "commands", "sent"):
+        assert np.array_equal(rows[name], expected[name], equal_nan=True), name
+    for name in about.row["world"].names:
+        assert np.array_equal(rows["world"][name], expected["world"][name], equal_nan=True), name
+
+
+def test_while_nothing_comes_nothing_is_added(roam: Path) -> None:
+    env = TaskEnv(roam, "Roam", render_mode="human")
+    env.reset(seed=4)
+    assert env._view
+    viewed = live_view._viewed(env._episodes.agent, env._view._about, SimpleQueue())
+    for _ in range(3):  # the beginning, and what comes after it
+        viewed.grow()
+        assert (viewed.known, viewed.over) == (0, False)
+    env.close()
 
 
 def test_the_end_of_an_episode_is_said(roam: Path) -> None:

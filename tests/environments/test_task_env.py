@@ -66,6 +66,15 @@ def test_a_mind_may_be_registered_twice(registered: list[str]) -> None:
     assert register(COLLECT) == registered  # a warning would be an error here
 
 
+def test_the_mind_that_is_registered_last_has_the_name(tmp_path: Path) -> None:
+    (other := tmp_path / "other.mind").write_text(OUTSIDE.replace("Swing", "Dash"), encoding="utf-8")
+    register(other)
+    (last := tmp_path / "last.mind").write_text(OUTSIDE.replace("Swing", "Dash"), encoding="utf-8")
+    with pytest.warns(UserWarning, match="Overriding environment"):
+        assert register(last) == ["mind/Dash-v0"]
+    assert gymnasium.spec("mind/Dash-v0").kwargs == {"file": str(last), "task": "Dash"}
+
+
 def test_a_task_in_an_environment_of_gymnasium_is_refused(tmp_path: Path) -> None:
     (swing := tmp_path / "swing.mind").write_text(OUTSIDE, encoding="utf-8")
     assert register(swing) == ["mind/Swing-v0"]

@@ -21,13 +21,13 @@ from gymnasium.vector import AutoresetMode, SyncVectorEnv  # noqa: E402
 from mindlang.environments import TaskEnv, TaskVectorEnv, register  # noqa: E402
 from mindlang.run.layouts import layouts  # noqa: E402
 
-ROBOTS, TICKS = 5, 700  # several episodes of up to 200 ticks
+ROBOTS, TICKS = 4, 300  # several episodes of up to 120 ticks
 
 
 @pytest.fixture
 def roam(tmp_path: Path) -> Path:
     rules = write_rules(tmp_path)
-    rules.write_text(rules.read_text("utf-8").replace("lasts 600 ticks", "lasts 200 ticks"), "utf-8")
+    rules.write_text(rules.read_text("utf-8").replace("lasts 600 ticks", "lasts 120 ticks"), "utf-8")
     return rules
 
 
@@ -87,6 +87,36 @@ def test_two_seeds_have_no_layout_in_common(seeds: list[int]) -> None:
                 begun += infos["layout"][infos["_layout"]].tolist()
             all_begun += [*dict.fromkeys(begun)]
         assert len(all_begun) == len({*all_begun}) > 20 * ROBOTS * len(seeds)
+
+
+def test_seeds_may_be_given_to_some(roam: Path) -> None:
+    """The others go on with what they have drawn from, or draw as nobody has told them to."""
+    one, many = TaskEnv(roam, "Roam"), TaskVectorEnv(roam, "Roam", num_envs=3)
+    one.reset(seed=8)
+    begun = [many.reset(seed=[7, 8, 9])[1]["layout"].tolist(), many.reset(seed=[1, None, 3])[1]["layout"].tolist()]
+    assert begun == [[7, 8, 9], [1, one.reset()[1]["layout"], 3]]
+    unknown = [TaskVectorEnv(roam, "Roam", num_envs=2).reset()[1]["layout"].tolist() for _ in range(2)]
+    assert len({layout for both in unknown for layout in both}) == 4
+
+
+def test_whoever_begins_anew_does_so_at_once(roam: Path) -> None:
+    roam.write_text(roam.read_text("utf-8").replace("lasts 120 ticks", "lasts 2 ticks"), "utf-8")
+    env, wheels = TaskVectorEnv(roam, "Roam", "Turn"), np.full((1, 2), 0.75, np.float32)
+    assert (env.num_envs, env.metadata["render_fps"], env.render()) == (1, 60, None)
+    env.reset(seed=[4])
+    env.step(wheels)
+    assert env.step(wheels)[3].tolist() == [True]
+    env.reset(seed=[4], options={"anything": 1})
+    _, _, _, over, infos = env.step(wheels)
+    assert (over.tolist(), infos) == ([False], {})
+    assert env.step(wheels)[3].tolist() == [True]
+    _, rewards, *ended, infos = env.step(wheels)
+    assert (rewards.tolist(), *(each.tolist() for each in ended), [*infos]) == (
+        [0],
+        [False],
+        [False],
+        ["layout", "_layout"],
+    )
 
 
 def test_gymnasium_makes_it(roam: Path) -> None:

@@ -82,3 +82,51 @@ def test_a_robot_may_touch_the_border_whatever_decimals_add_up_to(side: float, s
         assert graph, start
     beyond = compile_source(Source("a.mind", text.replace("START", f"  starts at {at + 0.001} 0\n"), Path()))
     assert [each.code for each in beyond.diagnostics] == ["outside-arena"]
+
+
+BOX = "START", "  starts at {}\n  contains crate is box size 2 at 3 0\n"
+
+
+@pytest.mark.parametrize(
+    ("start", "body", "code"),
+    [
+        ("1.6 0", "disc size 1", "inside-obstacle"),
+        ("1.5 0", "disc size 1", ""),
+        ("1.9 0", "nothing", ""),  # of a body that nobody knows its middle alone is held against things
+        ("2.1 0", "nothing", "inside-obstacle"),
+        ("20 0", "nothing", ""),
+        ("20.1 0", "nothing", "outside-arena"),
+        ("1.4 0 facing 0 deg", "box size 3 1", "inside-obstacle"),
+        ("1.4 0 facing 90 deg", "box size 3 1", ""),
+        ("1.4 0", "box size 3 1", ""),  # in some runs, which is for lint
+    ],
+)
+def test_a_robot_does_not_start_in_something(start: str, body: str, code: str) -> None:
+    text = MIND.replace("disc size 1", body).replace(BOX[0], BOX[1].format(start))
+    found = [each.code for each in compile_source(Source("a.mind", text, Path())).diagnostics]
+    assert [each for each in found if each in ("inside-obstacle", "outside-arena")] == [code] * bool(code)
+
+
+@pytest.mark.parametrize(
+    ("times", "places", "is_decided"), [(1, "3 0", True), (2, "3 0", False), (2, "3 0 to 0 2", True)]
+)
+def test_no_run_is_over_before_it_begins(times: int, places: str, is_decided: bool) -> None:
+    lines = (
+        f"  starts at 1 0 facing 0 deg\n  contains coin is item size 1 at {places}\n  ends on {times} reach of coin\n"
+    )
+    text = MIND.replace("START", lines.replace("0 2", "2.5 1"))
+    found = compile_source(Source("a.mind", text, Path())).diagnostics
+    assert [each.code for each in found] == ["decided-start"] * is_decided
+
+
+@pytest.mark.parametrize(("count", "code"), [(99, []), (100, ["too-many-things"])])
+def test_a_world_takes_a_hundred_things(count: int, code: list[str]) -> None:
+    lines = f"  contains coin is item size 0.1\n  contains crate is box size 0.1 count {count}\n"
+    found = compile_source(Source("a.mind", MIND.replace("START", lines), Path())).diagnostics
+    assert [each.code for each in found] == code
+
+
+@pytest.mark.parametrize("place", ["2 s 5", "5 2 s"])
+def test_a_place_in_seconds_is_one_mistake(place: str) -> None:
+    found = compile_source(Source("a.mind", MIND.replace("START", f"  starts at {place}\n"), Path())).diagnostics
+    assert [each.message for each in found] == ["The unit s does not fit here."]

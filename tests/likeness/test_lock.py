@@ -13,6 +13,7 @@ from mindrun.weights import genes
 from mindlang.lock import Taught, lock_text, read_lock, write_lock
 from mindlang.lock.arrange import arrange
 from mindlang.lock.blobs import digest, record
+from mindlang.lock.lessons import needed_skills
 from mindlang.lock.report import rows, survival
 from mindlang.lock.status import Stale, Trained, Untaught, status, trained_weights
 from mindlang.lock.world_changes import changes
@@ -103,7 +104,9 @@ def test_a_lesson_that_starts_from_another_skill_is_another() -> None:
 def test_a_line_says_with_whose_weights_a_skill_began(tmp_path: Path) -> None:
     lock = tmp_path / "mind.lock"
     own = "\nskill Far is mlp\n  reads ears\n  reads near\n  drives left_wheel\n  drives right_wheel at near / 2\n"
-    mind = graph(GO, own, ALIKE, TOP, SCHOOL, LESSON, "  teaches Far on Roam for 10 generations from Go\n")
+    line = "  teaches Far on Roam for 10 generations"
+    mind = graph(GO, own, ALIKE, TOP, SCHOOL, LESSON, f"{line}\n", f"{line} from Go\n")
+    assert [needed_skills(mind, lesson) for lesson in mind.lessons] == [set(), set(), {"Go"}]
     began = digest(teach(lock, mind, "Go"))
     teach(lock, mind, "Far", 2, origins={"Far": ("Go", began)})
     entries = read_lock(lock)
@@ -116,7 +119,10 @@ def test_a_line_says_with_whose_weights_a_skill_began(tmp_path: Path) -> None:
     state = status(mind, read_lock(lock))["Far"]
     assert isinstance(state, Trained)
     assert state.changes == (f"began with another Go ({began[:4]}…, now {now[:4]}…)",)
-    assert [lesson.skill for lesson in state.outdated] == ["Far"]
+    assert state.outdated == {mind.lessons[-1]}
+    state = status(mind, {"Far": entries["Far"]})["Far"]
+    assert isinstance(state, Trained)
+    assert state.changes == (f"began with Go ({began[:4]}…), which has no weights now",)
 
 
 @pytest.mark.parametrize("version", [1, 2, 3])

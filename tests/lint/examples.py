@@ -1,7 +1,11 @@
 """The examples of the rules as whole minds: what they leave out is added, further files stand below `-- NAME --`."""
 
 import re
+from collections.abc import Callable
 from pathlib import Path
+
+Told = tuple[str, ...]  # the part of the text, the message, what to do, and other parts that it names
+Tell = Callable[[str, str], list[Told]]
 
 BASE = (
     "tick 1/60 s\n",

@@ -121,11 +121,13 @@ def test_edges_with_at_take_no_weights(tmp_path: Path) -> None:
     assert isinstance(status(changed, read_lock(path))["Go"], Trained)
 
 
-def test_a_retrained_subskill_only_marks_its_parents(tmp_path: Path) -> None:
+@pytest.mark.parametrize("master", ["Go", "Turn"])
+def test_a_retrained_subskill_only_marks_its_parents(tmp_path: Path, master: str) -> None:
+    """It was taught where none of them was."""
     graph, path = example(), tmp_path / "a.lock"
     old = teach(path, graph)["Go"]
     new = old + np.float32(1)
-    record(path, graph, {"Go": new}, replace(TAUGHT, master="Go"), {})
+    record(path, graph, {"Go": new}, replace(TAUGHT, master=master), {})
     state = status(graph, read_lock(path))["Top"]
     assert isinstance(state, Trained)
     assert state.changes == (f"taught with another Go ({digest(old)[:4]}…, now {digest(new)[:4]}…)",)

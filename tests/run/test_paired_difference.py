@@ -82,16 +82,23 @@ def test_an_interval_is_as_wide_as_layouts_without_an_example_make_it() -> None:
     same = difference(scores, scores + 100)
     assert (same.low, same.high) == pytest.approx((100 - same.unseen, 100 + same.unseen))  # type: ignore[operator]
     assert same.leaves_zero_out
-    with_one_end = Difference(12, 12, 0, 0, 0, 1.0, low=0.5, high=9.0, unseen=0.5)
-    assert with_one_end.is_widened
+    for low, high, is_widened in ((0.5, 9.0, True), (-9.0, 1.5, True), (-9.0, 9.0, False)):
+        assert Difference(12, 12, 0, 0, 0, 1.0, low=low, high=high, unseen=0.5).is_widened == is_widened
+
+
+def test_of_differences_that_are_not_skewed_it_is_students() -> None:
+    found = difference(np.zeros(40), np.tile([-1.0, 1.0], 20) + 0.3)
+    reach = 2.02269 * sqrt(40 / 39) / sqrt(40)
+    assert (found.low, found.high) == (pytest.approx(0.3 - reach, abs=1e-5), pytest.approx(0.3 + reach, abs=1e-5))
 
 
 def test_of_few_runs_less_is_known() -> None:
     zeros, ones = np.zeros(12), np.arange(12) % 2.0
-    assert difference(zeros[:1], ones[1:2]) == Difference(1, 1, 0, 0, 0, 1.0)
-    assert difference(zeros[:4], ones[:4]) == Difference(
-        4, 2, 0, 2, 0, 0.5, pytest.approx(0.57735), pytest.approx(0.288675)
-    )
+    one, four = difference(zeros[:1], ones[1:2]), difference(zeros[:4], ones[:4])
+    assert one == Difference(1, 1, 0, 0, 0, 1.0)
+    assert four == Difference(4, 2, 0, 2, 0, 0.5, pytest.approx(0.57735), pytest.approx(0.288675))
+    for each in (one, four, Difference(1, 0, 0, 0, 1)):
+        assert (each.is_widened, each.leaves_zero_out) == (False, False)
 
 
 def test_the_interval_contains_the_truth_as_often_as_it_says() -> None:

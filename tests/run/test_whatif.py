@@ -1,13 +1,14 @@
 """`mindc whatif` in the simulator: what is changed, where it differs first, and what came of both runs."""
 
 import json
+from dataclasses import fields, replace
 from pathlib import Path
 from typing import Any
 
 import cv2
 import numpy as np
 import pytest
-from mindrun.changes import change_of, silenced
+from mindrun.changes import ChangeError, change_of, silenced
 from mindrun.robot.recording import read
 
 from mindlang.compiler.compile import load
@@ -15,9 +16,10 @@ from mindlang.pictures.picture import view_of
 from mindlang.pictures.theme import PAPER
 from mindlang.pictures.two_paths import outcome_words
 from mindlang.run.course import course
+from mindlang.run.recorded_run import RecordedRun
 from mindlang.run.setup import RunSetup, set_up
+from mindlang.whatif.another_mind import compare_minds
 from mindlang.whatif.changed_run import compare
-from mindlang.whatif.difference import Difference, first_differences
 from mindlang.whatif.request import Request, changes_of
 from tests.calling import Call
 
@@ -31,8 +33,8 @@ def found(mindc: Call, rules: Path, *options: object) -> dict[str, Any]:
     return data
 
 
-def setup_of(rules: Path) -> RunSetup:
-    return set_up(str(rules), load(rules), "Roam", None)
+def setup_of(rules: Path, task: str = "Roam") -> RunSetup:
+    return set_up(str(rules), load(rules), task, None)
 
 
 def test_the_run_as_it_was_is_the_run(mindc: Call, rules: Path) -> None:
@@ -59,7 +61,19 @@ def test_the_first_tick_that_differs_is_the_first(rules: Path) -> None:
         blocks = ("readings", "influence", "commands")
         unlike = np.any([(getattr(was, b)[:ticks] != getattr(now, b)[:ticks]).any(axis=1) for b in blocks], axis=0)
         assert compared.differences[0].tick == np.flatnonzero(unlike)[0] + 1 == changes[0].first
+        moved = next(each.tick for each in compared.differences if each.what == "robot")
+        assert moved == np.flatnonzero((was.body[1 : ticks + 1] != now.body[1 : ticks + 1]).any(axis=1))[0] + 1
         assert np.array_equal(was.body[: changes[0].first], now.body[: changes[0].first])
+
+
+def test_a_change_may_be_in_the_last_tick_and_no_later(rules: Path) -> None:
+    setup = setup_of(rules, "Chase")
+    rollout, graph = setup.rollout(), setup.ready.policy.graph
+    found = compare(setup, rollout, 3, silenced(graph, "Turn", 1199)).differences
+    assert {(each.tick, each.what) for each in found} >= {(1199, "command"), (1200, "robot")}
+    assert {each.tick for each in compare(setup, rollout, 3, silenced(graph, "Turn", 1200)).differences} == {1200}
+    with pytest.raises(ChangeError, match=r"over after tick 1,200: there is no tick 1,201"):
+        compare(setup, rollout, 3, silenced(graph, "Turn", 1201))
 
 
 def test_a_change_to_what_it_is_anyway_differs_nowhere(mindc: Call, rules: Path) -> None:
@@ -71,6 +85,10 @@ def test_a_change_to_what_it_is_anyway_differs_nowhere(mindc: Call, rules: Path)
 def test_a_setting_is_for_one_tick_and_a_sensor_for_all_that_follow(rules: Path) -> None:
     setup = setup_of(rules)
     graph = setup.ready.policy.graph
+    asked = Request(10, None, ("Turn",), ("feeler=0.5,1,0",), ("Turn=1",))
+    made = [changes_of(replace(asked, ticks=ticks), graph, setup.master) for ticks in (None, 3, 1)]
+    assert [[each.last for each in changes] for changes in made] == [[None] * 4 + [10], [12] * 5, [10] * 5]
+    assert [(each.first, each.values) for each in made[0]] == [(10, (value,)) for value in (0.0, 0.5, 1.0, 0.0, 1.0)]
     place = next(sensor for sensor in graph.sensors if sensor.name == "ball_bearing").start
     read = [
         course(setup, setup.rollout(), 3, changes_of(request, graph, setup.master)).run.readings[:, place] == 0.25
@@ -105,6 +123,9 @@ def test_a_sensor_reads_what_was_recorded_tick_by_tick_and_then_its_own(
     short.write_bytes(other.read_bytes()[: -(len(recorded) - 40) * of.row.itemsize])
     changes = changes_of(Request(30, sensors=(f"feeler={short}",)), graph, setup.master, rules)
     assert [each.last for each in changes] == [40, 40, 40]
+    for ticks, last in ((5, 34), (11, 40), (12, 40)):
+        shorter = changes_of(Request(30, ticks, sensors=(f"feeler={short}",)), graph, setup.master, rules)
+        assert [(each.last, len(each.values)) for each in shorter] == [(last, last - 29)] * 3
     now, own = (course(setup, setup.rollout(), 3, made).run.readings[:, columns] for made in (changes, ()))
     assert np.array_equal(now[:29], own[:29])
     assert np.array_equal(now[29:40], recorded[29:40])
@@ -137,6 +158,7 @@ def test_a_recording_that_does_not_fit_is_refused_in_a_sentence(
     answer = mindc("whatif", rules, *PLAYED, "--sensor", words)
     assert (answer.code, answer.out) == (2, "")
     assert said in answer.err
+    assert "NAME.bundle" not in answer.err, "a bundle is said, or is not what is wrong"
 
 
 @pytest.mark.parametrize(
@@ -182,6 +204,26 @@ def test_a_mind_without_the_line_takes_over_as_if_the_skill_were_silenced(mindc:
     from_first = found(mindc, rules, "--with", other)["changed"]
     plain = json.loads(mindc("run", other, *PLAYED, "--json").out)
     assert from_first == {name: plain[name] for name in from_first}
+
+
+def test_what_another_mind_makes_of_a_run_follows_what_was(rules: Path) -> None:
+    """The same mind goes on as if nothing had been, in the tick after an event; a new name had no influence before."""
+    ours, other = setup_of(rules, "Chase"), rules.with_name("other.mind")
+    other.write_text(rules.read_text().replace("Turn", "Spin"))
+    theirs = setup_of(other, "Chase")
+    was = course(ours, ours.rollout(), 3).run
+    tick = int(np.flatnonzero(was.events[:, 0])[0]) + 2
+    same, renamed = (
+        compare_minds((ours, ours.rollout()), (setup, setup.rollout()), 3, tick, ()) for setup in (ours, theirs)
+    )
+    for field in {each.name for each in fields(RecordedRun)} - {"setup"}:
+        assert np.array_equal(getattr(same.now.run, field), getattr(was, field), equal_nan=True)
+    assert same.differences == renamed.differences == []
+    turn, spin = (
+        run.influence[:, run.graph.skill_numbers[name]] for run, name in ((was, "Turn"), (renamed.now.run, "Spin"))
+    )
+    assert np.isnan(spin[: tick - 1]).all()
+    assert np.array_equal(spin[tick - 1 :], turn[tick - 1 :])
 
 
 def test_a_mind_that_does_not_fit_begins_the_run_or_not_at_all(mindc: Call, rules: Path) -> None:
@@ -231,7 +273,11 @@ def test_the_picture_of_a_plain_scene_has_room_for_both(rules: Path) -> None:
     [
         ((), "nothing is changed"),
         (("--without", "Trun"), "there is no skill called Trun"),
+        (("--without", "Nobody"), "called Nobody\n  Below Roam there is Roam, Chase and Turn."),
         (("--task", "Chase", "--master", "Chase", "--without", "Turn"), "Chase does not influence Turn"),
+        (("--task", "Chase", "--master", "Chase", "--set", "Turn=1"), "Chase does not influence Turn"),
+        (("--set", "nothing"), "--set nothing does not say a number\n  write --set nothing=0.5"),
+        (("--set", "=x"), "write --set NAME=0.5"),
         (("--sensor", "feeler"), "--sensor feeler does not say a number"),
         (("--sensor", "feeler=1,2"), "sensor feeler has 3 readings"),
         (("--sensor", "feeler=2"), "feeler cannot be 2"),
@@ -244,20 +290,3 @@ def test_what_cannot_be_is_said_in_a_sentence(mindc: Call, rules: Path, options:
     assert answer.code == 2
     assert said in answer.err
     assert answer.out == ""
-
-
-def test_differences_stand_in_the_order_of_time_and_of_causes() -> None:
-    a = {"reading": {"x": np.array([0.0, np.nan, 1.0])}, "command": {"w": np.zeros(3), "v": np.zeros(3)}}
-    b = {"reading": {"x": np.array([0.0, np.nan, 2.0])}, "command": {"w": np.array([0.0, 1.0, 1.0]), "v": np.zeros(2)}}
-    assert first_differences(a, b) == [Difference(2, "command", "w", 0.0, 1.0), Difference(3, "reading", "x", 1.0, 2.0)]
-    b["command"]["v"] = b["command"]["w"] = np.array([0.0, 0.0, 1.0])
-    assert [each.name for each in first_differences(a, b)] == ["x", "w", "v"]
-
-
-def test_what_is_asked_is_said_as_it_is() -> None:
-    assert Request(1, None, ("Avoid",)).words == "without Avoid, from the first tick on"
-    assert Request(1000, 5, (), ("eyes=1",)).words == "eyes=1, in ticks 1,000 to 1,004"
-    assert Request(7, None, (), (), ("mood=1",)).words == "mood=1, in tick 7"
-    assert Request(7, None, ("A",), (), ("mood=1",)).words == "without A, from tick 7 on; mood=1, in tick 7"
-    assert Request(7, 2, ("A",), (), ("mood=1",)).words == "without A and mood=1, in ticks 7 to 8"
-    assert Request(1, None, ("A", "B"), ("c=1",)).words == "without A, without B and c=1, from the first tick on"

@@ -1,18 +1,22 @@
 """`mindc whatif` on a robot's recording: the readings of the record, the commands compared."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from mindrun.bundle import digest, read_bundle
+from mindrun.changes import ChangeError
 from mindrun.engine import Engine
 from mindrun.graph import Graph
 from mindrun.robot.recording import About, Recorder
 from numpy.typing import NDArray
 
+from mindlang.whatif.request import Request, changes_of
 from tests.calling import Call
+from tests.robot.older import older
 
 TICKS, ANEW = 200, 150  # so many, and the row in which the program was started again
 MIND = """
@@ -61,17 +65,24 @@ def noise(graph: Graph) -> NDArray[np.float32]:
     return np.random.default_rng(5).random((TICKS, graph.width)).astype(np.float32)
 
 
-def record(path: Path, bundle: Path, readings: NDArray[np.float32]) -> None:
+def record(
+    path: Path, bundle: Path, readings: NDArray[np.float32], sensors: tuple[str, ...] = ("eyes", "glow")
+) -> None:
     found = read_bundle(bundle)
     engine = Engine(found.policy, found.procedures)
-    with Recorder(path, About.of(found.graph, digest(bundle), found.graph.master, ("eyes", "glow"))) as recorder:
+    with Recorder(path, About.of(found.graph, digest(bundle), found.graph.master, sensors)) as recorder:
         for number, row in enumerate(readings):
             tick = number % ANEW
             if tick == 0:
                 engine.reset()
             commands = engine.tick(row)
             recorder.write(
-                tick=tick, time=number / 60, readings=row, influence=engine.influence, commands=commands, sent=commands
+                tick=tick,
+                time=number / 60,
+                readings=engine.readings,
+                influence=engine.influence,
+                commands=commands,
+                sent=commands,
             )
 
 
@@ -125,6 +136,8 @@ def test_a_sensor_reads_what_another_day_had(mindc: Call, day: tuple[Path, Path]
     said, constant = (found(mindc, day, "--sensor", f"glow={what}", "--tick", 20) for what in (path, 0.75))
     assert said | {"changes": []} == constant | {"changes": []}
     assert found(mindc, day, "--sensor", f"eyes={path}")["differs"] == []
+    last = found(mindc, day, "--sensor", f"glow={path}", "--tick", 200)
+    assert {(each["tick"], each["now"]) for each in last["differs"] if each["name"] == "glow"} == {(200, 0.75)}
     late = mindc("whatif", *day, "--sensor", f"glow={path}", "--tick", 201)
     assert (late.code, "there is no tick 201" in late.err) == (2, True)
 
@@ -145,6 +158,55 @@ def test_another_mind_sends_what_it_would_for_the_same_readings(
     answer = mindc("whatif", *day, "--with", other)
     assert answer.code == 2
     assert "has no gleam, which other.mind reads" in answer.err
+
+
+def test_what_another_mind_reads_has_to_be_in_the_recording(
+    mindc: Call, day: tuple[Path, Path], tmp_path: Path
+) -> None:
+    path, other = tmp_path / "blind.rec", tmp_path / "other.mind"
+    readings = noise(read_bundle(day[1]).graph)
+    readings[:, 2] = np.nan  # the glow
+    record(path, day[1], readings, ("eyes",))
+    other.write_text(MIND.replace("0.2 + mood", "0.3 + mood"))
+    answer = mindc("whatif", path, day[1], "--with", other)
+    assert (answer.code, answer.err) == (2, "the recording has no glow, which other.mind reads\n")
+    derived = MIND.replace("  reads glow\n", "").replace(" when glow > 0.5", "").replace("1 - glow", "0.4")
+    derived = derived.replace("at glow", "at 0.3")
+    other.write_text(derived)
+    assert "has no glow, which" in mindc("whatif", path, day[1], "--with", other).err
+    other.write_text(derived.replace("  reads rate\n", "").replace("at rate", "at 0.6"))
+    said = found(mindc, (path, day[1]), "--with", other)
+    assert {each["what"] for each in said["differs"]} == {"reading", "influence", "command"}
+    assert {each["name"] for each in said["differs"] if each["what"] == "reading"} == {"mood"}
+
+
+def test_a_mind_that_is_not_taught_cannot_take_over(mindc: Call, day: tuple[Path, Path], tmp_path: Path) -> None:
+    other = tmp_path / "other.mind"
+    other.write_text(
+        MIND.replace("Seek is rule", "Seek is mlp").replace(
+            "at glow\n  drives right_wheel at rate", "\n  drives right_wheel"
+        )
+    )
+    answer = mindc("whatif", *day, "--with", other)
+    assert (answer.code, answer.out) == (2, "")
+    assert answer.err == f"Seek has not been taught\n  mindc train {other} Seek\n"
+
+
+def test_a_sensor_reads_nothing_that_a_recording_does_not_have(
+    mindc: Call, day: tuple[Path, Path], tmp_path: Path
+) -> None:
+    assert found(mindc, day, "--sensor", f"rate={day[0]}")["differs"] == []
+    older(day[0])
+    answer = mindc("whatif", *day, "--sensor", f"rate={day[0]}")
+    assert answer.err == f"{day[0]} has no readings of rate\n  it has those of eyes, glow\n"
+    assert found(mindc, day, "--sensor", f"glow={day[0]}")["differs"] == []
+    path, graph = tmp_path / "blind.rec", read_bundle(day[1]).graph
+    record(path, day[1], noise(graph), ("eyes",))
+    answer = mindc("whatif", *day, "--sensor", f"glow={path}")
+    assert answer.err == f"{path} has no readings of glow\n  it has those of eyes\n"
+    wide = replace(graph, sensors=(replace(graph.sensors[0], name="glow"), *graph.sensors[2:]))
+    with pytest.raises(ChangeError, match=r"^glow has 1 reading in .*day\.rec, and 2 here$"):
+        changes_of(Request(sensors=(f"glow={day[0]},{day[1]}",)), wide, "Go")
 
 
 def test_it_says_that_the_loop_is_open(mindc: Call, day: tuple[Path, Path]) -> None:

@@ -9,13 +9,15 @@ from hypothesis import strategies as st
 from mindlang.compiler.compile import compile_source, load
 from mindlang.compiler.source import Source
 from mindlang.lock.lessons import needed_skills
+from mindlang.lock.status import Trained
 from mindlang.training.lesson_choice import chosen_lessons
 from mindlang.training.subject import open_subject
 from tests.calling import Call
-from tests.edits.taught import MIND, teach, write_mind
+from tests.edits.taught import MIND, statuses, teach, write_mind
 
 LESSONS = tuple(f"  teaches {skill} on Roam for 3 generations\n" for skill in ("Go", "Avoid", "Drive"))
 OTHER_TASK = MIND.replace("task Roam", "task Walk").replace("on Roam", "on Walk")
+FAR = "task Far in plain\n  contains ball is item size 1\n  lasts 90 ticks\n  rewards 10 on reach of ball\n\n"
 # By hand: how all skills stand then, and whether training has something to do.
 CHANGES = {
     "another name of the task": (OTHER_TASK, "trained", False),
@@ -44,6 +46,21 @@ def test_all_say_the_same(mindc: Call, tmp_path: Path, change: str) -> None:
         assert "nothing to do" in mindc("train", path).err
 
 
+def test_the_master_of_a_lesson_may_have_another_name_now(tmp_path: Path) -> None:
+    """Its world is that of the lesson on the same task, and of no other, whoever is master there."""
+    under = MIND.replace("curriculum", f"{FAR}curriculum").replace("Go on Roam", "Go on Roam under Drive")
+    path = write_mind(tmp_path, under)
+    teach(path)
+    path.write_text(under.replace("Drive", "Steer") + "  teaches Go on Far under Steer for 3 generations\n")
+    found = statuses(path)["Go"]
+    assert isinstance(found, Trained)
+    assert (found.changes, found.outdated) == ((), frozenset())
+    path.write_text(under.replace("under Drive", "under Go"))
+    found = statuses(path)["Go"]
+    assert isinstance(found, Trained)
+    assert (found.changes, found.outdated) == ((), frozenset()), "Drive is there, so it was another lesson"
+
+
 def test_what_nothing_teaches_is_not_sent_to_train(mindc: Call, tmp_path: Path) -> None:
     path = write_mind(tmp_path)
     teach(path)
@@ -55,8 +72,7 @@ def test_what_nothing_teaches_is_not_sent_to_train(mindc: Call, tmp_path: Path) 
 def test_status_names_a_lesson_that_is_due(mindc: Call, tmp_path: Path) -> None:
     path = write_mind(tmp_path)
     teach(path)
-    far = "task Far in plain\n  contains ball is item size 1\n  lasts 90 ticks\n  rewards 10 on reach of ball\n\n"
-    path.write_text(MIND.replace("curriculum", f"{far}curriculum") + LESSONS[0].replace("Roam", "Far"))
+    path.write_text(MIND.replace("curriculum", f"{FAR}curriculum") + LESSONS[0].replace("Roam", "Far"))
     said = mindc("status", path, "Go").out.splitlines()
     assert said[0].split()[:2] == ["Go", "trained"]
     assert said[1].strip() == "lesson 4 of School is due, on Far"

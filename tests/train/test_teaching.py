@@ -110,11 +110,15 @@ curriculum Rounds is genetic
 
 
 def test_a_lesson_that_is_said_again_is_due_after_those_between(tmp_path: Path) -> None:
-    """The lock says which lesson of its curriculum a skill has come to: what comes after is due."""
-    (tmp_path / "collect.mind").write_text((FOLDER / "collect.mind").read_text() + ROUNDS)
+    """The lock says which lesson of its curriculum a skill has come to: what comes after is due.
+
+    To a lesson of another curriculum its number says nothing.
+    """
+    (tmp_path / "collect.mind").write_text((FOLDER / "collect.mind").read_text() + JOINT + ROUNDS)
     graph = load(tmp_path / "collect.mind").graph
     assert graph
     rounds = [lesson for lesson in graph.lessons if lesson.curriculum == "Rounds"]
+    after = next(lesson for lesson in graph.lessons if (lesson.curriculum, lesson.number) == ("Joint", 2))
     assert [lesson.number for lesson in rounds] == [1, 2, 3, 4]
     for last in rounds:
         entry = taught_on(last.task, last.master, last.with_subskills).entry
@@ -124,6 +128,7 @@ def test_a_lesson_that_is_said_again_is_due_after_those_between(tmp_path: Path) 
         assert [is_due(graph, lesson, {"Avoid": state}) for lesson in rounds] == [
             lesson.number > last.number for lesson in rounds
         ]
+        assert is_due(graph, after, {"Avoid": state}) == last.with_subskills
 
 
 def test_where_the_curriculum_was_changed_the_number_of_a_lesson_says_nothing(tmp_path: Path) -> None:

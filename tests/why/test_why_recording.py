@@ -63,7 +63,7 @@ def day(tmp_path: Path, mindc: Call) -> tuple[Path, Path]:
 
 def noise(width: int) -> NDArray[np.float32]:
     """What there was to be read: first both readings of the eyes, then that of the glow."""
-    readings = np.random.default_rng(6).random((TICKS, width)).astype(np.float32)
+    readings = np.random.default_rng(6).random((width, TICKS)).astype(np.float32).T.copy()
     readings[BLIND, 1] = np.nan
     return readings
 

@@ -1,6 +1,7 @@
 """What cannot be as fast as its wiring asks is built, and told."""
 
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from hypothesis import given
@@ -9,7 +10,9 @@ from mindrun.graph import Graph
 
 from mindlang.cli._diagnostic_printer import plain
 from mindlang.compiler.compile import load
+from mindlang.compiler.diagnostic import Diagnostic, Findings
 from mindlang.compiler.source import Source
+from mindlang.wiring.speed import check_shared
 from mindlang.wiring.wire import Checked, check_wiring
 
 MIND = """\
@@ -61,6 +64,12 @@ def codes(found: Checked) -> list[str]:
     """Those of the warnings of a wiring that is taken."""
     assert found.wiring, [plain(diagnostic) for diagnostic in found.diagnostics]
     return [diagnostic.code for diagnostic in found.diagnostics]
+
+
+def spoken(of: Diagnostic) -> str:
+    """The part of a wiring that a diagnostic is about."""
+    assert of.span
+    return of.span.text
 
 
 @given(st.integers(1, 2000), st.just(0) | st.integers(5, 100), st.integers(-40, 40), st.integers(-40, 40))
@@ -134,3 +143,30 @@ def test_the_words(folder: Path) -> None:
             "Write rate: 50 Hz, or less, and a max_age of two measurements at least.",
         ),
     ]
+
+
+def test_the_words_of_a_board_and_of_a_bus(folder: Path) -> None:
+    found = checked(folder, "battery", "mock", BOARD, "1/200")
+    assert [(one.message, one.hint, spoken(one)) for one in found.diagnostics] == [
+        (
+            "Commands of left and right take 8 ms, and a tick is 5 ms.",
+            "Let the mind tick more slowly, or wire another board.",
+            "grove_motor",
+        )
+    ]
+    found = checked(folder, "turn_rate", "mpu6050, rate: 100 Hz", CARD, "1/500")
+    assert [(one.message, one.hint, spoken(one)) for one in found.diagnostics] == [
+        (
+            "In each second I2C bus 1 needs 1.38 s at its usual 100 kHz, most for this one.",
+            "Measure less often (rate), let the mind tick more slowly, or wire some to another bus.",
+            "pca9685",
+        )
+    ]
+
+
+def test_what_is_on_no_board_waits_for_nothing_else() -> None:
+    driver = SimpleNamespace(device="", seconds=0.004)
+    two = [SimpleNamespace(name=SimpleNamespace(text=name), driver=driver) for name in ("left", "right")]
+    findings = Findings()
+    check_shared((), [(each, None) for each in two], 0.005, findings)  # type: ignore[misc]
+    assert not findings.diagnostics
