@@ -62,6 +62,7 @@ QUICK_ENVIRONMENTS = (
     "test_what_is_not_there_is_said",
     "test_actions_of_another_shape_are_refused",
 )
+BREAKPOINTS = "format", "messages", "report", "watch", "recorded", "check_command", "run_command"
 GUARDIAN = ("frames", "urgent", "main", "decisions", "guard", "plan", "output", "serving", "client", "process")
 ROOMS = {
     "engine": Room(
@@ -165,12 +166,17 @@ ROOMS = {
         ),
         interpreted=True,
     ),
-    "why": Room(("mindlang/why/*.py",), ("tests/why",)),
+    "why": Room(
+        ("mindlang/why/*.py",),
+        tuple(f"tests/why/test_{name}.py" for name in ("report", "why_command", "why_recording")),
+    ),
     "whatif": Room(
         ("mindlang/whatif/*.py",),
         tuple(f"tests/run/test_{name}.py" for name in ("whatif_texts", "whatif", "whatif_recording")),
     ),
-    "breakpoints": Room(("mindlang/breakpoints/*.py",), ("tests/breakpoints",)),
+    "breakpoints": Room(
+        ("mindlang/breakpoints/*.py",), tuple(f"tests/breakpoints/test_{name}.py" for name in BREAKPOINTS)
+    ),
     "environments": Room(
         ("mindlang/environments/*.py",),
         (
