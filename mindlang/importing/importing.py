@@ -59,7 +59,7 @@ class Imported:
     notes: tuple[str, ...] = ()
 
     def data(self) -> dict[str, Any]:
-        """As plain data."""
+        """What was brought and what came of it, as plain data for JSON."""
         incoming, compared = self.incoming, self.comparison
         return {
             "skill": incoming.network.skill.name,

@@ -10,7 +10,7 @@ Rows = NDArray[np.float32]  # [ticks, values]
 
 
 def in_torch(network: Network, genome: Weights, inputs: Rows) -> Rows:
-    """Its outputs [ticks, outputs] for the inputs [ticks, inputs] of a run; ImportError where PyTorch is missing."""
+    """A network's outputs [ticks, outputs] for a run's inputs [ticks, inputs], by PyTorch; ImportError without it."""
     import torch
 
     from mindlang.torch.module import NetworkModule

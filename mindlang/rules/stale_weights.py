@@ -39,7 +39,7 @@ def check(study: Study) -> Found:
 
 
 def _differences(graph: Graph, skill: Skill, entry: Entry) -> tuple[str, ...]:
-    """As `mindc status` finds them, without its notes on subskills, for which it goes down from every skill."""
+    """What of a skill's declaration its weights do not fit: as in `mindc status`, without its notes on subskills."""
     if not skill.function.learns:
         return ()
     return mismatches(graph, skill, entry)

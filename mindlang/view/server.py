@@ -51,14 +51,14 @@ class StrangerConnection(ServerConnection):
         self._strangers = strangers
 
     def connection_made(self, transport: BaseTransport) -> None:
-        """As the library does it."""
+        """Open it and count it among the strangers, of whom the oldest is closed where there are too many."""
         super().connection_made(transport)
         self._strangers.append(self)
         if len(self._strangers) > MAX_STRANGERS:
             self._strangers.pop(0).transport.abort()
 
     def connection_lost(self, exc: Exception | None) -> None:
-        """As the library does it."""
+        """Close it and count it among the strangers no longer."""
         super().connection_lost(exc)
         with suppress(ValueError):  # it has said the token, or was closed
             self._strangers.remove(self)
