@@ -32,7 +32,8 @@ def comparison_summary(found: dict[str, Any], comparison: Comparison) -> Rendera
     ]
     told = () if comparison.is_one_world else [*comparison.differences.items()][:1]
     facts = [Text(line, "dim") for each in told for line in _facts(*each)]
-    return Group(title, *minds, "", *_aligned([head, *rows]), "", *facts, Text(comparison.conclusion, "bold"))
+    columns = len(head) - comparison.is_one_world  # of one run nothing is inferred
+    return Group(title, *minds, "", *_aligned([row[:columns] for row in (head, *rows)]), "", *facts, Text(comparison.conclusion, "bold"))
 
 
 def _mean(name: str, value: float) -> str:

@@ -7,7 +7,7 @@ from math import isfinite
 import numpy as np
 from mindrun.graph import Lesson
 from mindrun.train import RunError
-from mindrun.train.attempt import VERDICT_LAYOUTS
+from mindrun.train.attempt import of_halves, verdict_layouts
 from mindrun.train.lesson_state import LessonState
 from mindrun.train.population import Genomes
 from mindrun.train.run_folder import WEIGHTS, RunFolder
@@ -81,7 +81,7 @@ def refuse_nothing(run: RunFolder, state: LessonState, scorer: Scorer) -> None:
     """RunError where a lesson has taught nothing: the best had no score in the end, or all scores were the same."""
     lesson = run.manifest.lesson
     if not isfinite(state.reevaluated):
-        seeds = layouts(run.manifest.seed, 0, lesson.generations, 2 * VERDICT_LAYOUTS, Purpose.VERDICT)
+        seeds = verdict_layouts(run.manifest.seed, lesson.generations)
         faulty = mark(scorer, state.kept, seeds).faults
         where = "in its one world" if is_one_world(scorer) else f"on {faulty} of {len(seeds)} fresh layouts"
         why = f"{where} a reward or a command of the best genome was no finite number"
@@ -105,8 +105,8 @@ def refuse_failed(run: RunFolder, state: LessonState, scorer: Scorer) -> None:
     which = "its only attempt" if state.attempt == 1 else f"the best of {state.attempt} attempts"
     needed, reached = listed(map(str, lesson.needs), "and"), "scored " + " and ".join(map(number, state.verdict))
     if any(need.measure == "success" for need in lesson.needs):
-        seeds = layouts(run.manifest.seed, 0, lesson.generations, 2 * VERDICT_LAYOUTS, Purpose.VERDICT)
-        shares = succeeded(scorer.task, scorer.score(state.kept, seeds)).reshape(2, VERDICT_LAYOUTS).mean(axis=1)
+        tried = scorer.score(state.kept, verdict_layouts(run.manifest.seed, lesson.generations))
+        shares = of_halves(succeeded(scorer.task, tried))
         reached += f", and succeeded in {shares[0]:.0%} and {shares[1]:.0%} of the runs"
     raise RunError(
         f"{lesson.skill} has failed its lesson, which needs {needed} on two sets of fresh layouts: {which} "

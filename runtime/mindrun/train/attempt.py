@@ -91,18 +91,22 @@ def try_again(state: AttemptState, scorer: Scorer, fresh: Seeds) -> tuple[Attemp
 
 def judge(course: Course, scorer: Scorer, state: AttemptState) -> Verdict:
     """The end of an attempt: its champion tried on layouts common to all attempts."""
-    seeds = layouts(course.seed, 0, course.lesson.generations, 2 * VERDICT_LAYOUTS, Purpose.VERDICT)
-    results = scorer.score(state.champion, seeds)
+    results = scorer.score(state.champion, verdict_layouts(course.seed, course.lesson.generations))
     marks = marks_of(results)
-    scores = _of_halves(marks.each)
+    scores = of_halves(marks.each)
     passed = all(
-        (scores if need.measure == "score" else _of_halves(succeeded(scorer.task, results))).min() > need.above
+        (scores if need.measure == "score" else of_halves(succeeded(scorer.task, results))).min() > need.above
         for need in course.lesson.needs
     )
     return Verdict(scores, passed, marks.ticks, marks.faults)
 
 
-def _of_halves(values: NDArray[Any]) -> Scores:
+def verdict_layouts(seed: int, generations: int) -> Seeds:
+    """The seeds [2 * VERDICT_LAYOUTS] of the worlds on which all attempts of a lesson are tried in the end."""
+    return layouts(seed, 0, generations, 2 * VERDICT_LAYOUTS, Purpose.VERDICT)
+
+
+def of_halves(values: NDArray[Any]) -> Scores:
     """The means [2] of a genome's values [1, 2 * VERDICT_LAYOUTS] on either half of the layouts."""
     means: Scores = values[0].reshape(2, VERDICT_LAYOUTS).mean(axis=1)
     return means
