@@ -35,7 +35,7 @@ from mindlang.lock.ready import ReadyMind, make_ready
 from mindlang.resource_limits import refuse_too_large, refuse_too_many
 from mindlang.run.columns import Column
 from mindlang.run.many_runs import run_timed
-from mindlang.run.outcome import bench_data
+from mindlang.run.outcome import bench_data, over_at_once
 from mindlang.run.recorded_run import record_run
 from mindlang.run.setup import RunSetup, master_of, set_up, skill_of, task_of, train_command, unknown, untaught_skills
 from mindlang.run.trace_file import trace_table
@@ -118,14 +118,15 @@ class Mind(ShortRepr):
 
         `count_…` is of the events that the task counts, `score_…` of the rewards; `mind.trace` repeats `best_seed`.
         """
-        setup = self._set_up(task, master)
-        seeds = setup.layouts(seed, runs)
-        refuse_too_many(setup.task, runs)
-        rollout = setup.rollout(workers=as_workers(workers))
+        cast = self._set_up(task, master)
+        seeds = cast.layouts(seed, runs)
+        refuse_too_many(cast.task, runs)
+        rollout = cast.rollout(workers=as_workers(workers))
         refuse_too_large(rollout, 1, runs)
         scores, *took = run_timed(rollout, seeds)
-        data = bench_data(setup.task, scores, seeds, *took) | {"notes": setup.notes(rollout)}
-        return {"task": setup.task.name, "master": setup.master, "seed": int(seed)} | data
+        notes = cast.notes(rollout, *over_at_once(cast.task, scores))
+        data = bench_data(cast.task, scores, seeds, *took) | {"notes": notes}
+        return {"task": cast.task.name, "master": cast.master, "seed": int(seed)} | data
 
     def train(
         self,
@@ -154,10 +155,10 @@ class Mind(ShortRepr):
         refuse_frozen(subject, chosen if skills else ())
         for lesson in chosen:
             subject = open_subject(self.path, self.compiled)  # the lesson before has changed the lock
-            if not skills and not subject.is_due(lesson):
+            if not subject.takes(lesson, bool(skills)):
                 continue
-            call = ("mindlang.Mind.train", *skills)
-            run = begin_run(subject, options.applied(lesson), seed, Path(runs), datetime.now(UTC), call)
+            by = "mindlang.Mind.train", *skills
+            run = begin_run(subject, options.applied(lesson), seed, Path(runs), datetime.now(UTC), by)
             if (result := teach(run, subject, threads, watch, elsewhere)) is None:
                 break
             results.append(result)
@@ -168,10 +169,9 @@ class Mind(ShortRepr):
 
         Arguments and options are those of the command; EditError, a MindError, where it is impossible.
         """
-        compiled = self._without_errors()
         if name not in edits.names():
             unknown("edit", name, edits.names())
-        of, project = edits.edit(name), open_project(compiled)
+        of, project = edits.edit(name), open_project(self._without_errors())
         several = {each for each, many in of.arguments if many} | {each.name for each in of.options if each.many}
         said = {k: (v,) if k in several and isinstance(v, str) else v for k, v in arguments.items()}
         return EditedMind(self.path, apply_edit(project, of.function(project, **said), keep_weights))

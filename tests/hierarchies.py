@@ -32,13 +32,13 @@ from mindrun.sensors import (
 from mindrun.sensors.bumper import Bumper
 from mindrun.sensors.clock import Clock
 from mindrun.sensors.compass import Compass
+from mindrun.sensors.directions import directions
 from mindrun.sensors.distance import Distance
 from mindrun.sensors.eye import Eye
 from mindrun.sensors.floor import Floor
 from mindrun.sensors.light import Light
 from mindrun.sensors.odometer import Odometer
 from mindrun.sensors.position import Position
-from mindrun.sensors.sensor import directions
 from mindrun.sensors.speed import Speed
 from mindrun.sensors.turn_rate import TurnRate
 from mindrun.weights import genes

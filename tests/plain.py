@@ -71,6 +71,8 @@ class Plain:
         if isinstance(kind, Computed):
             program = [(word, parts[x].start if word == "reading" else x) for word, x in kind.at]
             value = f(postfix(program, self.readings))
+            if math.isfinite(value) and not 0 <= value <= 1 and is_turned(kind.at, parts):
+                value = value - np.floor(value)
             return clamp(value) if math.isfinite(value) else f(np.nan)
         source = parts[kind.of]
         match kind:
@@ -200,7 +202,25 @@ def turns(part, parts):
     match part.kind:
         case Average(of=of) | Reading(of=of):
             return turns(parts[of], parts)
+        case Computed(at=formula):
+            return is_turned(formula, parts)
     return isinstance(part.kind, Bearing | Compass)
+
+
+def is_turned(formula, parts):
+    """Whether a formula is one direction, added or taken away once, more or less numbers."""
+    stack = []  # how often each part has a direction, NaN where that is nothing of the kind
+    for word, operand in formula:
+        if word == "number":
+            stack.append(0)
+        elif word == "reading":
+            stack.append(1 if turns(parts[operand], parts) else math.nan)
+        elif word == "negate":
+            stack.append(-stack.pop())
+        else:
+            b, a = stack.pop(), stack.pop()
+            stack.append(a + b if word == "+" else a - b if word == "-" else 0 if a == b == 0 else math.nan)
+    return abs(stack[0]) == 1
 
 
 def layer(weights, values, count):

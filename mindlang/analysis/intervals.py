@@ -22,19 +22,24 @@ def share(name: str) -> Interval:
 
 def interval(of: Expression, reading: Callable[[str], Interval] = share, each: Interval = UNIT_INTERVAL) -> Interval:
     """The range of an expression whose readings have these ranges, that of `for each` the range `each`."""
-    return fold(_words(of), _leaf(reading, each), _negated, _combined)
+    return fold(words(of), _leaf(reading, each), _negated, _combined)
 
 
 def divisors(
     of: Expression, reading: Callable[[str], Interval] = share, each: Interval = UNIT_INTERVAL
 ) -> list[Interval]:
     """The ranges of all that an expression divides by."""
-    return _divisors(_words(of), _leaf(reading, each))
+    return _divisors(words(of), _leaf(reading, each))
 
 
 def formula_divisors(of: Formula, reading: Callable[[str], Interval] = share) -> list[Interval]:
     """The ranges of all that the formula of a sensor divides by."""
     return _divisors(of, lambda word, term: (term, term) if word == "number" else reading(term))
+
+
+def formula_interval(of: Formula, reading: Callable[[str], Interval] = share) -> Interval:
+    """The range of the formula of a sensor."""
+    return fold(of, lambda word, term: (term, term) if word == "number" else reading(term), _negated, _combined)
 
 
 def _divisors(words: Iterable[tuple[str, Any]], leaf: Callable[[str, Any], Interval]) -> list[Interval]:
@@ -49,7 +54,8 @@ def _divisors(words: Iterable[tuple[str, Any]], leaf: Callable[[str, Any], Inter
     return found
 
 
-def _words(of: Expression) -> Iterator[tuple[str, Term]]:
+def words(of: Expression) -> Iterator[tuple[str, Term]]:
+    """The terms of an expression, each with the word by which `fold` knows it."""
     return ((term.symbol if isinstance(term, Operator) else "term", term) for term in of.terms)
 
 

@@ -66,7 +66,7 @@ def compare_benched(
         benched.append(Benched(each.name, setup.task, scores))
         about = {"name": each.name, "file": each.file, "master": setup.master}
         data = outcome.bench_data(setup.task, scores, seeds, seconds, None if chosen.where else cpu)
-        minds.append(about | data | {"notes": setup.notes(rollout)})
+        minds.append(about | data | {"notes": setup.notes(rollout, *outcome.over_at_once(setup.task, scores))})
     compared = compare(benched[0], benched[1], is_one_world)
     found: dict[str, Any] = {"task": benched[0].task.name, "seed": chosen.seed, "runs": len(seeds), **chosen.by}
     found |= {"minds": minds, **compared.data(), "notes": notes}

@@ -20,7 +20,7 @@ from mindlang.cli._terminal import (
 from mindlang.compiler.diagnostic import Diagnostic, listed
 from mindlang.editing.apply import Edited, apply_edit
 from mindlang.editing.project import EditError, open_project
-from mindlang.editing.summary import broken_sentences, diff, summarise
+from mindlang.editing.summary import broken_sentences, diff, not_followed, summarise
 from mindlang.editing.writing import changed_locks, write
 from mindlang.edits import Edit
 
@@ -43,7 +43,7 @@ def perform(of: Edit, said: Mapping[str, Any], file: str, options: EditOptions) 
     project = open_project(load_compiled(file))
     try:
         edited = apply_edit(project, of.function(project, **said), options.keep_weights)
-        sentences = [*summarise(edited), *_broken(edited, options)]
+        sentences = [*summarise(edited), *_broken(edited, options), *not_followed(edited)]
         if options.verify:
             sentences.append(_verified(edited))
         if options.write:

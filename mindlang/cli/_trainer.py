@@ -32,7 +32,14 @@ from mindlang.lock import LockError
 from mindlang.training.event_files import EventFiles
 from mindlang.training.lesson_choice import TrainOptions, chosen_lessons
 from mindlang.training.results import Result, opening, outcome
-from mindlang.training.subject import Subject, begin_run, open_subject, refuse_changed, refuse_frozen
+from mindlang.training.subject import (
+    Subject,
+    begin_run,
+    open_subject,
+    refuse_changed,
+    refuse_failed_below,
+    refuse_frozen,
+)
 from mindlang.training.teaching import TeachingResult, finish, has_ended, make_again, rollout_of, workers_of
 
 
@@ -76,6 +83,8 @@ class Trainer:
                 self._say(f"{lesson.skill} is frozen, and is not taught")
             elif skills or force or subject.is_due(lesson):
                 wished = options.applied(lesson)
+                if skills and not force:
+                    refuse_failed_below(subject, lesson)
                 if lesson.needs and not wished.needs:
                     self._say(f"{lesson.skill} has fewer generations than its lesson says: nothing is needed of it")
                 run = begin_run(subject, wished, seed, runs, datetime.now(UTC), command)
@@ -83,8 +92,7 @@ class Trainer:
                 if not self._teach(run, subject, force):
                     return False
         if not taught:
-            others = "all other lessons" if frozen else f"all {len(chosen)} lessons"
-            self._say(f"nothing to do: {others} have been taught (--force teaches them again)")
+            self._say(_nothing_to_do(len(chosen), frozen > 0))
         return True
 
     def resume(self, folder: Path, force: bool) -> bool:
@@ -191,6 +199,13 @@ class Trainer:
     def _print(self, result: Result) -> None:
         if self.as_json:
             print(json.dumps(result, allow_nan=False), flush=True)
+
+
+def _nothing_to_do(lessons: int, others_are_frozen: bool) -> str:
+    if lessons == 1 and not others_are_frozen:
+        return "nothing to do: its lesson has been taught (--force teaches it again)"
+    which = "all other lessons" if others_are_frozen else f"all {lessons} lessons"
+    return f"nothing to do: {which} have been taught (--force teaches them again)"
 
 
 @dataclass(slots=True)

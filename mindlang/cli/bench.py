@@ -109,7 +109,9 @@ def _bench(who: Contender, chosen: BenchChoice, table: Path | None, as_json: boo
         scores, seconds, cpu = session.score(scorer, seeds)
     found: dict[str, Any] = {"task": setup.task.name, "master": setup.master, "seed": chosen.seed, **chosen.by}
     found |= outcome.bench_data(setup.task, scores, seeds, seconds, None if chosen.where else cpu)
-    found["notes"] = setup.notes(rollout)
+    over = outcome.over_at_once(setup.task, scores)
+    session.say(*(f"note: {note}" for note in over))
+    found["notes"] = setup.notes(rollout, *over)
     if table:
         write_file(table, csv_parts(runs_table(setup.task, scores, seeds)))
         session.say(f"{table}: a row for each of {len(seeds):,} runs")

@@ -1,6 +1,7 @@
 """What an edit does to sources and to trained weights, for people."""
 
 import os
+import re
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
@@ -9,6 +10,7 @@ from mindrun.graph import Graph
 from mindlang.compiler.diagnostic import listed
 from mindlang.editing.apply import Edited, EditedNeighbour
 from mindlang.editing.lock_update import Locks, merged
+from mindlang.file_search import files_beside, text_of, within_read_limits
 from mindlang.lock.arrange import arrange
 from mindlang.lock.status import Stale, Status, Trained, Untaught, status
 from mindlang.unified_diff import unified
@@ -24,6 +26,25 @@ def diff(edited: Edited) -> str:
         base = Path(os.path.commonpath([path.parent for path in edited.texts]))
     names = {path: path.relative_to(base).as_posix() for path in edited.texts}
     return "".join(unified(names[path], old.get(path, ""), text) for path, text in edited.texts.items())
+
+
+def not_followed(edited: Edited) -> Iterator[str]:
+    """A sentence for each old name, of the files that say it and that no edit follows.
+
+    These are breakpoints and wiring beside the mind, and minds that use one of its files and do not compile just now.
+    """
+    beside = next(iter(edited.project.paths)).parent
+    texts = [(path, text_of(path)) for end in (".break", ".yaml") for path in files_beside(beside, end)]
+    known = {*edited.old_texts, *edited.texts}
+    for path in files_beside(beside):
+        text = text_of(path) if path not in known else ""
+        if any(f'use "{file.name}"' in text for file in known):
+            texts.append((path, text))
+    for each in edited.change.renamed:
+        name = re.compile(rf"(?<![\w.]){re.escape(each.old)}(?!\w)")
+        if files := [path.name for path, text in within_read_limits(texts) if name.search(text)]:
+            say = "says" if len(files) == 1 else "say"
+            yield f"note: {listed(files, 'and')} {say} {each.old}, where no edit follows: it is {each.new} now"
 
 
 def summarise(edited: Edited) -> list[str]:

@@ -12,8 +12,9 @@ from mindlang.lock.status import Status, Trained
 def is_due(graph: Graph, lesson: Lesson, states: Mapping[str, Status]) -> bool:
     """Whether a lesson has yet to be taught, by how its learners stand.
 
-    Skills whose weights fit are left alone, except where they came from an earlier lesson that taught them, and where
-    the world of the lesson is another than the one in which they were taught.
+    Skills whose weights fit are left alone, except where they came from an earlier lesson that taught them, where the
+    world of the lesson is another than the one in which they were taught, and where they have a lower score than it
+    needs.
     """
     before = graph.lessons[: graph.lessons.index(lesson)]
     return any(
@@ -27,7 +28,9 @@ def _is_due(lesson: Lesson, earlier: Iterable[Lesson], state: Status) -> bool:
         return True
     if lesson in state.outdated:
         return True
+    taught, score = key_of_taught(state.entry.taught), state.entry.taught.score
+    if key_of(lesson) == taught and any(each.measure == "score" and not score > each.above for each in lesson.needs):
+        return True  # taught by less than it needs, or before it needed that
     if state.last and state.last.curriculum == lesson.curriculum:
         return state.last.number < lesson.number
-    taught = key_of_taught(state.entry.taught)
     return key_of(lesson) != taught and any(key_of(other) == taught for other in earlier)

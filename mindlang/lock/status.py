@@ -111,6 +111,8 @@ class _Standing:
             if not lessons and world != entry.worlds[-1]:
                 continue  # it has learnt something since, and nothing could teach it that again
             told = {lesson: self._world_changes(world, lesson) for lesson in lessons}
+            if all(told.values()) and (same := self._renamed(world, entry, told)):
+                told = {lesson: [] for lesson in same}
             fewest: list[str] = min(told.values(), key=len) if told else self._world_changes(world, None)
             changed += fewest
             outdated |= {lesson for lesson, said in told.items() if said}
@@ -121,6 +123,12 @@ class _Standing:
         if subskills:
             outdated |= {*in_question(alike, last)}
         return Trained(entry, tuple(dict.fromkeys((*subskills, *changed))), frozenset(outdated), last)
+
+    def _renamed(self, world: TrainingWorld, entry: Entry, told: Collection[Lesson]) -> list[Lesson]:
+        """The lessons of a skill that are just as a world says, whose name another has now."""
+        others = (each for each in self._teaching.get(entry.skill, ()) if each not in told)
+        alike = (each for each in others if each.with_subskills == world.lesson.jointly)
+        return [each for each in alike if not self._world_changes(world, each)]
 
     def _world_changes(self, world: TrainingWorld, lesson: Lesson | None) -> list[str]:
         """What has changed in the world of a lesson; None where none of the mind is of it."""

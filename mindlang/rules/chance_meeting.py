@@ -33,6 +33,7 @@ BAD = (
     ROCKS.format(4),
     HALL.format(2).replace("  lasts", "  starts at 18.9 0\n  lasts") + "body Robot is box size 3 2\n",
     HALL.format(2).replace("  lasts", "  starts at 8 2\n  lasts") + "body Robot is box size 4 1\n",
+    HALL.format(2).replace("size 40", "size 40 8") + "body Robot is box size 10 1\n",
 )
 
 
@@ -55,7 +56,7 @@ def _met(begun: Beginning, here: Span) -> Iterator[Finding]:
         yield Finding(one.span, f"{one.name} is in {other.name} when some runs begin.", hint, labels)
     if thing := begun.on_robot():
         yield Finding(thing.span, f"The robot starts in {thing.name} in some runs.", START, (Label(here, "here"),))
-    if begun.at is not None and not begun.is_inside:
+    if not begun.is_inside:
         yield Finding(here, "The robot starts in the border in some runs, as it happens to face.", START)
 
 

@@ -14,7 +14,7 @@ from mindlang.compiler.model import Task
 from mindlang.compiler.source import Span
 from mindlang.compiler.syntax import Contains
 
-MAX_WORLDS, MAX_LOOKS = 10, 200_000  # as many worlds as cost no more than that
+MAX_WORLDS, MAX_LOOKS = 100, 200_000  # as many worlds as cost no more than that
 
 BINS = """
 sensor bin_bearing is bearing of bin

@@ -13,7 +13,7 @@ from math import pi
 from mindrun.events import EventKind
 
 from mindlang.analysis.conditions import why_always
-from mindlang.analysis.intervals import UNIT_INTERVAL, Interval, interval
+from mindlang.analysis.intervals import UNIT_INTERVAL, Interval, formula_interval, interval
 from mindlang.analysis.study import Finding, Found, Study
 from mindlang.compiler.beginning import Beginning, beginning
 from mindlang.compiler.model import Task
@@ -43,6 +43,17 @@ BAD = (
     TASK.replace("-10 0\n", "-10 0\n  ends on reach of coin\n"),
     TASK.replace("-10 0\n", "-10 0\n  ends when charge < 70%\n"),
     TASK.replace("-10 0\n", "9 0\n  succeeds when in_goal > 0.5\n").replace("  rewards 1 on reach of goal\n", ""),
+    *(
+        f"sensor moving is inertial\nsensor {sensor}\n" + TASK.replace("-10 0\n", f"-10 0\n  ends when {when}\n")
+        for sensor, when in (
+            ("pace is speed", "moving < 10%"),
+            ("low is latch of charge below 70% above 80%", "low > 0.5"),
+            ("mean is average of moving over 5 ticks", "mean < 10%"),
+            ("rising is derivative of charge", "rising >= 0.5"),
+            ("sum is computed at charge - moving", "sum > 0.5"),
+            ("beat is clock period 2 s", "beat < 0.5"),
+        )
+    ),
     TASK.replace("  starts at -10 0\n", ""),
 )
 
@@ -69,7 +80,7 @@ class _FirstTick:
         for end in self.task.ends:
             if end.event and (often := self._often(end.event, end.times)):
                 yield Finding(end.fact.span, f"This ends {often} in the first tick.", self._hint(end.event))
-            if end.when and (why := why_always(end.when, lambda of: interval(of, self._first))):
+            if end.when and (why := why_always(end.when, lambda of: interval(of, self.first))):
                 yield Finding(end.fact.span, f"This ends every run in its first tick: {why}.", "Compare otherwise.")
         for reward in self.task.rewards:
             if reward.on and (often := self._often(reward.on, 1) or self._often_drawn(reward.on)):
@@ -104,14 +115,17 @@ class _FirstTick:
         """How large the places are at which a robot, facing anywhere, has reached a thing."""
         return size**2 if is_area else pi / 2 * (self.begun.claw + size / 2) ** 2
 
-    def _first(self, name: str) -> Interval:
+    def first(self, name: str) -> Interval:
         """What a sensor or a memory reads in the first tick, as far as that is known."""
-        if name in self.study.sensors:
-            return self.study.sensors[name].first(self._is_within) or UNIT_INTERVAL
+        if kind := self.study.sensors.get(name):
+            if kind.formula:
+                low, high = formula_interval(kind.formula, self.first)
+                return max(0.0, min(low, 1.0)), max(0.0, min(high, 1.0))
+            return kind.first(self) or UNIT_INTERVAL
         start = next((each.kind.start for each in self.study.mind.memories if each.name == name), None)
         return UNIT_INTERVAL if start is None else (start, start)
 
-    def _is_within(self, thing: str) -> bool | None:
+    def is_within(self, thing: str) -> bool | None:
         """Whether the robot begins inside of a thing; None where that is drawn."""
         if self.begun.at is None:
             return None

@@ -18,7 +18,11 @@ Row = tuple[str, ...]
 def comparison_summary(found: dict[str, Any], comparison: Comparison) -> RenderableType:
     """Both means of each figure, their difference with its interval, how often which did better, and what that says."""
     runs, seed = found["runs"], found["seed"]
-    where = " in its one world" if comparison.is_one_world else f" on the same layouts, {runs:,} runs from seed {seed}"
+    where = (
+        " in its one world"
+        if comparison.is_one_world
+        else f" on the same layouts, {runs:,} run{'s' * (runs != 1)} from seed {seed}"
+    )
     title = Text.assemble((found["task"], "bold"), where)
     minds = [
         Text(f"  {place}  {each['file']} with {each['master']} in charge")
@@ -33,7 +37,15 @@ def comparison_summary(found: dict[str, Any], comparison: Comparison) -> Rendera
     told = () if comparison.is_one_world else [*comparison.differences.items()][:1]
     facts = [Text(line, "dim") for each in told for line in _facts(*each)]
     columns = len(head) - comparison.is_one_world  # of one run nothing is inferred
-    return Group(title, *minds, "", *_aligned([row[:columns] for row in (head, *rows)]), "", *facts, Text(comparison.conclusion, "bold"))
+    return Group(
+        title,
+        *minds,
+        "",
+        *_aligned([row[:columns] for row in (head, *rows)]),
+        "",
+        *facts,
+        Text(comparison.conclusion, "bold"),
+    )
 
 
 def _mean(name: str, value: float) -> str:

@@ -44,6 +44,18 @@ def ended_by(task: Task, number: int) -> str | None:
     return ends(task)[number] if 0 <= number < len(task.ends) else OTHERWISE.get(number)
 
 
+def over_at_once(task: Task, scores: Scores) -> list[str]:
+    """A note where runs of one genome were over in their first tick: what ends them is so where they begin."""
+    ended = scores.ended_by[0][(scores.ticks[0] == 1) & (task.ticks > 1)]
+    by = Counter(ended[(ended >= 0) & (ended < len(task.ends))].tolist())
+    runs = scores.ticks.shape[1]
+    return [
+        f"{times:,} of {runs:,} runs {'was' if times == 1 else 'were'} over in the first tick, by "
+        f"{ended_by(task, number)}: nothing has decided {'it' if times == 1 else 'them'} but where they begin"
+        for number, times in by.most_common()
+    ]
+
+
 def run_data(task: Task, scores: Scores) -> dict[str, Any]:
     """The single run of `scores`; a sum that is not a finite number is None, `counts` the sum of `by_event` if any."""
     return {
@@ -86,13 +98,18 @@ def rewards_data(task: Task, paid: NDArray[np.float64]) -> dict[str, Any]:
 def bench_data(
     task: Task, scores: Scores, seeds: Sequence[int], seconds: float, cpu_seconds: float | None = None
 ) -> dict[str, Any]:
-    """All runs of one genome; the best and the worst run are named by their number, from 1 on, and seed.
+    """All runs of one genome; the best and the worst run are named by their number, from 1 on, and seed;
+    None where no run has a score that is a finite number.
 
     A `std` is that of the sample, how far single runs are apart; a `standard_error` how far the mean may be off. One
     run knows neither, and where nothing is counted there is no count: None. Of the `cpu_seconds` of all processors
     nobody may know.
     """
     totals, ticks = scores.total[0], int(scores.ticks.sum())
+    finite = np.flatnonzero(np.isfinite(totals))
+    best, worst = (
+        (int(finite[place(totals[finite])]) for place in (np.argmax, np.argmin)) if len(finite) else (None,) * 2
+    )
     happened, ended = events(task), Counter(scores.ended_by[0].tolist())
     numbers = [*range(len(task.ends)), *OTHERWISE, GOING_ON]
     return {
@@ -104,10 +121,10 @@ def bench_data(
         "runtime_mean": float(scores.ticks[0].mean() / task.ticks),
         "ended": {ended_by(task, number) or TIME: ended[number] for number in numbers if ended[number]},
         **_spread("score_", totals),
-        "best_run": int(totals.argmax()) + 1,
-        "worst_run": int(totals.argmin()) + 1,
-        "best_seed": int(seeds[int(totals.argmax())]),
-        "worst_seed": int(seeds[int(totals.argmin())]),
+        "best_run": None if best is None else best + 1,
+        "worst_run": None if worst is None else worst + 1,
+        "best_seed": None if best is None else int(seeds[best]),
+        "worst_seed": None if worst is None else int(seeds[worst]),
         "faults": int(scores.faults.sum()),
         "ticks": ticks,
         "seconds": round(seconds, 3),

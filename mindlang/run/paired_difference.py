@@ -86,7 +86,8 @@ def difference(first: NDArray[np.float64], second: NDArray[np.float64]) -> Diffe
     with np.errstate(invalid="ignore"):  # −∞ less −∞
         each = np.asarray(second, np.float64) - np.asarray(first, np.float64)
     runs = len(each)
-    counts = runs, int((each > 0).sum()), int((each < 0).sum()), int((each == 0).sum()), int((~finite).sum())
+    told = each[finite]
+    counts = runs, int((told > 0).sum()), int((told < 0).sum()), int((told == 0).sum()), runs - len(told)
     if not finite.all():
         return Difference(*counts)
     mean = float(each.mean())

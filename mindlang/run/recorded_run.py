@@ -3,6 +3,7 @@
 from dataclasses import dataclass, replace
 
 import numpy as np
+from mindrun.engine import procedure_sources
 from mindrun.graph import Graph, Task, Thing
 from mindrun.movers import movers
 from mindrun.robot.recording_header import GOES_ON
@@ -12,6 +13,7 @@ from mindrun.sim.ticks import joined
 from mindrun.sim.trace import Trace, trace
 from numpy.typing import NDArray
 
+from mindlang.run.edge_flow import edge_flows
 from mindlang.run.setup import RunSetup
 
 Floats = NDArray[np.float64]
@@ -114,11 +116,24 @@ class RecordedRun:
         return movers(self.graph, self.setup.master)
 
     def in_control(self) -> NDArray[np.int64]:
-        """Per tick the mover with the most influence, as a place in `movers`; behind all of them where none has any."""
-        influence = self.influence[:, [*self.movers.values()]]
-        nobody = np.full((self.ticks, 1), np.finfo(np.float32).smallest_subnormal)
-        chosen: NDArray[np.int64] = np.argmax(np.concatenate([nobody, influence], axis=1), axis=1) - 1
-        return np.where(chosen < 0, influence.shape[1], chosen)
+        """Per tick the mover that moves it with the most influence, as a place in `movers`; behind all where none does.
+
+        A skill that has influence and sends nothing moves nothing.
+        """
+        setup, moving = (
+            self.setup,
+            {("actuator", i) for i, each in enumerate(self.graph.actuators) if each.kind.moves_body},
+        )
+        sources = procedure_sources(self.graph, setup.folder, setup.master)
+        flows = edge_flows(setup.ready.policy, sources, setup.master, self)
+        sent = flows.walker.transmitted(np.arange(self.ticks))
+        nobody = np.full(self.ticks, np.finfo(np.float32).smallest_subnormal)
+        influence = [nobody]
+        for skill in self.movers.values():
+            edges = [i for i, link in enumerate(flows.links) if link.source == skill and link.target in moving]
+            influence.append(sent[:, edges].max(axis=1))
+        chosen: NDArray[np.int64] = np.argmax(np.stack(influence, axis=1), axis=1) - 1
+        return np.where(chosen < 0, len(self.movers), chosen)
 
 
 def record_run(setup: RunSetup, rollout: Rollout, seed: int) -> RecordedRun:

@@ -54,9 +54,9 @@ class RunSetup:
         """The seeds of so many runs, the first alone where there is one world; MindError where these are none."""
         return layouts(seed, runs)[: 1 if self.is_one_world else None]
 
-    def notes(self, rollout: Rollout) -> list[str]:
+    def notes(self, rollout: Rollout, *more: str) -> list[str]:
         """What somebody should know of runs that have been made."""
-        return [*self.ready.notes, *self.world_notes, *rollout.notes]
+        return [*self.ready.notes, *self.world_notes, *rollout.notes, *more]
 
     def rollout(self, interrupt: bool = True, workers: int = 1) -> Rollout:
         """The task under the master, in the simulator. Runs the text of the procedures' modules."""

@@ -60,8 +60,9 @@ class Shares:
     """The command to an actuator or a memory, or the influence on a skill, and who made it; means over `ticks` rows.
 
     command = Σ `share` of `paths` + `rest.share` + `neutral` + `rounding`: `command` is what the mind said, to the bit;
-    `neutral` is what an actuator has of it from the `undriven` rows, in which nothing influenced it (a memory that
-    nothing drives is sent nothing: 0), and `rounding` what the engine's sums in float32 have added. For a skill
+    `neutral` is what an actuator has of it from the `undriven` rows, in which nothing influenced it, and `rounding`
+    what the engine's sums in float32 have added. A memory that nothing drives is sent nothing: its means are over the
+    other rows, and its `command` is None where there is none; neither it nor a skill has a `neutral`. For a skill
     `command` and `influence` are both its influence, and a share is the influence that came over that path.
     `silent` are the skills that could have sent something and did not.
     Unless they `are_largest`, a path may be among the `rest` that is larger than those named.
@@ -69,10 +70,10 @@ class Shares:
 
     target: Sink
     ticks: int
-    command: float
+    command: float | None
     influence: float
     undriven: int
-    neutral: float
+    neutral: float | None
     rounding: float
     paths: tuple[Contribution, ...]
     rest: Rest
@@ -96,8 +97,9 @@ def shares(flows: EdgeFlows, target: Sink, rows: range, paths: int = NAMED_PATHS
     weights = Ways(ends.edges, ends.sources, ends.parts)
     found = largest_paths(weights, into, order, paths)
     named = tuple(sorted((_contribution(flows, ends, path) for path in found.paths), key=_size, reverse=True))
-    command, neutral = _command(flows, ends), _neutral(flows, ends)
-    every, part = _mean(ends.shares.sum(axis=0)), _mean(ends.parts.sum(axis=0))
+    neutral = _neutral(flows, ends)
+    command = ends.mean(ends.engine) + (neutral or 0.0) if ends.ticks else None
+    every, part = ends.mean(ends.shares.sum(axis=0)), ends.mean(ends.parts.sum(axis=0))
     count = path_count(weights, into, order)
     rest = Rest(
         count - len(named) * (count < MAX_COUNTED_PATHS),
@@ -108,10 +110,10 @@ def shares(flows: EdgeFlows, target: Sink, rows: range, paths: int = NAMED_PATHS
         target,
         len(rows),
         command,
-        _mean(ends.total),
+        ends.mean(ends.total),
         int((~ends.driven).sum()),
         neutral,
-        command - neutral - every,
+        0.0 if command is None else command - (neutral or 0.0) - every,
         named,
         rest,
         tuple(np.array(ends.sources, int)[~ends.behind.any(axis=1)].tolist()),
@@ -126,14 +128,15 @@ def _size(contribution: Contribution) -> tuple[float, float]:
 def _in_charge(flows: EdgeFlows, ticks: int) -> Shares:
     """The influence of the master, which is 1 by definition."""
     path = Contribution((flows.master,), 1.0, 1.0, 1.0, 1.0)
-    return Shares(("skill", flows.skills[0]), ticks, 1.0, 1.0, 0, 0.0, 0.0, (path,), Rest(0, 0.0, 0.0), (), True)
+    return Shares(("skill", flows.skills[0]), ticks, 1.0, 1.0, 0, None, 0.0, (path,), Rest(0, 0.0, 0.0), (), True)
 
 
 @dataclass(frozen=True, slots=True)
 class _Ends:
     """The edges to what is asked about, and what they carry [edges, ticks]; `total`, `engine`, `driven` are [ticks].
 
-    `engine` is what the engine computes of it in float32, where it is driven.
+    `engine` is what the engine computes of it in float32, where it is driven. Means are over so many `ticks`: of a
+    memory those in which it is driven.
     """
 
     target: Sink
@@ -146,6 +149,15 @@ class _Ends:
     total: Doubles
     engine: Doubles
     driven: NDArray[np.bool_]
+
+    @property
+    def ticks(self) -> int:
+        """Over how many ticks means are."""
+        return int(self.driven.sum()) if self.target[0] == "memory" else len(self.driven)
+
+    def mean(self, values: NDArray[np.generic]) -> float:
+        """The mean of values [ticks], which are 0 where nothing came."""
+        return fsum(values.tolist()) / max(1, self.ticks)
 
 
 def _refuse_replaced(flows: EdgeFlows, flow: EdgeFlow, skills: Sequence[int]) -> None:
@@ -180,15 +192,11 @@ def _ends(flows: EdgeFlows, target: Sink, carried: EdgeFlow) -> _Ends:
     return _Ends(target, edges, sources, values, behind, parts, gain, total, commands, driven)
 
 
-def _command(flows: EdgeFlows, ends: _Ends) -> float:
-    return _mean(ends.engine) + _neutral(flows, ends)
-
-
-def _neutral(flows: EdgeFlows, ends: _Ends) -> float:
+def _neutral(flows: EdgeFlows, ends: _Ends) -> float | None:
     kind, index = ends.target
     if kind != "actuator":
-        return 0.0
-    return float(np.float32(flows.graph.actuators[index].kind.neutral)) * _mean(~ends.driven)
+        return None
+    return float(np.float32(flows.graph.actuators[index].kind.neutral)) * ends.mean(~ends.driven)
 
 
 def _contribution(flows: EdgeFlows, ends: _Ends, path: FoundPath) -> Contribution:
@@ -200,8 +208,8 @@ def _contribution(flows: EdgeFlows, ends: _Ends, path: FoundPath) -> Contributio
         along = np.where(ends.parts[place] > 0, path.part / ends.parts[place], 0.0)
     sent = ends.values[place]
     value = sent[0] if (sent == sent[0]).all() else np.average(sent, weights=path.part)
-    influence = _mean(along * ends.behind[place])
-    return Contribution(tuple(names), float(value), influence, _mean(path.part), _mean(along * ends.shares[place]))
+    influence, share = ends.mean(along * ends.behind[place]), ends.mean(along * ends.shares[place])
+    return Contribution(tuple(names), float(value), influence, ends.mean(path.part), share)
 
 
 def _above(flows: EdgeFlows, target: Sink) -> list[int]:
@@ -224,7 +232,3 @@ def _into(flows: EdgeFlows, skill: int, carried: EdgeFlow) -> Ways | None:
     total = arrived.sum(axis=0)
     fractions = np.divide(arrived, total, out=np.zeros_like(arrived), where=total > 0)
     return Ways(edges, tuple(flows.links[edge].source for edge in edges), fractions)
-
-
-def _mean(values: NDArray[np.generic]) -> float:
-    return fsum(values.tolist()) / len(values)

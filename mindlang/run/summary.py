@@ -35,7 +35,7 @@ def bench_summary(found: dict[str, Any]) -> RenderableType:
     ended = ", ".join(
         f"{'lasted its time' if name == TIME else name}: {n / runs:.0%}" for name, n in found["ended"].items()
     )
-    best = f"{found['seed']}/{found['best_run']}"
+    best, worst = (f"{found['seed']}/{found[run]}" if found[run] else "" for run in ("best_run", "worst_run"))
     facts = _facts(
         ("runs", f"{runs} from seed {found['seed']}{error}"),
         *_counted({event: f"{_mean(spread, '')}   " for event, spread in found["by_event"].items()}),
@@ -43,8 +43,8 @@ def bench_summary(found: dict[str, Any]) -> RenderableType:
         ("score", _mean(found, "score_")),
         ("run time", f"{found['runtime_mean']:.1%} of the task's ticks"),
         ("ended by", ended),
-        ("best run", f"seed {best}: mindc run --seed {best} repeats it"),
-        ("worst run", f"seed {found['seed']}/{found['worst_run']}"),
+        ("best run", best and f"seed {best}: mindc run --seed {best} repeats it"),
+        ("worst run", worst and f"seed {worst}"),
         ("speed", f"{_rate(found)} {who}, in {duration(found['seconds'])}"),
         ("faults", _faults(found)),
     )
@@ -63,6 +63,8 @@ def _title(found: dict[str, Any]) -> Text:
 
 def _mean(found: dict[str, Any], of: str) -> str:
     error = found[f"{of}standard_error"]
+    if error == 0:
+        return f"{score(found[f'{of}mean'])} in every run"
     return score(found[f"{of}mean"]) + (f" ± {error:.2f}" if error is not None else "")
 
 

@@ -7,7 +7,7 @@ from math import isfinite
 import numpy as np
 from mindrun.graph import Lesson
 from mindrun.train import RunError
-from mindrun.train.attempt import of_halves, verdict_layouts
+from mindrun.train.attempt import has_needed, of_halves, verdict_layouts
 from mindrun.train.lesson_state import LessonState
 from mindrun.train.population import Genomes
 from mindrun.train.run_folder import WEIGHTS, RunFolder
@@ -68,13 +68,23 @@ def keep(run: RunFolder, subject: Subject, state: LessonState, scorer: Scorer, f
     if old is None or np.array_equal(old, state.kept[0]):
         return Kept(_record(run, subject, state, state.kept[0], state.reevaluated), None, True)
     found = compare(run, scorer, np.stack([old, state.kept[0]]))
-    if force or not found.is_worse:
+    if force or not found.is_worse or not _meets_needs(run, scorer, old):
         return Kept(_record(run, subject, state, state.kept[0], state.reevaluated), found, True)
     lesson = declared(subject, run.manifest.lesson)
     if subject.is_due(lesson):
         return Kept(_record(run, subject, state, old, found.old), found, False)
     known = read_lock(subject.keep_path(lesson))
     return Kept({skill: known[skill] for skill in run.manifest.learners}, found, False)
+
+
+def _meets_needs(run: RunFolder, scorer: Scorer, genome: Genomes) -> bool:
+    """Whether a genome has what the lesson needs, on the layouts on which the new one has it."""
+    lesson = run.manifest.lesson
+    if not lesson.needs:
+        return True
+    return has_needed(
+        lesson, scorer.task, scorer.score(genome[None], verdict_layouts(run.manifest.seed, lesson.generations))
+    )
 
 
 def refuse_nothing(run: RunFolder, state: LessonState, scorer: Scorer) -> None:

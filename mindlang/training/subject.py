@@ -19,7 +19,7 @@ from mindlang.compiler.diagnostic import listed
 from mindlang.lock import Lock, lock_path, lock_sources, read_lock, read_locks
 from mindlang.lock.arrange import arrange
 from mindlang.lock.due import is_due
-from mindlang.lock.lessons import subskills
+from mindlang.lock.lessons import needed_skills, subskills
 from mindlang.lock.status import Status, Trained, status, trained_weights
 from mindlang.training.origin import origin_weights
 
@@ -49,6 +49,15 @@ class Subject:
         """The file as it is called here: from the working directory, where it lies there or below."""
         here = Path.cwd().resolve()
         return self.source.relative_to(here) if self.source.is_relative_to(here) else self.source
+
+    def takes(self, lesson: Lesson, is_named: bool) -> bool:
+        """Whether a lesson is to be taught: it is due, or somebody has named it.
+
+        RunError where one that is named stands on a skill that has not what its own lesson needs.
+        """
+        if is_named:
+            refuse_failed_below(self, lesson)
+        return is_named or self.is_due(lesson)
 
     def keep_path(self, lesson: Lesson) -> Path:
         """The lock to which goes what a lesson teaches: that of the file in which the lesson stands.
@@ -113,6 +122,20 @@ def begin_run(
         processor=processor(),
     )
     return unfinished(runs, manifest) or create(runs, manifest, subject.sources, weights)
+
+
+def refuse_failed_below(subject: Subject, lesson: Lesson) -> None:
+    """RunError where a skill that acts in a lesson has yet to be taught what an earlier one of the curriculum needs."""
+    below = needed_skills(subject.graph, lesson)
+    for other in subject.graph.lessons:
+        taught = below.intersection(learners(subject.graph, other))
+        is_earlier = other.curriculum == lesson.curriculum and other.number < lesson.number
+        if taught and is_earlier and other.needs and subject.is_due(other):
+            needed, who = listed(map(str, other.needs), "and"), listed(sorted(taught), "and")
+            raise RunError(
+                f"{lesson.skill} would be taught on top of {who}, without what its lesson needs: {needed}",
+                f"teach {who} first: {command_line('mindc', 'train', subject.shown, *sorted(taught))}; or say --force",
+            )
 
 
 def refuse_frozen(subject: Subject, chosen: Iterable[Lesson]) -> None:

@@ -1,11 +1,13 @@
 """Answers as plain data: the contents of `--json`."""
 
 from dataclasses import asdict
-from math import isfinite
+from math import isfinite, nan
 from typing import Any
 
 import numpy as np
+from mindrun.sensors.directions import directions
 from mindrun.weights import reachable
+from numpy.typing import NDArray
 
 from mindlang.compiler.diagnostic import did_you_mean, listed
 from mindlang.run.edge_flow import Sink, sink_named
@@ -17,6 +19,7 @@ from mindlang.why.course import Course
 
 REWARD = "reward"  # asks for the score, where nothing has that name
 PATH_COUNT = 10  # that are named, where nobody says how many
+DIRECTION_TOLERANCE = 1e-6  # of a unit vector: directions that lead no farther together have no mean
 MAX_EDGE_TICKS = 10_000_000  # edges times ticks of one answer
 
 
@@ -96,15 +99,26 @@ def _shares(course: Course, target: Sink, rows: range, paths: int) -> dict[str, 
 def _reads(course: Course, of: Contribution, rows: range) -> dict[str, list[float | None]]:
     """What the skill that sent it read, by sensor or memory; the mean over the ticks, None where that is no number."""
     graph = course.flows.graph
-    name = of.path[-2:][0]  # before what was asked about, unless that is the master
+    name = of.path[-2] if len(of.path) > 1 else of.path[0]  # before what was asked about, unless that is the master
     inputs = next(skill.inputs for skill in graph.skills if skill.name == name)
-    means = course.flows.walker.rows(np.array(rows))[0][:, list(inputs)].astype(float).mean(axis=0).tolist()
+    read = course.flows.walker.rows(np.array(rows))[0].astype(float)
+    around = directions({each.name: each.kind for each in graph.sensors})
+    turning = {
+        place for each in graph.sensors if each.name in around for place in range(each.start, each.start + each.width)
+    }
+    means = [(mean_direction if place in turning else np.mean)(read[:, place]) for place in inputs]
     owners = {place: each.name for each in graph.sensors for place in range(each.start, each.start + each.width)}
     owners |= {each.start: each.name for each in graph.memories}
     found: dict[str, list[float | None]] = {}
     for place, value in zip(inputs, means, strict=True):
         found.setdefault(owners[place], []).append(value if isfinite(value) else None)
     return found
+
+
+def mean_direction(turns: NDArray[np.float64]) -> float:
+    """The mean of directions in turns, 0..1: where their unit vectors lead together; NaN where that is nowhere."""
+    together = np.exp(2j * np.pi * turns).mean()
+    return float(np.angle(together) / (2 * np.pi) % 1.0) if abs(together) > DIRECTION_TOLERANCE else nan
 
 
 def _acted(course: Course, actuator: int, rows: range) -> dict[str, Any]:

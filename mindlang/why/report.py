@@ -60,9 +60,13 @@ def _share_lines(found: dict[str, Any]) -> Iterator[Text]:
             yield Text(_cut(f"{'':11}read {_reads(each['reads'])}"), "dim")
     for number, text in _others(found):
         yield Text(f"{number:9.4f}  {text}")
-    yield Text(f"{found['command']:9.4f}  {_total(found)}", "bold")
+    yield Text(f"{_command(found)}  {_total(found)}", "bold")
     for note in _notes(found):
         yield Text(note, "dim")
+
+
+def _command(found: dict[str, Any]) -> str:
+    return f"{'–':>9}" if found["command"] is None else f"{found['command']:9.4f}"
 
 
 def _bar(part: float) -> str:
@@ -119,6 +123,8 @@ def _many(paths: int) -> str:
 
 def _total(found: dict[str, Any]) -> str:
     mean = "" if _tick_count(found) == 1 else ", in the mean"
+    if found["kind"] == "memory" and 0 < found["undriven"] < _tick_count(found):
+        mean += " where it was sent one"
     if found["kind"] == "skill":
         return f"influence on {found['of']}{mean}"
     return f"command to {found['of']}{mean}; influence {found['influence']:.4g} in all"
@@ -133,7 +139,7 @@ def _notes(found: dict[str, Any]) -> Iterator[str]:
         more = len(silent) - MAX_NAMED_SKILLS
         names = silent if more <= 1 else [*silent[:MAX_NAMED_SKILLS], f"{more:,} more"]
         yield f"sent it nothing: {listed(names, 'and')}"
-    if "acted" in found and abs(found["acted"] - found["command"]) > GAIN_NOTED:
+    if found["kind"] == "actuator" and abs(found["acted"] - found["command"]) > GAIN_NOTED:
         yield _acted(found)
 
 

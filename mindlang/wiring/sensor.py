@@ -1,5 +1,7 @@
 """A table about a sensor → SensorWire: what its values mean, checked against the sensor of the mind."""
 
+from math import isclose, tau
+
 from mindrun.graph import Sensor
 from mindrun.quantity import Quantity
 from mindrun.robot.driver_support import PIN
@@ -20,7 +22,8 @@ UNITS = {
     "V": {"V": 1.0, "mV": 0.001},
     "m/s²": {"m/s²": 1.0, "m/s2": 1.0},
 }
-FULL_TURN_DEGREES = 360.0
+FULL_TURNS = {"deg": 360.0, "°": 360.0, "rad": tau}  # once round, by the unit of a driver
+TURN_TOLERANCE = 1e-6
 
 
 def sensor_wire(wired: Wired, sensor: Sensor, unit_metres: float | None, findings: Findings) -> SensorWire | None:
@@ -95,11 +98,17 @@ def _check_range(wired: Wired, wire: SensorWire, sensor: Sensor, findings: Findi
             hint,
             *labels,
         )
-    elif sensor.kind.circular and wired.driver.unit == "deg" and abs(wire.high - wire.low) != FULL_TURN_DEGREES:
-        message = f"A bearing's readings 0 to 1 are a whole turn, and these are {abs(wire.high - wire.low):g} degrees."
+    elif sensor.kind.circular and not _is_turn(wire.high - wire.low, unit := wired.driver.unit):
+        message = f"A bearing's readings 0 to 1 are a whole turn, and these are {abs(wire.high - wire.low):g} {unit}."
         usual = wired.driver.usual
-        hint = f"Leave both out, or write from: {usual[0]:g} deg and to: {usual[1]:g} deg."
+        hint = f"Leave both out, or write from: {usual[0]:g} {unit} and to: {usual[1]:g} {unit}."
         report_error(findings, "not-a-turn", wired.span("to", "from", "driver"), message, hint)
+
+
+def _is_turn(angle: float, unit: str) -> bool:
+    """Whether an angle is once round, as far as decimals say it; of other units nobody knows."""
+    turn = FULL_TURNS.get(unit)
+    return turn is None or isclose(abs(angle), turn, rel_tol=TURN_TOLERANCE)
 
 
 def _check_times(wired: Wired, wire: SensorWire, findings: Findings) -> None:

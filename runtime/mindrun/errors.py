@@ -37,6 +37,15 @@ def reason(error: Exception) -> str:
     return getattr(error, "strerror", None) or str(error)
 
 
+def text_of(error: BaseException) -> str:
+    """What an error of somebody else's code says, in one line; the name of its type where it says nothing, or fails."""
+    try:
+        said = " ".join(str(error).split())
+    except BaseException:  # it is that code which says it
+        said = ""
+    return said or type(error).__name__
+
+
 def surroundings(error: Exception) -> str:
     """A sentence for errors of the machine, of files and of the installation, about which a user can do something."""
     match error:

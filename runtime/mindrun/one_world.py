@@ -13,11 +13,19 @@ def is_one_world(graph: Graph, task: Task, master: str) -> bool:
 
     Nobody knows what an environment of somebody else's draws, or a procedure.
     """
-    if task.scene.environment or task.varies or task.fails or task.start.facing is None:
+    if task.scene.environment or task.start.facing is None or any(failure.rate > 0 for failure in task.fails):
         return False
     if task.scene.is_bounded and task.start.at is None:
         return False
-    return not _draws_things(graph, task) and not _draws_in_ticks(graph, task, master)
+    if _varies(graph, task, master) or _draws_things(graph, task):
+        return False
+    return not _draws_in_ticks(graph, task, master)
+
+
+def _varies(graph: Graph, task: Task, master: str) -> bool:
+    """Whether an argument of what is there in a run is drawn between two numbers: not of a sensor nobody measures."""
+    measured = {sensor.name for sensor in measured_in_world(graph, master, task)}
+    return any(each.low != each.high and (each.noun != "sensor" or each.of in measured) for each in task.varies)
 
 
 def _draws_things(graph: Graph, task: Task) -> bool:

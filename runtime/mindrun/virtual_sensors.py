@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from mindrun.graph import Graph
-from mindrun.sensors.sensor import Scene, directions
+from mindrun.sensors.directions import directions
+from mindrun.sensors.sensor import Scene
 from mindrun.validate import depths
 
 if TYPE_CHECKING:

@@ -125,7 +125,15 @@ def f(sense, pulse):
     return 0.9
 """
 RAISES = RETURNS.replace("os.fork()", "assert os.fork()")
-BY_C = RETURNS.replace("os.fork()", "import ctypes; ctypes.PyDLL(None).fork()")  # PyDLL: it comes back with the GIL
+BY_C = """
+import ctypes, sys, time
+def f(sense, pulse):
+    sys.setswitchinterval(1000)  # or the child waits for ever for a thread that wanted the GIL and is not in it
+    time.sleep(0.02)
+    ctypes.PyDLL(None).fork()  # PyDLL: it comes back with the GIL
+    sys.setswitchinterval(0.005)
+    return 0.9
+"""
 STAYS = """
 import os, time
 children = []

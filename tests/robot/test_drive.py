@@ -263,4 +263,4 @@ def test_a_dry_run_ends_when_its_world_does(bundle: Path, tmp_path: Path) -> Non
     _, err = process.communicate(timeout=600)
     assert process.returncode == 2
     assert "does not come to neutral" in err
-    assert "guardian holds every actuator" in err
+    assert "guardian follows no more" in err

@@ -160,18 +160,20 @@ def test_a_span_is_the_mean_of_its_ticks(case: Case) -> None:
     assume(len(case.graph.skills) <= MOST_SKILLS)
     run = thought(case)
     flows = flows_of(case, run)
-    count = len(run.readings)
     for sink in sinks(flows):
-        single = [shares(flows, sink, range(row, row + 1), ALL) for row in range(count)]
-        found = shares(flows, sink, range(count), ALL)
+        single = [shares(flows, sink, range(row, row + 1), ALL) for row in range(len(run.readings))]
+        found = shares(flows, sink, range(len(run.readings)), ALL)
         assert found.undriven == sum(each.undriven for each in single)
+        sent = [each for each in single if each.command is not None]  # to a memory not in every tick
+        assert (found.command is None) == (not sent)
         for of in ("command", "influence", "neutral"):
-            mean = fsum(getattr(each, of) for each in single) / count
-            assert getattr(found, of) == pytest.approx(mean, rel=DOUBLES, abs=1e-300)
+            values = [getattr(each, of) for each in sent]
+            if getattr(found, of) is not None and values:
+                assert getattr(found, of) == pytest.approx(fsum(values) / len(sent), rel=DOUBLES, abs=1e-300)
         for each in found.paths:
-            same = [other for tick in single for other in tick.paths if other.path == each.path]
-            assert each.share == pytest.approx(fsum(other.share for other in same) / count, rel=DOUBLES)
-            assert each.part == pytest.approx(fsum(other.part for other in same) / count, rel=DOUBLES)
+            same = [other for tick in sent for other in tick.paths if other.path == each.path]
+            assert each.share == pytest.approx(fsum(other.share for other in same) / len(sent), rel=DOUBLES)
+            assert each.part == pytest.approx(fsum(other.part for other in same) / len(sent), rel=DOUBLES)
 
 
 def test_of_a_ladder_with_more_paths_than_anyone_can_count_the_largest_are_found() -> None:
@@ -202,8 +204,10 @@ def holds_what_the_engine_said(found: Shares, run: Thought, row: int) -> None:
             assert found.command == run.commands[row][index]
         case "skill", index:
             assert found.command == run.influence[row, index]
-    made = [*(each.share for each in found.paths), found.rest.share, found.neutral, found.rounding]
-    assert fsum(made) == pytest.approx(found.command, rel=DOUBLES, abs=1e-300)
+    made = [*(each.share for each in found.paths), found.rest.share, found.neutral or 0.0, found.rounding]
+    assert (found.neutral is None) == (found.target[0] != "actuator")
+    assert (found.command is None) == (found.target[0] == "memory" and found.undriven == 1)
+    assert fsum(made) == pytest.approx(found.command or 0.0, rel=DOUBLES, abs=1e-300)
     assert found.undriven or fsum([*(each.part for each in found.paths), found.rest.part]) == pytest.approx(1.0)
 
 

@@ -3,7 +3,7 @@
 import math
 
 SWIFT, SHARE, MOST = 0.75, 0.5, 100
-CLOSED, CLOSEST = 1e-6, 0.125
+CLOSED, DEEPEST = 1e-6, 0.5
 
 
 class Solids:
@@ -20,6 +20,12 @@ class Solids:
         dx, dy = end[0] - begin[0], end[1] - begin[1]
         return any(meets(x - begin[0], y - begin[1], dx, dy, a + half, b + half) for x, y, a, b in self.boxes)
 
+    def wall(self, begin, end):
+        """Whether one of them is wholly within the way from one place to another."""
+        dx, dy = end[0] - begin[0], end[1] - begin[1]
+        beyond = (box for box in self.boxes if abs(box[0] - end[0]) >= box[2] or abs(box[1] - end[1]) >= box[3])
+        return any(meets(x - begin[0], y - begin[1], dx, dy, a, b) for x, y, a, b in beyond)
+
     def room(self, x, y):
         """How far a point is from all of them, along the axes; less than nothing inside."""
         inside = min(self.half[0] - abs(x), self.half[1] - abs(y))
@@ -32,6 +38,16 @@ def meets(x, y, dx, dy, wide, high):
         return False
     beside = abs(x - dx / 2) < wide + abs(dx) / 2 and abs(y - dy / 2) < high + abs(dy) / 2
     return beside and abs(x * dy - y * dx) < wide * abs(dy) + high * abs(dx)
+
+
+def comes_nearer(x, y, dx, dy, near):
+    """Whether a way by (dx, dy) comes nearer to (x, y) than that, and than where it begins."""
+    along, length = x * dx + y * dy, dx * dx + dy * dy
+    if along <= 0 or length == 0:
+        return False
+    share = min(1.0, along / length)
+    aside = x - share * dx, y - share * dy
+    return aside[0] * aside[0] + aside[1] * aside[1] < near * near
 
 
 class Mover:
@@ -107,8 +123,8 @@ class Watch:
             if self.solids.bar(begin, end):
                 return i
             for j, (its, its_half), _, (its_end, _) in parts:
-                near = CLOSEST * (half + its_half)
+                near = half + its_half - DEEPEST * min(half, its_half)
                 by = (e - b - (its_e - its_b) for b, e, its_b, its_e in zip(begin, end, its, its_end, strict=True))
-                if i != j and meets(its[0] - begin[0], its[1] - begin[1], *by, near, near):
+                if i != j and comes_nearer(its[0] - begin[0], its[1] - begin[1], *by, near):
                     return i
         return None

@@ -15,7 +15,7 @@ from tests.sim.plain import CATCH
 from tests.sim.plain_bodies import front_of, radius_of, rim_of, side_of, sides_of
 from tests.sim.plain_loose import PlainLoose
 from tests.sim.plain_sensors import sensed
-from tests.sim.plain_strides import MOST, Mover, Solids, Watch, stride
+from tests.sim.plain_strides import MOST, Mover, Solids, Watch, meets, stride
 from tests.sim.plain_walkers import PlainWalkers
 
 TRAIL = 20
@@ -205,8 +205,16 @@ class PlainWorld:
         """Whether nothing solid is between the robot and an item in its claw, or in the way there."""
         ahead = front_of(self.graph.body) + self.body.largest[i] / 2
         there = self.x + cosine(self.angle) * ahead, self.y + sine(self.angle) * ahead
-        ways = ((self.x, self.y), tuple(self.places[i][:2]))
-        return not any(self.body.solids.bar(begin, there) for begin in ways)
+        loose = [self.places[each] for each in self.body.loose.there]
+        for x, y in ((self.x, self.y), self.places[i][:2]):
+            by = there[0] - x, there[1] - y
+            if self.body.solids.bar((x, y), there) or any(meets(a - x, b - y, *by, c / 2, c / 2) for a, b, c in loose):
+                return False
+        half, along = self.places[i][2] / 2, (cosine(self.angle), sine(self.angle))
+        rims = (along, (-along[1], along[0]), (along[1], -along[0]))
+        return not any(
+            self.body.solids.wall((self.x, self.y), (there[0] + half * dx, there[1] + half * dy)) for dx, dy in rims
+        )
 
     def step(self, acting, kept):
         """One tick of physics, the battery, and what is carried; each actuator has kept a share of its force."""

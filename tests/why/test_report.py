@@ -36,6 +36,7 @@ REST = {"part": 0.25, "share": 0.15}
 SKILLS = [f"Skill{number:02}" for number in range(9)]
 TOTAL = "   0.8176  command to left_wheel; influence 1.2 in all"
 MEAN = "   0.8176  command to left_wheel, in the mean; influence 1.2 in all"
+SENT = "   0.8176  command to left_wheel, in the mean where it was sent one; influence 1.2 in all"
 ANSWER = f"""\
 left_wheel in tick 1,000 (20.00 s)
 Chase with Roam in charge, seed 3
@@ -102,8 +103,8 @@ def test_what_rewards_look_like() -> None:
             ["   0.5000  nothing influenced it in 1,100 of 1,200 ticks: its neutral", MEAN],
         ),
         ({"rounding": 1.01e-6}, ["   0.0000  rounding of the engine's sums", TOTAL]),
-        ({"kind": "memory", "undriven": 1}, [TOTAL, "nothing drove it"]),
-        ({"kind": "memory", "undriven": 1100, **SEVERAL}, [MEAN, "nothing drove it in 1,100 of 1,200 ticks"]),
+        ({"kind": "memory", "undriven": 1, "command": None}, ["        –" + TOTAL[9:], "nothing drove it"]),
+        ({"kind": "memory", "undriven": 1100, **SEVERAL}, [SENT, "nothing drove it in 1,100 of 1,200 ticks"]),
         ({"silent": SKILLS[:5]}, [TOTAL, "sent it nothing: Skill00, Skill01, Skill02, Skill03 and Skill04"]),
         ({"silent": SKILLS[:6]}, [TOTAL, "sent it nothing: Skill00, Skill01, Skill02, Skill03 and 2 more"]),
         ({"acted": 0.8175}, [TOTAL, "what reached it then is 0.8175: its commands act later"]),

@@ -117,6 +117,7 @@ def _refuse_blind(graph: Graph, master: str, wiring: Wiring) -> None:
 
 def _goes_on(tick: TickResult, ticks: int, stop: Stop) -> bool:
     notify("WATCHDOG=1")
+    stop.hear()
     return not stop and (not ticks or tick.number + 1 < ticks)
 
 

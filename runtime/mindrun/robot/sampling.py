@@ -7,6 +7,7 @@ from math import inf, isfinite
 from time import monotonic
 
 from mindrun.driver import DeviceError, SensorDevice
+from mindrun.errors import text_of
 from mindrun.given_numbers import is_truth, number, values
 from mindrun.wiring import SensorWire
 
@@ -68,9 +69,11 @@ class Sampler:
             began = self._clock()
             return device, checked(device.read(), began, self.wire)
         except DeviceError as error:
-            why = f"{error}; {error.hint}" if error.hint else str(error)
-        except Exception as error:  # a driver may fail in any way, and the robot has to know
-            why = f"{type(error).__name__}: {error}"
+            why = f"{text_of(error)}; {error.hint}" if error.hint else text_of(error)
+        except BaseException as error:  # a driver may fail in any way, and the robot has to know
+            if isinstance(error, KeyboardInterrupt) and threading.current_thread() is threading.main_thread():
+                raise  # Ctrl-C
+            why = f"{type(error).__name__}: {text_of(error)}"
         _close(device)
         return None, Sample((), began, why)
 
@@ -104,5 +107,5 @@ def _close(device: SensorDevice | None) -> None:
     if device is not None:
         try:
             device.close()
-        except Exception:  # it is of no use any more
+        except BaseException:  # whatever its driver raises: it is of no use any more
             return

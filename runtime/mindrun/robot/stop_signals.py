@@ -2,7 +2,7 @@
 
 import os
 import signal
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from types import FrameType
 
@@ -25,6 +25,17 @@ class Stop:
 
     def __bool__(self) -> bool:
         return self._came
+
+    @property
+    def handlers(self) -> Mapping[signal.Signals, Callable[[int, FrameType | None], None]]:
+        """What hears each signal."""
+        return dict.fromkeys(STOP_SIGNALS, self.note) | {signal.SIGALRM: self.hurry}
+
+    def hear(self) -> None:
+        """Hear the signals, whoever has put something else in the place of what does: libraries of procedures do."""
+        for number, handler in self.handlers.items():
+            if signal.getsignal(number) != handler:
+                signal.signal(number, handler)
 
     def in_order(self) -> None:
         """The loop has ended by itself: what follows takes its time, and is not interrupted."""
@@ -55,8 +66,8 @@ class Stop:
 def stopping(grace: float) -> Iterator[Stop]:
     """Hear the signals that end programs, and let them end this one in order."""
     stop = Stop(grace)
-    handlers = dict.fromkeys(STOP_SIGNALS, stop.note) | {signal.SIGALRM: stop.hurry}
-    before = {number: signal.signal(number, handler) for number, handler in handlers.items()}
+    before = {number: signal.getsignal(number) for number in stop.handlers}
+    stop.hear()
     try:
         yield stop
     finally:

@@ -1,11 +1,13 @@
 """What every kind of scene says of itself: the rest of the program asks, and knows no kind by name."""
 
-from math import inf
+from math import hypot, inf
 
 from mindrun.quantity import Place
 from mindrun.registry import base
 
 TOUCHING_UNITS = 1e-6  # what is so little beyond something, or in it, only touches it: sums of decimals are rounded
+
+DISTANCE_SHARE = 1 / 3  # of the way from corner to corner: no farther from the robot is what does not say so
 
 
 @base("task")
@@ -36,6 +38,6 @@ class SceneKind:
     def distances(self, least: float) -> tuple[float, float]:
         """How near to the robot and how far from it a thing is placed that does not say so.
 
-        `least` is how far away such a thing is where walls keep it near.
+        `least` is how far away such a thing is where walls keep it near, and leave so much room.
         """
-        return least, inf
+        return min(least, hypot(*self.sides) * DISTANCE_SHARE), inf

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.quantity import SENSOR, WINDOW
 from mindrun.registry import kind
-from mindrun.sensors.sensor import Row, Scene, SensorKind
+from mindrun.sensors.sensor import Begin, Bounds, Row, Scene, SensorKind
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
     import numpy as np
@@ -45,6 +45,10 @@ class Average(SensorKind):
     def source(self) -> str:
         """The sensor whose mean it is."""
         return self.of
+
+    def first(self, begin: Begin) -> Bounds:
+        """What its source reads."""
+        return begin.first(self.of)
 
     def reader(self, scene: Scene) -> Reader:
         """The sum in float64, in the order in which the last readings lie in a ring, over how many they are."""

@@ -1,12 +1,11 @@
 """How full the battery is."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.quantity import RATE, RATIO
 from mindrun.registry import kind
-from mindrun.sensors.sensor import BatteryModel, Physical, World
+from mindrun.sensors.sensor import BatteryModel, Begin, Bounds, Physical, World
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
     from mindrun.arithmetic import F
@@ -34,9 +33,9 @@ class Battery(Physical):
         is_still = self.drain == 0 and (self.start == 1 or not (self.charge and world.charges))
         return self.start if is_still else None
 
-    def first(self, is_within: Callable[[str], bool | None]) -> tuple[float, float]:
+    def first(self, begin: Begin) -> Bounds:
         """The charge with which the battery starts, give or take the noise."""
-        return max(0.0, self.start - self.noise), min(1.0, self.start + self.noise)
+        return self.around(self.start)
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:

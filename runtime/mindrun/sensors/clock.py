@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.quantity import SECONDS
 from mindrun.registry import kind
-from mindrun.sensors.sensor import Row, Scene, SensorKind, World
+from mindrun.sensors.sensor import Begin, Bounds, Row, Scene, SensorKind, World
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
     import numpy as np
@@ -29,6 +29,10 @@ class Clock(SensorKind):
     def constant(self, world: World) -> float | None:
         """0 where each tick begins a period."""
         return 0.0 if self.period == world.tick else None
+
+    def first(self, begin: Begin) -> Bounds:
+        """0: a period begins."""
+        return 0.0, 0.0
 
     def reader(self, scene: Scene) -> Reader:
         """t/period without its whole part, t in seconds since the first tick."""

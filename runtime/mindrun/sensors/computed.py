@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from math import isfinite
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.constant_value import constant_value, single
-from mindrun.expression import Formula, is_valid_program, named, placed
+from mindrun.expression import Formula, fold, is_valid_program, named, placed
 from mindrun.quantity import EXPRESSION
 from mindrun.registry import kind
 from mindrun.sensors.sensor import Flaw, Scene, SensorKind, World
@@ -17,14 +17,17 @@ from mindrun.stack_machine import evaluate as run_program
 if TYPE_CHECKING:  # a lane is given these when it is compiled
     import numpy as np
 
-    from mindrun.arithmetic import NAN, F, clamp, finite
+    from mindrun.arithmetic import NAN, ONE, ZERO, F, clamp, finite
     from mindrun.arrays import Reader, Readings
 
 
 @kind("sensor", "computed")
 @dataclass(frozen=True, slots=True)
 class Computed(SensorKind):
-    """The value of an expression over sensors and memories of one reading, clamped to 0..1. 0/0 is no reading."""
+    """The value of an expression over sensors and memories of one reading, clamped to 0..1. 0/0 is no reading.
+
+    A direction more or less numbers is one: it goes round, and 1.1 is 0.1.
+    """
 
     at: Annotated[Formula, EXPRESSION]
 
@@ -39,6 +42,19 @@ class Computed(SensorKind):
     def formula(self) -> Formula:
         """Its expression."""
         return self.at
+
+    def goes_round(self, directions: Collection[str]) -> bool:
+        """Whether it is one direction, taken once, more or less numbers."""
+
+        def leaf(word: str, operand: Any) -> int | None:
+            return 0 if word == "number" else 1 if operand in directions else None
+
+        def combined(symbol: str, left: int | None, right: int | None) -> int | None:
+            if left is None or right is None or not (symbol in "+-" or left == right == 0):
+                return None
+            return left - right if symbol == "-" else left + right
+
+        return fold(self.at, leaf, lambda count: None if count is None else -count, combined) in (1, -1)
 
     def flaw(self, widths: Mapping[str, int]) -> Flaw | None:
         """An expression takes one number of each reading that it names."""
@@ -55,16 +71,18 @@ class Computed(SensorKind):
         return min(max(0.0, value), 1.0) if isfinite(value) else None
 
     def reader(self, scene: Scene) -> Reader:
-        """Its value as a float32, clamped; NaN where that is not finite."""
+        """Its value as a float32, clamped, or of a direction without its whole turns; NaN where that is not finite."""
         import numpy as np
 
         from mindrun.arithmetic import NAN, clamp
         from mindrun.evaluation import evaluate
 
-        program = placed(self.at, scene.starts)
+        program, turns = placed(self.at, scene.starts), self.goes_round(scene.directions)
 
         def read(number: int, now: Readings, before: Readings | None) -> np.float32:
             value = np.float32(evaluate(program, now))
+            if turns and not 0 <= value <= 1:
+                value = value - np.floor(value)
             return clamp(value) if isfinite(value) else NAN
 
         return read
@@ -76,4 +94,5 @@ class Computed(SensorKind):
         run_program(codes, s.readings, s.stack, s.readings, 0, s.stack, s.active, n, True)
         for p in range(n):
             v = F(s.stack[0, p])
+            v = v - np.floor(v) if sensor.turns and (v < ZERO or v > ONE) else v
             out[p] = clamp(v) if finite(v) else NAN

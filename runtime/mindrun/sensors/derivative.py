@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.quantity import POSITIVE, RATIO, SENSOR
 from mindrun.registry import kind
-from mindrun.sensors.sensor import Row, Scene, SensorKind, World
+from mindrun.sensors.sensor import Begin, Bounds, Row, Scene, SensorKind, World
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
     import numpy as np
@@ -47,6 +47,10 @@ class Derivative(SensorKind):
     def constant(self, world: World) -> float | None:
         """0.5 where the sensor never changes, and where every change is in the dead zone."""
         return 0.5 if self.dead_zone > 0.5 or world.is_constant(self.of) else None
+
+    def first(self, begin: Begin) -> Bounds:
+        """0.5: nothing has changed yet."""
+        return 0.5, 0.5
 
     def reader(self, scene: Scene) -> Reader:
         """0.5 in the first tick, NaN where a reading of the source is not finite now or was not."""

@@ -1,12 +1,11 @@
 """Whether the claw holds a thing."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.quantity import THING
 from mindrun.registry import kind
-from mindrun.sensors.sensor import Physical, World
+from mindrun.sensors.sensor import Begin, Bounds, Physical, World
 from mindrun.things import ThingKind
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
@@ -32,7 +31,7 @@ class Held(Physical):
         """0 without the thing, and where no claw ever closes."""
         return None if self.of in world.things and world.can_hold else 0.0
 
-    def first(self, is_within: Callable[[str], bool | None]) -> tuple[float, float] | None:
+    def first(self, begin: Begin) -> Bounds | None:
         """0, since a claw begins empty; None where noise hides that."""
         return None if self.noise else (0.0, 0.0)
 

@@ -23,6 +23,8 @@ class Inertial(Physical):
     range: Annotated[float, POSITIVE] = 1.0
     dead_zone: Annotated[float, RATIO] = 0.0
 
+    still = 0.0
+
     def row(self, scene: Scene) -> Row:
         """The speed that reads 1 as a gain of the displacement."""
         return {"gain": 1.0 / (TRAIL_TICKS * scene.tick * self.range), "dead_zone": self.dead_zone}

@@ -1,12 +1,11 @@
 """Whether the robot is inside of a thing."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.quantity import THING
 from mindrun.registry import kind
-from mindrun.sensors.sensor import Physical, World
+from mindrun.sensors.sensor import Begin, Bounds, Physical, World
 from mindrun.things import ThingKind
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
@@ -29,9 +28,9 @@ class Inside(Physical):
         """0 without the thing."""
         return None if self.of in world.things else 0.0
 
-    def first(self, is_within: Callable[[str], bool | None]) -> tuple[float, float] | None:
+    def first(self, begin: Begin) -> Bounds | None:
         """1 where the robot begins inside of the thing, 0 where it does not."""
-        there = None if self.noise else is_within(self.of)
+        there = None if self.noise else begin.is_within(self.of)
         return None if there is None else (float(there), float(there))
 
     @staticmethod

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.quantity import RATIO, SENSOR
 from mindrun.registry import kind
-from mindrun.sensors.sensor import Flaw, Row, Scene, SensorKind
+from mindrun.sensors.sensor import Begin, Bounds, Flaw, Row, Scene, SensorKind
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
     from mindrun.arithmetic import NAN, ONE, ZERO, finite
@@ -47,6 +47,11 @@ class Latch(SensorKind):
             return None
         hint = "Write the smaller one after below: latch of battery below 20% above 80%."
         return Flaw("latch-backwards", "above", "This latch lets go before it closes.", hint)
+
+    def first(self, begin: Begin) -> Bounds:
+        """1 where its source is below, 0 where it is not."""
+        low, high = begin.first(self.of)
+        return 0.0 if high >= self.below else 1.0, 1.0 if low < self.below else 0.0
 
     def reader(self, scene: Scene) -> Reader:
         """1 below, 0 above, between them what it was."""

@@ -27,7 +27,7 @@ class Odometer(Physical):
 
     scaled = True
     unit = "m/s"
-    blank = rest = 0.5
+    blank = rest = still = 0.5
 
     @property
     def ends(self) -> tuple[float, float]:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.quantity import COUNT, SENSOR
 from mindrun.registry import kind
-from mindrun.sensors.sensor import Flaw, Row, Scene, SensorKind
+from mindrun.sensors.sensor import Begin, Bounds, Flaw, Row, Scene, SensorKind
 
 if TYPE_CHECKING:
     from mindrun.arrays import Reader, Readings
@@ -35,6 +35,10 @@ class Reading(SensorKind):
             return None
         has = f"{self.of} has {width} reading{'s' * (width != 1)}."
         return Flaw("no-such-reading", "reading", has, f"Write a number from 1 to {width}.")
+
+    def first(self, begin: Begin) -> Bounds:
+        """What its source reads."""
+        return begin.first(self.of)
 
     def reader(self, scene: Scene) -> Reader:
         """That reading."""

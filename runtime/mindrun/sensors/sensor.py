@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Set
+from collections.abc import Collection, Mapping, Set
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, Protocol
 
 from mindrun.expression import Formula
 from mindrun.quantity import RATIO, TICKS
-from mindrun.reachability import reached_from
 from mindrun.registry import base
 from mindrun.slot import Slot
 from mindrun.things.about import AboutThing
@@ -17,6 +16,19 @@ if TYPE_CHECKING:
     from mindrun.arrays import Reader
 
 Row = Mapping[str, float]  # columns of the lanes' table of sensors
+Bounds = tuple[float, float]  # the least and the greatest
+
+
+class Begin(Protocol):
+    """What is known of how a run begins."""
+
+    def is_within(self, thing: str) -> bool | None:
+        """Whether the robot begins inside of a thing; None where that is drawn."""
+        ...
+
+    def first(self, name: str) -> Bounds:
+        """The least and greatest that a sensor or a memory reads in the first tick."""
+        ...
 
 
 class Flaw(NamedTuple):
@@ -101,6 +113,7 @@ class SensorKind(AboutThing):
     keeps_lost = False  # whether a reading that fails is the one before, and not `blank`
     remembered = 0  # how many numbers the lanes keep of each of its readings
     blank, rest = 0.0, 0.0  # what it reads where there is nothing to measure, and in its dead zone
+    still: float | None = None  # what it reads of a robot that stands, as it does when a run begins
     remedy = "Give it a dead_zone below 0.5"  # for one that is constant
 
     @property
@@ -132,6 +145,10 @@ class SensorKind(AboutThing):
     def formula(self) -> Formula:
         """What it computes, where that is said in an expression."""
         return ()
+
+    def goes_round(self, directions: Collection[str]) -> bool:
+        """Whether its reading is a direction, where those of these sensors are."""
+        return self.source in directions if self.circular is None else self.circular
 
     def flaw(self, widths: Mapping[str, int]) -> Flaw | None:
         """What is wrong with it beside other sensors and memories, of which it is told how many readings they have."""
@@ -194,11 +211,8 @@ class SensorKind(AboutThing):
         """What it always reads in a world; None where that varies, or nobody knows."""
         return None
 
-    def first(self, is_within: Callable[[str], bool | None]) -> tuple[float, float] | None:
-        """The least and greatest of its readings in the first tick of a run; None where nobody knows.
-
-        `is_within` says whether the robot begins inside of a thing: None where that is drawn.
-        """
+    def first(self, begin: Begin) -> Bounds | None:
+        """The least and greatest of its readings in the first tick of a run; None where nobody knows."""
         return None
 
     def reader(self, scene: Scene) -> Reader | None:
@@ -207,15 +221,6 @@ class SensorKind(AboutThing):
         A reader may remember: it is asked in every tick, from the first on, and made anew for another run.
         """
         return None
-
-
-def directions(kinds: Mapping[str, SensorKind]) -> Set[str]:
-    """The sensors whose reading is a direction: those that say so, and those that read what such a source reads."""
-    onward: dict[str, list[str]] = {}
-    for name, kind in kinds.items():
-        if kind.circular is None:
-            onward.setdefault(kind.source, []).append(name)
-    return reached_from((name for name, kind in kinds.items() if kind.circular), lambda name: onward.get(name, ()))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -233,3 +238,12 @@ class Physical(SensorKind):
     delay: Annotated[int, TICKS] = 0
 
     varying = ("noise", "lost", "delay")
+
+    def first(self, begin: Begin) -> Bounds | None:
+        """What it reads of a robot that stands, give or take the noise."""
+        return None if self.still is None else self.around(self.still)
+
+    def around(self, value: float) -> Bounds:
+        """The least and greatest reading of what it measures."""
+        low, high = max(0.0, value - self.noise), min(1.0, value + self.noise)
+        return (min(low, self.blank), max(high, self.blank)) if self.lost and not self.keeps_lost else (low, high)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.quantity import SECONDS
 from mindrun.registry import kind
-from mindrun.sensors.sensor import Row, Scene, SensorKind, World
+from mindrun.sensors.sensor import Begin, Bounds, Row, Scene, SensorKind, World
 from mindrun.trigonometry import sine
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
@@ -31,6 +31,10 @@ class Sine(SensorKind):
         """0.5 where every tick meets the wave there: it lasts one tick or two, or goes round in a part of one."""
         halves = 2 * world.tick / self.period
         return 0.5 if halves > 0.5 and isclose(halves, round(halves)) else None
+
+    def first(self, begin: Begin) -> Bounds:
+        """0.5: the wave begins there."""
+        return 0.5, 0.5
 
     def reader(self, scene: Scene) -> Reader:
         """0.5 + 0.5 sin(2πt/period), t in seconds since the first tick."""

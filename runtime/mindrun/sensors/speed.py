@@ -24,7 +24,7 @@ class Speed(Physical):
 
     scaled = True
     unit = "m/s"
-    blank = rest = 0.5
+    blank = rest = still = 0.5
 
     def constant(self, world: World) -> float | None:
         """0.5 where all speeds are in the dead zone."""

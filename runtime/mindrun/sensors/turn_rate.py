@@ -26,7 +26,7 @@ class TurnRate(Physical):
     dead_zone: Annotated[float, RATIO] = 0.0
 
     scaled = True
-    blank = rest = 0.5
+    blank = rest = still = 0.5
 
     def constant(self, world: World) -> float | None:
         """0.5 where all turning is in the dead zone."""

@@ -7,13 +7,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.graph import Lesson
+from mindrun.graph import Lesson, Task
 from mindrun.learners import Learner
 from mindrun.train.ask_and_tell import ask, kept_count, tell
 from mindrun.train.lesson_state import AttemptState, Course, Record
 from mindrun.train.population import Scores, order
 from mindrun.train.rungs import rung_at
-from mindrun.train.scoring import Marks, Scorer, mark, marks_of, succeeded
+from mindrun.train.scoring import Marks, Results, Scorer, mark, marks_of, succeeded
 from mindrun.train.seeds import Purpose, Seeds, breeding_generator, layouts
 
 REEVALUATION_GENERATIONS = 10  # between two re-evaluations
@@ -93,12 +93,17 @@ def judge(course: Course, scorer: Scorer, state: AttemptState) -> Verdict:
     """The end of an attempt: its champion tried on layouts common to all attempts."""
     results = scorer.score(state.champion, verdict_layouts(course.seed, course.lesson.generations))
     marks = marks_of(results)
-    scores = of_halves(marks.each)
-    passed = all(
-        (scores if need.measure == "score" else of_halves(succeeded(scorer.task, results))).min() > need.above
-        for need in course.lesson.needs
+    passed = has_needed(course.lesson, scorer.task, results)
+    return Verdict(of_halves(marks.each), passed, marks.ticks, marks.faults)
+
+
+def has_needed(lesson: Lesson, task: Task, results: Results) -> bool:
+    """Whether a genome has all that a lesson needs, by what it came to on either half of the layouts of a verdict."""
+    scores = of_halves(marks_of(results).each)
+    return all(
+        (scores if need.measure == "score" else of_halves(succeeded(task, results))).min() > need.above
+        for need in lesson.needs
     )
-    return Verdict(scores, passed, marks.ticks, marks.faults)
 
 
 def verdict_layouts(seed: int, generations: int) -> Seeds:

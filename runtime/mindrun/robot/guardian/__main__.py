@@ -8,9 +8,10 @@ import os
 from collections.abc import Callable
 from pathlib import Path
 
-from mindrun.errors import MindError
+from mindrun.errors import MindError, text_of
 from mindrun.line_writer import LineWriter
 from mindrun.robot.guardian.plan import DRIVERS, MAX_PLAN_BYTES, Plan, from_json, read_plan
+from mindrun.robot.guardian.printing import printing_never_waits
 from mindrun.robot.guardian.process import Process
 from mindrun.robot.guardian.realtime import import_little, set_realtime, wake_on_signals
 from mindrun.robot.guardian.status import OVER, REST, say
@@ -28,16 +29,22 @@ def main() -> None:
         import_little(DRIVERS)
     set_realtime()
     status = os.dup(OUTPUT_DESCRIPTOR)
-    os.dup2(ERROR_DESCRIPTOR, OUTPUT_DESCRIPTOR)  # what a driver prints is no status
+    with printing_never_waits():  # what a driver prints is no status
+        code = _done(status, options)
+    os._exit(code)
+
+
+def _done(status: int, options: argparse.Namespace) -> int:
+    """Do what is asked for; the exit code."""
     try:
         plan = _plan(options.neutral or "-")
     except MindError as error:
-        os._exit(_refused(status, str(error)))
+        return _refused(status, str(error))
     if options.neutral not in (None, "-"):  # nobody hears it, and a terminal must stay as it is
         os.close(status)
-        os._exit(_brought(plan, NOBODY, options.within))
+        return _brought(plan, NOBODY, options.within)
     os.set_blocking(status, False)
-    os._exit(_brought(plan, status, options.within) if options.neutral else _guarded(plan, status))
+    return _brought(plan, status, options.within) if options.neutral else _guarded(plan, status)
 
 
 def guard(
@@ -58,7 +65,7 @@ def guard(
             status("ready")
             process.serve()
     except BaseException as error:
-        report(f"broken: {type(error).__name__} {error}")
+        report(f"broken: {type(error).__name__} {text_of(error)}")
         code = BROKEN
     process.rest()
     process.settle()

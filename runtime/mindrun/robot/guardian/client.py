@@ -13,7 +13,7 @@ from types import TracebackType
 from mindrun.errors import MindError
 from mindrun.robot.child_processes import keep_from_children, keep_no_longer
 from mindrun.robot.guardian.frames import pack
-from mindrun.robot.guardian.guard import FOLLOWING, LATCHED, NEUTRAL
+from mindrun.robot.guardian.guard import FOLLOWING, LATCHED, MOVES_ON, NEUTRAL
 from mindrun.robot.guardian.plan import Plan
 from mindrun.robot.guardian.processes import Processes
 
@@ -79,6 +79,8 @@ class Guardian:
         self._end_in_children()
         self._heard.listen()
         if self.state == LATCHED:
+            if MOVES_ON in self.why:
+                raise GuardianError(f"the guardian follows no more: {self.why}", CUT)
             raise GuardianError(f"the guardian holds every actuator at neutral: {self.why}", "start the robot again")
         try:
             if self._heard.is_lost:

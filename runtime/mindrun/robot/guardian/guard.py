@@ -13,6 +13,7 @@ from mindrun.robot.guardian.plan import Channel, Plan
 
 NEUTRAL, FOLLOWING, LATCHED = "neutral", "following", "latched"
 NOT_ARMED = "not armed"  # why it is at neutral where the controller wants just that
+MOVES_ON = "does not come to neutral"  # an actuator: a reason to latch, of which not everything is at neutral
 SILENT_TICKS = 2  # after which the controller hangs, or an actuator does not answer
 MAX_FAILURES = 3  # of actuators: the third latches
 

@@ -7,6 +7,7 @@ from threading import Condition, Thread
 from time import monotonic
 
 from mindrun.driver import ActuatorDevice
+from mindrun.errors import text_of
 
 FORKED_EXIT_CODE = 70  # exit code of a process that a driver has forked and that has come back from it
 MIN_RETRY_SECONDS, MAX_RETRY_SECONDS = 0.002, 0.05  # seconds between two tries: at first, and in the end
@@ -86,7 +87,7 @@ class ActuatorOutput:
             end_in_child(self._process)
         except BaseException as error:  # whatever a driver raises, this thread goes on
             end_in_child(self._process)
-            self.error = str(error) or type(error).__name__
+            self.error = text_of(error)
             return wanted
         with self._change:
             if self._wanted is not wanted:

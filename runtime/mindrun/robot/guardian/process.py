@@ -7,8 +7,9 @@ from math import ceil
 from select import select
 from time import monotonic
 
+from mindrun.errors import text_of
 from mindrun.robot.guardian.frames import FrameError, Reader
-from mindrun.robot.guardian.guard import FOLLOWING, LATCHED, NEUTRAL, NOT_ARMED, Guard, Move, Order, Rest
+from mindrun.robot.guardian.guard import FOLLOWING, LATCHED, MOVES_ON, NEUTRAL, NOT_ARMED, Guard, Move, Order, Rest
 from mindrun.robot.guardian.output import ActuatorOutput, end_in_child
 from mindrun.robot.guardian.plan import Plan
 
@@ -59,7 +60,7 @@ class Process:
             except BaseException as error:  # a driver may raise SystemExit: no other stays closed for that
                 end_in_child(self._process)
                 hint = getattr(error, "hint", "")
-                wrong.append(f"{output.name} cannot be opened: {str(error) or type(error).__name__} {hint}".strip())
+                wrong.append(f"{output.name} cannot be opened: {text_of(error)} {hint}".strip())
             else:
                 self._opened.append(output)
         self.rest()  # once more: to open one can reset another that is on the same chip
@@ -132,7 +133,7 @@ class Process:
             if self.guard.state == FOLLOWING and output.late(now) > self.guard.limit:
                 return self.guard.failed(output.name, why)
             if self.guard.state == NEUTRAL and output.late(now) > REPORT_SECONDS:
-                return self.guard.broken(f"{output.name} does not come to neutral: {why}")
+                return self.guard.broken(f"{output.name} {MOVES_ON}: {why}")
         return None
 
     def _obey(self, order: Order) -> None:

@@ -97,6 +97,7 @@ def _begun(plan: Plan, number: int, seconds: float) -> Attempt:
     child = os.fork()
     if not child:
         try:
+            os.setsid()  # a driver may end its whole process group
             _bring(plan, writing, seconds)
         finally:
             os._exit(0)

@@ -1,11 +1,11 @@
 """Act: the commands that the influence makes (Eq. 3), their delays, and the claw; the memory cells when all is done."""
 
-from mindrun.arithmetic import COSINE, SINE, THING_ROWS, X, Y
+from mindrun.arithmetic import COSINE, SINE, SIZE, THING_ROWS, X, Y
 from mindrun.sim.arithmetic import HALF, ONE, ZERO, F, clamp, finite, in_claw
 from mindrun.sim.codes import GRIPPER, ITEM
 from mindrun.sim.compiling import compiled, part_of_tick
 from mindrun.sim.lanes.placement import uniform
-from mindrun.sim.lanes.solid import CLOSED_UNITS, is_barred
+from mindrun.sim.lanes.solid import CLOSED_UNITS, is_barred, is_blocked, is_walled
 
 UNDRIVEN = F(-1)
 
@@ -27,7 +27,7 @@ def act(tables, state, lanes, clock):
             slide(world.random, world.numbers[actuator.slip], world.grip[i], lanes)
         if actuator.kind == GRIPPER:
             acting = world.acting[i] if actuator.is_rough else commands
-            grip(acting, world, tables.things, tables.world[0], actuator.reach, lanes)
+            grip(acting, tables, world, actuator.reach, lanes)
 
 
 @compiled
@@ -98,28 +98,37 @@ def remember(cell, command, decay, rest, lanes):
 
 
 @compiled
-def grip(commands, world, kinds, constants, reach, lanes):
+def grip(commands, tables, world, reach, lanes):
     """Close above 0.5 on the first item in reach that can come into the claw; open and the item stays where it is."""
-    held, body, heading, things = world.held, world.body, world.heading, world.things
+    held, body, heading, things, front = world.held, world.body, world.heading, world.things, tables.world[0].front
+    kinds = tables.things
     for lane in range(lanes):
         held[lane] = -1 if commands[lane] <= HALF else held[lane]
     for lane in range(lanes):
         if commands[lane] > HALF and held[lane] < 0:
             for i in range(len(kinds)):
                 is_free = kinds[i].kind == ITEM and held[lane] < 0
-                if is_free and in_claw(body, heading, things, constants.front, reach, i, lane):
-                    held[lane] = i if has_room(world, kinds, constants, i, lane) else -1
+                if is_free and in_claw(body, heading, things, front, reach, i, lane):
+                    held[lane] = i if has_room(tables, world, i, lane) else -1
 
 
 @compiled
-def has_room(world, kinds, constants, i, lane):
-    """Whether no wall is between the robot and item i in its claw, or in the item's way there."""
-    body, hold, boxes = world.body, kinds[i].hold, world.boxes
+def has_room(tables, world, i, lane):
+    """Whether nothing solid is between the robot and the rim of item i in its claw, or in the item's way there."""
+    hold, cosine, sine = tables.things[i].hold, world.heading[COSINE, lane], world.heading[SINE, lane]
     x, y = world.things[THING_ROWS * i + X, lane], world.things[THING_ROWS * i + Y, lane]
-    to_x = body[X, lane] + world.heading[COSINE, lane] * hold
-    to_y = body[Y, lane] + world.heading[SINE, lane] * hold
-    is_shut_off = is_barred(boxes, constants, body[X, lane], body[Y, lane], to_x, to_y, CLOSED_UNITS, lane)
-    return not (is_shut_off or is_barred(boxes, constants, x, y, to_x, to_y, CLOSED_UNITS, lane))
+    half, own_x, own_y = world.things[THING_ROWS * i + SIZE, lane] / 2, world.body[X, lane], world.body[Y, lane]
+    to_x, to_y = own_x + cosine * hold, own_y + sine * hold
+    for from_x, from_y in ((own_x, own_y), (x, y)):
+        if is_barred(world.boxes, tables.world[0], from_x, from_y, to_x, to_y, CLOSED_UNITS, lane):
+            return False
+        if is_blocked(tables, world, from_x, from_y, to_x, to_y, lane):
+            return False
+    for ahead, aside in ((1.0, 0.0), (0.0, 1.0), (0.0, -1.0)):
+        rim_x, rim_y = ahead * cosine - aside * sine, ahead * sine + aside * cosine
+        if is_walled(world.boxes, own_x, own_y, to_x + half * rim_x, to_y + half * rim_y, lane):
+            return False
+    return True
 
 
 @compiled

@@ -10,11 +10,11 @@ import numpy as np
 from mindrun.arithmetic import ANGLE, LOOSE_ROWS, SIZE, SPEED_X, SPEED_Y, SPIN, THING_ROWS, TURN, X, Y
 from mindrun.sim.arithmetic import sine_cosine
 from mindrun.sim.compiling import compiled, part_of_tick
-from mindrun.sim.lanes.solid import CLOSED_UNITS, is_barred, meets
+from mindrun.sim.lanes.solid import CLOSED_UNITS, is_barred
 from mindrun.sim.state import BEGIN_X, BEGIN_Y, FROM_ANGLE, FROM_X, FROM_Y, HALF, TO_X, TO_Y, WAY
 
 HELD, FIRST_LOOSE = WAY, 2 * WAY  # where they stand in `ways`; the robot comes first
-CLOSEST_SHARE = 0.125  # of both half sides together: so near come the middles of two that move
+DEEPEST_SHARE = 0.5  # of the smaller's half side: so deep in one another come two that move
 
 
 @part_of_tick
@@ -79,12 +79,23 @@ def passes(tables, world, ways, way, last, lane):
         return True
     for other in range(FIRST_LOOSE if way < FIRST_LOOSE else 0, last, WAY):
         if other != way and not np.isnan(ways[other + TO_X]):
-            near = CLOSEST_SHARE * (ways[way + HALF] + ways[other + HALF])
+            near = ways[way + HALF] + ways[other + HALF] - DEEPEST_SHARE * min(ways[way + HALF], ways[other + HALF])
             its_dx, its_dy = ways[other + TO_X] - ways[other + BEGIN_X], ways[other + TO_Y] - ways[other + BEGIN_Y]
             dx, dy = to_x - x - its_dx, to_y - y - its_dy
-            if meets(ways[other + BEGIN_X] - x, ways[other + BEGIN_Y] - y, dx, dy, near, near):
+            if comes_nearer(ways[other + BEGIN_X] - x, ways[other + BEGIN_Y] - y, dx, dy, near):
                 return True
     return False
+
+
+@compiled
+def comes_nearer(x, y, dx, dy, near):
+    """Whether a way by (dx, dy) leads nearer to a place (x, y) than that, and than where it begins."""
+    along, length = x * dx + y * dy, dx * dx + dy * dy
+    if along <= 0.0 or length == 0.0:
+        return False
+    share = min(1.0, along / length)
+    aside_x, aside_y = x - share * dx, y - share * dy
+    return aside_x * aside_x + aside_y * aside_y < near * near
 
 
 @compiled

@@ -1,6 +1,6 @@
-"""Solid: whether a straight way leads through something that never moves."""
+"""Solid: whether a straight way leads through what stands in it."""
 
-from mindrun.arithmetic import BOX_COLUMNS, HALF_X, HALF_Y, X, Y
+from mindrun.arithmetic import BOX_COLUMNS, HALF_X, HALF_Y, SIZE, THING_ROWS, X, Y
 from mindrun.sim.compiling import compiled
 
 CLOSED_UNITS = 1e-6  # so much larger is everything here: what stands corner to corner leaves no way between
@@ -20,6 +20,30 @@ def is_barred(boxes, constants, x, y, to_x, to_y, half, lane):
         box = BOX_COLUMNS * b
         wide, high = boxes[lane, box + HALF_X] + half, boxes[lane, box + HALF_Y] + half
         if meets(boxes[lane, box + X] - x, boxes[lane, box + Y] - y, dx, dy, wide, high):
+            return True
+    return False
+
+
+@compiled
+def is_walled(boxes, x, y, to_x, to_y, lane):
+    """Whether an obstacle lies wholly within the way between two places: neither is in it."""
+    dx, dy = to_x - x, to_y - y
+    for b in range(boxes.shape[1] // BOX_COLUMNS):
+        box = BOX_COLUMNS * b
+        wide, high = boxes[lane, box + HALF_X], boxes[lane, box + HALF_Y]
+        ends_in = abs(boxes[lane, box + X] - to_x) < wide and abs(boxes[lane, box + Y] - to_y) < high
+        if not ends_in and meets(boxes[lane, box + X] - x, boxes[lane, box + Y] - y, dx, dy, wide, high):
+            return True
+    return False
+
+
+@compiled
+def is_blocked(tables, world, x, y, to_x, to_y, lane):
+    """Whether the way between two places leads through a loose thing, as large as half its least side around it."""
+    for i in range(len(tables.loose)):
+        place = THING_ROWS * tables.loose[i].thing
+        half, dx, dy = world.things[place + SIZE, lane] / 2, to_x - x, to_y - y
+        if meets(world.things[place + X, lane] - x, world.things[place + Y, lane] - y, dx, dy, half, half):
             return True
     return False
 

@@ -53,6 +53,9 @@ class WrittenDown:
         begun: list[Run] = []
         said = {"name": self.environment, "seed": self._seed}
         try:
+            other = another.run(self._places, self._seed ^ 1)  # what a process keeps of its first run is now of this
+            other.begin()
+            other.close()
             begun += (another.run(self._places, self._seed) for _ in range(2))
             for runs, sentence in ((begun, FLAW), (begun[:1], WORN)):
                 if where := self._difference(_rows(another, runs, self.actions), names, is_paid):
