@@ -76,7 +76,7 @@ def drive(
         about = About.of(graph, digest, options.master or graph.master, tuple(wire.sensor for wire in wiring.sensors))
         recorder = stack.enter_context(_recorder(options, about, tell))
         stack.enter_context(options.view or nullcontext())
-        stack.enter_context(refuse_success())
+        stack.enter_context(refuse_success("; every actuator comes to neutral"))
         samplers = stack.enter_context(_sampling(wiring))
         guardian = stack.enter_context(Guardian(plan_of(graph.tick, neutrals, wiring), inherited=held))
         loop = Loop(engine, ReadingFilter(graph, samplers), guardian, Rate(graph.tick), options.armed, recorder, tell)

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from importlib import import_module
+from threading import RLock
 from time import monotonic, sleep
 from typing import Any, Protocol
 
@@ -114,6 +115,9 @@ def on_pin(number: int) -> str:
     return f"GPIO {number}"
 
 
+_turns: dict[tuple[int, int], RLock] = {}  # by bus and address
+
+
 @dataclass(slots=True)
 class I2cDevice:
     """One part on an I2C bus. Every transfer ends, after up to `MAX_TRIES` tries, in an answer or a DeviceError."""
@@ -126,6 +130,11 @@ class I2cDevice:
 
     def __post_init__(self) -> None:
         self.bus = open_bus(self.number)
+
+    @property
+    def turn(self) -> RLock:
+        """What a device holds while it asks its chip for something and waits for that: others ask the same chip."""
+        return _turns.setdefault((self.number, self.address), RLock())
 
     def write(self, *out: int) -> None:
         """Write bytes, of which the first is a register or a command; returns when all are acknowledged."""

@@ -21,6 +21,7 @@ from mindrun.bundle import read_bundle
 from mindrun.errors import MindError
 from mindrun.printable import visible
 from mindrun.robot.sampling import Sample, Sampler
+from mindrun.robot.sudden_end import refuse_success
 from mindrun.sensors import SensorKind
 from mindrun.standard_streams import draw
 from mindrun.wiring import SensorWire, reading, still
@@ -41,7 +42,8 @@ def options(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Measure and print; the exit code, 0 where something was measured, else 1."""
     wire, kind = _wire(options.bundle, options.sensor)
-    samples = _watched(wire, kind, options.seconds)
+    with refuse_success():
+        samples = _watched(wire, kind, options.seconds)
     good = [sample for sample in samples if not sample.fault]
     for why in sorted({sample.fault for sample in samples if sample.fault}):
         print(f"{wire.sensor} {why}", file=sys.stderr)

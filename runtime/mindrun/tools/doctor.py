@@ -23,6 +23,7 @@ import mindrun.robot.drivers  # noqa: F401  every driver is known once this is i
 from mindrun.bundle import read_bundle
 from mindrun.driver import driver_name
 from mindrun.robot.sampling import Sample, Sampler
+from mindrun.robot.sudden_end import refuse_success
 from mindrun.standard_streams import document
 from mindrun.wiring import SensorWire, Wiring, still
 
@@ -60,7 +61,8 @@ def run(options: argparse.Namespace) -> int:
     findings = [*machine()]
     if options.bundle:
         wiring = read_bundle(options.bundle).wiring
-        findings += wired(wiring) if wiring else [CheckResult("bundle", WRONG, "it is wired to no robot")]
+        with refuse_success():
+            findings += wired(wiring) if wiring else [CheckResult("bundle", WRONG, "it is wired to no robot")]
     is_fine = all(finding.mark != WRONG for finding in findings)
     if options.json:
         data = [{"what": each.what, "state": STATES[each.mark], "seen": each.words} for each in findings]

@@ -1,5 +1,6 @@
 """VL53L0X, MPU-6050 and an eye of a camera: what is too far, asleep or beside a ray is not read as something."""
 
+from concurrent.futures import ThreadPoolExecutor
 from math import asin, cos, sin
 
 import pytest
@@ -7,11 +8,33 @@ from hypothesis import given
 from hypothesis import strategies as st
 from mindrun.driver import DeviceError
 from mindrun.robot import driver_support
+from mindrun.robot.drivers.ads1115 import Ads1115
 from mindrun.robot.drivers.ball_eye import along_ray
+from mindrun.robot.drivers.grove_ultrasonic import GroveUltrasonic
 from mindrun.robot.drivers.mpu6050 import Mpu6050
 from mindrun.robot.drivers.vl53l0x import Vl53l0x
 
-from tests.robot.drivers.fakes import FakeBus, FakeMpu6050, FakeVl53l0x
+from tests.robot.drivers.fakes import FakeAds1115, FakeBus, FakeGrovePi, FakeMpu6050, FakeVl53l0x
+
+
+def test_what_asks_one_chip_waits_for_its_turn(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Two rangers of one board, two inputs of one converter: each in a thread of its own, as sensors are sampled."""
+    parts = {0x04: FakeGrovePi({4: 40, 2: 20}), 0x48: FakeAds1115(1.0)}
+    monkeypatch.setattr(driver_support, "open_bus", lambda number: FakeBus(parts))
+    drivers = [GroveUltrasonic((4,)), GroveUltrasonic((2,)), Ads1115(0, 2.0), Ads1115(1, 2.0)]
+    found: list[set[object]] = [set() for _ in drivers]
+
+    def read(number: int) -> None:
+        device = drivers[number].open()
+        for _ in range(10):
+            try:
+                found[number].add(round(device.read()[0] or 0.0, 2))
+            except DeviceError as error:
+                found[number].add(str(error))
+
+    with ThreadPoolExecutor(len(drivers)) as pool:
+        [*pool.map(read, range(len(drivers)))]
+    assert found == [{0.4}, {0.2}, {2.0}, {2.0}]
 
 
 def on_bus(patch: pytest.MonkeyPatch, address: int, part: object) -> None:

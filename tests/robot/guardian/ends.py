@@ -25,7 +25,7 @@ PROGRAM = Path(__file__).with_name("hostile.py")
 NAMES = ("left_wheel", "right_wheel", "claw")
 ENDS = ("_exit", "error", "hang", "done", "SIGKILL", "SIGSTOP", "SIGTERM")  # of a controller
 LOSSES = ("worker SIGKILL", "worker SIGSTOP", "worker SIGTERM", "watcher SIGKILL", "watcher SIGSTOP", "watcher SIGTERM")
-HARMLESS = ("SIGTERM", "close", "fork", "stay")  # whoever does it writes nevertheless
+HARMLESS = ("SIGTERM", "close", "fork", "stay", "print")  # whoever does it writes nevertheless
 PATIENCE = 600.0  # seconds for processes to end; they decide nothing
 
 
@@ -111,7 +111,7 @@ class Round:
             at, what, *rest = line.split(maxsplit=3)
             if what == "end":
                 found.append((int(at) / 1e9, " ".join(rest)))
-            elif what == "harm" and rest[1] not in ("raise", "exit", "hang", "fork", "stay"):
+            elif what == "harm" and rest[1] not in ("raise", "unsaid", "exit", "hang", "fork", "stay", "print"):
                 found.append((int(at) / 1e9, "driver"))
         return found
 
@@ -146,7 +146,7 @@ def play(folder: Path, rng: random.Random) -> Round:
 
 def _lasts(how: str, when: str) -> bool:
     """Whether this goes on for as long as the process lives, which it does not end."""
-    return how == "hang" or (when == "stop" and how in ("raise", "exit"))
+    return how == "hang" or (when == "stop" and how in ("raise", "unsaid", "exit"))
 
 
 def _manner(rng: random.Random) -> str:

@@ -38,6 +38,13 @@ def _raise(error: type[BaseException]) -> Callable[[], None]:
     return harm
 
 
+class UnsaidError(Exception):
+    """An error of which nothing can be said."""
+
+    def __str__(self) -> str:
+        return str(self.args[1])
+
+
 def _kill(number: signal.Signals) -> Callable[[], None]:
     return lambda: signal.raise_signal(number)  # in this thread, as a fault of C code is: nothing is written after it
 
@@ -50,10 +57,12 @@ def _stay() -> None:
 
 HARM: dict[str, Callable[[], Any]] = {
     "raise": _raise(DeviceError),
+    "unsaid": _raise(UnsaidError),
     "exit": _raise(SystemExit),
     "_exit 0": lambda: os._exit(0),
     "_exit 1": lambda: os._exit(1),
     "SIGKILL": _kill(signal.SIGKILL),
+    "group": lambda: os.killpg(0, signal.SIGKILL),
     "SIGSEGV": _kill(signal.SIGSEGV),
     "SIGSTOP": _kill(signal.SIGSTOP),
     "SIGTERM": _kill(signal.SIGTERM),
@@ -61,6 +70,7 @@ HARM: dict[str, Callable[[], Any]] = {
     "close": lambda: os.closerange(3, 256),
     "fork": os.fork,
     "stay": _stay,
+    "print": lambda: print("x" * 100_000, flush=True),  # more than a pipe takes
 }
 WHEN = ("open", "write", "stop", "neutral", "close")
 

@@ -9,14 +9,15 @@ import pytest
 from mindrun.robot.guardian.plan import to_json
 
 from tests.robot.guardian.driven import PLAN
-from tests.robot.guardian.ends import PROGRAM, Round, rounds
+from tests.robot.guardian.ends import PATIENCE, PROGRAM, Round, rounds
+from tests.robot.guardian.hostile import NEUTRALS
 
 
 def test_random_ends(tmp_path: Path) -> None:
     assert len([*rounds(24, 3, tmp_path, 4)]) == 24
 
 
-@pytest.mark.parametrize("how", ["_exit 0", "SIGSEGV"])
+@pytest.mark.parametrize("how", ["_exit 0", "SIGSEGV", "group"])
 @pytest.mark.parametrize("when", ["open", "neutral"])
 @pytest.mark.parametrize("device", ["", "/dev/one"])
 def test_a_driver_that_ends_the_process_takes_no_other_along(tmp_path: Path, how: str, when: str, device: str) -> None:
@@ -35,6 +36,21 @@ def test_a_driver_that_ends_the_process_takes_no_other_along(tmp_path: Path, how
     assert (sorted(said), last) == (["rest claw", "rest left_wheel"], "over")
     assert Round(manners, "", log).is_at_rest
     assert log.read_text().count(" harm 1 ") == 3
+
+
+def test_what_a_driver_prints_keeps_nothing_moving(tmp_path: Path) -> None:
+    """Where nobody reads it."""
+    log = tmp_path / "log"
+    log.write_text("")
+    manners = ["print@neutral", "fine", "fine"]
+    hostile = {"MIND_LOG": str(log), "MIND_MANNERS": ",".join(manners), "PYTHONPATH": os.pathsep.join(sys.path)}
+    command = [sys.executable, str(PROGRAM), "drive", "done", "0.2"]
+    with subprocess.Popen(
+        command, env={**os.environ, **hostile}, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE
+    ) as it:
+        assert it.wait(PATIENCE) == 0
+    found = Round(manners, "", log)
+    assert [found.last, len([*found.told]) > len(manners)] == [[*NEUTRALS], True]
 
 
 @pytest.mark.slow

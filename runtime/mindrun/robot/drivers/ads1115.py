@@ -27,9 +27,10 @@ class VoltageDevice:
 
     def read(self) -> tuple[float]:
         """The battery's voltage, measured now."""
-        self.wire.write(CONFIG, (self.config | START) >> 8, self.config & 0xFF)
-        self.wait()
-        count = int.from_bytes(self.wire.read(CONVERSION, 2), "big", signed=True)
+        with self.wire.turn:
+            self.wire.write(CONFIG, (self.config | START) >> 8, self.config & 0xFF)
+            self.wait()
+            count = int.from_bytes(self.wire.read(CONVERSION, 2), "big", signed=True)
         if count >= TOO_MUCH:
             raise self.wire.error("has more than 4.096 V on its input; the divider is wrong or open")
         return (max(count, 0) * VOLTS_PER_COUNT * self.divider,)

@@ -41,16 +41,17 @@ class GroveUltrasonicDevice:
 
     def ask(self, command: int, port: int = UNUSED_BYTE, *, count: int) -> bytes:
         """What the board answers after repeating the command; asks until a deadline that no answer can put off."""
-        self.wire.write(command, port, UNUSED_BYTE, UNUSED_BYTE)
-        begin = monotonic()
-        while monotonic() - begin < ANSWERED_IN:
-            sleep(POLL_SECONDS)
-            answer = self.wire.transfer(b"", count)
-            if answer[0] == command:
-                return answer[1:]
-            if answer[0] not in (BUSY_BYTE, IDLE_BUS_BYTE):
-                raise self.wire.error(f"answers nonsense ({answer.hex(' ')})")
-        raise self.wire.error("does not finish measuring")
+        with self.wire.turn:
+            self.wire.write(command, port, UNUSED_BYTE, UNUSED_BYTE)
+            begin = monotonic()
+            while monotonic() - begin < ANSWERED_IN:
+                sleep(POLL_SECONDS)
+                answer = self.wire.transfer(b"", count)
+                if answer[0] == command:
+                    return answer[1:]
+                if answer[0] not in (BUSY_BYTE, IDLE_BUS_BYTE):
+                    raise self.wire.error(f"answers nonsense ({answer.hex(' ')})")
+            raise self.wire.error("does not finish measuring")
 
     def close(self) -> None:
         """Let go."""

@@ -76,8 +76,10 @@ class CheckedActuatorDevice:
     device: ActuatorDevice
 
     def write(self, value: float) -> None:
-        """Command a share of the travel."""
-        self.device.write(share(value))
+        """Command a share of the travel; DeviceError where the user's method is one that does nothing when called."""
+        done: object = self.device.write(share(value))  # type: ignore[func-returns-value]
+        if hasattr(done, "__await__") or hasattr(done, "__next__"):
+            raise DeviceError("its write is async, or yields, and has done nothing yet", "write a plain method")
 
     def close(self) -> None:
         """Let go."""

@@ -76,8 +76,9 @@ class Processes:
 
     def _kill(self) -> None:
         """End all of its processes."""
-        with suppress(ProcessLookupError):
-            os.killpg(self.first.pid, signal.SIGKILL)
+        for group in (self.first.pid, self.worker):
+            with suppress(ProcessLookupError):
+                os.killpg(group, signal.SIGKILL)
         with suppress(subprocess.TimeoutExpired):
             self.first.wait(KILL_SECONDS)
 

@@ -13,6 +13,7 @@ from mindrun.robot.guardian.plan import Channel, Plan
 from mindrun.robot.guardian.process import Process
 from mindrun.robot.guardian.realtime import wake_on_signals
 from mindrun.robot.guardian.status import say
+from mindrun.robot.parent_process import end_with_parent
 
 MAX_TRIES = 3  # of an actuator: processes that end without a word
 RETRY_SECONDS = 0.05  # between two tries to open what could not be
@@ -94,10 +95,12 @@ def bring(process: Process, report: Callable[[str], None], seconds: float) -> li
 
 def _begun(plan: Plan, number: int, seconds: float) -> Attempt:
     reading, writing = os.pipe()
+    parent = os.getpid()
     child = os.fork()
     if not child:
         try:
             os.setsid()  # a driver may end its whole process group
+            end_with_parent(parent, signal.SIGKILL)
             _bring(plan, writing, seconds)
         finally:
             os._exit(0)

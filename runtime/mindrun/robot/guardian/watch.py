@@ -65,6 +65,7 @@ def _begun(work: Callable[[int], int], words: int, word: int) -> int:
     if not worker:
         try:
             os.close(words)
+            os.setsid()  # a driver may end its whole process group, which the watcher is not in
             end_with_parent(watcher, signal.SIGTERM)
             code = work(word)
         finally:
