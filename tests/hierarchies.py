@@ -258,6 +258,10 @@ def virtual_kinds(
             of = draw(st.sampled_from([name for name, width in sorted(widths.items()) if width > 1] or [of]))
             return 1, Reading(draw(st.integers(1, widths[of])), of)
     single = [name for name, width in widths.items() if width == 1]
+    if (turning := sorted({*single} & {*around})) and draw(st.booleans()):
+        name, more = draw(st.sampled_from(turning)), draw(st.sampled_from([-1.25, -0.5, 0.0, 0.1, 2.0]))
+        terms = (("reading", name), ("number", more))
+        return 1, Computed((*(terms[::-1] if more > 0 else terms), ("-" if more == 0.1 else "+", 0)))
     numbered = draw(programs(tuple(range(len(single)))))
     return 1, Computed(tuple((word, single[int(x)] if word == "reading" else x) for word, x in numbered))
 

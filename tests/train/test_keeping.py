@@ -104,6 +104,22 @@ def test_a_lesson_that_fails_keeps_nothing_and_nothing_is_taught_on_top_of_it(mi
     assert "Go has fewer generations than its lesson says: nothing is needed of it" in shortened.err
 
 
+def test_what_a_lesson_needs_is_asked_of_what_is_there(mindc: Call, drive: Path) -> None:
+    """By what it scored when it was taught: after an edit, and for what would be taught on top of it by name."""
+    assert mindc("train", drive, *QUICK).code == 0
+    needing = drive.read_text().replace(
+        "Go on Reach for 3 generations", "Go on Reach for 3 generations needs score > 1e6"
+    )
+    drive.write_text(needing)
+    assert "lesson 1 of" in mindc("status", drive).out
+    refused = mindc("train", drive, "Drive", *QUICK)
+    assert refused.code == 1
+    assert "Drive would be taught on top of Go, without what its lesson needs: score > 1e+06" in refused.err
+    assert mindc("train", drive, "Drive", "--force", *QUICK).code == 0
+    drive.write_text(needing.replace("> 1e6", "> -1e6"))
+    assert "lesson 1 of" not in mindc("status", drive).out
+
+
 def test_train_is_like_make(mindc: Call, drive: Path) -> None:
     """What has changed since is taught again, and then there is nothing to do; options of once are no change."""
     small = ("--population", "4", "--attempts", "1", *QUICK)

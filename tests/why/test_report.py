@@ -2,11 +2,13 @@
 
 from typing import Any
 
+import numpy as np
 import pytest
 from rich.console import Group
 from rich.text import Text
 
 from mindlang.run.largest_paths import MAX_COUNTED_PATHS
+from mindlang.why.answer import mean_direction
 from mindlang.why.report import answer_text
 
 CHASE = {"share": 0.6676, "part": 5 / 6, "value": 0.8011, "influence": 1.0, "path": ["Roam", "Chase", "left_wheel"]}
@@ -69,6 +71,21 @@ def parts(**changed: Any) -> list[Text]:
 
 def lines(**changed: Any) -> list[str]:
     return "\n".join(map(str, parts(**changed))).splitlines()
+
+
+@pytest.mark.parametrize(
+    ("turns", "mean"),
+    [
+        ([0.98, 0.02], 0.0),
+        ([0.95, 0.99, 0.01, 0.05], 0.0),
+        ([0.2, 0.4], 0.3),
+        ([0.75, 0.85], 0.8),
+        ([0.25, 0.75], None),
+    ],
+)
+def test_directions_have_their_mean_on_the_circle(turns: list[float], mean: float | None) -> None:
+    found = mean_direction(np.array(turns))
+    assert np.isnan(found) if mean is None else abs((found - mean + 0.5) % 1 - 0.5) < 1e-9
 
 
 def test_what_an_answer_looks_like() -> None:
