@@ -108,15 +108,15 @@ def test_what_a_lesson_needs_is_asked_of_what_is_there(mindc: Call, drive: Path)
     """By what it scored when it was taught: after an edit, and for what would be taught on top of it by name."""
     assert mindc("train", drive, *QUICK).code == 0
     needing = drive.read_text().replace(
-        "Go on Reach for 3 generations", "Go on Reach for 3 generations needs score > 1e6"
+        "Go on Reach for 3 generations", "Go on Reach for 3 generations needs score > 9999"
     )
     drive.write_text(needing)
     assert "lesson 1 of" in mindc("status", drive).out
     refused = mindc("train", drive, "Drive", *QUICK)
     assert refused.code == 1
-    assert "Drive would be taught on top of Go, without what its lesson needs: score > 1e+06" in refused.err
+    assert "Drive would be taught on top of Go, without what its lesson needs: score > 9999" in refused.err
     assert mindc("train", drive, "Drive", "--force", *QUICK).code == 0
-    drive.write_text(needing.replace("> 1e6", "> -1e6"))
+    drive.write_text(needing.replace("> 9999", "> -9999"))
     assert "lesson 1 of" not in mindc("status", drive).out
 
 

@@ -194,7 +194,10 @@ def test_what_replaces_a_guardian_is_replaced_too(log: Path) -> None:
         return another
 
     guardian._processes.another = killed  # type: ignore[method-assign]
-    os.killpg(guardian._processes.first.pid, signal.SIGKILL)
+    watcher = guardian._processes.first.pid
+    os.kill(watcher, signal.SIGSTOP)  # so that it does nothing before it is killed
+    for pid in (guardian.pid, watcher):
+        os.kill(pid, signal.SIGKILL)
     with pytest.raises(GuardianError, match="is gone: another has brought"):
         guardian.close()
     assert all_at_rest(log)
