@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from mindrun.driver import DeviceError
 from mindrun.robot import driver_support
+from mindrun.robot.drivers import ads1115, grove_ultrasonic
 from mindrun.robot.drivers.ads1115 import Ads1115
 from mindrun.robot.drivers.ball_eye import along_ray
 from mindrun.robot.drivers.grove_ultrasonic import GroveUltrasonic
@@ -19,6 +20,8 @@ from tests.robot.drivers.fakes import FakeAds1115, FakeBus, FakeGrovePi, FakeMpu
 
 def test_what_asks_one_chip_waits_for_its_turn(monkeypatch: pytest.MonkeyPatch) -> None:
     """Two rangers of one board, two inputs of one converter: each in a thread of its own, as sensors are sampled."""
+    monkeypatch.setattr(grove_ultrasonic, "ANSWERED_IN", 600.0)
+    monkeypatch.setattr(ads1115, "DONE_IN", 600.0)
     parts = {0x04: FakeGrovePi({4: 40, 2: 20}), 0x48: FakeAds1115(1.0)}
     monkeypatch.setattr(driver_support, "open_bus", lambda number: FakeBus(parts))
     drivers = [GroveUltrasonic((4,)), GroveUltrasonic((2,)), Ads1115(0, 2.0), Ads1115(1, 2.0)]

@@ -45,12 +45,10 @@ def test_what_a_driver_prints_keeps_nothing_moving(tmp_path: Path) -> None:
     manners = ["print@neutral", "fine", "fine"]
     hostile = {"MIND_LOG": str(log), "MIND_MANNERS": ",".join(manners), "PYTHONPATH": os.pathsep.join(sys.path)}
     command = [sys.executable, str(PROGRAM), "drive", "done", "0.2"]
-    with subprocess.Popen(
-        command, env={**os.environ, **hostile}, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE
-    ) as it:
-        assert it.wait(PATIENCE) == 0
-    found = Round(manners, "", log)
-    assert [found.last, len([*found.told]) > len(manners)] == [[*NEUTRALS], True]
+    environment = {**os.environ, **hostile}
+    with subprocess.Popen(command, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE) as controller:
+        controller.wait(PATIENCE)
+    assert Round(manners, "", log).last == [*NEUTRALS]
 
 
 @pytest.mark.slow
