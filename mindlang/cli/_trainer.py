@@ -32,14 +32,7 @@ from mindlang.lock import LockError
 from mindlang.training.event_files import EventFiles
 from mindlang.training.lesson_choice import TrainOptions, chosen_lessons
 from mindlang.training.results import Result, opening, outcome
-from mindlang.training.subject import (
-    Subject,
-    begin_run,
-    open_subject,
-    refuse_changed,
-    refuse_failed_below,
-    refuse_frozen,
-)
+from mindlang.training.subject import Subject, begin_run, open_subject, refuse_changed, refuse_frozen
 from mindlang.training.teaching import TeachingResult, finish, has_ended, make_again, rollout_of, workers_of
 
 
@@ -81,10 +74,8 @@ class Trainer:
             if not subject.standing(lesson):
                 frozen += 1
                 self._say(f"{lesson.skill} is frozen, and is not taught")
-            elif skills or force or subject.is_due(lesson):
+            elif force or subject.takes(lesson, bool(skills)):
                 wished = options.applied(lesson)
-                if skills and not force:
-                    refuse_failed_below(subject, lesson)
                 if lesson.needs and not wished.needs:
                     self._say(f"{lesson.skill} has fewer generations than its lesson says: nothing is needed of it")
                 run = begin_run(subject, wished, seed, runs, datetime.now(UTC), command)

@@ -102,7 +102,7 @@ class _Linear:
         )
 
     def times(self, number: float) -> "_Linear":
-        """So many times it."""
+        """The sum with every reading, and the number more, multiplied by a number."""
         return _Linear({}, 0.0, {}).plus(self, number)
 
 

@@ -72,7 +72,7 @@ def run_data(task: Task, scores: Scores) -> dict[str, Any]:
 
 
 def data_so_far(run: RecordedRun) -> dict[str, Any]:
-    """The same of a run that has come to its last row, and may go on: nobody knows its faults, and nothing ended it."""
+    """What came, so far, of a run that may go on, as `run_data` says it: without faults, and nothing has ended it."""
     task = run.task
     counts = dict(zip([events(task)[event] for event in task.counts], run.counts[-1].tolist(), strict=True))
     return {

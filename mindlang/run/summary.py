@@ -52,7 +52,7 @@ def bench_summary(found: dict[str, Any]) -> RenderableType:
 
 
 def _rate(found: dict[str, Any]) -> str:
-    """Of a second of a processor, which says the same on a busy machine; where it is not known, of a clock's."""
+    """How many ticks a second of a processor made, the same on a busy machine; of a clock's where that is not known."""
     cpu = found["ticks_per_cpu_second"]
     return rate(found["ticks_per_second"]) if cpu is None else rate(cpu, "CPU second")
 

@@ -101,16 +101,13 @@ def _reads(course: Course, of: Contribution, rows: range) -> dict[str, list[floa
     graph = course.flows.graph
     name = of.path[-2] if len(of.path) > 1 else of.path[0]  # before what was asked about, unless that is the master
     inputs = next(skill.inputs for skill in graph.skills if skill.name == name)
-    read = course.flows.walker.rows(np.array(rows))[0].astype(float)
+    read = course.flows.walker.rows(np.array(rows))[0][:, list(inputs)].astype(float)
     around = directions({each.name: each.kind for each in graph.sensors})
-    turning = {
-        place for each in graph.sensors if each.name in around for place in range(each.start, each.start + each.width)
-    }
-    means = [(mean_direction if place in turning else np.mean)(read[:, place]) for place in inputs]
     owners = {place: each.name for each in graph.sensors for place in range(each.start, each.start + each.width)}
     owners |= {each.start: each.name for each in graph.memories}
     found: dict[str, list[float | None]] = {}
-    for place, value in zip(inputs, means, strict=True):
+    for place, values in zip(inputs, read.T, strict=True):
+        value = float((mean_direction if owners[place] in around else np.mean)(values))
         found.setdefault(owners[place], []).append(value if isfinite(value) else None)
     return found
 

@@ -83,7 +83,7 @@ def _path(names: Sequence[str]) -> str:
 
 
 def _shortened(skills: Sequence[str], kept: int) -> str:
-    """So many of the skills of a path: the master, and the last ones."""
+    """A path in one line, shortened to so many of its skills: the master, and the last ones."""
     if kept == len(skills):
         return " → ".join(skills)
     return " → ".join([skills[0], f"{len(skills) - kept} more", *skills[len(skills) - kept + 1 :]])

@@ -38,7 +38,7 @@ class Average(SensorKind):
 
     @property
     def width(self) -> None:
-        """As many as its source."""
+        """None: it has as many readings as its source."""
         return
 
     @property

@@ -40,7 +40,7 @@ class Computed(SensorKind):
 
     @property
     def formula(self) -> Formula:
-        """Its expression."""
+        """The expression that it computes, in postfix order, with readings by their names."""
         return self.at
 
     def goes_round(self, directions: Collection[str]) -> bool:
@@ -64,14 +64,14 @@ class Computed(SensorKind):
         return None
 
     def constant(self, world: World) -> float | None:
-        """Its value where it names nothing."""
+        """The value of an expression that names no reading; None where it names one, or is no finite number."""
         if self.sources:
             return None
         value = single(constant_value(placed(self.at, {})))
         return min(max(0.0, value), 1.0) if isfinite(value) else None
 
     def reader(self, scene: Scene) -> Reader:
-        """Its value as a float32, clamped, or of a direction without its whole turns; NaN where that is not finite."""
+        """How the engine computes the expression: as a float32, clamped, of a direction less whole turns; NaN else."""
         import numpy as np
 
         from mindrun.arithmetic import NAN, clamp

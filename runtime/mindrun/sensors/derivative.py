@@ -36,7 +36,7 @@ class Derivative(SensorKind):
 
     @property
     def width(self) -> None:
-        """As many as its source."""
+        """None: it has as many readings as its source."""
         return
 
     @property

@@ -33,7 +33,7 @@ class Latch(SensorKind):
 
     @property
     def width(self) -> None:
-        """As many as its source."""
+        """None: it has as many readings as its source."""
         return
 
     @property

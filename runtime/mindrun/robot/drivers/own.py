@@ -110,7 +110,7 @@ class OwnSensor:
 
     @property
     def motionless(self) -> "OwnSensor":
-        """The same without anything that it would move, if it knows of that."""
+        """This driver without anything that it would move, where the user's class knows of that."""
         return replace(self, is_still=True)
 
     def open(self) -> SensorDevice:

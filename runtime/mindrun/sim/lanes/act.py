@@ -62,7 +62,7 @@ def wait(commands, late, lanes):
 
 @compiled
 def wait_each(commands, late, ring, delays, tick, lanes):
-    """The same where each lane has a delay of its own, up to the length of the ring."""
+    """Exchange each command with one that has waited in the ring, as long as the delay of its own lane says."""
     for lane in range(lanes):
         delay = int(delays[lane])
         if delay > 0:
