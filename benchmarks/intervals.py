@@ -3,8 +3,8 @@
 Scores of two minds are drawn in ways that are hard for intervals (CASES); with --minds pairs of minds of
 examples/collect run on common layouts, and comparisons are drawn from these with replacement. For each number of runs:
 of 4,000 comparisons, the share of those with an interval that contains the mean difference, beside it Student's; how
-wide it is beside Student's in the median; how often there is none; how often it is said that unseen layouts made it so
-wide. Every sentence says of how rare a layout the runs need have no example.
+wide it is beside Student's in the median; how often there is none, since no run differed; how often it is said that
+unseen layouts made it so wide. Every sentence says of how rare a layout the runs need have no example.
 """
 
 import argparse
@@ -120,6 +120,10 @@ CASES = {
     "counts, most of them the same": Case(tied, 0.3),
     "success 90 and 95 %": succeeding(0.9, 0.95),
     "success 0 and 3 %": succeeding(0.0, 0.03),
+    "success 2 % each": succeeding(0.02, 0.02),
+    "exponential on 3 %, else the same": Case(
+        lambda rng, shape: (np.zeros(shape), rng.exponential(1, shape) * (rng.random(shape) < 0.03)), 0.03
+    ),
     "nothing or 20": Case(bimodal, 2.0),
 }
 

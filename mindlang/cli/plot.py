@@ -89,6 +89,7 @@ def _data(curves: Sequence[Curve]) -> list[dict[str, object]]:
             "run": str(curve.path),
             "attempts": len(curve.attempts),
             "generations": len(curve.records),
+            "failed": curve.failure or None,
         }
         for curve in curves
     ]

@@ -120,7 +120,8 @@ def _weights_there(subject: Subject, incoming: Incoming) -> Weights | None:
 def _write(trial: Trial, incoming: Incoming, score: float) -> tuple[str, ...]:
     """Write the line of the skill; a sentence for each skill that was taught with what was there before."""
     subject, lesson, name = trial.subject, incoming.lesson, incoming.network.skill.name
-    taught = Taught(lesson.task, lesson.master, False, 0, 0, 0, score, lesson.number, lesson.curriculum)
+    reached = score, lesson.number, lesson.curriculum, trial.success(incoming.genome)
+    taught = Taught(lesson.task, lesson.master, False, 0, 0, 0, *reached)
     record(
         subject.keep_path(lesson),
         subject.graph,

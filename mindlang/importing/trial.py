@@ -13,13 +13,13 @@ from mindrun.sim.rollouts import rollout_for
 from mindrun.sim.trace import trace
 from mindrun.train import RunError
 from mindrun.train.scoring import mark
-from mindrun.train.seeds import Purpose, layouts
+from mindrun.train.seeds import Purpose, Seeds, layouts
 from mindrun.weights import Weights, owners, reachable
 from numpy.typing import NDArray
 
 from mindlang.compiler.diagnostic import listed
 from mindlang.lock.status import trained_weights
-from mindlang.training.lock_update import COMPARED_LAYOUTS, Comparison
+from mindlang.training.lock_update import COMPARED_LAYOUTS, Comparison, needed_success
 from mindlang.training.subject import Subject
 from mindlang.weights.network import Network
 from mindlang.whatif.recorded_readings import recorded_readings
@@ -58,13 +58,20 @@ class Trial:
 
         RunError where the new ones have no score that is a finite number.
         """
-        last = self.lesson.generations
-        seeds = layouts(LAYOUTS_SEED, attempt=0, generation=last, count=COMPARED_LAYOUTS, purpose=Purpose.COMPARISON)
-        scores = mark(self.rollout, np.stack([genome] if old is None else [genome, old]), seeds).scores
+        scores = mark(self.rollout, np.stack([genome] if old is None else [genome, old]), self._layouts).scores
         if not isfinite(scores[0]):
             why = f"{self.network.skill.name} with these weights: a reward or a command was not a finite number"
             raise RunError(why, f"look at the weights, and at the rewards of the task {self.lesson.task}")
         return float(scores[0]), None if old is None else Comparison(float(scores[1]), float(scores[0]))
+
+    def success(self, genome: Weights) -> float | None:
+        """The share of runs that succeed on these layouts; None where the lesson does not need any."""
+        return needed_success(self.lesson, self.rollout, genome, self._layouts)
+
+    @property
+    def _layouts(self) -> Seeds:
+        last = self.lesson.generations
+        return layouts(LAYOUTS_SEED, attempt=0, generation=last, count=COMPARED_LAYOUTS, purpose=Purpose.COMPARISON)
 
 
 def open_trial(subject: Subject, lesson: Lesson, network: Network, shown: Path) -> Trial:

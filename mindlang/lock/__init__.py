@@ -36,6 +36,7 @@ _LINE = re.compile(
     r" \| task (?P<task>\S+) master (?P<master>\S+)(?P<jointly> with subskills)?"
     r" generations (?P<generations>[0-9]{1,19}) population (?P<population>[0-9]{1,19})"
     r" seed (?P<seed>[0-9]{1,19}) score (?P<score>-?[0-9]{1,400}(?:\.[0-9]{1,400})?(?:e[+-]?[0-9]{1,3})?)"
+    r"(?: success (?P<success>[0-9]\.[0-9]{1,20}))?"
     r"(?: lesson (?P<number>[0-9]{1,9}) of (?P<curriculum>\S+))?"
     r"(?: \| with (?P<subskills>\S+:[0-9a-f]{64}(?: \S+:[0-9a-f]{64})*))?"
     r"(?: \| from (?P<origin>\S+:[0-9a-f]{64}))?"
@@ -62,7 +63,8 @@ class Signature:
 class Taught:
     """How a genome came about: where, `jointly` with its subskills or theirs, and after how many generations.
 
-    It was lesson `number` of a curriculum; 0 and "" where the lock does not say, as those of older versions.
+    It was lesson `number` of a curriculum; 0 and "" where the lock does not say, as those of older versions. `success`
+    is the share of runs that succeeded, where its lesson needs some.
     """
 
     task: str
@@ -74,6 +76,7 @@ class Taught:
     score: float
     number: int = 0
     curriculum: str = ""
+    success: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,6 +116,7 @@ class Entry:
             f"task {taught.task} master {taught.master}{' with subskills' * taught.jointly} "
             f"generations {taught.generations} population {taught.population} "
             f"seed {taught.seed} score {taught.score!r}"
+            f"{'' if taught.success is None else f' success {taught.success}'}"
             f"{f' lesson {taught.number} of {taught.curriculum}' * bool(taught.number)}",
         ]
         if self.subskills:
@@ -134,7 +138,8 @@ class Entry:
         generations, population, seed = (int(found[key]) for key in ("generations", "population", "seed"))
         where = found["task"], found["master"], found["jointly"] is not None
         lesson = int(found["number"] or 0), found["curriculum"] or ""
-        taught = Taught(*where, generations, population, seed, float(found["score"]), *lesson)
+        success = None if found["success"] is None else float(found["success"])
+        taught = Taught(*where, generations, population, seed, float(found["score"]), *lesson, success)
         subskills, origin = _hashed(found["subskills"]), _hashed(found["origin"])
         taught_in = tuple(worlds[name] for name in names)
         accepted = found["how"] == _EVIDENCE_WORDS[True]

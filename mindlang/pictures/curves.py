@@ -127,7 +127,8 @@ def _panel(drawn: Figure, axes: Axes, curve: Curve) -> None:
             colour, label = ATTEMPTS[(attempt - 1) % len(ATTEMPTS)], f"{column} {attempt}"
             axes.plot(generations, scores, color=colour, label=label, transform=where, zorder=layer, **look)
             axes.update_datalim(points)  # whose own place does not count where it is shifted
-    frame(axes, curve.name, curve.note, max(map(curve.last, curve.attempts)))
+    name = f"{curve.name}, failed" if curve.failure else curve.name
+    frame(axes, name, curve.note, max(map(curve.last, curve.attempts)))
 
 
 def _legend(drawn: Figure, curves: Sequence[Curve]) -> None:

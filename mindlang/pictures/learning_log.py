@@ -14,7 +14,7 @@ from mindrun.regular_files import read_whole
 from mindrun.strict_json import is_whole
 from mindrun.train import NotFoundError, RunError
 from mindrun.train.progress import COUNT_COLUMNS, LINES, TABLE, read_progress
-from mindrun.train.run_folder import MANIFEST, open_run
+from mindrun.train.run_folder import MANIFEST, open_run, read_failure
 
 TABLES = (".csv", ".csv.gz")
 HINT = f"a run is a folder like runs/GoToObject/20260714T120000Z-1, a table ends in {' or '.join(TABLES)}"
@@ -29,6 +29,7 @@ Records = Sequence[Mapping[str, float | None]]
 class Curve:
     """How a lesson was learnt: the records of its log. `note` tells it from others of its name.
 
+    `failure` says why nothing came of it; "" where it was learnt, goes on, or nobody knows.
     `lesson` is the same for runs that teach the same lesson of the same mind, whatever their seeds and the weights that
     they began with; of a table nobody knows it.
     """
@@ -38,6 +39,7 @@ class Curve:
     path: Path
     note: str = ""
     lesson: str = ""
+    failure: str = ""
 
     @property
     def attempts(self) -> list[int]:
@@ -90,7 +92,7 @@ def _from_run(folder: Path) -> Curve:
     except RunError as error:
         raise RunError(f"{folder}: {error}", f"its {TABLE} can be drawn all the same") from error
     lesson = replace(manifest, seed=0, weights={}).identity
-    return _unless_empty(Curve(manifest.name, read_progress(folder), folder, lesson=lesson))
+    return _unless_empty(Curve(manifest.name, read_progress(folder), folder, "", lesson, read_failure(folder)))
 
 
 def _from_table(path: Path) -> Curve:

@@ -83,7 +83,9 @@ def by_lesson(curves: Iterable[Curve]) -> list[MeanCurve]:
 
 def _note(runs: Sequence[Curve]) -> str:
     attempts = sum(len(run.attempts) for run in runs)
-    return f"{attempts} attempt{'s' * (attempts > 1)} in {len(runs)} run{'s' * (len(runs) > 1)}"
+    failed = sum(bool(run.failure) for run in runs)
+    told = f"{attempts} attempt{'s' * (attempts > 1)} in {len(runs)} run{'s' * (len(runs) > 1)}"
+    return f"{told}, {failed} of them failed" if failed else told
 
 
 def _mean(generation: int, scores: Sequence[float] | NDArray[np.float64]) -> MeanPoint:

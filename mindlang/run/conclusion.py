@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from math import ceil, floor, log10
 
 from mindlang.number_format import score
-from mindlang.run.paired_difference import CONFIDENCE_LEVEL, MIN_DIFFERING_RUNS, Difference
+from mindlang.run.paired_difference import CONFIDENCE_LEVEL, Difference
 
 SCORE, SUCCESS = "score", "success"  # the figures that are no events
 PERCENT = f"{CONFIDENCE_LEVEL:.0%}".replace("%", " %")
@@ -25,10 +25,7 @@ def conclusion(first: str, second: str, task: str, differences: Mapping[str, Dif
             f"{100 * found.most_that_differ:.2g} % of the layouts of {task} ({PERCENT} confidence)."
         )
     if found.low is None or found.high is None:
-        return (
-            f"Only {found.differing} of {_runs(found.runs)} differ in {name}, which is too few to say more: "
-            f"{MIN_DIFFERING_RUNS} have to."
-        )
+        return f"A single run says nothing of other layouts of {task}."
     if found.leaves_zero_out:
         return _which_does_more(first, second, task, name, found, found.low, found.high)
     low, high = amount(name, -found.low, found), amount(name, found.high, found)

@@ -20,8 +20,7 @@ from numpy.typing import NDArray
 
 CONFIDENCE_LEVEL = 0.95  # of intervals: so many of them, of so many comparisons, contain the difference
 NORMAL_TWO_SIDED, NORMAL_POWER = 1.9600, 0.8416  # quantiles of the normal distribution: 97.5 %, and 80 %
-MIN_DIFFERING_RUNS = 10  # runs: with fewer, the mean of the differences is far from normal
-MAX_RUNS = 10_000_000  # that `mindc bench` takes
+MIN_RUNS, MAX_RUNS = 2, 10_000_000  # that have a standard error, and that `mindc bench` takes
 MAX_QUANTILE, QUADRATURE_NODES, MAX_BISECTIONS = 13.0, 64, 60
 REACH_OF_OTHER_RUNS = 1.2  # times as far as those that were seen
 BEND_TOLERANCE = 1e-9  # from which on skewness bends an interval
@@ -31,7 +30,7 @@ BEND_TOLERANCE = 1e-9  # from which on skewness bends an interval
 class Difference:
     """The second less the first, over `runs` pairs, of which in `more` it was more, in `less` less, in `equal` neither.
 
-    `low` to `high` is the 95 % confidence interval of the mean; None where fewer than MIN_DIFFERING_RUNS pairs differ.
+    `low` to `high` is the 95 % confidence interval of the mean; None of a single pair, and where no pair differs.
     It is never narrower than `unseen` to both sides: what layouts of which no run need be an example, up to the share
     `most_that_differ` of all, could do to the mean within the scores that were seen.
     `detectable` is the difference that so many runs would tell from 0 four times in five, and `runs_to_tell` how many
@@ -91,11 +90,11 @@ def difference(first: NDArray[np.float64], second: NDArray[np.float64]) -> Diffe
     if not finite.all():
         return Difference(*counts)
     mean = float(each.mean())
-    if runs < 2:
+    if runs < MIN_RUNS:
         return Difference(*counts, mean)
     std = float(each.std(ddof=1))
     error = std / sqrt(runs)
-    if counts[1] + counts[2] < MIN_DIFFERING_RUNS:
+    if counts[1] + counts[2] == 0:
         return Difference(*counts, mean, std, error)
     farthest = _farthest(first, second)
     unseen = unseen_share(runs) * farthest
@@ -161,4 +160,4 @@ def _runs_to_tell(mean: float, std: float, farthest: float) -> int | None:
     roots = [(NORMAL_TWO_SIDED + NORMAL_POWER) * std / mean]
     roots.append((varies + sqrt(varies**2 + 4 * unseen * mean)) / (2 * mean))
     runs = max(roots) * max(roots)  # ∞ where ** would raise
-    return max(ceil(runs), MIN_DIFFERING_RUNS) if runs <= MAX_RUNS else None
+    return max(ceil(runs), MIN_RUNS) if runs <= MAX_RUNS else None

@@ -7,12 +7,12 @@ from math import isfinite
 import numpy as np
 from mindrun.graph import Lesson
 from mindrun.train import RunError
-from mindrun.train.attempt import has_needed, of_halves, verdict_layouts
+from mindrun.train.attempt import VERDICT_LAYOUTS, has_needed, of_halves, verdict_layouts
 from mindrun.train.lesson_state import LessonState
 from mindrun.train.population import Genomes
-from mindrun.train.run_folder import WEIGHTS, RunFolder
+from mindrun.train.run_folder import WEIGHTS, RunFolder, keep_failure
 from mindrun.train.scoring import Scorer, is_one_world, mark, succeeded
-from mindrun.train.seeds import Purpose, layouts
+from mindrun.train.seeds import Purpose, Seeds, layouts
 from mindrun.weights import parts
 
 from mindlang.compiler.diagnostic import listed
@@ -60,19 +60,24 @@ class Kept:
 def keep(run: RunFolder, subject: Subject, state: LessonState, scorer: Scorer, force: bool) -> Kept:
     """Put what was learnt into the lock, or with `force` even where it is worse than what is there.
 
-    RunError where nothing was learnt, or not what the lesson needs. LockError where the lock cannot be read or written.
+    RunError where nothing was learnt, or not what the lesson needs: the run's folder says so. LockError where the lock
+    cannot be read or written.
     """
-    refuse_nothing(run, state, scorer)
-    refuse_failed(run, state, scorer)
+    try:
+        refuse_nothing(run, state, scorer)
+        refuse_failed(run, state, scorer)
+    except RunError as error:
+        keep_failure(run.folder, str(error))
+        raise
     old = _genome_there(run, subject)
     if old is None or np.array_equal(old, state.kept[0]):
-        return Kept(_record(run, subject, state, state.kept[0], state.reevaluated), None, True)
+        return Kept(_record(run, subject, state, scorer, state.kept[0], state.reevaluated), None, True)
     found = compare(run, scorer, np.stack([old, state.kept[0]]))
     if force or not found.is_worse or not _meets_needs(run, scorer, old):
-        return Kept(_record(run, subject, state, state.kept[0], state.reevaluated), found, True)
+        return Kept(_record(run, subject, state, scorer, state.kept[0], state.reevaluated), found, True)
     lesson = declared(subject, run.manifest.lesson)
     if subject.is_due(lesson):
-        return Kept(_record(run, subject, state, old, found.old), found, False)
+        return Kept(_record(run, subject, state, scorer, old, found.old), found, False)
     known = read_lock(subject.keep_path(lesson))
     return Kept({skill: known[skill] for skill in run.manifest.learners}, found, False)
 
@@ -132,6 +137,13 @@ def compare(run: RunFolder, scorer: Scorer, genomes: Genomes) -> Comparison:
     return Comparison(float(old), float(new))
 
 
+def needed_success(lesson: Lesson, scorer: Scorer, genome: Genomes, seeds: Seeds) -> float | None:
+    """The share of runs on these seeds in which a genome succeeds; None where its lesson does not need any."""
+    if not any(need.measure == "success" for need in lesson.needs):
+        return None
+    return float(succeeded(scorer.task, scorer.score(genome[None], seeds)).mean())
+
+
 def _genome_there(run: RunFolder, subject: Subject) -> Genomes | None:
     """The weights of the learners in the lock to which the lesson goes; None where not all have some that fit."""
     standing = subject.standing(run.manifest.lesson)
@@ -146,18 +158,22 @@ def _genome_there(run: RunFolder, subject: Subject) -> Genomes | None:
     return np.concatenate([known[skill] for skill in run.manifest.learners])
 
 
-def _record(run: RunFolder, subject: Subject, state: LessonState, genome: Genomes, score: float) -> dict[str, Entry]:
+def _record(
+    run: RunFolder, subject: Subject, state: LessonState, scorer: Scorer, genome: Genomes, score: float
+) -> dict[str, Entry]:
     lesson, learners = run.manifest.lesson, run.manifest.learners
     population, seed = lesson.learner.population, run.manifest.seed
+    asked = declared(subject, lesson)
+    success = needed_success(asked, scorer, genome, verdict_layouts(seed, lesson.generations)[VERDICT_LAYOUTS:])
     where = lesson.task, lesson.master, lesson.with_subskills
-    taught = Taught(*where, state.kept_after, population, seed, score, lesson.number, lesson.curriculum)
+    taught = Taught(*where, state.kept_after, population, seed, score, lesson.number, lesson.curriculum, success)
     begun_with = {
         skill: subject.lock[skill]
         for skill in learners
         if skill in run.weights and not lesson.from_scratch and not (lesson.starts_from and skill == lesson.skill)
     }
     learnt = parts(subject.graph, learners, genome)
-    world = Worlds(subject.graph, subject.folder).of(declared(subject, lesson))
+    world = Worlds(subject.graph, subject.folder).of(asked)
     origins = {lesson.skill: origin} if (origin := origin_of(subject.graph, subject.lock, lesson)) else {}
     return record(subject.keep_path(lesson), subject.graph, learnt, taught, run.weights, world, begun_with, origins)
 

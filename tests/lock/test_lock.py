@@ -27,8 +27,9 @@ ENTRIES = st.builds(
     ),
     HASHES,
     st.builds(
-        lambda place, *said: Taught(*said, *place),
-        *(PLACES, NAMES, NAMES, st.booleans(), COUNTS, COUNTS, COUNTS),
+        lambda place, success, *said: Taught(*said, *place, success),
+        *(PLACES, st.none() | st.integers(0, 50).map(lambda runs: runs / 50)),
+        *(NAMES, NAMES, st.booleans(), COUNTS, COUNTS, COUNTS),
         st.floats(allow_nan=False, allow_infinity=False),
     ),
     st.lists(st.tuples(NAMES, HASHES), max_size=3).map(tuple),

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mindlang.run.conclusion import SCORE, SUCCESS, conclusion
-from mindlang.run.paired_difference import MAX_RUNS, MIN_DIFFERING_RUNS, Difference, difference, t_quantile
+from mindlang.run.paired_difference import MAX_RUNS, MIN_RUNS, Difference, difference, t_quantile
 
 STUDENT = {1: 12.7062, 2: 4.30265, 4: 2.77645, 9: 2.26216, 30: 2.04227, 199: 1.97196, 10**6: 1.95997}  # any table
 WHOLE = st.lists(st.tuples(st.integers(-50, 50), st.integers(-50, 50)), min_size=2, max_size=60)
@@ -27,7 +27,7 @@ def test_every_pair_is_counted_and_the_other_way_round_the_signs_change(pairs: l
     assert found.more + found.less + found.equal == found.runs == len(pairs)
     assert (found.more, found.less) == (turned.less, turned.more)
     assert found.mean == pytest.approx(second.mean() - first.mean())
-    assert (found.low is None) == (found.differing < MIN_DIFFERING_RUNS)
+    assert (found.low is None) == (found.differing == 0)
     if found.low is not None:
         assert turned.high == pytest.approx(-found.low)
         assert found.low <= found.mean <= (found.high or 0)
@@ -67,9 +67,9 @@ def test_one_run_less_than_it_says_would_not_tell(mean: float, std: float, turne
         return left > max(1.96 * (found.std or 0) / sqrt(runs), log(20) * 1.2 * (mean + std) / runs)
 
     assert found.runs_to_tell
-    assert found.runs_to_tell >= MIN_DIFFERING_RUNS
+    assert found.runs_to_tell >= MIN_RUNS
     assert tells(found.runs_to_tell + 1)
-    assert found.runs_to_tell == MIN_DIFFERING_RUNS or not tells(found.runs_to_tell - 1)
+    assert found.runs_to_tell == MIN_RUNS or not tells(found.runs_to_tell - 1)
 
 
 def test_an_interval_is_as_wide_as_layouts_without_an_example_make_it() -> None:
@@ -93,12 +93,12 @@ def test_of_differences_that_are_not_skewed_it_is_students() -> None:
 
 
 def test_of_few_runs_less_is_known() -> None:
-    zeros, ones = np.zeros(12), np.arange(12) % 2.0
-    one, four = difference(zeros[:1], ones[1:2]), difference(zeros[:4], ones[:4])
+    one, none = difference(np.zeros(1), np.ones(1)), difference(np.ones(4), np.ones(4))
     assert one == Difference(1, 1, 0, 0, 0, 1.0)
-    assert four == Difference(4, 2, 0, 2, 0, 0.5, pytest.approx(0.57735), pytest.approx(0.288675))
-    for each in (one, four, Difference(1, 0, 0, 0, 1)):
+    assert none == Difference(4, 0, 0, 4, 0, 0.0, 0.0, 0.0)
+    for each in (one, none, Difference(1, 0, 0, 0, 1)):
         assert (each.is_widened, each.leaves_zero_out) == (False, False)
+    assert conclusion("A", "B", "Go", {SCORE: one}) == "A single run says nothing of other layouts of Go."
 
 
 def test_the_interval_contains_the_truth_as_often_as_it_says() -> None:
@@ -124,6 +124,19 @@ def test_minds_that_rarely_differ_are_not_told_apart_by_the_runs_in_which_they_a
     assert np.mean([each.low <= -0.19 <= each.high for each in found]) > 0.93  # type: ignore[operator]
     assert np.mean([each.low > 0 for each in found]) < 0.01  # type: ignore[operator]
     assert np.mean([each.is_widened for each in found]) > 0.9
+
+
+@pytest.mark.parametrize("runs", [20, 50, 100, 200, 500])
+@pytest.mark.parametrize("shares", [(0.0, 0.03), (0.02, 0.02), (0.02, 0.05)])
+def test_where_few_runs_differ_the_interval_contains_the_truth_too(runs: int, shares: tuple[float, float]) -> None:
+    """An interval in every comparison in which any run differs: none is chosen for what was seen."""
+    rng = np.random.default_rng(runs)
+    drawn = [(rng.random((1000, runs)) < share) * 100.0 for share in shares]
+    found = [difference(*both) for both in zip(*drawn, strict=True)]
+    told = [(each.low, each.high) for each in found if each.low is not None and each.high is not None]
+    assert len(told) == sum(each.differing > 0 for each in found)
+    truth = 100 * (shares[1] - shares[0])
+    assert np.mean([low <= truth <= high for low, high in told]) > 0.92
 
 
 @pytest.mark.parametrize("std", [1.0, 30.0])
@@ -196,8 +209,8 @@ def test_what_is_said_is_no_more_than_the_interval_says() -> None:
     assert said.startswith(f"200 runs do not tell B from A: on layouts of Go, B scores from {low} less to {high} more")
     same = conclusion("A", "B", "Go", {SCORE: difference(zero, zero)})
     assert "the same score in 200 runs: they differ on at most 1.5 % of the layouts" in same
-    few = np.where(np.arange(200) < MIN_DIFFERING_RUNS - 1, 1.0, 0.0)
-    assert conclusion("A", "B", "Go", {SCORE: difference(zero, few)}).startswith("Only 9 of 200 runs differ in score")
+    few = conclusion("A", "B", "Go", {SCORE: difference(zero, np.where(np.arange(200) < 2, 1.0, 0.0))})
+    assert few.startswith("200 runs do not tell B from A: on layouts of Go, B scores from 0.00")
     assert conclusion("A", "B", "Go", {}).startswith("There is no figure that both have")
 
 

@@ -5,8 +5,9 @@ import re
 from pathlib import Path
 
 import numpy as np
+import pytest
 
-from mindlang.lock import lock_path
+from mindlang.lock import lock_path, read_lock
 from mindlang.lock.blobs import blob, digest
 from tests.calling import Call
 from tests.edits.taught import recorded, teach
@@ -94,6 +95,9 @@ def test_a_lesson_that_fails_keeps_nothing_and_nothing_is_taught_on_top_of_it(mi
     said = mindc("train", drive, "--seed", 1, "--force")
     assert failed.format("success > 50%") in said.err
     assert ", and succeeded in 0% and 0% of the runs; the lock stays as it is" in said.err
+    drawn = mindc("plot", drive.parent / "runs", "--json", "-o", drive.parent / "runs.svg")
+    assert ["has failed its lesson" in curve["failed"] for curve in json.loads(drawn.out)["curves"]] == [True, True]
+    assert (drive.parent / "runs.svg").read_text().count("<!-- Go-on-Reach, failed -->") == 2
     drive.write_text(text.replace("NEEDS", "needs score > -1000"))
     taught = mindc("train", drive, "--seed", 1, "--json")
     assert taught.code == 0, taught.err
@@ -118,6 +122,23 @@ def test_what_a_lesson_needs_is_asked_of_what_is_there(mindc: Call, drive: Path)
     assert mindc("train", drive, "Drive", "--force", *QUICK).code == 0
     drive.write_text(needing.replace("> 9999", "> -9999"))
     assert "lesson 1 of" not in mindc("status", drive).out
+
+
+def test_how_often_it_succeeded_is_known_where_its_lesson_needs_that(mindc: Call, drive: Path) -> None:
+    text = drive.read_text().replace("Go on Reach for 3 generations", "Go on Reach for 3 generations NEEDS")
+    text = text.replace("lasts 100 ticks", "lasts 100 ticks\n  succeeds when forward > 0.01", 1)
+    drive.write_text(text.replace("NEEDS", ""))
+    assert mindc("train", drive, *QUICK).code == 0
+    assert read_lock(lock_path(drive))["Go"].taught.success is None
+    drive.write_text(text.replace("NEEDS", "needs success > 10%"))
+    assert "lesson 1 of" in mindc("status", drive).out  # it is not known to succeed
+    assert mindc("train", drive, *QUICK).code == 0
+    taught = read_lock(lock_path(drive))["Go"].taught
+    tried = json.loads(mindc("bench", drive, "--task", "Reach", "--master", "Go", "--runs", 400, "--json").out)
+    assert taught.success == pytest.approx(tried["success"]["mean"], abs=0.25)
+    assert "nothing to do" in mindc("train", drive, *QUICK).err
+    lock_path(drive).write_text(lock_path(drive).read_text().replace(f" success {taught.success}", " success 0.1"))
+    assert "lesson 1 of" in mindc("status", drive).out
 
 
 def test_train_is_like_make(mindc: Call, drive: Path) -> None:

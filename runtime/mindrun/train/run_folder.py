@@ -22,7 +22,7 @@ from mindrun.train.population import Genomes
 from mindrun.weights import Weights
 
 MANIFEST, SOURCES, START, WEIGHTS = "manifest.json", "source", "start.npz", "weights.npy"
-CHAMPIONS, RESULT = "champions.npy", "result.json"
+CHAMPIONS, RESULT, FAILURE = "champions.npy", "result.json", "failed.txt"
 MAX_FILE_BYTES = 1 << 27  # of a manifest, a result, or the weights of all skills
 
 
@@ -126,6 +126,19 @@ def read_result(folder: Path) -> dict[str, Any] | None:
     except (OSError, ValueError):
         return None
     return result if isinstance(result, dict) else None
+
+
+def keep_failure(folder: Path, why: str) -> None:
+    """Write why a run has come to its end and has taught nothing."""
+    atomic_write.write(folder / FAILURE, f"{why}\n".encode())
+
+
+def read_failure(folder: Path) -> str:
+    """Why a run has come to its end and has taught nothing; "" where that is not known."""
+    try:
+        return read_whole(folder / FAILURE, MAX_FILE_BYTES).decode(errors="replace").rstrip("\n")
+    except OSError:
+        return ""
 
 
 def _unused(parent: Path, name: str) -> Path:
