@@ -110,14 +110,16 @@ def test_a_chip_that_is_opened_anew_may_have_reset_the_others_and_they_are_told_
     loose, other = Loose(at=3), Loose()
     with faked(*WHEELS, devices=(loose, other)) as robot:
         drive(robot, 3, 1)
+        mine, others = robot.process.outputs
         while loose.log.count("open") == 1:
-            told = len(other.log)
             robot.now[0] += TICK
             robot.process.step(None)
-            robot.process.outputs[0].attempt()
-        assert not robot.process.outputs[1].settled
-        robot.process.outputs[1].attempt()
-        assert other.log[told:] == [REST]
+            others.attempt()
+            was_settled = others.settled
+            mine.attempt()
+        assert (was_settled, others.settled) == (True, False)
+        others.attempt()
+        assert other.log[-1] == REST
 
 
 def test_a_device_that_works_again_is_told_neutral_without_being_opened_anew() -> None:
@@ -128,6 +130,29 @@ def test_a_device_that_works_again_is_told_neutral_without_being_opened_anew() -
         loose.is_loose = False
         drive(robot, 2, 1)
         assert loose.log.count("open") == 1
+
+
+def test_who_refuses_neutral_for_less_than_two_ticks_is_not_opened_anew() -> None:
+    loose = Loose()
+    with faked(*WHEELS, devices=(loose, Device())) as robot:
+        robot.frame(0.75, 0.75)
+        loose.is_loose = True
+        robot.frame(0.75, 0.75, armed=False)
+        robot.wait(1.5 * TICK)
+        assert loose.log == ["open", REST, 0.75]
+        robot.wait(TICK)
+        assert loose.log[3:] == ["close", "open", REST]
+
+
+def test_who_is_lost_a_second_time_before_it_was_said_to_be_back_stops_all_the_same() -> None:
+    with faked(*WHEELS) as robot:
+        drive(robot, 2, 1)
+        robot.devices[0].fails = True
+        drive(robot, 3, 1)
+        assert robot.state == FOLLOWING
+        robot.process._lost.add("left_wheel")
+        drive(robot, 1, 1)
+        assert robot.process.guard.why == "left_wheel failed: no answer"
 
 
 def test_what_is_opened_anew_and_works_no_better_is_opened_again() -> None:
