@@ -7,12 +7,19 @@ speak in natural units (metres, degrees, volts); `Wiring` says which of these ar
 from collections.abc import Sequence
 from typing import Protocol
 
-from mindrun.errors import MindError
+from mindrun.errors import MindError, text_of
 from mindrun.registry import base, names
 
 
 class DeviceError(MindError):
     """A device that cannot be opened, does not answer, or answers nonsense; `hint` may say what to install or wire."""
+
+
+def failure(error: BaseException) -> str:
+    """Why a device fails, in the words of its driver's error: with the hint, or the type where it is no DeviceError."""
+    if not isinstance(error, DeviceError):
+        return f"{type(error).__name__}: {text_of(error)}"
+    return f"{text_of(error)}; {error.hint}" if error.hint else text_of(error)
 
 
 def driver_name(driver: object) -> str:

@@ -125,8 +125,9 @@ FAULTS: dict[str, Callable[[int], Any]] = {
 
 @dataclass(slots=True)
 class Sent:
-    """A guardian that remembers what it was sent."""
+    """A guardian that remembers what it was sent, and says why it holds everything at neutral."""
 
+    holds: str = ""
     commands: list[NDArray[np.float32]] = field(default_factory=list)
     armed: list[bool] = field(default_factory=list)
 

@@ -7,19 +7,23 @@ from threading import Event, current_thread
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from mindrun.engine import Engine
 from mindrun.policy import Policy
+from mindrun.robot.command import _summary
 from mindrun.robot.loop import Loop
 from mindrun.robot.rate import Rate
 from mindrun.robot.reading_filter import ReadingFilter
 from mindrun.robot.recording import About, Recorder, RecordingError, read
+from mindrun.robot.recording_header import by_guardian
 from mindrun.robot.replay import replay
 from mindrun.robot.sampling import Sampler
 from mindrun.robot.timing_report import report
 from mindrun.wiring import SensorWire
 
 from tests.minds import always, mind, rule
-from tests.robot.faults import TICK, Clock, Scripted, Sent, bus_error, graph
+from tests.robot.faults import TICK, Clock, Scripted, Sent, bus_error, good, graph, robot
 
 BUNDLE = "ab" * 32
 TICKS = 300
@@ -221,6 +225,37 @@ def test_the_report_holds_it_against_the_contract(day: Path) -> None:
     assert not lines["ticks at neutral"].kept
     assert (lines["sense lost"].declared, lines["sense lost"].kept) == ("0.0%", False)
     assert lines["sense delay"].kept
+
+
+def test_what_the_guardian_held_at_neutral_is_recorded_reported_and_summed_up(tmp_path: Path) -> None:
+    of, path = robot("bearing", [good] * 7 + [bus_error]), tmp_path / "day.rec"
+    failed, silent = "right_wheel failed: no answer", "no frame for two ticks"
+    about = About.of(of.loop.engine.graph, BUNDLE, of.loop.engine.graph.master, ("sense",))
+    with Recorder(path, about) as of.loop.recorder:
+        for of.sent.holds in ("", failed, failed, failed, silent, "", failed, failed):
+            of.tick()
+    rows = np.concatenate([*read(path)[1]])
+    assert rows["stopped"].tolist() == [0, 4, 4, 4, 2, 0, 4, 1], "what the loop stopped itself counts as that"
+    lines = {line.what: (line.had, line.kept) for line in report(path, BUNDLE, of.loop.engine.graph)}
+    assert lines["ticks at neutral"] == ("75.00%", False)
+    assert lines["neutral: right_wheel failed"] == ("4 ticks, first after 0.05 s", False)
+    assert lines["neutral: guardian"] == ("1 tick, first after 0.20 s", False)
+    told = "1 at neutral because of a fault, 5 because of the guardian"
+    assert f"{told} (4: right_wheel failed: no answer; 1: no frame for two ticks)" in _summary(of.loop)
+
+
+@given(st.integers(0, 999))
+def test_any_number_of_an_actuator_can_be_recorded(number: int) -> None:
+    said = by_guardian(number)
+    assert by_guardian(None) < said == min(3 + number, 255)
+
+
+def test_what_is_not_armed_is_held_by_nobody() -> None:
+    of = robot("bearing", [good])
+    of.loop.armed, of.sent.holds = False, "no frame for two ticks"
+    of.tick()
+    assert not of.loop.held
+    assert "guardian" not in _summary(of.loop)
 
 
 def test_rows_reach_the_file_once_a_second_and_no_sooner(day: Path) -> None:

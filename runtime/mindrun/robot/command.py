@@ -145,7 +145,9 @@ def _task(graph: Graph, name: str | None) -> tuple[Task, str]:
 
 def _summary(loop: Loop) -> str:
     faults = f", {loop.engine.faults} outputs not sent because a number was not finite" if loop.engine.faults else ""
-    return f"{loop.pace}; {loop.stopped} at neutral because of a fault{faults}"
+    held = "; ".join(f"{count}: {why}" for why, count in loop.held.items())
+    by_guardian = f", {loop.held.total()} because of the guardian ({held})" if held else ""
+    return f"{loop.pace}; {loop.stopped} at neutral because of a fault{by_guardian}{faults}"
 
 
 def _print_error(sentence: str) -> None:

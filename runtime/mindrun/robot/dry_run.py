@@ -1,7 +1,7 @@
 """A dry run in words: what it is when it begins, how it stands while it drives, and what came of it."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from math import isfinite
 from threading import Event, Thread
 from typing import Any
@@ -19,6 +19,7 @@ from mindrun.status_line import StatusLine
 from mindrun.tick_count import ticks as in_words
 
 SHOW_SECONDS = 0.25  # from one state of the line to the next
+MAX_SILENT_QUESTIONS = 8  # in a row, after which the world is gone
 MAX_THINGS_NAMED = 6
 MAX_ACTING_NAMED, LEAST_ACTING_INFLUENCE = 2, 0.01
 
@@ -64,11 +65,14 @@ class DryRun:
         self._acting_skills = movers(graph, master) or driving(graph, master, range(len(graph.actuators)))
         self._influence: NDArray[np.float32] | None = None
         self._is_over = False
+        self._lost: DeviceError | None = None
         self._stop = Event()
 
     def watch(self, loop: Loop) -> bool:
-        """After each tick: whether the run in the world goes on."""
+        """After each tick: whether the run in the world goes on; DeviceError where there is no world any more."""
         self._influence = loop.engine.influence
+        if self._lost:
+            raise self._lost
         return not self._is_over
 
     @contextmanager
@@ -84,11 +88,17 @@ class DryRun:
             self._line.clear()
 
     def _show(self) -> None:
+        silent = 0
         while not self._stop.wait(SHOW_SECONDS):
-            with suppress(DeviceError):  # it answers next time; the loop says where it does not at all
+            try:
                 run = status(self._socket)
-                self._line.show(self.state(run))
-                self._is_over = bool(run["ended"])
+            except DeviceError as error:  # most often it answers next time
+                silent += 1
+                self._lost = error if silent >= MAX_SILENT_QUESTIONS else None
+                continue
+            silent, self._lost = 0, None
+            self._line.show(self.state(run))
+            self._is_over = bool(run["ended"])
 
     def state(self, run: Mapping[str, Any]) -> str:
         """The line for the status of a world: time, who acts, what has happened and been paid, and the commands.

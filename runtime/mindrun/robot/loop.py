@@ -1,5 +1,6 @@
 """The control loop: sense, think, send, at a fixed rate. Whatever goes wrong in it, the guardian stops the robot."""
 
+from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Protocol
@@ -8,23 +9,34 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.engine import Engine
+from mindrun.robot.guardian.guard import failing
 from mindrun.robot.rate import Rate
 from mindrun.robot.reading_filter import FilteredReadings, ReadingFilter
 from mindrun.robot.recording import Recorder
+from mindrun.robot.recording_header import BY_LOOP, NOT_STOPPED, by_guardian
 
 MISSED_TICKS_LIMIT = 3  # ticks in a row that were missed, after which every actuator is neutral until one is not
 MAX_THINKING_TICKS = 2  # that thinking may take
 
 
 class Sends(Protocol):
-    """Takes the commands of a tick; MindError where nobody is there to obey them."""
+    """Takes the commands of a tick; MindError where nobody is there to obey them.
+
+    `holds` says why every actuator is held at neutral all the same, and nothing where none is.
+    """
+
+    @property
+    def holds(self) -> str: ...
 
     def send(self, commands: Sequence[float], armed: bool) -> None: ...
 
 
 @dataclass(frozen=True, slots=True)
 class TickResult:
-    """What came of one tick; `sent` is neutral where `stopped`."""
+    """What came of one tick; `sent` is neutral where `stopped`, and obeyed unless the guardian `held` all at neutral.
+
+    `held` is why it did, as it had said when the tick was sent.
+    """
 
     number: int
     time: float
@@ -32,11 +44,15 @@ class TickResult:
     commands: NDArray[np.float32]
     sent: NDArray[np.float32]
     stopped: bool
+    held: str = ""
 
 
 @dataclass(slots=True)
 class Loop:
-    """A mind in charge of a robot. `armed` lets the guardian move it; `tell` gets sentences as they become true."""
+    """A mind in charge of a robot. `armed` lets the guardian move it; `tell` gets sentences as they become true.
+
+    It counts the ticks in which it `stopped` the robot, and the others in which the guardian `held` it, by the reason.
+    """
 
     engine: Engine
     senses: ReadingFilter
@@ -48,6 +64,7 @@ class Loop:
     faulty: dict[str, str] = field(default_factory=dict)
     ticks: int = 0
     stopped: int = 0
+    held: Counter[str] = field(default_factory=Counter)
 
     def run(self, goes_on: Callable[[TickResult], bool]) -> None:
         """Tick until `goes_on` says no; MindError where the mind or the guardian fails."""
@@ -67,10 +84,12 @@ class Loop:
         stopped = sensed.must_stop or behind or too_old
         sent = self.neutral if stopped else commands
         self.guardian.send(sent.tolist(), self.armed and not stopped)  # unarmed, neutral is not slowed down by slew
-        done = TickResult(self.ticks, time, sensed, commands, sent, stopped)
+        held = self.guardian.holds if self.armed and not stopped else ""
+        done = TickResult(self.ticks, time, sensed, commands, sent, stopped, held)
         self._record(done)
         self.ticks += 1
         self.stopped += stopped
+        self.held.update([held] * bool(held))
         return done
 
     @property
@@ -87,11 +106,16 @@ class Loop:
             self.tell(f"{name} is fine again")
         self.faulty = dict(sensed.why)
 
+    def _stopped_by(self, done: TickResult) -> int:
+        if done.held:
+            return by_guardian(failing(done.held, [actuator.name for actuator in self.engine.graph.actuators]))
+        return BY_LOOP if done.stopped else NOT_STOPPED
+
     def _record(self, done: TickResult) -> None:
         if self.recorder:
             readings = np.where(self.senses.measured, self.engine.readings, np.float32(np.nan))
             self.recorder.write(
-                tick=done.number, time=done.time, stopped=done.stopped, armed=self.armed, faults=done.sensed.faults,
-                ages=done.sensed.ages, readings=readings, influence=self.engine.influence,
+                tick=done.number, time=done.time, stopped=self._stopped_by(done), armed=self.armed,
+                faults=done.sensed.faults, ages=done.sensed.ages, readings=readings, influence=self.engine.influence,
                 commands=done.commands, sent=done.sent,
             )  # fmt: skip

@@ -23,11 +23,19 @@ MAX_SEED, MAX_UNITS = (1 << 64) - 1, 1e9
 CHECKSUM_FIELD = b', "check": "'  # the checksum of the line before it, which is the last that it says
 SHA256 = re.compile("[0-9a-f]{64}")
 POSE_COLUMNS, THING_COLUMNS, BOX_COLUMNS = 3, 4, 4  # x, y, angle; x, y, size, turned; x, y, half of both sides
+# Of the column `stopped`: who had every actuator at neutral. From BY_ACTUATOR on it is the guardian, of which the first
+# actuator had failed, or the second, …; the last number stands for all that come after it, too.
+NOT_STOPPED, BY_LOOP, BY_GUARDIAN, BY_ACTUATOR, BY_LAST = 0, 1, 2, 3, 255
 GOES_ON = -3  # of the column `ended`; else as `Scores.ended_by`
 
 
 class RecordingError(MindError):
     """A recording that cannot be read, or was made of something else."""
+
+
+def by_guardian(actuator: int | None) -> int:
+    """What `stopped` says where the guardian had all at neutral, for the actuator of that number or another reason."""
+    return BY_GUARDIAN if actuator is None else min(BY_ACTUATOR + actuator, BY_LAST)
 
 
 def world_row(things: int, rewards: int, events: int) -> np.dtype[Any]:
@@ -119,7 +127,7 @@ class About:
 
     @property
     def row(self) -> np.dtype[Any]:
-        """A tick: its number and time, whether all had to be neutral and was armed; what was read, thought and sent."""
+        """A tick: its number and time, who had all at neutral, if it was armed; what was read, thought and sent."""
         sensors, skills, actuators = (len(names) for names in (self.sensors, self.skills, self.actuators))
         return np.dtype([
             ("tick", "<u8"), ("time", "<f8"), ("stopped", "u1"), ("armed", "u1"),

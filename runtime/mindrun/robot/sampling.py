@@ -6,8 +6,7 @@ from dataclasses import dataclass
 from math import inf, isfinite
 from time import monotonic
 
-from mindrun.driver import DeviceError, SensorDevice
-from mindrun.errors import text_of
+from mindrun.driver import SensorDevice, failure
 from mindrun.given_numbers import is_truth, number, values
 from mindrun.wiring import SensorWire
 
@@ -68,12 +67,10 @@ class Sampler:
             device = device or self.wire.driver.open()
             began = self._clock()
             return device, checked(device.read(), began, self.wire)
-        except DeviceError as error:
-            why = f"{text_of(error)}; {error.hint}" if error.hint else text_of(error)
         except BaseException as error:  # a driver may fail in any way, and the robot has to know
             if isinstance(error, KeyboardInterrupt) and threading.current_thread() is threading.main_thread():
                 raise  # Ctrl-C
-            why = f"{type(error).__name__}: {text_of(error)}"
+            why = failure(error)
         _close(device)
         return None, Sample((), began, why)
 

@@ -1,6 +1,6 @@
 """The contract of time: what the source declares of each sensor, beside what a recording really had."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -11,7 +11,9 @@ from numpy.typing import NDArray
 from mindrun.graph import Graph, Sensor
 from mindrun.robot.reading_filter import FINE
 from mindrun.robot.recording import RecordingError, read
+from mindrun.robot.recording_header import BY_ACTUATOR, BY_GUARDIAN
 from mindrun.sensors import Physical
+from mindrun.tick_count import ticks
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,7 +38,7 @@ def report(path: Path, bundle: str, graph: Graph) -> list[TimingLine]:
         raise RecordingError(f"{path} has no tick in it")
     sensors = {sensor.name: sensor for sensor in graph.sensors}
     with np.errstate(all="ignore"):  # a recording may hold any number
-        lines = [*_tick(rows, graph.tick)]
+        lines = [*_tick(rows, graph.tick), *_at_neutral(rows, about.actuators)]
         for number, name in enumerate(about.sensors):
             lines += _sensor(rows, number, sensors[name], graph.tick)
     return lines
@@ -55,7 +57,17 @@ def _tick(rows: NDArray[Any], tick: float) -> Iterator[TimingLine]:
         late < tick / 2,
     )
     yield TimingLine("ticks missed", "0 %", f"{missed:.2%}", missed < 0.01)
-    yield TimingLine("ticks at neutral", "0 %", f"{rows['stopped'].mean():.2%}", not rows["stopped"].any())
+
+
+def _at_neutral(rows: NDArray[Any], actuators: Sequence[str]) -> Iterator[TimingLine]:
+    """The share of all ticks at neutral; then why the guardian had them there, and since when."""
+    stopped, names = rows["stopped"], dict(enumerate(actuators, BY_ACTUATOR))
+    yield TimingLine("ticks at neutral", "0 %", f"{(stopped != 0).mean():.2%}", not stopped.any())
+    for number in np.unique(stopped[stopped >= BY_GUARDIAN]).tolist():
+        by = f"{names[number]} failed" if number in names else "guardian"
+        times = rows["time"][stopped == number]
+        first = times[0] - rows["time"][0]
+        yield TimingLine(f"neutral: {by}", "0 ticks", f"{ticks(len(times))}, first after {first:.2f} s", False)
 
 
 def _sensor(rows: NDArray[Any], number: int, sensor: Sensor, tick: float) -> Iterator[TimingLine]:

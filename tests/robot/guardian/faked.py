@@ -20,6 +20,10 @@ class Device:
     fails: bool = False
     written: list[float] = field(default_factory=list)
 
+    def open(self) -> "Device":
+        """It, whenever it is opened."""
+        return self
+
     def write(self, value: float) -> None:
         """One more."""
         if self.fails:
@@ -38,7 +42,7 @@ class Driver:
 
     def open(self) -> Device:
         """That device."""
-        return self.device
+        return self.device.open()
 
 
 @dataclass(slots=True)
@@ -84,9 +88,9 @@ class Faked:
 
 
 @contextmanager
-def faked(*channels: Channel) -> Iterator[Faked]:
-    """A guardian of such actuators, at neutral."""
-    devices = tuple(Device() for _ in channels)
+def faked(*channels: Channel, devices: tuple[Device, ...] = ()) -> Iterator[Faked]:
+    """A guardian of such actuators with these devices, or new ones, at neutral."""
+    devices = devices or tuple(Device() for _ in channels)
     plan = Plan(TICK, tuple(replace(c, driver=Driver(d)) for c, d in zip(channels, devices, strict=True)))
     said: list[str] = []
     now = [100.0]

@@ -8,6 +8,8 @@ stuck     refuses everything
 missing   cannot be opened
 late      cannot be opened at first
 crashes   takes the whole process with it when it is moved
+loose     refuses everything from its tenth write on, until it is opened anew the fourth time
+jammed    the same, but that hangs the second time
 exits     raises SystemExit when it is moved
 """
 
@@ -15,6 +17,7 @@ import os
 import signal
 import sys
 import time
+from collections import Counter
 from dataclasses import dataclass
 from importlib import import_module
 from typing import Annotated
@@ -29,7 +32,7 @@ from mindrun.robot.guardian.realtime import import_little
 LOG = os.open(os.environ["MIND_LOG"], os.O_WRONLY | os.O_APPEND | os.O_CREAT)
 MANNERS = os.environ.get("MIND_MANNERS", "fine fine fine").split()
 NEUTRALS = (0.5, 0.5, 1.0)
-_late = set[int]()
+_openings = Counter[int]()
 
 
 @dataclass(slots=True)
@@ -49,6 +52,8 @@ class LoggedDevice:
                 time.sleep(3600)
             case ("fails", True) | ("stuck", _):
                 raise DeviceError("it refuses")
+            case (("loose" | "jammed"), _) if _openings[self.channel] == 1 and self.tries >= 10:
+                raise DeviceError("no answer")
             case "tired", _ if self.tries <= 20:
                 raise DeviceError("it is tired")
             case "crashes", True:
@@ -71,10 +76,13 @@ class Logged:
     device = ""
 
     def open(self) -> LoggedDevice:
-        """The channel, unless it is missing; one that is `late` is so the first time."""
-        if MANNERS[self.pin] == "missing" or (MANNERS[self.pin] == "late" and self.pin not in _late):
-            _late.add(self.pin)
-            raise DeviceError("nobody answers")
+        """The channel, unless it is not there."""
+        _openings[self.pin] += 1
+        match MANNERS[self.pin], _openings[self.pin]:
+            case ("missing", _) | ("late", 1) | ("loose", 2 | 3 | 4):
+                raise DeviceError("nobody answers")
+            case "jammed", 2:
+                time.sleep(3600)
         if "MIND_PRINTS" in os.environ:
             print("ready or not")
         return LoggedDevice(self.pin, MANNERS[self.pin])

@@ -49,8 +49,14 @@ class Restated:
         if frame.sent - now > TICK:
             return self.rest("a frame from the future", latched=True)
         if not frame.armed:
-            return self.rest("not armed") if self.state == "following" else None
+            if self.state == "following":
+                return self.rest("not armed")
+            if settled:
+                self.why = "not armed"
+            return None
         if self.state == "neutral" and not settled:
+            if self.why in ("started", "not armed"):
+                self.why = "not every actuator has come to neutral"
             return None
         self.state, self.why, self.until = "following", "", frame.sent + 2 * TICK
         return self.move(frame.commands, now)
@@ -75,6 +81,8 @@ class Restated:
         return self.rest("no frame for two ticks")
 
     def failed(self, actuator: str, why: str) -> Order:
+        if self.state == "neutral":
+            self.why = f"{actuator} failed: {why}"
         if self.state != "following":
             return None
         self.failures += 1

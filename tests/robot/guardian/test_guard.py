@@ -153,13 +153,6 @@ def test_too_many_failures_latch(moving: Faked) -> None:
     assert (moving.state, moving.last) == (LATCHED, REST)
 
 
-def test_it_says_once_a_second_who_is_not_at_neutral(moving: Faked) -> None:
-    moving.devices[0].fails = True
-    for _ in range(100):
-        moving.wait(0.05)
-    assert 4 <= sum("wheel is not at neutral" in line for line in moving.said) <= 5
-
-
 def test_trim_limits_and_direction() -> None:
     channel = Channel("wheel", 0.5, MockActuator(), trim=0.1, low=0.2, high=0.8, reversed=True)
     with faked(channel) as robot:
@@ -229,19 +222,3 @@ def test_whatever_comes_devices_get_shares_and_faults_end_in_neutral(
         robot.write()
         assert robot.last == rest
         assert all(0.0 <= value <= 1.0 for device in robot.devices for value in device.written)
-
-
-def test_an_actuator_that_does_not_come_to_neutral_is_told_and_latches() -> None:
-    """Otherwise a controller would go on for ever over wheels that nobody can stop."""
-    channels = [Channel(name, 0.5, MockActuator()) for name in ("left_wheel", "right_wheel")]
-    with faked(*channels) as robot:
-        robot.frame(1.0, 1.0)
-        robot.devices[0].fails = True
-        robot.wait(2.5 * TICK)
-        assert robot.state == NEUTRAL
-        robot.wait(1.1)
-        assert robot.state == LATCHED
-        assert "left_wheel does not come to neutral: no answer" in robot.process.guard.why
-        robot.devices[0].fails = False
-        robot.write()
-        assert robot.last == [0.5, 0.5], "it is tried all the same"

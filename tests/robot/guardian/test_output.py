@@ -5,6 +5,7 @@ import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from math import inf
 from time import monotonic, sleep
 
 import pytest
@@ -52,7 +53,7 @@ class Gate:
 
 @contextmanager
 def started(device: object) -> Iterator[ActuatorOutput]:
-    output = ActuatorOutput("wheel", REST, lambda: None)
+    output = ActuatorOutput("wheel", REST, lambda: None, lambda: device, inf)  # type: ignore[arg-type, return-value]
     output.start(device)  # type: ignore[arg-type]
     try:
         yield output
@@ -172,7 +173,7 @@ class Stubborn:
 
 
 def test_what_fails_is_tried_again_soon_and_then_every_50_ms_and_what_is_new_at_once() -> None:
-    output = ActuatorOutput("wheel", REST, lambda: None)
+    output = ActuatorOutput("wheel", REST, lambda: None, lambda: device, inf)
     output._device = device = Stubborn(output)
 
     def give_in() -> None:

@@ -242,6 +242,37 @@ def test_one_that_hangs_keeps_no_other_from_neutral(log: Path) -> None:
     os.killpg(guardian._processes.first.pid, signal.SIGKILL)
 
 
+def test_one_that_comes_loose_is_opened_anew_at_neutral_and_drives_on(log: Path) -> None:
+    held = set()
+    with patient({"MIND_MANNERS": "loose fine fine"}), Guardian(PLAN, PATIENCE, LOGGED) as guardian:
+        while None not in (told := [w.value for w in writes(log) if w.channel == 0]) or told[-1] != MOVING[0]:
+            guardian.send(MOVING, armed=True)
+            held.add(guardian.holds)
+            time.sleep(TICK / 2)
+        while guardian.holds:
+            guardian.send(MOVING, armed=True)
+            time.sleep(TICK / 2)
+    closed = told.index(None)
+    assert told[closed + 1] == 0.5, "the first that is written to what was opened anew is neutral"
+    assert held >= {"", "left_wheel failed: no answer"}
+
+
+def test_one_that_hangs_as_it_is_opened_anew_keeps_no_other_from_neutral(log: Path) -> None:
+    with patient({"MIND_MANNERS": "jammed fine fine"}):
+        guardian = Guardian(PLAN, PATIENCE, LOGGED)
+    while not [write for write in writes(log) if write.value is None]:
+        guardian.send(MOVING, armed=True)
+        time.sleep(TICK / 2)
+    while not all(write.neutral for write in last(log)[1:]):
+        time.sleep(0.005)
+    guardian.send(MOVING, armed=True)
+    assert guardian.state == "neutral"
+    guardian._patience = 0.5
+    with pytest.raises(GuardianError, match="not at neutral"):
+        guardian.close()
+    os.killpg(guardian._processes.first.pid, signal.SIGKILL)
+
+
 def test_what_a_driver_prints_is_no_status(log: Path) -> None:
     with patient({"MIND_PRINTS": ""}), Guardian(PLAN, PATIENCE, LOGGED) as guardian:
         drive(guardian, log)

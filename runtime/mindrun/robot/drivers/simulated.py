@@ -21,6 +21,8 @@ EXCHANGE_SECONDS = 0.2  # seconds for a whole exchange
 TEXT = Reference("text")
 VALUE = Struct("<d")
 
+_seen: set[str] = set()  # the sockets of worlds that have answered this process
+
 
 @dataclass(slots=True)
 class WorldConnection:
@@ -162,9 +164,14 @@ class SimulatedActuator:
         return f"{self.socket} {self.actuator}"
 
     def open(self) -> SimulatedActuatorDevice:
-        """The actuator, which does not move until it is commanded; DeviceError where the world has none such."""
-        if self.actuator not in status(self.socket)["commands"]:
-            raise DeviceError(f"in the simulated world, there is no actuator {self.actuator}")
+        """The actuator, which does not move until it is commanded; DeviceError where the world has none such.
+
+        It is there, too, where that world has been cleared away meanwhile: then nothing moves any more.
+        """
+        if not (self.socket in _seen and not Path(self.socket).exists()):
+            if self.actuator not in status(self.socket)["commands"]:
+                raise DeviceError(f"in the simulated world, there is no actuator {self.actuator}")
+            _seen.add(self.socket)
         return SimulatedActuatorDevice(WorldConnection(self.socket), self.actuator)
 
 

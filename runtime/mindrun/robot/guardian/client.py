@@ -13,7 +13,7 @@ from types import TracebackType
 from mindrun.errors import MindError
 from mindrun.robot.child_processes import keep_from_children, keep_no_longer
 from mindrun.robot.guardian.frames import pack
-from mindrun.robot.guardian.guard import FOLLOWING, LATCHED, MOVES_ON, NEUTRAL
+from mindrun.robot.guardian.guard import FOLLOWING, LATCHED, MOVES_ON, NEUTRAL, NOT_ARMED, STARTED
 from mindrun.robot.guardian.plan import Plan
 from mindrun.robot.guardian.processes import Processes
 
@@ -70,6 +70,14 @@ class Guardian:
     def why(self) -> str:
         """Why it is so."""
         return self._heard.why
+
+    @property
+    def holds(self) -> str:
+        """Why it held every actuator at neutral, whatever it was sent, when it said so last; nothing where it did not.
+
+        What it says of a tick's commands is heard with the next tick.
+        """
+        return "" if self.state == FOLLOWING or self.why in (STARTED, NOT_ARMED) else self.why
 
     def send(self, commands: Iterable[float], armed: bool) -> None:
         """One tick's commands in the order of the plan; without `armed` nothing moves.
@@ -140,7 +148,7 @@ class Guardian:
             raise GuardianError(f"the guardian cannot start: {self.why}")
         if heard.state != "ready" or heard.is_lost:
             raise GuardianError("the guardian ended before it was ready")
-        heard.state, heard.why, self._read_at = NEUTRAL, "started", monotonic()
+        heard.state, heard.why, self._read_at = NEUTRAL, STARTED, monotonic()
         os.set_blocking(self._frames, False)
         with suppress(OSError):
             fcntl.fcntl(self._frames, fcntl.F_SETPIPE_SZ, PIPE_BYTES)

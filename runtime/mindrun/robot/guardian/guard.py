@@ -5,6 +5,7 @@ following  each frame moves the actuators; two ticks without one, or an actuator
 latched    neutral until the guardian is started anew: whoever sends such frames is broken
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import inf
 
@@ -12,7 +13,9 @@ from mindrun.robot.guardian.frames import Frame
 from mindrun.robot.guardian.plan import Channel, Plan
 
 NEUTRAL, FOLLOWING, LATCHED = "neutral", "following", "latched"
-NOT_ARMED = "not armed"  # why it is at neutral where the controller wants just that
+STARTED, NOT_ARMED = "started", "not armed"  # why it is at neutral where the controller wants just that
+NOT_YET = "not every actuator has come to neutral"  # why it still is where the controller wants to move
+FAILED = "failed"  # behind the name of an actuator, because of which it is
 MOVES_ON = "does not come to neutral"  # an actuator: a reason to latch, of which not everything is at neutral
 SILENT_TICKS = 2  # after which the controller hangs, or an actuator does not answer
 MAX_FAILURES = 3  # of actuators: the third latches
@@ -33,6 +36,11 @@ class Rest:
 Order = Move | Rest | None
 
 
+def failing(why: str, actuators: Sequence[str]) -> int | None:
+    """The number of the actuator because of which all are at neutral; None where it is not because of one."""
+    return next((number for number, name in enumerate(actuators) if why.startswith(f"{name} {FAILED}")), None)
+
+
 class Guard:
     """The state machine of the guardian: each method returns what the caller must do with the devices now."""
 
@@ -41,7 +49,7 @@ class Guard:
         self._rest = tuple(map(resting, plan.channels))
         self._values, self._then = self._rest, -inf
         self.limit = SILENT_TICKS * plan.tick
-        self.state, self.why = NEUTRAL, "started"
+        self.state, self.why = NEUTRAL, STARTED
         self.deadline = inf
         self.silences = self.failures = 0
 
@@ -60,9 +68,10 @@ class Guard:
         if frame.sent > now + self._plan.tick:
             return self.broken("a frame from the future")
         if not frame.armed:
-            return self._neutral(NOT_ARMED) if self.state == FOLLOWING else None
+            return self._unarmed(settled)
         if self.state == NEUTRAL:
             if not settled:
+                self.why = NOT_YET if self.why in (STARTED, NOT_ARMED) else self.why
                 return None
             self.state, self.why = FOLLOWING, ""
         self.deadline = frame.sent + self.limit
@@ -76,13 +85,17 @@ class Guard:
         return self._neutral("no frame for two ticks")
 
     def failed(self, actuator: str, why: str) -> Order:
-        """An actuator has acknowledged no command for two ticks."""
-        if self.state != FOLLOWING:
+        """An actuator has acknowledged no command for two ticks; at neutral that is why all stay there."""
+        if self.state == LATCHED:
+            return None
+        said = f"{actuator} {FAILED}: {why}"
+        if self.state == NEUTRAL:
+            self.why = said
             return None
         self.failures += 1
         if self.failures >= MAX_FAILURES:
-            return self.broken(f"{actuator} failed, as did {MAX_FAILURES - 1} before: {why}")
-        return self._neutral(f"{actuator} failed: {why}")
+            return self.broken(f"{actuator} {FAILED}, as did {MAX_FAILURES - 1} before: {why}")
+        return self._neutral(said)
 
     def broken(self, why: str) -> Order:
         """Something came that no working controller sends."""
@@ -91,6 +104,12 @@ class Guard:
         order = self._neutral(why)
         self.state = LATCHED
         return order
+
+    def _unarmed(self, settled: bool) -> Order:
+        if self.state == FOLLOWING:
+            return self._neutral(NOT_ARMED)
+        self.why = NOT_ARMED if settled else self.why
+        return None
 
     def _neutral(self, why: str) -> Rest:
         self.state, self.why, self.deadline = NEUTRAL, why, inf

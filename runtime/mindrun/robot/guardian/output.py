@@ -1,16 +1,21 @@
-"""One actuator's writer: a thread of its own, so that a device that hangs keeps no other from its neutral."""
+"""One actuator's writer: a thread of its own, so that a device that hangs keeps no other from its neutral.
+
+It opens the device anew, too, where that has failed for long: one that was unplugged comes back.
+"""
 
 import os
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
+from math import inf
 from threading import Condition, Thread
 from time import monotonic
 
-from mindrun.driver import ActuatorDevice
-from mindrun.errors import text_of
+from mindrun.driver import ActuatorDevice, failure
 
 FORKED_EXIT_CODE = 70  # exit code of a process that a driver has forked and that has come back from it
 MIN_RETRY_SECONDS, MAX_RETRY_SECONDS = 0.002, 0.05  # seconds between two tries: at first, and in the end
+BOOT_SECONDS = 5.0  # for a device that was opened anew to acknowledge its first command
 
 
 def end_in_child(process: int) -> None:
@@ -29,15 +34,27 @@ class Wanted:
 
 
 class ActuatorOutput:
-    """Writes what is wanted until the device acknowledges it; at the beginning that is neutral."""
+    """Writes what is wanted until the device acknowledges it; at the beginning that is neutral.
+
+    A device that has worked, refuses neutral, and has acknowledged nothing for longer than `patience` is lost: it is
+    closed, and `opened` anew as often as it takes.
+    """
 
     def __init__(
-        self, name: str, rest: float, settled: Callable[[], None], clock: Callable[[], float] = monotonic
+        self,
+        name: str,
+        rest: float,
+        settled: Callable[[], None],
+        opened: Callable[[], ActuatorDevice],
+        patience: float,
+        clock: Callable[[], float] = monotonic,
     ) -> None:
         self.name = name
         self.error = ""
         self._neutral = rest
         self._settled = settled
+        self._opened = opened
+        self._patience = patience
         self._clock = clock
         self._wanted = Wanted(rest, True, clock())
         self._waiting: float | None = clock()  # since when nothing has been acknowledged that should have been
@@ -45,7 +62,10 @@ class ActuatorOutput:
         self._process = os.getpid()
         self._change = Condition()
         self._thread = Thread(target=self._run, name=name, daemon=True)
-        self._device: ActuatorDevice
+        self._device: ActuatorDevice | None = None
+        self._is_new_until = inf
+        self._refuses_neutral = False
+        self._writing_since: float | None = None
 
     def start(self, device: ActuatorDevice) -> None:
         """Begin to write."""
@@ -71,6 +91,11 @@ class ActuatorOutput:
         with self._change:
             return 0.0 if self._waiting is None else now - self._waiting
 
+    def hangs(self, now: float) -> float:
+        """For how long the write under way has not returned, be it with an error; 0 where there is none."""
+        since = self._writing_since
+        return 0.0 if since is None else now - since
+
     def close(self, seconds: float) -> None:
         """Close the device; give up where that takes longer than allowed."""
         with self._change:
@@ -80,23 +105,45 @@ class ActuatorOutput:
 
     def attempt(self) -> Wanted | None:
         """Write what is wanted, once: what has been tried without success, or None when there is nothing left to do."""
-        with self._change:
-            wanted = self._wanted
+        wanted = self._wanted
         try:
-            self._device.write(wanted.value)
+            device = self._working_device()
+            wanted = self._wanted  # of a device that was opened anew neutral: whoever opens it orders that
+            self._writing_since = self._clock()
+            device.write(wanted.value)
             end_in_child(self._process)
         except BaseException as error:  # whatever a driver raises, this thread goes on
             end_in_child(self._process)
-            self.error = text_of(error)
+            self.error, self._refuses_neutral = failure(error), wanted.neutral
             return wanted
+        finally:
+            self._writing_since = None
         with self._change:
+            self.error, self._refuses_neutral, self._is_new_until = "", False, -inf
             if self._wanted is not wanted:
-                self._waiting, self.error = self._clock(), ""
+                self._waiting = self._clock()
                 return wanted
-            self._waiting, self.error = None, ""
+            self._waiting = None
         if wanted.neutral:
             self._settled()
         return None
+
+    def _working_device(self) -> ActuatorDevice:
+        """The device, opened anew where it is lost; raises whatever its driver does."""
+        now = self._clock()
+        if self._refuses_neutral and self.late(now) > self._patience and now > self._is_new_until:
+            self._close()
+        if self._device is None:
+            self._device = self._opened()
+            self._is_new_until = self._clock() + BOOT_SECONDS
+        return self._device
+
+    def _close(self) -> None:
+        device, self._device = self._device, None
+        if device is not None:
+            with suppress(BaseException):  # whatever its driver raises: it is of no use any more
+                device.close()
+            end_in_child(self._process)
 
     def _want(self, value: float, neutral: bool) -> None:
         with self._change:
@@ -115,4 +162,4 @@ class ActuatorOutput:
                 elif tried is None and self._waiting is None and not self._closing:
                     self._change.wait()
                 pause = min(2 * pause, MAX_RETRY_SECONDS) if tried is self._wanted else MIN_RETRY_SECONDS
-        self._device.close()
+        self._close()

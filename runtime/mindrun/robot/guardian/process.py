@@ -3,18 +3,32 @@
 import os
 from collections.abc import Callable
 from contextlib import suppress
+from functools import partial
 from math import ceil
 from select import select
 from time import monotonic
 
+from mindrun.driver import ActuatorDevice
 from mindrun.errors import text_of
 from mindrun.robot.guardian.frames import FrameError, Reader
-from mindrun.robot.guardian.guard import FOLLOWING, LATCHED, MOVES_ON, NEUTRAL, NOT_ARMED, Guard, Move, Order, Rest
+from mindrun.robot.guardian.guard import (
+    FAILED,
+    FOLLOWING,
+    LATCHED,
+    MOVES_ON,
+    NEUTRAL,
+    NOT_ARMED,
+    Guard,
+    Move,
+    Order,
+    Rest,
+)
 from mindrun.robot.guardian.output import ActuatorOutput, end_in_child
-from mindrun.robot.guardian.plan import Plan
+from mindrun.robot.guardian.plan import Channel, Plan
 
 REPORT_SECONDS = 1.0  # between two reports on an actuator that is not at neutral
 CLOSE_SECONDS = 0.5  # that a device may take to close
+SILENT = "it does not answer"  # of an actuator that raises no error
 Say = Callable[[str], None]
 Clock = Callable[[], float]
 
@@ -38,8 +52,12 @@ class Process:
         self.guard = Guard(plan)
         self._reader = Reader(len(plan.channels))
         rests = zip(plan.channels, self.guard.rest, strict=True)
-        self.outputs = [ActuatorOutput(channel.actuator, rest, self._nudge, clock) for channel, rest in rests]
+        self.outputs = [
+            ActuatorOutput(each.actuator, rest, self._nudge, partial(self._opened_anew, each), self.guard.limit, clock)
+            for each, rest in rests
+        ]
         self._opened: list[ActuatorOutput] = []
+        self._lost: set[str] = set()  # the names of actuators of which this was said
         self._ending = False
         self._process = os.getpid()
         self._told = 0.0
@@ -96,13 +114,13 @@ class Process:
 
     def step(self, data: bytes | None) -> None:
         """Do what follows from this data, from the time, and from what the devices have done."""
-        before = self.guard.state
+        before = self.guard.state, self.guard.why
         if data:
             self._obey(self._take(data))
         self._obey(self.guard.passed(self._clock()))
-        self._obey(self._failure())
-        self._complain(self._clock())
-        if self.guard.state != before:
+        for output in self._opened:
+            self._attend(output, self._clock())
+        if (self.guard.state, self.guard.why) != before:
             self._status(f"{self.guard.state} {self.guard.why}")
 
     def close(self) -> None:
@@ -125,16 +143,32 @@ class Process:
         # Of several that waited only the newest counts.
         return self.guard.frame(frames[-1], self._clock(), self._settled()) if frames else None
 
-    def _failure(self) -> Order:
-        """What follows from an actuator that answers no more: what moves is stopped, what does not stop is told."""
-        now = self._clock()
-        for output in self.outputs:
-            why = output.error or "it does not answer"
-            if self.guard.state == FOLLOWING and output.late(now) > self.guard.limit:
-                return self.guard.failed(output.name, why)
-            if self.guard.state == NEUTRAL and output.late(now) > REPORT_SECONDS:
-                return self.guard.broken(f"{output.name} {MOVES_ON}: {why}")
-        return None
+    def _attend(self, output: ActuatorOutput, now: float) -> None:
+        """Stop everything where an actuator answers no more, and latch where it hangs; say that it is lost, or back."""
+        is_lost = output.late(now) > self.guard.limit
+        if is_lost and (self.guard.state == FOLLOWING or output.name not in self._lost):
+            self._lost.add(output.name)
+            self._lose(output.name, output.error or SILENT)
+        elif not is_lost and output.name in self._lost:
+            self._lost.remove(output.name)
+            self._report(f"{output.name} is fine again")
+        if self.guard.state == NEUTRAL and output.hangs(now) > REPORT_SECONDS:
+            self._obey(self.guard.broken(f"{output.name} {MOVES_ON}: {SILENT}"))
+
+    def _lose(self, name: str, why: str) -> None:
+        """Bring all to neutral because of an actuator that may not come there itself."""
+        said = f"{name} {FAILED}: {why}"
+        if self.guard.failed(name, why):
+            self.rest()
+            said = self.guard.why
+        self._report(f"all actuators to neutral, but {name} may still move: {said}")
+
+    def _opened_anew(self, channel: Channel) -> ActuatorDevice:
+        """The device of an actuator that has failed; called in the thread of its output, before it is at neutral."""
+        device = channel.driver.open()
+        end_in_child(self._process)
+        self.rest()  # nothing is to move; to open one can reset another that is on the same chip
+        return device
 
     def _obey(self, order: Order) -> None:
         match order:
@@ -154,7 +188,7 @@ class Process:
             if output.late(now) >= REPORT_SECONDS:
                 self._told = now
                 late = ceil(output.late(now))
-                self._report(f"{output.name} is not at neutral after {late} s: {output.error or 'it does not answer'}")
+                self._report(f"{output.name} is not at neutral after {late} s: {output.error or SILENT}")
 
     @property
     def at_rest(self) -> list[str]:
