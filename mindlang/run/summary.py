@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from typing import Any
 
+from mindrun.sim.outside.foreign import GAVE_NO_NUMBER
 from rich.console import Group, RenderableType
 from rich.text import Text
 
@@ -87,7 +88,9 @@ def _counted(counts: dict[str, str]) -> list[tuple[str, str]]:
 def _faults(found: dict[str, Any]) -> str:
     faults = found.get("faults", 0)  # of a run that was stopped nobody knows them
     values = "value was not a finite number" if faults == 1 else "values were not finite numbers"
-    return f"{faults:,} {values}: a division by zero?" if faults else ""
+    is_its = any(GAVE_NO_NUMBER in note for note in found.get("notes", ()))
+    why = "the environment gave such itself, as the note says" if is_its else "a division by zero?"
+    return f"{faults:,} {values}: {why}" if faults else ""
 
 
 def _facts(*rows: tuple[str, str]) -> Text:
