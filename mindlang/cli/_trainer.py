@@ -115,9 +115,9 @@ class Trainer:
             if state is None or not has_ended(run, state):
                 talk.print(f"saved; to go on: {self._command(run)}", markup=False)
                 return False
+            self._say(*(f"note: {note}" for note in rollout.notes if note not in said))
             taught = self._finished(run, subject, state, scorer, force, rollout.notes)
             result = taught.result | counted.rate(None if self.where else cpu_seconds() - cpu_begin)
-        self._say(*(f"note: {note}" for note in rollout.notes if note not in said))
         self._say(*outcome(run, result, taught.kept, subject.keep_path(run.manifest.lesson).name))
         self._print(result)
         return True

@@ -95,7 +95,7 @@ def _refuse_missing(ready: ReadyMind, file: str) -> None:
 
 
 def _refuse_procedures(compiled: Compiled, master: str) -> None:
-    """Say what is wrong with the procedures that travel; end the program where one cannot be what its skill needs."""
+    """Say what `check` says of procedures; end the program where one that travels cannot be what its skill needs."""
     from mindrun.skill_sets import reachable
 
     from mindlang.cli._diagnostic_printer import print_report
@@ -104,8 +104,11 @@ def _refuse_procedures(compiled: Compiled, master: str) -> None:
 
     assert compiled.graph is not None
     assert compiled.mind is not None
-    found = [*mistakes(reachable(compiled.graph, master), compiled.mind, compiled.sources[0].folder)]
-    print_report(found, console(stderr=True))
+    travelling = reachable(compiled.graph, master)
+    others = [skill for skill in compiled.graph.skills if skill not in travelling]
+    found = [*mistakes(travelling, compiled.mind, compiled.sources[0].folder)]
+    left = [*mistakes(others, compiled.mind, compiled.sources[0].folder)]  # it is said, and in nobody's way
+    print_report([*found, *(replace(each, severity="warning") for each in left)], console(stderr=True))
     if any(each.severity == "error" for each in found):
         sys.exit(FINDINGS)
 

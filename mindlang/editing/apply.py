@@ -87,6 +87,8 @@ def _refuse_under_alias(change: MindChange) -> None:
             name = splice.source.name
             message = f"{name} is used as {alias}, and has other names for what it declares."
             hint = f"Edit it by itself: mindc edit … {command_line(Path(name))}"
+            if load(splice.source.path).graph is None:
+                hint = f"It is no mind by itself, which mindc edit could change: change {name} by hand."
             raise EditError(message, hint, Span(splice.source, splice.start, splice.end))
 
 

@@ -1,8 +1,12 @@
 """`mindc edit rename`."""
 
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Annotated
 
+from mindrun.command_line import command_line
+
+from mindlang.compiler.compile import load
 from mindlang.compiler.diagnostic import Label, a, listed
 from mindlang.compiler.references import VALUE_NOUNS, Mention, introductions
 from mindlang.compiler.syntax import NOUNS, Rewards
@@ -34,6 +38,7 @@ def rename(
     """
     declared = _declared(project, old, noun)
     of = declared.noun
+    _refuse_under_alias(declared, new, noun)
     refuse_misnamed(of, new)
     for each in (project, *project.sharing(of, old)):
         _refuse_taken(each, of, new)
@@ -48,6 +53,23 @@ def rename(
     splices = (*(instead(place, new) for place in places), *others)
     elsewhere = (Renamed(of, f"{alias}.{old}", f"{alias}.{new}") for alias in aliases)
     return MindChange(splices, (Renamed(of, old, new), *elsewhere))
+
+
+def _refuse_under_alias(declared: Mention, new: str, noun: str) -> None:
+    """EditError where a file declares it that has other names here: with the command that renames it there."""
+    source = declared.name.span.source
+    if not source.alias:
+        return
+    own, new, file = declared.name.span.text, new.removeprefix(f"{source.alias}."), source.path
+    message = f"{declared.name.text} is {own} in {source.name}, which is used as {source.alias}."
+    which = ("--noun", noun) if noun else ()
+    command = command_line("mindc", "edit", "rename", Path(source.name), own, new, *which)
+    hint = f"Rename it there, and it is followed here: {command}"
+    if load(file).graph is None:
+        here = declared.name.text.removesuffix(own)  # a thing has no other name here
+        also = f"{here}{own} {here}{new} here"
+        hint = f"{source.name} is no mind by itself, so do it by hand: call {own} {new} there, and {also}."
+    raise EditError(message, hint, declared.name.span)
 
 
 def _aliases(project: Project, declared: Mention) -> Iterator[tuple[str, Project]]:

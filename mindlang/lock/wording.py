@@ -51,8 +51,7 @@ def argument(noun: str, kind: str, field: str, value: Any) -> str:
     """An argument of a kind, as plain data, in words: range 12, at 0 22.5 deg, size 3 to 1 by 0.1; without along."""
     if value in UNSAID_VALUES:
         return f"without {field.removesuffix('_')}"
-    known = {each.field: each for each in arguments(kinds(noun)[kind])} if kind in kinds(noun) else {}
-    meaning = known[field].type if field in known else None
+    meaning = meaning_of(noun, kind, field)
     if meaning == EXPRESSION:
         return f"{field} {infix(tuple((word, x) for word, x in value), lambda _, name: str(name))}"
     if isinstance(value, list) and value and isinstance(value[0], list):
@@ -63,6 +62,12 @@ def argument(noun: str, kind: str, field: str, value: Any) -> str:
         return f"{field.removesuffix('_')} none"
     unit = next(iter(meaning.units), "") if isinstance(meaning, Quantity) else ""
     return f"{field.removesuffix('_')} {words} {unit}".rstrip()
+
+
+def meaning_of(noun: str, kind: str, field: str) -> Quantity | Reference | None:
+    """What an argument of a kind is; None of what this version does not know."""
+    known = {each.field: each for each in arguments(kinds(noun)[kind])} if kind in kinds(noun) else {}
+    return known[field].type if field in known else None
 
 
 def _converted(value: Any, meaning: Quantity | Reference | None) -> str:

@@ -2,14 +2,17 @@
 
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from math import degrees
+from math import degrees, sin
 from typing import Any
+
+from mindrun.quantity import ANGLE
 
 from mindlang.lock.older_worlds import migrate_facts
 from mindlang.lock.training_world import TrainingWorld
-from mindlang.lock.wording import argument, number
+from mindlang.lock.wording import argument, meaning_of, number
 
 PARTS = ("sensor", "memory", "actuator", "thing")
+SAME_DIRECTION = 1e-9  # so far apart may be the sines of what is one direction to a reader
 NOUNS = {"thing": "content"}  # of the registry, where it says another
 
 
@@ -54,12 +57,19 @@ def _kind_changes(noun: str, name: str, old: Mapping[str, Any], now: Mapping[str
     if old["is"] != now["is"]:
         yield f"taught with {name} as {old['is']}, now {now['is']}"
         return
-    for field in now:
-        if field != "is" and field in old and old[field] != now[field] and _are_lines(now[field]):
+    for field in [field for field in now if field != "is" and field in old and old[field] != now[field]]:
+        if _are_lines(now[field]):
             yield f"the text of {name} has changed"
-        elif field != "is" and field in old and old[field] != now[field]:
+        elif meaning_of(noun, now["is"], field) != ANGLE or not _are_one_direction(old[field], now[field]):
             before, after = (argument(noun, now["is"], field, each[field]) for each in (old, now))
             yield f"taught with {name} {before}, now {after.removeprefix(before.partition(' ')[0] + ' ')}"
+
+
+def _are_one_direction(old: Any, now: Any) -> bool:
+    """Whether directions are those of before, each perhaps written otherwise: -90 deg is 270 deg."""
+    before, after = (value if isinstance(value, list) else [value] for value in (old, now))
+    known = len(before) == len(after) and all(isinstance(each, int | float) for each in (*before, *after))
+    return known and all(abs(sin((a - b) / 2)) < SAME_DIRECTION for a, b in zip(before, after, strict=True))
 
 
 def _are_lines(value: Any) -> bool:
@@ -119,7 +129,7 @@ def _task_changes(old: Mapping[str, Any], now: Mapping[str, Any]) -> Iterator[st
     yield from (f"its task has changed: {change}" for change in told)
     if "environment" in old and "environment" in now and old["environment"] != now["environment"]:
         yield "the text of its task's environment has changed"
-    if old.get("start") != now.get("start"):
+    if _is_another_start(old.get("start"), now.get("start")):
         yield f"its task has changed: {_start(now.get('start'))}, before {_start(old.get('start'))}"
 
 
@@ -127,6 +137,13 @@ def _variations(old: Sequence[str], now: Sequence[str]) -> Iterator[str]:
     """What differs from run to run only in one of the worlds."""
     yield from (f"no longer {each}" for each in sorted(set(old) - set(now)))
     yield from (f"{each} is new" for each in sorted(set(now) - set(old)))
+
+
+def _is_another_start(old: Any, now: Any) -> bool:
+    if not old or not now:
+        return bool(old != now)
+    (at, facing), (at_now, facing_now) = ((each["at"], each["facing"]) for each in (old, now))
+    return at != at_now or not (facing == facing_now or _are_one_direction(facing, facing_now))
 
 
 def _start(start: Any) -> str:

@@ -39,13 +39,14 @@ def check(study: Study) -> Found:
     for task in study.mind.tasks:
         place = world(study, task)
         for reward in task.rewards:
-            if why := _why(place, reward):
+            if why := why_never_paid(place, reward):
                 span, message, hint = why
                 fix = Fix("Remove the reward", (without_fact(reward.fact),), is_safe=False)
                 yield Finding(span, f"This reward is never paid: {message}.", hint, fix=fix)
 
 
-def _why(place: AnalysedWorld, reward: Reward) -> tuple[Span, str, str] | None:
+def why_never_paid(place: AnalysedWorld, reward: Reward) -> tuple[Span, str, str] | None:
+    """Where and why a reward is never paid, and what to do; None of one that may be."""
     fact = reward.fact
     if reward.on and fact.on and (why := reward.on.prevented(place)):
         return fact.on.span, *why

@@ -1,11 +1,13 @@
-"""A lesson on a task that rewards nothing.
+"""A lesson on a task that rewards nothing, or of which no reward is ever paid.
 
 Every attempt is then as good as any other, and what is learnt is chance. A task that is only run or counted in a
 benchmark needs no rewards.
 """
 
 from mindlang.analysis.study import Finding, Found, Study
+from mindlang.analysis.worlds import world
 from mindlang.compiler.diagnostic import Label
+from mindlang.rules.dead_reward import why_never_paid
 
 COURSE = """
 sensor eye is range_finder at 0 deg
@@ -18,15 +20,17 @@ task Course in arena
   lasts 9 s
 """
 GOOD = (f"{COURSE}  rewards forward per tick\n", "task Show in arena\n  lasts 9 s\n  counts collision\n")
-BAD = (COURSE,)
+BAD = (COURSE, f"{COURSE}  rewards 0 per tick\n  rewards 1 per tick when eye > 1.5\n")
 
 
 def check(study: Study) -> Found:
-    """Lessons whose task has no reward."""
+    """Lessons whose task has no reward that could be paid."""
     for lesson in study.mind.lessons:
         task = study.tasks[lesson.task]
-        if not task.rewards:
+        place = world(study, task)
+        if all(why_never_paid(place, reward) for reward in task.rewards):
             label = Label(task.declaration.header.name.span, "declared here")
-            message = f"{task.name} rewards nothing, so {lesson.skill} has nothing to learn for."
+            rewards = "never pays a reward" if task.rewards else "rewards nothing"
+            message = f"{task.name} {rewards}, so {lesson.skill} has nothing to learn for."
             hint = f"Add for example rewards 0.01 * forward per tick to {task.name}."
             yield Finding(lesson.fact.task.span, message, hint, (label,))

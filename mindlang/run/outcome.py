@@ -15,6 +15,7 @@ from mindrun.train.scoring import succeeded
 from numpy.typing import NDArray
 
 from mindlang.compiler.drawing import phrase
+from mindlang.run.paired_difference import unseen_share
 
 if TYPE_CHECKING:
     from mindrun.run_scores import Scores
@@ -117,7 +118,7 @@ def bench_data(
         **_spread("count_", scores.counts[0] if task.counts else NOTHING),
         "counted": [happened[event] for event in task.counts],
         "by_event": {happened[event]: _spread("", scores.by_event[0, :, event]) for event in task.counts},
-        **({"success": _spread("", succeeded(task, scores)[0].astype(float))} if task.can_succeed else {}),
+        **({"success": _success(succeeded(task, scores)[0].astype(float))} if task.can_succeed else {}),
         "runtime_mean": float(scores.ticks[0].mean() / task.ticks),
         "ended": {ended_by(task, number) or TIME: ended[number] for number in numbers if ended[number]},
         **_spread("score_", totals),
@@ -132,6 +133,18 @@ def bench_data(
         "cpu_seconds": None if cpu_seconds is None else round(cpu_seconds, 3),
         "ticks_per_cpu_second": None if cpu_seconds is None else round(ticks / max(cpu_seconds, 1e-3)),
     }
+
+
+def _success(runs: NDArray[np.float64]) -> dict[str, float | None]:
+    """In which share of the runs; where it is all or none, also of how many of all layouts that may be true.
+
+    `at_least` and `at_most` are that share with 95 % confidence, None where a standard error says how far it may be
+    off, or one run knows neither.
+    """
+    spread, unseen = _spread("", runs), unseen_share(len(runs))
+    is_all_or_none = spread["standard_error"] == 0
+    low, high = (1 - unseen, 1.0) if spread["mean"] else (0.0, unseen)
+    return {**spread, "at_least": low if is_all_or_none else None, "at_most": high if is_all_or_none else None}
 
 
 def _spread(of: str, values: NDArray[Any]) -> dict[str, float | None]:

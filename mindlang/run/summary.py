@@ -3,12 +3,12 @@
 from collections.abc import Sequence
 from typing import Any
 
+from mindrun.sim.outside.foreign import GAVE_NO_NUMBER
 from rich.console import Group, RenderableType
 from rich.text import Text
 
 from mindlang.number_format import duration, rate, score
 from mindlang.run.outcome import TIME
-from mindlang.run.paired_difference import unseen_share
 
 
 def run_summary(found: dict[str, Any]) -> RenderableType:
@@ -39,7 +39,7 @@ def bench_summary(found: dict[str, Any]) -> RenderableType:
     facts = _facts(
         ("runs", f"{runs} from seed {found['seed']}{error}"),
         *_counted({event: f"{_mean(spread, '')}   " for event, spread in found["by_event"].items()}),
-        ("success", _share(found["success"], runs) if "success" in found else ""),
+        ("success", _share(found["success"]) if "success" in found else ""),
         ("score", _mean(found, "score_")),
         ("run time", f"{found['runtime_mean']:.1%} of the task's ticks"),
         ("ended by", ended),
@@ -68,11 +68,11 @@ def _mean(found: dict[str, Any], of: str) -> str:
     return score(found[f"{of}mean"]) + (f" ± {error:.2f}" if error is not None else "")
 
 
-def _share(found: dict[str, Any], runs: int) -> str:
+def _share(found: dict[str, Any]) -> str:
     """A share of the runs; where it is all or none, which of all layouts that may be true of instead of ± 0."""
-    error, mean, unseen = found["standard_error"], found["mean"], unseen_share(runs)
-    if error == 0:
-        bound = f"at least {1 - unseen:.1%}" if mean else f"at most {unseen:.1%}"
+    error, mean = found["standard_error"], found["mean"]
+    if found["at_least"] is not None:
+        bound = f"at least {found['at_least']:.1%}" if mean else f"at most {found['at_most']:.1%}"
         return f"{mean:.1%} of the runs, {bound} of all layouts (95 % confidence)"
     return f"{mean:.1%}" + (f" ± {error:.1%}" if error is not None else "") + " of the runs"
 
@@ -87,7 +87,9 @@ def _counted(counts: dict[str, str]) -> list[tuple[str, str]]:
 def _faults(found: dict[str, Any]) -> str:
     faults = found.get("faults", 0)  # of a run that was stopped nobody knows them
     values = "value was not a finite number" if faults == 1 else "values were not finite numbers"
-    return f"{faults:,} {values}: a division by zero?" if faults else ""
+    is_its = any(GAVE_NO_NUMBER in note for note in found.get("notes", ()))
+    why = "the environment gave such itself, as the note says" if is_its else "a division by zero?"
+    return f"{faults:,} {values}: {why}" if faults else ""
 
 
 def _facts(*rows: tuple[str, str]) -> Text:

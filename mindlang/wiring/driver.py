@@ -1,8 +1,9 @@
 """The driver of a sensor or an actuator: found by name, with its options checked."""
 
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 from mindrun.errors import MindError
@@ -14,6 +15,7 @@ from mindlang.compiler.source import Span
 from mindlang.wiring.nodes import Scalar, Table, TableEntry, report_error, shortened
 from mindlang.wiring.options import DRIVER, DriverOption, driver_options, drivers, own_options
 from mindlang.wiring.own_driver import BrokenDriverError, DriverClass, own_class
+from mindlang.wiring.timing import Timing, timing_of
 from mindlang.wiring.values import by_option, first_line, is_empty, missing_key, unknown_key
 
 ENDS = ("from", "to")  # are in the unit of the driver, so they are read when there is one
@@ -25,13 +27,14 @@ COUNTERPARTS = {"sensor": "actuator", "actuator": "sensor"}
 class Wired:
     """A table of `robot.yaml` about one sensor or actuator: its driver, and its own options by field.
 
-    `options` are the driver's, and `values` theirs by field, those too that are not said.
+    `options` are the driver's, and `values` theirs by field, those too that are not said; `timing` is the driver's.
     """
 
     name: Scalar
     table: Table
     noun: str
     driver: Any
+    timing: Timing
     own: Mapping[str, Any]
     options: tuple[DriverOption, ...]
     values: Mapping[str, Any]
@@ -62,11 +65,12 @@ def wired(noun: str, name: Scalar, table: Table, findings: Findings) -> Wired | 
     said = [entry for entry in table.entries if entry.key.text not in {DRIVER, *ENDS}]
     if len(errors(findings.diagnostics)) > before or len(said) > len(values) + len(own_values) or not table.whole:
         return None
-    driver = _made(cls, values, entry.value, findings)
-    if driver is None:
+    made = _made(cls, values, entry.value, findings)
+    if made is None:
         return None
+    driver, timing = made
     every = {option.field: values.get(option.field, option.default) for option in cls.options}
-    return Wired(name, table, noun, driver, own_values, cls.options, every)
+    return Wired(name, table, noun, driver, timing, own_values, cls.options, every)
 
 
 def _check_keys(
@@ -96,7 +100,7 @@ def _class(noun: str, name: Scalar, table: Table, findings: Findings) -> DriverC
         return None
     match entry.value:
         case Scalar(text=driver) if driver in known:
-            return DriverClass(driver_options(known[driver]), known[driver])
+            return DriverClass(driver_options(known[driver]), partial(_shipped, known[driver], noun))
         case _ if is_empty(entry, findings):
             return None
         case Scalar(text=driver) as scalar if OWN_NAME.fullmatch(driver):
@@ -129,8 +133,14 @@ def _example(option: DriverOption) -> str:
     return listed(option.type.words) if option.type.words else f"…, a {option.type.noun}"
 
 
-def _made(cls: DriverClass, values: Mapping[str, Any], name: Scalar, findings: Findings) -> Any:
-    """The driver, unless it says itself that its options do not go together."""
+def _shipped(cls: Callable[..., Any], noun: str, **options: Any) -> tuple[Any, Timing]:
+    """A driver of mindrun, and its timing."""
+    driver = cls(**options)
+    return driver, timing_of(driver, noun)
+
+
+def _made(cls: DriverClass, values: Mapping[str, Any], name: Scalar, findings: Findings) -> tuple[Any, Timing] | None:
+    """The driver and its timing, unless it says itself that its options do not go together."""
     try:
         return cls.make(**values)
     except BrokenDriverError as error:

@@ -20,6 +20,7 @@ from mindrun.robot.drivers.own import decoded
 
 from mindlang.wiring.direction import near_value
 from mindlang.wiring.options import DriverOption, driver_options
+from mindlang.wiring.timing import UnfitTimingError, timing_of
 
 Answer = dict[str, Any]
 
@@ -99,8 +100,21 @@ def _facts(cls: Any, noun: str, options: Mapping[str, Any]) -> Answer:
         return {"impossible": str(error), "hint": getattr(error, "hint", "")}
     if not isinstance(device, str) or not (device.isprintable()):
         raise NoDriverError("has a device that is no text")
-    if noun == "actuator":
-        return {"facts": {"device": device}}
+    facts = {} if noun == "actuator" else _sensor_facts(driver)
+    return {"facts": {**facts, "device": device}, "timing": _timing(driver, noun)}
+
+
+def _timing(driver: Any, noun: str) -> Answer:
+    """What a driver says of its time; None for what has no end."""
+    try:
+        timing = timing_of(driver, noun)
+    except UnfitTimingError as error:
+        raise NoDriverError(str(error)) from error
+    return {name: None if value == inf else value for name, value in asdict(timing).items()}
+
+
+def _sensor_facts(driver: Any) -> Answer:
+    """What a sensor's driver says of its values."""
     for name in ("unit", "readings", "usual"):
         if not hasattr(driver, name):
             raise NoDriverError(f"says no {name}, so it is for no sensor")
@@ -111,8 +125,8 @@ def _facts(cls: Any, noun: str, options: Mapping[str, Any]) -> Answer:
         raise NoDriverError("has readings that are no whole number from 1")
     near = near_value(driver)
     usual, possible = _pair(driver.usual, "usual"), _pair(getattr(driver, "possible", (-1e9, 1e9)), "possible")
-    facts = {"unit": unit, "readings": readings, "usual": usual, "possible": possible, "device": device}
-    return {"facts": {**facts, "near": near if near is None else float(near)}}
+    facts = {"unit": unit, "readings": readings, "usual": usual, "possible": possible}
+    return {**facts, "near": near if near is None else float(near)}
 
 
 def _pair(values: Any, name: str) -> tuple[float, float]:

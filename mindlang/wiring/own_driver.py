@@ -23,6 +23,7 @@ from mindrun.robot.drivers.own import OwnActuator, OwnSensor, encoded
 from mindlang.compiler.diagnostic import Findings, listed
 from mindlang.wiring.nodes import Scalar, report_error
 from mindlang.wiring.options import DriverOption
+from mindlang.wiring.timing import Timing
 
 ANSWER_SECONDS = 10.0  # that a driver may take to be imported
 MAX_DRIVER_BYTES = 32 << 10  # bytes of a file: each wire carries it
@@ -36,10 +37,10 @@ class BrokenDriverError(MindError):
 
 @dataclass(frozen=True, slots=True)
 class DriverClass:
-    """What a driver can be told, and how it is made of that."""
+    """What a driver can be told, and how it is made of that, with its timing."""
 
     options: tuple[DriverOption, ...]
-    make: Callable[..., Any]
+    make: Callable[..., tuple[Any, Timing]]
 
 
 def own_class(noun: str, name: Scalar, findings: Findings) -> DriverClass | None:
@@ -95,8 +96,8 @@ def _found(name: str, folder: Path) -> DriverCode | None:
     return of_file(name, text)
 
 
-def _made(noun: str, code: DriverCode, **options: Any) -> Any:
-    """The driver as a bundle has it; MindError where its class refuses these options."""
+def _made(noun: str, code: DriverCode, **options: Any) -> tuple[Any, Timing]:
+    """The driver as a bundle has it, and its timing; MindError where its class refuses these options."""
     said = encoded(options)
     answer = _ask(code, noun, said)
     if "impossible" in answer:
@@ -105,7 +106,8 @@ def _made(noun: str, code: DriverCode, **options: Any) -> Any:
         key: tuple(value) if isinstance(value, list) else value for key, value in answer["facts"].items()
     }
     cls: type[Any] = OwnSensor if noun == "sensor" else OwnActuator
-    return cls(code.name, code.digest, code.lines, code.package, said, **facts)
+    timing: dict[str, Any] = {key: inf if value is None else value for key, value in answer["timing"].items()}
+    return cls(code.name, code.digest, code.lines, code.package, said, **facts), Timing(**timing)
 
 
 @cache

@@ -10,6 +10,7 @@ from mindrun.sensors import SensorKind
 
 from mindlang.wiring.driver import Wired
 from mindlang.wiring.options import driver_options
+from mindlang.wiring.timing import timing_of
 
 RANGE = "range"  # an option of drivers
 
@@ -24,7 +25,7 @@ def seeing_as_far(wired: Wired, sensor: Sensor, unit_metres: float | None) -> Wi
     if not fits(METRES, metres):
         return wired
     driver: Any = replace(wired.driver, **{option.field: metres})
-    return replace(wired, driver=driver)
+    return replace(wired, driver=driver, timing=timing_of(driver, wired.noun))
 
 
 def usual_ends(wired: Wired, kind: SensorKind, unit_metres: float | None) -> tuple[float, float]:

@@ -1,7 +1,8 @@
 """Whether what is wired can be as fast as it is asked to be: what drivers say of themselves, beside what wires say."""
 
+from collections import defaultdict
 from collections.abc import Sequence
-from math import floor, inf, log10
+from math import floor, log10
 
 from mindrun.wiring import ActuatorWire, SensorWire
 
@@ -10,11 +11,13 @@ from mindlang.wiring.driver import Wired
 from mindlang.wiring.nodes import report_warning
 
 ROUNDING_FACTOR = 1 + 1e-9  # what is asked for is written in decimals
+WAYS = {"sensor": "measure less often (rate)", "actuator": "let the mind tick more slowly"}
+Users = Sequence[tuple[float, Wired]]  # who uses something, and for how much of each second
 
 
 def check_speed(wired: Wired, wire: SensorWire, findings: Findings) -> None:
     """Warn of a sensor that is to be measured more often than it can be, or to measure more than it can."""
-    seconds, most = _seconds(wire.driver), getattr(wire.driver, "most", inf)
+    seconds, most = wired.timing.seconds, wired.timing.most
     if wire.rate * seconds > ROUNDING_FACTOR:
         message = f"One measurement takes {1000 * seconds:.3g} ms here, and {wire.rate:g} a second are asked for."
         hint = f"Write rate: {_below(1 / seconds):g} Hz, or less, and a max_age of two measurements at least."
@@ -33,34 +36,35 @@ def check_shared(
     tick: float,
     findings: Findings,
 ) -> None:
-    """Warn of a bus or a board that has more to do in a tick than fits into it."""
-    boards: dict[str, list[Wired]] = {}
-    for wired, _ in actuators:
-        boards.setdefault(wired.driver.device or wired.name.text, []).append(wired)
-    for on_board in boards.values():
-        needed = sum(_seconds(wired.driver) for wired in on_board)
-        if needed > tick * ROUNDING_FACTOR:
-            names = listed([wired.name.text for wired in on_board], "and")
-            message = f"Commands of {names} take {1000 * needed:.3g} ms, and a tick is {1000 * tick:.3g} ms."
-            hint = "Let the mind tick more slowly, or wire another board."
-            report_warning(findings, "too-often", on_board[0].span("driver"), message, hint)
-    shares = [(wired, wire.rate) for wired, wire in sensors if wire] + [(wired, 1 / tick) for wired, _ in actuators]
-    buses: dict[int, list[tuple[float, Wired]]] = {}
-    for wired, rate in shares:
-        if needed := rate * getattr(wired.driver, "bus_seconds", 0.0):
-            buses.setdefault(wired.driver.bus, []).append((needed, wired))
-    for number, users in buses.items():
-        total, (_, busiest) = sum(needed for needed, _ in users), max(users, key=lambda user: user[0])
-        if total > ROUNDING_FACTOR:
-            message = f"In each second I2C bus {number} needs {total:.3g} s at its usual 100 kHz, most for this one."
-            hint = "Measure less often (rate), let the mind tick more slowly, or wire some to another bus."
-            report_warning(findings, "busy-bus", busiest.span("bus", "driver"), message, hint)
+    """Warn of a bus, or of a board that does one thing at a time, with more to do in a second than fits into it."""
+    rates = [(wired, wire.rate) for wired, wire in sensors if wire] + [(wired, 1 / tick) for wired, _ in actuators]
+    boards: dict[str, list[tuple[float, Wired]]] = defaultdict(list)
+    buses: dict[int, list[tuple[float, Wired]]] = defaultdict(list)
+    for wired, rate in rates:
+        timing = wired.timing
+        if timing.queue or wired.noun == "actuator":  # a sensor that waits for no other is told of by `check_speed`
+            boards[timing.queue or f" {wired.name.text}"].append((rate * timing.seconds, wired))
+        if timing.bus_seconds:
+            buses[timing.bus].append((rate * timing.bus_seconds, wired))
+    for queue, users in boards.items():
+        if len(users) > 1 or users[0][1].noun == "actuator":
+            of = "" if queue.startswith(" ") else f" of {queue}, which does one thing at a time"
+            _check_share("too-often", of, "board", users, findings)
+    for bus, users in buses.items():
+        _check_share("busy-bus", f" of I2C bus {bus} at its usual 100 kHz", "bus", users, findings)
 
 
-def _seconds(driver: object) -> float:
-    """How long one measurement or command takes."""
-    seconds: float = getattr(driver, "seconds", 0.0)
-    return seconds
+def _check_share(code: str, of: str, what: str, users: Users, findings: Findings) -> None:
+    """Warn of what these need for more than a second of each second, at the one that needs most of it."""
+    total, (_, busiest) = sum(needed for needed, _ in users), max(users, key=lambda user: user[0])
+    if total <= ROUNDING_FACTOR:
+        return
+    names = listed([wired.name.text for _, wired in users], "and")
+    message = f"In each second {names} need{'s' * (len(users) == 1)} {total:.3g} s{of}."
+    nouns = {wired.noun for _, wired in users}
+    ways = [way for noun, way in WAYS.items() if noun in nouns]
+    hint = listed([*ways, f"wire {'some to ' * (len(users) > 1)}another {what}"])
+    report_warning(findings, code, busiest.span("bus", "driver"), message, f"{hint[0].upper()}{hint[1:]}.")
 
 
 def _below(number: float) -> float:

@@ -60,7 +60,8 @@ class SensorDriver(Protocol):
 
     It may have more: the values that are `possible`; that which means that something is `near` (0 m where it measures
     metres); the same sensor `motionless`. And what it can do: how many `seconds` a measurement takes, for how many of
-    these it needs its I2C `bus` (`bus_seconds`), and the `most` that it can measure.
+    these it needs its I2C `bus` (`bus_seconds`), and the `most` that it can measure. What does only one thing at a
+    time, such as a converter with several inputs, is the `queue` of all that are on it, named as others would name it.
     """
 
     @property
@@ -82,7 +83,7 @@ class ActuatorDriver(Protocol):
     """How an actuator is wired; `device` is what only one process may drive, named as others would name it.
 
     It is empty where there is none. A sensor's driver that moves something says it, too. `seconds` and `bus_seconds`
-    are those of a command.
+    are those of a command; the `queue` is the `device` where nothing else is said.
     """
 
     @property

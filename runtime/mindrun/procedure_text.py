@@ -7,10 +7,12 @@ import ast
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
+from symtable import symtable
 from warnings import catch_warnings
 
 from mindrun import procedure_use as use
 from mindrun.errors import ProcedureError
+from mindrun.procedure_names import Names
 
 BLOCKS = ast.If | ast.Try | ast.With | ast.For | ast.While
 FUNCTIONS = ast.FunctionDef | ast.AsyncFunctionDef
@@ -50,15 +52,16 @@ def examine(from_: str, source: str) -> Shape | None:
 
 
 def _examined(from_: str, source: str) -> Shape | None:
-    tree, name = _parsed(from_, source), from_.rpartition(".")[2]
+    names, name = _parsed(from_, source), from_.rpartition(".")[2]
+    tree = names.tree
     functions = [node for node in _statements(tree.body) if isinstance(node, FUNCTIONS) and node.name == name]
     given = _given(tree)
     if not functions and not given & {name, "*"}:
         raise fault(from_, "its module has no such function")
-    for line, drawn in use.drawn(tree):
+    for line, drawn in use.drawn(names):
         hint = "Draw from a generator of its own, with a seed: random.Random(1). Each run then begins with it anew."
         raise fault(from_, f"its module draws from {drawn}, so no run could be made again", line, hint)
-    for line, by in use.opened(tree):
+    for line, by in use.opened(names):
         raise fault(from_, f"its module looks for a file with {by}, and no bundle holds one", line, STANDS_ALONE)
     if len(functions) != 1 or name in given:
         return None
@@ -92,8 +95,11 @@ def fit(from_: str, source: str, inputs: int, outputs: int) -> None:
             raise fault(from_, message, line, hint)
 
 
-def imports(from_: str, source: str) -> Iterator[tuple[int, str, bool]]:
-    """Each line that imports, the module (what is relative begins with a dot), and whether it may be missing."""
+def imports(from_: str, source: str) -> Iterator[tuple[int, str, str, bool]]:
+    """Each line that imports, the module (with a dot before what is relative), a name in it, whether it may be absent.
+
+    The name is empty for the module alone, and where all of it is taken.
+    """
     return use.imports(_parsed(from_, source))
 
 
@@ -109,11 +115,11 @@ def fault(from_: str, message: str, line: int = 0, hint: str = "") -> ProcedureE
 
 
 @lru_cache(16)
-def _parsed(from_: str, source: str) -> ast.Module:
+def _parsed(from_: str, source: str) -> Names:
     try:
         with catch_warnings(action="ignore"):
             compile(source, file_of(from_), "exec")  # finds more than the parser does: return outside of a function
-            return ast.parse(source)
+            return Names(ast.parse(source), symtable(source, file_of(from_), "exec"))
     except SyntaxError as error:
         raise fault(from_, f"SyntaxError: {error.msg}", error.lineno or 1) from error
     except (ValueError, RecursionError, MemoryError) as error:

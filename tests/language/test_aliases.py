@@ -10,6 +10,7 @@ from mindlang.compiler.compile import Compiled, compile_source, load
 from mindlang.compiler.source import Source
 from mindlang.editing.apply import apply_edit
 from mindlang.editing.project import EditError, open_project
+from mindlang.edits.disconnect import disconnect
 from mindlang.edits.rename import rename
 from mindlang.lock import lock_sources
 from tests.edits.sources import Texts, minds
@@ -139,7 +140,27 @@ def test_a_rename_in_the_file_is_followed_by_who_uses_it(tmp_path: Path, noun: s
     assert f"{noun} {new} " in (tmp_path / "walls.mind").read_text()
 
 
+@pytest.mark.parametrize(
+    ("walls", "old", "noun", "hint"),
+    [
+        (WALLS.replace("  reads elsewhere\n", ""), "walls.far", "number",
+         "Rename it there, and it is followed here: mindc edit rename {walls} far wide --noun number"),
+        (WALLS, "walls.far", "number",
+         "{walls} is no mind by itself, so do it by hand: call far wide there, and walls.far walls.wide here."),
+        (WALLS, "rock", "",
+         "{walls} is no mind by itself, so do it by hand: call rock wide there, and rock wide here."),
+    ],
+)  # fmt: skip
+def test_it_is_not_renamed_from_outside(tmp_path: Path, walls: str, old: str, noun: str, hint: str) -> None:
+    project = open_project(laid_out(tmp_path, main=MAIN, walls=walls))
+    with pytest.raises(EditError, match="is used as walls") as found:
+        rename(project, old, "walls.wide", noun=noun)
+    assert found.value.hint == hint.format(walls=tmp_path / "walls.mind")
+
+
 def test_it_is_not_edited_from_outside(tmp_path: Path) -> None:
-    project = open_project(laid_out(tmp_path, main=MAIN, walls=WALLS))
-    with pytest.raises(EditError, match="is used as walls"):
-        apply_edit(project, rename(project, "walls.far", "walls.wide", noun="number"), keep_weights=False)
+    for walls, hint in ((WALLS, "by hand"), (WALLS.replace("  reads elsewhere\n", ""), "mindc edit … ")):
+        project = open_project(laid_out(tmp_path, main=MAIN, walls=walls))
+        with pytest.raises(EditError, match="is used as walls") as found:
+            apply_edit(project, disconnect(project, "walls.Grab", "walls.left"), keep_weights=False)
+        assert hint in found.value.hint

@@ -39,6 +39,19 @@ WRONG = {
     "import pathlib\ndef turn(a, b, c):\n  with a.open(): return 1, 2": "looks for a file with open",
     "HERE = __file__\ndef turn(a, b, c): return 1, 2": "looks for a file with __file__",
     "import cv2\nN = cv2.dnn.Net(model='policy.onnx')\ndef turn(a, b, c): return 1, 2": "names policy.onnx, a file",
+    "def turn(a, b, c): return len(open('w').read()), 2\ndef other(open): return open(1)": "a file with open",
+    "from pathlib import Path as P\ndef turn(a, b, c):\n  with P('w').open(): return 1, 2": "a file with open",
+    "import pathlib as p\nW = p.Path.read_text(p.Path('w'))\ndef turn(a, b, c): return 1, 2": "pathlib.Path.read_text",
+    "import io as i\nf = g = i.open\ndef turn(a, b, c): return len(g('x').read()), 2": "a file with io.open",
+    "def turn(a, b, c, get=open): return len(get('x').read()), 2": "looks for a file with open",
+    "class A:\n  def open(s): return open('x')\ndef turn(a, b, c): return 1, 2": "looks for a file with open",
+    "import os\nW = os.open('w', os.O_RDONLY)\ndef turn(a, b, c): return 1, 2": "a file with os.open",
+    "import sqlite3 as s\ndef turn(a, b, c): return s.connect('a.db').total_changes, 2": "a file with sqlite3.connect",
+    "import shelve\ndef turn(a, b, c): return shelve.open('a')['x'], 2": "looks for a file with shelve.open",
+    "from importlib import resources\nR = resources.files('x')\ndef turn(a, b, c): return 1, 2": "resources.files",
+    "from numpy import *\nW = loadtxt('w.txt')\ndef turn(a, b, c): return 1, 2": "a file with numpy.loadtxt",
+    "import parts.claw\ndef turn(a, b, c): return 1, 2": "imports parts.claw, a folder that no bundle holds",
+    "from parts import claw\ndef turn(a, b, c): return 1, 2": "imports parts, a folder that no bundle holds",
     "x = " + "(" * 1000 + ")" * 1000: "",
     "\0": "",
 }
@@ -55,6 +68,12 @@ FINE = (
     "import json, io, numpy\nW = numpy.load(io.BytesIO(b''))\nX = json.loads('1')\ndef turn(a, b, c): return 1, 2",
     "def turn(a, b, c):\n    with open('policy.onnx', 'w') as log: log.write('a')\n    return 1, 2",
     "try:\n    import cv2_of_the_robot\nexcept ImportError:\n    cv2 = None\ndef turn(a, b, c): return 1, 2",
+    "def turn(a, b, c):\n    open = max\n    return open(a, b), 2",
+    "def turn(a, b, c):\n    def inner(open): return open(1)\n    return inner(abs), [open(1) for open in [abs]][0]",
+    "from json import *\ndef turn(a, b, c): return len(dumps(a)), 2\ndef other(handle): return load(handle)",
+    "import random\ndef turn(random, b, c): return random.real, 2",
+    "import os\ndef turn(a, b, c): return os.open('log', os.O_WRONLY | os.O_CREAT), 2",
+    "f = g\ng = f\ndef turn(a, b, c): return f(1), 2",
     "def turn(a, b, c):\n    def inner(): return 1, 2, 3\n    return inner()[:2]",
 )
 
@@ -64,6 +83,8 @@ def calling(tmp_path: Path) -> Path:
     (tmp_path / "calling.mind").write_text(CALLING)
     (tmp_path / "rules.py").touch()
     (tmp_path / "policy.onnx").touch()
+    (tmp_path / "parts").mkdir()
+    (tmp_path / "parts" / "claws.py").touch()
     return tmp_path / "calling.mind"
 
 
@@ -91,10 +112,12 @@ def test_every_door_says_what_is_wrong(mindc: Call, calling: Path, source: str) 
 
 
 def test_what_another_skill_calls_is_in_nobodys_way(mindc: Call, calling: Path) -> None:
-    """A hierarchy can be shown and edited before its module is written, and others of its skills are built."""
+    """A hierarchy can be shown and edited before its module is written, and others of its skills built: it is said."""
     assert mindc("show", calling).code == 0
     assert mindc("edit", "rename", calling, "Turn", "Swing", "--noun", "skill").code == 0
-    assert mindc("build", calling, "-o", calling.parent / "x.bundle", "--master", "Chase").code == 0
+    built = mindc("build", calling, "-o", calling.parent / "x.bundle", "--master", "Chase")
+    assert built.code == 0
+    assert "warning: Procedure from turning.turn: cannot read" in built.err
     mind = mindlang.load(calling)
     assert mind.edit("rename", old="Turn", new="Swing", noun="skill").diff
     assert mind.bench("Chase", runs=2, master="Chase")["runs"] == 2
@@ -128,6 +151,31 @@ def test_what_the_robot_needs_is_said(mindc: Call, calling: Path) -> None:
     assert built.code == 0
     assert missing in built.err
     assert json.loads(built.out)["notes"] == [note.format("eyes_of_the_robot")]
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        ("import numpy.nosuch", "imports numpy.nosuch, which numpy does not have here (turning.py, line 1)"),
+        ("from numpy import nosuch", "imports numpy.nosuch, which numpy does not have here"),
+        ("from numpy.nosuch import a", "imports numpy.nosuch, which numpy does not have here"),
+        ("from os import path, nosuch", "imports os.nosuch, which os does not have here"),
+        ("import os.nosuch", "imports os.nosuch, which os does not have here"),
+        ("from numpy import linalg, sin", ""),
+        ("import numpy.linalg, xml.dom", ""),
+        ("from xml import dom", ""),
+        ("try:\n    from numpy import nosuch\nexcept ImportError:\n    nosuch = None", ""),
+    ],
+)
+def test_what_python_and_numpy_have_is_asked(mindc: Call, calling: Path, line: str, said: str) -> None:
+    """It is a warning, as of modules that are not installed, and no module of others is run for it."""
+    (calling.parent / "turning.py").write_text(f"{line}\n{RIGHT}")
+    checked = mindc("check", calling)
+    built = mindc("build", calling, "-o", calling.parent / "x.bundle", "--master", "Turn")
+    assert (checked.code, built.code) == (1 if said else 0, 0)
+    assert ("warning" in checked.err) == bool(said)
+    assert said in checked.err
+    assert said in built.err
 
 
 @pytest.mark.parametrize("source", FINE)

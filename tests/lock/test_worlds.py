@@ -429,6 +429,9 @@ def test_what_changed_is_a_sentence(old: str, new: str, told: str | None) -> Non
         ("skill Top is mlp", "actuator third is wheel side left neutral 0.5\nskill Top is mlp"),
         ("teaches Turnless on Elsewhere for 2", "teaches Turnless on Fetch for 2"),
         ("influences Go\n", "influences Go\n  stays frozen\n"),
+        ("0 30 330 deg", "0 390 -30 deg"),
+        ("bumper at -45 45 deg", "bumper at 315 45 deg"),
+        ("facing 90 deg", "facing -270 deg"),
     ],
 )
 def test_what_changes_nothing_is_not_noticed(old: str, new: str) -> None:

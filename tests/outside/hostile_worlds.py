@@ -79,6 +79,18 @@ class Odd(worlds.Line):
         self.observation_space, self.action_space = observed, acted
 
 
+class Changing(worlds.Line):
+    """Takes and observes other spaces when it is made a second time."""
+
+    made = 0
+
+    def __init__(self, render_mode: str | None = None, observed: Any = None, acted: Any = None) -> None:
+        super().__init__(render_mode)
+        Changing.made += 1
+        if Changing.made > 1:
+            self.observation_space, self.action_space = observed, acted
+
+
 class OwnBox(worlds.Line):
     """The same, whose spaces are of a class of its own."""
 

@@ -190,9 +190,13 @@ def test_what_is_no_number_is_not_sent() -> None:
     rollout = minds.rollout_of(minds.text(scene=worlds.name(worlds.Blind)))
     scores = rollout.score(minds.genomes(rollout, 1), [5])
     assert (scores.faults > 0).all()
+    said = "the environment tests/Blind-v0 itself gave what is no number: place in {0}, speed in {0} of the ticks"
+    assert said.format(f"{1 - 1 / rollout.observed:.1%}") in rollout.notes
 
 
 def test_a_reward_that_is_no_number_is_the_worst() -> None:
     rollout = minds.rollout_of(minds.text(scene=worlds.name(worlds.Generous)))
     scores = rollout.score(minds.genomes(rollout, 2), [5])
     assert (scores.total == -np.inf).all()
+    said = "the environment tests/Generous-v0 itself gave what is no number: the reward in 100.0% of the ticks"
+    assert said in rollout.notes

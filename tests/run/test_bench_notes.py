@@ -3,6 +3,8 @@
 import json
 from pathlib import Path
 
+import pytest
+
 from mindlang.api import load
 from tests.calling import Call
 
@@ -38,10 +40,24 @@ def test_runs_that_were_over_where_they_began_are_told(mindc: Call, tmp_path: Pa
     found = json.loads(mindc("bench", path, "--runs", 40, "--json").out)
     share = found["success"]["mean"]
     assert 0 < share < 1
+    assert found["success"]["at_least"] is found["success"]["at_most"] is None
     (note,) = found["notes"]
     assert note.startswith(f"{round(40 * share)} of 40 runs were over in the first tick, by far < 0.4")
     assert f"note: {note}" in mindc("bench", path, "--runs", 40).err
     assert load(path).bench(runs=40)["notes"] == [note]
+
+
+def test_of_how_many_layouts_all_or_no_runs_are_an_example_is_said_in_both(mindc: Call, tmp_path: Path) -> None:
+    path = written(tmp_path, "1 per tick")
+    unseen = 1 - 0.05 ** (1 / 40)
+    for when, bounds, words in (
+        ("far <= 1", [1 - unseen, 1.0], "100.0% of the runs, at least 92.8% of all layouts"),
+        ("far < 0 * far", [0.0, unseen], "0.0% of the runs, at most 7.2% of all layouts"),
+    ):
+        path.write_text(MIND.replace("REWARD", "1 per tick").replace("far < 0.4", when))
+        success = json.loads(mindc("bench", path, "--runs", 40, "--json").out)["success"]
+        assert [success["at_least"], success["at_most"]] == pytest.approx(bounds)
+        assert words in mindc("bench", path, "--runs", 40).out
 
 
 def test_a_score_that_is_no_number_is_neither_best_nor_worst(mindc: Call, tmp_path: Path) -> None:

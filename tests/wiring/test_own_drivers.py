@@ -236,6 +236,33 @@ def test_a_file_that_is_wrong_is_told_on_its_line(mindc: Call, rules: Path, text
     assert said.err.count("error:") == 1
 
 
+@pytest.mark.parametrize(
+    ("said", "kind", "told"),
+    [
+        ("seconds = 0.06", "warning", "One measurement takes 60 ms here"),
+        ("most = 1.5", "warning", "It is to read up to 2 m, and measures 1.5 m at most"),
+        ("bus_seconds, bus = 0.06, 3", "warning", "In each second feeler needs 1.2 s of I2C bus 3"),
+        ("seconds, most, bus_seconds, queue = 0.05, inf, 0, 'a chip'", "", ""),
+        ("seconds = nan", "error", "own.Feelers has seconds that are no number from 0: nan"),
+        ("seconds = inf", "error", "own.Feelers has seconds that are no number from 0: inf"),
+        ("most = 'much'", "error", "own.Feelers has most that is no number from 0: 'much'"),
+        ("bus_seconds = -1", "error", "own.Feelers has bus_seconds that are no number from 0: -1"),
+        ("seconds = True", "error", "own.Feelers has seconds that are no number from 0: True"),
+        ("bus_seconds = 0.01", "error", "own.Feelers has bus_seconds, and no bus that is a whole number from 0 to 99"),
+        ("queue = 3", "error", "own.Feelers has a queue that is no text"),
+        ("seconds = property(lambda self: self.nothing)", "error", "has no attribute 'nothing'"),
+    ],
+)
+def test_it_is_asked_for_its_timing(
+    mindc: Call, rules: Path, tmp_path: Path, log: Path, said: str, kind: str, told: str
+) -> None:
+    text = FILE.format(log=log).replace('unit = "m"', f'unit = "m"\n    {said}')
+    (tmp_path / "own.py").write_text(text.replace("from pathlib", "from math import inf, nan\nfrom pathlib", 1))
+    err = " ".join(build(mindc, rules, ROBOT.format(sensor="own.Feelers", actuator="mock")).err.split())
+    assert [word for word in ("error", "warning") for _ in range(err.count(f"{word}:"))] == [kind] * bool(kind)
+    assert told in err
+
+
 def test_a_folder_of_that_name_is_told_on_its_line(mindc: Call, rules: Path) -> None:
     rules.with_name("bad.py").mkdir()
     said = build(mindc, rules, ROBOT.format(sensor="bad.Feelers", actuator="mock"))

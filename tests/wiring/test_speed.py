@@ -11,8 +11,9 @@ from mindrun.graph import Graph
 from mindlang.cli._diagnostic_printer import plain
 from mindlang.compiler.compile import load
 from mindlang.compiler.diagnostic import Diagnostic, Findings
-from mindlang.compiler.source import Source
+from mindlang.compiler.source import Source, Span
 from mindlang.wiring.speed import check_shared
+from mindlang.wiring.timing import Timing
 from mindlang.wiring.wire import Checked, check_wiring
 
 MIND = """\
@@ -53,11 +54,15 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def checked(folder: Path, kind: str, sensor: str, actuator: str = CARD, tick: str = "1/20") -> Checked:
-    (folder / "any.mind").write_text(MIND.format(kind=kind, tick=tick))
+    return wired(folder, MIND.format(kind=kind, tick=tick), WIRING.format(sensor=sensor, actuator=actuator))
+
+
+def wired(folder: Path, mind: str, wiring: str) -> Checked:
+    """The wiring of a mind; a comma in it begins another line of options."""
+    (folder / "any.mind").write_text(mind)
     graph = load(folder / "any.mind").graph
     assert isinstance(graph, Graph)
-    text = WIRING.format(sensor=sensor, actuator=actuator).replace(", ", "\n    ")
-    return check_wiring(Source("robot.yaml", text, folder), graph, 1.0)
+    return check_wiring(Source("robot.yaml", wiring.replace(", ", "\n    "), folder), graph, 1.0)
 
 
 def codes(found: Checked) -> list[str]:
@@ -145,28 +150,59 @@ def test_the_words(folder: Path) -> None:
     ]
 
 
+def told(found: Checked) -> list[tuple[str, str, str]]:
+    """The words of each, and what they are about."""
+    return [(one.message, one.hint, spoken(one)) for one in found.diagnostics]
+
+
 def test_the_words_of_a_board_and_of_a_bus(folder: Path) -> None:
-    found = checked(folder, "battery", "mock", BOARD, "1/200")
-    assert [(one.message, one.hint, spoken(one)) for one in found.diagnostics] == [
+    assert told(checked(folder, "battery", "mock", BOARD, "1/200")) == [
         (
-            "Commands of left and right take 8 ms, and a tick is 5 ms.",
-            "Let the mind tick more slowly, or wire another board.",
+            "In each second left and right need 1.6 s of /dev/i2c-1 0x0f, which does one thing at a time.",
+            "Let the mind tick more slowly or wire some to another board.",
             "grove_motor",
         )
     ]
-    found = checked(folder, "turn_rate", "mpu6050, rate: 100 Hz", CARD, "1/500")
-    assert [(one.message, one.hint, spoken(one)) for one in found.diagnostics] == [
+    assert told(checked(folder, "turn_rate", "mpu6050, rate: 100 Hz", CARD, "1/500")) == [
         (
-            "In each second I2C bus 1 needs 1.38 s at its usual 100 kHz, most for this one.",
-            "Measure less often (rate), let the mind tick more slowly, or wire some to another bus.",
+            "In each second eye, left and right need 1.38 s of I2C bus 1 at its usual 100 kHz.",
+            "Measure less often (rate), let the mind tick more slowly or wire some to another bus.",
             "pca9685",
         )
     ]
 
 
-def test_what_is_on_no_board_waits_for_nothing_else() -> None:
-    driver = SimpleNamespace(device="", seconds=0.004)
-    two = [SimpleNamespace(name=SimpleNamespace(text=name), driver=driver) for name in ("left", "right")]
-    findings = Findings()
-    check_shared((), [(each, None) for each in two], 0.005, findings)  # type: ignore[misc]
-    assert not findings.diagnostics
+def test_the_inputs_of_a_converter_are_measured_one_after_the_other(folder: Path) -> None:
+    mind = MIND.format(kind="battery\nsensor ear is battery", tick="1/20").replace(
+        "reads eye", "reads eye\n  reads ear"
+    )
+
+    def two(rate: int, address: str = "0x48") -> Checked:
+        ear = f"ear:\n    driver: ads1115, channel: 1, rate: 70 Hz, address: {address}"
+        return wired(folder, mind, WIRING.format(sensor=f"ads1115, rate: {rate} Hz\n  {ear}", actuator=CARD))
+
+    assert codes(two(55)) == codes(two(60, "0x49")) == []
+    assert told(two(60)) == [
+        (
+            "In each second eye and ear need 1.04 s of /dev/i2c-1 0x48, which does one thing at a time.",
+            "Measure less often (rate) or wire some to another board.",
+            "ads1115",
+        )
+    ]
+
+
+def test_an_actuator_on_no_board_waits_for_nothing_else() -> None:
+    span, findings = Span(Source("a", "x", Path()), 0, 1), Findings()
+
+    def waiting(seconds: float) -> list[str]:
+        two = [
+            SimpleNamespace(
+                name=SimpleNamespace(text=name), noun="actuator", timing=Timing(seconds), span=lambda *_: span
+            )
+            for name in ("left", "right")
+        ]
+        check_shared((), [(each, None) for each in two], 0.005, findings)  # type: ignore[misc]
+        return [one.message for one in findings.diagnostics]
+
+    assert waiting(0.004) == []
+    assert waiting(0.006) == ["In each second left needs 1.2 s.", "In each second right needs 1.2 s."]

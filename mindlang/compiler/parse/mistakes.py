@@ -140,6 +140,8 @@ MISTAKES = (
         "Write rewards its reward, or ends on its end; what else there is to know, a sensor observes.",
         "rewards its joy"),
     # Other files.
+    Mistake("quoted-path", r"""^\s*use\s+(?P<here>[^"\s].*?)\s+as\s+(?P<alias>\w+)\s*$""",
+        "The path of a file stands in straight quotes.", 'Write use "{bare}" as {alias}.', "use other.mind as other"),
     Mistake("quoted-path", r"""^\s*use\s+(?P<here>[^"\s].*)$""", "The path of a file stands in straight quotes.",
         'Write use "{bare}".', "use other.mind"),
     Mistake("quoted-path", r"""^\s*use\s+(?P<here>"[^"]*)$""", "The quotes are not closed.", 'Write use "{bare}".',

@@ -6,7 +6,7 @@ from typing import Annotated
 
 from mindrun.quantity import Quantity
 from mindrun.registry import kind
-from mindrun.robot.driver_support import ADDRESS, BUS, I2C_BYTE_SECONDS, I2cDevice
+from mindrun.robot.driver_support import ADDRESS, BUS, I2C_BYTE_SECONDS, I2cDevice, on_bus
 
 INPUT = Quantity("an input", {"": 1.0}, low=0, high=3, whole=True)
 RATIO_OF_DIVIDER = Quantity("how many times more than the input gets", {"": 1.0}, low=1.0, high=100.0)
@@ -73,6 +73,11 @@ class Ads1115:
     possible = (0.0, 500.0)
     seconds = 0.008
     bus_seconds = 29 * I2C_BYTE_SECONDS  # setting, four questions whether it is done, and the count
+
+    @property
+    def queue(self) -> str:
+        """The converter: its inputs are measured one after the other."""
+        return on_bus(self.bus, self.address)
 
     def open(self) -> VoltageDevice:
         """The converter."""

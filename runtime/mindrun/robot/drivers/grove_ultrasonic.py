@@ -6,13 +6,14 @@ from typing import Annotated
 
 from mindrun.quantity import Quantity
 from mindrun.registry import kind
-from mindrun.robot.driver_support import ADDRESS, BUS, METRES, I2cDevice
+from mindrun.robot.driver_support import ADDRESS, BUS, I2C_BYTE_SECONDS, METRES, I2cDevice, on_bus
 
 PORT = Quantity("a digital port of the GrovePi", {"": 1.0}, low=2, high=8, whole=True)
 RANGER_COMMAND, VERSION_COMMAND = 7, 8  # commands
 BUSY_BYTE, IDLE_BUS_BYTE = 23, 255  # first bytes of an answer: still measuring; nobody drives the bus
 UNUSED_BYTE = 0
 POLL_SECONDS = 0.003  # seconds between two questions
+COMMAND_BYTES, ANSWER_BYTES = 5, 4  # of a transfer, with the address
 RANGER_SECONDS = 0.04  # that a ranger may take, of the 10 to 40 ms
 ANSWERED_IN = 0.15  # seconds; the board itself listens for 75 ms
 MAX_DISTANCE_METRES = 5.2  # metres: where nothing echoes the ranger's pulse ends at about 5 m, and is longer on some
@@ -83,6 +84,16 @@ class GroveUltrasonic:
     def seconds(self) -> float:
         """For how long the board may listen to all of them."""
         return len(self.ports) * RANGER_SECONDS
+
+    @property
+    def bus_seconds(self) -> float:
+        """What is asked of each, and how often whether there is an answer."""
+        return len(self.ports) * (COMMAND_BYTES + ANSWER_BYTES * RANGER_SECONDS / POLL_SECONDS) * I2C_BYTE_SECONDS
+
+    @property
+    def queue(self) -> str:
+        """The board: it listens to one ranger at a time."""
+        return on_bus(self.bus, self.address)
 
     @property
     def usual(self) -> tuple[float, float]:

@@ -10,7 +10,7 @@ from mindrun.sim.outside import making
 from mindrun.sim.outside.asking import Asking
 from mindrun.sim.outside.foreign import first_line, foreign_code
 from mindrun.sim.outside.making import BrokenEnvironmentError
-from mindrun.sim.outside.parts import formed
+from mindrun.sim.outside.parts import Spaces, difference, formed, spaces_of
 from mindrun.sim.outside.taking import Taking, number_of, truth_of
 from mindrun.work.last_step import place_of
 
@@ -27,7 +27,14 @@ class Episode:
     """
 
     def __init__(
-        self, asking: Asking, folder: Path | None, seed: int, taking: Taking, acted: Any, is_seen: bool = False
+        self,
+        asking: Asking,
+        folder: Path | None,
+        seed: int,
+        taking: Taking,
+        acted: Any,
+        spaces: Spaces,
+        is_seen: bool = False,
     ) -> None:
         self._asking, self._taking, self._acted = asking, taking, acted
         self._seed, self._steps = seed, 0
@@ -38,6 +45,7 @@ class Episode:
             self._environment = making.make(asking.environment, folder, is_seen)
         finally:
             asking.end()
+        self._refuse_other_spaces(spaces)
 
     @property
     def is_over(self) -> bool:
@@ -62,6 +70,16 @@ class Episode:
     def close(self) -> None:
         """Give back what it holds."""
         making.close(self._environment)
+
+    def _refuse_other_spaces(self, spaces: Spaces) -> None:
+        """BrokenEnvironmentError where it has other spaces than the first of its name, to which a mind is wired."""
+        now = spaces_of(*making.spaces_in(self._asking.environment, self._environment))
+        if why := difference(spaces, now):
+            self.close()
+            name = self._asking.environment
+            message = f"the environment {name} has other spaces each time that it is made"
+            hint = f"In {place_of(self._seed, 0)} {why}. Let it always have the same: a mind is wired to them once."
+            raise BrokenEnvironmentError(message, hint, why)
 
     def _begun(self) -> None:
         observation, _ = self._environment.reset(seed=self._seed % SEED_LIMIT)

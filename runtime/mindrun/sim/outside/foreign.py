@@ -4,6 +4,8 @@ import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 
+GAVE_NO_NUMBER = "gave what is no number"  # what is said of an environment where its own observation or reward is NaN
+
 
 @contextmanager
 def foreign_code() -> Iterator[None]:

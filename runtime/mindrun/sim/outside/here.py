@@ -32,7 +32,7 @@ class Here:
         if key not in self._takings:
             self._takings[key] = taking_of(self.spaces.observed, key)
         _, acted = making.spaces(self.environment, self._folder)
-        return Episode(self._asking, self._folder, seed, self._takings[key], acted, is_seen)
+        return Episode(self._asking, self._folder, seed, self._takings[key], acted, self.spaces, is_seen)
 
     def step(self, runs: Sequence[Episode], actions: Sequence[Mapping[str, Any]]) -> None:
         """Step one after the other."""

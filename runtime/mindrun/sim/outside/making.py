@@ -94,13 +94,19 @@ def spaces(name: str, folder: Path | None = None) -> tuple[Any, Any]:
     """The spaces of its observations and of its actions; BrokenEnvironmentError where it has none."""
     environment = make(name, folder)
     try:
+        return spaces_in(name, environment)
+    finally:
+        close(environment)
+
+
+def spaces_in(name: str, environment: Any) -> tuple[Any, Any]:
+    """The spaces of one that is made."""
+    try:
         with foreign_code():
             return environment.observation_space, environment.action_space
     except Exception as error:
         message = f"The environment {name} does not say what it observes and takes."
         raise BrokenEnvironmentError(message, first_line(error)) from error
-    finally:
-        close(environment)
 
 
 def close(environment: Any) -> None:

@@ -79,6 +79,31 @@ def formed(space: Any, values: Mapping[str, Any], path: tuple[Any, ...] = ()) ->
     return tuple(formed(inner, values, (*path, number)) for number, inner in enumerate(within))
 
 
+def difference(first: Spaces, now: Spaces) -> str:
+    """How spaces differ from those that the first environment of that name had, in words; empty where they do not."""
+    for what, was, parts in (("observes", first.observed, now.observed), ("takes", first.acted, now.acted)):
+        for name in dict.fromkeys([*was, *parts]):
+            one, other = was.get(name), parts.get(name)
+            if one is None or other is None or not _are_alike(one, other):
+                return f"it {what} {_described(name, other)}, and the first {_described(name, one)}"
+    return "" if first.others == now.others else "it takes other texts or graphs than the first"
+
+
+def _are_alike(one: Part, other: Part) -> bool:
+    is_choice = one.choices is not None, other.choices is not None
+    pairs = [(one.low, other.low), (one.high, other.high)] + [(one.choices, other.choices)] * all(is_choice)
+    alike = is_choice[0] == is_choice[1] and one.shape == other.shape and one.dtype == other.dtype
+    return alike and all(np.array_equal(a, b, equal_nan=a.dtype.kind == "f") for a, b in pairs)  # type: ignore[arg-type,union-attr]
+
+
+def _described(name: str, part: Part | None) -> str:
+    if part is None:
+        return f"no {name}" if name else "nothing"
+    numbers = f"{part.dtype} of the shape {part.shape}" + ", choices" * (part.choices is not None)
+    ends = f" in {part.low.min():g} to {part.high.max():g}" if part.low.size else ""
+    return f"{name}: {numbers}{ends}".removeprefix(": ")
+
+
 def found(parts: Mapping[str, Part], slot: Slot) -> tuple[str, Part | None, tuple[int, ...]]:
     """The name of the part that a slot is in, that part, None where there is none, and the index in it.
 

@@ -17,6 +17,7 @@ from mindrun.policy import Policy
 from mindrun.sim.codes import BROKEN_OFF
 from mindrun.sim.lanes.stages import act, before, conclude, run_skills
 from mindrun.sim.outside.asking import Asked
+from mindrun.sim.outside.foreign import GAVE_NO_NUMBER
 from mindrun.sim.outside.repeating import CHECKED_SECONDS, CHECKED_TICKS, SLOW, WrittenDown, in_time
 from mindrun.sim.outside.stepper import Run, Stepper
 from mindrun.sim.outside.steppers import stepper_for
@@ -42,7 +43,8 @@ class EnvironmentRollout(Rollout):
 
     Every run has an environment of its own, and this thread has all of them stepped, in the process that
     `steppers` says. `clipped` counts for each observed
-    sensor how many of the `observed` numbers were beyond its range.
+    sensor how many of the `observed` numbers were beyond its range, and `unreal` how many were no number at all; behind
+    these stands how many rewards were not finite.
     """
 
     simulates = False
@@ -66,6 +68,7 @@ class EnvironmentRollout(Rollout):
         self.slice_ticks = SLOW_SLICE_TICKS
         self._measured = self.sizes.measured[self.wiring.rows]
         self.observed, self.clipped = 0, np.zeros(len(self.wiring.rows), np.int64)
+        self.unreal = np.zeros(len(self.wiring.rows) + 1, np.int64)
         self._flaw = ""
         self._open: set[Run] = set()
         finalize(self, _close, self._open)
@@ -88,7 +91,7 @@ class EnvironmentRollout(Rollout):
         """
         probe = copy(self)
         probe._stepper = once = WrittenDown(self._stepper)  # type: ignore[assignment]  # it is asked for nothing else
-        probe.observed, probe.clipped = 0, np.zeros_like(self.clipped)
+        probe.observed, probe.clipped, probe.unreal = 0, np.zeros_like(self.clipped), np.zeros_like(self.unreal)
         tile, jobs = self.tile(1), self.jobs(genome[None], np.array([seed], np.uint64))
         another, found = self._another_stepper(), ""
         with in_time(self._stepper, another) as is_late, suppress(MindError):
@@ -99,21 +102,28 @@ class EnvironmentRollout(Rollout):
         self._flaw = SLOW.format(name=once.environment, seconds=CHECKED_SECONDS) if is_late.is_set() else found
 
     def tally(self) -> NDArray[np.int64]:
-        """How often was observed, and for each sensor how often beyond its range."""
-        return np.array([self.observed, *self.clipped], np.int64)
+        """How often was observed, for each sensor how often beyond its range, and what is `unreal`."""
+        return np.array([self.observed, *self.clipped, *self.unreal], np.int64)
 
     def add(self, tally: NDArray[np.int64]) -> None:
         """Count what was observed elsewhere."""
         self.observed += int(tally[0])
-        self.clipped += tally[1:]
+        self.clipped += tally[1 : 1 + len(self.clipped)]
+        self.unreal += tally[1 + len(self.clipped) :]
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What the environment does not do again, and which sensors were beyond their ranges, and how often."""
-        shares = zip(self.wiring.names, (self.clipped / max(1, self.observed)).tolist(), strict=True)
+        """What the environment does not do again, how often it gave no number, or what is beyond a sensor's range."""
+        beyond = self._shares(self.wiring.names, self.clipped)
+        unreal = self._shares((*self.wiring.names, "the reward"), self.unreal)
+        gave = f"the environment {self.task.scene.environment} itself {GAVE_NO_NUMBER}: {unreal}" if unreal else ""
+        return tuple(filter(None, (self._flaw, gave, f"readings beyond their range: {beyond}" if beyond else "")))
+
+    def _shares(self, names: Sequence[str], counts: NDArray[np.int64]) -> str:
+        """Of how many ticks something is true, of all names of which it is in any."""
+        shares = zip(names, (counts / max(1, self.observed)).tolist(), strict=True)
         said = [f"{name} in {_percent(share)}" for name, share in shares if share]
-        beyond = f"readings beyond their range: {', '.join(said)} of the ticks" if said else ""
-        return tuple(filter(None, (self._flaw, beyond)))
+        return f"{', '.join(said)} of the ticks" if said else ""
 
     @property
     def entries(self) -> tuple[Any, ...]:
@@ -153,12 +163,13 @@ class EnvironmentRollout(Rollout):
         lanes, readings = int(jobs.lanes[0]), tile.state.mind.readings
         episodes = self._episodes(tile, jobs)
         wiring = self.wiring
+        self.observed += lanes
         if len(wiring.rows) == 0:
             return
         seen = np.stack([episode.observed for episode in episodes], axis=1)
         share = (seen - wiring.low[:, None]) / (wiring.high - wiring.low)[:, None]
         self.clipped += ((share < 0) | (share > 1)).sum(axis=1)
-        self.observed += lanes
+        self.unreal[:-1] += np.isnan(seen).sum(axis=1)
         readings[wiring.rows[self._measured], :lanes] = np.clip(share[self._measured], 0.0, 1.0)
 
     def conclude(self, tile: Tile, jobs: Jobs) -> None:
@@ -168,7 +179,9 @@ class EnvironmentRollout(Rollout):
         episodes = self._episodes(tile, jobs)
         self._stepper.step(episodes, self.wiring.actions(self._commands(state, lanes)))
         judge, ended = state.judge, state.run.ended
-        judge.measures[self._rewards, :lanes] = [episode.reward for episode in episodes]
+        rewards = np.array([episode.reward for episode in episodes])
+        judge.measures[self._rewards, :lanes] = rewards
+        self.unreal[-1] += np.count_nonzero(~np.isfinite(rewards)) if self._rewards else 0
         judge.events[self._ends, :lanes] = [episode.is_terminated for episode in episodes]
         ended[:lanes][[episode.is_over for episode in episodes]] = BROKEN_OFF  # unless one of the task's ends comes
         conclude(self.tables, state, jobs, self.interrupt)
