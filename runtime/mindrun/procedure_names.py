@@ -4,9 +4,10 @@ import ast
 import builtins
 import symtable
 from collections import defaultdict
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
+Key = tuple[symtable.SymbolTable, str]  # the scope that a name belongs to, and the name
 Scopes = tuple[symtable.SymbolTable, ...]  # of a module, and of what is in it around a place, the inmost last
 DEFINITIONS = ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef
 COMPREHENSIONS: dict[type[ast.AST], str] = {
@@ -15,7 +16,7 @@ COMPREHENSIONS: dict[type[ast.AST], str] = {
     ast.DictComp: "dictcomp",
     ast.GeneratorExp: "genexpr",
 }  # and what symtable calls their scopes
-NOTHING: frozenset[str] = frozenset()
+MAX_DOTS = 6  # in what a name is found to stand for: x = x.next has no end
 
 
 @dataclass(slots=True)
@@ -26,7 +27,8 @@ class Names:
     table: symtable.SymbolTable
     imported: set[str] = field(default_factory=set)  # dotted names of all that is imported
     _scopes: dict[ast.AST, Scopes] = field(default_factory=dict)
-    _bound: dict[tuple[int, str], list[str | ast.expr]] = field(default_factory=lambda: defaultdict(list))
+    _bound: dict[Key, list[str | ast.expr]] = field(default_factory=lambda: defaultdict(list))
+    _paths: dict[Key, set[str]] = field(default_factory=lambda: defaultdict(set))
     _everything_of: list[str] = field(default_factory=list)  # modules after from … import *
 
     def __post_init__(self) -> None:
@@ -40,31 +42,43 @@ class Names:
             own = {id(part) for part in _own_parts(node)}
             parts = [(part, inner if id(part) in own else scopes) for part in ast.iter_child_nodes(node)]
             left.extend(reversed(parts))
+        self._spread()
 
-    def paths(self, node: ast.AST, asked: frozenset[tuple[int, str]] = frozenset()) -> frozenset[str]:
+    def paths(self, node: ast.AST) -> frozenset[str]:
         """The dotted names of what an expression may stand for; none of what is the text's own, or cannot be seen."""
-        match node:
-            case ast.Name(id=name):
-                return self._of_name(name, self._scopes[node], asked)
-            case ast.Attribute(value=value, attr=name):
-                return frozenset(f"{path}.{name}" for path in self.paths(value, asked))
-            case ast.IfExp(body=one, orelse=other):
-                return self.paths(one, asked) | self.paths(other, asked)
-            case ast.NamedExpr(value=value):
-                return self.paths(value, asked)
-        return NOTHING
+        found = (f"{path}{rest}" for name, rest in _names(node) for path in self._known(self._key(name)))
+        return frozenset(found)
 
-    def _of_name(self, name: str, scopes: Scopes, asked: frozenset[tuple[int, str]]) -> frozenset[str]:
-        home = _home(name, scopes)
-        key = home.get_id(), name
-        if key in asked:
-            return NOTHING
-        given = self._bound.get(key, [])
-        found = [self.paths(each, asked | {key}) if isinstance(each, ast.expr) else {each} for each in given]
-        if given or _is_bound(name, home):
-            return NOTHING.union(*found)
+    def _spread(self) -> None:
+        """Let each name stand for what the names stand for that it is given."""
+        given_to: dict[Key, list[tuple[Key, str]]] = defaultdict(list)
+        left: list[tuple[Key, str]] = []
+        for key, each in ((key, each) for key, given in self._bound.items() for each in given):
+            if isinstance(each, str):
+                left.append((key, each))
+                continue
+            for name, rest in _names(each):
+                given_to[self._key(name)].append((key, rest))
+                left += [(key, f"{path}{rest}") for path in self._of_python(self._key(name))]
+        while left:
+            key, path = left.pop()
+            if path not in self._paths[key]:
+                self._paths[key].add(path)
+                left += [(to, f"{path}{rest}") for to, rest in given_to[key] if path.count(".") < MAX_DOTS or not rest]
+
+    def _key(self, name: ast.Name) -> Key:
+        return _home(name.id, self._scopes[name]), name.id
+
+    def _known(self, key: Key) -> Iterable[str]:
+        return self._paths.get(key) or self._of_python(key)
+
+    def _of_python(self, key: Key) -> list[str]:
+        """What a name is to which the text gives nothing."""
+        home, name = key
+        if key in self._bound or _is_bound(name, home):
+            return []
         is_known = hasattr(builtins, name) or name == "__file__"
-        return frozenset([f"{module}.{name}" for module in self._everything_of] + [name] * is_known)
+        return [*(f"{module}.{name}" for module in self._everything_of), *[name] * is_known]
 
     def _bind(self, node: ast.AST, scopes: Scopes, inner: Scopes) -> None:
         """Remember what a node makes names stand for."""
@@ -105,7 +119,22 @@ class Names:
                         self._assign(each, part, scopes)
 
     def _give(self, name: str, scopes: Scopes, what: str | ast.expr) -> None:
-        self._bound[_home(name, scopes).get_id(), name].append(what)
+        self._bound[_home(name, scopes), name].append(what)
+
+
+def _names(node: ast.AST) -> Iterator[tuple[ast.Name, str]]:
+    """The names of which an expression is one, each with the attributes that are taken of it."""
+    left = [(node, "")]
+    while left:
+        match left.pop():
+            case ast.Name() as name, rest:
+                yield name, rest
+            case ast.Attribute(value=value, attr=attribute), rest:
+                left.append((value, f".{attribute}{rest}"))
+            case ast.IfExp(body=one, orelse=other), rest:
+                left += [(one, rest), (other, rest)]
+            case ast.NamedExpr(value=value), rest:
+                left.append((value, rest))
 
 
 def _home(name: str, scopes: Scopes) -> symtable.SymbolTable:

@@ -1,6 +1,7 @@
 """What is said of procedures from their text: by every door alike, before anything runs."""
 
 import json
+from contextlib import nullcontext
 from pathlib import Path
 
 import pytest
@@ -199,3 +200,12 @@ def test_a_missing_file_is_a_mistake(mindc: Call, tmp_path: Path) -> None:
 def test_a_text_of_deep_sums_ends_in_a_sentence() -> None:
     with pytest.raises(ProcedureError):
         fit("m.f", "def f(a):\n    return a" + " + a" * 5000, 1, 1)
+
+
+@pytest.mark.parametrize("read", ["", "v0 = open\n"])
+def test_names_that_are_given_to_one_another_have_an_end(read: str) -> None:
+    """Each of forty stands for what all others do, and for attributes of it."""
+    given = (f"v{i} = v{j} if v{i} else v{j}.next\n" for i in range(40) for j in range(40))
+    text = f"{read}{''.join(given)}def turn(a, b, c): return v7('w'), 1"
+    with pytest.raises(ProcedureError, match="a file with open") if read else nullcontext():
+        fit("calls.turn", text, 3, 2)
