@@ -87,7 +87,7 @@ def panels_per_row(count: int) -> int:
 
 
 def grid(count: int) -> tuple[Figure, list[Axes]]:
-    """So many empty panels."""
+    """A figure with `count` empty panels, and the panels."""
     columns = panels_per_row(count)
     rows = ceil(count / columns)
     wide, high = SINGLE_PANEL_INCHES if count == 1 else GRID_PANEL_INCHES

@@ -61,7 +61,7 @@ class MeanCurve:
         return _mean(self.generations, [track[-1][1] for track in verdicts]) if all(verdicts) else None
 
     def data(self) -> dict[str, Any]:
-        """As plain data."""
+        """The figures of the mean curve by their names, as plain data."""
         verdict = self.verdict()
         return {
             "name": self.name,

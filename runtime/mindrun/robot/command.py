@@ -120,7 +120,7 @@ def _goes_on(run: DryRun, world: SeenWorld | None, more: Iterator[int], loop: Lo
 
 @contextmanager
 def _watched(task: Task, seed: int, socket: str, options: DriveOptions) -> Iterator[DriveOptions]:
-    """The same options with the world at a socket, where there is a recording for it."""
+    """The options of a drive; one that is recorded has the simulated world at a socket recorded, too."""
     if options.record is None:
         yield options
         return

@@ -79,7 +79,7 @@ class RecordedWorld:
 
     @property
     def row(self) -> np.dtype[Any]:
-        """Its columns."""
+        """The columns that the world has in each tick."""
         return world_row(self.things, self.rewards, self.events)
 
 

@@ -68,7 +68,7 @@ class WorldConnection:
 
 
 def _received(connection: sockets.socket, count: int, until: float) -> bytes:
-    """So many bytes."""
+    """The next `count` bytes of a connection, which have come by the time `until`."""
     data = b""
     while len(data) < count:
         left = until - monotonic()
@@ -91,7 +91,7 @@ class SimulatedSensorDevice:
     count: int
 
     def read(self) -> tuple[float | None, ...]:
-        """Its readings in this tick, as rough as the mind declares them; None where no skill there reads it."""
+        """The sensor's readings in this tick, rough as the mind declares them; None where no skill there reads it."""
         held = self.link.ask(READ, self.sensor)
         if len(held) != VALUE.size * self.count:
             raise DeviceError(f"{self.sensor} has {len(held) // VALUE.size} readings there, not {self.count}")

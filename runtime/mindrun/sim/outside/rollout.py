@@ -120,7 +120,7 @@ class EnvironmentRollout(Rollout):
         return tuple(filter(None, (self._flaw, gave, f"readings beyond their range: {beyond}" if beyond else "")))
 
     def _shares(self, names: Sequence[str], counts: NDArray[np.int64]) -> str:
-        """Of how many ticks something is true, of all names of which it is in any."""
+        """In words, the share of ticks in which something was true of each name; "" where it never was."""
         shares = zip(names, (counts / max(1, self.observed)).tolist(), strict=True)
         said = [f"{name} in {_percent(share)}" for name, share in shares if share]
         return f"{', '.join(said)} of the ticks" if said else ""
