@@ -13,8 +13,8 @@ from time import perf_counter, process_time
 from typing import NamedTuple
 
 import numpy as np
-from mindrun.graph import Lesson
-from mindrun.learners import Genetic
+from mindrun.graph.graph import Lesson
+from mindrun.kinds.learners import Genetic
 from mindrun.train.attempt import Verdict
 from mindrun.train.attempts import side_by_side
 from mindrun.train.lesson_state import Course, Record, begin

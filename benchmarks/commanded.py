@@ -4,9 +4,9 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from mindrun.functions import Rule
-from mindrun.graph import Graph
-from mindrun.policy import Policy
+from mindrun.graph.graph import Graph
+from mindrun.graph.policy import Policy
+from mindrun.kinds.functions import Rule
 from mindrun.sim.lanes.stages import after, before
 from mindrun.sim.rollout import Rollout
 from numpy.typing import ArrayLike

@@ -13,7 +13,7 @@ from io import StringIO
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from mindrun.codec import encode
+from mindrun.graph.codec import encode
 from rich.console import Console
 
 from benchmarks.call_count import CallCount
@@ -26,11 +26,12 @@ from mindlang.compiler.drawing import dot, tree
 from mindlang.compiler.format import format_splices, formatted
 from mindlang.compiler.source import Source
 from mindlang.editing.apply import apply_edit
+from mindlang.editing.edits import edit
 from mindlang.editing.project import EditError, open_project
 from mindlang.editing.summary import diff, summarise
-from mindlang.edits import edit
-from mindlang.linting.fixing import fixed
-from mindlang.linting.lint import lint
+from mindlang.editing.unified_diff import unified
+from mindlang.lint.fixing import fixed
+from mindlang.lint.lint import lint
 from mindlang.lock.report import rows
 from mindlang.proofs.proof import prove
 from mindlang.server.changing import perform
@@ -41,7 +42,6 @@ from mindlang.server.navigating import definitions, everything, highlights, refe
 from mindlang.server.proposals import proposals
 from mindlang.server.selection import Selection
 from mindlang.server.session import Session
-from mindlang.unified_diff import unified
 
 LINEAR_RATIO = 2.8  # what shapes with names of more digits, or that change into one another, come to by themselves
 

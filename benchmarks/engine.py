@@ -7,10 +7,10 @@ import time
 from pathlib import Path
 
 import numpy as np
-from mindrun.engine import Engine
-from mindrun.graph import Graph
-from mindrun.policy import Policy
-from mindrun.weights import genes
+from mindrun.engine.engine import Engine
+from mindrun.graph.graph import Graph
+from mindrun.graph.policy import Policy
+from mindrun.graph.weights import genes
 
 from benchmarks.workloads import COLLECT, graph_of
 from mindlang.compiler.compile import load

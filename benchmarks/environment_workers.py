@@ -15,8 +15,8 @@ from time import perf_counter
 
 import gymnasium
 import numpy as np
-from mindrun.bundle import Bundle, pack
-from mindrun.policy import Policy
+from mindrun.graph.bundle import Bundle, pack
+from mindrun.graph.policy import Policy
 from mindrun.sim.outside.apart import Apart
 from mindrun.sim.outside.here import Here
 from mindrun.sim.rollouts import rollout_for

@@ -11,8 +11,8 @@ import sys
 from time import process_time
 
 import numpy as np
-from mindrun.graph import Graph
-from mindrun.policy import Policy
+from mindrun.graph.graph import Graph
+from mindrun.graph.policy import Policy
 from mindrun.sim.rollout import Rollout
 
 from mindlang.compiler.compile import compile_source

@@ -18,7 +18,7 @@ from pathlib import Path
 from random import Random
 from tempfile import TemporaryDirectory
 
-from mindrun.printable import visible
+from mindrun.files.printable import visible
 
 from benchmarks.sources import mutant_of, source
 from mindlang.cli._diagnostic_printer import as_data, plain
@@ -27,7 +27,7 @@ from mindlang.compiler.compile import Compiled, compile_source
 from mindlang.compiler.format import format_splices, formatted
 from mindlang.compiler.source import Source
 from mindlang.compiler.splice import spliced
-from mindlang.linting.lint import lint
+from mindlang.lint.lint import lint
 from mindlang.lock.report import rows
 from mindlang.lock.status import NotLearning, status
 from mindlang.proofs.proof import prove

@@ -9,7 +9,7 @@ import time
 from statistics import median
 
 import numpy as np
-from mindrun.learners import Genetic
+from mindrun.kinds.learners import Genetic
 from mindrun.train.ask_and_tell import ask, tell
 from mindrun.train.population import Genomes, nobody
 

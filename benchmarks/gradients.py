@@ -13,8 +13,8 @@ from itertools import pairwise
 from typing import Self
 
 import numpy as np
-from mindrun.functions.mlp import Mlp
-from mindrun.network import matrices
+from mindrun.kinds.functions.mlp import Mlp
+from mindrun.numbers.network import matrices
 from mindrun.train.population import MAX_WEIGHT, Genomes
 from numpy.typing import NDArray
 

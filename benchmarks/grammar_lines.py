@@ -3,7 +3,7 @@
 from collections.abc import Callable, Sequence
 from random import Random
 
-from mindrun.registry import arguments, kinds
+from mindrun.kinds.registry import arguments, kinds
 
 NUMBERS = (
     *("0", "1", "2", "-1", "0.5", "1/60", "1/0", "0/0", "1e3", "7.", ".5", "0.0000001", "1/3", "-0", "+1", "999999999"),

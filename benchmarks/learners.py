@@ -23,8 +23,9 @@ from typing import Any
 
 import numpy as np
 from mindrun.cores import cores
-from mindrun.graph import Lesson
-from mindrun.learners import EvolutionStrategy, Genetic, Restarting
+from mindrun.graph.graph import Lesson
+from mindrun.graph.weights import learners
+from mindrun.kinds.learners import EvolutionStrategy, Genetic, Restarting
 from mindrun.sim.rollout import Rollout
 from mindrun.train.attempt import REEVALUATED_CANDIDATES, REEVALUATION_GENERATIONS, judge
 from mindrun.train.attempt import REEVALUATION_LAYOUTS as TRIES
@@ -32,7 +33,6 @@ from mindrun.train.lesson import ended, generation
 from mindrun.train.lesson_state import Course, begin
 from mindrun.train.population import MAX_WEIGHT, Genomes, order
 from mindrun.train.training import best
-from mindrun.weights import learners
 
 from benchmarks.learning import FRESH_LAYOUTS, prepared
 from benchmarks.workloads import COLLECT, collect, shipped

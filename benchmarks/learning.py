@@ -13,8 +13,8 @@ from typing import Any
 
 import numpy as np
 from mindrun.cores import cores
-from mindrun.graph import Graph, Lesson
-from mindrun.policy import Policy
+from mindrun.graph.graph import Graph, Lesson
+from mindrun.graph.policy import Policy
 from mindrun.sim.rollout import Rollout
 from mindrun.train.lesson import teach
 from mindrun.train.lesson_state import Course, begin

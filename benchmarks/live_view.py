@@ -21,8 +21,8 @@ from time import perf_counter, sleep
 from typing import Any
 
 import numpy as np
-from mindrun.bundle import read_bundle
-from mindrun.named_readings import physical
+from mindrun.graph.bundle import read_bundle
+from mindrun.graph.named_readings import physical
 from mindrun.robot.recording import About, Recorder, read
 from numpy.typing import NDArray
 from websockets.sync.client import connect

@@ -12,8 +12,8 @@ from time import perf_counter
 
 import numpy as np
 import pymunk
-from mindrun.graph import Graph
-from mindrun.policy import Policy
+from mindrun.graph.graph import Graph
+from mindrun.graph.policy import Policy
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import Trace, trace
 

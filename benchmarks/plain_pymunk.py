@@ -5,9 +5,9 @@ from collections.abc import Mapping
 
 import numpy as np
 import pymunk
-from mindrun.functions import Mlp
-from mindrun.graph import Graph, Skill
-from mindrun.network import matrices
+from mindrun.graph.graph import Graph, Skill
+from mindrun.kinds.functions import Mlp
+from mindrun.numbers.network import matrices
 from mindrun.sim.trace import Trace
 from numpy.typing import NDArray
 

@@ -19,8 +19,8 @@ from pathlib import Path
 from statistics import median
 
 import numpy as np
-from mindrun.learners import Genetic
-from mindrun.policy import Policy
+from mindrun.graph.policy import Policy
+from mindrun.kinds.learners import Genetic
 from mindrun.sim.rollout import Rollout
 from mindrun.train.genetic import mutate
 
@@ -112,7 +112,7 @@ WORKLOADS: Mapping[str, Callable[[], Measure]] = {
 def first_start() -> float:
     """Seconds of CPU time of an import and a compilation into an empty cache."""
     program = (
-        "from benchmarks.workloads import collect; from mindrun.policy import Policy;"
+        "from benchmarks.workloads import collect; from mindrun.graph.policy import Policy;"
         "from mindrun.sim.rollout import Rollout; import time; graph, weights, _ = collect();"
         "Rollout(Policy(graph, weights), graph.master, graph.master).compile(); print(time.process_time())"
     )

@@ -10,8 +10,8 @@ from statistics import median
 from tempfile import TemporaryDirectory
 
 import numpy as np
-from mindrun.bundle import read_bundle
-from mindrun.engine import Engine
+from mindrun.engine.engine import Engine
+from mindrun.graph.bundle import read_bundle
 from mindrun.robot.recording import About, Recorder, read
 from mindrun.robot.replay import replay
 

@@ -13,7 +13,7 @@ from random import Random
 from benchmarks.grammar_lines import NUMBERS, line
 from mindlang.compiler.parse.explain import FOREIGN_WORDS
 from mindlang.compiler.syntax import NOUNS, SETTINGS, VERBS
-from mindlang.rules import all_rules
+from mindlang.lint.rules import all_rules
 
 ROOT = Path(__file__).parents[1]
 PIECE = re.compile(r"\w+|\s+|.", re.DOTALL)

@@ -7,7 +7,7 @@ import time
 
 import cv2
 import numpy as np
-from mindrun.arrays import Frame
+from mindrun.numbers.arrays import Frame
 from mindrun.robot.ball_detection import BallTarget, find_ball
 
 IMAGE_WIDTH, IMAGE_HEIGHT = 320, 240

@@ -10,11 +10,11 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from mindrun.graph import Graph
-from mindrun.policy import Policy
+from mindrun.graph.graph import Graph
+from mindrun.graph.policy import Policy
+from mindrun.graph.weights import genes
 from mindrun.sim.rollout import DEFAULT_LANES, Rollout, Tile
 from mindrun.sim.state import Jobs
-from mindrun.weights import genes
 from numpy.typing import NDArray
 
 import mindlang

@@ -22,10 +22,10 @@ from shutil import copyfile, rmtree
 from string import Template
 
 import numpy as np
-from mindrun.arguments import real, whole
-from mindrun.graph import Lesson
-from mindrun.registry import names
+from mindrun.graph.graph import Lesson
+from mindrun.kinds.registry import names
 from mindrun.sim.rollout import Rollout
+from mindrun.terminal.arguments import real, whole
 from mindrun.train.attempt import judge
 from mindrun.train.lesson import ended, teach
 from mindrun.train.lesson_state import Course, begin

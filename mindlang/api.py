@@ -8,25 +8,26 @@ from time import perf_counter
 from typing import Any
 from warnings import warn
 
-from mindrun.bundle import Bundle
-from mindrun.engine import Engine, procedure_sources
+from mindrun.engine.engine import Engine, procedure_sources
 from mindrun.errors import MindError
-from mindrun.graph import Graph
-from mindrun.policy import Policy
-from mindrun.short_repr import ShortRepr
+from mindrun.graph.bundle import Bundle
+from mindrun.graph.graph import Graph
+from mindrun.graph.policy import Policy
+from mindrun.graph.wiring import Wiring
+from mindrun.numbers.short_repr import ShortRepr
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.rollouts import rollout_for
 from mindrun.sim.trace import Trace, trace
 from mindrun.train.lesson_state import Record
 from mindrun.train.training import Watch
-from mindrun.wiring import Wiring
 
-from mindlang import edits, executors, transaction
+from mindlang import executors
 from mindlang.bounds import as_layout, as_workers
 from mindlang.compiler.compile import Compiled, compile_source
 from mindlang.compiler.compile import load as load_file
 from mindlang.compiler.diagnostic import Diagnostic
 from mindlang.compiler.source import Source
+from mindlang.editing import edits, transaction
 from mindlang.editing.apply import Edited, apply_edit
 from mindlang.editing.project import EditError, open_project
 from mindlang.editing.summary import broken_sentences, diff, summarise

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator
 from itertools import islice
 from pathlib import Path
 
-from mindrun.regular_files import read_regular
+from mindrun.files.regular_files import read_regular
 
 from mindlang.compiler.source import MAX_SOURCE_BYTES, decode
 

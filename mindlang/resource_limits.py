@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from mindrun.errors import MindError
-from mindrun.graph import Task
+from mindrun.graph.graph import Task
 
 if TYPE_CHECKING:
     from mindrun.sim.rollout import Rollout

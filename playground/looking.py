@@ -12,8 +12,8 @@ from mindlang.compiler.format import formatted
 from mindlang.compiler.model import Mind, Skill
 from mindlang.compiler.parse import parse
 from mindlang.compiler.source import Source, Span
-from mindlang.linting.lint import lint
-from mindlang.rules import all_rules
+from mindlang.lint.lint import lint
+from mindlang.lint.rules import all_rules
 
 # Nothing is taught here, and nothing is kept beside the text.
 LEFT_OUT = {"untaught-skill", "stale-weights", "taught-elsewhere", "frozen-lesson"}

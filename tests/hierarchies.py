@@ -6,13 +6,14 @@ from pathlib import Path
 
 import numpy as np
 from hypothesis import strategies as st
-from mindrun.actuators import Gripper, Servo, Wheel
-from mindrun.bodies import Disc
-from mindrun.functions import Function, Mlp, Procedure, Rule
-from mindrun.functions.elman import Elman
-from mindrun.graph import Actuator, Edge, Gate, Graph, Memory, Program, Sensor, Skill
-from mindrun.memory import Cell
-from mindrun.sensors import (
+from mindrun.graph.graph import Actuator, Edge, Gate, Graph, Memory, Program, Sensor, Skill
+from mindrun.graph.weights import genes
+from mindrun.kinds.actuators import Gripper, Servo, Wheel
+from mindrun.kinds.bodies import Disc
+from mindrun.kinds.functions import Function, Mlp, Procedure, Rule
+from mindrun.kinds.functions.elman import Elman
+from mindrun.kinds.memory import Cell
+from mindrun.kinds.sensors import (
     Average,
     Battery,
     Bearing,
@@ -29,19 +30,18 @@ from mindrun.sensors import (
     SensorKind,
     Sine,
 )
-from mindrun.sensors.bumper import Bumper
-from mindrun.sensors.clock import Clock
-from mindrun.sensors.compass import Compass
-from mindrun.sensors.directions import directions
-from mindrun.sensors.distance import Distance
-from mindrun.sensors.eye import Eye
-from mindrun.sensors.floor import Floor
-from mindrun.sensors.light import Light
-from mindrun.sensors.odometer import Odometer
-from mindrun.sensors.position import Position
-from mindrun.sensors.speed import Speed
-from mindrun.sensors.turn_rate import TurnRate
-from mindrun.weights import genes
+from mindrun.kinds.sensors.bumper import Bumper
+from mindrun.kinds.sensors.clock import Clock
+from mindrun.kinds.sensors.compass import Compass
+from mindrun.kinds.sensors.directions import directions
+from mindrun.kinds.sensors.distance import Distance
+from mindrun.kinds.sensors.eye import Eye
+from mindrun.kinds.sensors.floor import Floor
+from mindrun.kinds.sensors.light import Light
+from mindrun.kinds.sensors.odometer import Odometer
+from mindrun.kinds.sensors.position import Position
+from mindrun.kinds.sensors.speed import Speed
+from mindrun.kinds.sensors.turn_rate import TurnRate
 from numpy.typing import NDArray
 
 SHARES = st.floats(0, 1, width=32)

@@ -1,11 +1,11 @@
 """Small minds for tests, put together by hand."""
 
-from mindrun.actuators import Gripper, Wheel
-from mindrun.bodies import Disc
-from mindrun.functions import Function, Rule
-from mindrun.graph import Actuator, Edge, Graph, Memory, Program, Sensor, Skill
-from mindrun.memory import Cell
-from mindrun.sensors import Battery
+from mindrun.graph.graph import Actuator, Edge, Graph, Memory, Program, Sensor, Skill
+from mindrun.kinds.actuators import Gripper, Wheel
+from mindrun.kinds.bodies import Disc
+from mindrun.kinds.functions import Function, Rule
+from mindrun.kinds.memory import Cell
+from mindrun.kinds.sensors import Battery
 
 WHEELS = (Actuator("left_wheel", Wheel("left", 0.5)), Actuator("right_wheel", Wheel("right", 0.5)))
 CLAW = Actuator("claw", Gripper(0.25))

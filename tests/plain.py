@@ -4,13 +4,13 @@ import math
 import operator
 
 import numpy as np
-from mindrun.functions import Mlp, Procedure
-from mindrun.functions.elman import Elman
-from mindrun.sensors import Average, Bearing, Computed, Derivative, Reading, Sine
-from mindrun.sensors.clock import Clock
-from mindrun.sensors.compass import Compass
-from mindrun.sigmoid import DENOMINATOR, LIMIT, NUMERATOR
-from mindrun.trigonometry import sine
+from mindrun.kinds.functions import Mlp, Procedure
+from mindrun.kinds.functions.elman import Elman
+from mindrun.kinds.sensors import Average, Bearing, Computed, Derivative, Reading, Sine
+from mindrun.kinds.sensors.clock import Clock
+from mindrun.kinds.sensors.compass import Compass
+from mindrun.numbers.sigmoid import DENOMINATOR, LIMIT, NUMERATOR
+from mindrun.numbers.trigonometry import sine
 
 from tests.hierarchies import PROCEDURES
 

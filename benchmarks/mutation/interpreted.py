@@ -69,7 +69,7 @@ class Vectors(importlib.abc.Loader):
         return None
 
     def exec_module(self, module: ModuleType) -> None:
-        from mindrun import arithmetic
+        from mindrun.numbers import arithmetic
 
         plain = {name: getattr(arithmetic, name) for name in ("splat", "broadcast", "load", "store", "sigmoids")}
         vars(module).update(

@@ -167,7 +167,7 @@ ROOMS = {
         interpreted=True,
     ),
     "why": Room(
-        ("mindlang/why/*.py",),
+        ("mindlang/attribution/*.py",),
         tuple(f"tests/why/test_{name}.py" for name in ("report", "why_command", "why_recording")),
     ),
     "whatif": Room(
@@ -187,19 +187,19 @@ ROOMS = {
         but=("mindlang/environments/stable_baselines.py",),  # whose tests need a library that a mutant's may not have
     ),
     "importing": Room(
-        ("mindlang/importing/*.py",),
+        ("mindlang/weights/*.py",),
         (
             *(f"tests/weights/test_{name}.py" for name in ("commands", "network", "without_torch")),
             "tests/outside/test_weights_from_elsewhere.py",
         ),
-        but=("mindlang/importing/torch_outputs.py",),  # whose tests need a library that a mutant's may not have
+        but=("mindlang/weights/torch_outputs.py",),  # whose tests need a library that a mutant's may not have
     ),
     "beginnings": Room(
         (
             *(f"mindlang/compiler/{name}.py" for name in ("beginning", "resolve/places", "resolve/decided")),
-            *(f"mindlang/analysis/{name}.py" for name in ("drawn_world", "floor")),
-            *(f"mindlang/rules/{name}.py" for name in ("chance_meeting", "nothing_drawn", "paid_at_once")),
-            *(f"mindlang/rules/{name}.py" for name in ("walled_off", "wall_on_the_way", "standing_learner")),
+            *(f"mindlang/lint/{name}.py" for name in ("drawn_world", "floor")),
+            *(f"mindlang/lint/rules/{name}.py" for name in ("chance_meeting", "nothing_drawn", "paid_at_once")),
+            *(f"mindlang/lint/rules/{name}.py" for name in ("walled_off", "wall_on_the_way", "standing_learner")),
         ),
         (
             "tests/lint/test_floor.py",
@@ -231,7 +231,7 @@ ROOMS = {
         (
             *(f"{R}{name}.py" for name in ("measured", "given_numbers", "one_world", "nearest_name", "short_repr")),
             *(f"mindlang/{name}.py" for name in ("analysis/intervals", "run/paired_difference", "wiring/speed")),
-            *(f"mindlang/rules/{name}.py" for name in ("zero_division", "direction_as_number", "coarse_tick")),
+            *(f"mindlang/lint/rules/{name}.py" for name in ("zero_division", "direction_as_number", "coarse_tick")),
         ),
         (
             "tests/run/test_paired_difference.py",

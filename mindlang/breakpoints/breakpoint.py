@@ -2,10 +2,10 @@
 
 from dataclasses import dataclass
 
-from mindrun.events import EventKind
-from mindrun.expression import Program
-from mindrun.graph import Receiver
-from mindrun.measures import MeasureKind
+from mindrun.graph.graph import Receiver
+from mindrun.kinds.events import EventKind
+from mindrun.kinds.measures import MeasureKind
+from mindrun.numbers.expression import Program
 
 from mindlang.breakpoints.robot_events import RobotEvent
 

@@ -6,14 +6,14 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from mindrun.named_readings import physical
+from mindrun.graph.named_readings import physical
 
 from mindlang.breakpoints.subject import Subject
 from mindlang.compiler.compile import Compiled, load
 from mindlang.run.chosen_task import master_of, task_of
 
 if TYPE_CHECKING:
-    from mindrun.bundle import Bundle
+    from mindrun.graph.bundle import Bundle
 
 
 def mind_of(path: str, given: Mapping[str, Compiled]) -> Compiled | None:

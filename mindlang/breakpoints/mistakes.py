@@ -3,7 +3,7 @@
 import re
 from typing import TYPE_CHECKING
 
-from mindrun.registry import kinds
+from mindrun.kinds.registry import kinds
 
 from mindlang.breakpoints.robot_events import WORDS
 from mindlang.compiler.diagnostic import Diagnostic

@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from mindrun.bundle import Bundle
-from mindrun.robot.recording_header import About
-from mindrun.think import hierarchy
+from mindrun.engine.think import hierarchy
+from mindrun.graph.bundle import Bundle
+from mindrun.graph.recording_header import About
 from numpy.typing import NDArray
 
 from mindlang.breakpoints.breakpoint import Breakpoint

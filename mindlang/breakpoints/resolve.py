@@ -3,12 +3,12 @@
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
-from mindrun.events import EventKind
-from mindrun.expression import Program, leaves
-from mindrun.graph import Receiver
-from mindrun.quantity import Quantity
-from mindrun.registry import kinds
-from mindrun.skill_sets import reachable
+from mindrun.graph.graph import Receiver
+from mindrun.graph.skill_sets import reachable
+from mindrun.kinds.events import EventKind
+from mindrun.kinds.registry import kinds
+from mindrun.numbers.expression import Program, leaves
+from mindrun.numbers.quantity import Quantity
 
 from mindlang.breakpoints.breakpoint import Breakpoint, Happens, Holds, Reaches, Transmission
 from mindlang.breakpoints.robot_events import WORDS, RobotEvent, robot_event

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from mindrun.graph import Graph, Task
-from mindrun.measured import measured_in_world, measured_on_robot
-from mindrun.registry import names as kind_names
+from mindrun.graph.graph import Graph, Task
+from mindrun.graph.measured import measured_in_world, measured_on_robot
+from mindrun.kinds.registry import names as kind_names
 
 from mindlang.compiler import lower, model
 from mindlang.compiler.names import Names

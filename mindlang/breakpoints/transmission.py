@@ -4,7 +4,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from mindrun.think import Hierarchy
+from mindrun.engine.think import Hierarchy
 from numpy.typing import NDArray
 
 from mindlang.breakpoints.breakpoint import Transmission

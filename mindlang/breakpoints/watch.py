@@ -7,11 +7,11 @@ from operator import neg
 from typing import Any, Protocol
 
 import numpy as np
-from mindrun.engine import procedure_sources
-from mindrun.evaluation import OPERATORS
-from mindrun.events import EventKind
-from mindrun.expression import Program, fold
-from mindrun.think import Hierarchy, hierarchy
+from mindrun.engine.engine import procedure_sources
+from mindrun.engine.think import Hierarchy, hierarchy
+from mindrun.kinds.events import EventKind
+from mindrun.numbers.evaluation import OPERATORS
+from mindrun.numbers.expression import Program, fold
 from numpy.typing import NDArray
 
 from mindlang.breakpoints.breakpoint import Breakpoint, Happens, Holds, Reaches, Transmission

@@ -9,8 +9,8 @@ from pkgutil import iter_modules
 from threading import active_count
 
 import click
-from mindrun import standard_streams
-from mindrun.arguments import emptiness
+from mindrun.terminal import standard_streams
+from mindrun.terminal.arguments import emptiness
 
 from mindlang.cli._terminal import FINDINGS, INTERRUPTED, MISUSE, OK, say
 
@@ -100,7 +100,7 @@ def _run() -> int:
 
 def _complete(shell: str) -> int:
     """Answer a shell that asks what may come next."""
-    from mindrun.shell_completion import reply
+    from mindrun.cli.shell_completion import reply
 
     from mindlang.cli._completing import answers
     from mindlang.cli._terminal import print_document

@@ -6,7 +6,7 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
-from mindrun.bundle import Bundle
+from mindrun.graph.bundle import Bundle
 from mindrun.robot.recording import About
 
 from mindlang.breakpoints.breakpoint import Breakpoint

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
-from mindrun.changes import Change, ChangeError
+from mindrun.engine.changes import Change, ChangeError
 from mindrun.errors import MindError
 from mindrun.sim.rollout import Rollout
 

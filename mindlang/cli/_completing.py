@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import click
 from click.shell_completion import ShellComplete
-from mindrun.shell_completion import BEGINNING, FILES, WORD, Answer, variable
+from mindrun.cli.shell_completion import BEGINNING, FILES, WORD, Answer, variable
 
 PROGRAM = "mindc"
 

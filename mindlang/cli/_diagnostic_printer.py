@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 from unicodedata import combining, east_asian_width
 
-from mindrun.printable import visible
+from mindrun.files.printable import visible
 
 from mindlang.compiler.diagnostic import MAX_DIAGNOSTICS, Diagnostic
 from mindlang.compiler.source import Span

@@ -11,7 +11,7 @@ def print_diff(diff: str) -> None:
     if not out.is_terminal:
         print_document(diff)
         return
-    from mindrun.printable import visible
+    from mindrun.files.printable import visible
     from rich.text import Text
 
     for line in diff.splitlines():

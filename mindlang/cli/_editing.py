@@ -19,10 +19,10 @@ from mindlang.cli._terminal import (
 )
 from mindlang.compiler.diagnostic import Diagnostic, listed
 from mindlang.editing.apply import Edited, apply_edit
+from mindlang.editing.edits import Edit
 from mindlang.editing.project import EditError, open_project
 from mindlang.editing.summary import broken_sentences, diff, not_followed, summarise
 from mindlang.editing.writing import changed_locks, write
-from mindlang.edits import Edit
 
 
 @dataclass(frozen=True, slots=True)

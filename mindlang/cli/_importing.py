@@ -7,16 +7,16 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from mindrun.errors import MindError
-from mindrun.tick_count import ticks as in_words
+from mindrun.terminal.tick_count import ticks as in_words
 from mindrun.train import NotFoundError
 
 from mindlang.cli._simulator_compilation import ensure_compiled
 from mindlang.cli._terminal import FINDINGS, MISUSE, OK, fail, print_json, procedures_talk, talk
-from mindlang.importing.importing import Imported, bring, read_incoming
-from mindlang.importing.trial import open_trial
 from mindlang.number_format import number
 from mindlang.training.lock_update import COMPARED_LAYOUTS
 from mindlang.training.subject import Subject
+from mindlang.weights.importing import Imported, bring, read_incoming
+from mindlang.weights.trial import open_trial
 
 
 def import_file(

@@ -94,7 +94,7 @@ class WhereOption(click.ParamType[Any]):
 
     def shell_complete(self, ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
         """The kinds, and what is known of what is said of one."""
-        from mindrun.shell_completion import FILES
+        from mindrun.cli.shell_completion import FILES
 
         from mindlang.executors import THREADS, completed, kinds_by_usage
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from mindrun.errors import MindError
-from mindrun.tick_count import ticks as in_words
+from mindrun.terminal.tick_count import ticks as in_words
 
 from mindlang.cli._run_session import RunSession
 from mindlang.cli._terminal import MISUSE, fail, procedures_talk, refuse_unwritable, write_file

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from mindrun.errors import MindError
-from mindrun.run_scores import Scores
+from mindrun.graph.run_scores import Scores
 from mindrun.sim.rollout import Rollout
 from mindrun.work.job_scorer import JobScorer
 from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
 if TYPE_CHECKING:
-    from mindrun.atomic_write import Data
+    from mindrun.files.atomic_write import Data
     from rich.console import Console, RenderableType
 
     from mindlang.compiler.compile import Compiled
@@ -41,7 +41,7 @@ def console(stderr: bool = False) -> Console:
 
 def say(message: str, hint: str = "") -> None:
     """Print a message and what to do about it on stderr."""
-    from mindrun.printable import visible
+    from mindrun.files.printable import visible
     from rich.text import Text
 
     console(stderr=True).print(Text(visible(message), "red"))
@@ -71,7 +71,7 @@ def print_json(value: object) -> None:
 
 def print_document(text: str) -> None:
     """What programs read, on stdout: in UTF-8 on any terminal."""
-    from mindrun.standard_streams import document
+    from mindrun.terminal.standard_streams import document
 
     document(text)
 
@@ -81,7 +81,7 @@ def procedures_talk() -> Iterator[None]:
     """Around whatever runs procedures or environments, or above it as a decorator: what they print is talk, and goes
     to stderr.
     """
-    from mindrun.standard_streams import talk
+    from mindrun.terminal.standard_streams import talk
 
     with talk():
         yield
@@ -89,7 +89,7 @@ def procedures_talk() -> Iterator[None]:
 
 def refuse_unwritable(path: Path | None, *suffixes: str) -> None:
     """End the program where no file could be written to `path`, before any work is done."""
-    from mindrun.atomic_write import refuse
+    from mindrun.files.atomic_write import refuse
 
     if path is None:
         return
@@ -103,7 +103,7 @@ def refuse_unwritable(path: Path | None, *suffixes: str) -> None:
 
 def write_file(path: Path, data: Data) -> None:
     """Write a file whose contents are done; where that fails the program ends, and the old one is still there."""
-    from mindrun.atomic_write import write_out
+    from mindrun.files.atomic_write import write_out
 
     try:
         write_out(path, data)
@@ -113,7 +113,7 @@ def write_file(path: Path, data: Data) -> None:
 
 def take_back(path: Path | str) -> None:
     """Take back an edit of a file that was interrupted; end the program where that would lose work."""
-    from mindlang.transaction import TransactionError, recover
+    from mindlang.editing.transaction import TransactionError, recover
 
     folder = Path(path).absolute().parent
     try:

@@ -12,10 +12,10 @@ from time import perf_counter
 from types import FrameType
 from typing import Any
 
-from mindrun.command_line import command_line
 from mindrun.cores import cores
 from mindrun.cpu_time import cpu_seconds
 from mindrun.sim.rollout import Rollout
+from mindrun.terminal.command_line import command_line
 from mindrun.train import RunError
 from mindrun.train.attempts import AttemptExecutor
 from mindrun.train.lesson_state import LessonState, Record

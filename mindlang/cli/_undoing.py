@@ -30,9 +30,9 @@ def command(place: str, as_json: bool) -> None:
     from mindlang.cli._diff_printer import print_diff
     from mindlang.cli._terminal import FINDINGS, MISUSE, fail, print_json, take_back, talk
     from mindlang.compiler.diagnostic import listed
+    from mindlang.editing.transaction import TransactionError
     from mindlang.editing.undoing import kept_in, undo
     from mindlang.named_files import is_folder
-    from mindlang.transaction import TransactionError
 
     here = Path(place).absolute()
     if not here.exists():
@@ -59,7 +59,7 @@ def command(place: str, as_json: bool) -> None:
 
 def _diff(folder: Path, were: Files, are: Files) -> str:
     from mindlang.compiler.source import decode
-    from mindlang.unified_diff import unified
+    from mindlang.editing.unified_diff import unified
 
     sources = [path for path in are if path.suffix == ".mind"]
     names = {path: path.relative_to(folder).as_posix() for path in sources}

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, TextIO
 
 import click
 from mindrun.errors import MindError
-from mindrun.tick_count import ticks as in_words
+from mindrun.terminal.tick_count import ticks as in_words
 
 from mindlang.cli._run_session import RunSession
 from mindlang.cli._terminal import MISUSE, fail, procedures_talk, talk, write_file

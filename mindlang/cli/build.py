@@ -13,7 +13,7 @@ from mindlang.cli._declared_names import SKILLS
 from mindlang.cli._options import NewFile
 
 if TYPE_CHECKING:
-    from mindrun.wiring import Wiring
+    from mindrun.graph.wiring import Wiring
 
     from mindlang.compiler.compile import Compiled
     from mindlang.lock.ready import ReadyMind
@@ -44,9 +44,9 @@ def command(file: str, output: Path, master: str | None, robot: Path | None, as_
     asked what they are, and travel along. Refuses skills that have
     not been taught, or whose weights belong to another declaration.
     """
-    from mindrun.bundle import Bundle, write_bundle
-    from mindrun.engine import procedure_sources
+    from mindrun.engine.engine import procedure_sources
     from mindrun.errors import MindError
+    from mindrun.graph.bundle import Bundle, write_bundle
 
     from mindlang.cli._terminal import MISUSE, fail, load_compiled, print_json, say
     from mindlang.compiler.diagnostic import did_you_mean
@@ -96,7 +96,7 @@ def _refuse_missing(ready: ReadyMind, file: str) -> None:
 
 def _refuse_procedures(compiled: Compiled, master: str) -> None:
     """Say what `check` says of procedures; end the program where one that travels cannot be what its skill needs."""
-    from mindrun.skill_sets import reachable
+    from mindrun.graph.skill_sets import reachable
 
     from mindlang.cli._diagnostic_printer import print_report
     from mindlang.cli._terminal import FINDINGS, console
@@ -115,7 +115,7 @@ def _refuse_procedures(compiled: Compiled, master: str) -> None:
 
 def _needed_modules(ready: ReadyMind, folder: Path) -> list[str]:
     """What has to be installed on the robot beside mindrun, in a sentence."""
-    from mindrun.skill_sets import reachable
+    from mindrun.graph.skill_sets import reachable
 
     from mindlang.compiler.diagnostic import listed
     from mindlang.compiler.procedures import needed_modules
@@ -129,7 +129,7 @@ def _wiring(path: Path, compiled: Compiled, master: str | None) -> Wiring:
     """What the mind is wired to; its report goes to stderr, and one with errors ends the program."""
     from mindlang.cli._diagnostic_printer import print_report
     from mindlang.cli._terminal import FINDINGS, MISUSE, console
-    from mindlang.wiring.wire import load_wiring
+    from mindlang.robot.wire import load_wiring
 
     assert compiled.mind is not None
     assert compiled.graph is not None
@@ -142,8 +142,8 @@ def _wiring(path: Path, compiled: Compiled, master: str | None) -> Wiring:
 
 
 def _built(output: Path, digest: str, ready: ReadyMind, wiring: Wiring | None) -> dict[str, object]:
-    from mindrun.bundle import fingerprint
-    from mindrun.wiring import code_digests
+    from mindrun.graph.bundle import fingerprint
+    from mindrun.graph.wiring import code_digests
 
     robot: dict[str, object] = {}
     if wiring:

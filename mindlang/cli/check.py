@@ -13,7 +13,7 @@ import click
 from mindlang.cli._declared_names import SKILLS, TASKS
 
 if TYPE_CHECKING:
-    from mindrun.bundle import Bundle
+    from mindrun.graph.bundle import Bundle
 
     from mindlang.compiler.compile import Compiled
     from mindlang.compiler.diagnostic import Diagnostic
@@ -91,10 +91,10 @@ def command(files: tuple[str, ...], task: str | None, master: str | None, as_jso
 
 def _note_speeds(compiled: Mapping[str, Compiled]) -> None:
     """Say which robots are so fast that a tick of theirs cannot be simulated whole."""
-    from mindrun.command_line import command_line
+    from mindrun.terminal.command_line import command_line
 
     from mindlang.cli._terminal import talk
-    from mindlang.rules.coarse_tick import farthest_step, simulated_step
+    from mindlang.lint.rules.coarse_tick import farthest_step, simulated_step
 
     for file, each in compiled.items():
         if each.graph and (far := farthest_step(each.graph))[0] > (most := simulated_step(each.graph)):
@@ -109,8 +109,8 @@ def _breakpoints(
     """The files of breakpoints, each against every bundle, or else a mind; it is said where there is neither."""
     if not files:
         return
-    from mindrun.command_line import command_line
     from mindrun.errors import MindError
+    from mindrun.terminal.command_line import command_line
 
     from mindlang.breakpoints.checking import mind_of, subject_of_bundle, subject_of_mind
     from mindlang.breakpoints.file import load_breakpoints
@@ -132,6 +132,6 @@ def _breakpoints(
 
 
 def _bundle(path: str) -> Bundle:
-    from mindrun.bundle import read_bundle  # which needs numpy
+    from mindrun.graph.bundle import read_bundle  # which needs numpy
 
     return read_bundle(Path(path))

@@ -51,7 +51,7 @@ def command(shell: str | None, install: bool) -> None:
 
 def _scripts(shell: str) -> dict[Path, str]:
     """What completes both programs, by the files into which it is installed."""
-    from mindrun.shell_completion import script
+    from mindrun.cli.shell_completion import script
 
     mindc, mindrun = script(shell, "mindc"), script(shell, "mindrun")
     if shell == "fish":

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING
 import click
 
 if TYPE_CHECKING:
-    from mindrun.bundle import Bundle
+    from mindrun.graph.bundle import Bundle
 
-    from mindlang.deploying.deployment import DeployResult, Settings
-    from mindlang.deploying.robot import RemoteRobot
-    from mindlang.deploying.state import ReleaseState
+    from mindlang.robot.deployment import DeployResult, Settings
+    from mindlang.robot.remote import RemoteRobot
+    from mindlang.robot.remote_state import ReleaseState
 
 EXAMPLES = """\b
 Examples:
@@ -62,9 +62,9 @@ def command(
     from mindrun.errors import MindError
 
     from mindlang.cli._terminal import INTERRUPTED, fail
-    from mindlang.deploying.checks import check_host, check_tools
-    from mindlang.deploying.deployment import Settings
-    from mindlang.deploying.robot import connected
+    from mindlang.robot.checks import check_host, check_tools
+    from mindlang.robot.deployment import Settings
+    from mindlang.robot.remote import connected
 
     path, host = _path_and_host(words, rollback or as_list)
     if (rollback and as_list) or (arm_service and no_service):
@@ -101,11 +101,11 @@ def _path_and_host(words: tuple[str, ...], without: bool) -> tuple[Path | None, 
 
 def _checked(path: Path, settings: Settings) -> Bundle:
     """The bundle; one that cannot be read ends the program."""
-    from mindrun.bundle import read_bundle
     from mindrun.errors import BundleError
+    from mindrun.graph.bundle import read_bundle
 
     from mindlang.cli._terminal import MISUSE, fail
-    from mindlang.deploying.checks import check_procedures, check_wired
+    from mindlang.robot.checks import check_procedures, check_wired
 
     try:
         bundle = read_bundle(path)
@@ -120,7 +120,7 @@ def _checked(path: Path, settings: Settings) -> Bundle:
 def _do(
     robot: RemoteRobot, path: Path | None, bundle: Bundle | None, settings: Settings, dry_run: bool, quiet: bool
 ) -> DeployResult:
-    from mindlang.deploying.deployment import deploy, roll_back
+    from mindlang.robot.deployment import deploy, roll_back
 
     def report(message: str) -> None:
         if not quiet:
@@ -132,10 +132,10 @@ def _do(
 
 
 def _list(robot: RemoteRobot, as_json: bool) -> None:
-    from mindrun.printable import visible
+    from mindrun.files.printable import visible
 
     from mindlang.cli._terminal import print_json
-    from mindlang.deploying.state import read_state
+    from mindlang.robot.remote_state import read_state
 
     state = read_state(robot)
     if as_json:

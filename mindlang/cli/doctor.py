@@ -48,7 +48,7 @@ def command(as_json: bool) -> None:
 
 def _row(of: Finding) -> tuple[tuple[Text, Text], Text]:
     """How it is and what it is about; then what was seen, and below it what mends it."""
-    from mindrun.printable import visible
+    from mindrun.files.printable import visible
     from rich.text import Text
 
     mark, style = MARKS[of.state.value]

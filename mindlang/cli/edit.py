@@ -10,7 +10,7 @@ from mindlang.cli import Suggesting
 from mindlang.cli._declared_names import SKILLS, declared
 
 if TYPE_CHECKING:
-    from mindlang.edits import Edit, EditOption
+    from mindlang.editing.edits import Edit, EditOption
 
 EXAMPLES = """\b
 Examples:
@@ -36,13 +36,13 @@ class Edits(Suggesting):
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         """Their names."""
-        from mindlang.edits import names
+        from mindlang.editing.edits import names
 
         return sorted([*names(), UNDO])
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         """The edit of that name as a command."""
-        from mindlang.edits import edit
+        from mindlang.editing.edits import edit
 
         if cmd_name == UNDO:
             from mindlang.cli._undoing import command as undo

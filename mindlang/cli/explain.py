@@ -36,7 +36,7 @@ def command(name: tuple[str, ...], as_json: bool) -> None:
     a noun before it chooses one: sensor light, mindrun doctor. Ends with 0, or with 2 where there is nothing of that
     name.
     """
-    from mindrun.printable import visible
+    from mindrun.files.printable import visible
     from rich.text import Text
 
     from mindlang.cli._command_articles import command_articles

@@ -84,12 +84,12 @@ def _language(file: str) -> tuple[Callable[[Source, Findings], object], Callable
 
 def _put(file: str, source: Source, text: str, check: bool, diff: bool) -> int:
     """The tidy text put where it belongs."""
-    from mindrun.atomic_write import rewrite
+    from mindrun.files.atomic_write import rewrite
 
     from mindlang.cli._diff_printer import print_diff
     from mindlang.cli._terminal import FINDINGS, OK, fail, print_document
     from mindlang.compiler.source import encoded
-    from mindlang.unified_diff import unified
+    from mindlang.editing.unified_diff import unified
 
     is_tidy = text == source.text
     match (diff, check, file):

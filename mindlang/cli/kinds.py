@@ -30,7 +30,7 @@ def command(noun: str | None, as_json: bool) -> None:
     NOUN chooses some: body, actuator, sensor, memory, skill, scene, thing, event, measure, curriculum or driver.
     mindc explain says more of each. Ends with 0, or with 2 where there is no such noun.
     """
-    from mindrun.printable import visible
+    from mindrun.files.printable import visible
     from rich.text import Text
 
     from mindlang.cli._terminal import MISUSE, console, fail, print_json

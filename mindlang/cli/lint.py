@@ -13,7 +13,7 @@ from click.shell_completion import CompletionItem
 
 if TYPE_CHECKING:
     from mindlang.compiler.diagnostic import Diagnostic
-    from mindlang.linting.settings import LintSettings
+    from mindlang.lint.settings import LintSettings
 
 EXAMPLES = """\b
 Examples:
@@ -28,7 +28,7 @@ FORMATS = ("text", "json", "github", "sarif")
 
 def _rules(context: click.Context, parameter: click.Parameter, begun: str) -> list[CompletionItem]:
     """What a shell may complete: the last of several codes with commas between them."""
-    from mindlang.rules import all_rules
+    from mindlang.lint.rules import all_rules
 
     before, comma, last = begun.rpartition(",")
     return [CompletionItem(f"{before}{comma}{code}") for code in all_rules() if code.startswith(last)]
@@ -61,7 +61,7 @@ def command(files: tuple[str, ...], fix: bool, select: tuple[str, ...], ignore: 
     from mindlang.cli._terminal import FINDINGS, MISUSE, OK, fail, take_back
     from mindlang.compiler.diagnostic import distinct
     from mindlang.editing.neighbours import minds
-    from mindlang.linting.lint_file import linted
+    from mindlang.lint.lint_file import linted
 
     if fix and "-" in files:
         fail("Standard input cannot be mended.", "Leave --fix out, or save it as a file.", MISUSE)
@@ -87,7 +87,7 @@ def _settings(file: str) -> LintSettings:
     """The settings that count for a file; what is wrong in them ends the program."""
     from mindlang.cli._diagnostic_printer import print_report
     from mindlang.cli._terminal import MISUSE, console
-    from mindlang.linting.settings_file import settings_of
+    from mindlang.lint.settings_file import settings_of
 
     found = settings_of(Path(realpath(file)))
     if found.wrong:
@@ -99,7 +99,7 @@ def _settings(file: str) -> LintSettings:
 def _codes(said: Sequence[str]) -> list[str]:
     """The codes of an option; one that is none ends the program."""
     from mindlang.cli._terminal import MISUSE, fail
-    from mindlang.linting.settings_file import why_no_rule
+    from mindlang.lint.settings_file import why_no_rule
 
     codes = [code for text in said for code in text.replace(",", " ").split()]
     if said and not codes:
@@ -120,11 +120,11 @@ def _print(found: Sequence[Diagnostic], as_: str) -> None:
         case "json":
             print_json({"diagnostics": [as_data(each) for each in found]})
         case "github":
-            from mindlang.linting.formats import annotations
+            from mindlang.lint.formats import annotations
 
             click.echo("".join(annotations(found)), nl=False)
         case "sarif":
-            from mindlang.linting.formats import sarif
+            from mindlang.lint.formats import sarif
 
             print_json(sarif(found))
 

@@ -40,7 +40,7 @@ def _migrate(file: str, write: bool) -> int:
     from mindlang.compiler.diagnostic import Findings
     from mindlang.compiler.migration import migrated
     from mindlang.compiler.source import Source
-    from mindlang.unified_diff import unified
+    from mindlang.editing.unified_diff import unified
 
     take_back(file)
     source = read_main(file)
@@ -65,7 +65,7 @@ def _migrate(file: str, write: bool) -> int:
 
 
 def _write(file: str, source: Source, text: str) -> None:
-    from mindrun.atomic_write import rewrite
+    from mindrun.files.atomic_write import rewrite
 
     from mindlang.cli._terminal import fail
     from mindlang.compiler.source import encoded

@@ -16,7 +16,7 @@ Examples:
 @click.option("--json", "as_json", is_flag=True, help="The compiled graph as JSON: mindc show collect.mind --json")
 def command(file: str, as_dot: bool, as_json: bool) -> None:
     """Show the hierarchy of a mind, from the master down."""
-    from mindrun.codec import encode
+    from mindrun.graph.codec import encode
 
     from mindlang.cli._terminal import console, load_compiled, print_document, print_json
     from mindlang.compiler.drawing import dot, tree

@@ -12,7 +12,7 @@ import click
 from mindlang.cli._declared_names import SKILLS
 
 if TYPE_CHECKING:
-    from mindrun.graph import Graph
+    from mindrun.graph.graph import Graph
     from rich.console import Console
     from rich.text import Text
 

@@ -130,7 +130,7 @@ def _show_recording(file: str, bundle: str, breaks: Path | None, output: ViewOut
 
 def _refuse_recording(file: str) -> None:
     if file.endswith(".rec"):
-        from mindrun.command_line import command_line
+        from mindrun.terminal.command_line import command_line
 
         command = command_line("mindc", "view", Path(file), "NAME.bundle")
         raise click.UsageError(f"A recording is seen with the bundle that was running: {command}")

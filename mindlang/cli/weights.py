@@ -77,7 +77,7 @@ def export_weights(file: str, skill: str, weights: Path) -> None:
     from mindrun.errors import MindError
 
     from mindlang.cli._terminal import console, fail, refuse_unwritable, write_file
-    from mindlang.importing.exporting import outgoing
+    from mindlang.weights.exporting import outgoing
     from mindlang.weights.files import bytes_of
 
     refuse_unwritable(weights, ".safetensors")

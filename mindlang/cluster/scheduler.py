@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from ipaddress import ip_address
 from pathlib import Path
 
-from mindrun.command_line import command_line
-from mindrun.regular_files import read_whole
+from mindrun.files.regular_files import read_whole
+from mindrun.terminal.command_line import command_line
 from mindrun.work import WorkError
 
 TRUSTED = "trusted"  # the network is, and nothing has to be encrypted

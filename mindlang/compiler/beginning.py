@@ -11,12 +11,12 @@ from dataclasses import dataclass, replace
 from math import cos, hypot, sin
 from typing import Any, Literal
 
-from mindrun.bodies import BodyKind
-from mindrun.graph import Start
-from mindrun.quantity import Place
-from mindrun.scenes import TOUCHING_UNITS, SceneKind
-from mindrun.things import ThingKind
-from mindrun.things.rectangle import Rectangle
+from mindrun.graph.graph import Start
+from mindrun.kinds.bodies import BodyKind
+from mindrun.kinds.scenes import TOUCHING_UNITS, SceneKind
+from mindrun.kinds.things import ThingKind
+from mindrun.kinds.things.rectangle import Rectangle
+from mindrun.numbers.quantity import Place
 
 from mindlang.compiler.model import Part
 from mindlang.compiler.outline import Outline, disc, meet, rectangle, turned

@@ -5,10 +5,10 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from mindrun.atomic_write import descriptor_of
 from mindrun.errors import reason
-from mindrun.graph import Graph
-from mindrun.short_repr import ShortRepr
+from mindrun.files.atomic_write import descriptor_of
+from mindrun.graph.graph import Graph
+from mindrun.numbers.short_repr import ShortRepr
 
 from mindlang.compiler.diagnostic import Diagnostic, Findings, near_file
 from mindlang.compiler.lower import lower

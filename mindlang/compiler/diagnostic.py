@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Literal
 
 from mindrun.nearest_name import nearest
-from mindrun.short_repr import ShortRepr
+from mindrun.numbers.short_repr import ShortRepr
 
 from mindlang.compiler.source import Span
 from mindlang.compiler.splice import Splice

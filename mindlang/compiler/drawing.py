@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
-from mindrun.registry import arguments, names
+from mindrun.kinds.registry import arguments, names
 
 from mindlang.compiler.model import Edge, Mind, Skill
 from mindlang.compiler.syntax import Drives, Influences

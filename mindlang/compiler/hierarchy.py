@@ -5,7 +5,7 @@ from heapq import heapify, heappop, heappush
 from itertools import pairwise
 from typing import TypeVar
 
-from mindrun.reachability import reached_from
+from mindrun.graph.reachability import reached_from
 
 from mindlang.compiler.diagnostic import Findings, Label
 from mindlang.compiler.model import Skill

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
-from mindrun import graph
+from mindrun.graph import graph
 
 from mindlang.compiler import model
 from mindlang.compiler.format import spaced

@@ -4,17 +4,17 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Generic, TypeVar
 
-from mindrun.actuators import ActuatorKind
-from mindrun.bodies import BodyKind
-from mindrun.events import EventKind
-from mindrun.functions import Function
-from mindrun.graph import Failure, Need, Receiver, Start, Variation
-from mindrun.learners import Learner
-from mindrun.measures import MeasureKind
-from mindrun.memory import Cell
-from mindrun.scenes import SceneKind
-from mindrun.sensors import SensorKind
-from mindrun.things import ThingKind
+from mindrun.graph.graph import Failure, Need, Receiver, Start, Variation
+from mindrun.kinds.actuators import ActuatorKind
+from mindrun.kinds.bodies import BodyKind
+from mindrun.kinds.events import EventKind
+from mindrun.kinds.functions import Function
+from mindrun.kinds.learners import Learner
+from mindrun.kinds.measures import MeasureKind
+from mindrun.kinds.memory import Cell
+from mindrun.kinds.scenes import SceneKind
+from mindrun.kinds.sensors import SensorKind
+from mindrun.kinds.things import ThingKind
 
 from mindlang.compiler.names import Names
 from mindlang.compiler.source import Span

@@ -4,9 +4,9 @@ from collections.abc import Iterator, Sequence
 from math import cos, hypot, inf, sin
 from typing import NamedTuple
 
-from mindrun.quantity import Place
-from mindrun.scenes import TOUCHING_UNITS
-from mindrun.things.rectangle import Rectangle
+from mindrun.kinds.scenes import TOUCHING_UNITS
+from mindrun.kinds.things.rectangle import Rectangle
+from mindrun.numbers.quantity import Place
 
 
 class Outline(NamedTuple):

@@ -7,9 +7,9 @@ from pathlib import Path
 from warnings import catch_warnings
 
 from mindrun.errors import ProcedureError
-from mindrun.graph import Skill
-from mindrun.procedure_source import is_installed, source_of
-from mindrun.procedure_text import file_of, imports
+from mindrun.graph.graph import Skill
+from mindrun.graph.procedure_source import is_installed, source_of
+from mindrun.kinds.procedure_text import file_of, imports
 
 from mindlang.compiler.diagnostic import Diagnostic
 from mindlang.compiler.model import Mind

@@ -4,10 +4,10 @@ from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass, fields, is_dataclass
 from typing import Any
 
-from mindrun.quantity import Quantity
-from mindrun.quantity import Reference as Noun
-from mindrun.registry import arguments, kinds
-from mindrun.variation import VARIED_NOUNS
+from mindrun.kinds.registry import arguments, kinds
+from mindrun.kinds.variation import VARIED_NOUNS
+from mindrun.numbers.quantity import Quantity
+from mindrun.numbers.quantity import Reference as Noun
 
 from mindlang.compiler.names import Names
 from mindlang.compiler.source import Span

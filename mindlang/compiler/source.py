@@ -6,9 +6,9 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from pathlib import Path
 
-from mindrun.command_line import command_line
-from mindrun.regular_files import read_regular
-from mindrun.short_repr import ShortRepr
+from mindrun.files.regular_files import read_regular
+from mindrun.numbers.short_repr import ShortRepr
+from mindrun.terminal.command_line import command_line
 
 MAX_SOURCE_BYTES = 1 << 20
 TOO_LARGE = f"is larger than {MAX_SOURCE_BYTES >> 20} MiB"

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from mindrun.errors import reason
-from mindrun.regular_files import read_regular
+from mindrun.files.regular_files import read_regular
 
 from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.expand.aliases import under_alias

@@ -4,8 +4,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from mindrun.command_line import command_line
-from mindrun.graph import Graph
+from mindrun.graph.graph import Graph
+from mindrun.terminal.command_line import command_line
 
 from mindlang.compiler.compile import Compiled, compile_source, load
 from mindlang.compiler.diagnostic import Diagnostic

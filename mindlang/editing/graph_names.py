@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import Field, fields, is_dataclass, replace
 from typing import Any, TypeVar
 
-from mindrun.graph import (
+from mindrun.graph.graph import (
     Actuator,
     End,
     Failure,
@@ -18,8 +18,8 @@ from mindrun.graph import (
     Thing,
     Variation,
 )
-from mindrun.quantity import EXPRESSION, SENSOR, THING
-from mindrun.registry import arguments, names
+from mindrun.kinds.registry import arguments, names
+from mindrun.numbers.quantity import EXPRESSION, SENSOR, THING
 
 from mindlang.compiler.references import READABLE_NOUNS
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from mindrun.graph import Graph
+from mindrun.graph.graph import Graph
 
 from mindlang.editing.project import MindChange, Replaced
 from mindlang.editing.unshared import with_copy
@@ -16,7 +16,7 @@ from mindlang.editing.world_names import Renaming
 from mindlang.lock import Entry, Lock, lock_path, read_lock
 
 if TYPE_CHECKING:
-    from mindrun.arrays import Weights
+    from mindrun.numbers.arrays import Weights
 
 Locks = Mapping[Path, Lock]  # by the path of the lock
 

@@ -6,9 +6,9 @@ from pathlib import Path
 from typing import TypeVar
 
 from mindrun.errors import MindError
-from mindrun.functions import Function
-from mindrun.graph import Graph
-from mindrun.registry import kinds
+from mindrun.graph.graph import Graph
+from mindrun.kinds.functions import Function
+from mindrun.kinds.registry import kinds
 
 from mindlang.compiler.compile import Compiled
 from mindlang.compiler.diagnostic import Diagnostic, Label, a, did_you_mean, listed

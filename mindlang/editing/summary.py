@@ -5,15 +5,15 @@ import re
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
-from mindrun.graph import Graph
+from mindrun.graph.graph import Graph
 
 from mindlang.compiler.diagnostic import listed
 from mindlang.editing.apply import Edited, EditedNeighbour
 from mindlang.editing.lock_update import Locks, merged
+from mindlang.editing.unified_diff import unified
 from mindlang.file_search import files_beside, text_of, within_read_limits
 from mindlang.lock.arrange import arrange
 from mindlang.lock.status import Stale, Status, Trained, Untaught, status
-from mindlang.unified_diff import unified
 
 Statuses = Mapping[str, Status]
 

@@ -4,9 +4,9 @@ from collections.abc import Mapping
 from contextlib import ExitStack
 from pathlib import Path
 
-from mindlang import transaction
+from mindlang.editing import transaction
+from mindlang.editing.transaction import TransactionError
 from mindlang.lock.blobs import FOLDER, exclusive_folder
-from mindlang.transaction import TransactionError
 
 Files = Mapping[Path, bytes | None]
 

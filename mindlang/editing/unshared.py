@@ -3,8 +3,8 @@
 from collections.abc import Mapping
 from dataclasses import replace
 
-from mindrun.graph import Graph
-from mindrun.skill_sets import owners, reachable
+from mindrun.graph.graph import Graph
+from mindrun.graph.skill_sets import owners, reachable
 
 from mindlang.editing.project import Unshared
 from mindlang.lock import Entry, Lock, Signature

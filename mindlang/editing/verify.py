@@ -6,13 +6,13 @@ from itertools import islice
 from pathlib import Path
 
 import numpy as np
-from mindrun.engine import Engine
-from mindrun.graph import Graph, Skill
-from mindrun.policy import Policy
+from mindrun.engine.engine import Engine
+from mindrun.graph.graph import Graph, Skill
+from mindrun.graph.policy import Policy
+from mindrun.graph.weights import Weights, genes, owner_of, reachable, weights_of
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.rollouts import rollout_for
 from mindrun.sim.trace import trace
-from mindrun.weights import Weights, genes, owner_of, reachable, weights_of
 from numpy.typing import NDArray
 
 from mindlang.compiler.references import READABLE_NOUNS

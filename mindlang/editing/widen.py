@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
-from mindrun.graph import Graph, Skill
+from mindrun.graph.graph import Graph, Skill
 
 from mindlang.editing.project import EditError
 from mindlang.lock import Entry, Lock, Signature
@@ -16,7 +16,7 @@ from mindlang.lock.signature import signature, width
 from mindlang.lock.status import Stale, Trained, status
 
 if TYPE_CHECKING:
-    from mindrun.arrays import Weights
+    from mindrun.numbers.arrays import Weights
 
 Locks = Mapping[Path, Lock]
 

@@ -13,7 +13,7 @@ from itertools import count
 from typing import Any, cast
 
 from lark import UnexpectedInput
-from mindrun.graph import Graph
+from mindrun.graph.graph import Graph
 
 from mindlang.compiler.names import Names
 from mindlang.compiler.parse.shape import parse_line

@@ -5,11 +5,11 @@ from collections.abc import Iterable
 from contextlib import ExitStack
 from pathlib import Path
 
-from mindrun.npy import to_npy
-from mindrun.regular_files import read_regular
+from mindrun.files.npy import to_npy
+from mindrun.files.regular_files import read_regular
 
-from mindlang import transaction
 from mindlang.compiler.source import MAX_SOURCE_BYTES, decode, encoded
+from mindlang.editing import transaction
 from mindlang.editing.apply import Edited
 from mindlang.editing.lock_update import locks_of
 from mindlang.editing.project import EditError

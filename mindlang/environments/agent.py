@@ -4,13 +4,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from mindrun.command_line import command_line
 from mindrun.errors import MindError
-from mindrun.graph import Graph, Skill, Task
-from mindrun.policy import Policy
+from mindrun.graph.graph import Graph, Skill, Task
+from mindrun.graph.policy import Policy
+from mindrun.graph.weights import reachable
 from mindrun.sim.commanded_lanes import CommandedLanes, commanded_lanes
 from mindrun.sim.rollout import Rollout
-from mindrun.weights import reachable
+from mindrun.terminal.command_line import command_line
 from numpy.typing import NDArray
 
 from mindlang.api import Mind, load

@@ -8,13 +8,13 @@ from queue import Empty, SimpleQueue
 from typing import Any
 
 import numpy as np
-from mindrun.bundle import Bundle
-from mindrun.engine import procedure_sources
-from mindrun.functions import Rule
-from mindrun.graph import Edge
-from mindrun.policy import Policy
+from mindrun.engine.engine import procedure_sources
+from mindrun.graph.bundle import Bundle
+from mindrun.graph.graph import Edge
+from mindrun.graph.policy import Policy
+from mindrun.graph.recording_header import About
+from mindrun.kinds.functions import Rule
 from mindrun.robot.rate import Rate
-from mindrun.robot.recording_header import About
 from numpy.typing import NDArray
 
 from mindlang.environments.agent import Agent

@@ -9,8 +9,8 @@ from importlib import import_module
 from pkgutil import iter_modules
 from typing import TYPE_CHECKING
 
+from mindrun.cli.shell_completion import Answer
 from mindrun.errors import MindError
-from mindrun.shell_completion import Answer
 from mindrun.work.assignment import Assignment
 from mindrun.work.executor import JobExecutor
 from mindrun.work.job_scorer import JobScorer

@@ -3,8 +3,8 @@
 from collections.abc import Callable
 from importlib.util import find_spec
 
+from mindrun.cli.shell_completion import FILES, Answer
 from mindrun.errors import MindError
-from mindrun.shell_completion import FILES, Answer
 from mindrun.work.assignment import Assignment
 from mindrun.work.executor import JobExecutor
 

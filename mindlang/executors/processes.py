@@ -2,8 +2,8 @@
 
 from collections.abc import Callable
 
+from mindrun.cli.shell_completion import Answer
 from mindrun.cores import cores
-from mindrun.shell_completion import Answer
 from mindrun.work.assignment import Assignment
 from mindrun.work.executor import JobExecutor
 from mindrun.work.local import local_workers

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from mindrun.shell_completion import Answer
+from mindrun.cli.shell_completion import Answer
 from mindrun.work.assignment import Assignment
 from mindrun.work.child import Place
 from mindrun.work.crew import Crew

@@ -23,7 +23,7 @@ def errors() -> Iterator[Article]:
 
 
 def _rules() -> Iterator[Article]:
-    from mindlang.rules import all_rules
+    from mindlang.lint.rules import all_rules
 
     for rule in all_rules().values():
         wrong, right = (tuple(mind.lstrip("\n") for mind in minds) for minds in (rule.bad, rule.good))

@@ -7,7 +7,7 @@ from mindlang.explaining.article import Article
 from mindlang.explaining.parameters import parameter
 from mindlang.explaining.sections import Section, in_lines, sections
 from mindlang.explaining.wiring import wiring_of
-from mindlang.wiring.options import driver_options, drivers
+from mindlang.robot.options import driver_options, drivers
 
 NOUNS = ("sensor", "actuator")
 

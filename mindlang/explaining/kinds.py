@@ -6,8 +6,8 @@ from functools import cache
 from inspect import cleandoc
 from typing import Any
 
-import mindrun.graph  # noqa: F401  (it knows all kinds)
-from mindrun.registry import arguments, kinds, names
+import mindrun.graph.graph  # noqa: F401  (it knows all kinds)
+from mindrun.kinds.registry import arguments, kinds, names
 
 from mindlang.explaining.article import Article
 from mindlang.explaining.parameters import parameter

@@ -2,13 +2,13 @@
 
 from typing import Any
 
-from mindrun.quantity import UNSAID, Quantity, Reference, Span
-from mindrun.registry import Argument
+from mindrun.kinds.registry import Argument
+from mindrun.numbers.quantity import UNSAID, Quantity, Reference, Span
 from mindrun.robot.driver_support import ADDRESS
 
 from mindlang.compiler.diagnostic import a, listed
 from mindlang.explaining.article import Parameter
-from mindlang.wiring.options import DriverOption
+from mindlang.robot.options import DriverOption
 
 Asked = Argument | DriverOption
 SHAPES = {

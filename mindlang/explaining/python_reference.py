@@ -7,7 +7,7 @@ from inspect import cleandoc, getsource, isclass, isroutine
 from textwrap import dedent
 from types import ModuleType
 
-from mindrun.short_repr import ShortRepr
+from mindrun.numbers.short_repr import ShortRepr
 
 LINE_CHARACTERS = 100  # of a signature
 ARGUMENT = re.compile(r", (?=\w+[:=]|\*)")  # before the next one: no comma of a type

@@ -13,10 +13,10 @@ from pathlib import Path
 from typing import Self
 from urllib.parse import unquote
 
-from mindrun.atomic_write import write
 from mindrun.errors import MindError
-from mindrun.printable import visible
-from mindrun.regular_files import read_regular
+from mindrun.files.atomic_write import write
+from mindrun.files.printable import visible
+from mindrun.files.regular_files import read_regular
 
 from mindlang.compiler.source import Source
 from mindlang.lock.training_world import HEADING, TrainingWorld, world_of

@@ -4,8 +4,8 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from mindrun.graph import Graph
-from mindrun.skill_sets import learners, owner_of, owners, reachable
+from mindrun.graph.graph import Graph
+from mindrun.graph.skill_sets import learners, owner_of, owners, reachable
 
 from mindlang.lock import Entry, Lock, LockError, lock_path, read_lock, read_locks, write_lock
 from mindlang.lock.blobs import FOLDER, exclusive_folder

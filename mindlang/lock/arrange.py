@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from mindrun.graph import Edge, Graph, Skill
+from mindrun.graph.graph import Edge, Graph, Skill
 
 from mindlang.compiler.hierarchy import parents_first
 from mindlang.lock import Lock

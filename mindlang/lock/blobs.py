@@ -9,13 +9,13 @@ from hashlib import sha256
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from mindrun import atomic_write
-from mindrun.atomic_write import write
 from mindrun.errors import WeightsError
-from mindrun.graph import Graph, Skill
-from mindrun.npy import to_npy
-from mindrun.regular_files import read_whole
-from mindrun.skill_sets import owners, reachable
+from mindrun.files import atomic_write
+from mindrun.files.atomic_write import write
+from mindrun.files.npy import to_npy
+from mindrun.files.regular_files import read_whole
+from mindrun.graph.graph import Graph, Skill
+from mindrun.graph.skill_sets import owners, reachable
 
 from mindlang.compiler.diagnostic import listed
 from mindlang.lock import Entry, Lock, LockError, Taught, read_lock, write_lock
@@ -23,7 +23,7 @@ from mindlang.lock.signature import signature
 from mindlang.lock.training_world import TrainingWorld
 
 if TYPE_CHECKING:
-    from mindrun.arrays import Weights
+    from mindrun.numbers.arrays import Weights
 
 FOLDER = "weights"
 MAX_WEIGHTS_BYTES = 1 << 27  # of the weights of a skill; a bundle cannot hold more than half of that
@@ -34,7 +34,7 @@ NO_ORIGINS: Mapping[str, Origin] = {}
 
 def load_weights(entry: Entry, skill: Skill) -> Weights:
     """The weights of an entry, held against its hash and its skill; LockError where they are not those."""
-    from mindrun.weights import read_weights, weights_of  # which need numpy
+    from mindrun.graph.weights import read_weights, weights_of  # which need numpy
 
     path = blob(entry.folder, entry.weights)
     remedy = f"get it back, or train {entry.skill} --from-scratch"

@@ -2,8 +2,8 @@
 
 from collections.abc import Iterable, Mapping
 
-from mindrun.graph import Graph, Lesson, Need
-from mindrun.skill_sets import learners
+from mindrun.graph.graph import Graph, Lesson, Need
+from mindrun.graph.skill_sets import learners
 
 from mindlang.lock import Taught
 from mindlang.lock.lessons import key_of, key_of_taught

@@ -5,7 +5,7 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
-from mindrun.regular_files import read_regular
+from mindrun.files.regular_files import read_regular
 
 from mindlang.lock import LockError, read_lock
 from mindlang.lock.blobs import FOLDER, exclusive_folder

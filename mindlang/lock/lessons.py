@@ -2,8 +2,8 @@
 
 from collections.abc import Collection, Iterable, Sequence
 
-from mindrun.graph import Graph, Lesson
-from mindrun.skill_sets import learners, owner_of, owners, reachable
+from mindrun.graph.graph import Graph, Lesson
+from mindrun.graph.skill_sets import learners, owner_of, owners, reachable
 
 from mindlang.lock import Entry, Taught
 from mindlang.lock.training_world import LessonKey, TrainingWorld

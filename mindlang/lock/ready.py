@@ -6,8 +6,8 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from mindrun.graph import Graph
-from mindrun.skill_sets import reachable
+from mindrun.graph.graph import Graph
+from mindrun.graph.skill_sets import reachable
 
 from mindlang.compiler.diagnostic import listed
 from mindlang.compiler.source import Source
@@ -16,7 +16,7 @@ from mindlang.lock.arrange import arrange
 from mindlang.lock.status import UNKNOWN, Status, Trained, status, trained_weights
 
 if TYPE_CHECKING:
-    from mindrun.policy import Policy
+    from mindrun.graph.policy import Policy
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,7 +33,7 @@ class ReadyMind:
 
 def make_ready(graph: Graph, sources: Iterable[Source], master: str | None = None) -> ReadyMind:
     """The graph of these sources with the weights of their locks; LockError where a lock or weights are damaged."""
-    from mindrun.policy import Policy  # which needs numpy
+    from mindrun.graph.policy import Policy  # which needs numpy
 
     sources = tuple(sources)
     lock = read_locks(lock_sources(sources))

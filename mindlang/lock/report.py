@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from mindrun.graph import Graph, Lesson, Skill
-from mindrun.skill_sets import learners, reachable
+from mindrun.graph.graph import Graph, Lesson, Skill
+from mindrun.graph.skill_sets import learners, reachable
 
 from mindlang.compiler.diagnostic import listed
 from mindlang.lock import LockError, Taught, read_locks

@@ -4,9 +4,9 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from itertools import accumulate
 from typing import Any
 
-from mindrun.graph import Graph, Skill
-from mindrun.registry import arguments, names
-from mindrun.sensors import SensorKind
+from mindrun.graph.graph import Graph, Skill
+from mindrun.kinds.registry import arguments, names
+from mindrun.kinds.sensors import SensorKind
 
 from mindlang.lock import Entry, Signature
 

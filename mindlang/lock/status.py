@@ -8,8 +8,8 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from mindrun.graph import Graph, Lesson, Skill
-from mindrun.skill_sets import below, genes, learners, owner_of, owners, reachable
+from mindrun.graph.graph import Graph, Lesson, Skill
+from mindrun.graph.skill_sets import below, genes, learners, owner_of, owners, reachable
 
 from mindlang.lock import Entry, Lock
 from mindlang.lock.blobs import load_weights
@@ -20,7 +20,7 @@ from mindlang.lock.world_changes import changes
 from mindlang.lock.world_facts import Worlds
 
 if TYPE_CHECKING:
-    from mindrun.arrays import Weights
+    from mindrun.numbers.arrays import Weights
 
 UNKNOWN = "in a world that the lock does not know (mindc status --accept says that it is this one)"
 

@@ -3,10 +3,10 @@
 from collections.abc import Callable
 from typing import Any
 
-from mindrun.expression import TRUTHS, fold
-from mindrun.graph import Program
-from mindrun.quantity import EXPRESSION, UNSAID, Quantity, Reference
-from mindrun.registry import arguments, kinds
+from mindrun.graph.graph import Program
+from mindrun.kinds.registry import arguments, kinds
+from mindrun.numbers.expression import TRUTHS, fold
+from mindrun.numbers.quantity import EXPRESSION, UNSAID, Quantity, Reference
 
 PRECEDENCE = {"or": -2, "and": -1, **dict.fromkeys(TRUTHS[:4], 0), "+": 1, "-": 1, "*": 2, "/": 2}
 NEGATION_PRECEDENCE, EXTREME_PRECEDENCE, ATOM_PRECEDENCE = 3, 4, 5

@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from math import degrees, sin
 from typing import Any
 
-from mindrun.quantity import ANGLE
+from mindrun.numbers.quantity import ANGLE
 
 from mindlang.lock.older_worlds import migrate_facts
 from mindlang.lock.training_world import TrainingWorld

@@ -12,17 +12,17 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
-from mindrun.codec import encode
-from mindrun.environment_module import module_beside
 from mindrun.errors import ProcedureError
-from mindrun.expression import leaves
-from mindrun.functions.procedure import module_source
-from mindrun.graph import Edge, Graph, Lesson, Reward, Skill, Start, Task
-from mindrun.physics import physics
-from mindrun.reachability import reached_from
-from mindrun.registry import names
-from mindrun.sensors import SensorKind
-from mindrun.skill_sets import genes, reachable
+from mindrun.graph.codec import encode
+from mindrun.graph.graph import Edge, Graph, Lesson, Reward, Skill, Start, Task
+from mindrun.graph.physics import physics
+from mindrun.graph.reachability import reached_from
+from mindrun.graph.skill_sets import genes, reachable
+from mindrun.kinds.environment_module import module_beside
+from mindrun.kinds.functions.procedure import module_source
+from mindrun.kinds.registry import names
+from mindrun.kinds.sensors import SensorKind
+from mindrun.numbers.expression import leaves
 
 from mindlang.compiler.drawing import phrase
 from mindlang.lock.training_world import LessonKey, TrainingWorld

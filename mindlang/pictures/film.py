@@ -6,7 +6,7 @@ from math import ceil
 from pathlib import Path
 from typing import Any, Never
 
-from mindrun.atomic_write import destination, write
+from mindrun.files.atomic_write import destination, write
 
 from mindlang.pictures.canvas import Image
 from mindlang.pictures.environment_film import EnvironmentFilmImages

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from mindrun.engine import procedure_sources
+from mindrun.engine.engine import procedure_sources
 
 from mindlang.run.edge_flow import Link as Link
 from mindlang.run.edge_flow import Sink as Sink

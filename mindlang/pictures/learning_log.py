@@ -10,8 +10,8 @@ from io import BytesIO, StringIO
 from math import isfinite
 from pathlib import Path
 
-from mindrun.regular_files import read_whole
-from mindrun.strict_json import is_whole
+from mindrun.files.regular_files import read_whole
+from mindrun.files.strict_json import is_whole
 from mindrun.train import NotFoundError, RunError
 from mindrun.train.progress import COUNT_COLUMNS, LINES, TABLE, read_progress
 from mindrun.train.run_folder import MANIFEST, open_run, read_failure

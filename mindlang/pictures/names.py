@@ -5,7 +5,7 @@ from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 import numpy as np
-from mindrun.graph import Thing
+from mindrun.graph.graph import Thing
 from numpy.typing import NDArray
 
 from mindlang.pictures.canvas import Canvas, text_width

@@ -3,8 +3,8 @@
 from collections.abc import Iterator, Sequence
 
 import numpy as np
-from mindrun.graph import Sensor
-from mindrun.weights import reachable
+from mindrun.graph.graph import Sensor
+from mindrun.graph.weights import reachable
 from numpy.typing import NDArray
 
 from mindlang.pictures.canvas import Canvas, text_width

@@ -4,9 +4,9 @@ from collections.abc import Iterable, Sequence
 from itertools import cycle
 
 import numpy as np
-from mindrun.graph import Thing
-from mindrun.registry import names
-from mindrun.scenes import SceneKind
+from mindrun.graph.graph import Thing
+from mindrun.kinds.registry import names
+from mindrun.kinds.scenes import SceneKind
 from numpy.typing import NDArray
 
 from mindlang.pictures.canvas import Canvas, rectangle, square

@@ -6,7 +6,7 @@ from typing import Any
 
 import cv2
 import numpy as np
-from mindrun.tick_count import ticks as in_words
+from mindrun.terminal.tick_count import ticks as in_words
 
 from mindlang.number_format import score
 from mindlang.pictures.canvas import Canvas, Image, Viewport, blank, pasted, text_width

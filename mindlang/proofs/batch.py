@@ -6,11 +6,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from mindrun.evaluation import OPERATORS
-from mindrun.expression import fold
-from mindrun.graph import Gate, Graph, Program, Skill
-from mindrun.network import perceive
-from mindrun.weights import Weights, reachable
+from mindrun.graph.graph import Gate, Graph, Program, Skill
+from mindrun.graph.weights import Weights, reachable
+from mindrun.numbers.evaluation import OPERATORS
+from mindrun.numbers.expression import fold
+from mindrun.numbers.network import perceive
 
 from mindlang.proofs.interval import Doubles, Singles, perceptron
 
@@ -25,7 +25,7 @@ class Thoughts:
 
 
 def think(graph: Graph, weights: Mapping[str, Weights], readings: Singles) -> Thoughts:
-    """Equations 2 and 3 for readings [rows, graph.width], as `mindrun.think` has them; no procedures."""
+    """Equations 2 and 3 for readings [rows, graph.width], as `mindrun.engine.think` has them; no procedures."""
     places = graph.skill_numbers
     influence = np.zeros((len(readings), len(graph.skills)), np.float32)
     influence[:, places[graph.master]] = 1

@@ -8,9 +8,9 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from mindrun.functions import Mlp
-from mindrun.graph import Edge, Gate, Program, Skill
-from mindrun.weights import Weights
+from mindrun.graph.graph import Edge, Gate, Program, Skill
+from mindrun.graph.weights import Weights
+from mindrun.kinds.functions import Mlp
 from numpy.typing import NDArray
 
 from mindlang.proofs.batch import values

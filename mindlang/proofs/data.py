@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
-from mindrun.graph import Graph
-from mindrun.tick_count import ticks as in_words
+from mindrun.graph.graph import Graph
+from mindrun.terminal.tick_count import ticks as in_words
 
 from mindlang.proofs.leak import Leak
 from mindlang.proofs.proof import DECLARATION, OfActuator, OfEdge, Proof

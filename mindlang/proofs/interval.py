@@ -11,12 +11,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from mindrun.evaluation import OPERATORS
-from mindrun.expression import fold
-from mindrun.graph import Gate, Program, Skill
-from mindrun.network import matrices
-from mindrun.sigmoid import sigmoid
-from mindrun.weights import Weights, genes
+from mindrun.graph.graph import Gate, Program, Skill
+from mindrun.graph.weights import Weights, genes
+from mindrun.numbers.evaluation import OPERATORS
+from mindrun.numbers.expression import fold
+from mindrun.numbers.network import matrices
+from mindrun.numbers.sigmoid import sigmoid
 from numpy.typing import NDArray
 
 Singles = NDArray[np.float32]

@@ -10,8 +10,8 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
-from mindrun.graph import Graph, Skill
-from mindrun.weights import Weights, reachable
+from mindrun.graph.graph import Graph, Skill
+from mindrun.graph.weights import Weights, reachable
 from numpy.typing import NDArray
 
 from mindlang.proofs.branch_and_bound import by_itself, halves, sway_of

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from itertools import islice
 
 import numpy as np
-from mindrun.graph import Edge, Graph, Skill
-from mindrun.weights import reachable
+from mindrun.graph.graph import Edge, Graph, Skill
+from mindrun.graph.weights import reachable
 
 from mindlang.proofs.interval import Boxes, evaluate
 

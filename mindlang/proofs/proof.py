@@ -6,8 +6,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from mindrun.graph import Actuator, Edge, Graph, Skill
-from mindrun.weights import Weights, reachable
+from mindrun.graph.graph import Actuator, Edge, Graph, Skill
+from mindrun.graph.weights import Weights, reachable
 
 from mindlang.proofs.branch_and_bound import EdgeRange
 from mindlang.proofs.interval import is_known

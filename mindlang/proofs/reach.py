@@ -11,8 +11,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from mindrun.graph import Graph
-from mindrun.weights import Weights, reachable
+from mindrun.graph.graph import Graph
+from mindrun.graph.weights import Weights, reachable
 
 from mindlang.proofs.branch_and_bound import EdgeRange, ranges
 from mindlang.proofs.interval import SentBounds, Singles

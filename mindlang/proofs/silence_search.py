@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from mindrun.graph import Graph
-from mindrun.weights import Weights, genes, reachable
+from mindrun.graph.graph import Graph
+from mindrun.graph.weights import Weights, genes, reachable
 
 from mindlang.proofs.batch import Thoughts, think
 from mindlang.proofs.branch_and_bound import readings_to_try

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from mindrun.graph import Task
+from mindrun.graph.graph import Task
 from mindrun.train.scoring import succeeded
 from numpy.typing import NDArray
 
@@ -16,7 +16,7 @@ from mindlang.run.outcome import events
 from mindlang.run.paired_difference import CONFIDENCE_LEVEL, Difference, difference
 
 if TYPE_CHECKING:
-    from mindrun.run_scores import Scores
+    from mindrun.graph.run_scores import Scores
 
 
 @dataclass(frozen=True, slots=True)

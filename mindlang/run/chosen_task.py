@@ -3,9 +3,9 @@
 from collections.abc import Sequence
 from typing import Never
 
-from mindrun.default_task import default_task
 from mindrun.errors import MindError
-from mindrun.graph import Graph, Task
+from mindrun.graph.default_task import default_task
+from mindrun.graph.graph import Graph, Task
 
 from mindlang.compiler.diagnostic import did_you_mean, listed
 

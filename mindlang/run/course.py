@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from mindrun.changes import Change
+from mindrun.engine.changes import Change
 from mindrun.sim.rollout import Rollout, scores_of
 from mindrun.sim.trace import Trace, trace
 

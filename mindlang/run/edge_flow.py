@@ -9,9 +9,9 @@ from threading import Lock
 from typing import Protocol
 
 import numpy as np
-from mindrun.graph import Graph, Receiver
-from mindrun.policy import Policy
-from mindrun.think import Hierarchy, hierarchy
+from mindrun.engine.think import Hierarchy, hierarchy
+from mindrun.graph.graph import Graph, Receiver
+from mindrun.graph.policy import Policy
 from numpy.typing import NDArray
 
 from mindlang.run.sent_values import Places, Rows, SentValues, Singles

@@ -7,7 +7,7 @@ from time import perf_counter
 from typing import TYPE_CHECKING
 
 from mindrun.cpu_time import cpu_seconds
-from mindrun.run_scores import Scores
+from mindrun.graph.run_scores import Scores
 from mindrun.work.blocks import Block, empty_scores, place
 from mindrun.work.job_scorer import JobScorer
 

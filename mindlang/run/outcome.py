@@ -8,8 +8,8 @@ from math import isfinite, sqrt
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from mindrun.graph import Task
-from mindrun.reward_sums import paid_by_text, score_of
+from mindrun.graph.graph import Task
+from mindrun.graph.reward_sums import paid_by_text, score_of
 from mindrun.sim.codes import BROKEN_OFF, GOING_ON, LOST
 from mindrun.train.scoring import succeeded
 from numpy.typing import NDArray
@@ -18,7 +18,7 @@ from mindlang.compiler.drawing import phrase
 from mindlang.run.paired_difference import unseen_share
 
 if TYPE_CHECKING:
-    from mindrun.run_scores import Scores
+    from mindrun.graph.run_scores import Scores
 
     from mindlang.run.recorded_run import RecordedRun
 

@@ -7,14 +7,14 @@ from pathlib import Path
 from typing import Any, Protocol
 
 import numpy as np
-from mindrun.bundle import Bundle
-from mindrun.engine import Engine
-from mindrun.graph import Task
-from mindrun.named_readings import physical
+from mindrun.engine.engine import Engine
+from mindrun.graph.bundle import Bundle
+from mindrun.graph.graph import Task
+from mindrun.graph.named_readings import physical
+from mindrun.graph.recording_header import GOES_ON, POSE_COLUMNS, THING_COLUMNS, About, RecordedWorld
+from mindrun.graph.skill_sets import reachable
+from mindrun.graph.wiring import read_by
 from mindrun.robot.recording import recording_bytes
-from mindrun.robot.recording_header import GOES_ON, POSE_COLUMNS, THING_COLUMNS, About, RecordedWorld
-from mindrun.skill_sets import reachable
-from mindrun.wiring import read_by
 from numpy.typing import NDArray
 
 from mindlang.lock.ready import ReadyMind

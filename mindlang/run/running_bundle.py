@@ -6,12 +6,12 @@ from hashlib import sha256
 from pathlib import Path
 
 import numpy as np
-from mindrun.bundle import Bundle, digest, pack, read_bundle
-from mindrun.command_line import command_line
-from mindrun.engine import procedure_sources
-from mindrun.graph import Task
-from mindrun.measured import measured_in_world, measured_on_robot, rows_of
-from mindrun.robot.recording_header import About, RecordingError
+from mindrun.engine.engine import procedure_sources
+from mindrun.graph.bundle import Bundle, digest, pack, read_bundle
+from mindrun.graph.graph import Task
+from mindrun.graph.measured import measured_in_world, measured_on_robot, rows_of
+from mindrun.graph.recording_header import About, RecordingError
+from mindrun.terminal.command_line import command_line
 from numpy.typing import NDArray
 
 from mindlang.compiler.compile import load

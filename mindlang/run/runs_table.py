@@ -6,14 +6,14 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
-from mindrun.graph import Task
+from mindrun.graph.graph import Task
 from mindrun.train.scoring import succeeded
 
 from mindlang.run.columns import Column, columns
 from mindlang.run.outcome import TIME, ended_by, events
 
 if TYPE_CHECKING:
-    from mindrun.run_scores import Scores
+    from mindrun.graph.run_scores import Scores
 
 
 def runs_table(task: Task, scores: Scores, seeds: Sequence[int]) -> dict[str, Column]:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Container
 
 import numpy as np
-from mindrun.functions.function import Stateful
-from mindrun.think import Hierarchy, Ready, values
+from mindrun.engine.think import Hierarchy, Ready, values
+from mindrun.kinds.functions.function import Stateful
 from numpy.typing import NDArray
 
 Singles = NDArray[np.float32]

@@ -6,12 +6,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from mindrun.bundle import Bundle, pack
-from mindrun.command_line import command_line
-from mindrun.engine import procedure_sources
-from mindrun.graph import Task
-from mindrun.one_world import is_one_world
-from mindrun.skill_sets import owners, reachable
+from mindrun.engine.engine import procedure_sources
+from mindrun.graph.bundle import Bundle, pack
+from mindrun.graph.graph import Task
+from mindrun.graph.one_world import is_one_world
+from mindrun.graph.skill_sets import owners, reachable
+from mindrun.terminal.command_line import command_line
 from mindrun.work.assignment import Assignment
 
 from mindlang.compiler.compile import Compiled

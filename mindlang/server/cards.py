@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from mindrun.errors import MindError
-from mindrun.registry import kinds
+from mindrun.kinds.registry import kinds
 
 from mindlang.compiler.comments import comment_of
 from mindlang.compiler.drawing import text_after_name

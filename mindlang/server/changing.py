@@ -8,10 +8,10 @@ from typing import Any
 from mindlang.compiler.diagnostic import did_you_mean, listed
 from mindlang.compiler.splice import Splice
 from mindlang.editing.apply import apply_edit
+from mindlang.editing.edits import Edit, edit, names
 from mindlang.editing.project import EditError, MindChange, Project
 from mindlang.editing.summary import broken_sentences, summarise
 from mindlang.editing.writing import changed_locks
-from mindlang.edits import Edit, edit, names
 from mindlang.server.navigating import sharing
 from mindlang.server.pending_renames import PendingRename
 from mindlang.server.view import MindView

@@ -9,8 +9,8 @@ from mindrun.errors import MindError
 
 from mindlang.compiler.source import Source, Span
 from mindlang.compiler.splice import Splice, spliced
+from mindlang.editing.edits import edit, names
 from mindlang.editing.project import EditError
-from mindlang.edits import edit, names
 from mindlang.server.changing import EditOutcome, project
 from mindlang.server.mending import Mending, all_mended, mendings
 from mindlang.server.proposals import Proposal, proposals

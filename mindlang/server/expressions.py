@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from mindrun.registry import kinds
+from mindrun.kinds.registry import kinds
 
 from mindlang.compiler.references import READABLE_NOUNS
 from mindlang.compiler.syntax import Declaration

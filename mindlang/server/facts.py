@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping, Sequence
 
-from mindrun.registry import kinds
+from mindrun.kinds.registry import kinds
 
 from mindlang.compiler.references import DRIVABLE_NOUNS, READABLE_NOUNS
 from mindlang.compiler.syntax import Drives, Influences, Reads

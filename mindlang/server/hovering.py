@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from mindrun.registry import arguments, kinds
-from mindrun.variation import VARIED_NOUNS
+from mindrun.kinds.registry import arguments, kinds
+from mindrun.kinds.variation import VARIED_NOUNS
 
 from mindlang.compiler.resolve.curricula import USING
 from mindlang.compiler.source import Span

@@ -9,7 +9,7 @@ from mindlang.compiler.compile import compile_source
 from mindlang.compiler.diagnostic import Diagnostic
 from mindlang.compiler.source import Source
 from mindlang.compiler.splice import Splice
-from mindlang.linting.fixing import fixed
+from mindlang.lint.fixing import fixed
 from mindlang.server.view import MindView
 
 _SUGGESTED_NAME = re.compile(r"Did you mean (\S+)\?")

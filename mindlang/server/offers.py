@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from mindrun.quantity import Quantity, Reference
-from mindrun.registry import Argument, arguments, kinds, named_arguments
-from mindrun.variation import VARIED_NOUNS
+from mindrun.kinds.registry import Argument, arguments, kinds, named_arguments
+from mindrun.kinds.variation import VARIED_NOUNS
+from mindrun.numbers.quantity import Quantity, Reference
 
 from mindlang.compiler.comments import comment_of
 from mindlang.compiler.names import things_of

@@ -9,10 +9,10 @@ from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
 
-from mindrun.graph import Graph
+from mindrun.graph.graph import Graph
 
-from mindlang import transaction
 from mindlang.compiler.compile import Compiled, load
+from mindlang.editing import transaction
 from mindlang.editing.lock_update import Locks, locks_of, merged, update_locks
 from mindlang.editing.project import EditError, MindChange, Renamed, Replaced
 from mindlang.lock import Lock, lock_sources, lock_text

@@ -6,7 +6,7 @@ from itertools import chain, count, islice
 from pathlib import Path
 from typing import Any
 
-from mindrun.skill_sets import genes
+from mindrun.graph.skill_sets import genes
 
 from mindlang.compiler.diagnostic import listed
 from mindlang.compiler.hierarchy import skills_above, skills_reached

@@ -54,8 +54,8 @@ class MindView:
     @cached_property
     def findings(self) -> tuple[Diagnostic, ...]:
         """What is wrong, and where nothing is, what is hardly meant; a damaged lock is a finding, too."""
-        from mindlang.linting.lint import lint
-        from mindlang.linting.settings_file import settings_of
+        from mindlang.lint.lint import lint
+        from mindlang.lint.settings_file import settings_of
 
         settings = settings_of(self.main)
         try:

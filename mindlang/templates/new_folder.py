@@ -7,8 +7,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from shutil import rmtree
 
-from mindrun.atomic_write import sync_folder
 from mindrun.errors import MindError
+from mindrun.files.atomic_write import sync_folder
 
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 MAX_NAME_CHARACTERS = 40

@@ -7,7 +7,7 @@ of matrices is fast.
 from typing import Any
 
 import torch
-from mindrun.sigmoid import DENOMINATOR, LIMIT, NUMERATOR
+from mindrun.numbers.sigmoid import DENOMINATOR, LIMIT, NUMERATOR
 from torch import Tensor
 from torch.autograd import Function
 
@@ -38,7 +38,7 @@ class OrderedProduct(Function):
 
 
 class RationalSigmoid(Function):
-    """The sigmoid of `mindrun.sigmoid`; its derivative is taken as y·(1 − y), as that of the true sigmoid."""
+    """The sigmoid of `mindrun.numbers.sigmoid`; its derivative is taken as y·(1 − y), as that of the true sigmoid."""
 
     generate_vmap_rule = True
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 import torch
-from mindrun.weights import Weights
+from mindrun.graph.weights import Weights
 from torch import Tensor, nn
 
 from mindlang.torch.functions import OrderedProduct, RationalSigmoid, ReturningClamp

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import torch
-from mindrun.weights import Weights
+from mindrun.graph.weights import Weights
 
 from mindlang.lock import lock_sources, read_locks
 from mindlang.lock.arrange import arrange

@@ -4,9 +4,9 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 
 from mindrun.errors import MindError
-from mindrun.graph import Graph, Lesson
+from mindrun.graph.graph import Graph, Lesson
+from mindrun.graph.weights import learners
 from mindrun.train import NotFoundError, RunError
-from mindrun.weights import learners
 
 from mindlang import bounds
 from mindlang.compiler.diagnostic import did_you_mean, listed

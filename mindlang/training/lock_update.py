@@ -5,7 +5,8 @@ from dataclasses import dataclass
 from math import isfinite
 
 import numpy as np
-from mindrun.graph import Lesson
+from mindrun.graph.graph import Lesson
+from mindrun.graph.weights import parts
 from mindrun.train import RunError
 from mindrun.train.attempt import VERDICT_LAYOUTS, has_needed, of_halves, verdict_layouts
 from mindrun.train.lesson_state import LessonState
@@ -13,7 +14,6 @@ from mindrun.train.population import Genomes
 from mindrun.train.run_folder import WEIGHTS, RunFolder, keep_failure
 from mindrun.train.scoring import Scorer, is_one_world, mark, succeeded
 from mindrun.train.seeds import Purpose, Seeds, layouts
-from mindrun.weights import parts
 
 from mindlang.compiler.diagnostic import listed
 from mindlang.lock import Entry, LockError, Taught, read_lock

@@ -3,10 +3,10 @@
 from collections.abc import Mapping
 from pathlib import Path
 
-from mindrun.command_line import command_line
-from mindrun.graph import Graph, Lesson, Skill
+from mindrun.graph.graph import Graph, Lesson, Skill
+from mindrun.graph.weights import Weights, learners, owner_of
+from mindrun.terminal.command_line import command_line
 from mindrun.train import RunError
-from mindrun.weights import Weights, learners, owner_of
 
 from mindlang.compiler.counterparts import counterparts
 from mindlang.lock import Lock

@@ -3,9 +3,9 @@
 from math import isfinite
 from typing import Any
 
+from mindrun.graph.weights import parts
 from mindrun.train.lesson_state import LessonState
 from mindrun.train.run_folder import WEIGHTS, RunFolder
-from mindrun.weights import parts
 
 from mindlang.lock.blobs import digest
 from mindlang.number_format import duration, number, rate

@@ -6,12 +6,12 @@ from datetime import datetime
 from hashlib import sha256
 from pathlib import Path
 
-from mindrun.command_line import command_line
-from mindrun.graph import Graph, Lesson
+from mindrun.graph.graph import Graph, Lesson
+from mindrun.graph.weights import Weights, learners
+from mindrun.terminal.command_line import command_line
 from mindrun.train import RunError
 from mindrun.train.manifest import Manifest, fingerprint, hashes, processor, versions
 from mindrun.train.run_folder import RunFolder, create, unfinished
-from mindrun.weights import Weights, learners
 
 from mindlang.bounds import as_seed
 from mindlang.compiler.compile import Compiled

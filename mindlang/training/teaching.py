@@ -4,12 +4,12 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 
-from mindrun.bundle import Bundle, pack
-from mindrun.command_line import command_line
-from mindrun.engine import procedure_sources
-from mindrun.policy import Policy
+from mindrun.engine.engine import procedure_sources
+from mindrun.graph.bundle import Bundle, pack
+from mindrun.graph.policy import Policy
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.rollouts import rollout_for
+from mindrun.terminal.command_line import command_line
 from mindrun.train.lesson import Clock
 from mindrun.train.lesson_state import Course, LessonState, is_over
 from mindrun.train.population import founder_count

@@ -6,10 +6,10 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from mindrun.graph import Graph, Skill
-from mindrun.named_readings import reading_names
-from mindrun.registry import names
-from mindrun.virtual_sensors import scene_of
+from mindrun.engine.virtual_sensors import scene_of
+from mindrun.graph.graph import Graph, Skill
+from mindrun.graph.named_readings import reading_names
+from mindrun.kinds.registry import names
 
 from mindlang.view.columns import Columns
 from mindlang.view.texts import shown

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from mindrun.graph import Graph, Task
-from mindrun.registry import names
+from mindrun.graph.graph import Graph, Task
+from mindrun.kinds.registry import names
+from mindrun.kinds.things import ThingKind
 from mindrun.sim.task_rows import things_of
-from mindrun.things import ThingKind
 
 from mindlang.pictures.scene import half_sides, thing_colours
 from mindlang.pictures.theme import NIGHT, PAPER, Colour

@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from math import isfinite
 from typing import Any
 
-from mindrun.graph import Skill
+from mindrun.graph.graph import Skill
 
-from mindlang.run.shares import shares
+from mindlang.attribution.shares import shares
 from mindlang.view.about_hierarchy import node_numbers
 from mindlang.view.messages import RefusedError, Why
 from mindlang.view.viewed import SeenMind, Viewed

@@ -10,7 +10,7 @@ from pathlib import Path
 import cv2
 import numpy as np
 from mindrun.errors import MindError
-from mindrun.graph import Graph, Task
+from mindrun.graph.graph import Graph, Task
 from mindrun.sim.outside.seen import UNKNOWN_FAILURES, SeenEpisode, Sent
 from numpy.typing import NDArray
 

@@ -12,7 +12,7 @@ from pathlib import Path
 from select import select
 from time import sleep
 
-from mindrun.regular_files import open_regular
+from mindrun.files.regular_files import open_regular
 from mindrun.robot.recording import RecordingError
 
 POLL_SECONDS = 0.005  # from one look at a file to the next

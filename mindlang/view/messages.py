@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from mindrun.strict_json import is_whole, parsed
+from mindrun.files.strict_json import is_whole, parsed
 
 from mindlang.view.columns import DOUBLE_BLOCK, SINGLE_BLOCK
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from mindrun.robot.recording_header import POSE_COLUMNS, THING_COLUMNS, RecordedWorld
+from mindrun.graph.recording_header import POSE_COLUMNS, THING_COLUMNS, RecordedWorld
 from numpy.typing import NDArray
 
 from mindlang.view.columns import DOUBLE_BLOCK, FLOW, SINGLE_BLOCK, Columns

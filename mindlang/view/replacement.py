@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import get_args
 
-from mindrun.changes import Change, What
-from mindrun.graph import Graph, Task
-from mindrun.named_readings import reading_names
+from mindrun.engine.changes import Change, What
+from mindrun.graph.graph import Graph, Task
+from mindrun.graph.named_readings import reading_names
 
 from mindlang.view import messages
 from mindlang.view.columns import Columns

@@ -1,7 +1,7 @@
 """Texts of a mind or of a recording as a page may show them, whoever wrote them."""
 
 from mindrun.errors import MindError
-from mindrun.printable import visible
+from mindrun.files.printable import visible
 
 SHOWN_CHARACTERS = 200
 

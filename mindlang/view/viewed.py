@@ -7,12 +7,12 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+from mindrun.engine.think import Hierarchy, hierarchy
 from mindrun.errors import MindError, reason
-from mindrun.graph import Skill
-from mindrun.policy import Policy
+from mindrun.graph.graph import Skill
+from mindrun.graph.policy import Policy
+from mindrun.graph.weights import reachable
 from mindrun.sim.outside.seen import SeenEpisode
-from mindrun.think import Hierarchy, hierarchy
-from mindrun.weights import reachable
 from numpy.typing import NDArray
 
 from mindlang.run.edge_flow import EdgeFlows, FlowWalker

@@ -6,13 +6,13 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from mindrun.errors import MindError
-from mindrun.policy import Policy
+from mindrun.graph.policy import Policy
+from mindrun.graph.weights import learners, parts
 from mindrun.sim.rollout import Rollout
 from mindrun.train import RunError
 from mindrun.train.manifest import fingerprint
 from mindrun.train.population import Genomes
 from mindrun.train.run_folder import SOURCES, RunFolder
-from mindrun.weights import learners, parts
 
 from mindlang.compiler.compile import load
 from mindlang.compiler.drawing import text_after_name

@@ -8,14 +8,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from mindrun.bundle import Bundle
-from mindrun.engine import Engine
-from mindrun.graph import Graph, Task
+from mindrun.engine.engine import Engine
+from mindrun.engine.virtual_sensors import virtual_sensors
+from mindrun.graph.bundle import Bundle
+from mindrun.graph.graph import Graph, Task
+from mindrun.graph.recording_header import BOX_COLUMNS, MAX_HEADER_BYTES, About, RecordedWorld
 from mindrun.robot.growing_recording import read_growing
 from mindrun.robot.recording import read
-from mindrun.robot.recording_header import BOX_COLUMNS, MAX_HEADER_BYTES, About, RecordedWorld
 from mindrun.robot.replay import computed_again
-from mindrun.virtual_sensors import virtual_sensors
 from numpy.typing import NDArray
 
 from mindlang.run import outcome

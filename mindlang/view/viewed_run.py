@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from mindrun import changes
-from mindrun.engine import procedure_sources
-from mindrun.robot.recording_header import About
+from mindrun.engine import changes
+from mindrun.engine.engine import procedure_sources
+from mindrun.graph.recording_header import About
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.task_rows import things_of
 from mindrun.sim.ticks import Ticks

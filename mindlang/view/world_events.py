@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from mindrun.graph import Task
-from mindrun.registry import names
+from mindrun.graph.graph import Task
+from mindrun.kinds.registry import names
 from numpy.typing import NDArray
 
 from mindlang.run import outcome

@@ -1,1 +1,1 @@
-"""The weights of a skill as other programs have them: named matrices, in the form of safetensors."""
+"""The weights of a skill as other programs have them, and weights from elsewhere held against the engine."""

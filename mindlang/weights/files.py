@@ -2,10 +2,10 @@
 
 from pathlib import Path
 
-from mindrun.atomic_write import write
 from mindrun.errors import WeightsError
-from mindrun.regular_files import read_whole
-from mindrun.weights import Weights
+from mindrun.files.atomic_write import write
+from mindrun.files.regular_files import read_whole
+from mindrun.graph.weights import Weights
 
 from mindlang.lock.blobs import MAX_WEIGHTS_BYTES
 from mindlang.weights.network import Network, matrices_of, to_genome, to_tensors

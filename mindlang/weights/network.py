@@ -5,11 +5,11 @@ from dataclasses import dataclass
 from itertools import accumulate
 
 import numpy as np
-from mindrun.arrays import Layers
 from mindrun.errors import WeightsError
-from mindrun.graph import Graph, Skill
-from mindrun.printable import visible
-from mindrun.weights import Weights, genes
+from mindrun.files.printable import visible
+from mindrun.graph.graph import Graph, Skill
+from mindrun.graph.weights import Weights, genes
+from mindrun.numbers.arrays import Layers
 
 from mindlang.lock import Signature
 from mindlang.lock.signature import differences, places, signature

@@ -12,8 +12,8 @@ from typing import Any
 
 import numpy as np
 from mindrun.errors import WeightsError
-from mindrun.printable import visible
-from mindrun.strict_json import is_whole, parsed
+from mindrun.files.printable import visible
+from mindrun.files.strict_json import is_whole, parsed
 from numpy.typing import NDArray
 
 LENGTH_BYTES = 8  # of the header's length, before it

@@ -5,7 +5,7 @@ from dataclasses import fields, replace
 from typing import Any
 
 import numpy as np
-from mindrun.changes import Change
+from mindrun.engine.changes import Change
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.takeover import take_over
 from numpy.typing import NDArray

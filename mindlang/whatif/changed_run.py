@@ -4,8 +4,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from mindrun.changes import Change, ChangeError
-from mindrun.reward_sums import paid_by_text
+from mindrun.engine.changes import Change, ChangeError
+from mindrun.graph.reward_sums import paid_by_text
 from mindrun.sim.rollout import Rollout
 
 from mindlang.run.course import Course, course

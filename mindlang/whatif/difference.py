@@ -5,8 +5,8 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
-from mindrun.graph import Graph
-from mindrun.named_readings import reading_names
+from mindrun.graph.graph import Graph
+from mindrun.graph.named_readings import reading_names
 from numpy.typing import NDArray
 
 Array = NDArray[Any]

@@ -4,9 +4,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from mindrun.bundle import read_bundle
-from mindrun.graph import Graph
-from mindrun.policy import Policy
+from mindrun.graph.bundle import read_bundle
+from mindrun.graph.graph import Graph
+from mindrun.graph.policy import Policy
 
 from mindlang.compiler.compile import Compiled
 from mindlang.lock.ready import make_ready

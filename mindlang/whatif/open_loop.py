@@ -10,15 +10,15 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from mindrun.changed_engine import ChangedEngine
-from mindrun.changes import Change, ChangeError, in_tick
-from mindrun.engine import Engine
-from mindrun.graph import Graph
-from mindrun.named_readings import physical
+from mindrun.engine.changed_engine import ChangedEngine
+from mindrun.engine.changes import Change, ChangeError, in_tick
+from mindrun.engine.engine import Engine
+from mindrun.graph.graph import Graph
+from mindrun.graph.named_readings import physical
+from mindrun.graph.wiring import read_by
 from mindrun.robot.recording import About, read
 from mindrun.robot.replay import ComputedRow, computed_again
-from mindrun.tick_count import ticks as in_words
-from mindrun.wiring import read_by
+from mindrun.terminal.tick_count import ticks as in_words
 from numpy.typing import NDArray
 
 from mindlang.compiler.diagnostic import listed

@@ -5,14 +5,14 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-from mindrun.bundle import Bundle
-from mindrun.changes import Change, ChangeError, change_of
-from mindrun.command_line import command_line
-from mindrun.graph import Graph, Sensor
-from mindrun.named_readings import physical
+from mindrun.engine.changes import Change, ChangeError, change_of
+from mindrun.graph.bundle import Bundle
+from mindrun.graph.graph import Graph, Sensor
+from mindrun.graph.named_readings import physical
+from mindrun.graph.recording_header import About, RecordingError
 from mindrun.robot.recording import read
-from mindrun.robot.recording_header import About, RecordingError
-from mindrun.tick_count import ticks as in_words
+from mindrun.terminal.command_line import command_line
+from mindrun.terminal.tick_count import ticks as in_words
 
 from mindlang.run.running_bundle import measured_in, running_bundle
 

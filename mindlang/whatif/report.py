@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
-from mindrun.tick_count import ticks as in_words
+from mindrun.terminal.tick_count import ticks as in_words
 from rich.console import Group, RenderableType
 from rich.text import Text
 

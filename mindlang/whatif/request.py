@@ -4,9 +4,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from mindrun.changes import Change, ChangeError, What, change_of, silenced
-from mindrun.graph import Graph
-from mindrun.weights import reachable
+from mindrun.engine.changes import Change, ChangeError, What, change_of, silenced
+from mindrun.graph.graph import Graph
+from mindrun.graph.weights import reachable
 
 from mindlang.compiler.diagnostic import did_you_mean, listed
 from mindlang.whatif.recorded_readings import is_recording, recorded_readings

@@ -12,16 +12,16 @@ from typing import TYPE_CHECKING
 from mindrun.lazy_import import lazy_names
 
 if TYPE_CHECKING:
-    from mindrun.bundle import Bundle as Bundle
-    from mindrun.bundle import read_bundle as read_bundle
-    from mindrun.bundle import write_bundle as write_bundle
-    from mindrun.engine import Engine as Engine
+    from mindrun.engine.engine import Engine as Engine
     from mindrun.errors import MindError as MindError
-    from mindrun.graph import Graph as Graph
-    from mindrun.policy import Policy as Policy
+    from mindrun.graph.bundle import Bundle as Bundle
+    from mindrun.graph.bundle import read_bundle as read_bundle
+    from mindrun.graph.bundle import write_bundle as write_bundle
+    from mindrun.graph.graph import Graph as Graph
+    from mindrun.graph.policy import Policy as Policy
+    from mindrun.graph.run_scores import Scores as Scores
     from mindrun.robot.replay import Replayed as Replayed
     from mindrun.robot.replay import replay_recording as replay_recording
-    from mindrun.run_scores import Scores as Scores
     from mindrun.sim.rollout import Rollout as Rollout
     from mindrun.sim.trace import Moment as Moment
     from mindrun.sim.trace import Trace as Trace
@@ -30,13 +30,13 @@ VERSION = "0.1.0"
 __getattr__ = lazy_names(
     __name__,
     {
-        "mindrun.bundle": ("Bundle", "read_bundle", "write_bundle"),
-        "mindrun.engine": ("Engine",),
+        "mindrun.graph.bundle": ("Bundle", "read_bundle", "write_bundle"),
+        "mindrun.engine.engine": ("Engine",),
         "mindrun.errors": ("MindError",),
-        "mindrun.graph": ("Graph",),
-        "mindrun.policy": ("Policy",),
+        "mindrun.graph.graph": ("Graph",),
+        "mindrun.graph.policy": ("Policy",),
         "mindrun.robot.replay": ("Replayed", "replay_recording"),
-        "mindrun.run_scores": ("Scores",),
+        "mindrun.graph.run_scores": ("Scores",),
         "mindrun.sim.rollout": ("Rollout",),
         "mindrun.sim.trace": ("Moment", "Trace"),
     },

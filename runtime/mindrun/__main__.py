@@ -12,18 +12,18 @@ from contextlib import redirect_stdout
 from math import isnan
 from typing import Any
 
-from mindrun import standard_streams
-from mindrun.arguments import emptiness
-from mindrun.bundle import read_bundle
-from mindrun.describe import contents, describe
-from mindrun.driving_arguments import driving_parser
-from mindrun.engine import Engine
+from mindrun.cli.driving_arguments import driving_parser
+from mindrun.cli.shell_completion import reply, variable
+from mindrun.cli.tools import run_tool, tools
+from mindrun.engine.engine import Engine
 from mindrun.errors import MindError, ProcedureError, ReadingsError, surroundings
-from mindrun.named_readings import vector
-from mindrun.printable import visible
-from mindrun.shell_completion import reply, variable
-from mindrun.tools import run_tool, tools
-from mindrun.wiring import read_by
+from mindrun.files.printable import visible
+from mindrun.graph.bundle import read_bundle
+from mindrun.graph.describe import contents, describe
+from mindrun.graph.named_readings import vector
+from mindrun.graph.wiring import read_by
+from mindrun.terminal import standard_streams
+from mindrun.terminal.arguments import emptiness
 
 OK, FAILED, MISUSE, INTERRUPTED = 0, 1, 2, 130
 MAX_LINE_CHARACTERS = 1 << 20  # of one line of readings
@@ -63,7 +63,7 @@ def guarded(command: Callable[[], int]) -> int:
 
 def _complete(shell: str) -> int:
     """Answer a shell that asks what may come next."""
-    from mindrun.completing import answers
+    from mindrun.cli.completing import answers
 
     standard_streams.document(reply(shell, sys.argv[1:], answers))
     return OK

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from typing import Protocol
 
 from mindrun.errors import MindError, text_of
-from mindrun.registry import base, names
+from mindrun.kinds.registry import base, names
 
 
 class DeviceError(MindError):

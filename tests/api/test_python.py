@@ -10,9 +10,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from mindrun.engine import Engine
+from mindrun.engine.engine import Engine
 from mindrun.errors import MindError, WeightsError
-from mindrun.policy import Policy
+from mindrun.graph.policy import Policy
 
 import mindlang
 from mindlang import TrainOptions

@@ -5,7 +5,7 @@ from typing import Any
 
 import mindrun
 import pytest
-from mindrun.short_repr import MOST_CHARACTERS, full_repr
+from mindrun.numbers.short_repr import MOST_CHARACTERS, full_repr
 from mindrun.train.lesson_state import Record
 
 import mindlang

@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from mindrun.short_repr import ShortRepr, full_repr
+from mindrun.numbers.short_repr import ShortRepr, full_repr
 
 
 @dataclass(repr=False)

@@ -3,7 +3,7 @@
 from functools import cache
 from pathlib import Path
 
-from mindrun.named_readings import physical
+from mindrun.graph.named_readings import physical
 
 from mindlang.breakpoints.subject import Subject
 from mindlang.compiler.compile import load

@@ -7,13 +7,13 @@ from pathlib import Path
 import numpy as np
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from mindrun.bundle import Bundle
-from mindrun.engine import procedure_sources
-from mindrun.graph import Graph
-from mindrun.policy import Policy
+from mindrun.engine.engine import procedure_sources
+from mindrun.graph.bundle import Bundle
+from mindrun.graph.graph import Graph
+from mindrun.graph.policy import Policy
+from mindrun.graph.recording_header import About, about_of_line
+from mindrun.graph.weights import reachable
 from mindrun.robot.recording import whole_rows
-from mindrun.robot.recording_header import About, about_of_line
-from mindrun.weights import reachable
 
 from mindlang.breakpoints.breakpoint import Breakpoint, Happens, Holds, Reaches, Transmission
 from mindlang.breakpoints.file import breakpoints_of

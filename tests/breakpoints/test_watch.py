@@ -6,12 +6,12 @@ from itertools import pairwise
 import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
-from mindrun.engine import procedure_sources
-from mindrun.evaluation import evaluate
-from mindrun.events import Collision, Exhaustion
-from mindrun.expression import Program
-from mindrun.policy import Policy
-from mindrun.think import Hierarchy, hierarchy, think
+from mindrun.engine.engine import procedure_sources
+from mindrun.engine.think import Hierarchy, hierarchy, think
+from mindrun.graph.policy import Policy
+from mindrun.kinds.events import Collision, Exhaustion
+from mindrun.numbers.evaluation import evaluate
+from mindrun.numbers.expression import Program
 from numpy.typing import NDArray
 
 from mindlang.breakpoints.breakpoint import Breakpoint, Happens, Holds, Reaches, Transmission

@@ -4,11 +4,11 @@ import os
 from pathlib import Path
 
 import pytest
-from mindrun.bundle import Bundle, write_bundle
-from mindrun.named_readings import physical
-from mindrun.policy import Policy
+from mindrun.graph.bundle import Bundle, write_bundle
+from mindrun.graph.named_readings import physical
+from mindrun.graph.policy import Policy
+from mindrun.graph.wiring import ActuatorWire, SensorWire, Wiring
 from mindrun.robot.drivers.mock import MockActuator, MockSensor
-from mindrun.wiring import ActuatorWire, SensorWire, Wiring
 
 from mindlang.compiler.compile import load
 from tests.calling import write_rules

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from mindlang.deploying.robot import parse_events, script
+from mindlang.robot.remote import parse_events, script
 from tests.calling import Call
 from tests.deploy.robot import HOST, FakeRobot
 

@@ -34,10 +34,10 @@ def test_a_transfer_that_breaks_off(old: str, robot: FakeRobot, bundles: Bundles
 def test_a_bundle_that_the_robot_cannot_read(
     old: str, robot: FakeRobot, bundles: Bundles, mindc: Call, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from mindlang.deploying import release
+    from mindlang.robot import release
 
     runtime = dict(release._runtime())
-    runtime["runtime/mindrun/bundle.py"] += b"\nraise SyntaxError('a newer Python')\n"
+    runtime["runtime/mindrun/graph/bundle.py"] += b"\nraise SyntaxError('a newer Python')\n"
     monkeypatch.setattr(release, "_runtime", lambda: iter(runtime.items()))
     said = mindc("deploy", bundles[1], HOST, "--watch", 0)
     assert said.code == 1

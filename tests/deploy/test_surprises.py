@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from mindlang.deploying.robot import script
-from mindlang.deploying.state import parse_state
+from mindlang.robot.remote import script
+from mindlang.robot.remote_state import parse_state
 from tests.calling import Call
 from tests.deploy.robot import HOST, FakeRobot, program
 
@@ -82,7 +82,7 @@ def test_who_waits_too_long_is_refused_in_words(
 ) -> None:
     whole = script
     monkeypatch.setattr(
-        "mindlang.deploying.robot.script",
+        "mindlang.robot.remote.script",
         lambda verb, words: whole(verb, words).replace(b"patience=60", b"patience=0"),
     )
     holder = subprocess.Popen(["flock", robot.mind / "deploying", "cat"], stdin=subprocess.PIPE)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from mindlang.deploying.unit import unit
+from mindlang.robot.unit import unit
 
 
 def read(text: str) -> configparser.ConfigParser:

@@ -3,7 +3,7 @@
 import sys
 from pathlib import Path
 
-from mindlang.transaction import change
+from mindlang.editing.transaction import change
 
 ONE = {"a.mind": b"one\n" * 999, "a.lock": b"1\n", "weights/b.npy": b"one"}
 OTHER = {"a.mind": b"other\n", "a.lock": b"2\n" * 999, "weights/b.npy": b"other", "new.mind": b"new\n"}

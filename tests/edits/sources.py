@@ -7,8 +7,8 @@ from pathlib import Path
 from random import Random
 
 from hypothesis import strategies as st
-from mindrun.quantity import Reference
-from mindrun.registry import Argument, arguments, kinds
+from mindrun.kinds.registry import Argument, arguments, kinds
+from mindrun.numbers.quantity import Reference
 
 from mindlang.compiler.compile import Compiled, compile_source
 from mindlang.compiler.source import Source

@@ -14,7 +14,7 @@ from pathlib import Path
 
 import pytest
 
-from mindlang.edits import edit, names
+from mindlang.editing.edits import edit, names
 from tests.calling import Call
 from tests.edits.cases import HERE, SHARED, Case, Files, archived, cases
 from tests.language.examples import COLLECT

@@ -4,8 +4,8 @@ import json
 from pathlib import Path
 
 import pytest
+from mindrun.graph.weights import learners
 from mindrun.train.manifest import fingerprint
-from mindrun.weights import learners
 
 from mindlang.compiler.compile import load
 from mindlang.lock import lock_path, read_lock

@@ -17,10 +17,10 @@ import pytest
 
 from mindlang.compiler.compile import load
 from mindlang.editing.apply import apply_edit
+from mindlang.editing.edits.rename import rename
 from mindlang.editing.project import EditError, open_project
+from mindlang.editing.transaction import JOURNAL_NAME, TransactionError, change, recover
 from mindlang.editing.writing import write
-from mindlang.edits.rename import rename
-from mindlang.transaction import JOURNAL_NAME, TransactionError, change, recover
 from tests.calling import Call
 from tests.edits.changing import ONE, OTHER, files
 
@@ -144,7 +144,7 @@ def test_what_was_changed_by_hand_since_is_not_overwritten(folder: Path) -> None
     with pytest.MonkeyPatch.context() as patch:
         replaced = count()
         failing(patch, lambda _, name: Crash() if name == "replace" and next(replaced) > 1 else None)
-        patch.setattr("mindlang.transaction._undo", lambda *_: None)  # the process is gone
+        patch.setattr("mindlang.editing.transaction._undo", lambda *_: None)  # the process is gone
         with pytest.raises(Crash):
             change(folder, files(folder, OTHER))
     (folder / "a.lock").write_text("by hand")
@@ -186,8 +186,8 @@ def test_a_damaged_journal_is_told(mindc: Call, rules: Path, text: str) -> None:
 def test_any_command_puts_back_what_an_edit_left(mindc: Call, rules: Path) -> None:
     old = rules.read_text()
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("mindlang.transaction._done", lambda *_: Path("/nowhere").stat())
-        patch.setattr("mindlang.transaction._undo", lambda *_: None)
+        patch.setattr("mindlang.editing.transaction._done", lambda *_: Path("/nowhere").stat())
+        patch.setattr("mindlang.editing.transaction._undo", lambda *_: None)
         assert mindc("edit", "rename", "Turn", "Spin", rules, "--write").code == 1
     assert rules.read_text() != old
     assert mindc("check", rules).code == 0
@@ -238,8 +238,8 @@ def test_what_is_taken_back_is_said(mindc: Call, rules: Path) -> None:
     project = open_project(load(rules))
     edited = apply_edit(project, rename(project, "Turn", "Spin"), keep_weights=False)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("mindlang.transaction._done", lambda *_: (_ for _ in ()).throw(Crash()))
-        patch.setattr("mindlang.transaction._undo", lambda *_: None)
+        patch.setattr("mindlang.editing.transaction._done", lambda *_: (_ for _ in ()).throw(Crash()))
+        patch.setattr("mindlang.editing.transaction._undo", lambda *_: None)
         with pytest.raises(Crash):
             write(edited)
     assert rules.read_text() != text

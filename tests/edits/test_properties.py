@@ -15,8 +15,8 @@ from mindlang.compiler.parse import parse
 from mindlang.compiler.source import Source
 from mindlang.compiler.syntax import Influences
 from mindlang.editing.apply import apply_edit
+from mindlang.editing.edits import edit, names
 from mindlang.editing.project import EditError, Project
-from mindlang.edits import edit, names
 from tests.edits.sources import ACTUATORS, LIKE, MAIN, PARTS, SENSORS, SKILLS, Texts, minds
 
 OFTEN, SELDOM = 5000, 40  # cases of each test in the slow suite, and in the other

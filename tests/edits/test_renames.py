@@ -9,16 +9,16 @@ from typing import Any
 import pytest
 from hypothesis import event, given, settings
 from hypothesis import strategies as st
-from mindrun.graph import Graph
-from mindrun.weights import genes, owners, reachable
+from mindrun.graph.graph import Graph
+from mindrun.graph.weights import genes, owners, reachable
 
 from mindlang.compiler.compile import load
 from mindlang.compiler.references import introductions
 from mindlang.editing.apply import apply_edit
+from mindlang.editing.edits import edit
 from mindlang.editing.graph_names import now_called, renamed
 from mindlang.editing.lock_update import new_names, update_locks
 from mindlang.editing.project import EditError, Project, open_project
-from mindlang.edits import edit
 from mindlang.lock import Entry, Lock, Taught, lock_sources, lock_text, read_locks
 from mindlang.lock.signature import signature
 from mindlang.lock.status import Status, Trained, status

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from mindlang.editing.transaction import JOURNAL_NAME, UNDO_NAME, TransactionError, change, recover
 from mindlang.editing.undoing import undo
-from mindlang.transaction import JOURNAL_NAME, UNDO_NAME, TransactionError, change, recover
 from tests.calling import Call
 from tests.edits.changing import ONE, OTHER, files
 from tests.edits.taught import teach, write_mind

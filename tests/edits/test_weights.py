@@ -10,19 +10,19 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from mindrun.engine import Engine
-from mindrun.graph import Edge, Gate, Graph, Program, Sensor
-from mindrun.policy import Policy
-from mindrun.sensors import Battery
-from mindrun.weights import genes
+from mindrun.engine.engine import Engine
+from mindrun.graph.graph import Edge, Gate, Graph, Program, Sensor
+from mindrun.graph.policy import Policy
+from mindrun.graph.weights import genes
+from mindrun.kinds.sensors import Battery
 
 from mindlang.compiler.compile import load
 from mindlang.editing.apply import apply_edit
+from mindlang.editing.edits import edit
 from mindlang.editing.lock_update import update_locks
 from mindlang.editing.project import EditError, MindChange, open_project
 from mindlang.editing.summary import summarise
 from mindlang.editing.writing import write
-from mindlang.edits import edit
 from mindlang.lock import lock_path, read_lock, write_lock
 from mindlang.lock.arrange import arrange
 from mindlang.lock.blobs import FOLDER, blob

@@ -3,19 +3,19 @@
 from dataclasses import replace
 
 import numpy as np
-from mindrun.bundle import Bundle
-from mindrun.events import Delivery, Reach, Visit
-from mindrun.functions import Mlp, Procedure
-from mindrun.graph import End, Lesson, Reward, Task, Thing
-from mindrun.learners import Restarting
-from mindrun.measures import Change, Retreat
-from mindrun.policy import Policy
-from mindrun.quantity import Span
+from mindrun.graph.bundle import Bundle
+from mindrun.graph.graph import End, Lesson, Reward, Task, Thing
+from mindrun.graph.policy import Policy
+from mindrun.graph.weights import genes
+from mindrun.graph.wiring import ActuatorWire, SensorWire, Wiring
+from mindrun.kinds.events import Delivery, Reach, Visit
+from mindrun.kinds.functions import Mlp, Procedure
+from mindrun.kinds.learners import Restarting
+from mindrun.kinds.measures import Change, Retreat
+from mindrun.kinds.scenes import Arena
+from mindrun.kinds.things import Item, Obstacle, Zone
+from mindrun.numbers.quantity import Span
 from mindrun.robot.drivers.mock import MockActuator, MockSensor
-from mindrun.scenes import Arena
-from mindrun.things import Item, Obstacle, Zone
-from mindrun.weights import genes
-from mindrun.wiring import ActuatorWire, SensorWire, Wiring
 
 from tests.minds import always, mind, rule, skill
 

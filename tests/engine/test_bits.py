@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from mindrun.engine import Engine
-from mindrun.policy import Policy
-from mindrun.sigmoid import sigmoid
-from mindrun.trigonometry import cosine, sine
+from mindrun.engine.engine import Engine
+from mindrun.graph.policy import Policy
+from mindrun.numbers.sigmoid import sigmoid
+from mindrun.numbers.trigonometry import cosine, sine
 
 from tests.draws import cases
 from tests.hierarchies import PROCEDURES, Case, random_case

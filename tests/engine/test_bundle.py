@@ -15,18 +15,18 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from mindrun.actuators import Wheel
-from mindrun.bundle import Bundle, fingerprint, pack, read_bundle, unpack, write_bundle
-from mindrun.codec import encode
-from mindrun.describe import contents, describe
-from mindrun.encoding import decode, decode_wiring
-from mindrun.engine import Engine, procedure_sources
+from mindrun.engine.engine import Engine, procedure_sources
 from mindrun.errors import BundleError
-from mindrun.graph import Graph
-from mindrun.policy import Policy
+from mindrun.graph.bundle import Bundle, fingerprint, pack, read_bundle, unpack, write_bundle
+from mindrun.graph.codec import encode
+from mindrun.graph.describe import contents, describe
+from mindrun.graph.encoding import decode, decode_wiring
+from mindrun.graph.graph import Graph
+from mindrun.graph.policy import Policy
+from mindrun.graph.weights import genes
+from mindrun.graph.wiring import Wiring
+from mindrun.kinds.actuators import Wheel
 from mindrun.robot.drivers.mock import MockSensor
-from mindrun.weights import genes
-from mindrun.wiring import Wiring
 
 from tests.draws import cases
 from tests.engine.bundles import example, wired
@@ -143,9 +143,9 @@ def test_what_is_larger_than_a_bundle_can_be_is_refused(tmp_path: Path) -> None:
 
 def test_what_would_be_too_large_is_not_packed(monkeypatch: pytest.MonkeyPatch) -> None:
     data = pack(example())
-    monkeypatch.setattr("mindrun.bundle.MAX_BUNDLE_BYTES", len(data))
+    monkeypatch.setattr("mindrun.graph.bundle.MAX_BUNDLE_BYTES", len(data))
     assert pack(example()) == data
-    monkeypatch.setattr("mindrun.bundle.MAX_BUNDLE_BYTES", len(data) - 1)
+    monkeypatch.setattr("mindrun.graph.bundle.MAX_BUNDLE_BYTES", len(data) - 1)
     with pytest.raises(BundleError, match="cannot be larger than"):
         pack(example())
 
@@ -164,7 +164,7 @@ def test_the_same_mind_has_the_same_bytes() -> None:
 
 def test_a_fresh_process_knows_the_drivers_of_a_bundle(tmp_path: Path) -> None:
     (tmp_path / "a.bundle").write_bytes(pack(wired()))
-    program = "import sys, pathlib, mindrun.bundle as bundle; bundle.read_bundle(pathlib.Path(sys.argv[1]))"
+    program = "import sys, pathlib, mindrun.graph.bundle as bundle; bundle.read_bundle(pathlib.Path(sys.argv[1]))"
     subprocess.run([sys.executable, "-c", program, tmp_path / "a.bundle"], check=True)
 
 

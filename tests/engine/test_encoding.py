@@ -11,14 +11,14 @@ from typing import Any, Literal, get_args, get_origin, get_type_hints
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from mindrun.codec import encode
-from mindrun.encoding import decode, decode_part, decode_wiring
 from mindrun.errors import BundleError
-from mindrun.graph import Graph
-from mindrun.quantity import Quantity, Span
-from mindrun.registry import arguments, kinds, names
-from mindrun.things import Zone
-from mindrun.wiring import Wiring
+from mindrun.graph.codec import encode
+from mindrun.graph.encoding import decode, decode_part, decode_wiring
+from mindrun.graph.graph import Graph
+from mindrun.graph.wiring import Wiring
+from mindrun.kinds.registry import arguments, kinds, names
+from mindrun.kinds.things import Zone
+from mindrun.numbers.quantity import Quantity, Span
 
 from tests.draws import cases
 from tests.engine.bundles import example, wired

@@ -4,16 +4,16 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from mindrun.engine import Engine
+from mindrun.engine.engine import Engine
 from mindrun.errors import MindError, ReadingsError, WeightsError
-from mindrun.functions import Mlp
-from mindrun.graph import Edge, Sensor
-from mindrun.memory import Cell
-from mindrun.network import matrices
-from mindrun.policy import Policy
-from mindrun.sensors import Battery, Derivative, Sine
-from mindrun.sensors.sensor import Scene
-from mindrun.weights import genes
+from mindrun.graph.graph import Edge, Sensor
+from mindrun.graph.policy import Policy
+from mindrun.graph.weights import genes
+from mindrun.kinds.functions import Mlp
+from mindrun.kinds.memory import Cell
+from mindrun.kinds.sensors import Battery, Derivative, Sine
+from mindrun.kinds.sensors.sensor import Scene
+from mindrun.numbers.network import matrices
 
 from tests.hierarchies import doubling
 from tests.minds import CLAW, always, mind, rule, skill

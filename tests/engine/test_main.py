@@ -9,12 +9,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 from mindrun import VERSION
-from mindrun.bundle import Bundle, write_bundle
-from mindrun.functions import Mlp, Procedure
-from mindrun.graph import Edge
-from mindrun.memory import Cell
-from mindrun.policy import Policy
-from mindrun.weights import genes
+from mindrun.graph.bundle import Bundle, write_bundle
+from mindrun.graph.graph import Edge
+from mindrun.graph.policy import Policy
+from mindrun.graph.weights import genes
+from mindrun.kinds.functions import Mlp, Procedure
+from mindrun.kinds.memory import Cell
 
 from mindlang.compiler.compile import load
 from tests.minds import always, mind, rule, skill

@@ -5,13 +5,13 @@ from typing import Any
 import numpy as np
 from hypothesis import event, given
 from hypothesis import strategies as st
-from mindrun.engine import Engine
-from mindrun.graph import Graph
-from mindrun.measured import measured_on_robot, rows_of
-from mindrun.named_readings import physical
-from mindrun.policy import Policy
-from mindrun.weights import genes
-from mindrun.wiring import read_by
+from mindrun.engine.engine import Engine
+from mindrun.graph.graph import Graph
+from mindrun.graph.measured import measured_on_robot, rows_of
+from mindrun.graph.named_readings import physical
+from mindrun.graph.policy import Policy
+from mindrun.graph.weights import genes
+from mindrun.graph.wiring import read_by
 
 from tests.hierarchies import PROCEDURES, random_graph
 

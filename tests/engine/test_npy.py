@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
-from mindrun.npy import from_npy, to_npy
+from mindrun.files.npy import from_npy, to_npy
 
 VECTORS = arrays(np.float32, st.integers(0, 200), elements=st.floats(-100, 100, width=32))
 

@@ -4,14 +4,14 @@ import json
 from typing import Any
 
 import pytest
-from mindrun.bundle import Bundle, pack, unpack
-from mindrun.bundle_migration import with_whole_lessons
-from mindrun.codec import encode
-from mindrun.encoding import decode
 from mindrun.errors import BundleError
-from mindrun.graph import Task
-from mindrun.learners import Restarting
-from mindrun.policy import Policy
+from mindrun.graph.bundle import Bundle, pack, unpack
+from mindrun.graph.bundle_migration import with_whole_lessons
+from mindrun.graph.codec import encode
+from mindrun.graph.encoding import decode
+from mindrun.graph.graph import Task
+from mindrun.graph.policy import Policy
+from mindrun.kinds.learners import Restarting
 
 from tests.engine.bundles import example
 from tests.engine.resealed import resealed

@@ -3,10 +3,10 @@
 from pathlib import Path
 
 import pytest
-from mindrun.engine import Engine, procedure_sources
+from mindrun.engine.engine import Engine, procedure_sources
 from mindrun.errors import ProcedureError
-from mindrun.functions import Procedure
-from mindrun.policy import Policy
+from mindrun.graph.policy import Policy
+from mindrun.kinds.functions import Procedure
 
 from tests.minds import mind, skill
 

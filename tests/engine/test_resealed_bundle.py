@@ -9,10 +9,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-from mindrun.archive import read_archive
-from mindrun.bundle import pack, unpack
 from mindrun.errors import BundleError
-from mindrun.npy import to_npy
+from mindrun.files.archive import read_archive
+from mindrun.files.npy import to_npy
+from mindrun.graph.bundle import pack, unpack
 
 from tests.engine.bundles import example, wired
 from tests.engine.resealed import Change, members_of, resealed, sealed

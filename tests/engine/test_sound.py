@@ -5,18 +5,18 @@ from dataclasses import replace
 from math import inf, nextafter
 
 import pytest
-from mindrun.events import Delivery, Reach, Success, Visit
-from mindrun.expression import is_valid_program
-from mindrun.functions import Mlp
-from mindrun.graph import Edge, End, Gate, Graph, Lesson, Memory, Reward, Sensor, Task, Thing
-from mindrun.learners import Genetic
-from mindrun.measures import Advance, Progress, Retreat
-from mindrun.memory import Cell
-from mindrun.quantity import UNSAID, Span
-from mindrun.scenes import Arena, Plain
-from mindrun.sensors import Battery, Derivative, RangeFinder, Sine
-from mindrun.things import Item, Obstacle, ThingKind, Zone
-from mindrun.validate import depths, graph_flaw
+from mindrun.graph.graph import Edge, End, Gate, Graph, Lesson, Memory, Reward, Sensor, Task, Thing
+from mindrun.graph.validate import depths, graph_flaw
+from mindrun.kinds.events import Delivery, Reach, Success, Visit
+from mindrun.kinds.functions import Mlp
+from mindrun.kinds.learners import Genetic
+from mindrun.kinds.measures import Advance, Progress, Retreat
+from mindrun.kinds.memory import Cell
+from mindrun.kinds.scenes import Arena, Plain
+from mindrun.kinds.sensors import Battery, Derivative, RangeFinder, Sine
+from mindrun.kinds.things import Item, Obstacle, ThingKind, Zone
+from mindrun.numbers.expression import is_valid_program
+from mindrun.numbers.quantity import UNSAID, Span
 
 from tests.minds import always, mind, rule, skill
 

@@ -7,11 +7,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mindrun.errors import WeightsError
-from mindrun.functions import Mlp
-from mindrun.graph import Graph, Lesson
-from mindrun.learners import Genetic
-from mindrun.npy import to_npy
-from mindrun.weights import below, genes, learners, parts, reachable, read_weights, weights_of
+from mindrun.files.npy import to_npy
+from mindrun.graph.graph import Graph, Lesson
+from mindrun.graph.weights import below, genes, learners, parts, reachable, read_weights, weights_of
+from mindrun.kinds.functions import Mlp
+from mindrun.kinds.learners import Genetic
 
 from tests.hierarchies import random_graph
 from tests.minds import rule, skill

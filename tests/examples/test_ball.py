@@ -3,8 +3,8 @@
 import json
 
 import pytest
-from mindrun.graph import Sensor
-from mindrun.sensors import Physical
+from mindrun.graph.graph import Sensor
+from mindrun.kinds.sensors import Physical
 
 from mindlang.compiler.compile import load
 from tests.calling import Call

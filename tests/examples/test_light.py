@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from mindrun.bundle import read_bundle
+from mindrun.graph.bundle import read_bundle
 
 from tests.calling import Call
 from tests.language.examples import ROOT

@@ -14,10 +14,10 @@ from mindlang.explaining.markdown import card, reference
 from mindlang.explaining.sections import sections
 from mindlang.explaining.terminal import LINE_COLUMNS, article_text
 from mindlang.explaining.wiring import GPIO_PINS, HEADER_PINS, NAMED_PINS
-from mindlang.wiring.driver import wired
-from mindlang.wiring.nodes import Table
-from mindlang.wiring.options import driver_options, drivers
-from mindlang.wiring.read import read
+from mindlang.robot.driver import wired
+from mindlang.robot.nodes import Table
+from mindlang.robot.options import driver_options, drivers
+from mindlang.robot.read import read
 
 every_driver = pytest.mark.parametrize("article", driver_articles(), ids=lambda each: f"{each.sort}-{each.name}")
 

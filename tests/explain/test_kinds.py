@@ -4,7 +4,7 @@ from itertools import chain
 from pathlib import Path
 
 import pytest
-from mindrun.registry import arguments, kinds
+from mindrun.kinds.registry import arguments, kinds
 
 from mindlang.compiler.compile import load
 from mindlang.explaining.article import SCALE_MARKS, Article

@@ -4,8 +4,8 @@ import json
 from argparse import ArgumentParser
 
 import pytest
-from mindrun.driving_arguments import driving_parser
-from mindrun.tools import tool_parser, tools
+from mindrun.cli.driving_arguments import driving_parser
+from mindrun.cli.tools import tool_parser, tools
 
 from mindlang.cli._mindrun_articles import mindrun_articles
 from tests.calling import Call

@@ -4,9 +4,9 @@ from pathlib import Path
 
 import pytest
 from mindrun import VERSION
-from mindrun.bundle import read_bundle
-from mindrun.engine import Engine
-from mindrun.registry import kinds
+from mindrun.engine.engine import Engine
+from mindrun.graph.bundle import read_bundle
+from mindrun.kinds.registry import kinds
 from mindrun.robot.replay import replay_recording
 
 import mindlang
@@ -14,7 +14,7 @@ from mindlang.breakpoints.checking import subject_of_mind
 from mindlang.breakpoints.file import breakpoints_of
 from mindlang.compiler.source import Source
 from mindlang.pictures.learning_log import load_curves
-from mindlang.wiring.wire import load_wiring
+from mindlang.robot.wire import load_wiring
 from tests.formats import FOLDER, MINDS, RELEASES
 from tests.formats.write import RECORDED_TICKS, commands
 

@@ -13,9 +13,9 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import numpy as np
-from mindrun.engine import Engine
-from mindrun.graph import Graph
-from mindrun.named_readings import physical, vector
+from mindrun.engine.engine import Engine
+from mindrun.graph.graph import Graph
+from mindrun.graph.named_readings import physical, vector
 
 import mindlang
 from tests.formats import FOLDER, MINDS

@@ -6,13 +6,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from mindrun.engine import Engine
-from mindrun.functions.elman import Elman
-from mindrun.graph import Graph
-from mindrun.policy import Policy
+from mindrun.engine.engine import Engine
+from mindrun.graph.graph import Graph
+from mindrun.graph.policy import Policy
+from mindrun.graph.weights import genes
+from mindrun.kinds.functions.elman import Elman
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
-from mindrun.weights import genes
 
 from mindlang.compiler.compile import Compiled, compile_source
 from mindlang.compiler.source import Source

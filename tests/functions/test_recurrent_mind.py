@@ -5,11 +5,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from mindrun.bundle import Bundle, pack, unpack
-from mindrun.engine import Engine
+from mindrun.engine.engine import Engine
 from mindrun.errors import WeightsError
-from mindrun.graph import Graph
-from mindrun.policy import Policy
+from mindrun.graph.bundle import Bundle, pack, unpack
+from mindrun.graph.graph import Graph
+from mindrun.graph.policy import Policy
+from mindrun.graph.weights import genes
+from mindrun.graph.wiring import SensorWire
 from mindrun.robot.loop import Loop
 from mindrun.robot.rate import Rate
 from mindrun.robot.reading_filter import ReadingFilter
@@ -19,8 +21,6 @@ from mindrun.robot.sampling import Sampler
 from mindrun.sim.commanded_world import World
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
-from mindrun.weights import genes
-from mindrun.wiring import SensorWire
 
 from mindlang.lock.signature import differences, signature
 from tests.robot.faults import TICK, Clock, Scripted, Sent, bus_error

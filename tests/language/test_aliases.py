@@ -9,9 +9,9 @@ from hypothesis import assume, given
 from mindlang.compiler.compile import Compiled, compile_source, load
 from mindlang.compiler.source import Source
 from mindlang.editing.apply import apply_edit
+from mindlang.editing.edits.disconnect import disconnect
+from mindlang.editing.edits.rename import rename
 from mindlang.editing.project import EditError, open_project
-from mindlang.edits.disconnect import disconnect
-from mindlang.edits.rename import rename
 from mindlang.lock import lock_sources
 from tests.edits.sources import Texts, minds
 

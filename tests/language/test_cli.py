@@ -9,8 +9,8 @@ from pathlib import Path
 import click
 import pytest
 
-from mindlang import edits
 from mindlang.cli import commands
+from mindlang.editing import edits
 from tests.calling import Call
 from tests.language.examples import COLLECT, EXAMPLES, RIGHT, TOUR
 

@@ -3,14 +3,14 @@
 from itertools import pairwise
 
 import pytest
-from mindrun.functions import Mlp, Rule
-from mindrun.graph import Edge, End, Graph, Reward, Skill
-from mindrun.learners import Genetic
-from mindrun.measures import Change, Forward
-from mindrun.quantity import Span
-from mindrun.scenes import Arena
-from mindrun.sensors import Sine
-from mindrun.things import Item, Obstacle
+from mindrun.graph.graph import Edge, End, Graph, Reward, Skill
+from mindrun.kinds.functions import Mlp, Rule
+from mindrun.kinds.learners import Genetic
+from mindrun.kinds.measures import Change, Forward
+from mindrun.kinds.scenes import Arena
+from mindrun.kinds.sensors import Sine
+from mindrun.kinds.things import Item, Obstacle
+from mindrun.numbers.quantity import Span
 
 from mindlang.compiler.compile import load
 from tests.language.examples import COLLECT, compiled

@@ -5,8 +5,8 @@ import re
 import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
-from mindrun.graph import Graph
-from mindrun.quantity import DECAY, RATE
+from mindrun.graph.graph import Graph
+from mindrun.numbers.quantity import DECAY, RATE
 
 from mindlang.compiler.comparison import Difference, differences
 from mindlang.compiler.compile import Compiled

@@ -5,10 +5,10 @@ from pathlib import Path
 
 from hypothesis import given
 from hypothesis import strategies as st
-from mindrun.policy import Policy
+from mindrun.graph.policy import Policy
+from mindrun.kinds.things import Map
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
-from mindrun.things import Map
 
 from mindlang.compiler.compile import load
 from mindlang.lock.world_changes import changes

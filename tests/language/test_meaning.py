@@ -3,12 +3,12 @@
 from math import pi
 
 import pytest
-from mindrun.graph import Graph
-from mindrun.learners import EvolutionStrategy, Genetic, Restarting
-from mindrun.quantity import Span
-from mindrun.registry import arguments, kinds
-from mindrun.sensors import RangeFinder
-from mindrun.things import Obstacle
+from mindrun.graph.graph import Graph
+from mindrun.kinds.learners import EvolutionStrategy, Genetic, Restarting
+from mindrun.kinds.registry import arguments, kinds
+from mindrun.kinds.sensors import RangeFinder
+from mindrun.kinds.things import Obstacle
+from mindrun.numbers.quantity import Span
 
 from mindlang.compiler.compile import load
 from tests.language.examples import TOUR, changed, codes, compiled

@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from mindrun.bundle import Bundle, pack, unpack
-from mindrun.policy import Policy
+from mindrun.graph.bundle import Bundle, pack, unpack
+from mindrun.graph.policy import Policy
 
 from mindlang.compiler.compile import compile_source
 from mindlang.compiler.diagnostic import Findings
@@ -117,7 +117,7 @@ def test_what_cannot_be_read_is_left(mindc: Call, file: Path) -> None:
 
 def test_silence_is_pointed_at() -> None:
     """The same text means something else than before: lint says so, with the old meaning as its fix."""
-    from mindlang.linting.lint import lint
+    from mindlang.lint.lint import lint
 
     path = Path("old.mind")
     found = list(lint(compile_source(Source("old.mind", DRIFTER + OLD, Path()), path), ["unsaid-outcome"]))

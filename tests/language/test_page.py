@@ -14,7 +14,7 @@ from mindlang.editing.insertion import declare, text_of, without_declarations
 from mindlang.editing.lines import first_line, insert_below, remove_lines
 from mindlang.editing.naming import refuse_misnamed
 from mindlang.editing.project import EditError
-from mindlang.unified_diff import unified
+from mindlang.editing.unified_diff import unified
 
 lines = st.lists(
     st.sampled_from(["", " ", "# a", "  # b", "skill A is rule", "  reads x", "\u2028", "\f", "ä"]), max_size=9
@@ -71,7 +71,7 @@ def test_lines_are_those_of_the_text(source: Source, data: st.DataObject) -> Non
 @given(sources(), sources())
 def test_a_diff_makes_the_new_text_of_the_old_one(short: int, old: Source, new: Source) -> None:
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("mindlang.unified_diff.MAX_COMPARED_LINES", short)
+        patch.setattr("mindlang.editing.unified_diff.MAX_COMPARED_LINES", short)
         diff = unified("any", old.text, new.text)
     assert (diff == "") == (old.text == new.text)
     assert patched(old.text, diff) == new.text

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 from mindrun.errors import ProcedureError
-from mindrun.procedure_text import fit
+from mindrun.kinds.procedure_text import fit
 
 import mindlang
 from mindlang.server.view import view

@@ -4,8 +4,8 @@ from math import pi
 from pathlib import Path
 
 import pytest
-from mindrun.graph import Graph, Start
-from mindrun.policy import Policy
+from mindrun.graph.graph import Graph, Start
+from mindrun.graph.policy import Policy
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 

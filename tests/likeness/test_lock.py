@@ -5,10 +5,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from mindrun.engine import Engine
-from mindrun.graph import Graph
-from mindrun.policy import Policy
-from mindrun.weights import genes
+from mindrun.engine.engine import Engine
+from mindrun.graph.graph import Graph
+from mindrun.graph.policy import Policy
+from mindrun.graph.weights import genes
 
 from mindlang.lock import Taught, lock_text, read_lock, write_lock
 from mindlang.lock.arrange import arrange

@@ -4,12 +4,12 @@ import json
 
 import numpy as np
 import pytest
-from mindrun.bundle import Bundle, pack, unpack
-from mindrun.engine import Engine
+from mindrun.engine.engine import Engine
 from mindrun.errors import BundleError, WeightsError
-from mindrun.graph import Graph
-from mindrun.policy import Policy
-from mindrun.weights import genes, learners
+from mindrun.graph.bundle import Bundle, pack, unpack
+from mindrun.graph.graph import Graph
+from mindrun.graph.policy import Policy
+from mindrun.graph.weights import genes, learners
 
 from mindlang.compiler.compile import Compiled, compile_source
 from mindlang.compiler.source import Source

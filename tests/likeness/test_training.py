@@ -5,14 +5,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from mindrun.engine import Engine
+from mindrun.engine.engine import Engine
 from mindrun.train.run_folder import open_run
 
 from mindlang.compiler.compile import load
 from mindlang.editing.apply import apply_edit
+from mindlang.editing.edits.unshare import unshare
 from mindlang.editing.project import open_project
 from mindlang.editing.writing import write
-from mindlang.edits.unshare import unshare
 from mindlang.lock import read_lock
 from mindlang.lock.ready import make_ready
 from mindlang.lock.report import rows

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from mindlang.compiler.compile import load
-from mindlang.linting.lint import lint
+from mindlang.lint.lint import lint
 from tests.lint.examples import Tell, Told, whole
 
 

@@ -4,13 +4,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from mindrun.policy import Policy
+from mindrun.graph.policy import Policy
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 
 from mindlang.compiler.compile import load
-from mindlang.linting.lint import lint
-from mindlang.rules.crowded_world import BAD, BINS, GOOD
+from mindlang.lint.lint import lint
+from mindlang.lint.rules.crowded_world import BAD, BINS, GOOD
 from tests.lint.examples import whole
 
 SEEDS = range(1, 21)

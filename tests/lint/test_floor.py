@@ -6,10 +6,10 @@ from itertools import product
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from mindrun.things.rectangle import Rectangle
+from mindrun.kinds.things.rectangle import Rectangle
 
-from mindlang.analysis import floor as module
-from mindlang.analysis.floor import floor
+from mindlang.lint import floor as module
+from mindlang.lint.floor import floor
 
 RADIUS, STEP = 0.9, 0.1
 CORNERS = st.integers(-4, 3)

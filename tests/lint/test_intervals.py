@@ -8,7 +8,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mindlang.analysis.intervals import (
+from mindlang.compiler.model import Command, EachReading, Expression, Number, Reading, Term
+from mindlang.compiler.source import Source, Span
+from mindlang.compiler.syntax import Operator
+from mindlang.lint.intervals import (
     UNBOUNDED,
     UNIT_INTERVAL,
     Interval,
@@ -18,9 +21,6 @@ from mindlang.analysis.intervals import (
     is_constant,
     range_in_words,
 )
-from mindlang.compiler.model import Command, EachReading, Expression, Number, Reading, Term
-from mindlang.compiler.source import Source, Span
-from mindlang.compiler.syntax import Operator
 
 HERE = Span(Source("x", ""), 0, 0)
 COMPUTED: dict[str, Callable[[float, float], float]] = {

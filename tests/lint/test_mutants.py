@@ -12,7 +12,7 @@ from mindlang.cli._diagnostic_printer import plain
 from mindlang.compiler.compile import compile_source
 from mindlang.compiler.format import formatted
 from mindlang.compiler.source import Source, decode
-from mindlang.linting.lint import lint
+from mindlang.lint.lint import lint
 from tests.fmt.test_format import comments, meaning
 from tests.language.test_fuzz import SEEDS, delete, duplicate, flip, insert, splice, swap_lines
 

@@ -2,8 +2,8 @@
 
 import pytest
 
-from mindlang.rules.coarse_tick import WHEELS
-from mindlang.rules.zero_division import HINT, MESSAGE
+from mindlang.lint.rules.coarse_tick import WHEELS
+from mindlang.lint.rules.zero_division import HINT, MESSAGE
 from tests.lint.examples import Tell
 
 EYES = "sensor eye is range_finder at 0 deg\nsensor ear is range_finder at 90 deg\nsensor north is compass\n"

@@ -2,7 +2,7 @@
 
 import pytest
 
-from mindlang.rules.paid_at_once import TASK as PAID
+from mindlang.lint.rules.paid_at_once import TASK as PAID
 from tests.lint.examples import Tell, Told
 
 COIN = "contains coin is item size 2 at 13 0"

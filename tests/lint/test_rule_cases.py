@@ -5,12 +5,12 @@ from pathlib import Path
 
 import pytest
 
-from mindlang.analysis.intervals import UNBOUNDED, interval
 from mindlang.compiler.compile import load
 from mindlang.compiler.model import Expression, Number, Reading
 from mindlang.compiler.source import Source, Span
 from mindlang.compiler.syntax import Operator
-from mindlang.linting.lint import lint
+from mindlang.lint.intervals import UNBOUNDED, interval
+from mindlang.lint.lint import lint
 from tests.lint.examples import whole
 
 Lint = Callable[[str, str], list[str]]

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from mindlang.compiler.compile import load
-from mindlang.linting.lint import lint
+from mindlang.lint.lint import lint
 
 FOLDER = Path(__file__).parents[2] / "examples"
 MAINS = [*sorted((FOLDER / "collect").glob("*.mind")), FOLDER / "tour/tour.mind", FOLDER / "braitenberg.mind"]

@@ -7,8 +7,8 @@ import pytest
 from mindlang.compiler.compile import load
 from mindlang.compiler.diagnostic import Diagnostic
 from mindlang.compiler.splice import spliced
-from mindlang.linting.lint import lint
-from mindlang.rules import Rule, all_rules
+from mindlang.lint.lint import lint
+from mindlang.lint.rules import Rule, all_rules
 from tests.lint.examples import whole
 
 BAD = [(rule, text) for rule in all_rules().values() for text in rule.bad]

@@ -6,8 +6,8 @@ import pytest
 
 from mindlang.compiler.compile import compile_source
 from mindlang.compiler.source import Source
-from mindlang.linting.lint import lint
-from mindlang.rules import Rule, all_rules
+from mindlang.lint.lint import lint
+from mindlang.lint.rules import Rule, all_rules
 from tests.lint.examples import whole
 
 GOOD = [(rule, text) for rule in all_rules().values() for text in rule.good]

@@ -9,7 +9,7 @@ import pytest
 from mindlang.compiler.compile import compile_source
 from mindlang.compiler.source import Source
 from mindlang.compiler.syntax import NOUNS, VERBS
-from mindlang.linting.lint import lint
+from mindlang.lint.lint import lint
 from tests.language.examples import COLLECT, EXAMPLES
 
 CASES, SHARE = 1000, 0.99

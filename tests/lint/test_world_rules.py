@@ -2,7 +2,7 @@
 
 import pytest
 
-from mindlang.rules import chance_meeting, standing_learner, walled_off
+from mindlang.lint.rules import chance_meeting, standing_learner, walled_off
 from tests.lint.examples import Tell, Told
 
 

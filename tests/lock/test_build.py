@@ -7,9 +7,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from mindrun.bundle import read_bundle
-from mindrun.engine import Engine
-from mindrun.weights import genes
+from mindrun.engine.engine import Engine
+from mindrun.graph.bundle import read_bundle
+from mindrun.graph.weights import genes
 
 from mindlang.compiler.compile import load
 from mindlang.lock import Taught, read_lock

@@ -7,9 +7,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from mindlang.lint.rules.taught_elsewhere import WORLD
 from mindlang.lock import HEADER, Entry, LockError, Signature, Taught, read_lock, read_locks, write_lock
 from mindlang.lock.training_world import TrainingWorld
-from mindlang.rules.taught_elsewhere import WORLD
 from tests.draws import cases
 
 NAMES = st.text("abcxyzABC_+:0123456789", min_size=1, max_size=8)

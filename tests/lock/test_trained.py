@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from mindrun.engine import Engine
-from mindrun.functions import Mlp, Procedure
-from mindrun.graph import Edge, Graph, Sensor
-from mindrun.policy import Policy
-from mindrun.sensors import RangeFinder
-from mindrun.weights import genes
+from mindrun.engine.engine import Engine
+from mindrun.graph.graph import Edge, Graph, Sensor
+from mindrun.graph.policy import Policy
+from mindrun.graph.weights import genes
+from mindrun.kinds.functions import Mlp, Procedure
+from mindrun.kinds.sensors import RangeFinder
 
 from mindlang.lock import LockError, Taught, read_lock
 from mindlang.lock.arrange import arrange

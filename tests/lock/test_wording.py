@@ -5,7 +5,7 @@ import ast
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from mindrun.graph import Program
+from mindrun.graph.graph import Program
 
 from mindlang.lock.wording import infix
 

@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from mindrun.graph import Graph
-from mindrun.quantity import EXPRESSION, Quantity, Reference, Span
-from mindrun.registry import arguments, kinds, names
-from mindrun.weights import genes, learners
+from mindrun.graph.graph import Graph
+from mindrun.graph.weights import genes, learners
+from mindrun.kinds.registry import arguments, kinds, names
+from mindrun.numbers.quantity import EXPRESSION, Quantity, Reference, Span
 
 from mindlang.compiler.compile import compile_source, load
 from mindlang.compiler.source import Source

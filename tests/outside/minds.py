@@ -4,13 +4,13 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from mindrun.actuators.action import Action
-from mindrun.actuators.choice import Choice
-from mindrun.events.its_end import ItsEnd
-from mindrun.graph import Graph
-from mindrun.measures.its_reward import ItsReward
-from mindrun.policy import Policy
-from mindrun.scenes import Gymnasium
+from mindrun.graph.graph import Graph
+from mindrun.graph.policy import Policy
+from mindrun.kinds.actuators.action import Action
+from mindrun.kinds.actuators.choice import Choice
+from mindrun.kinds.events.its_end import ItsEnd
+from mindrun.kinds.measures.its_reward import ItsReward
+from mindrun.kinds.scenes import Gymnasium
 from mindrun.sim.outside.rollout import EnvironmentRollout
 
 from mindlang.compiler.compile import Compiled, compile_source

@@ -5,10 +5,10 @@ from typing import Any
 
 import gymnasium
 import numpy as np
-from mindrun.engine import Engine
-from mindrun.events.its_end import ItsEnd
-from mindrun.graph import Graph, Task
-from mindrun.policy import Policy
+from mindrun.engine.engine import Engine
+from mindrun.graph.graph import Graph, Task
+from mindrun.graph.policy import Policy
+from mindrun.kinds.events.its_end import ItsEnd
 from mindrun.sim.codes import BROKEN_OFF, GOING_ON
 
 from tests.outside.drawn_worlds import inside

@@ -13,7 +13,7 @@ pytest.importorskip("gymnasium")
 
 import numpy as np
 from mindrun.errors import MindError
-from mindrun.policy import Policy
+from mindrun.graph.policy import Policy
 from mindrun.sim.outside import repeating
 from mindrun.sim.outside.apart import Apart
 from mindrun.sim.outside.here import Here

@@ -9,11 +9,11 @@ pytest.importorskip("gymnasium")
 
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from mindrun.graph import Graph
-from mindrun.policy import Policy
+from mindrun.graph.graph import Graph
+from mindrun.graph.policy import Policy
+from mindrun.graph.weights import genes
 from mindrun.sim.outside.rollout import EnvironmentRollout
 from mindrun.sim.trace import trace
-from mindrun.weights import genes
 
 from mindlang.compiler.compile import compile_source
 from mindlang.compiler.source import Source

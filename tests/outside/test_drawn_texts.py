@@ -7,15 +7,15 @@ from random import Random
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from mindrun.bundle import Bundle, pack, unpack
-from mindrun.graph import Graph
-from mindrun.policy import Policy
-from mindrun.weights import genes
+from mindrun.graph.bundle import Bundle, pack, unpack
+from mindrun.graph.graph import Graph
+from mindrun.graph.policy import Policy
+from mindrun.graph.weights import genes
 
 from mindlang.compiler.compile import Compiled, compile_source
 from mindlang.compiler.format import formatted
 from mindlang.compiler.source import Source
-from mindlang.linting.lint import lint
+from mindlang.lint.lint import lint
 from mindlang.server.completing import complete
 from mindlang.server.hovering import hover
 from mindlang.server.workspace import Workspace

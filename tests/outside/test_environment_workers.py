@@ -13,9 +13,9 @@ import pytest
 pytest.importorskip("gymnasium")
 
 import numpy as np
-from mindrun.bundle import Bundle
-from mindrun.bundle import pack as pack_bundle
-from mindrun.policy import Policy
+from mindrun.graph.bundle import Bundle
+from mindrun.graph.bundle import pack as pack_bundle
+from mindrun.graph.policy import Policy
 from mindrun.work.assignment import Assignment
 from mindrun.work.job_scorer import JobScorer
 from mindrun.work.local import local_workers

@@ -110,9 +110,9 @@ def test_an_environment_may_be_that_of_a_scene() -> None:
 
 def test_what_is_of_two_values_has_two_choices() -> None:
     from gymnasium.spaces import MultiBinary
+    from mindrun.kinds.slot import Slot
     from mindrun.sim.outside.fitting import misfits
     from mindrun.sim.outside.parts import spaces_of
-    from mindrun.slot import Slot
 
     both = spaces_of(MultiBinary(2), MultiBinary(2))
     each = {f"push{i}{chosen}": Slot("", (i,), chosen=chosen) for i in range(2) for chosen in range(2)}

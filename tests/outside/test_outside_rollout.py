@@ -8,10 +8,10 @@ pytest.importorskip("gymnasium")
 import gymnasium
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from mindrun.changes import Change
-from mindrun.engine import Engine
+from mindrun.engine.changes import Change
+from mindrun.engine.engine import Engine
 from mindrun.errors import MindError
-from mindrun.policy import Policy
+from mindrun.graph.policy import Policy
 from mindrun.sim.codes import BROKEN_OFF
 from mindrun.sim.rollout import SLOW_SLICE_TICKS
 from mindrun.sim.rollouts import rollout_for

@@ -7,7 +7,7 @@ from typing import Any
 import cv2
 import numpy as np
 import pytest
-from mindrun.graph import Sensor
+from mindrun.graph.graph import Sensor
 from PIL import Image as Pillow
 
 from mindlang.compiler.compile import load

@@ -9,8 +9,8 @@ from typing import Any
 import cv2
 import numpy as np
 import pytest
-from mindrun.graph import Thing
-from mindrun.things import Item, Zone
+from mindrun.graph.graph import Thing
+from mindrun.kinds.things import Item, Zone
 
 from mindlang.compiler.compile import load
 from mindlang.pictures.canvas import Canvas, Image, Viewport, blank

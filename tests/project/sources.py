@@ -57,7 +57,7 @@ def _origins(path: Path) -> Iterator[str]:
 
 
 def _known(full: str, named: Container[str]) -> str:
-    """The module that is meant: `mindrun.graph` by `mindrun.graph.Graph`."""
+    """The module that is meant: `mindrun.graph.graph` by `mindrun.graph.graph.Graph`."""
     return full if full in named else full.rpartition(".")[0]
 
 

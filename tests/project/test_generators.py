@@ -9,8 +9,8 @@ from typing import Any
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from mindrun.graph import Graph
-from mindrun.registry import arguments, kinds
+from mindrun.graph.graph import Graph
+from mindrun.kinds.registry import arguments, kinds
 
 from mindlang.compiler.compile import compile_source
 from mindlang.compiler.source import Source

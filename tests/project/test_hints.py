@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from mindrun.command_line import command_line
+from mindrun.terminal.command_line import command_line
 
 from tests.calling import Call
 from tests.edits.taught import MIND, teach
@@ -19,8 +19,8 @@ from tests.project.sources import COMPILER, ROOT, RUNTIME, modules, tree
 NO_FILES = {
     "mindlang/cli/new.py", "mindlang/explaining/collection.py",
     "mindlang/explaining/words.py", "mindlang/run/summary.py", "mindlang/server/commands.py",
-    "mindlang/server/server.py", "mindlang/transaction.py", "mindlang/diagnosis/checks/programs.py",
-    "runtime/mindrun/bundle.py", "runtime/mindrun/robot/view_breakpoints.py",
+    "mindlang/server/server.py", "mindlang/editing/transaction.py", "mindlang/diagnosis/checks/programs.py",
+    "runtime/mindrun/graph/bundle.py", "runtime/mindrun/robot/view_breakpoints.py",
 }  # fmt: skip
 REFUSED = (
     "run FILE", "bench FILE", "build FILE -o x.bundle", "train FILE Drive", "train FILE Avoid",

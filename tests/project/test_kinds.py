@@ -7,10 +7,10 @@ from importlib import import_module
 from pathlib import Path
 
 import pytest
-from mindrun.functions import Function
-from mindrun.quantity import THING
-from mindrun.registry import arguments, bases, kinds
-from mindrun.sensors import SensorKind
+from mindrun.kinds.functions import Function
+from mindrun.kinds.registry import arguments, bases, kinds
+from mindrun.kinds.sensors import SensorKind
+from mindrun.numbers.quantity import THING
 from mindrun.sim.codes import ACTUATOR_CODES, EVENT_CODES, MEASURE_CODES, THING_CODES
 
 from mindlang.pictures.theme import NIGHT, PAPER
@@ -18,7 +18,7 @@ from tests.project.sources import COMPILER, ROOT, RUNTIME, modules, tree
 
 ROOMS = ("sensors", "functions", "actuators", "things", "scenes", "events", "measures", "bodies", "memory", "learners")
 for room in ROOMS:
-    import_module(f"mindrun.{room}")
+    import_module(f"mindrun.kinds.{room}")
 NOUNS = ("body", "actuator", "sensor", "memory", "skill", "task", "content", "curriculum", "measure", "event")
 KINDS = {cls for noun in NOUNS for cls in kinds(noun).values()}
 COMMON = {"actuator": ("neutral", "delay"), "content": ("size", "away")}  # the arguments that each kind of a noun has

@@ -96,10 +96,10 @@ def test_weights_are_put_beside_a_graph_in_few_places() -> None:
     places = {
         "mindlang/lock/ready.py": "arranged here",
         "mindlang/editing/verify.py": "arranged there, before and after an edit",
-        "mindlang/importing/trial.py": "a lesson of a subject, which is arranged",
+        "mindlang/weights/trial.py": "a lesson of a subject, which is arranged",
         "mindlang/training/teaching.py": "a run has those of its subject, which is arranged",
         "mindlang/view/viewed_champion.py": "a run has those of its mind, which is arranged",
-        "runtime/mindrun/bundle.py": "a bundle has both, sealed",
+        "runtime/mindrun/graph/bundle.py": "a bundle has both, sealed",
         "runtime/mindrun/sim/warmup.py": "none",
         "runtime/mindrun/sim/commanded_lanes.py": "none",
         "mindlang/environments/agent.py": "none",

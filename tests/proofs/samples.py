@@ -4,11 +4,11 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from mindrun.functions import Mlp, Procedure
-from mindrun.graph import Edge, Graph, Sensor, Skill
-from mindrun.memory import Cell
-from mindrun.sensors import RangeFinder
-from mindrun.weights import Weights
+from mindrun.graph.graph import Edge, Graph, Sensor, Skill
+from mindrun.graph.weights import Weights
+from mindrun.kinds.functions import Mlp, Procedure
+from mindrun.kinds.memory import Cell
+from mindrun.kinds.sensors import RangeFinder
 
 from mindlang.proofs.recorded import Recorded, Undriven
 from tests.hierarchies import doubling

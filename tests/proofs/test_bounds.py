@@ -7,15 +7,15 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from mindrun.engine import Engine, procedure_sources
-from mindrun.functions import Mlp
-from mindrun.graph import Edge, Graph, Skill
-from mindrun.policy import Policy
-from mindrun.sigmoid import sigmoid
-from mindrun.think import hierarchy
-from mindrun.think import think as really_think
-from mindrun.think import values as really_sent
-from mindrun.weights import Weights, genes, reachable
+from mindrun.engine.engine import Engine, procedure_sources
+from mindrun.engine.think import hierarchy
+from mindrun.engine.think import think as really_think
+from mindrun.engine.think import values as really_sent
+from mindrun.graph.graph import Edge, Graph, Skill
+from mindrun.graph.policy import Policy
+from mindrun.graph.weights import Weights, genes, reachable
+from mindrun.kinds.functions import Mlp
+from mindrun.numbers.sigmoid import sigmoid
 
 from mindlang.compiler.compile import load
 from mindlang.lock.ready import make_ready

@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from mindrun.functions import Mlp, Procedure
-from mindrun.graph import Graph
-from mindrun.weights import genes
+from mindrun.graph.graph import Graph
+from mindrun.graph.weights import genes
+from mindrun.kinds.functions import Mlp, Procedure
 
 from mindlang.proofs import silence_search
 from mindlang.proofs.branch_and_bound import readings_to_try

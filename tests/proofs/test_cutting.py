@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from mindrun.functions import Mlp, Procedure
-from mindrun.graph import Edge, Graph, Program, Skill
-from mindrun.weights import NO_WEIGHTS, genes
+from mindrun.graph.graph import Edge, Graph, Program, Skill
+from mindrun.graph.weights import NO_WEIGHTS, genes
+from mindrun.kinds.functions import Mlp, Procedure
 
 from mindlang.proofs import branch_and_bound
 from mindlang.proofs.batch import values

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
-from mindrun.functions import Mlp, Procedure, Rule
-from mindrun.graph import Edge, Program, Skill
-from mindrun.weights import genes
+from mindrun.graph.graph import Edge, Program, Skill
+from mindrun.graph.weights import genes
+from mindrun.kinds.functions import Mlp, Procedure, Rule
 
 from mindlang.proofs.batch import values
 from mindlang.proofs.interval import SIGMOID_ERROR, Boxes, SentBounds, evaluate, is_known, perceive, sent

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from mindrun.engine import Engine
-from mindrun.functions import Mlp, Procedure
-from mindrun.graph import Edge, Graph, Program, Skill
-from mindrun.policy import Policy
+from mindrun.engine.engine import Engine
+from mindrun.graph.graph import Edge, Graph, Program, Skill
+from mindrun.graph.policy import Policy
+from mindrun.kinds.functions import Mlp, Procedure
 
 from mindlang.proofs import joint, reach
 from mindlang.proofs.batch import think

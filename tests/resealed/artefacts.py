@@ -13,16 +13,17 @@ from time import perf_counter
 from typing import Any
 
 import numpy as np
-from mindrun.archive import write_archive
-from mindrun.bundle import pack, unpack
-from mindrun.describe import contents, describe
-from mindrun.engine import Engine
-from mindrun.graph import Graph
-from mindrun.npy import to_npy
-from mindrun.policy import Policy
+from mindrun.engine.engine import Engine
+from mindrun.files.archive import write_archive
+from mindrun.files.npy import to_npy
+from mindrun.graph.bundle import pack, unpack
+from mindrun.graph.describe import contents, describe
+from mindrun.graph.graph import Graph
+from mindrun.graph.policy import Policy
+from mindrun.graph.recording_header import RecordedWorld, world_row_of
+from mindrun.graph.weights import genes
 from mindrun.robot.guardian import plan
 from mindrun.robot.recording import CHECKSUM_FIELD, About, Recorder
-from mindrun.robot.recording_header import RecordedWorld, world_row_of
 from mindrun.robot.replay import replay
 from mindrun.robot.timing_report import report
 from mindrun.sim.commanded_world import World
@@ -31,17 +32,16 @@ from mindrun.train.manifest import hashes
 from mindrun.train.progress import LINES, read_progress
 from mindrun.train.run_folder import MANIFEST, RESULT, START, create, open_run, read_result
 from mindrun.train.training import Watch, train
-from mindrun.weights import genes
 
 from mindlang.cli.deploy import _listed
 from mindlang.compiler.compile import compile_source
 from mindlang.compiler.source import Source
-from mindlang.deploying.state import parse_state
 from mindlang.lock import LockError, Taught, lock_path, read_lock
 from mindlang.lock.blobs import load_weights, record
 from mindlang.lock.report import rows
 from mindlang.lock.world_facts import Worlds
 from mindlang.pictures.learning_log import load_curves
+from mindlang.robot.remote_state import parse_state
 from tests.engine.bundles import wired
 from tests.engine.resealed import members_of, resealed
 from tests.lock.test_worlds import MIND

@@ -19,8 +19,8 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from mindrun.bundle import Bundle, write_bundle
-from mindrun.policy import Policy
+from mindrun.graph.bundle import Bundle, write_bundle
+from mindrun.graph.policy import Policy
 from mindrun.robot.guardian.processes import MAX_REPLACEMENTS
 from mindrun.robot.identity import adopt
 

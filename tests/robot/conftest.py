@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from mindrun.bundle import Bundle, write_bundle
-from mindrun.policy import Policy
+from mindrun.graph.bundle import Bundle, write_bundle
+from mindrun.graph.policy import Policy
 from mindrun.robot.device_locks import DrivenError, hold_devices
 from mindrun.robot.identity import adopt
 

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from threading import Thread
 
+from mindrun.graph.wiring import ActuatorWire, SensorWire, Wiring
 from mindrun.robot.drivers.simulated import (
     ANSWER,
     READ,
@@ -21,7 +22,6 @@ from mindrun.robot.drivers.simulated import (
     SimulatedActuator,
     SimulatedSensor,
 )
-from mindrun.wiring import ActuatorWire, SensorWire, Wiring
 
 PEER = struct.Struct("3i")
 

@@ -8,10 +8,10 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from mindrun.bundle import Bundle, write_bundle
-from mindrun.policy import Policy
+from mindrun.graph.bundle import Bundle, write_bundle
+from mindrun.graph.policy import Policy
+from mindrun.graph.wiring import ActuatorWire, SensorWire, Wiring
 from mindrun.robot.drivers.mock import MockActuator, MockSensor
-from mindrun.wiring import ActuatorWire, SensorWire, Wiring
 
 from tests.robot.faults import MIND, SENSORS
 from tests.sim.minds import compile_text

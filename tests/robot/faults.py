@@ -7,14 +7,14 @@ from typing import Any
 
 import numpy as np
 from mindrun.driver import DeviceError
-from mindrun.engine import Engine
-from mindrun.graph import Graph
-from mindrun.policy import Policy
+from mindrun.engine.engine import Engine
+from mindrun.graph.graph import Graph
+from mindrun.graph.policy import Policy
+from mindrun.graph.wiring import SensorWire
 from mindrun.robot.loop import Loop
 from mindrun.robot.rate import Rate
 from mindrun.robot.reading_filter import ReadingFilter
 from mindrun.robot.sampling import Sampler
-from mindrun.wiring import SensorWire
 from numpy.typing import NDArray
 
 from tests.sim.minds import compile_text

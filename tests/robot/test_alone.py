@@ -9,6 +9,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from mindrun.graph.wiring import ActuatorWire, SensorWire, Wiring, still
 from mindrun.robot.device_locks import DrivenError, claims, hold_devices
 from mindrun.robot.drivers.ball_tracker import BallTracker
 from mindrun.robot.drivers.grove_motor import GroveMotor
@@ -16,7 +17,6 @@ from mindrun.robot.drivers.mock import MockActuator
 from mindrun.robot.drivers.pca9685 import Pca9685
 from mindrun.robot.drivers.simulated import SimulatedActuator
 from mindrun.robot.recording import read
-from mindrun.wiring import ActuatorWire, SensorWire, Wiring, still
 
 from tests.robot.driving import MINDRUN, NAME, begun, children, mindrun, recorded, until, write_procedure
 

@@ -1,12 +1,12 @@
 """The lines that `mindrun calibrate` prints can stand in robot.yaml."""
 
 import pytest
+from mindrun.cli.tools.calibrate import lines, reading_statistics
+from mindrun.graph.wiring import SensorWire
+from mindrun.kinds.sensors import Inertial
+from mindrun.kinds.sensors.compass import Compass
+from mindrun.kinds.sensors.distance import Distance
 from mindrun.robot.sampling import Sample
-from mindrun.sensors import Inertial
-from mindrun.sensors.compass import Compass
-from mindrun.sensors.distance import Distance
-from mindrun.tools.calibrate import lines, reading_statistics
-from mindrun.wiring import SensorWire
 
 from tests.robot.faults import Scripted
 

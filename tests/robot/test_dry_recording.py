@@ -11,9 +11,9 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from mindrun.bundle import Bundle, write_bundle
-from mindrun.engine import Engine
-from mindrun.policy import Policy
+from mindrun.engine.engine import Engine
+from mindrun.graph.bundle import Bundle, write_bundle
+from mindrun.graph.policy import Policy
 from mindrun.robot.command import _goes_on
 from mindrun.robot.dry_run import DryRun
 from mindrun.robot.recording import read
@@ -22,7 +22,7 @@ from mindrun.robot.seen_world import SeenWorld
 from mindrun.robot.simulated_world.scene import SimulatedScene
 from mindrun.robot.simulated_world.server import Server, listening
 from mindrun.sim.commanded_world import World
-from mindrun.status_line import StatusLine
+from mindrun.terminal.status_line import StatusLine
 
 from mindlang.compiler.compile import load
 from mindlang.view.viewed_recording import viewed_recording

@@ -5,7 +5,7 @@ from math import inf, isnan, nan
 
 import numpy as np
 import pytest
-from mindrun.wiring import SensorWire, reading
+from mindrun.graph.wiring import SensorWire, reading
 
 from tests.robot.faults import FAULTS, SENSORS, TICK, Robot, Scripted, good, robot
 

@@ -13,11 +13,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from mindrun.errors import ProcedureError
-from mindrun.procedure_call import call
+from mindrun.graph.wiring import SensorWire
+from mindrun.kinds.procedure_call import call
 from mindrun.robot.drivers.mock import MockSensor
 from mindrun.robot.drivers.own import CheckedActuatorDevice
 from mindrun.robot.sampling import Sample, checked
-from mindrun.wiring import SensorWire
 
 
 class Floats:

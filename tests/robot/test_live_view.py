@@ -12,9 +12,9 @@ from pathlib import Path
 from threading import Timer
 
 import pytest
-from mindrun.bundle import Bundle, digest, read_bundle, write_bundle
-from mindrun.policy import Policy
-from mindrun.printable import visible
+from mindrun.files.printable import visible
+from mindrun.graph.bundle import Bundle, digest, read_bundle, write_bundle
+from mindrun.graph.policy import Policy
 from mindrun.robot import live_view as live
 from mindrun.robot.drive import DriveOptions, drive
 from mindrun.robot.loop import Loop

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from mindrun.bundle import read_bundle
+from mindrun.graph.bundle import read_bundle
+from mindrun.graph.recording_header import CHECKSUM_FIELD, MAX_HEADER_BYTES, RecordedWorld, about_of_line, line_of
 from mindrun.robot.recording import About, Recorder, RecordingError, read, recording_bytes
-from mindrun.robot.recording_header import CHECKSUM_FIELD, MAX_HEADER_BYTES, RecordedWorld, about_of_line, line_of
 from mindrun.robot.replay import replay_recording
 
 from mindlang.view.viewed_recording import viewed_recording

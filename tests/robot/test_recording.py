@@ -9,18 +9,18 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from mindrun.engine import Engine
-from mindrun.policy import Policy
+from mindrun.engine.engine import Engine
+from mindrun.graph.policy import Policy
+from mindrun.graph.recording_header import by_guardian
+from mindrun.graph.wiring import SensorWire
 from mindrun.robot.command import _summary
 from mindrun.robot.loop import Loop
 from mindrun.robot.rate import Rate
 from mindrun.robot.reading_filter import ReadingFilter
 from mindrun.robot.recording import About, Recorder, RecordingError, read
-from mindrun.robot.recording_header import by_guardian
 from mindrun.robot.replay import replay
 from mindrun.robot.sampling import Sampler
 from mindrun.robot.timing_report import report
-from mindrun.wiring import SensorWire
 
 from tests.minds import always, mind, rule
 from tests.robot.faults import TICK, Clock, Scripted, Sent, bus_error, good, graph, robot

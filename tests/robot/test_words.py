@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from mindrun.line_writer import LineWriter
 from mindrun.robot.recording import read
+from mindrun.terminal.line_writer import LineWriter
 
 from tests.robot.driving import MINDRUN, begun, children, mindrun, until, write_procedure
 
@@ -136,7 +136,7 @@ def test_no_terminal_obeys_a_name(bundle: Path, tmp_path: Path) -> None:
 def test_a_bundle_whose_names_cannot_be_printed_is_none(bundle: Path) -> None:
     from dataclasses import replace
 
-    from mindrun.validate import graph_flaw
+    from mindrun.graph.validate import graph_flaw
 
     from tests.robot.faults import graph
 

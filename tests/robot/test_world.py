@@ -19,13 +19,14 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from mindrun.bundle import Bundle, write_bundle
 from mindrun.driver import DeviceError
-from mindrun.engine import Engine
+from mindrun.engine.engine import Engine
 from mindrun.errors import MindError
-from mindrun.graph import Graph
-from mindrun.policy import Policy
-from mindrun.registry import kinds
+from mindrun.graph.bundle import Bundle, write_bundle
+from mindrun.graph.graph import Graph
+from mindrun.graph.policy import Policy
+from mindrun.graph.wiring import flaws
+from mindrun.kinds.registry import kinds
 from mindrun.robot.drivers.simulated import SimulatedActuator, SimulatedSensor, WorldConnection, dry, status
 from mindrun.robot.simulated_world.process import simulated
 from mindrun.robot.simulated_world.protocol import READ, REQUEST, STATUS, WRITE, requests
@@ -34,7 +35,6 @@ from mindrun.robot.simulated_world.server import Server, listening
 from mindrun.sim.commanded_world import World
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
-from mindrun.wiring import flaws
 
 from mindlang.compiler.compile import load
 from mindlang.run.setup import set_up

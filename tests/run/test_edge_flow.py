@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from mindrun.engine import Engine, procedure_sources
-from mindrun.policy import Policy
+from mindrun.engine.engine import Engine, procedure_sources
+from mindrun.graph.policy import Policy
 
+from mindlang.attribution.shares import ReplacedInfluenceError, shares
 from mindlang.run.edge_flow import EdgeFlows, Sink, accumulated, edge_flows
 from mindlang.run.sent_values import BLOCK_ROWS
-from mindlang.run.shares import ReplacedInfluenceError, shares
 from tests.hierarchies import PROCEDURES, Case, random_case
 from tests.minds import always, mind, rule
 from tests.run.test_shares import Thought, flows_of, thought

@@ -9,15 +9,15 @@ from tempfile import TemporaryDirectory
 import numpy as np
 from hypothesis import HealthCheck, event, given, settings
 from hypothesis import strategies as st
-from mindrun.bundle import Bundle, pack
-from mindrun.engine import Engine, procedure_sources
-from mindrun.functions import Rule
-from mindrun.graph import Edge, Graph, Skill
-from mindrun.measured import measured_in_world, rows_of, used_sensors
-from mindrun.policy import Policy
+from mindrun.engine.engine import Engine, procedure_sources
+from mindrun.graph.bundle import Bundle, pack
+from mindrun.graph.graph import Edge, Graph, Skill
+from mindrun.graph.measured import measured_in_world, rows_of, used_sensors
+from mindrun.graph.policy import Policy
+from mindrun.graph.skill_sets import reachable
+from mindrun.kinds.functions import Rule
+from mindrun.kinds.sensors import Physical
 from mindrun.robot.recording import read
-from mindrun.sensors import Physical
-from mindrun.skill_sets import reachable
 
 from mindlang.lock.ready import ReadyMind
 from mindlang.run.recorded_run import RecordedRun, record_run

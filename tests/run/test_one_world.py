@@ -3,10 +3,10 @@
 from dataclasses import replace
 
 import pytest
-from mindrun.graph import Graph
-from mindrun.one_world import is_one_world
-from mindrun.policy import Policy
-from mindrun.scenes.gymnasium import Gymnasium
+from mindrun.graph.graph import Graph
+from mindrun.graph.one_world import is_one_world
+from mindrun.graph.policy import Policy
+from mindrun.kinds.scenes.gymnasium import Gymnasium
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 

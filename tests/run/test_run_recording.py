@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from mindrun.bundle import Bundle, digest
-from mindrun.engine import Engine
-from mindrun.graph import Graph
-from mindrun.policy import Policy
+from mindrun.engine.engine import Engine
+from mindrun.graph.bundle import Bundle, digest
+from mindrun.graph.graph import Graph
+from mindrun.graph.policy import Policy
+from mindrun.graph.recording_header import GOES_ON
 from mindrun.robot.recording import read
-from mindrun.robot.recording_header import GOES_ON
 from mindrun.robot.replay import replay, replay_recording
 
 from mindlang.compiler.compile import load

@@ -9,14 +9,14 @@ import numpy as np
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
-from mindrun.engine import Engine, procedure_sources
-from mindrun.graph import Graph
-from mindrun.policy import Policy
-from mindrun.think import Hierarchy, hierarchy, values
+from mindrun.engine.engine import Engine, procedure_sources
+from mindrun.engine.think import Hierarchy, hierarchy, values
+from mindrun.graph.graph import Graph
+from mindrun.graph.policy import Policy
 from numpy.typing import NDArray
 
+from mindlang.attribution.shares import Shares, shares
 from mindlang.run.edge_flow import EdgeFlows, Sink, edge_flows, sink_named
-from mindlang.run.shares import Shares, shares
 from tests.hierarchies import PROCEDURES, Case, doubling, random_case
 from tests.minds import always, mind, rule
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from mindrun.weights import genes
+from mindrun.graph.weights import genes
 
 from mindlang.compiler.compile import load
 from mindlang.lock import Taught, lock_path

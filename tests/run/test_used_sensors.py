@@ -1,9 +1,9 @@
 """Which sensors somebody measures: those that are read or paid for, and what they are computed of, sources first."""
 
 import pytest
-from mindrun.graph import Sensor
-from mindrun.measured import measured_in_world, measured_on_robot, rows_of, used_sensors, with_sources
-from mindrun.skill_sets import reachable
+from mindrun.graph.graph import Sensor
+from mindrun.graph.measured import measured_in_world, measured_on_robot, rows_of, used_sensors, with_sources
+from mindrun.graph.skill_sets import reachable
 
 from tests.sim.minds import compile_text
 

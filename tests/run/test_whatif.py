@@ -8,7 +8,7 @@ from typing import Any
 import cv2
 import numpy as np
 import pytest
-from mindrun.changes import ChangeError, change_of, silenced
+from mindrun.engine.changes import ChangeError, change_of, silenced
 from mindrun.robot.recording import read
 
 from mindlang.compiler.compile import load

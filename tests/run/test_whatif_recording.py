@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-from mindrun.bundle import digest, read_bundle
-from mindrun.changes import ChangeError
-from mindrun.engine import Engine
-from mindrun.graph import Graph
+from mindrun.engine.changes import ChangeError
+from mindrun.engine.engine import Engine
+from mindrun.graph.bundle import digest, read_bundle
+from mindrun.graph.graph import Graph
 from mindrun.robot.recording import About, Recorder
 from numpy.typing import NDArray
 

@@ -5,13 +5,13 @@ from functools import cache
 from types import FunctionType
 from typing import Any
 
-from mindrun.arithmetic import terms
+from mindrun.numbers.arithmetic import terms
 
 
 @cache
 def plain_lane(function: Any) -> Callable[..., Any]:
     """A function of a kind's file that can be called as it stands."""
-    if not isinstance(function, FunctionType) or function.__module__ == "mindrun.arithmetic":
+    if not isinstance(function, FunctionType) or function.__module__ == "mindrun.numbers.arithmetic":
         return function  # type: ignore[no-any-return]
     found: dict[str, Any] = {"__builtins__": __builtins__}
     made = FunctionType(function.__code__, found, function.__name__)

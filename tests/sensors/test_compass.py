@@ -6,13 +6,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from mindrun.policy import Policy
+from mindrun.graph.policy import Policy
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 
 from mindlang.compiler.compile import Compiled, compile_source
 from mindlang.compiler.source import Source
-from mindlang.linting.lint import lint
+from mindlang.lint.lint import lint
 
 MIND = """
 tick 1/60 s

@@ -5,14 +5,14 @@ from typing import Any
 
 import numpy as np
 import pytest
-from mindrun.graph import Graph, Reward, Sensor, Task, Thing
-from mindrun.policy import Policy
-from mindrun.quantity import Span
-from mindrun.scenes import Arena
-from mindrun.sensors import Battery, Bearing, Sine
+from mindrun.graph.graph import Graph, Reward, Sensor, Task, Thing
+from mindrun.graph.policy import Policy
+from mindrun.kinds.scenes import Arena
+from mindrun.kinds.sensors import Battery, Bearing, Sine
+from mindrun.kinds.things import Item, Power
+from mindrun.numbers.quantity import Span
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
-from mindrun.things import Item, Power
 
 from tests.minds import always, mind, rule
 

@@ -6,16 +6,16 @@ from types import SimpleNamespace
 import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
-from mindrun.arithmetic import DISTANCE, HALF_X, THING_ROWS, nearest
-from mindrun.graph import Reward, Task, Thing
-from mindrun.policy import Policy
-from mindrun.quantity import Span
-from mindrun.scenes import Arena
-from mindrun.sensors import Bearing, Contact, Held, Inside
+from mindrun.graph.graph import Reward, Task, Thing
+from mindrun.graph.policy import Policy
+from mindrun.kinds.scenes import Arena
+from mindrun.kinds.sensors import Bearing, Contact, Held, Inside
+from mindrun.kinds.things import Item, Map, Obstacle, ThingKind, Wall, Zone
+from mindrun.numbers.arithmetic import DISTANCE, HALF_X, THING_ROWS, nearest
+from mindrun.numbers.quantity import Span
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.task_rows import boxes_by_name, rows_by_name, things_of
 from mindrun.sim.trace import trace
-from mindrun.things import Item, Map, Obstacle, ThingKind, Wall, Zone
 
 from tests.minds import always, mind, rule
 from tests.sensors.plain_lanes import plain_lane

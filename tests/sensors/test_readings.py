@@ -9,24 +9,24 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from mindrun.arithmetic import DISTANCE, LOOSE_ROWS, THING_ROWS
-from mindrun.graph import Graph, Reward, Sensor
-from mindrun.policy import Policy
-from mindrun.registry import kinds
-from mindrun.sensors import Bearing, Physical, SensorKind
-from mindrun.sensors.bumper import Bumper
-from mindrun.sensors.clock import Clock
-from mindrun.sensors.distance import Distance
-from mindrun.sensors.eye import Eye
-from mindrun.sensors.floor import Floor
-from mindrun.sensors.light import Light
-from mindrun.sensors.odometer import Odometer
-from mindrun.sensors.position import Position
-from mindrun.sensors.speed import Speed
-from mindrun.sensors.turn_rate import TurnRate
+from mindrun.graph.graph import Graph, Reward, Sensor
+from mindrun.graph.policy import Policy
+from mindrun.kinds.registry import kinds
+from mindrun.kinds.sensors import Bearing, Physical, SensorKind
+from mindrun.kinds.sensors.bumper import Bumper
+from mindrun.kinds.sensors.clock import Clock
+from mindrun.kinds.sensors.distance import Distance
+from mindrun.kinds.sensors.eye import Eye
+from mindrun.kinds.sensors.floor import Floor
+from mindrun.kinds.sensors.light import Light
+from mindrun.kinds.sensors.odometer import Odometer
+from mindrun.kinds.sensors.position import Position
+from mindrun.kinds.sensors.speed import Speed
+from mindrun.kinds.sensors.turn_rate import TurnRate
+from mindrun.numbers.arithmetic import DISTANCE, LOOSE_ROWS, THING_ROWS
+from mindrun.numbers.trigonometry import cosine, sine
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.state import FIRST_RAY, FRAME_ROWS
-from mindrun.trigonometry import cosine, sine
 
 from tests.draws import cases
 from tests.hierarchies import WORLDLY

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from mindlang.editing.edits import names
 from mindlang.editing.project import EditError
-from mindlang.edits import names
 from mindlang.lock import read_lock
 from mindlang.lock.status import Trained
 from mindlang.server.changing import perform, project

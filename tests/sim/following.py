@@ -4,10 +4,10 @@ from collections import Counter
 from collections.abc import Mapping
 
 import numpy as np
-from mindrun.engine import Engine
-from mindrun.graph import Graph
-from mindrun.quantity import Span
-from mindrun.sensors import Physical
+from mindrun.engine.engine import Engine
+from mindrun.graph.graph import Graph
+from mindrun.kinds.sensors import Physical
+from mindrun.numbers.quantity import Span
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import Moment, trace
 

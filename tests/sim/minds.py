@@ -1,6 +1,6 @@
 """Small minds for the simulator's tests, compiled from source text."""
 
-from mindrun.graph import Graph
+from mindrun.graph.graph import Graph
 
 from mindlang.compiler.compile import compile_source
 from mindlang.compiler.source import Source

@@ -4,10 +4,10 @@ from collections.abc import Iterator, Sequence
 from math import sqrt
 
 import numpy as np
-from mindrun.graph import Graph, Task
+from mindrun.graph.graph import Graph, Task
+from mindrun.kinds.things import Item, Obstacle, Power, Zone
+from mindrun.numbers.trigonometry import cosine, sine
 from mindrun.sim.trace import Moment, Trace
-from mindrun.things import Item, Obstacle, Power, Zone
-from mindrun.trigonometry import cosine, sine
 from numpy.typing import NDArray
 
 REACH = 1.5  # of the claw

@@ -2,7 +2,7 @@
 
 import math
 
-from mindrun.bodies import Box, Car, Disc, Holonomic
+from mindrun.kinds.bodies import Box, Car, Disc, Holonomic
 
 
 def sides_of(body):

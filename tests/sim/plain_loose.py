@@ -3,7 +3,7 @@
 import math
 
 import pymunk
-from mindrun import things
+from mindrun.kinds import things
 
 from tests.sim.plain_strides import Mover
 

@@ -3,15 +3,15 @@
 import math
 
 import numpy as np
-from mindrun.sensors.bumper import Bumper
-from mindrun.sensors.distance import Distance
-from mindrun.sensors.eye import Eye
-from mindrun.sensors.floor import Floor
-from mindrun.sensors.light import Light
-from mindrun.sensors.odometer import Odometer
-from mindrun.sensors.position import Position
-from mindrun.sensors.speed import Speed
-from mindrun.sensors.turn_rate import TurnRate
+from mindrun.kinds.sensors.bumper import Bumper
+from mindrun.kinds.sensors.distance import Distance
+from mindrun.kinds.sensors.eye import Eye
+from mindrun.kinds.sensors.floor import Floor
+from mindrun.kinds.sensors.light import Light
+from mindrun.kinds.sensors.odometer import Odometer
+from mindrun.kinds.sensors.position import Position
+from mindrun.kinds.sensors.speed import Speed
+from mindrun.kinds.sensors.turn_rate import TurnRate
 
 from tests.sim.plain_bodies import rim_of, side_of
 

@@ -2,8 +2,8 @@
 
 import math
 
-from mindrun import things
-from mindrun.trigonometry import cosine, sine
+from mindrun.kinds import things
+from mindrun.numbers.trigonometry import cosine, sine
 
 
 class PlainWalkers:

@@ -5,10 +5,10 @@ from collections import deque
 
 import numpy as np
 import pymunk
-from mindrun import actuators, events, measures, scenes, sensors, things
-from mindrun.bodies import Car, Disc, Holonomic
-from mindrun.sensors.compass import Compass
-from mindrun.trigonometry import cosine, sine
+from mindrun.kinds import actuators, events, measures, scenes, sensors, things
+from mindrun.kinds.bodies import Car, Disc, Holonomic
+from mindrun.kinds.sensors.compass import Compass
+from mindrun.numbers.trigonometry import cosine, sine
 
 from tests.plain import f, postfix
 from tests.sim.plain import CATCH

@@ -5,13 +5,13 @@ from dataclasses import replace
 from math import pi
 from random import Random
 
-from mindrun.actuators import Motor, Steering, Thruster, Wheel
-from mindrun.bodies import Box, Car, Disc, Holonomic
-from mindrun.bodies.body import BodyKind
-from mindrun.graph import Actuator, Graph, Thing
-from mindrun.quantity import Span
-from mindrun.scenes import Arena
-from mindrun.things import Ball, Item, LooseBox, Map, Walker, Wall
+from mindrun.graph.graph import Actuator, Graph, Thing
+from mindrun.kinds.actuators import Motor, Steering, Thruster, Wheel
+from mindrun.kinds.bodies import Box, Car, Disc, Holonomic
+from mindrun.kinds.bodies.body import BodyKind
+from mindrun.kinds.scenes import Arena
+from mindrun.kinds.things import Ball, Item, LooseBox, Map, Walker, Wall
+from mindrun.numbers.quantity import Span
 
 from tests.sim.minds import compile_text
 

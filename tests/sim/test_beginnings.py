@@ -8,15 +8,15 @@ from unittest.mock import patch
 
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
-from mindrun.policy import Policy
+from mindrun.graph.policy import Policy
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 
 from mindlang.compiler.compile import compile_source
 from mindlang.compiler.model import Mind, Task
 from mindlang.compiler.source import Source
-from mindlang.linting.lint import lint
-from mindlang.rules import crowded_world
+from mindlang.lint.lint import lint
+from mindlang.lint.rules import crowded_world
 from tests.draws import cases
 
 ROBOT = """

@@ -5,12 +5,12 @@ from math import atan, atan2, cos, hypot, pi, sin, tan
 
 import numpy as np
 import pytest
-from mindrun.engine import Engine
-from mindrun.graph import Graph
-from mindrun.policy import Policy
+from mindrun.engine.engine import Engine
+from mindrun.graph.graph import Graph
+from mindrun.graph.policy import Policy
+from mindrun.numbers.trigonometry import cosine, sine
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import Moment, trace
-from mindrun.trigonometry import cosine, sine
 
 from tests.sim.following import follow
 from tests.sim.minds import compile_text

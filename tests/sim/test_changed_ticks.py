@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, event, given, settings
 from hypothesis import strategies as st
-from mindrun.changed_engine import ChangedEngine
-from mindrun.changes import Change, ChangeError, change_of, in_tick, silenced
-from mindrun.graph import Graph
-from mindrun.policy import Policy
+from mindrun.engine.changed_engine import ChangedEngine
+from mindrun.engine.changes import Change, ChangeError, change_of, in_tick, silenced
+from mindrun.graph.graph import Graph
+from mindrun.graph.policy import Policy
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import Moment, trace
 

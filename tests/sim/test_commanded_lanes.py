@@ -5,14 +5,14 @@ from collections.abc import Callable
 import numpy as np
 from hypothesis import event, given, settings
 from hypothesis import strategies as st
-from mindrun.functions.function import Stateful
-from mindrun.graph import Graph, Skill
-from mindrun.policy import Policy
-from mindrun.run_scores import Scores
+from mindrun.graph.graph import Graph, Skill
+from mindrun.graph.policy import Policy
+from mindrun.graph.run_scores import Scores
+from mindrun.graph.weights import reachable, weights_of
+from mindrun.kinds.functions.function import Stateful
 from mindrun.sim.codes import FAR
 from mindrun.sim.commanded_lanes import CommandedLanes, commanded_lanes
 from mindrun.sim.rollout import Rollout
-from mindrun.weights import reachable, weights_of
 
 from mindlang.compiler.compile import load
 from tests.draws import cases

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
-from mindrun.policy import Policy
+from mindrun.graph.policy import Policy
 from mindrun.sim.lanes.advance import advance
 from mindrun.sim.lanes.runs import fill
 from mindrun.sim.numba_internals import COLLECTION_OBJECTS, rare_collections

@@ -6,14 +6,14 @@ from random import Random
 
 import numpy as np
 import pytest
-from mindrun.policy import Policy
+from mindrun.graph.policy import Policy
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import Trace, trace
 
-from mindlang.analysis.drawn_world import DrawnWorld
 from mindlang.compiler.compile import compile_source
 from mindlang.compiler.model import Task
 from mindlang.compiler.source import Source
+from mindlang.lint.drawn_world import DrawnWorld
 
 ROBOT = """
 tick 1/20 s

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from mindrun.graph import End
-from mindrun.policy import Policy
+from mindrun.graph.graph import End
+from mindrun.graph.policy import Policy
 from mindrun.sim.rollout import Rollout
 
 from mindlang.run.outcome import bench_data, run_data

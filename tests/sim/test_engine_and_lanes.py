@@ -6,16 +6,16 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from mindrun.engine import Engine
-from mindrun.events import Collision
-from mindrun.graph import Graph, Reward, Task, Thing
-from mindrun.policy import Policy
-from mindrun.quantity import Span
-from mindrun.scenes import Arena
+from mindrun.engine.engine import Engine
+from mindrun.graph.graph import Graph, Reward, Task, Thing
+from mindrun.graph.policy import Policy
+from mindrun.graph.weights import genes
+from mindrun.kinds.events import Collision
+from mindrun.kinds.scenes import Arena
+from mindrun.kinds.things import Item, Obstacle
+from mindrun.numbers.quantity import Span
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
-from mindrun.things import Item, Obstacle
-from mindrun.weights import genes
 
 from mindlang.compiler.compile import load
 from tests.draws import cases

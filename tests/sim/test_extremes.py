@@ -12,9 +12,9 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from mindrun import registry
-from mindrun.policy import Policy
-from mindrun.quantity import Quantity
+from mindrun.graph.policy import Policy
+from mindrun.kinds import registry
+from mindrun.numbers.quantity import Quantity
 from mindrun.sim.rollout import Rollout
 
 from tests.draws import cases
@@ -67,7 +67,7 @@ worlds = st.fixed_dictionaries({name: st.sampled_from((PLAIN[name], *BOUNDS[name
 
 CALLED = """
 import sys, json, numpy as np
-from mindrun.policy import Policy
+from mindrun.graph.policy import Policy
 from mindrun.sim.rollout import Rollout
 from tests.sim.minds import compile_text
 for line in sys.stdin:

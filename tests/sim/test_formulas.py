@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from mindrun.procedure_call import load
+from mindrun.kinds.procedure_call import load
 from mindrun.sim.exact import OPERATIONS, exactly
 from mindrun.sim.formula_terms import NoFormulaError
 from mindrun.sim.formulas import formula

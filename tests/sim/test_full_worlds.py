@@ -4,8 +4,8 @@ from collections import Counter
 from collections.abc import Sequence
 
 import pytest
-from mindrun.engine import Engine
-from mindrun.policy import Policy
+from mindrun.engine.engine import Engine
+from mindrun.graph.policy import Policy
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 

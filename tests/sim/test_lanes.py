@@ -7,22 +7,22 @@ from typing import Any
 import numpy as np
 import pymunk
 import pytest
-from mindrun.actuators import Gripper, Wheel
-from mindrun.arithmetic import in_claw
-from mindrun.engine import Engine
-from mindrun.events import Reach, Visit
-from mindrun.functions import Mlp
-from mindrun.graph import Actuator, Edge, End, Reward, Sensor, Task, Thing
-from mindrun.memory import Cell
-from mindrun.policy import Policy
-from mindrun.quantity import Span
-from mindrun.scenes import Arena, Plain
-from mindrun.sensors import Battery, Bearing, Derivative, RangeFinder, Sine
+from mindrun.engine.engine import Engine
+from mindrun.graph.graph import Actuator, Edge, End, Reward, Sensor, Task, Thing
+from mindrun.graph.policy import Policy
+from mindrun.kinds.actuators import Gripper, Wheel
+from mindrun.kinds.events import Reach, Visit
+from mindrun.kinds.functions import Mlp
+from mindrun.kinds.memory import Cell
+from mindrun.kinds.scenes import Arena, Plain
+from mindrun.kinds.sensors import Battery, Bearing, Derivative, RangeFinder, Sine
+from mindrun.kinds.things import Item, LooseBox, Obstacle, Power, Zone
+from mindrun.numbers.arithmetic import in_claw
+from mindrun.numbers.quantity import Span
 from mindrun.sim.lanes.placement import uniform
 from mindrun.sim.lanes.step import CONTACT_TICKS
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
-from mindrun.things import Item, LooseBox, Obstacle, Power, Zone
 
 from tests.hierarchies import doubling
 from tests.minds import CLAW, always, mind, rule, skill

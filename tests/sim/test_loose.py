@@ -1,8 +1,8 @@
 """Boxes and balls that are pushed: bit for bit what plain pymunk makes of them, whatever Chipmunk is not asked."""
 
 import pytest
-from mindrun.engine import Engine
-from mindrun.policy import Policy
+from mindrun.engine.engine import Engine
+from mindrun.graph.policy import Policy
 from mindrun.sim.rollout import Rollout
 
 from tests.sim.following import follow

@@ -7,13 +7,13 @@ from random import Random
 
 import numpy as np
 import pytest
-from mindrun.engine import Engine
-from mindrun.graph import Start, Thing
-from mindrun.policy import Policy
+from mindrun.engine.engine import Engine
+from mindrun.graph.graph import Start, Thing
+from mindrun.graph.policy import Policy
+from mindrun.kinds.things import Map
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.task_rows import things_of
 from mindrun.sim.trace import trace
-from mindrun.things import Map
 from numpy.typing import NDArray
 
 from tests.sim.following import follow

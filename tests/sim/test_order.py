@@ -1,8 +1,8 @@
 """The order of a tick as docs/language.md has it: sense, think, act, step, judge, recall."""
 
 import numpy as np
-from mindrun.graph import Graph
-from mindrun.policy import Policy
+from mindrun.graph.graph import Graph
+from mindrun.graph.policy import Policy
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import Moment, trace
 

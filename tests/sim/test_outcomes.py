@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from mindrun.graph import Graph
-from mindrun.policy import Policy
+from mindrun.graph.graph import Graph
+from mindrun.graph.policy import Policy
+from mindrun.kinds.things import OUTCOMES
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import Moment, trace
-from mindrun.things import OUTCOMES
 
 from tests.draws import cases
 from tests.sim.minds import compile_text

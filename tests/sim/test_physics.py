@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from mindrun.policy import Policy
+from mindrun.graph.policy import Policy
+from mindrun.numbers.trigonometry import cosine, sine
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
-from mindrun.trigonometry import cosine, sine
 
 from tests.sim.minds import drifter
 from tests.sim.plain import PlainRobot

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from mindrun.errors import ProcedureError
-from mindrun.policy import Policy
+from mindrun.graph.policy import Policy
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, event, given, settings
 from hypothesis import strategies as st
-from mindrun.engine import Engine
-from mindrun.graph import Graph
-from mindrun.policy import Policy
+from mindrun.engine.engine import Engine
+from mindrun.graph.graph import Graph
+from mindrun.graph.policy import Policy
+from mindrun.graph.weights import genes
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
-from mindrun.weights import genes
 
 from tests.draws import cases
 from tests.hierarchies import PROCEDURES, SCALES

@@ -3,9 +3,9 @@
 import numpy as np
 import pymunk
 import pytest
-from mindrun.graph import Graph
-from mindrun.policy import Policy
-from mindrun.sensors import RangeFinder
+from mindrun.graph.graph import Graph
+from mindrun.graph.policy import Policy
+from mindrun.kinds.sensors import RangeFinder
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 

@@ -4,11 +4,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from mindrun.graph import Graph
-from mindrun.policy import Policy
-from mindrun.run_scores import Scores
+from mindrun.graph.graph import Graph
+from mindrun.graph.policy import Policy
+from mindrun.graph.run_scores import Scores
+from mindrun.graph.weights import genes
 from mindrun.sim.rollout import Rollout
-from mindrun.weights import genes
 
 from mindlang.compiler.compile import load
 

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from mindrun.graph import Graph
-from mindrun.policy import Policy
+from mindrun.graph.graph import Graph
+from mindrun.graph.policy import Policy
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 from numpy.typing import NDArray
@@ -130,8 +130,8 @@ def hold_in_any_lane(of: Graph) -> None:
 
 
 def test_the_arguments_of_a_kind_come_before_those_of_all() -> None:
-    from mindrun.registry import arguments
-    from mindrun.sensors import RangeFinder
+    from mindrun.kinds.registry import arguments
+    from mindrun.kinds.sensors import RangeFinder
 
     keys = [argument.key for argument in arguments(RangeFinder)]
     assert keys == ["at", "range", "dead_zone", "noise", "lost", "every", "delay"]

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
-from mindrun.changes import ChangeError
-from mindrun.graph import Graph
-from mindrun.policy import Policy
+from mindrun.engine.changes import ChangeError
+from mindrun.graph.graph import Graph
+from mindrun.graph.policy import Policy
 from mindrun.sim.rollout import Rollout, scores_of
 from mindrun.sim.takeover import take_over
 from mindrun.sim.trace import trace

@@ -4,8 +4,8 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from mindrun.policy import Policy
-from mindrun.run_scores import Scores
+from mindrun.graph.policy import Policy
+from mindrun.graph.run_scores import Scores
 from mindrun.sim.lanes import stages
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import Moment, trace

@@ -5,12 +5,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from mindrun.policy import Policy
+from mindrun.graph.policy import Policy
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.strides import MOST_STRIDES, STRIDE_SHARE
 from mindrun.sim.trace import trace
 
-from mindlang.rules.coarse_tick import step_of
+from mindlang.lint.rules.coarse_tick import step_of
 from tests.calling import Call
 from tests.sim.minds import compile_text
 

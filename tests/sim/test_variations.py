@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from mindrun.engine import Engine
-from mindrun.graph import Failure, Graph, Variation
-from mindrun.policy import Policy
+from mindrun.engine.engine import Engine
+from mindrun.graph.graph import Failure, Graph, Variation
+from mindrun.graph.policy import Policy
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 

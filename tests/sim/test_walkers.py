@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from mindrun.engine import Engine
-from mindrun.policy import Policy
+from mindrun.engine.engine import Engine
+from mindrun.graph.policy import Policy
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 

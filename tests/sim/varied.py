@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
-from mindrun.graph import Graph, Task, Variation
+from mindrun.graph.graph import Graph, Task, Variation
 
 
 def as_drawn(graph: Graph, task: Task, drawn: Sequence[float]) -> tuple[Graph, Task]:

@@ -4,17 +4,17 @@ from dataclasses import fields, replace
 from math import pi
 
 from hypothesis import strategies as st
-from mindrun.actuators import Gripper, Lamp, Motor, Servo, Steering, Thruster, Wheel
-from mindrun.bodies import Box, Car, Disc, Holonomic
-from mindrun.events import Collision, Delivery, EventKind, Exhaustion, Reach, Success, Visit
-from mindrun.graph import Actuator, End, Failure, Graph, Lesson, Program, Reward, Start, Task, Thing, Variation
-from mindrun.learners import Learner
-from mindrun.measures import Advance, Change, Forward, MeasureKind, Progress, Retreat
-from mindrun.quantity import UNSAID, Span
-from mindrun.registry import arguments, kinds
-from mindrun.scenes import Arena, Plain, SceneKind
-from mindrun.things import Ball, Item, LooseBox, Map, Obstacle, Power, Walker, Wall, Zone
-from mindrun.weights import genes
+from mindrun.graph.graph import Actuator, End, Failure, Graph, Lesson, Program, Reward, Start, Task, Thing, Variation
+from mindrun.graph.weights import genes
+from mindrun.kinds.actuators import Gripper, Lamp, Motor, Servo, Steering, Thruster, Wheel
+from mindrun.kinds.bodies import Box, Car, Disc, Holonomic
+from mindrun.kinds.events import Collision, Delivery, EventKind, Exhaustion, Reach, Success, Visit
+from mindrun.kinds.learners import Learner
+from mindrun.kinds.measures import Advance, Change, Forward, MeasureKind, Progress, Retreat
+from mindrun.kinds.registry import arguments, kinds
+from mindrun.kinds.scenes import Arena, Plain, SceneKind
+from mindrun.kinds.things import Ball, Item, LooseBox, Map, Obstacle, Power, Walker, Wall, Zone
+from mindrun.numbers.quantity import UNSAID, Span
 
 from tests.hierarchies import combined, conditions, random_graph
 

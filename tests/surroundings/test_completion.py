@@ -8,10 +8,10 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from mindrun.bundle import write_bundle
-from mindrun.driving_arguments import driving_parser
-from mindrun.shell_completion import SHELLS, reply, words_of
-from mindrun.tools import tool_parser, tools
+from mindrun.cli.driving_arguments import driving_parser
+from mindrun.cli.shell_completion import SHELLS, reply, words_of
+from mindrun.cli.tools import tool_parser, tools
+from mindrun.graph.bundle import write_bundle
 
 from mindlang.executors import kinds
 from tests.calling import Call
@@ -175,7 +175,7 @@ def test_a_real_shell_runs_what_it_has_completed(shell: Shell) -> None:
 
 
 def test_every_tool_and_option_of_mindrun_is_offered() -> None:
-    from mindrun.completing import answers
+    from mindrun.cli.completing import answers
 
     assert {each.text for each in answers([], "")} >= {*tools()}
     for name in tools():

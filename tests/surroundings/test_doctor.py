@@ -6,8 +6,8 @@ from pathlib import Path
 from pkgutil import iter_modules
 
 import pytest
+from mindrun.cli.tools import doctor, run_tool
 from mindrun.sim import cache, warmup
-from mindrun.tools import doctor, run_tool
 
 from mindlang.diagnosis import checks, requirements
 from mindlang.diagnosis.checks import browser, machine, packages, programs, python

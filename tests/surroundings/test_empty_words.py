@@ -6,9 +6,9 @@ from collections.abc import Iterator
 import click
 import pytest
 from mindrun.__main__ import main
-from mindrun.arguments import emptiness
-from mindrun.driving_arguments import driving_parser
-from mindrun.tools import tool_parser, tools
+from mindrun.cli.driving_arguments import driving_parser
+from mindrun.cli.tools import tool_parser, tools
+from mindrun.terminal.arguments import emptiness
 
 from mindlang.cli import commands
 from tests.calling import Call

@@ -7,9 +7,9 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from mindrun import standard_streams
 from mindrun.robot.identity import IdentityError, adopt, identity_file
 from mindrun.sim import cache
+from mindrun.terminal import standard_streams
 
 from tests.calling import Call
 
@@ -142,7 +142,7 @@ def test_a_missing_part_of_ours_is_a_fault_of_ours() -> None:
 
 TALKS = """
 import os, sys
-from mindrun.standard_streams import prepare, talk
+from mindrun.terminal.standard_streams import prepare, talk
 prepare()
 ours = sys.stdout
 print("before")

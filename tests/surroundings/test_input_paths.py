@@ -9,13 +9,13 @@ from threading import Thread
 
 import pytest
 from mindrun.errors import MindError, ProcedureError
-from mindrun.functions.procedure import module_source
-from mindrun.regular_files import read_regular
+from mindrun.files.regular_files import read_regular
+from mindrun.kinds.functions.procedure import module_source
 from mindrun.robot.guardian.plan import read_plan
 from mindrun.robot.recording import read as read_recording
 
-from mindlang.transaction import JOURNAL_NAME
-from mindlang.wiring.wire import load_wiring
+from mindlang.editing.transaction import JOURNAL_NAME
+from mindlang.robot.wire import load_wiring
 from tests.calling import Call
 from tests.surroundings.kinds import IRREGULAR
 

@@ -10,10 +10,10 @@ from pathlib import Path
 import click
 import pytest
 from mindrun import __main__ as mindrun
-from mindrun.arguments import parser
-from mindrun.bundle import Bundle, write_bundle
-from mindrun.policy import Policy
-from mindrun.tools import tools
+from mindrun.cli.tools import tools
+from mindrun.graph.bundle import Bundle, write_bundle
+from mindrun.graph.policy import Policy
+from mindrun.terminal.arguments import parser
 
 from mindlang import resource_limits
 from mindlang.cli import commands
@@ -140,7 +140,7 @@ def test_the_message_says_the_bounds(mindc: Call, words: str, bounds: str) -> No
 def _tools() -> Iterator[tuple[str, ArgumentParser]]:
     for name in tools():
         known = parser(name, None)
-        import_module(f"mindrun.tools.{name}").options(known)
+        import_module(f"mindrun.cli.tools.{name}").options(known)
         yield name, known
 
 

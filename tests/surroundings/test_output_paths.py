@@ -8,10 +8,10 @@ from pathlib import Path
 from threading import Thread
 
 import pytest
-from mindrun.atomic_write import destination, rewrite, write, write_out
-from mindrun.bundle import read_bundle
+from mindrun.files.atomic_write import destination, rewrite, write, write_out
+from mindrun.graph.bundle import read_bundle
 
-from mindlang.linting import lint_file as command
+from mindlang.lint import lint_file as command
 from tests.calling import Call
 from tests.surroundings.kinds import DEVICES, FILES, IRREGULAR, KINDS, Make, look
 
@@ -135,7 +135,7 @@ def test_what_an_editor_saves_meanwhile_is_not_lost(tmp_path: Path, meanwhile: b
 
 @pytest.mark.parametrize(
     ("words", "last"),
-    [(["fmt"], "mindlang.compiler.format.formatted"), (["lint", "--fix"], "mindlang.linting.lint_file.fixed")],
+    [(["fmt"], "mindlang.compiler.format.formatted"), (["lint", "--fix"], "mindlang.lint.lint_file.fixed")],
 )
 def test_tools_that_edit_refuse_what_has_changed(
     mindc: Call, rules: Path, monkeypatch: pytest.MonkeyPatch, words: list[str], last: str

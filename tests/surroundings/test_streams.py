@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 from mindrun import __main__ as mindrun_main
-from mindrun.bundle import Bundle, write_bundle
-from mindrun.policy import Policy
+from mindrun.graph.bundle import Bundle, write_bundle
+from mindrun.graph.policy import Policy
 
 from mindlang.cli import main as mindc_main
 from mindlang.compiler.compile import load

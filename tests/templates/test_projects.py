@@ -12,10 +12,10 @@ from hypothesis import strategies as st
 
 from mindlang.api import load, loads
 from mindlang.compiler.source import Source
+from mindlang.robot.wire import check_wiring
 from mindlang.templates.catalogue import can, robots, tasks
 from mindlang.templates.new_folder import NAME, make_folder
 from mindlang.templates.project import project
-from mindlang.wiring.wire import check_wiring
 from tests.calling import Call
 from tests.edits.taught import teach
 

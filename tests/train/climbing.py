@@ -4,10 +4,10 @@ from dataclasses import dataclass
 from time import perf_counter
 
 import numpy as np
-from mindrun.events.collision import Collision
-from mindrun.graph import End, Lesson, Need, Task
-from mindrun.learners import Genetic
-from mindrun.scenes.plain import Plain
+from mindrun.graph.graph import End, Lesson, Need, Task
+from mindrun.kinds.events.collision import Collision
+from mindrun.kinds.learners import Genetic
+from mindrun.kinds.scenes.plain import Plain
 from mindrun.train.manifest import Manifest, hashes
 from mindrun.train.training import Watch
 from numpy.typing import NDArray

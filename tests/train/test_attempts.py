@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from mindrun.graph import Need
+from mindrun.graph.graph import Need
 from mindrun.train.attempts import Attempts, side_by_side
 from mindrun.train.checkpoint import pack
 from mindrun.train.lesson import teach

@@ -5,7 +5,7 @@ from time import perf_counter
 
 import numpy as np
 import pytest
-from mindrun.learners import EvolutionStrategy, Genetic
+from mindrun.kinds.learners import EvolutionStrategy, Genetic
 from mindrun.train.ask_and_tell import ask, kept_count, tell
 from mindrun.train.attempt import REEVALUATION_LAYOUTS, fresh_count
 from mindrun.train.lesson import teach

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from mindrun.learners import Genetic
+from mindrun.kinds.learners import Genetic
 from mindrun.train import genetic
 from mindrun.train.ask_and_tell import ask, tell
 from mindrun.train.population import Genomes, Population, bounded, nobody, order

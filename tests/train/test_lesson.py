@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from mindrun.graph import Need
+from mindrun.graph.graph import Need
 from mindrun.train.attempt import (
     REEVALUATED_CANDIDATES,
     REEVALUATION_GENERATIONS,

@@ -5,7 +5,7 @@ from pathlib import Path
 from shutil import copy
 
 import numpy as np
-from mindrun.weights import learners, parts
+from mindrun.graph.weights import learners, parts
 
 from mindlang.compiler.compile import load
 from mindlang.lock import Entry, Signature, Taught

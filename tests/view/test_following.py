@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from mindrun.bundle import Bundle, digest, write_bundle
-from mindrun.engine import Engine
+from mindrun.engine.engine import Engine
+from mindrun.graph.bundle import Bundle, digest, write_bundle
 from mindrun.robot.growing_recording import MAX_EMPTY_PARTS, read_growing
 from mindrun.robot.recording import MAX_HEADER_BYTES, About, Recorder, RecordingError, read
 

@@ -7,7 +7,7 @@ from time import sleep
 from typing import Any
 
 import pytest
-from mindrun.bundle import Bundle
+from mindrun.graph.bundle import Bundle
 from mindrun.robot.recording import About, Recorder
 
 from mindlang.breakpoints.file import breakpoints_of

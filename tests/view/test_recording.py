@@ -4,9 +4,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from mindrun.bundle import Bundle, digest, write_bundle
-from mindrun.engine import Engine
-from mindrun.policy import Policy
+from mindrun.engine.engine import Engine
+from mindrun.graph.bundle import Bundle, digest, write_bundle
+from mindrun.graph.policy import Policy
 from mindrun.robot.recording import About, Recorder, RecordingError, read
 
 from mindlang.run.sent_values import BLOCK_ROWS

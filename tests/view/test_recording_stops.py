@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from mindrun.bundle import Bundle, digest, read_bundle, write_bundle
-from mindrun.engine import Engine
-from mindrun.policy import Policy
+from mindrun.engine.engine import Engine
+from mindrun.graph.bundle import Bundle, digest, read_bundle, write_bundle
+from mindrun.graph.policy import Policy
 from mindrun.robot.recording import About, Recorder, read
 
 from mindlang.breakpoints.breakpoint import Breakpoint

@@ -11,14 +11,14 @@ from typing import Any
 
 import numpy as np
 import pytest
-from mindrun.policy import Policy
+from mindrun.graph.policy import Policy
+from mindrun.graph.weights import parts
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 from mindrun.train import checkpoint
 from mindrun.train.champion_log import CHAMPION_ROWS, read_champions
 from mindrun.train.progress import LINES, read_progress
 from mindrun.train.run_folder import open_run
-from mindrun.weights import parts
 
 from mindlang.compiler.compile import load
 from mindlang.training.subject import open_subject

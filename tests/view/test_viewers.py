@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from mindrun.changes import change_of
+from mindrun.engine.changes import change_of
 from mindrun.errors import MindError
 from mindrun.sim.trace import trace
 from websockets.exceptions import ConnectionClosed

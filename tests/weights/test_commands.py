@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 from mindlang.compiler.compile import load
-from mindlang.importing.importing import read_incoming
-from mindlang.importing.trial import Trial, open_trial
 from mindlang.lock import Taught, lock_path, read_lock
 from mindlang.training.lock_update import compare
 from mindlang.training.subject import open_subject
+from mindlang.weights.importing import read_incoming
+from mindlang.weights.trial import Trial, open_trial
 from tests.calling import Call
 from tests.edits.taught import MIND, teach, write_mind
 

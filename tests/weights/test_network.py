@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from mindrun.errors import WeightsError
 
 from mindlang.compiler.compile import load
-from mindlang.importing.comparison import Comparison, compare
 from mindlang.lock.arrange import arrange
+from mindlang.weights.comparison import Comparison, compare
 from mindlang.weights.network import Network, matrices_of, network_of, to_genome, to_tensors
 from mindlang.weights.safetensors import Tensors
 from tests.edits.taught import MIND, write_mind

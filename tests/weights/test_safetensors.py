@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import array_shapes, arrays
 from mindrun.errors import WeightsError
-from mindrun.printable import visible
+from mindrun.files.printable import visible
 
 from mindlang.weights.safetensors import MAX_HEADER_BYTES, Tensors, from_safetensors, to_safetensors
 

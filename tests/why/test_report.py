@@ -7,9 +7,9 @@ import pytest
 from rich.console import Group
 from rich.text import Text
 
-from mindlang.run.largest_paths import MAX_COUNTED_PATHS
-from mindlang.why.answer import mean_direction
-from mindlang.why.report import answer_text
+from mindlang.attribution.answer import mean_direction
+from mindlang.attribution.largest_paths import MAX_COUNTED_PATHS
+from mindlang.attribution.report import answer_text
 
 CHASE = {"share": 0.6676, "part": 5 / 6, "value": 0.8011, "influence": 1.0, "path": ["Roam", "Chase", "left_wheel"]}
 FOUND: dict[str, Any] = {

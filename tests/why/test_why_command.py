@@ -74,7 +74,7 @@ def test_paths_that_are_not_named_are_the_rest(mindc: Call, rules: Path) -> None
 def test_what_takes_too_long_for_one_answer_is_refused(
     mindc: Call, rules: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("mindlang.why.answer.MAX_EDGE_TICKS", 65)  # of six edges
+    monkeypatch.setattr("mindlang.attribution.answer.MAX_EDGE_TICKS", 65)  # of six edges
     assert mindc("why", rules, *ASKED, "--tick", "41..50", "left_wheel").code == 0
     message = "11 ticks of 6 edges are too much for one answer\n  Ask for 10 ticks at most: --tick 41..50\n"
     assert mindc("why", rules, *ASKED, "--tick", "41..51", "left_wheel") == (2, "", message)

@@ -6,11 +6,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from mindrun.bundle import Bundle, digest, write_bundle
-from mindrun.engine import Engine
-from mindrun.policy import Policy
+from mindrun.engine.engine import Engine
+from mindrun.graph.bundle import Bundle, digest, write_bundle
+from mindrun.graph.policy import Policy
+from mindrun.graph.weights import genes
 from mindrun.robot.recording import About, Recorder
-from mindrun.weights import genes
 from numpy.typing import NDArray
 
 from mindlang.compiler.compile import load

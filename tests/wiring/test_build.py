@@ -4,8 +4,8 @@ import json
 from pathlib import Path
 
 import pytest
-from mindrun.bundle import fingerprint, read_bundle
-from mindrun.describe import describe
+from mindrun.graph.bundle import fingerprint, read_bundle
+from mindrun.graph.describe import describe
 
 from tests.calling import Call
 

@@ -3,12 +3,12 @@
 from pathlib import Path
 
 import pytest
-from mindrun.graph import Graph
+from mindrun.graph.graph import Graph
 
 from mindlang.cli._diagnostic_printer import plain
 from mindlang.compiler.compile import load
 from mindlang.compiler.source import Source
-from mindlang.wiring.wire import Checked, check_wiring
+from mindlang.robot.wire import Checked, check_wiring
 
 MIND = """\
 tick 1/30 s

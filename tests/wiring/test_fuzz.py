@@ -8,14 +8,14 @@ from random import Random
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from mindrun.graph import Graph
+from mindrun.graph.graph import Graph
 
 from benchmarks.call_count import CallCount, one_in_eight
 from mindlang.cli._diagnostic_printer import as_data, plain
 from mindlang.compiler.compile import load
 from mindlang.compiler.source import Source
-from mindlang.wiring.surprises import surprise
-from mindlang.wiring.wire import Checked, check_wiring, load_wiring
+from mindlang.robot.surprises import surprise
+from mindlang.robot.wire import Checked, check_wiring, load_wiring
 from tests.draws import cases
 from tests.language.test_fuzz import delete, duplicate, flip, swap_lines
 

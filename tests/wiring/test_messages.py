@@ -8,11 +8,11 @@ import re
 from pathlib import Path
 
 import pytest
-from mindrun.graph import Graph
+from mindrun.graph.graph import Graph
 
 from mindlang.cli._diagnostic_printer import plain
 from mindlang.compiler.compile import load
-from mindlang.wiring.wire import Checked, load_wiring
+from mindlang.robot.wire import Checked, load_wiring
 from tests.project.sources import COMPILER, ROOT
 
 HERE = Path(__file__).parent

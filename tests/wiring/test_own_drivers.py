@@ -9,17 +9,17 @@ from pathlib import Path
 from textwrap import dedent
 
 import pytest
-from mindrun.bundle import Bundle, fingerprint, pack, read_bundle, unpack
-from mindrun.describe import describe
+from mindrun.cli.tools.doctor import wired
 from mindrun.driver import DeviceError
 from mindrun.errors import BundleError
+from mindrun.graph.bundle import Bundle, fingerprint, pack, read_bundle, unpack
+from mindrun.graph.describe import describe
 from mindrun.robot.drivers.own import OwnActuator, OwnSensor
 from mindrun.robot.guardian.plan import plan_of, to_json
 from mindrun.robot.sampling import Sampler
-from mindrun.tools.doctor import wired
 
-from mindlang.deploying.release import make_release
-from mindlang.wiring import own_driver
+from mindlang.robot import own_driver
+from mindlang.robot.release import make_release
 from tests.calling import Call
 from tests.project.sources import ROOT
 

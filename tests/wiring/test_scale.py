@@ -4,7 +4,7 @@ import pytest
 
 from mindlang.compiler.compile import compile_source
 from mindlang.compiler.source import Source
-from mindlang.wiring.wire import check_wiring
+from mindlang.robot.wire import check_wiring
 
 MIND = """\
 {unit}

@@ -6,15 +6,15 @@ from types import SimpleNamespace
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from mindrun.graph import Graph
+from mindrun.graph.graph import Graph
 
 from mindlang.cli._diagnostic_printer import plain
 from mindlang.compiler.compile import load
 from mindlang.compiler.diagnostic import Diagnostic, Findings
 from mindlang.compiler.source import Source, Span
-from mindlang.wiring.speed import check_shared
-from mindlang.wiring.timing import Timing
-from mindlang.wiring.wire import Checked, check_wiring
+from mindlang.robot.speed import check_shared
+from mindlang.robot.timing import Timing
+from mindlang.robot.wire import Checked, check_wiring
 
 MIND = """\
 mind 1

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
-from mindrun.run_scores import Scores
+from mindrun.graph.run_scores import Scores
 from mindrun.work.assignment import Assignment
 from mindrun.work.executor import Read
 from mindrun.work.frame import FrameError, unpack

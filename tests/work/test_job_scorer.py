@@ -5,7 +5,7 @@ from dataclasses import fields
 import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
-from mindrun.run_scores import Scores
+from mindrun.graph.run_scores import Scores
 from mindrun.work import blocks
 from mindrun.work.blocks import Blocks, runs_in_a_job
 from mindrun.work.job_scorer import JobScorer

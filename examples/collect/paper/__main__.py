@@ -9,8 +9,8 @@ from pathlib import Path
 from string import Template
 
 from figures import draw
-from mindrun.arguments import MAX_SEED, whole
 from mindrun.errors import MindError
+from mindrun.terminal.arguments import MAX_SEED, whole
 from plan import PLAN, read_plan
 from protocol import FOLDER, TABLES
 from tables import attempts, lessons, table

@@ -7,9 +7,9 @@ from shutil import copyfile
 from typing import Any
 
 import numpy as np
+from mindrun.graph.weights import Weights
 from mindrun.train.progress import read_progress
 from mindrun.train.run_folder import CHAMPIONS, RESULT, read_result
-from mindrun.weights import Weights
 
 COLUMNS = ("attempt", "generation", "best", "reevaluated", "verdict")
 CURVE = "curve.csv"

@@ -8,9 +8,9 @@ from pathlib import Path
 
 from mindrun.cores import cores
 from mindrun.errors import MindError
-from mindrun.graph import Lesson
+from mindrun.graph.graph import Lesson
+from mindrun.graph.weights import Weights, learners, reachable
 from mindrun.sim.rollout import Rollout
-from mindrun.weights import Weights, learners, reachable
 from plan import read_plan
 from protocol import Case
 

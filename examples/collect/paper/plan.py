@@ -4,8 +4,8 @@ import json
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-from mindrun.atomic_write import write
-from mindrun.graph import Lesson
+from mindrun.files.atomic_write import write
+from mindrun.graph.graph import Lesson
 from mindrun.train.rungs import heights
 from protocol import FILES
 

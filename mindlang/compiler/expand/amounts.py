@@ -6,8 +6,8 @@ from dataclasses import dataclass, fields, is_dataclass, replace
 from functools import cache
 from typing import Any
 
-from mindrun.quantity import Quantity
-from mindrun.registry import arguments, kinds
+from mindrun.kinds.registry import arguments, kinds
+from mindrun.numbers.quantity import Quantity
 
 from mindlang.compiler.expand.numbers import instead
 from mindlang.compiler.source import Span

@@ -6,7 +6,7 @@ from functools import cache
 from typing import TYPE_CHECKING
 from unicodedata import normalize
 
-from mindrun.registry import arguments, kinds, named_arguments
+from mindrun.kinds.registry import arguments, kinds, named_arguments
 
 from mindlang.compiler.diagnostic import Diagnostic, a, did_you_mean, listed
 from mindlang.compiler.parse.mistakes import MISTAKES, OPENINGS, Mistake

@@ -4,9 +4,9 @@ from collections.abc import Iterator, Mapping, Set
 from dataclasses import dataclass, replace
 from typing import Any, cast
 
-from mindrun.graph import Need
-from mindrun.quantity import GENERATIONS, NUMBER, RATIO, Quantity
-from mindrun.registry import kinds
+from mindrun.graph.graph import Need
+from mindrun.kinds.registry import kinds
+from mindrun.numbers.quantity import GENERATIONS, NUMBER, RATIO, Quantity
 
 from mindlang.compiler import model
 from mindlang.compiler.diagnostic import Findings, listed

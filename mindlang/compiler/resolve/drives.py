@@ -2,9 +2,9 @@
 
 from collections.abc import Sequence
 
-from mindrun.actuators import ActuatorKind
-from mindrun.bodies import BodyKind
-from mindrun.registry import kinds, names
+from mindrun.kinds.actuators import ActuatorKind
+from mindrun.kinds.bodies import BodyKind
+from mindrun.kinds.registry import kinds, names
 
 from mindlang.compiler.diagnostic import Findings, Label, a, listed
 from mindlang.compiler.model import Part

@@ -3,8 +3,8 @@
 from collections.abc import Mapping, Set
 from dataclasses import dataclass
 
-from mindrun.quantity import Quantity
-from mindrun.registry import kinds
+from mindrun.kinds.registry import kinds
+from mindrun.numbers.quantity import Quantity
 
 from mindlang.compiler import model, syntax
 from mindlang.compiler.diagnostic import Findings

@@ -2,7 +2,7 @@
 
 import re
 
-from mindrun.things.map import FLOOR, WALL
+from mindrun.kinds.things.map import FLOOR, WALL
 
 PICTURES = re.compile(rb"P[1-6]\s|\x89PNG|\xff\xd8\xff|GIF8|BM")
 ROS = re.compile(r"^\s*(image|resolution|occupied_thresh)\s*:", re.M)

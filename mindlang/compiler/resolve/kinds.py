@@ -5,10 +5,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from mindrun.quantity import SLOT, Quantity, Reference
-from mindrun.registry import Argument as Parameter
-from mindrun.registry import arguments, kinds
-from mindrun.things.about import AboutThing
+from mindrun.kinds.registry import Argument as Parameter
+from mindrun.kinds.registry import arguments, kinds
+from mindrun.kinds.things.about import AboutThing
+from mindrun.numbers.quantity import SLOT, Quantity, Reference
 
 from mindlang.compiler.diagnostic import Findings, Label, a, did_you_mean, listed
 from mindlang.compiler.names import Names

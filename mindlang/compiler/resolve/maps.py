@@ -6,10 +6,10 @@ from pathlib import Path
 from typing import Any
 
 from mindrun.errors import reason
-from mindrun.quantity import Place
-from mindrun.regular_files import read_regular
-from mindrun.scenes import SceneKind
-from mindrun.things.map import FLOOR, WALL
+from mindrun.files.regular_files import read_regular
+from mindrun.kinds.scenes import SceneKind
+from mindrun.kinds.things.map import FLOOR, WALL
+from mindrun.numbers.quantity import Place
 
 from mindlang.compiler.diagnostic import Findings, listed
 from mindlang.compiler.model import Part

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from mindrun.functions import Function
+from mindrun.kinds.functions import Function
 
 from mindlang.compiler import model
 from mindlang.compiler.counterparts import counterparts
@@ -13,7 +13,7 @@ from mindlang.compiler.diagnostic import Findings, listed
 from mindlang.compiler.syntax import Name
 
 if TYPE_CHECKING:
-    from mindrun.arrays import Layers
+    from mindrun.numbers.arrays import Layers
 
 
 def check_origin(

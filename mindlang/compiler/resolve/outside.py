@@ -3,10 +3,10 @@
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from mindrun.bodies import BodyKind, Disc
 from mindrun.errors import MindError
-from mindrun.registry import names as kind_names
-from mindrun.sensors import Physical
+from mindrun.kinds.bodies import BodyKind, Disc
+from mindrun.kinds.registry import names as kind_names
+from mindrun.kinds.sensors import Physical
 
 from mindlang.compiler import model
 from mindlang.compiler.diagnostic import Findings, a

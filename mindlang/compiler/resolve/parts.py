@@ -4,9 +4,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
-from mindrun.expression import Formula
-from mindrun.sensors import Computed
-from mindrun.validate import depths_of
+from mindrun.graph.validate import depths_of
+from mindrun.kinds.sensors import Computed
+from mindrun.numbers.expression import Formula
 
 from mindlang.compiler.diagnostic import Findings, Label, a, listed
 from mindlang.compiler.model import Expression, Number, Part, Reading, Term

@@ -3,10 +3,10 @@
 from collections.abc import Sequence
 from typing import Any
 
-from mindrun.graph import Start
-from mindrun.quantity import ANGLE, COORDINATE, Place
-from mindrun.scenes import SceneKind
-from mindrun.things.thing import MAX_THINGS
+from mindrun.graph.graph import Start
+from mindrun.kinds.scenes import SceneKind
+from mindrun.kinds.things.thing import MAX_THINGS
+from mindrun.numbers.quantity import ANGLE, COORDINATE, Place
 
 from mindlang.compiler.beginning import Beginning, beginning
 from mindlang.compiler.diagnostic import Findings, Label

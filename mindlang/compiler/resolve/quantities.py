@@ -2,7 +2,7 @@
 
 from math import ceil, floor, isfinite
 
-from mindrun.quantity import LEAST_STEP, Extent, Place, Quantity, Span
+from mindrun.numbers.quantity import LEAST_STEP, Extent, Place, Quantity, Span
 
 from mindlang.compiler.diagnostic import Findings, Label, listed
 from mindlang.compiler.syntax import Amount, Name, Numbers, Points, Range, Value

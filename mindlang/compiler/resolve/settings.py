@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from typing import TypeVar
 
-from mindrun.quantity import LENGTH_OF_UNIT, TICK, Quantity
+from mindrun.numbers.quantity import LENGTH_OF_UNIT, TICK, Quantity
 
 from mindlang.compiler.diagnostic import Findings, Label
 from mindlang.compiler.expand import in_place

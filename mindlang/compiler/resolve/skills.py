@@ -3,9 +3,9 @@
 from collections.abc import Mapping
 from typing import Any
 
-from mindrun.functions import Function
-from mindrun.graph import Receiver
-from mindrun.quantity import RATIO
+from mindrun.graph.graph import Receiver
+from mindrun.kinds.functions import Function
+from mindrun.numbers.quantity import RATIO
 
 from mindlang.compiler import model, syntax
 from mindlang.compiler.diagnostic import Findings, Label

@@ -5,12 +5,12 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, TypeVar
 
-from mindrun.actuators.gripper import REACH_UNITS
-from mindrun.bodies import BodyKind
-from mindrun.quantity import SECONDS, TICKS, Quantity
-from mindrun.scenes import SceneKind
-from mindrun.things import ThingKind
-from mindrun.things.thing import MAX_OBSTACLES
+from mindrun.kinds.actuators.gripper import REACH_UNITS
+from mindrun.kinds.bodies import BodyKind
+from mindrun.kinds.scenes import SceneKind
+from mindrun.kinds.things import ThingKind
+from mindrun.kinds.things.thing import MAX_OBSTACLES
+from mindrun.numbers.quantity import SECONDS, TICKS, Quantity
 
 from mindlang.compiler import model
 from mindlang.compiler.beginning import beginning

@@ -4,9 +4,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeVar
 
-from mindrun.quantity import RATE, Quantity
-from mindrun.registry import arguments, names
-from mindrun.variation import VARIED_NOUNS, Failure, Variation, Varying, varied_quantity
+from mindrun.kinds.registry import arguments, names
+from mindrun.kinds.variation import VARIED_NOUNS, Failure, Variation, Varying, varied_quantity
+from mindrun.numbers.quantity import RATE, Quantity
 
 from mindlang.compiler.diagnostic import Findings, did_you_mean, listed
 from mindlang.compiler.model import Part

@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Sequence
 from math import cos, hypot, inf, pi, sin, sqrt
 
-from mindrun.arithmetic import F, bearing
+from mindrun.numbers.arithmetic import F, bearing
 
 from mindlang.explaining.pictures import svg
 

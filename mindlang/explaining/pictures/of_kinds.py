@@ -5,7 +5,7 @@ from functools import partial
 from math import pi
 from typing import Any
 
-from mindrun.registry import kinds
+from mindrun.kinds.registry import kinds
 
 from mindlang.explaining.article import Article
 from mindlang.explaining.pictures import around, bodies, marks, svg

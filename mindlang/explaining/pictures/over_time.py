@@ -4,8 +4,8 @@ from collections.abc import Iterator
 from math import nan, sin
 
 import numpy as np
-from mindrun.arrays import Readings
-from mindrun.sensors.sensor import Scene, SensorKind
+from mindrun.kinds.sensors.sensor import Scene, SensorKind
+from mindrun.numbers.arrays import Readings
 
 from mindlang.explaining.pictures import svg
 

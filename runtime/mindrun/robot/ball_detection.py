@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from mindrun.robot.driver_support import library
 
 if TYPE_CHECKING:
-    from mindrun.arrays import Frame
+    from mindrun.numbers.arrays import Frame
 
 BLACK_BRIGHTNESS = 12  # a brightness at and below which there is no light
 WHITE_BRIGHTNESS = 250  # a brightness from which there is only light

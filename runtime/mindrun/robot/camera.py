@@ -15,7 +15,7 @@ from mindrun.robot.ball_detection import Aim, Ball, BallTarget, PanTiltLimits, b
 from mindrun.robot.driver_support import library
 
 if TYPE_CHECKING:
-    from mindrun.arrays import Frame
+    from mindrun.numbers.arrays import Frame
 
 FRAME_SECONDS = 1 / 30  # of most cameras
 STALE_SECONDS = 0.2  # for which the same frame may come

@@ -8,12 +8,12 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
-from mindrun.bundle import Bundle, digest, read_bundle
-from mindrun.command_line import command_line
-from mindrun.default_task import default_task
 from mindrun.driver import DeviceError
 from mindrun.errors import MindError
-from mindrun.graph import Graph, Task
+from mindrun.graph.bundle import Bundle, digest, read_bundle
+from mindrun.graph.default_task import default_task
+from mindrun.graph.graph import Graph, Task
+from mindrun.graph.wiring import still
 from mindrun.robot.device_locks import hold_devices
 from mindrun.robot.drive import DriveOptions, drive
 from mindrun.robot.drivers.mock import MockActuator
@@ -24,8 +24,8 @@ from mindrun.robot.loop import Loop
 from mindrun.robot.seen_world import SeenWorld
 from mindrun.robot.temporary_recording import temporary_recording
 from mindrun.robot.view_breakpoints import mistakes
-from mindrun.status_line import StatusLine
-from mindrun.wiring import still
+from mindrun.terminal.command_line import command_line
+from mindrun.terminal.status_line import StatusLine
 
 MAX_END_TICKS = 20  # in which a recording gets the end of its run; one that cannot be written gets none
 

@@ -15,8 +15,8 @@ from hashlib import sha256
 from itertools import chain
 
 from mindrun.errors import MindError
+from mindrun.graph.wiring import Wiring
 from mindrun.robot.child_processes import keep_from_children, keep_no_longer
-from mindrun.wiring import Wiring
 
 PREFIX = b"\0mind "  # an address that begins with a zero is in no folder
 FIRST_FREE_DESCRIPTOR = 3  # descriptors below this are standard input, output and error, whether they are there or not

@@ -9,10 +9,11 @@ from pathlib import Path
 from time import monotonic, sleep
 
 import mindrun.robot.drivers  # noqa: F401  every driver is known once this is imported
-from mindrun.bundle import Bundle
-from mindrun.engine import Engine
+from mindrun.engine.engine import Engine
 from mindrun.errors import MindError
-from mindrun.graph import Graph
+from mindrun.graph.bundle import Bundle
+from mindrun.graph.graph import Graph
+from mindrun.graph.wiring import Wiring, read_by
 from mindrun.robot.guardian.client import Guardian
 from mindrun.robot.guardian.plan import plan_of
 from mindrun.robot.loop import Loop, TickResult
@@ -24,7 +25,6 @@ from mindrun.robot.seen_world import SeenWorld
 from mindrun.robot.stop_signals import Stop, stopping
 from mindrun.robot.sudden_end import refuse_success
 from mindrun.robot.temporary_recording import TemporaryRecorder
-from mindrun.wiring import Wiring, read_by
 
 FIRST_READING_SECONDS = 10.0  # for every sensor to have been measured once
 STOP_SECONDS = 2.0  # or ticks where these are longer, in which a tick has to end once a signal has come

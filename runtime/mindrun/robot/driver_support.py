@@ -11,7 +11,7 @@ from time import monotonic, sleep
 from typing import Any, Protocol
 
 from mindrun.driver import DeviceError
-from mindrun.quantity import Quantity, Reference
+from mindrun.numbers.quantity import Quantity, Reference
 
 PIN = Quantity("a GPIO number", {"": 1.0}, low=0, high=27, whole=True)  # as Broadcom counts, not as the header does
 BUS = Quantity("the number of an I2C bus", {"": 1.0}, low=0, high=99, whole=True)

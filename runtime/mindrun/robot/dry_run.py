@@ -11,12 +11,12 @@ from numpy.typing import NDArray
 
 from mindrun.driver import DeviceError
 from mindrun.errors import MindError
-from mindrun.graph import Graph, Task
-from mindrun.movers import driving, movers
+from mindrun.graph.graph import Graph, Task
+from mindrun.graph.movers import driving, movers
 from mindrun.robot.drivers.simulated import status
 from mindrun.robot.loop import Loop
-from mindrun.status_line import StatusLine
-from mindrun.tick_count import ticks as in_words
+from mindrun.terminal.status_line import StatusLine
+from mindrun.terminal.tick_count import ticks as in_words
 
 SHOW_SECONDS = 0.25  # from one state of the line to the next
 MAX_SILENT_QUESTIONS = 8  # in a row, after which the world is gone

@@ -7,8 +7,8 @@ from typing import Any
 
 from numpy.typing import NDArray
 
+from mindrun.graph.recording_header import MAX_HEADER_BYTES, About, RecordingError, about_of_line
 from mindrun.robot.recording import whole_rows
-from mindrun.robot.recording_header import MAX_HEADER_BYTES, About, RecordingError, about_of_line
 
 MAX_EMPTY_PARTS = 20  # in a row, before there is a first line
 

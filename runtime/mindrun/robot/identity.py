@@ -8,12 +8,12 @@ import os
 from hashlib import sha256
 from pathlib import Path
 
-from mindrun.atomic_write import destination, write
-from mindrun.bundle import fingerprint
 from mindrun.errors import MindError, reason
-from mindrun.graph import Graph
-from mindrun.regular_files import read_regular
-from mindrun.wiring import Wiring
+from mindrun.files.atomic_write import destination, write
+from mindrun.files.regular_files import read_regular
+from mindrun.graph.bundle import fingerprint
+from mindrun.graph.graph import Graph
+from mindrun.graph.wiring import Wiring
 
 MAX_IDENTITY_BYTES = 4096  # of what a robot says
 

@@ -14,10 +14,10 @@ from importlib.util import find_spec
 from pathlib import Path
 from threading import Event, Thread
 
-from mindrun.command_line import command_line
 from mindrun.errors import reason
-from mindrun.printable import visible
+from mindrun.files.printable import visible
 from mindrun.robot.device_locks import DrivenError, bound_address
+from mindrun.terminal.command_line import command_line
 
 PAGE_PORT = 8123  # tried first, so that the tunnel to a robot is the same each time
 MAX_LINE_CHARACTERS = 4096

@@ -6,7 +6,7 @@ from struct import unpack
 from time import monotonic, sleep
 from typing import Literal, get_args
 
-from mindrun.quantity import Reference
+from mindrun.numbers.quantity import Reference
 from mindrun.robot.driver_support import I2C_BYTE_SECONDS, I2cDevice
 
 WHO_AM_I, INERTIAL_CHIP_ID, MAGNETIC_CHIP_ID = 0x0F, 0x68, 0x3D  # 7.11 and 8.4

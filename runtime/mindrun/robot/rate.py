@@ -7,7 +7,7 @@ from time import monotonic, sleep
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.tick_count import ticks as in_words
+from mindrun.terminal.tick_count import ticks as in_words
 
 LATENESS_BINS = 400  # of lateness, each a hundredth of a tick
 

@@ -10,10 +10,10 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.graph import Graph, Sensor
-from mindrun.measured import measured_on_robot, rows_of
+from mindrun.graph.graph import Graph, Sensor
+from mindrun.graph.measured import measured_on_robot, rows_of
+from mindrun.graph.wiring import SensorWire, reading, within_turn
 from mindrun.robot.sampling import Sample
-from mindrun.wiring import SensorWire, reading, within_turn
 
 FINE, UNMEASURED, FAILED, STALE = range(4)  # what is wrong with a sensor in a tick
 FAULT_WORDS = ("fine", "not measured yet", "failed", "too old")

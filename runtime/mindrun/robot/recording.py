@@ -17,13 +17,13 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.regular_files import open_regular
+from mindrun.files.regular_files import open_regular
+from mindrun.graph.recording_header import CHECKSUM_FIELD as CHECKSUM_FIELD
+from mindrun.graph.recording_header import MAX_HEADER_BYTES as MAX_HEADER_BYTES
+from mindrun.graph.recording_header import About as About
+from mindrun.graph.recording_header import RecordingError as RecordingError
+from mindrun.graph.recording_header import about_of_line, line_of
 from mindrun.robot.background_file import BackgroundFile
-from mindrun.robot.recording_header import CHECKSUM_FIELD as CHECKSUM_FIELD
-from mindrun.robot.recording_header import MAX_HEADER_BYTES as MAX_HEADER_BYTES
-from mindrun.robot.recording_header import About as About
-from mindrun.robot.recording_header import RecordingError as RecordingError
-from mindrun.robot.recording_header import about_of_line, line_of
 
 READ_BYTES = 1 << 22  # of rows at once, or one row where that is more
 

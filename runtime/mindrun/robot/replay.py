@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.bundle import digest, read_bundle
-from mindrun.engine import Engine
+from mindrun.engine.engine import Engine
+from mindrun.graph.bundle import digest, read_bundle
+from mindrun.graph.skill_sets import reachable
+from mindrun.numbers.short_repr import ShortRepr
 from mindrun.robot.recording import About, RecordingError, read
-from mindrun.short_repr import ShortRepr
-from mindrun.skill_sets import reachable
 
 Singles = NDArray[np.float32]
 

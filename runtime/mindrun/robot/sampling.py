@@ -7,8 +7,8 @@ from math import inf, isfinite
 from time import monotonic
 
 from mindrun.driver import SensorDevice, failure
-from mindrun.given_numbers import is_truth, number, values
-from mindrun.wiring import SensorWire
+from mindrun.graph.wiring import SensorWire
+from mindrun.numbers.given_numbers import is_truth, number, values
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.driver import DeviceError
-from mindrun.graph import Task
+from mindrun.graph.graph import Task
+from mindrun.graph.recording_header import BOX_COLUMNS, GOES_ON, RecordedWorld, world_row_of
 from mindrun.robot.drivers.simulated import WorldConnection
-from mindrun.robot.recording_header import BOX_COLUMNS, GOES_ON, RecordedWorld, world_row_of
 from mindrun.robot.simulated_world.protocol import BOXES, WORLD
 
 

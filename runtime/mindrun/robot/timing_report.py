@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.graph import Graph, Sensor
+from mindrun.graph.graph import Graph, Sensor
+from mindrun.graph.recording_header import BY_ACTUATOR, BY_GUARDIAN
+from mindrun.kinds.sensors import Physical
 from mindrun.robot.reading_filter import FINE
 from mindrun.robot.recording import RecordingError, read
-from mindrun.robot.recording_header import BY_ACTUATOR, BY_GUARDIAN
-from mindrun.sensors import Physical
-from mindrun.tick_count import ticks
+from mindrun.terminal.tick_count import ticks
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.arithmetic import BOX_COLUMNS, HALF_X, HALF_Y, LOOSE_ROWS, THING_ROWS, X, Y
-from mindrun.sensors.inertial import TRAIL_TICKS
+from mindrun.kinds.sensors.inertial import TRAIL_TICKS
+from mindrun.numbers.arithmetic import BOX_COLUMNS, HALF_X, HALF_Y, LOOSE_ROWS, THING_ROWS, X, Y
 from mindrun.sim import chipmunk_internals as chipmunk
 from mindrun.sim.codes import AWAY, PUSH_ROWS
 from mindrun.sim.state import (

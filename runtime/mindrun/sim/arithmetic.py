@@ -1,14 +1,14 @@
-"""`mindrun.arithmetic`, compiled; and what kinds say in its terms."""
+"""`mindrun.numbers.arithmetic`, compiled; and what kinds say in its terms."""
 
 from collections.abc import Callable
 from types import FunctionType
 from typing import Any
 
-from mindrun import arithmetic
-from mindrun.arithmetic import HALF as HALF
-from mindrun.arithmetic import ONE as ONE
-from mindrun.arithmetic import ZERO as ZERO
-from mindrun.arithmetic import F as F
+from mindrun.numbers import arithmetic
+from mindrun.numbers.arithmetic import HALF as HALF
+from mindrun.numbers.arithmetic import ONE as ONE
+from mindrun.numbers.arithmetic import ZERO as ZERO
+from mindrun.numbers.arithmetic import F as F
 from mindrun.sim import vector
 from mindrun.sim.compiling import compiled, inlined
 
@@ -35,7 +35,7 @@ _COMPILED: dict[Any, Callable[..., Any]] = {
 
 
 def compiled_lane(function: Any) -> Callable[..., Any]:
-    """A function of a kind's module, compiled with those of that module and of `mindrun.arithmetic` that it calls."""
+    """A function of a kind's module, compiled with those of that module and of `numbers.arithmetic` that it calls."""
     if function not in _COMPILED:
         _COMPILED[function] = compiled(_calling_compiled(function))
     return _COMPILED[function]

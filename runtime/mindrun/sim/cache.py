@@ -28,6 +28,7 @@ SHIPPED = SIM_FOLDER / "compiled"  # in the wheel
 # The kinds of processors for which wheels have machine code, and what one must have to run it, as LLVM writes it.
 PROCESSORS = {"x86-64-v3": "+avx,+avx2,+bmi,+bmi2,+f16c,+fma,+lzcnt,+movbe,+popcnt,+sse4.2", "generic": "+neon"}
 HASH_BYTES = 32
+KINDS = "../kinds/sensors/*.py", "../kinds/functions/*.py"
 
 
 @cache
@@ -35,10 +36,8 @@ def stamp() -> str:
     """What all machine code depends on but the processor: numba would not notice when a callee elsewhere changes."""
     versions = f"{sys.implementation.cache_tag} {numba.__version__} {llvmlite.__version__}"
     digest = sha256(versions.encode())
-    names = ("arithmetic.py", "beginning.py", "sigmoid.py", "stack_machine.py", "trigonometry.py")
-    beside = [SIM_FOLDER.parent / name for name in names]
-    kinds = (path for noun in ("sensors", "functions") for path in SIM_FOLDER.parent.glob(f"{noun}/*.py"))
-    for path in sorted([*SIM_FOLDER.glob("*.py"), *SIM_FOLDER.glob("lanes/*.py"), *kinds, *beside]):
+    compiled = ("*.py", "lanes/*.py", "../numbers/*.py", "../graph/beginning.py", *KINDS)
+    for path in sorted(path.resolve() for pattern in compiled for path in SIM_FOLDER.glob(pattern)):
         digest.update(path.read_bytes())
     return digest.hexdigest()[:16]
 

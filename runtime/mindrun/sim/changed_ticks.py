@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
-from mindrun.changes import Change, Changed, calm_ticks, in_tick
+from mindrun.engine.changes import Change, Changed, calm_ticks, in_tick
 from mindrun.sim.lanes.stages import after, before, run_skills
 from mindrun.sim.rollout import Rollout, Tile
 from mindrun.sim.state import Jobs, State

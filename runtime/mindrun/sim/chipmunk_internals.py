@@ -13,9 +13,9 @@ from numba import types
 from numba.extending import intrinsic
 from pymunk import _chipmunk
 
-from mindrun.bodies import BodyKind
-from mindrun.bodies.body import FRICTION_COEFFICIENT
 from mindrun.errors import MindError
+from mindrun.kinds.bodies import BodyKind
+from mindrun.kinds.bodies.body import FRICTION_COEFFICIENT
 from mindrun.sim.compiling import callback
 from mindrun.sim.versions import remedy
 

@@ -4,9 +4,9 @@ from typing import Any
 
 import numpy as np
 
-import mindrun.functions
-import mindrun.sensors  # noqa: F401  # which registers them
-from mindrun.registry import kinds
+import mindrun.kinds.functions
+import mindrun.kinds.sensors  # noqa: F401  # which registers them
+from mindrun.kinds.registry import kinds
 
 PUSH, STEERING, GRIPPER, IDLE = range(4)
 ITEM, ZONE, POWER, BOX, BALL, WALKER = range(6)

@@ -10,12 +10,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mindrun.arithmetic import ANGLE, BOX_COLUMNS, SIZE, THING_ROWS
-from mindrun.functions import Rule
-from mindrun.graph import Graph
-from mindrun.policy import Policy
-from mindrun.reward_sums import score_of
-from mindrun.robot.recording_header import GOES_ON
+from mindrun.graph.graph import Graph
+from mindrun.graph.policy import Policy
+from mindrun.graph.recording_header import GOES_ON
+from mindrun.graph.reward_sums import score_of
+from mindrun.kinds.functions import Rule
+from mindrun.numbers.arithmetic import ANGLE, BOX_COLUMNS, SIZE, THING_ROWS
 from mindrun.sim.codes import GOING_ON, LOST
 from mindrun.sim.lanes.stages import after, before, begin_again, send, wake
 from mindrun.sim.rollout import Rollout

@@ -7,12 +7,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mindrun.arithmetic import ANGLE
 from mindrun.errors import MindError
-from mindrun.events import EventKind
-from mindrun.graph import Graph, Task
-from mindrun.registry import names
-from mindrun.reward_sums import paid_by_text
+from mindrun.graph.graph import Graph, Task
+from mindrun.graph.reward_sums import paid_by_text
+from mindrun.kinds.events import EventKind
+from mindrun.kinds.registry import names
+from mindrun.numbers.arithmetic import ANGLE
 from mindrun.sim.commanded_lanes import commanded_lanes
 
 TIME = "time"  # what ends a run that nothing else has ended

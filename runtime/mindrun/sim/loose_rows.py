@@ -4,7 +4,7 @@ from typing import Any
 
 from numpy.typing import NDArray
 
-from mindrun.graph import Task, Thing
+from mindrun.graph.graph import Task, Thing
 from mindrun.sim.codes import DAMPING, LOOSE
 from mindrun.sim.parameter_rows import Parameters
 from mindrun.sim.records import Row, records

@@ -7,13 +7,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.graph import Edge, Graph, Skill
-from mindrun.registry import names
+from mindrun.graph.graph import Edge, Graph, Skill
+from mindrun.graph.weights import NO_WEIGHTS, genes, weights_of
+from mindrun.kinds.registry import names
 from mindrun.sim.codes import ACTUATOR, ACTUATOR_CODES, EDGE, MEMORY, SKILL, function_codes
 from mindrun.sim.parameter_rows import SAME_IN_EVERY_RUN, Parameters
 from mindrun.sim.programs import Programs
 from mindrun.sim.records import Row, records
-from mindrun.weights import NO_WEIGHTS, genes, weights_of
 
 Array = NDArray[Any]
 Floats = NDArray[np.float32]

@@ -9,11 +9,11 @@ from typing import Any, TypeVar
 
 from numpy.typing import NDArray
 
-from mindrun.graph import Graph, Task
+from mindrun.graph.graph import Graph, Task
+from mindrun.graph.varied import varied_kind
+from mindrun.kinds.variation import Variation, Varying, varied_quantity
 from mindrun.sim.codes import CONSTANT, DAMPING, DRAWN, DRAWN_WHOLE, FAILING, INVERSE, OVER, PARAMETER, TIMES
 from mindrun.sim.records import Row, records
-from mindrun.variation import Variation, Varying, varied_quantity
-from mindrun.varied import varied_kind
 
 K = TypeVar("K")
 

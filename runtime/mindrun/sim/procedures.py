@@ -17,18 +17,18 @@ from numba.extending import intrinsic
 from numba.np.unsafe.ndarray import to_fixed_tuple
 from numpy.typing import NDArray
 
-from mindrun.engine import procedure_sources
+from mindrun.engine.engine import procedure_sources
 from mindrun.errors import ProcedureError
-from mindrun.graph import Graph, Skill
-from mindrun.procedure_call import call as ask
-from mindrun.procedure_call import load
-from mindrun.procedure_text import module_of
+from mindrun.graph.graph import Graph, Skill
+from mindrun.graph.weights import reachable
+from mindrun.kinds.procedure_call import call as ask
+from mindrun.kinds.procedure_call import load
+from mindrun.kinds.procedure_text import module_of
 from mindrun.sim.arithmetic import F
 from mindrun.sim.compiling import compiled
 from mindrun.sim.exact import exactly
 from mindrun.sim.formula_terms import NoFormulaError
 from mindrun.sim.formulas import formula
-from mindrun.weights import reachable
 
 # the lane in which it fails or −1; inputs, outputs, lanes, the distance between rows in floats
 SIGNATURE = types.intp(types.CPointer(types.float32), types.CPointer(types.float32), types.intp, types.intp)

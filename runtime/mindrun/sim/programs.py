@@ -2,8 +2,8 @@
 
 from dataclasses import dataclass, field
 
-from mindrun.graph import Program
-from mindrun.stack_machine import COMMAND, NEGATE, NUMBER, OPERATIONS
+from mindrun.graph.graph import Program
+from mindrun.numbers.stack_machine import COMMAND, NEGATE, NUMBER, OPERATIONS
 
 
 @dataclass(slots=True)

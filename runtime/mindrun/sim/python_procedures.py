@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from mindrun.graph import Graph
-from mindrun.procedure_call import call
+from mindrun.graph.graph import Graph
+from mindrun.kinds.procedure_call import call
 from mindrun.sim.lanes.stages import after, before, run_skills, send, wake
 from mindrun.sim.procedures import Procedures
 from mindrun.sim.state import FAILED_SKILL, Jobs, State

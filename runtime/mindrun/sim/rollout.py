@@ -11,11 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.errors import MindError
-from mindrun.graph import Task
-from mindrun.one_world import is_one_world
-from mindrun.policy import Policy
-from mindrun.reward_sums import score_of
-from mindrun.run_scores import Scores
+from mindrun.graph.graph import Task
+from mindrun.graph.one_world import is_one_world
+from mindrun.graph.policy import Policy
+from mindrun.graph.reward_sums import score_of
+from mindrun.graph.run_scores import Scores
 from mindrun.sim import chipmunk_internals as chipmunk
 from mindrun.sim.allocation import empty_state
 from mindrun.sim.codes import ITEM

@@ -6,17 +6,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.expression import placed
-from mindrun.graph import Graph, Sensor, Task
-from mindrun.measured import Used
-from mindrun.registry import names
-from mindrun.sensors import Physical
+from mindrun.engine.virtual_sensors import scene_of
+from mindrun.graph.graph import Graph, Sensor, Task
+from mindrun.graph.measured import Used
+from mindrun.kinds.registry import names
+from mindrun.kinds.sensors import Physical
+from mindrun.numbers.expression import placed
 from mindrun.sim.codes import SENSOR, sensor_codes
 from mindrun.sim.parameter_rows import Parameters
 from mindrun.sim.programs import Programs
 from mindrun.sim.records import Row, records
 from mindrun.sim.task_rows import NOWHERE, boxes_by_name, rows_by_name
-from mindrun.virtual_sensors import scene_of
 
 Array = NDArray[Any]
 

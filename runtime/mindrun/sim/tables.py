@@ -7,8 +7,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.graph import Graph, Task
-from mindrun.measured import rows_of, used_sensors
+from mindrun.graph.graph import Graph, Task
+from mindrun.graph.measured import rows_of, used_sensors
+from mindrun.graph.weights import genes, reachable
 from mindrun.sim.codes import (
     CODE,
     END,
@@ -35,7 +36,6 @@ from mindrun.sim.task_rows import (
     world_row,
 )  # fmt: skip
 from mindrun.sim.walker_rows import walker_rows, way_rows
-from mindrun.weights import genes, reachable
 
 Array = NDArray[Any]
 Floats = NDArray[np.float32]

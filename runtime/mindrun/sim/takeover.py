@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from mindrun.changes import Change, ChangeError
+from mindrun.engine.changes import Change, ChangeError
 from mindrun.sim.allocation import empty_state
 from mindrun.sim.changed_ticks import changed
 from mindrun.sim.python_procedures import Memories

@@ -7,11 +7,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.arithmetic import BOX_COLUMNS, NAN
-from mindrun.goals import goals
-from mindrun.graph import End, Graph, Reward, Sensor, Task, Thing
-from mindrun.registry import names
-from mindrun.sensors import Battery
+from mindrun.graph.goals import goals
+from mindrun.graph.graph import End, Graph, Reward, Sensor, Task, Thing
+from mindrun.kinds.registry import names
+from mindrun.kinds.sensors import Battery
+from mindrun.kinds.things import OUTCOMES, STAYS, ThingKind
+from mindrun.numbers.arithmetic import BOX_COLUMNS, NAN
 from mindrun.sim.codes import (
     DAMPING,
     EVENT,
@@ -29,7 +30,6 @@ from mindrun.sim.codes import (
 from mindrun.sim.parameter_rows import Parameters, Step
 from mindrun.sim.programs import Programs
 from mindrun.sim.records import Row, records
-from mindrun.things import OUTCOMES, STAYS, ThingKind
 
 Array = NDArray[Any]
 MIN_CELL_UNITS = 20.0  # the side of a cell of Chipmunk's hash, in which what is large takes only so many

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.arithmetic import LOOSE_ROWS, SIZE, THING_ROWS, TURN
-from mindrun.short_repr import ShortRepr
+from mindrun.numbers.arithmetic import LOOSE_ROWS, SIZE, THING_ROWS, TURN
+from mindrun.numbers.short_repr import ShortRepr
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.state import Jobs, State
 

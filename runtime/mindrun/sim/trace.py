@@ -6,9 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.arithmetic import ANGLE, BOX_COLUMNS, SIZE, THING_ROWS
-from mindrun.changes import Change
-from mindrun.short_repr import ShortRepr
+from mindrun.engine.changes import Change
+from mindrun.numbers.arithmetic import ANGLE, BOX_COLUMNS, SIZE, THING_ROWS
+from mindrun.numbers.short_repr import ShortRepr
 from mindrun.sim.changed_ticks import Advance, changed
 from mindrun.sim.rollout import Rollout, Tile
 from mindrun.sim.state import Jobs

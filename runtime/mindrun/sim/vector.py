@@ -13,7 +13,7 @@ from numba import types
 from numba.core import cgutils
 from numba.extending import intrinsic, models, overload, register_model
 
-from mindrun.arithmetic import A1, A3, A5, A7, A9, A11, A13, B0, B2, B4, B6, HALF, SIGMOID_LIMIT
+from mindrun.numbers.arithmetic import A1, A3, A5, A7, A9, A11, A13, B0, B2, B4, B6, HALF, SIGMOID_LIMIT
 from mindrun.sim.compiling import compiled
 
 VECTOR_LANES = 16
@@ -148,7 +148,7 @@ def _divide(left, right):
 
 @compiled
 def sigmoids(x):
-    """1 / (1 + e^−x) in sixteen lanes, as a rational function of x/2: the arithmetic of `mindrun.sigmoid`."""
+    """1 / (1 + e^−x) in sixteen lanes, as a rational function of x/2: the arithmetic of `mindrun.numbers.sigmoid`."""
     half = splat(HALF)
     x = x * half
     x = HIGHEST(x, splat(-SIGMOID_LIMIT))

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.graph import Task
+from mindrun.graph.graph import Task
 from mindrun.sim.codes import WALKING
 from mindrun.sim.records import Row, records
 from mindrun.sim.state import PLACE_ROWS

@@ -9,13 +9,13 @@ from typing import Any
 
 import numpy as np
 
-from mindrun.actuators import Wheel
-from mindrun.bodies import Disc
-from mindrun.functions import Rule
-from mindrun.graph import Actuator, Graph, Reward, Skill, Task
+from mindrun.graph.graph import Actuator, Graph, Reward, Skill, Task
+from mindrun.graph.policy import Policy
+from mindrun.kinds.actuators import Wheel
+from mindrun.kinds.bodies import Disc
+from mindrun.kinds.functions import Rule
+from mindrun.kinds.scenes import Plain
 from mindrun.low_priority import give_way
-from mindrun.policy import Policy
-from mindrun.scenes import Plain
 from mindrun.sim import cache
 from mindrun.sim.changed_ticks import compile_stages
 from mindrun.sim.commanded_lanes import CommandedLanes

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mindrun.learners import EvolutionStrategy, Genetic, Learner
+from mindrun.kinds.learners import EvolutionStrategy, Genetic, Learner
 from mindrun.train import evolution_strategy, genetic
 from mindrun.train.population import Draw, Genomes, Population, Scores, bounded, founder_count, worst_if_nan
 

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.graph import Lesson, Task
-from mindrun.learners import Learner
+from mindrun.graph.graph import Lesson, Task
+from mindrun.kinds.learners import Learner
 from mindrun.train.ask_and_tell import ask, kept_count, tell
 from mindrun.train.lesson_state import AttemptState, Course, Record
 from mindrun.train.population import Scores, order

@@ -15,11 +15,11 @@ from zlib import crc32
 
 import numpy as np
 
-from mindrun import atomic_write
-from mindrun.regular_files import read_whole
+from mindrun.files import atomic_write
+from mindrun.files.regular_files import read_whole
+from mindrun.graph.weights import Weights
 from mindrun.train.lesson_state import LessonState
 from mindrun.train.progress import Position, write
-from mindrun.weights import Weights
 
 CHAMPION_ROWS = "champions.rows"
 MAGIC = b"mind champions 1\n"

@@ -14,9 +14,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.atomic_write import sync_folder, write_beside
-from mindrun.regular_files import read_whole
-from mindrun.strict_json import is_whole, parsed
+from mindrun.files.atomic_write import sync_folder, write_beside
+from mindrun.files.regular_files import read_whole
+from mindrun.files.strict_json import is_whole, parsed
 from mindrun.train import RunError
 from mindrun.train.lesson_state import AttemptState, LessonState
 from mindrun.train.population import Population

@@ -5,7 +5,7 @@ A population is one genome, the centre: those that were drawn around it are forg
 
 import numpy as np
 
-from mindrun.learners import EvolutionStrategy
+from mindrun.kinds.learners import EvolutionStrategy
 from mindrun.train.population import Genomes, Population, Scores, bounded, order
 
 GENOMES_PER_PARENT = 4  # one genome in so many has a say in where the centre goes

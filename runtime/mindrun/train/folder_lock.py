@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from stat import S_ISREG
 
-from mindrun.regular_files import irregular, read_regular
+from mindrun.files.regular_files import irregular, read_regular
 from mindrun.train import RunError
 
 MAX_PID_DIGITS = 20  # of the number of a process

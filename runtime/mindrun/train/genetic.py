@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.learners import Genetic
+from mindrun.kinds.learners import Genetic
 from mindrun.train.population import Genomes, Population, Scores, bounded, order
 
 TOURNAMENT_SIZE = 4

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from mindrun.graph import Lesson
+from mindrun.graph.graph import Lesson
 from mindrun.train import attempt
 from mindrun.train.attempt import Verdict, ends_by_itself, judge
 from mindrun.train.lesson_state import AttemptState, Course, LessonState, Record, begin_attempt, is_over

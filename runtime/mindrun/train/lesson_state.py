@@ -6,7 +6,7 @@ from math import inf
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.graph import Lesson
+from mindrun.graph.graph import Lesson
 from mindrun.train.ask_and_tell import kept_count
 from mindrun.train.population import Genomes, Population, Scores, nobody, order
 from mindrun.train.rungs import not_climbed

@@ -11,17 +11,17 @@ from typing import Any, Self
 
 import numpy as np
 
-from mindrun.codec import encode
-from mindrun.encoding import decode_part
-from mindrun.environment_module import module_beside
 from mindrun.errors import BundleError
-from mindrun.functions.procedure import module_source
-from mindrun.graph import Graph, Lesson
-from mindrun.short_repr import full_repr
-from mindrun.strict_json import is_whole, parsed
+from mindrun.files.strict_json import is_whole, parsed
+from mindrun.graph.codec import encode
+from mindrun.graph.encoding import decode_part
+from mindrun.graph.graph import Graph, Lesson
+from mindrun.graph.validate import lesson_flaws
+from mindrun.graph.weights import Weights, reachable
+from mindrun.kinds.environment_module import module_beside
+from mindrun.kinds.functions.procedure import module_source
+from mindrun.numbers.short_repr import full_repr
 from mindrun.train import RunError
-from mindrun.validate import lesson_flaws
-from mindrun.weights import Weights, reachable
 
 MANIFEST_VERSION = 3
 MAX_SEED = 2**63 - 1  # seed

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.learners import Learner
+from mindrun.kinds.learners import Learner
 
 Genomes = NDArray[np.float32]
 Scores = NDArray[np.float64]

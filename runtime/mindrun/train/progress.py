@@ -8,9 +8,9 @@ from math import isfinite
 from pathlib import Path
 from types import TracebackType
 
-from mindrun import atomic_write
-from mindrun.regular_files import read_whole
-from mindrun.strict_json import is_whole, parsed
+from mindrun.files import atomic_write
+from mindrun.files.regular_files import read_whole
+from mindrun.files.strict_json import is_whole, parsed
 from mindrun.train import RunError
 from mindrun.train.lesson_state import LessonState, Record
 

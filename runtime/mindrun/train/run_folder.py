@@ -10,16 +10,16 @@ from typing import Any
 
 import numpy as np
 
-from mindrun import atomic_write
-from mindrun.archive import read_archive, write_archive
-from mindrun.npy import from_npy, to_npy
-from mindrun.regular_files import read_whole
-from mindrun.strict_json import parsed
+from mindrun.files import atomic_write
+from mindrun.files.archive import read_archive, write_archive
+from mindrun.files.npy import from_npy, to_npy
+from mindrun.files.regular_files import read_whole
+from mindrun.files.strict_json import parsed
+from mindrun.graph.weights import Weights
 from mindrun.train import NotFoundError, RunError, checkpoint
 from mindrun.train.lesson_state import Course
 from mindrun.train.manifest import Manifest, from_json, hashes, to_json
 from mindrun.train.population import Genomes
-from mindrun.weights import Weights
 
 MANIFEST, SOURCES, START, WEIGHTS = "manifest.json", "source", "start.npz", "weights.npy"
 CHAMPIONS, RESULT, FAILURE = "champions.npy", "result.json", "failed.txt"

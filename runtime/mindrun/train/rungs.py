@@ -4,7 +4,7 @@ from math import inf
 
 import numpy as np
 
-from mindrun.graph import Lesson
+from mindrun.graph.graph import Lesson
 from mindrun.train.population import Scores
 
 

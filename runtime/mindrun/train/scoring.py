@@ -8,7 +8,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.graph import Task
+from mindrun.graph.graph import Task
 from mindrun.train.population import Genomes, Scores
 from mindrun.train.seeds import Seeds
 

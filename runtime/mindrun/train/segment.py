@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mindrun.graph import Lesson
+from mindrun.graph.graph import Lesson
 from mindrun.train import attempt
 from mindrun.train.attempt import Verdict, ends_by_itself, judge
 from mindrun.train.lesson import Clock

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from mindrun.graph import Task
+from mindrun.graph.graph import Task
 from mindrun.train.lesson import Clock
 from mindrun.train.lesson_state import Course
 from mindrun.train.population import Genomes

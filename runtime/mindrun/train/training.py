@@ -5,6 +5,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from mindrun.graph.weights import Weights
 from mindrun.train import RunError, checkpoint
 from mindrun.train.attempts import AttemptExecutor, side_by_side
 from mindrun.train.champion_log import ChampionLog
@@ -16,7 +17,6 @@ from mindrun.train.progress import ProgressLog
 from mindrun.train.run_folder import RunFolder, keep_champions, keep_weights
 from mindrun.train.scoring import Scorer
 from mindrun.train.step import Ahead, Step
-from mindrun.weights import Weights
 
 CHECKPOINT_SECONDS = 2.0  # between two checkpoints
 

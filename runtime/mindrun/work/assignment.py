@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from mindrun.bundle import Bundle, unpack
-from mindrun.strict_json import are_names
+from mindrun.files.strict_json import are_names
+from mindrun.graph.bundle import Bundle, unpack
 from mindrun.work.frame import Frame, FrameError, pack
 
 KIND = "assignment"

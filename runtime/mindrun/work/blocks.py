@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.graph import Task
-from mindrun.run_scores import Scores
+from mindrun.graph.graph import Task
+from mindrun.graph.run_scores import Scores
 from mindrun.work.score_frame import COUNTED, SUMMED, kind_of, shape_of
 
 JOB_SECONDS = 1.0  # that a job takes at most, as far as is known: so much is lost with a worker

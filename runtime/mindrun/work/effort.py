@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.strict_json import is_whole
+from mindrun.files.strict_json import is_whole
 from mindrun.work.frame import Frame, FrameError
 
 MAX_SECONDS, MAX_COUNT = 1e9, 2**53

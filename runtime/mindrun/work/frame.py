@@ -20,7 +20,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.strict_json import is_whole, parsed
+from mindrun.files.strict_json import is_whole, parsed
 
 MAGIC = b"mindfrm1"
 LENGTHS = Struct("<IQ")

@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.graph import Task
-from mindrun.run_scores import Scores
+from mindrun.graph.graph import Task
+from mindrun.graph.run_scores import Scores
 from mindrun.train.population import Genomes
 from mindrun.train.scoring import is_one_world
 from mindrun.work.blocks import Block, Blocks, empty_scores, place, runs_in_a_job

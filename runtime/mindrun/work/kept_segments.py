@@ -11,8 +11,8 @@ from pathlib import Path
 
 import numpy as np
 
-from mindrun.atomic_write import write
-from mindrun.regular_files import read_whole
+from mindrun.files.atomic_write import write
+from mindrun.files.regular_files import read_whole
 from mindrun.train.attempts import AttemptExecutor
 from mindrun.train.lesson import Clock
 from mindrun.train.lesson_state import AttemptState, Course, begin_attempt

@@ -5,8 +5,8 @@ from typing import Any
 
 import numpy as np
 
-from mindrun.graph import Task
-from mindrun.run_scores import Scores
+from mindrun.graph.graph import Task
+from mindrun.graph.run_scores import Scores
 from mindrun.train.population import Genomes
 from mindrun.train.seeds import Seeds
 from mindrun.work.frame import Arrays, Frame, FrameError

@@ -8,18 +8,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.codec import encode
-from mindrun.encoding import decode_part
 from mindrun.errors import BundleError
-from mindrun.graph import Lesson
-from mindrun.strict_json import is_whole
+from mindrun.files.strict_json import is_whole
+from mindrun.graph.codec import encode
+from mindrun.graph.encoding import decode_part
+from mindrun.graph.graph import Lesson
+from mindrun.graph.validate import lesson_flaws
 from mindrun.train.ask_and_tell import kept_count
 from mindrun.train.attempt import Verdict
 from mindrun.train.lesson_state import AttemptState, Course, Record
 from mindrun.train.manifest import MAX_SEED
 from mindrun.train.population import Population
 from mindrun.train.segment import SEGMENT_GENERATIONS, Segment, Stretch
-from mindrun.validate import lesson_flaws
 from mindrun.work.frame import Arrays, Frame, FrameError
 
 ADVANCE, SEGMENT = "advance", "segment"

@@ -7,7 +7,7 @@ from time import sleep
 
 import cv2
 import numpy as np
-from mindrun.arrays import Frame
+from mindrun.numbers.arrays import Frame
 from mindrun.robot.ball_detection import focal_length
 
 WIDTH, HEIGHT, VIEW, GREEN = 320, 240, 60.0, 120

@@ -8,14 +8,14 @@ from time import monotonic, sleep
 import cv2
 import numpy as np
 import pytest
-from mindrun.arrays import Frame
 from mindrun.driver import DeviceError
+from mindrun.graph.wiring import SensorWire, reading
+from mindrun.numbers.arrays import Frame
 from mindrun.robot import camera as watched
 from mindrun.robot import driver_support
 from mindrun.robot.ball_detection import Aim, focal_length
 from mindrun.robot.drivers import ball_tracker
 from mindrun.robot.drivers.ball_tracker import BallTracker
-from mindrun.wiring import SensorWire, reading
 
 from tests.robot.drivers.fakes import FakeBus, FakePca9685
 from tests.robot.drivers.frames import HEIGHT, VIEW, WIDTH, FakeCamera, ball, column, room, taken

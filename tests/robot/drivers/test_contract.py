@@ -9,7 +9,7 @@ from typing import Annotated, get_origin, get_type_hints
 
 import pytest
 from mindrun.driver import DeviceError, SensorDevice
-from mindrun.registry import kinds
+from mindrun.kinds.registry import kinds
 from mindrun.robot import drivers
 from mindrun.robot.drivers import ball_tracker
 

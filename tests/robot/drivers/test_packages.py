@@ -14,7 +14,7 @@ import sys
 for name in ("cv2", "smbus2", "gpiozero", "lgpio", "RPi"):
     sys.modules[name] = None
 import mindrun.robot.drivers
-from mindrun.registry import kinds
+from mindrun.kinds.registry import kinds
 from mindrun.driver import DeviceError
 needed = {"ultrasonic": {"trigger": (5,), "echo": (6,)}, "grove_ultrasonic": {"ports": (4,)}, "switch": {"pin": 5},
     "pca9685": {"channel": 0}, "grove_motor": {"motor": 1}, "bumper": {"pins": (5,)}, "line_sensor": {"pins": (5,)},

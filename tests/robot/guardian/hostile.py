@@ -16,7 +16,7 @@ from importlib import import_module
 from typing import Annotated, Any
 
 from mindrun.driver import DeviceError
-from mindrun.registry import kind
+from mindrun.kinds.registry import kind
 from mindrun.robot.driver_support import PIN
 
 NEUTRALS = (0.5, 0.5, 1.0)

@@ -23,7 +23,7 @@ from importlib import import_module
 from typing import Annotated
 
 from mindrun.driver import DeviceError
-from mindrun.registry import kind
+from mindrun.kinds.registry import kind
 from mindrun.robot.driver_support import PIN
 from mindrun.robot.guardian.__main__ import main
 from mindrun.robot.guardian.plan import DRIVERS

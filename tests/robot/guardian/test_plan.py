@@ -8,18 +8,18 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from mindrun.bundle import Bundle, write_bundle
 from mindrun.errors import MindError
-from mindrun.policy import Policy
-from mindrun.quantity import Reference
-from mindrun.registry import arguments, kinds
+from mindrun.graph.bundle import Bundle, write_bundle
+from mindrun.graph.policy import Policy
+from mindrun.graph.wiring import ActuatorWire, Wiring
+from mindrun.kinds.registry import arguments, kinds
+from mindrun.numbers.quantity import Reference
 from mindrun.robot.drivers.mock import MockActuator
 from mindrun.robot.drivers.own import KIND as OWN_KIND
 from mindrun.robot.drivers.pca9685 import Pca9685
 from mindrun.robot.drivers.simulated import SimulatedActuator
 from mindrun.robot.guardian.client import PROGRAM
 from mindrun.robot.guardian.plan import Channel, Plan, PlanError, checked, from_json, plan_of, read_plan, to_json
-from mindrun.wiring import ActuatorWire, Wiring
 
 from tests.minds import always, mind, rule
 

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 from time import monotonic, sleep
 from typing import Annotated
 
-from mindrun.quantity import Quantity
-from mindrun.registry import kind
+from mindrun.kinds.registry import kind
+from mindrun.numbers.quantity import Quantity
 from mindrun.robot.driver_support import ADDRESS, BUS, I2C_BYTE_SECONDS, I2cDevice, on_bus
 
 INPUT = Quantity("an input", {"": 1.0}, low=0, high=3, whole=True)

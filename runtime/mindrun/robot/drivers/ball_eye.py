@@ -4,8 +4,8 @@ from dataclasses import dataclass
 from math import cos, radians, sin, sqrt
 from typing import Annotated
 
-from mindrun.quantity import COUNT, RATIO
-from mindrun.registry import kind
+from mindrun.kinds.registry import kind
+from mindrun.numbers.quantity import COUNT, RATIO
 from mindrun.robot.ball_detection import distance
 from mindrun.robot.camera import FRAME_SECONDS
 from mindrun.robot.driver_support import DEGREES, METRES, PATH

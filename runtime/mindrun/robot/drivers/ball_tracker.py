@@ -7,8 +7,8 @@ from time import sleep
 from typing import Annotated, Literal, get_args
 
 from mindrun.driver import DeviceError
-from mindrun.quantity import COUNT, RATIO, Quantity, Reference
-from mindrun.registry import kind
+from mindrun.kinds.registry import kind
+from mindrun.numbers.quantity import COUNT, RATIO, Quantity, Reference
 from mindrun.robot import camera
 from mindrun.robot.ball_detection import BallTarget, PanTiltLimits, distance
 from mindrun.robot.camera import FRAME_SECONDS, BallSighting, Joint, TrackingCamera

@@ -5,8 +5,8 @@ from math import inf
 from time import monotonic, sleep
 from typing import Annotated, Any, Literal, get_args
 
-from mindrun.quantity import Quantity, Reference
-from mindrun.registry import kind
+from mindrun.kinds.registry import kind
+from mindrun.numbers.quantity import Quantity, Reference
 from mindrun.robot.driver_support import METRES, PIN, library, pins
 
 Measure = Literal["speed", "distance", "angle"]

@@ -7,8 +7,8 @@ from time import monotonic, sleep
 from typing import Annotated
 
 from mindrun.driver import DeviceError
-from mindrun.quantity import Quantity
-from mindrun.registry import kind
+from mindrun.kinds.registry import kind
+from mindrun.numbers.quantity import Quantity
 from mindrun.robot.driver_support import ADDRESS, BUS, I2C_BYTE_SECONDS, I2cDevice, on_bus, share
 
 MOTOR = Quantity("a motor of the board", {"": 1.0}, low=1, high=2, whole=True)

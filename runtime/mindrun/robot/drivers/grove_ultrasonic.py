@@ -4,8 +4,8 @@ from dataclasses import dataclass
 from time import monotonic, sleep
 from typing import Annotated
 
-from mindrun.quantity import Quantity
-from mindrun.registry import kind
+from mindrun.kinds.registry import kind
+from mindrun.numbers.quantity import Quantity
 from mindrun.robot.driver_support import ADDRESS, BUS, I2C_BYTE_SECONDS, METRES, I2cDevice, on_bus
 
 PORT = Quantity("a digital port of the GrovePi", {"": 1.0}, low=2, high=8, whole=True)

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import Annotated, Any
 
 from mindrun.driver import DeviceError
-from mindrun.registry import kind
+from mindrun.kinds.registry import kind
 from mindrun.robot.driver_support import PIN, PWM_HERTZ, library, on_pin, pins, share
 
 

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Annotated
 
-from mindrun.registry import kind
+from mindrun.kinds.registry import kind
 from mindrun.robot.digital_inputs import DigitalInputsDevice, open_inputs
 from mindrun.robot.driver_support import PIN, SWITCH
 

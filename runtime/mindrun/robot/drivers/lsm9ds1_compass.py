@@ -4,8 +4,8 @@ from dataclasses import dataclass
 from math import atan2, degrees, hypot
 from typing import Annotated
 
-from mindrun.quantity import Quantity
-from mindrun.registry import kind
+from mindrun.kinds.registry import kind
+from mindrun.numbers.quantity import Quantity
 from mindrun.robot.driver_support import ADDRESS, BUS, DEGREES, I2cDevice
 from mindrun.robot.lsm9ds1 import (
     BUS_SECONDS,

@@ -8,8 +8,8 @@ from statistics import fmean
 from time import monotonic
 from typing import Annotated
 
-from mindrun.quantity import Quantity
-from mindrun.registry import kind
+from mindrun.kinds.registry import kind
+from mindrun.numbers.quantity import Quantity
 from mindrun.robot.driver_support import ADDRESS, BUS, I2cDevice
 from mindrun.robot.lsm9ds1 import (
     ACCELERATION_PER_COUNT,

@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 from typing import Annotated
 
-from mindrun.quantity import NUMBER
-from mindrun.registry import kind
+from mindrun.kinds.registry import kind
+from mindrun.numbers.quantity import NUMBER
 from mindrun.robot.driver_support import ADDRESS, BUS, I2cDevice
 from mindrun.robot.lsm9ds1 import (
     BUS_SECONDS,

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 from typing import Annotated, Any
 
 from mindrun.driver import DeviceError
-from mindrun.quantity import Quantity
-from mindrun.registry import kind
+from mindrun.kinds.registry import kind
+from mindrun.numbers.quantity import Quantity
 from mindrun.robot.driver_support import CHIP, library, pins
 
 INPUT = Quantity("an input", {"": 1.0}, low=0, high=7, whole=True)

@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 from typing import Annotated
 
-from mindrun.quantity import COUNT, NUMBER
-from mindrun.registry import kind
+from mindrun.kinds.registry import kind
+from mindrun.numbers.quantity import COUNT, NUMBER
 from mindrun.robot.driver_support import share
 
 

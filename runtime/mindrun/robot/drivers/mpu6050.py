@@ -4,8 +4,8 @@ from dataclasses import dataclass
 from time import monotonic, sleep
 from typing import Annotated
 
-from mindrun.quantity import NUMBER
-from mindrun.registry import kind
+from mindrun.kinds.registry import kind
+from mindrun.numbers.quantity import NUMBER
 from mindrun.robot.driver_support import ADDRESS, BUS, I2C_BYTE_SECONDS, I2cDevice
 from mindrun.robot.lsm9ds1 import FACE, Face
 

@@ -9,8 +9,8 @@ from dataclasses import dataclass, replace
 from typing import Annotated, Any, Protocol
 
 from mindrun.driver import ActuatorDevice, DeviceError, SensorDevice
-from mindrun.quantity import NUMBER, Quantity, Reference
-from mindrun.registry import kind
+from mindrun.kinds.registry import kind
+from mindrun.numbers.quantity import NUMBER, Quantity, Reference
 from mindrun.robot.driver_code import DriverCode, load_class
 from mindrun.robot.driver_support import SWITCH, share
 

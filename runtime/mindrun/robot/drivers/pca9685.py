@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from time import sleep
 from typing import Annotated
 
-from mindrun.registry import kind
+from mindrun.kinds.registry import kind
 from mindrun.robot.driver_support import ADDRESS, BUS, CHANNEL, I2C_BYTE_SECONDS, MICROSECONDS, I2cDevice, on_bus, share
 
 MODE1, MODE2, LED0, ALL_OFF_HIGH, PRESCALE = 0x00, 0x01, 0x06, 0xFD, 0xFE  # table 4

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Annotated, Any
 
-from mindrun.registry import kind
+from mindrun.kinds.registry import kind
 from mindrun.robot.driver_support import MICROSECONDS, PIN, library, on_pin, pins, share
 
 FRAME_SECONDS = 0.02  # between two pulses

@@ -10,12 +10,12 @@ from time import monotonic
 from typing import Annotated, Any
 
 from mindrun.driver import DeviceError
-from mindrun.graph import Graph
-from mindrun.named_readings import physical
-from mindrun.quantity import COUNT, Reference
-from mindrun.registry import kind
+from mindrun.graph.graph import Graph
+from mindrun.graph.named_readings import physical
+from mindrun.graph.wiring import ActuatorWire, SensorWire, Wiring, read_by
+from mindrun.kinds.registry import kind
+from mindrun.numbers.quantity import COUNT, Reference
 from mindrun.robot.simulated_world.protocol import ANSWER, READ, REQUEST, STATUS, WRITE
-from mindrun.wiring import ActuatorWire, SensorWire, Wiring, read_by
 
 EXCHANGE_SECONDS = 0.2  # seconds for a whole exchange
 TEXT = Reference("text")

@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 from typing import Annotated, Any, Literal, get_args
 
-from mindrun.quantity import Reference
-from mindrun.registry import kind
+from mindrun.kinds.registry import kind
+from mindrun.numbers.quantity import Reference
 from mindrun.robot.driver_support import PIN, library, pins
 
 Pull = Literal["up", "down"]

@@ -7,7 +7,7 @@ from time import monotonic, sleep
 from typing import Annotated, Any
 
 from mindrun.driver import DeviceError
-from mindrun.registry import kind
+from mindrun.kinds.registry import kind
 from mindrun.robot.driver_support import METRES, PIN, library, pins
 
 SOUND_METRES_PER_SECOND = 343.2  # metres a second, at 20 °C

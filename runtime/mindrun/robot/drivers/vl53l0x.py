@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Annotated
 
-from mindrun.registry import kind
+from mindrun.kinds.registry import kind
 from mindrun.robot.driver_support import ADDRESS, BUS, I2C_BYTE_SECONDS, METRES, I2cDevice
 from mindrun.robot.vl53l0x import RangeChip
 

@@ -9,13 +9,13 @@ from collections.abc import Callable
 from pathlib import Path
 
 from mindrun.errors import MindError, text_of
-from mindrun.line_writer import LineWriter
 from mindrun.robot.guardian.plan import DRIVERS, MAX_PLAN_BYTES, Plan, from_json, read_plan
 from mindrun.robot.guardian.printing import printing_never_waits
 from mindrun.robot.guardian.process import Process
 from mindrun.robot.guardian.realtime import import_little, set_realtime, wake_on_signals
 from mindrun.robot.guardian.status import OVER, REST, say
 from mindrun.robot.guardian.watch import rescued, watch
+from mindrun.terminal.line_writer import LineWriter
 
 OK, FAILED, USAGE, UNAVAILABLE, BROKEN = 0, 1, 64, 69, 70  # as in sysexits.h
 INPUT_DESCRIPTOR, OUTPUT_DESCRIPTOR, ERROR_DESCRIPTOR = 0, 1, 2

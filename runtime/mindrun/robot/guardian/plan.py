@@ -11,15 +11,15 @@ from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, NoReturn
 
-from mindrun.codec import Options, decode, encode
 from mindrun.driver import ActuatorDriver
 from mindrun.errors import MindError
-from mindrun.quantity import RATIO, SECONDS, Quantity
-from mindrun.regular_files import read_regular
+from mindrun.files.regular_files import read_regular
+from mindrun.graph.codec import Options, decode, encode
+from mindrun.numbers.quantity import RATIO, SECONDS, Quantity
 from mindrun.robot.guardian.frames import MAX_COMMANDS
 
 if TYPE_CHECKING:
-    from mindrun.wiring import Wiring  # which needs numpy
+    from mindrun.graph.wiring import Wiring  # which needs numpy
 
 DRIVERS = "mindrun.robot.drivers"
 MAX_PLAN_BYTES = 1 << 20
@@ -96,7 +96,7 @@ def read_plan(path: Path) -> Plan:
 
 
 def _of_bundle(path: Path) -> Plan:
-    from mindrun.bundle import read_bundle  # which needs numpy
+    from mindrun.graph.bundle import read_bundle  # which needs numpy
 
     bundle = read_bundle(path)
     if bundle.wiring is None:

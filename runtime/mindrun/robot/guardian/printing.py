@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from threading import Thread
 
-from mindrun.line_writer import LineWriter
+from mindrun.terminal.line_writer import LineWriter
 
 OUTPUT_DESCRIPTOR, ERROR_DESCRIPTOR = 1, 2
 PIECE_BYTES, LAST_SECONDS = 1 << 16, 0.3  # that are read at once; for what is left in the end

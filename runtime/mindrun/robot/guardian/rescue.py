@@ -8,12 +8,12 @@ from dataclasses import dataclass, replace
 from select import select
 from time import monotonic, sleep
 
-from mindrun.line_writer import LineWriter
 from mindrun.robot.guardian.plan import Channel, Plan
 from mindrun.robot.guardian.process import Process
 from mindrun.robot.guardian.realtime import wake_on_signals
 from mindrun.robot.guardian.status import say
 from mindrun.robot.parent_process import end_with_parent
+from mindrun.terminal.line_writer import LineWriter
 
 MAX_TRIES = 3  # of an actuator: processes that end without a word
 RETRY_SECONDS = 0.05  # between two tries to open what could not be

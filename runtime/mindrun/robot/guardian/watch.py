@@ -5,12 +5,12 @@ import signal
 from collections.abc import Callable
 from contextlib import suppress
 
-from mindrun.line_writer import LineWriter
 from mindrun.robot.guardian.plan import Plan
 from mindrun.robot.guardian.realtime import ENDING_SIGNALS, IGNORED_SIGNALS, ignore
 from mindrun.robot.guardian.rescue import ERROR_DESCRIPTOR, rescue
 from mindrun.robot.guardian.status import OVER, REST, WORKER, say
 from mindrun.robot.parent_process import end_with_parent
+from mindrun.terminal.line_writer import LineWriter
 
 RESCUE_SECONDS = 5.0
 

@@ -41,7 +41,7 @@ def _run(options: argparse.Namespace) -> None:
 
 def _world(options: argparse.Namespace) -> SimulatedWorld:
     """The world of a bundle. Here alone the simulator is imported: a robot has none."""
-    from mindrun.bundle import read_bundle
+    from mindrun.graph.bundle import read_bundle
 
     try:
         simulator = import_module("mindrun.sim.commanded_world")

@@ -8,8 +8,8 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from mindrun.graph import Graph, Task
-from mindrun.robot.recording_header import world_row_of
+from mindrun.graph.graph import Graph, Task
+from mindrun.graph.recording_header import world_row_of
 from mindrun.robot.simulated_world.protocol import ANSWER, BOXES, READ, STATUS, WORLD
 
 SEED_COUNT = 1 << 64

@@ -1,6 +1,6 @@
 """Act: the commands that the influence makes (Eq. 3), their delays, and the claw; the memory cells when all is done."""
 
-from mindrun.arithmetic import COSINE, SINE, SIZE, THING_ROWS, X, Y
+from mindrun.numbers.arithmetic import COSINE, SINE, SIZE, THING_ROWS, X, Y
 from mindrun.sim.arithmetic import HALF, ONE, ZERO, F, clamp, finite, in_claw
 from mindrun.sim.codes import GRIPPER, ITEM
 from mindrun.sim.compiling import compiled, part_of_tick

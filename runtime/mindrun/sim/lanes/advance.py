@@ -1,6 +1,6 @@
 """Many ticks of many worlds, each in two halves: between them, a mind's procedures may run in Python."""
 
-from mindrun.arithmetic import ANGLE, X, Y
+from mindrun.numbers.arithmetic import ANGLE, X, Y
 from mindrun.sim.codes import GOING_ON
 from mindrun.sim.compiling import compiled, entry, part_of_tick
 from mindrun.sim.lanes.act import act, recall

@@ -6,7 +6,7 @@ something could touch for the first time. `chipmunk_internals` has what is known
 
 import numpy as np
 
-from mindrun.arithmetic import BOX_COLUMNS, HALF_X, HALF_Y, SIZE, THING_ROWS, X, Y
+from mindrun.numbers.arithmetic import BOX_COLUMNS, HALF_X, HALF_Y, SIZE, THING_ROWS, X, Y
 from mindrun.sim.chipmunk_internals import (
     ARRAY_NUMBERS,
     BODY,

@@ -1,7 +1,7 @@
 """Whether a place is clear of what stands already, and whether a robot would begin in something or on a goal."""
 
-from mindrun.arithmetic import BOX_COLUMNS, HALF_X, HALF_Y, SIZE, THING_ROWS, X, Y
-from mindrun.beginning import meets_robot
+from mindrun.graph.beginning import meets_robot
+from mindrun.numbers.arithmetic import BOX_COLUMNS, HALF_X, HALF_Y, SIZE, THING_ROWS, X, Y
 from mindrun.sim.compiling import compiled
 
 meets = compiled(meets_robot)

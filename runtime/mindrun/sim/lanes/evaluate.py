@@ -1,6 +1,6 @@
-"""Expressions: `mindrun.stack_machine`, compiled."""
+"""Expressions: `mindrun.numbers.stack_machine`, compiled."""
 
-from mindrun import stack_machine
+from mindrun.numbers import stack_machine
 from mindrun.sim.arithmetic import compiled_lane
 
 evaluate = compiled_lane(stack_machine.evaluate)

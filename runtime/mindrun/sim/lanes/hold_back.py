@@ -7,7 +7,7 @@ of everything that moves: the robot, what it holds, each loose thing.
 
 import numpy as np
 
-from mindrun.arithmetic import ANGLE, LOOSE_ROWS, SIZE, SPEED_X, SPEED_Y, SPIN, THING_ROWS, TURN, X, Y
+from mindrun.numbers.arithmetic import ANGLE, LOOSE_ROWS, SIZE, SPEED_X, SPEED_Y, SPIN, THING_ROWS, TURN, X, Y
 from mindrun.sim.arithmetic import sine_cosine
 from mindrun.sim.compiling import compiled, part_of_tick
 from mindrun.sim.lanes.solid import CLOSED_UNITS, is_barred

@@ -1,7 +1,7 @@
 """Judge: measures and events of the tick, the rewards they earn, and what becomes of what was reached."""
 
-from mindrun.arithmetic import X, Y
-from mindrun.sensors.inertial import TRAIL_TICKS
+from mindrun.kinds.sensors.inertial import TRAIL_TICKS
+from mindrun.numbers.arithmetic import X, Y
 from mindrun.sim.arithmetic import inside
 from mindrun.sim.codes import (
     COLLISION,

@@ -7,7 +7,7 @@ more by then: what Chipmunk remembers of them has become too small to move anyth
 
 import numpy as np
 
-from mindrun.arithmetic import (
+from mindrun.numbers.arithmetic import (
     BOX_COLUMNS,
     HALF_X,
     HALF_Y,

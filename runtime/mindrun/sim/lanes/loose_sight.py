@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mindrun.arithmetic import COSINE, LOOSE_ROWS, SINE, SIZE, THING_ROWS, TURN, X, Y
+from mindrun.numbers.arithmetic import COSINE, LOOSE_ROWS, SINE, SIZE, THING_ROWS, TURN, X, Y
 from mindrun.sim.arithmetic import ONE, ZERO, F, sine_cosine
 from mindrun.sim.compiling import compiled
 from mindrun.sim.state import (

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mindrun.arithmetic import LOOSE_ROWS, PUSHED_SPIN, PUSHED_X, PUSHED_Y, SIZE, THING_ROWS, TURN, X, Y
+from mindrun.numbers.arithmetic import LOOSE_ROWS, PUSHED_SPIN, PUSHED_X, PUSHED_Y, SIZE, THING_ROWS, TURN, X, Y
 from mindrun.sim.chipmunk_internals import (
     ARRAY_NUMBERS,
     BODY_FREE,

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mindrun.arithmetic import COSINE, DISTANCE, SINE, THING_ROWS, X, Y
+from mindrun.numbers.arithmetic import COSINE, DISTANCE, SINE, THING_ROWS, X, Y
 from mindrun.sim.codes import ADVANCE, CHANGE, FORWARD, ITS_REWARD, PUSH, RETREAT
 from mindrun.sim.compiling import compiled
 

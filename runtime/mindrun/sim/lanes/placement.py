@@ -6,7 +6,7 @@ the same world. Everything is placed clear of everything else, with room for the
 
 import numpy as np
 
-from mindrun.arithmetic import ANGLE, BOX_COLUMNS, HALF_X, HALF_Y, SIZE, THING_ROWS, X, Y
+from mindrun.numbers.arithmetic import ANGLE, BOX_COLUMNS, HALF_X, HALF_Y, SIZE, THING_ROWS, X, Y
 from mindrun.sim.arithmetic import sine_cosine
 from mindrun.sim.codes import FAR
 from mindrun.sim.compiling import compiled

@@ -3,7 +3,7 @@
 Nothing here depends on whether a line of the task names the event: what measures changes nothing.
 """
 
-from mindrun.arithmetic import THING_ROWS, X, Y
+from mindrun.numbers.arithmetic import THING_ROWS, X, Y
 from mindrun.sim.arithmetic import in_claw, inside
 from mindrun.sim.codes import MOVES, STAYS, VANISHES, ZONE
 from mindrun.sim.compiling import compiled

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from mindrun.arithmetic import ANGLE, COSINE, SINE, X, Y
-from mindrun.sensors.inertial import TRAIL_TICKS
+from mindrun.kinds.sensors.inertial import TRAIL_TICKS
+from mindrun.numbers.arithmetic import ANGLE, COSINE, SINE, X, Y
 from mindrun.sim.arithmetic import sine_cosine
 from mindrun.sim.chipmunk_internals import FIXED_BODY
 from mindrun.sim.codes import GOING_ON, LOST, VISIT

@@ -5,8 +5,19 @@ from typing import Any
 
 import numpy as np
 
-from mindrun.arithmetic import BOX_COLUMNS, COSINE, DISTANCE, HALF_X, HALF_Y, MAX_FLOAT32, SINE, THING_ROWS, X, Y
-from mindrun.registry import kinds
+from mindrun.kinds.registry import kinds
+from mindrun.numbers.arithmetic import (
+    BOX_COLUMNS,
+    COSINE,
+    DISTANCE,
+    HALF_X,
+    HALF_Y,
+    MAX_FLOAT32,
+    SINE,
+    THING_ROWS,
+    X,
+    Y,
+)
 from mindrun.sim.arithmetic import ONE, ZERO, F, clamp, compiled_lane, wrapped
 from mindrun.sim.codes import AWAY, sensor_codes
 from mindrun.sim.compiling import compiled, part_of_tick

@@ -1,6 +1,6 @@
 """Solid: whether a straight way leads through what stands in it."""
 
-from mindrun.arithmetic import BOX_COLUMNS, HALF_X, HALF_Y, SIZE, THING_ROWS, X, Y
+from mindrun.numbers.arithmetic import BOX_COLUMNS, HALF_X, HALF_Y, SIZE, THING_ROWS, X, Y
 from mindrun.sim.compiling import compiled
 
 CLOSED_UNITS = 1e-6  # so much larger is everything here: what stands corner to corner leaves no way between

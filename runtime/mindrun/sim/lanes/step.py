@@ -1,6 +1,6 @@
 """Step: one tick of physics. Free flight is plain arithmetic in Chipmunk's order; Chipmunk steps what could touch."""
 
-from mindrun.arithmetic import (
+from mindrun.numbers.arithmetic import (
     ANGLE,
     BOX_COLUMNS,
     COSINE,

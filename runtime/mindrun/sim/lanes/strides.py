@@ -6,7 +6,7 @@ tick in several strides: in each everything moves by at most STRIDE_SHARE of tha
 
 import numpy as np
 
-from mindrun.arithmetic import (
+from mindrun.numbers.arithmetic import (
     BOX_COLUMNS,
     HALF_X,
     HALF_Y,

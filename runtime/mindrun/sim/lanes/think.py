@@ -3,8 +3,8 @@
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from mindrun.arithmetic import NAN
-from mindrun.registry import kinds
+from mindrun.kinds.registry import kinds
+from mindrun.numbers.arithmetic import NAN
 from mindrun.sim.arithmetic import ONE, ZERO, F, clamp, compiled_lane, finite
 from mindrun.sim.codes import function_codes
 from mindrun.sim.compiling import compiled, part_of_tick

@@ -6,7 +6,7 @@ the tick acts at its end, as it does where a tick is one stride.
 
 import numpy as np
 
-from mindrun.arithmetic import ANGLE, SPEED_X, SPEED_Y, SPIN, X, Y
+from mindrun.numbers.arithmetic import ANGLE, SPEED_X, SPEED_Y, SPIN, X, Y
 from mindrun.sim.chipmunk_internals import SPACE
 from mindrun.sim.compiling import compiled
 from mindrun.sim.lanes.chipmunk import close_space, open_space, push_body, step_space

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mindrun.arithmetic import SIZE, THING_ROWS, X, Y
+from mindrun.numbers.arithmetic import SIZE, THING_ROWS, X, Y
 from mindrun.sim.arithmetic import sine_cosine
 from mindrun.sim.compiling import compiled
 from mindrun.sim.lanes.clear_places import clear

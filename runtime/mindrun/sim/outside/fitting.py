@@ -5,8 +5,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from mindrun.kinds.slot import Slot
 from mindrun.sim.outside.parts import Part, Spaces, found
-from mindrun.slot import Slot
 
 WRAP = "Wrap the environment in one that has numbers instead, registered in a module beside the mind."
 

@@ -12,8 +12,8 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from mindrun.environment_module import module_beside
 from mindrun.errors import MindError
+from mindrun.kinds.environment_module import module_beside
 from mindrun.nearest_name import nearest
 from mindrun.sim.outside.foreign import first_line, foreign_code
 

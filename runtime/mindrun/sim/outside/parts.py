@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.slot import Slot
+from mindrun.kinds.slot import Slot
 
 
 @dataclass(frozen=True, slots=True)

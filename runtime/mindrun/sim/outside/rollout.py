@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.errors import MindError
-from mindrun.policy import Policy
+from mindrun.graph.policy import Policy
 from mindrun.sim.codes import BROKEN_OFF
 from mindrun.sim.lanes.stages import act, before, conclude, run_skills
 from mindrun.sim.outside.asking import Asked

@@ -7,7 +7,7 @@ from weakref import finalize
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.graph import Graph
+from mindrun.graph.graph import Graph
 from mindrun.sim.outside.making import BrokenEnvironmentError
 from mindrun.sim.outside.steppers import stepper_for
 from mindrun.sim.outside.wiring import wiring_of

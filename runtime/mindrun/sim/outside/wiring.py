@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.errors import MindError
-from mindrun.graph import Graph
+from mindrun.graph.graph import Graph
+from mindrun.kinds.slot import Slot
 from mindrun.sim.outside.fitting import misfits
 from mindrun.sim.outside.parts import Part, Spaces, found
 from mindrun.sim.outside.taking import Place
-from mindrun.slot import Slot
 
 Floats = NDArray[np.float64]
 Commands = NDArray[np.float32]  # [actuators, lanes]

@@ -1,0 +1,140 @@
+"""Answers as plain data: the contents of `--json`."""
+
+from dataclasses import asdict
+from math import isfinite, nan
+from typing import Any
+
+import numpy as np
+from mindrun.graph.weights import reachable
+from mindrun.kinds.sensors.directions import directions
+from numpy.typing import NDArray
+
+from mindlang.attribution.course import Course
+from mindlang.attribution.shares import Contribution, shares
+from mindlang.compiler.diagnostic import did_you_mean, listed
+from mindlang.run.edge_flow import Sink, sink_named
+from mindlang.run.outcome import events, rewards_data
+from mindlang.run.recorded_run import RecordedRun
+from mindlang.run.setup import SetupError
+
+REWARD = "reward"  # asks for the score, where nothing has that name
+PATH_COUNT = 10  # that are named, where nobody says how many
+DIRECTION_TOLERANCE = 1e-6  # of a unit vector: directions that lead no farther together have no mean
+MAX_EDGE_TICKS = 10_000_000  # edges times ticks of one answer
+
+
+class QuestionError(SetupError):
+    """A question that has no answer; the text is for the user."""
+
+    def __init__(self, message: str, hint: str = "") -> None:
+        super().__init__(message, hint, misuse=True)
+
+
+def answer(course: Course, what: str, span: tuple[int, int] | None, paths: int | None) -> dict[str, Any]:
+    """Who made what is asked about in the ticks of a span, the first of which is 1; without one in all of them."""
+    first, last = _within(course, span)
+    about = course.about | {"ticks": [first, last], "seconds_per_tick": course.flows.graph.tick}
+    target = sink_named(course.flows, what)
+    if target is not None:
+        return about | _shares(course, target, range(first - 1, last), paths or PATH_COUNT)
+    if what != REWARD:
+        raise _unknown(course, what)
+    if course.run is None:
+        raise QuestionError("a robot's recording has no rewards", "Ask for an actuator, a memory or a skill.")
+    if paths is not None:
+        raise QuestionError("a reward comes along no paths", "Leave --paths out: all of its lines are said.")
+    return about | _rewards(course.run, first, last)
+
+
+def _within(course: Course, span: tuple[int, int] | None) -> tuple[int, int]:
+    first, last = span or (1, course.ticks)
+    if last > course.ticks:
+        many = "1 tick" if course.ticks == 1 else f"{course.ticks:,} ticks"
+        raise QuestionError(
+            f"there is no tick {last:,}: it was over after {many}", f"Say one from 1 to {course.ticks}."
+        )
+    edges = len(course.flows.links)
+    if (last - first + 1) * edges > MAX_EDGE_TICKS:
+        most = MAX_EDGE_TICKS // edges
+        raise QuestionError(
+            f"{last - first + 1:,} ticks of {edges:,} edges are too much for one answer",
+            f"Ask for {most:,} ticks at most: --tick {first}..{first + most - 1}",
+        )
+    return first, last
+
+
+def _unknown(course: Course, what: str) -> QuestionError:
+    graph, master = course.flows.graph, course.flows.master
+    if what in {skill.name for skill in graph.skills}:
+        return QuestionError(f"{what} is not below {master}, which is in charge", _instead(course, what))
+    below = [graph.skills[index].name for index in course.flows.skills]
+    acting = [*(actuator.name for actuator in graph.actuators), *(memory.name for memory in graph.memories)]
+    acting += [REWARD] if course.run else []
+    hint = did_you_mean(what, [*acting, *below]) or f"There is {listed(acting, 'and')}."
+    return QuestionError(f"there is no actuator, memory or skill called {what}", hint)
+
+
+def _instead(course: Course, skill: str) -> str:
+    """Who is above a skill that the master does not reach."""
+    if "recording" in course.about:
+        return "It had no influence while this was recorded."
+    graph = course.flows.graph
+    above = next(each.name for each in graph.skills if skill in {below.name for below in reachable(graph, each.name)})
+    return f"{'It is below another' if above != skill else 'Nothing is above it'}: --master {above}"
+
+
+def _shares(course: Course, target: Sink, rows: range, paths: int) -> dict[str, Any]:
+    found, graph = shares(course.flows, target, rows, paths), course.flows.graph
+    data = asdict(found) | {
+        "of": graph.named(*target),
+        "kind": target[0],
+        "ticks": [rows.start + 1, rows.stop],
+        "paths": [asdict(each) | {"reads": _reads(course, each, rows)} for each in found.paths],
+        "silent": [graph.skills[index].name for index in found.silent],
+    }
+    del data["target"]
+    return data | (_acted(course, target[1], rows) if target[0] == "actuator" else {})
+
+
+def _reads(course: Course, of: Contribution, rows: range) -> dict[str, list[float | None]]:
+    """What the skill that sent it read, by sensor or memory; the mean over the ticks, None where that is no number."""
+    graph = course.flows.graph
+    name = of.path[-2] if len(of.path) > 1 else of.path[0]  # before what was asked about, unless that is the master
+    inputs = next(skill.inputs for skill in graph.skills if skill.name == name)
+    read = course.flows.walker.rows(np.array(rows))[0][:, list(inputs)].astype(float)
+    around = directions({each.name: each.kind for each in graph.sensors})
+    owners = {place: each.name for each in graph.sensors for place in range(each.start, each.start + each.width)}
+    owners |= {each.start: each.name for each in graph.memories}
+    found: dict[str, list[float | None]] = {}
+    for place, values in zip(inputs, read.T, strict=True):
+        value = float((mean_direction if owners[place] in around else np.mean)(values))
+        found.setdefault(owners[place], []).append(value if isfinite(value) else None)
+    return found
+
+
+def mean_direction(turns: NDArray[np.float64]) -> float:
+    """The mean of directions in turns, 0..1: where their unit vectors lead together; NaN where that is nowhere."""
+    together = np.exp(2j * np.pi * turns).mean()
+    return float(np.angle(together) / (2 * np.pi) % 1.0) if abs(together) > DIRECTION_TOLERANCE else nan
+
+
+def _acted(course: Course, actuator: int, rows: range) -> dict[str, Any]:
+    """What reached the actuator in the mean, and in how many ticks that was something else than what the mind said."""
+    acted = course.acted[rows.start : rows.stop, actuator]
+    return {
+        "acted": float(acted.astype(float).mean()),
+        "delay": course.flows.graph.actuators[actuator].kind.delay,
+        "stopped": int(course.stopped[rows.start : rows.stop].sum()),
+    }
+
+
+def _rewards(run: RecordedRun, first: int, last: int) -> dict[str, Any]:
+    """What each line has paid in these ticks; lines of one text are one, as in the outcome of a run."""
+    paid = run.lines[last - 1] - (run.lines[first - 2] if first > 1 else 0.0)
+    happened = run.events[last - 1] - (run.events[first - 2] if first > 1 else 0)
+    return {
+        "of": REWARD,
+        "kind": REWARD,
+        **rewards_data(run.task, paid),
+        "by_event": {name: int(times) for name, times in zip(events(run.task), happened, strict=True) if times},
+    }

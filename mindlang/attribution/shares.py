@@ -1,0 +1,234 @@
+"""Why a command was what it was: what each path of influence from the master down has contributed, exactly.
+
+    flows = edge_flows(policy, procedure_sources(graph, folder, master), master, run)  # a RecordedRun, or any Thought
+    found = shares(flows, sink_named(flows, "left_wheel"), range(811, 812))  # rows from 0: tick 812 of a simulation
+
+A command is a mean that influence weighs, command = Σ I·v / Σ I (Eq. 3), where the influence I of a skill is a sum over
+its parents of what they have sent it (Eq. 2). So each path has a `part` of Σ I, which is the influence that came along
+it, and the `share` of the command that this part makes with the value v that the last skill of the path sent. Shares
+add up to the command, parts to 1.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import fsum
+
+import numpy as np
+from mindrun.engine.think import clamped
+from mindrun.errors import MindError
+from numpy.typing import NDArray
+
+from mindlang.attribution.largest_paths import MAX_COUNTED_PATHS, Doubles, FoundPath, Ways, largest_paths, path_count
+from mindlang.run.edge_flow import NOTHING, EdgeFlow, EdgeFlows, Sink, accumulated
+
+NAMED_PATHS = 10
+
+
+class ReplacedInfluenceError(MindError):
+    """Influence that is other than what was sent, in a run that was changed: no path has made it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Contribution:
+    """What one path has contributed, in the mean over the ticks.
+
+    `path` are names, from the master to what is asked about; `value` (0..1) is what its last skill sent, `influence`
+    what came along it to that skill, `part` (0..1) its part of all influence, `share` its part of the command.
+    """
+
+    path: tuple[str, ...]
+    value: float
+    influence: float
+    part: float
+    share: float
+
+
+@dataclass(frozen=True, slots=True)
+class Rest:
+    """The `paths` that are not named, together; 10^15 stands for more, too.
+
+    Over several ticks some of them may have carried nothing.
+    """
+
+    paths: int
+    part: float
+    share: float
+
+
+@dataclass(frozen=True, slots=True)
+class Shares:
+    """The command to an actuator or a memory, or the influence on a skill, and who made it; means over `ticks` rows.
+
+    command = Σ `share` of `paths` + `rest.share` + `neutral` + `rounding`: `command` is what the mind said, to the bit;
+    `neutral` is what an actuator has of it from the `undriven` rows, in which nothing influenced it, and `rounding`
+    what the engine's sums in float32 have added. A memory that nothing drives is sent nothing: its means are over the
+    other rows, and its `command` is None where there is none; neither it nor a skill has a `neutral`. For a skill
+    `command` and `influence` are both its influence, and a share is the influence that came over that path.
+    `silent` are the skills that could have sent something and did not.
+    Unless they `are_largest`, a path may be among the `rest` that is larger than those named.
+    """
+
+    target: Sink
+    ticks: int
+    command: float | None
+    influence: float
+    undriven: int
+    neutral: float | None
+    rounding: float
+    paths: tuple[Contribution, ...]
+    rest: Rest
+    silent: tuple[int, ...]
+    are_largest: bool
+
+
+def shares(flows: EdgeFlows, target: Sink, rows: range, paths: int = NAMED_PATHS) -> Shares:
+    """Who made the command to `target`, or the influence on it, in these rows, one at least; the `paths` largest parts.
+
+    IndexError where a row is not there, ReplacedInfluenceError where influence that comes to the target was replaced.
+    It takes as long as thinking these rows does, and for so many paths as long as they are, however many there are in
+    all.
+    """
+    carried, order = flows.over(rows), _above(flows, target)
+    _refuse_replaced(flows, carried, [*order, *([target[1]] if target[0] == "skill" else [])])
+    if target == ("skill", flows.skills[0]):
+        return _in_charge(flows, len(rows))
+    ends = _ends(flows, target, carried)
+    into = {skill: ways for skill in order if (ways := _into(flows, skill, carried)) is not None}
+    weights = Ways(ends.edges, ends.sources, ends.parts)
+    found = largest_paths(weights, into, order, paths)
+    named = tuple(sorted((_contribution(flows, ends, path) for path in found.paths), key=_size, reverse=True))
+    neutral = _neutral(flows, ends)
+    command = ends.mean(ends.engine) + (neutral or 0.0) if ends.ticks else None
+    every, part = ends.mean(ends.shares.sum(axis=0)), ends.mean(ends.parts.sum(axis=0))
+    count = path_count(weights, into, order)
+    rest = Rest(
+        count - len(named) * (count < MAX_COUNTED_PATHS),
+        max(0.0, part - fsum(each.part for each in named)),
+        max(0.0, every - fsum(each.share for each in named)),
+    )
+    return Shares(
+        target,
+        len(rows),
+        command,
+        ends.mean(ends.total),
+        int((~ends.driven).sum()),
+        neutral,
+        0.0 if command is None else command - (neutral or 0.0) - every,
+        named,
+        rest,
+        tuple(np.array(ends.sources, int)[~ends.behind.any(axis=1)].tolist()),
+        found.are_largest,
+    )
+
+
+def _size(contribution: Contribution) -> tuple[float, float]:
+    return contribution.part, contribution.share
+
+
+def _in_charge(flows: EdgeFlows, ticks: int) -> Shares:
+    """The influence of the master, which is 1 by definition."""
+    path = Contribution((flows.master,), 1.0, 1.0, 1.0, 1.0)
+    return Shares(("skill", flows.skills[0]), ticks, 1.0, 1.0, 0, None, 0.0, (path,), Rest(0, 0.0, 0.0), (), True)
+
+
+@dataclass(frozen=True, slots=True)
+class _Ends:
+    """The edges to what is asked about, and what they carry [edges, ticks]; `total`, `engine`, `driven` are [ticks].
+
+    `engine` is what the engine computes of it in float32, where it is driven. Means are over so many `ticks`: of a
+    memory those in which it is driven.
+    """
+
+    target: Sink
+    edges: tuple[int, ...]
+    sources: tuple[int, ...]
+    values: Doubles
+    behind: Doubles
+    parts: Doubles
+    shares: Doubles
+    total: Doubles
+    engine: Doubles
+    driven: NDArray[np.bool_]
+
+    @property
+    def ticks(self) -> int:
+        """Over how many ticks means are."""
+        return int(self.driven.sum()) if self.target[0] == "memory" else len(self.driven)
+
+    def mean(self, values: NDArray[np.generic]) -> float:
+        """The mean of values [ticks], which are 0 where nothing came."""
+        return fsum(values.tolist()) / max(1, self.ticks)
+
+
+def _refuse_replaced(flows: EdgeFlows, flow: EdgeFlow, skills: Sequence[int]) -> None:
+    """ReplacedInfluenceError where one of the skills has other influence than all above it have sent, and the master 1.
+
+    Asked of every answer about influence: a run says in its rows that it was changed, and nowhere else.
+    """
+    for skill in skills:
+        sent = accumulated(flow.carried[:, flows.links_to.get(("skill", skill), [])])
+        expected = np.ones_like(sent) if skill == flows.skills[0] else sent
+        if not np.array_equal(expected, flow.influence[:, skill], equal_nan=True):
+            name = flows.graph.skills[skill].name
+            raise ReplacedInfluenceError(
+                f"the influence of {name} was replaced: nobody sent it", "Ask about the run as it is without that."
+            )
+
+
+def _ends(flows: EdgeFlows, target: Sink, carried: EdgeFlow) -> _Ends:
+    edges = tuple(flows.links_to.get(target, ()))
+    values, behind, product = (of[:, edges].T.astype(float) for of in (carried.value, carried.behind, carried.carried))
+    is_skill = target[0] == "skill"
+    weight = product if is_skill else behind
+    with np.errstate(all="ignore"):
+        sums = [accumulated(each.T) for each in (product, weight)]
+        engine = sums[0] if is_skill else sums[0] / sums[1]
+        driven = (sums[1] > 0) & np.isfinite(engine)
+        total = np.where(driven, weight.sum(axis=0), 0.0)
+        parts = np.where(driven, weight / total, 0.0)
+        gain = np.where(driven, product / (1.0 if is_skill else total), 0.0)
+    commands = np.array([value if is_skill else clamped(value) for value in np.where(driven, engine, NOTHING)], float)
+    sources = tuple(flows.links[edge].source for edge in edges)
+    return _Ends(target, edges, sources, values, behind, parts, gain, total, commands, driven)
+
+
+def _neutral(flows: EdgeFlows, ends: _Ends) -> float | None:
+    kind, index = ends.target
+    if kind != "actuator":
+        return None
+    return float(np.float32(flows.graph.actuators[index].kind.neutral)) * ends.mean(~ends.driven)
+
+
+def _contribution(flows: EdgeFlows, ends: _Ends, path: FoundPath) -> Contribution:
+    """A path in the mean over the ticks; its value where it has a part, weighed by that."""
+    place = ends.edges.index(path.edges[-1])
+    sources = [flows.links[edge].source for edge in path.edges]
+    names = [flows.graph.skills[source].name for source in sources] + [flows.graph.named(*ends.target)]
+    with np.errstate(all="ignore"):
+        along = np.where(ends.parts[place] > 0, path.part / ends.parts[place], 0.0)
+    sent = ends.values[place]
+    value = sent[0] if (sent == sent[0]).all() else np.average(sent, weights=path.part)
+    influence, share = ends.mean(along * ends.behind[place]), ends.mean(along * ends.shares[place])
+    return Contribution(tuple(names), float(value), influence, ends.mean(path.part), share)
+
+
+def _above(flows: EdgeFlows, target: Sink) -> list[int]:
+    """The master, and all skills over which influence comes to the target, parents first."""
+    found, wanted = {flows.skills[0]}, {target}
+    for link in reversed(flows.links):
+        if link.target in wanted:
+            found.add(link.source)
+            wanted.add(("skill", link.source))
+    return [skill for skill in flows.skills if skill in found]
+
+
+def _into(flows: EdgeFlows, skill: int, carried: EdgeFlow) -> Ways | None:
+    edges = tuple(flows.links_to.get(("skill", skill), ()))
+    if not edges:
+        return None
+    arrived = carried.carried[:, edges].T.astype(float)
+    # influence beyond float32 is no number: where some of it is none, that is all of it
+    arrived = np.where(np.isfinite(arrived).all(axis=0), arrived, ~np.isfinite(arrived))
+    total = arrived.sum(axis=0)
+    fractions = np.divide(arrived, total, out=np.zeros_like(arrived), where=total > 0)
+    return Ways(edges, tuple(flows.links[edge].source for edge in edges), fractions)

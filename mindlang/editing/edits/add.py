@@ -1,0 +1,120 @@
+"""`mindc edit add`."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from typing import Annotated
+
+from mindrun.graph.skill_sets import learners
+
+from mindlang.compiler.diagnostic import Findings
+from mindlang.compiler.parse import parse
+from mindlang.compiler.source import Source, Span
+from mindlang.compiler.splice import Splice
+from mindlang.compiler.syntax import Declaration, Fact, File, Number, Teaches
+from mindlang.editing.insertion import (
+    FACTS,
+    INDENT,
+    NOUNS,
+    above_fact,
+    below_siblings,
+    commented,
+    declare,
+    number_lines,
+    text_of,
+)
+from mindlang.editing.owners import owners
+from mindlang.editing.project import EditError, MindChange, Project, facts
+from mindlang.lock.lessons import needed_skills
+
+
+def add(
+    project: Project,
+    lines: tuple[str, ...],
+    *,
+    to: Annotated[str, "The declaration to which facts are added: --to Collect"] = "",
+    noun: Annotated[str, "What that is, where two have the name: --noun task"] = "",
+) -> MindChange:
+    """Add declarations or, with --to, facts to a declaration.
+
+    They are said as in a file, a line each. A declaration stands below the last of its noun, a fact below the
+    last of its verb, a lesson above the first that needs its skill.
+
+    Example: mindc edit add collect.mind "skill Wait is rule" \\
+      "drives left_wheel at 1/2" "drives right_wheel at 1/2"
+    """
+    said = [line.strip() for text in lines for line in text.splitlines()]
+    if to:
+        declaration = project.declared(to, noun, among=next(filter(None, map(owners, said)), NOUNS))
+        return MindChange(tuple(_facts(project, declaration, _read_facts(declaration, said))))
+    return MindChange(tuple(_declarations(project, _read(said))))
+
+
+def _declarations(project: Project, read: File) -> Iterator[Splice]:
+    """The numbers, and each noun's declarations, below those that there are."""
+    numbers = [setting for setting in read.settings if isinstance(setting, Number)]
+    if not (read.declarations or numbers) or len(numbers) < len(read.settings):
+        raise EditError(
+            "Only declarations, numbers and facts can be added.", "Begin with a noun: skill, sensor, task, …."
+        )
+    for number in numbers:
+        project.refuse_taken("number", number.name.text)
+    if numbers:
+        yield number_lines(project.main, [number.span.text for number in numbers])
+    for declaration in read.declarations:
+        project.refuse_taken(declaration.header.noun.text, declaration.header.name.text)
+    for noun in NOUNS:
+        if texts := [_indented(known) for known in read.declarations if known.header.noun.text == noun]:
+            yield declare(project.main, noun, *texts)
+
+
+def _indented(declaration: Declaration) -> list[str]:
+    """The lines of a declaration, those below its header indented; comments stay where they are."""
+    lines = text_of([declaration]).splitlines()
+    above = next(index for index, line in enumerate(lines, 1) if not line.startswith("#"))
+    return [*lines[:above], *(f"{INDENT}{line}" for line in lines[above:])]
+
+
+def _facts(project: Project, declaration: Declaration, said: Sequence[Fact]) -> Iterator[Splice]:
+    """Each verb's facts below those that there are, but a lesson above the first one that needs its skill."""
+    needing = {fact: _first_needing(project, declaration, fact) for fact in said if isinstance(fact, Teaches)}
+    yield from (above_fact(place, commented(fact)) for fact, place in needing.items() if place)
+    said = [fact for fact in said if not (isinstance(fact, Teaches) and needing[fact])]
+    for form in FACTS:
+        if texts := [text for fact in said if isinstance(fact, form) for text in commented(fact)]:
+            yield below_siblings(declaration, form, texts)
+
+
+def _first_needing(project: Project, curriculum: Declaration, lesson: Teaches) -> Teaches | None:
+    """The first lesson of a curriculum that needs the skill of a new one, where none before it teaches that."""
+    skill, graph = lesson.skill.text, project.graph
+    lessons = [each for each in graph.lessons if each.curriculum == curriculum.header.name.text]
+    for fact, each in zip(facts(curriculum, Teaches), lessons, strict=True):
+        if skill in learners(graph, each):
+            return None
+        if skill in needed_skills(graph, each):
+            return fact
+    return None
+
+
+def _read_facts(declaration: Declaration, lines: list[str]) -> tuple[Fact, ...]:
+    """The lines as facts of a declaration; EditError where one is none."""
+    read = _read(lines, declaration.header.span.text)
+    of, *others = read.declarations
+    if read.settings or others or not of.facts:
+        raise EditError("With --to only facts can be added.", "Begin with a verb: reads, rewards, teaches, ….")
+    return of.facts
+
+
+def _read(lines: list[str], header: str = "") -> File:
+    """The lines as a file, below a header that is not theirs; EditError where one cannot be read."""
+    above = f"{header}\n" if header else ""
+    source = Source("the lines to add", "\n".join(lines))
+    findings = Findings()
+    file = parse(replace(source, text=above + source.text), findings)
+    for diagnostic in findings.diagnostics[:1]:
+        error = EditError(diagnostic.message, diagnostic.hint)
+        assert diagnostic.span is not None
+        place = Span(source, diagnostic.span.start - len(above), diagnostic.span.end - len(above))
+        error.diagnostic = replace(diagnostic, span=place)
+        raise error
+    return file

@@ -1,1 +1,0 @@
-"""Weights that come from elsewhere: held against the engine, tried, and written into the lock with their origin."""

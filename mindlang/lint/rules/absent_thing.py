@@ -1,0 +1,66 @@
+"""A lesson in a world that lacks what its skills sense.
+
+A sensor about a thing that is not there reads the same in every tick, a bearing 0.5: whoever reads it learns nothing of
+it, and a skill that goes there goes nowhere. A skill that is taught several times may do without in some lessons, as
+long as one of them has the thing.
+"""
+
+from mindlang.compiler.diagnostic import Label, listed
+from mindlang.compiler.model import Lesson
+from mindlang.lint.study import Finding, Found, Study
+
+SEEK = """
+sensor ball_bearing is bearing of ball
+skill Go is mlp
+  reads ball_bearing
+  drives left_wheel
+task Empty in arena
+  lasts 9 s
+  rewards forward per tick
+task Seek in arena
+  contains ball is item
+  lasts 9 s
+  rewards 10 on reach of ball
+curriculum School is genetic
+"""
+GOOD = (
+    f"{SEEK}  teaches Go on Seek for 10 generations\n",
+    f"{SEEK}  teaches Go on Empty for 10 generations\n  teaches Go on Seek for 10 generations\n",
+)
+BAD = (f"{SEEK}  teaches Go on Empty for 10 generations\n",)
+
+Readers = dict[str, tuple[str, str]]  # by thing: a skill and the sensor about the thing that it reads
+
+
+def check(study: Study) -> Found:
+    """Lessons whose world lacks a thing that a skill below their master senses, and so do all of that skill's."""
+    readers = _readers(study) if study.mind.lessons else {}
+    known: dict[str, set[str]] = {}
+    for lesson in study.mind.lessons:
+        known.setdefault(lesson.skill, set()).update(thing.name for thing in study.tasks[lesson.task].things)
+    for lesson in study.mind.lessons:
+        for thing, (skill, sensor) in readers[lesson.master].items():
+            if thing not in known[lesson.skill]:
+                yield _finding(study, lesson, thing, skill, sensor)
+
+
+def _readers(study: Study) -> dict[str, Readers]:
+    """Who senses which things, for each skill with all that stand below it."""
+    found: dict[str, Readers] = {}
+    for skill in study.children_first:
+        own: Readers = {}
+        for name in skill.subskills:
+            own |= found[name]
+        for sensor in skill.reads:
+            if sensor in study.senses:
+                own[study.senses[sensor]] = skill.name, sensor
+        found[skill.name] = own
+    return found
+
+
+def _finding(study: Study, lesson: Lesson, thing: str, skill: str, sensor: str) -> Finding:
+    having = [task.name for task in study.mind.tasks if thing in {part.name for part in task.things}]
+    hint = f"Teach it on {listed(having[:3])}, or let {lesson.task} contain {thing}, too."
+    label = Label(study.tasks[lesson.task].declaration.header.name.span, "this world")
+    message = f"{skill} reads {sensor}, but {lesson.task} contains no {thing}."
+    return Finding(lesson.fact.task.span, message, hint, (label,))

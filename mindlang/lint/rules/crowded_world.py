@@ -1,0 +1,66 @@
+"""A world in which its things hardly fit.
+
+What has no place of its own is put down where a try finds one that is clear of all other things, and by the robot's
+width of walls and obstacles. Where they leave hardly any, the last of them stands in another thing or in an obstacle,
+and nothing says so. Worlds of the task are drawn here as training draws them.
+"""
+
+from collections import Counter
+from random import Random
+
+from mindlang.compiler.model import Task
+from mindlang.compiler.source import Span
+from mindlang.compiler.syntax import Contains
+from mindlang.lint.drawn_world import ROBOT, DrawnWorld
+from mindlang.lint.study import Finding, Found, Study
+
+MAX_WORLDS, MAX_LOOKS = 100, 200_000  # as many worlds as cost no more than that
+
+BINS = """
+sensor bin_bearing is bearing of bin
+task Sort in arena size {}
+  contains bin is zone size 5 count 12 away 0 to 100
+  contains rock is obstacle count {} size 3
+  lasts 9 s
+  rewards 10 on reach of bin
+"""
+GOOD = (BINS.format(60, 10),)
+BAD = (BINS.format(30, 10), BINS.format(60, 100))
+
+
+def check(study: Study) -> Found:
+    """Tasks of which some worlds that are drawn lack a place for something."""
+    told: set[Span] = set()
+    for task in study.mind.tasks:
+        lacking, worlds = _lacking(study, task)
+        if not lacking:
+            continue
+        name = lacking.most_common(1)[0][0]
+        span = _span(task, name)
+        if span not in told:  # several tasks have it from one line
+            told.add(span)
+            message = f"{name} finds no place in {lacking[name]} of {worlds} worlds of {task.name} that were drawn."
+            yield Finding(span, message[0].upper() + message[1:] if name == ROBOT else message, HINT)
+
+
+HINT = "Make the arena larger, or what is in it smaller or fewer, or say where it stands: at 10 -5."
+
+
+def _lacking(study: Study, task: Task) -> tuple[Counter[str], int]:
+    """In how many worlds something is the first to find no place, by its name, and how many were drawn."""
+    found, looks, random = Counter[str](), 0, Random(1)
+    body, claw, never = study.mind.body.kind, study.graph.claw_reach, study.goals(task)
+    for number in range(MAX_WORLDS if not task.scene.environment else 0):
+        world = DrawnWorld(task.scene, body, claw, never, random)
+        if name := world.draw(task):
+            found[name] += 1
+        looks += world.looks
+        if looks > MAX_LOOKS:
+            return found, number + 1
+    return found, MAX_WORLDS
+
+
+def _span(task: Task, name: str) -> Span:
+    """Where a thing of a task is declared; of the robot, the task."""
+    facts = (fact.name for fact in task.facts if isinstance(fact, Contains) and fact.name.text == name)
+    return next(facts, task.declaration.header.name).span

@@ -1,0 +1,101 @@
+"""A lesson that comes before those of skills that it needs.
+
+A lesson runs the whole hierarchy below its master, and a skill that has not been taught yet has no weights; nor can a
+lesson begin `from` a skill without weights. `mindc train` teaches these first where it can, so say it in this order.
+"""
+
+from collections.abc import Sequence
+
+from mindlang.compiler.diagnostic import Label
+from mindlang.compiler.model import Lesson
+from mindlang.lint.study import Finding, Found, Study
+from mindlang.lock.status import mismatches
+
+HIERARCHY = """
+master Live
+sensor eye is range_finder at 0 deg
+skill Live is mlp
+  reads eye
+  influences Go
+  drives left_wheel
+skill Go is mlp
+  reads eye
+  drives left_wheel
+task Course in arena
+  lasts 9 s
+  rewards forward per tick
+curriculum School is genetic
+"""
+FIRST_LESSON = "  teaches Go on Course for 10 generations\n"
+SECOND_LESSON = "  teaches Live on Course for 10 generations\n"
+GOOD = (
+    HIERARCHY + FIRST_LESSON + SECOND_LESSON,
+    f"{HIERARCHY}  teaches Live on Course for 10 generations with subskills\n{FIRST_LESSON}",
+)
+BESIDE_GO = """
+skill Turn is mlp
+  reads eye
+  drives left_wheel
+"""
+LESSON_FROM_GO = "  teaches Turn on Course for 10 generations from Go\n"
+BAD = (
+    HIERARCHY + SECOND_LESSON + FIRST_LESSON,
+    HIERARCHY.replace("task Course", f"{BESIDE_GO}task Course") + LESSON_FROM_GO + FIRST_LESSON,
+)
+
+Latest = dict[str, tuple[int, str]]
+
+
+def check(study: Study) -> Found:
+    """Lessons below whose master a skill is taught for the first time later on."""
+    courses: dict[str, list[Lesson]] = {}
+    for lesson in study.mind.lessons:
+        courses.setdefault(lesson.curriculum, []).append(lesson)
+    firsts = {curriculum: _firsts(study, lessons) for curriculum, lessons in courses.items()}
+    taught_in: dict[str, int] = {}
+    for skill in (skill for first in firsts.values() for skill in first):
+        taught_in[skill] = taught_in.get(skill, 0) + 1
+    for curriculum, lessons in courses.items():
+        if len(lessons) > 1:
+            first = {skill: place for skill, place in firsts[curriculum].items() if taught_in[skill] == 1}
+            yield from _early(study, lessons, first)
+
+
+def _firsts(study: Study, lessons: Sequence[Lesson]) -> dict[str, int]:
+    """The place of the first lesson that teaches each skill."""
+    found: dict[str, int] = {}
+    seen: set[str] = set()
+    for place, lesson in enumerate(lessons):
+        below = study.below([lesson.skill], seen) if lesson.with_subskills else {lesson.skill}
+        seen |= below if lesson.with_subskills else set()
+        for skill in {study.skills[name].owner for name in below} & study.learning:
+            found.setdefault(skill, place)
+    return found
+
+
+def _latest(study: Study, first: dict[str, int]) -> Latest:
+    """For each skill the last of those first lessons that it and the skills below it have, and whose that is."""
+    found: Latest = {}
+    for skill in study.children_first:
+        below = [found[name] for name in skill.subskills]
+        found[skill.name] = max([(first.get(skill.owner, -1), skill.owner), *below])
+    return found
+
+
+def _early(study: Study, lessons: Sequence[Lesson], first: dict[str, int]) -> Found:
+    latest = _latest(study, first)
+    for place, lesson in enumerate(lessons):
+        needed, skill = latest[lesson.master]
+        role = "acts in this lesson"
+        if lesson.starts_from and first.get(origin := study.skills[lesson.starts_from].owner, -1) > needed:
+            needed, skill, role = first[origin], origin, "it begins with"
+        if needed > place and not _has_weights(study, skill):
+            message = f"{lesson.skill} stands before {skill}, which {role} and has no weights yet."
+            label = Label(lessons[needed].fact.span, f"{skill} is taught here")
+            yield Finding(lesson.fact.span, message, f"Move this line below the lesson of {skill}.", (label,))
+
+
+def _has_weights(study: Study, name: str) -> bool:
+    """Whether the lock has weights of a skill that fit."""
+    entry = study.lock.get(name)
+    return entry is not None and not mismatches(study.graph, study.graph.skills[study.graph.skill_numbers[name]], entry)

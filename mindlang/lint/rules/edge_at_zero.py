@@ -1,0 +1,39 @@
+"""An influence that is always zero.
+
+A skill without influence does not act at all (Eq. 2), so the line says the same as none. `drives left_wheel at 0` is
+another matter: 0 is a command as any other.
+"""
+
+from mindlang.compiler.diagnostic import Fix
+from mindlang.editing.insertion import without_fact
+from mindlang.lint.intervals import interval
+from mindlang.lint.study import Finding, Found, Study
+
+HIERARCHY = """
+master Live
+sensor eye is range_finder at 0 deg
+skill Back is rule
+  drives left_wheel at 0
+skill Go is rule
+  drives left_wheel at 1
+skill Live is rule
+  reads eye
+  influences Go at eye
+"""
+GOOD = (f"{HIERARCHY}  influences Back at 1 - eye\n",)
+BAD = (
+    f"{HIERARCHY}  influences Back at 0\n",
+    f"{HIERARCHY}  influences Back at 1/2 - 0.5\n",
+    f"{HIERARCHY}  influences Back at -eye\n",
+)
+
+
+def check(study: Study) -> Found:
+    """Influences whose value lies at 0 or below, where it is clamped to 0."""
+    for skill in (each for each in study.mind.skills if not each.like):
+        for edge in skill.edges:
+            if edge.to == "skill" and edge.at and all(interval(value)[1] <= 0 for value in edge.values):
+                removal = Fix("Remove the line", (without_fact(edge.fact),), is_safe=False)
+                message = f"{skill.name} never has influence on {edge.target}: this is always 0."
+                hint = "Give it a value above 0, or take the line out."
+                yield Finding(edge.at.span, message, hint, fix=removal if len(skill.edges) > 1 else None)

@@ -1,0 +1,135 @@
+"""A run that is decided, or paid for nothing, in its first tick.
+
+The robot starts where it has what it is to reach: in the zone, with the item in its claw's reach, the box in its own
+zone, the battery already low. In some runs or in all, by where things stand or which way the robot happens to face.
+What an end is about is left clear where the start is drawn; what is only rewarded is not, since what measures changes
+no world.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from math import pi
+
+from mindrun.kinds.events import EventKind
+
+from mindlang.compiler.beginning import Beginning, beginning
+from mindlang.compiler.model import Task
+from mindlang.compiler.resolve.decided import happens_at_once, hint_apart
+from mindlang.compiler.source import Span
+from mindlang.lint.conditions import why_always
+from mindlang.lint.intervals import UNIT_INTERVAL, Interval, formula_interval, interval
+from mindlang.lint.study import Finding, Found, Study
+
+LEAST_SHARE = 0.01  # of runs that are worth a word
+
+TASK = """
+sensor charge is battery start 60%
+sensor in_goal is inside of goal
+task Course in arena size 40
+  contains goal is zone size 12 at 10 0
+  contains coin is item size 1 at -10 2
+  lasts 9 s
+  starts at -10 0
+  rewards 1 on reach of goal
+"""
+GOOD = (
+    TASK,
+    TASK.replace("-10 0\n", "-10 0 facing -90 deg\n  ends on reach of coin\n"),
+    TASK.replace("-10 0\n", "-10 0\n  ends when charge < 50%\n  succeeds when in_goal > 0.5\n"),
+    TASK.replace("  starts at -10 0\n", "").replace("rewards 1", "succeeds"),
+)
+BAD = (
+    TASK.replace("-10 0\n", "9 0\n"),
+    TASK.replace("-10 0\n", "-10 0\n  ends on reach of coin\n"),
+    TASK.replace("-10 0\n", "-10 0\n  ends when charge < 70%\n"),
+    TASK.replace("-10 0\n", "9 0\n  succeeds when in_goal > 0.5\n").replace("  rewards 1 on reach of goal\n", ""),
+    *(
+        f"sensor moving is inertial\nsensor {sensor}\n" + TASK.replace("-10 0\n", f"-10 0\n  ends when {when}\n")
+        for sensor, when in (
+            ("pace is speed", "moving < 10%"),
+            ("low is latch of charge below 70% above 80%", "low > 0.5"),
+            ("mean is average of moving over 5 ticks", "mean < 10%"),
+            ("rising is derivative of charge", "rising >= 0.5"),
+            ("sum is computed at charge - moving", "sum > 0.5"),
+            ("beat is clock period 2 s", "beat < 0.5"),
+        )
+    ),
+    TASK.replace("  starts at -10 0\n", ""),
+)
+
+
+def check(study: Study) -> Found:
+    """Ends and rewards of events and conditions that have come in the first tick."""
+    told: set[Span] = set()
+    for task in study.mind.tasks:
+        begun = beginning(task.scene, task.things, task.start, study.mind.body.kind, study.graph.claw_reach)
+        for finding in _FirstTick(study, task, begun).found():
+            if finding.span not in told:  # several tasks have it from one line
+                told.add(finding.span)
+                yield finding
+
+
+@dataclass(frozen=True, slots=True)
+class _FirstTick:
+    study: Study
+    task: Task
+    begun: Beginning
+
+    def found(self) -> Iterator[Finding]:
+        """What is met or paid at once, line by line."""
+        for end in self.task.ends:
+            if end.event and (often := self._often(end.event, end.times)):
+                yield Finding(end.fact.span, f"This ends {often} in the first tick.", self._hint(end.event))
+            if end.when and (why := why_always(end.when, lambda of: interval(of, self.first))):
+                yield Finding(end.fact.span, f"This ends every run in its first tick: {why}.", "Compare otherwise.")
+        for reward in self.task.rewards:
+            if reward.on and (often := self._often(reward.on, 1) or self._often_drawn(reward.on)):
+                message = f"This is paid in the first tick of {often}, for nothing."
+                yield Finding(reward.fact.span, message, self._hint(reward.on))
+
+    def _hint(self, event: EventKind) -> str:
+        """What to do about an event that comes at once: which way a robot faces changes what its claw has reached."""
+        kinds = [each.kind for each in self.task.things if each.name == event.thing]
+        faces = event.outcome == "reached" and not any(kind.is_area for kind in kinds)
+        return hint_apart(event) + (" Or write which way the robot faces." if faces else "")
+
+    def _often(self, event: EventKind, times: int) -> str:
+        """In how many runs an event happens so many times in the first tick, where the robot's place is said."""
+        sensors = [*self.study.sensors.values()]
+        if happens_at_once(event, self.begun, sensors) >= times:
+            return "every run"
+        return "some runs" if happens_at_once(event, replace(self.begun, may=True), sensors) >= times else ""
+
+    def _often_drawn(self, event: EventKind) -> str:
+        """The share of runs in which the robot's place, which is drawn, is in what is rewarded, and no goal."""
+        if self.begun.at is not None or event.outcome != "reached" or event.thing in self.study.goals(self.task):
+            return ""
+        radius = self.study.mind.body.kind.radius
+        width, depth = (max(side - 6 * radius, radius) for side in self.task.scene.sides)
+        kinds = [each.kind for each in self.task.things if each.name == event.thing]
+        share = sum(self._size(kind.begins[1], kind.is_area) * len(kind.places[: kind.copies]) for kind in kinds)
+        share = min(1.0, share / (width * depth))
+        return f"about {share:.0%} of the runs" if share >= LEAST_SHARE else ""
+
+    def _size(self, size: float, is_area: bool) -> float:
+        """How large the places are at which a robot, facing anywhere, has reached a thing."""
+        return size**2 if is_area else pi / 2 * (self.begun.claw + size / 2) ** 2
+
+    def first(self, name: str) -> Interval:
+        """What a sensor or a memory reads in the first tick, as far as that is known."""
+        if kind := self.study.sensors.get(name):
+            if kind.formula:
+                low, high = formula_interval(kind.formula, self.first)
+                return max(0.0, min(low, 1.0)), max(0.0, min(high, 1.0))
+            return kind.first(self) or UNIT_INTERVAL
+        start = next((each.kind.start for each in self.study.mind.memories if each.name == name), None)
+        return UNIT_INTERVAL if start is None else (start, start)
+
+    def is_within(self, thing: str) -> bool | None:
+        """Whether the robot begins inside of a thing; None where that is drawn."""
+        if self.begun.at is None:
+            return None
+        if self.begun.reached(thing):
+            return True
+        is_drawn = any(each.name == thing and not each.kind.places for each in self.task.things)
+        return None if is_drawn or replace(self.begun, may=True).reached(thing) else False

@@ -1,0 +1,53 @@
+"""A lesson that stands twice in a curriculum.
+
+Right after itself it goes on where it ended: one lesson with more generations says so plainly. And one that begins from
+scratch throws away what the same lesson taught before. Lessons that take turns with others are fine.
+"""
+
+from mindrun.kinds.learners import Learner
+
+from mindlang.compiler.diagnostic import Label
+from mindlang.compiler.model import Lesson
+from mindlang.lint.study import Finding, Found, Study
+
+SCHOOL = """
+sensor eye is range_finder at 0 deg
+skill Go is mlp
+  reads eye
+  influences Turn
+  drives left_wheel
+skill Turn is mlp
+  reads eye
+  drives left_wheel
+task Course in arena
+  lasts 9 s
+  rewards forward per tick
+curriculum School is genetic
+  teaches Turn on Course for 10 generations
+"""
+TURN = "  teaches Turn on Course under Go for 10 generations\n"
+GO = "  teaches Go on Course for 10 generations\n"
+GOOD = (SCHOOL + GO + TURN + GO + TURN,)
+BAD = (SCHOOL + GO + GO, SCHOOL + GO + TURN + GO.replace("\n", " from scratch\n"))
+
+Said = tuple[str, str, str, str, bool, Learner]
+
+
+def check(study: Study) -> Found:
+    """Lessons that come right after the same lesson, or after it and from scratch."""
+    first: dict[Said, Lesson] = {}
+    before: Said | None = None
+    for lesson in study.mind.lessons:
+        said = (lesson.curriculum, lesson.skill, lesson.task, lesson.master, lesson.with_subskills, lesson.learner)
+        earlier = first.setdefault(said, lesson)
+        if earlier is not lesson and (lesson.from_scratch or lesson.starts_from or said == before):
+            yield _finding(lesson, earlier)
+        before = said
+
+
+def _finding(lesson: Lesson, earlier: Lesson) -> Finding:
+    message = f"This curriculum has taught {lesson.skill} on {lesson.task} already."
+    hint = "Leave one of the two out, and give the other the generations of both."
+    if lesson.from_scratch or lesson.starts_from:
+        hint = "Leave one of the two out: this one throws away what the first has taught."
+    return Finding(lesson.fact.span, message, hint, (Label(earlier.fact.span, "first taught here"),))

@@ -1,0 +1,52 @@
+"""A skill that no master reaches.
+
+Influence flows from the master down. A skill that neither the mind's master nor the master of a lesson influences,
+straight or through others, never acts and never learns; and whoever reads the file will think that it does.
+"""
+
+from mindlang.compiler.diagnostic import Fix
+from mindlang.editing.insertion import without_declarations
+from mindlang.lint.study import Finding, Found, Study
+
+ELSEWHERE = True
+GOOD = (
+    """
+master Live
+skill Live is rule
+  influences Go at 1
+skill Go is rule
+  drives left_wheel at 1
+""",
+    """
+sensor eye is range_finder at 0 deg
+skill Learn is mlp
+  reads eye
+  drives left_wheel
+skill Go is rule
+  drives left_wheel at 1
+task Course in arena
+  lasts 9 s
+  rewards forward per tick
+curriculum School is genetic
+  teaches Learn on Course for 10 generations
+""",
+)
+BAD = (
+    """
+skill Go is rule
+  drives left_wheel at 1
+skill Rest is rule
+  drives left_wheel at 0.5
+""",
+)
+
+
+def check(study: Study) -> Found:
+    """Skills that are not active; one that nobody names can be taken out."""
+    for skill in study.mind.skills:
+        if skill.name not in study.acting:
+            is_named = skill.name in study.used.get("skill", set())
+            removal = Fix(f"Remove {skill.name}", without_declarations([skill.declaration]), is_safe=False)
+            hint = f"Write influences {skill.name} below a skill that acts, or take {skill.name} out."
+            span = skill.declaration.header.name.span
+            yield Finding(span, f"No master reaches {skill.name}.", hint, fix=None if is_named else removal)

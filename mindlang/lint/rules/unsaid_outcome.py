@@ -1,0 +1,59 @@
+"""A thing that is reached for a reward or a count without a word on what follows.
+
+It stays where it is, and is reached again only after the robot has left it. Files of before things said so meant
+`reached moves`: there a thing appeared elsewhere as soon as a line of its task named its reach. `mindc migrate` brings
+such a file along.
+"""
+
+from mindlang.compiler.diagnostic import Fix
+from mindlang.compiler.model import Task
+from mindlang.compiler.source import Span
+from mindlang.compiler.splice import Splice
+from mindlang.compiler.syntax import Contains
+from mindlang.lint.study import Finding, Found, Study
+
+REACHED = "reached"  # the argument that is left out
+GOOD = (
+    """
+sensor dock_bearing is bearing of dock
+task Dock in plain
+  contains dock is zone size 5 reached stays
+  lasts 9 s
+  rewards 10 on reach of dock
+""",
+    """
+sensor dock_bearing is bearing of dock
+task Dock in plain
+  contains dock is zone size 5
+  lasts 9 s
+  ends on reach of dock
+  rewards 10 on reach of dock
+""",
+)
+BAD = (GOOD[0].replace(" reached stays", ""),)
+
+
+def check(study: Study) -> Found:
+    """Things that are reached for a reward or a count, and leave open what follows."""
+    told: set[Span] = set()
+    for task in study.mind.tasks:
+        reached = _reached(task)
+        for fact in task.facts:
+            match fact:
+                case Contains(name, phrase) if (
+                    name.text in reached
+                    and name.span not in told  # several tasks have it from one line
+                    and all(argument.key.text != REACHED for argument in phrase.arguments)
+                ):
+                    told.add(name.span)
+                    end = phrase.span.end
+                    fix = Fix("Say reached moves", (Splice(phrase.span.source, end, end, " reached moves"),), False)
+                    hint = "Write reached stays, or reached moves to have it appear elsewhere as it once did."
+                    yield Finding(name.span, f"{name.text} stays where it is when it is reached.", hint, fix=fix)
+
+
+def _reached(task: Task) -> set[str]:
+    """The things whose reach is rewarded or counted and does not end the run."""
+    events = [*task.counts, *(reward.on for reward in task.rewards if reward.on)]
+    ending = {end.event for end in task.ends if end.times == 1}
+    return {event.thing for event in events if event.outcome == REACHED and event not in ending}

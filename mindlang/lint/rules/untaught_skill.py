@@ -1,0 +1,68 @@
+"""A skill that learns, but that no lesson teaches.
+
+It has no weights, so no hierarchy with it can run. Give it a lesson, or let a lesson above it teach it `with
+subskills`; one that has been taught elsewhere and is not to change `stays frozen`.
+"""
+
+from collections.abc import Sequence
+
+from mindlang.compiler.diagnostic import listed
+from mindlang.compiler.model import Skill
+from mindlang.lint.study import Finding, Found, Study
+
+ELSEWHERE = True
+LEARNS = """
+sensor eye is range_finder at 0 deg
+skill Go is mlp
+  reads eye
+  drives left_wheel
+  drives right_wheel
+task Course in arena
+  lasts 9 s
+  rewards forward per tick
+"""
+GOOD = (
+    f"{LEARNS}curriculum School is genetic\n  teaches Go on Course for 10 generations\n",
+    """
+sensor eye is range_finder at 0 deg
+skill Go is mlp
+  stays frozen
+  reads eye
+  drives left_wheel
+""",
+)
+BAD = (LEARNS,)
+
+
+def check(study: Study) -> Found:
+    """Active skills that learn and are in no lesson; where there is no lesson at all this is said once."""
+    taught = _taught(study)
+    names = (study.learning & study.acting) - taught - study.lock.keys()
+    untaught = [skill for skill in study.mind.skills if skill.name in names]
+    if not study.mind.lessons:
+        own = [skill for skill in untaught if skill.declaration.header.span.source is study.main]
+        yield from [_no_lessons(study, own)] if own else []
+        return
+    for skill in untaught:
+        hint = f"Add {_lesson(study, skill)} to a curriculum, or let it stay frozen."
+        yield Finding(skill.declaration.header.name.span, f"No lesson teaches {skill.name}.", hint)
+
+
+def _taught(study: Study) -> set[str]:
+    lessons = study.mind.lessons
+    jointly = study.below(lesson.skill for lesson in lessons if lesson.with_subskills)
+    return {study.skills[name].owner for name in jointly} | {lesson.skill for lesson in lessons}
+
+
+def _no_lessons(study: Study, untaught: Sequence[Skill]) -> Finding:
+    names = [skill.name for skill in untaught]
+    some = names if len(names) < 4 else [*names[:2], f"{len(names) - 2} others"]
+    learn = "learns" if len(names) == 1 else "learn"
+    hint = f"Add a curriculum: {_lesson(study, untaught[0])}."
+    message = f"There is no lesson, but {listed(some, 'and')} {learn}."
+    return Finding(untaught[0].declaration.header.name.span, message, hint)
+
+
+def _lesson(study: Study, skill: Skill) -> str:
+    task = skill.name if skill.name in study.tasks else next(iter(study.tasks), "TASK")
+    return f"teaches {skill.name} on {task} for 1000 generations"

@@ -1,0 +1,97 @@
+"""A memory that is never read, never driven, or that no command changes.
+
+What nobody reads is remembered in vain, and what nobody drives stays what it was at the start: 0, or what `start` says.
+One that starts above 0 and decays is a clock, and needs no driver. With `decay 1` all of it is kept, and nothing added.
+"""
+
+from collections.abc import Iterator
+
+from mindlang.compiler.diagnostic import Fix
+from mindlang.compiler.model import Expression, Reading
+from mindlang.editing.insertion import without_declarations
+from mindlang.lint.study import Finding, Found, Study
+
+ELSEWHERE = True
+GOOD = (
+    """
+memory mood is cell decay 0.9
+skill Go is rule
+  reads mood
+  drives left_wheel at 1 - mood
+  drives mood at 1
+""",
+    """
+memory youth is cell decay 0.9 start 1
+skill Go is rule
+  reads youth
+  drives left_wheel at youth
+""",
+    """
+memory tired is cell decay 0.99
+skill Go is rule
+  drives left_wheel at 1
+  drives tired at 1
+task Run in arena
+  lasts 9 s
+  ends when tired > 0.5
+""",
+)
+BAD = (
+    """
+memory mood is cell decay 0.9
+skill Go is rule
+  drives left_wheel at 1
+  drives mood at 1
+""",
+    """
+memory mood is cell decay 0.9
+skill Go is rule
+  reads mood
+  drives left_wheel at mood
+""",
+    """
+memory mood is cell decay 1
+skill Go is rule
+  reads mood
+  drives left_wheel at mood
+  drives mood at 1
+""",
+)
+
+
+def check(study: Study) -> Found:
+    """Memories that nobody reads or nobody drives; one that neither happens to is taken out safely."""
+    read = {*_read(study)}
+    driven = {edge.target for skill in study.mind.skills for edge in skill.edges if edge.to == "memory"}
+    for part in study.mind.memories:
+        name, cell = part.name, part.kind
+        if name not in read:
+            removal = Fix(f"Remove {name}", without_declarations([study.mind.names.table["memory"][name]]))
+            hint = f"Add reads {name} to a skill, or take the memory out."
+            yield Finding(part.span, f"Nobody reads {name}.", hint, fix=None if name in driven else removal)
+        elif name not in driven and (cell.start == 0 or cell.decay == 1):
+            hint = f"Add drives {name} to a skill, or take the memory out."
+            yield Finding(part.span, f"Nobody drives {name}, so it is always {cell.start:g}.", hint)
+        elif cell.decay == 1:
+            hint = "Write decay 0 to take each command as it comes; drives … when … otherwise its own value holds it."
+            yield Finding(part.span, f"With decay 1 no command changes {name}, so it is always {cell.start:g}.", hint)
+
+
+def _read(study: Study) -> Iterator[str]:
+    """The readings that skills, sensors and rewards look at."""
+    for skill in study.mind.skills:
+        yield from skill.reads
+    for kind in study.sensors.values():
+        yield from kind.sources
+    for task in study.mind.tasks:
+        for reward in task.rewards:
+            yield from [reward.each] if reward.each else []
+            for expression in reward.expressions:
+                yield from _readings(expression)
+        for condition in (end.when for end in task.ends if end.when):
+            for expression in condition.expressions:
+                yield from _readings(expression)
+
+
+def _readings(of: Expression) -> Iterator[str]:
+    return (term.name for term in of.terms if isinstance(term, Reading))

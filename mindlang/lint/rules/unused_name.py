@@ -1,0 +1,31 @@
+"""A number or a scene that nothing says.
+
+No line says the number, no task is in the scene and no scene is like it: it changes nothing. One of a file that others
+use may be there for them.
+"""
+
+from mindlang.compiler.diagnostic import Fix
+from mindlang.editing.insertion import without_declarations
+from mindlang.editing.lines import first_line, remove_lines
+from mindlang.lint.study import Finding, Found, Study
+
+ELSEWHERE = True
+GOOD = (
+    "number far is 12\nsensor eye is range_finder at 0 deg range far\n",
+    "scene Rocks is arena\ntask Course in Rocks\n  lasts 9 s\n",
+)
+BAD = ("number far is 12\n", "scene Rocks is arena\ntask Course in arena\n  lasts 9 s\n")
+
+
+def check(study: Study) -> Found:
+    """Names of numbers and scenes that stand nowhere but where they are declared."""
+    for name, number in study.mind.names.numbers.items():
+        if name not in study.used.get("number", ()):
+            line = first_line(number.span)
+            fix = Fix(f"Remove {name}", (remove_lines(line, line),))
+            yield Finding(number.name.span, f"Nothing says {name}.", "Say it somewhere, or take it out.", fix=fix)
+    for name, scene in study.mind.names.declarations("scene"):
+        if name not in study.used.get("scene", ()):
+            fix = Fix(f"Remove {name}", without_declarations([scene]))
+            hint = f"Write task NAME in {name}, or take it out."
+            yield Finding(scene.header.name.span, f"No task is in {name}.", hint, fix=fix)

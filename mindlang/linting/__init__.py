@@ -1,1 +1,0 @@
-"""Lint: what a mind says that compiles and yet is hardly meant."""

@@ -1,0 +1,77 @@
+"""What the program that taught weights computes with them, beside what the engine does, on the same readings."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+from mindrun.graph.weights import Weights
+from numpy.typing import NDArray
+
+from mindlang.weights.network import Network, matrices_of
+from mindlang.weights.torch_outputs import Rows, in_torch
+
+Compute = Callable[[Rows], Rows]  # inputs [ticks, inputs] of a run to outputs [ticks, outputs], in 0..1
+
+
+@dataclass(frozen=True, slots=True)
+class Comparison:
+    """The largest `difference` of an output from that of the `reference`, in the `ticks` that were compared.
+
+    `faults` are the outputs that were finite in one of both alone, or in none: the engine sends nothing there.
+    """
+
+    reference: str
+    ticks: int
+    difference: float
+    faults: int
+
+
+def compare(network: Network, genome: Weights, inputs: Rows) -> Comparison:
+    """The function in PyTorch, or where that is not installed in float64 as it stands in a book, and in the engine."""
+    sound = inputs[np.isfinite(inputs).all(axis=1)]
+    name, compute = _reference(network, genome)
+    with np.errstate(all="ignore"):
+        theirs, ours = compute(sound), _engine(network, genome, sound)
+    finite = np.isfinite(theirs) & np.isfinite(ours)
+    difference = np.abs(theirs.astype(np.float64) - ours, where=finite, out=np.zeros(ours.shape))
+    return Comparison(name, len(sound), float(difference.max(initial=0.0)), int((~finite).sum()))
+
+
+def _engine(network: Network, genome: Weights, inputs: Rows) -> Rows:
+    """Tick by tick, as on a robot."""
+    compute = network.skill.function.ready(network.inputs, network.outputs, genome, {})
+    values = np.array([compute(row) for row in inputs], np.float32).reshape(len(inputs), network.outputs)
+    return _clamped(values)
+
+
+def _clamped(values: NDArray[np.floating]) -> Rows:
+    return np.where(np.isfinite(values), np.clip(values, 0, 1), np.nan).astype(values.dtype)
+
+
+def _reference(network: Network, genome: Weights) -> tuple[str, Compute]:
+    try:
+        import torch
+    except ImportError:
+        return "float64", partial(_in_float64, network, genome)
+    return f"PyTorch {torch.__version__}", partial(in_torch, network, genome)
+
+
+def _in_float64(network: Network, genome: Weights, inputs: Rows) -> Rows:
+    """Products of matrices and 1/(1 + e^−x), in float64."""
+    *hidden, last = (matrix.astype(np.float64) for matrix in matrices_of(network, genome))
+    values: NDArray[np.floating] = inputs.astype(np.float64)
+    if network.state:
+        state, rows = np.zeros(network.state), []
+        for row in values:
+            state = _sigmoid(hidden[0] @ np.concatenate([row, state]))
+            rows.append(state)
+        values = np.array(rows).reshape(len(inputs), network.state)
+    else:
+        for matrix in hidden:
+            values = _sigmoid(values @ matrix.T)
+    return _clamped(values @ last.T)
+
+
+def _sigmoid(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    return 1 / (1 + np.exp(-values))

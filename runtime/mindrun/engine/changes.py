@@ -1,0 +1,117 @@
+"""What is changed in a run that goes on otherwise than it did: readings, influence, memory cells, tick by tick."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from math import isfinite
+from typing import Literal
+
+from mindrun.errors import MindError
+from mindrun.graph.graph import Graph
+from mindrun.nearest_name import nearest
+
+What = Literal["reading", "influence", "memory"]
+
+
+class ChangeError(MindError):
+    """A change that cannot be made of this mind."""
+
+
+@dataclass(frozen=True, slots=True)
+class Change:
+    """One number that is another from tick `first` to `last`, both counted from 1; to the end where `last` is None.
+
+    `row` is the place of a reading or memory cell in the vector of readings, or that of a skill. It is `values[0]` in
+    the first of the ticks, `values[1]` in the next, and stays at the last of them.
+    """
+
+    what: What
+    row: int
+    values: tuple[float, ...]
+    first: int = 1
+    last: int | None = None
+
+    def holds(self, tick: int) -> bool:
+        """Whether it is made in a tick."""
+        return self.first <= tick and (self.last is None or tick <= self.last)
+
+    def value(self, tick: int) -> float:
+        """The number in a tick in which it is made."""
+        return self.values[min(tick - self.first, len(self.values) - 1)]
+
+
+@dataclass(frozen=True, slots=True)
+class Changed:
+    """The numbers that are others in one tick, by their places: readings, influence of skills, memory cells."""
+
+    reading: Mapping[int, float] = field(default_factory=dict)
+    influence: Mapping[int, float] = field(default_factory=dict)
+    memory: Mapping[int, float] = field(default_factory=dict)
+
+
+def in_tick(changes: Sequence[Change], tick: int) -> Changed | None:
+    """What is changed in a tick, of two changes of one number the later one; None where nothing is."""
+    made: dict[What, dict[int, float]] = {"reading": {}, "influence": {}, "memory": {}}
+    for change in changes:
+        if change.holds(tick):
+            made[change.what][change.row] = change.value(tick)
+    return Changed(**made) if any(made.values()) else None
+
+
+def calm_ticks(changes: Sequence[Change], tick: int, most: int) -> int:
+    """How many ticks from this one on, at which nothing is changed, stay so; up to `most`."""
+    coming = (change.first - tick for change in changes if change.first > tick)
+    return min([most, *coming])
+
+
+def change_of(
+    graph: Graph,
+    what: What,
+    name: str,
+    values: Sequence[Sequence[float]],
+    first: int = 1,
+    last: int | None = None,
+) -> tuple[Change, ...]:
+    """A sensor's readings, a skill's influence or a memory cell replaced; ChangeError where that cannot be.
+
+    `values` [ticks][1] is one number for each tick from the first on, or [ticks][width] one for each of a sensor's
+    readings; the last stay.
+    """
+    noun, start, width = _place(graph, what, name)
+    if not 1 <= first <= (first if last is None else last):
+        raise ChangeError(f"{name} cannot be changed from tick {first} to {last}", "the first tick of a run is 1")
+    if any(len(row) not in {1, width} for row in values) or not values:
+        number = "influence" if what == "influence" else "number" if what == "memory" else "reading"
+        hint = f"write one number{f' for all, or {width}' * (width > 1)}: {name}=0.5"
+        raise ChangeError(f"{noun} {name} has {width} {number}{'s' * (width > 1)}", hint)
+    most = None if what == "influence" else 1.0
+    for row in values:
+        for value in row:
+            if not (isfinite(value) and value >= 0 and (most is None or value <= most)):
+                raise ChangeError(f"{name} cannot be {value:g}", _allowed(what))
+    return tuple(
+        Change(what, start + k, tuple(float(row[k % len(row)]) for row in values), first, last) for k in range(width)
+    )
+
+
+def silenced(graph: Graph, skill: str, first: int = 1, last: int | None = None) -> tuple[Change, ...]:
+    """A skill without any influence: it computes nothing and sends nothing, and what it remembers stays as it is."""
+    return change_of(graph, "influence", skill, [[0.0]], first, last)
+
+
+def _place(graph: Graph, what: What, name: str) -> tuple[str, int, int]:
+    """What has that name, where its numbers begin, and how many they are."""
+    match what:
+        case "reading":
+            noun, places = "sensor", {sensor.name: (sensor.start, sensor.width) for sensor in graph.sensors}
+        case "influence":
+            noun, places = "skill", {name: (number, 1) for name, number in graph.skill_numbers.items()}
+        case "memory":
+            noun, places = "memory", {memory.name: (memory.start, 1) for memory in graph.memories}
+    if name not in places:
+        near = [one] if (one := nearest(name, places)) else sorted(places)
+        raise ChangeError(f"there is no {noun} called {name}", f"there is {', '.join(near)}" if near else "")
+    return noun, *places[name]
+
+
+def _allowed(what: What) -> str:
+    return "influence is a number from 0 on" if what == "influence" else "it is a number from 0 to 1"

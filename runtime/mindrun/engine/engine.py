@@ -1,0 +1,94 @@
+"""A mind that runs, on numpy alone: the definition that every faster executor agrees with bit for bit."""
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mindrun.engine.think import Thought, hierarchy, think
+from mindrun.engine.virtual_sensors import virtual_sensors
+from mindrun.errors import MindError, ReadingsError
+from mindrun.graph.graph import Graph
+from mindrun.graph.policy import Policy
+from mindrun.graph.procedure_source import source_of
+from mindrun.graph.weights import reachable
+from mindrun.kinds.functions.function import Stateful
+from mindrun.kinds.procedure_text import module_of
+
+
+def procedure_sources(graph: Graph, folder: Path, master: str | None = None) -> dict[str, str]:
+    """The text of each module that the skills below `master` (default: the mind's) call, by dotted name.
+
+    ProcedureError where one cannot be what its skill needs (`source_of`).
+    """
+    skills = reachable(graph, master or graph.master)
+    return {module_of(calls): source_of(s, folder) for s in skills if (calls := s.function.calls) is not None}
+
+
+class Engine:
+    """One mind and its state: the tick's number, the readings before, the memory cells.
+
+    `procedures` is the folder of the procedures' modules or their texts by
+    dotted name, `master` another skill than the mind's own to be in charge. Raises MindError where one does not fit.
+    """
+
+    def __init__(
+        self,
+        policy: Policy,
+        procedures: Path | Mapping[str, str] | None = None,
+        master: str | None = None,
+    ) -> None:
+        graph = policy.graph
+        master = master or graph.master
+        if master not in {skill.name for skill in graph.skills}:
+            raise MindError(f"there is no skill {master}")
+        if isinstance(procedures, Path):
+            procedures = procedure_sources(graph, procedures, master)
+        self.graph = graph
+        self._hierarchy = hierarchy(policy, procedures or {}, master)
+        self._neutral = np.array([actuator.kind.neutral for actuator in graph.actuators], np.float32)
+        self._places = np.array([memory.start for memory in graph.memories], np.intp)
+        self._decay = np.array([memory.kind.decay for memory in graph.memories], np.float32)
+        self._rest = np.array([1 - memory.kind.decay for memory in graph.memories], np.float32)
+        self.reset()
+
+    def reset(self) -> None:
+        """Back to the state before the first tick."""
+        for skill in self._hierarchy.skills:
+            if isinstance(skill.compute, Stateful):
+                skill.compute.reset()
+        self._virtual = virtual_sensors(self.graph)
+        self._tick = 0
+        self._before: NDArray[np.float32] | None = None
+        self._cells = np.array([memory.kind.start for memory in self.graph.memories], np.float32)
+        self.readings = np.zeros(self.graph.width, np.float32)
+        self.influence = self._hierarchy.calm.copy()
+        self.faults = 0
+
+    def tick(self, readings: ArrayLike) -> NDArray[np.float32]:
+        """Commands [actuators] for readings [graph.width]; those of virtual sensors and memories are filled in here."""
+        with np.errstate(all="ignore"):
+            self.readings = self._filled(np.array(readings, np.float32))
+            thought = self._thought()
+            actuators = len(self._neutral)
+            self._remember(thought.command[actuators:], thought.driven[actuators:])
+        self._tick, self._before = self._tick + 1, self.readings
+        self.influence = thought.influence
+        self.faults += thought.faults
+        return np.where(thought.driven[:actuators], thought.command[:actuators], self._neutral)
+
+    def _filled(self, now: NDArray[np.float32]) -> NDArray[np.float32]:
+        if now.shape != (self.graph.width,):
+            raise ReadingsError(f"this mind has {self.graph.width} readings, not {now.shape}")
+        now[self._places] = self._cells
+        for place, read in self._virtual:
+            now[place] = read(self._tick, now, self._before)
+        return now
+
+    def _thought(self) -> Thought:
+        return think(self._hierarchy, self.readings)
+
+    def _remember(self, command: NDArray[np.float32], driven: NDArray[np.bool_]) -> None:
+        kept = self._decay * self._cells
+        self._cells = np.where(driven, kept + self._rest * command, kept)

@@ -1,0 +1,195 @@
+"""A bundle: one file with everything a mind needs to run. A zip that any tool opens, but no byte of it may change.
+
+It ends in the SHA-256 of all bytes before; the manifest has those of its members. Reading never runs a procedure.
+"""
+
+import json
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+from mindrun.errors import BundleError, WeightsError
+from mindrun.files.archive import read_archive, write_archive
+from mindrun.files.atomic_write import write_out
+from mindrun.files.npy import to_npy
+from mindrun.files.regular_files import read_whole
+from mindrun.files.strict_json import parsed
+from mindrun.graph.bundle_migration import migrate_graph, with_programs, with_whole_lessons
+from mindrun.graph.codec import encode
+from mindrun.graph.encoding import decode, decode_wiring
+from mindrun.graph.graph import Graph
+from mindrun.graph.policy import Policy
+from mindrun.graph.weights import genes, read_weights
+from mindrun.graph.wiring import Wiring
+from mindrun.numbers.short_repr import ShortRepr
+
+# A mindrun that knows nothing of wirings refuses a bundle that has one, one that knows nothing of what becomes of
+# things those of which the tasks say it, and one of before the open world those of today.
+FORMAT, WIRED = "mind bundle 5", "mind bundle 6"
+WITHOUT_OUTCOMES = {"mind bundle 1": FORMAT, "mind bundle 2": WIRED}
+OLDER_FORMATS = WITHOUT_OUTCOMES | {"mind bundle 3": FORMAT, "mind bundle 4": WIRED}
+MANIFEST, GRAPH, WIRING = "manifest.json", "graph.json", "wiring.json"
+WEIGHTS, MODULES = "weights/", "procedures/"
+MAX_BUNDLE_BYTES = 64 << 20  # nothing is compressed, so this also limits what is read
+MAX_JSON_BYTES = (
+    4 << 20
+)  # bytes of JSON: it takes up to twenty times as much memory, and half a second for each million
+DIGEST_CHARACTERS = 64
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Bundle(ShortRepr):
+    """What is in a bundle: `procedures` has the text of each module by dotted name; not every mind has a robot."""
+
+    policy: Policy
+    procedures: Mapping[str, str]
+    wiring: Wiring | None = None
+
+    @property
+    def graph(self) -> Graph:
+        """The hierarchy of its policy."""
+        return self.policy.graph
+
+
+def fingerprint(wiring: Wiring) -> str:
+    """The SHA-256 by which a robot knows its wiring; it stands in the manifest, too."""
+    return sha256(_json(encode(wiring))).hexdigest()
+
+
+def write_bundle(path: Path, bundle: Bundle) -> str:
+    """Write a mind to one file, which replaces an older one only when it is whole; the SHA-256 of its bytes.
+
+    The same mind has the same bytes. OSError where it cannot be written.
+    """
+    data = pack(bundle)
+    unpack(data)  # nothing is written that cannot be read
+    write_out(path, data)
+    return sha256(data).hexdigest()
+
+
+def read_bundle(path: Path) -> Bundle:
+    """Read a mind from a file; BundleError unless it is byte for byte what was written."""
+    try:
+        data = read_whole(path, MAX_BUNDLE_BYTES)
+    except OSError as error:
+        raise BundleError(f"cannot read {path}: {error.strerror}") from error
+    try:
+        return unpack(data)
+    except BundleError as error:
+        raise BundleError(f"{path}: {error}") from error
+
+
+def digest(path: Path) -> str:
+    """The SHA-256 of a bundle's file."""
+    return sha256(read_whole(path, MAX_BUNDLE_BYTES)).hexdigest()
+
+
+def pack(bundle: Bundle) -> bytes:
+    """A bundle as bytes."""
+    members = _members(bundle)
+    manifest = _manifest(bundle.graph.master, bundle.policy.weights, bundle.procedures, bundle.wiring, members)
+    files = [(MANIFEST, _json(manifest)), *sorted(members.items())]
+    data = write_archive(files, comment=bytes(DIGEST_CHARACTERS))[:-DIGEST_CHARACTERS]
+    data += sha256(data).hexdigest().encode()
+    if len(data) > MAX_BUNDLE_BYTES:
+        raise BundleError(f"a bundle cannot be larger than {MAX_BUNDLE_BYTES >> 20} MiB")
+    return data
+
+
+def unpack(data: bytes) -> Bundle:
+    """The bundle in these bytes; BundleError unless they are what `pack` gave."""
+    if len(data) > MAX_BUNDLE_BYTES:
+        raise BundleError(f"this is larger than a bundle can be ({MAX_BUNDLE_BYTES >> 20} MiB)")
+    if not data.startswith(b"PK"):
+        raise BundleError("this is not a bundle")
+    if sha256(data[:-DIGEST_CHARACTERS]).hexdigest().encode() != data[-DIGEST_CHARACTERS:]:
+        raise BundleError("this bundle is damaged: build or copy it again")
+    try:
+        return _bundle(read_archive(data))
+    except (ValueError, WeightsError) as error:
+        raise BundleError(f"this is not a bundle that this version can read: {error}") from error
+
+
+def _members(bundle: Bundle) -> dict[str, bytes]:
+    """The files of a bundle by name, without its manifest."""
+    members = {GRAPH: _json(encode(bundle.graph))}
+    members |= {f"{WEIGHTS}{skill}.npy": to_npy(weights) for skill, weights in bundle.policy.weights.items()}
+    members |= {f"{MODULES}{module.replace('.', '/')}.py": text.encode() for module, text in bundle.procedures.items()}
+    return members | ({WIRING: _json(encode(bundle.wiring))} if bundle.wiring else {})
+
+
+def _manifest(
+    master: str, skills: Iterable[str], modules: Iterable[str], wiring: Wiring | None, members: Mapping[str, bytes]
+) -> dict[str, Any]:
+    """What the manifest says of a bundle and its files: nothing that does not follow from them."""
+    return {
+        "format": WIRED if wiring else FORMAT,
+        "master": master,
+        "members": {name: sha256(content).hexdigest() for name, content in members.items()},
+        "skills": sorted(skills),
+        "procedures": sorted(modules),
+    } | ({"wiring": fingerprint(wiring)} if wiring else {})
+
+
+def _bundle(members: dict[str, bytes]) -> Bundle:
+    """The bundle of these files; BundleError or ValueError where they are none."""
+    manifest = parsed(members.pop(MANIFEST, b""))
+    if not isinstance(manifest, dict) or manifest.get("format") not in (FORMAT, WIRED, *OLDER_FORMATS):
+        raise BundleError(_foreign(manifest))
+    data = with_whole_lessons(_document(members, GRAPH))
+    is_older = manifest["format"] in OLDER_FORMATS
+    if manifest["format"] in WITHOUT_OUTCOMES:
+        data = migrate_graph(data)
+    if is_older:
+        data = with_programs(data)
+        manifest = manifest | {"format": OLDER_FORMATS[manifest["format"]]}
+    graph = decode(data, is_older)
+    weights = {name: read_weights(content) for name, content in _below(members, WEIGHTS, ".npy")}
+    procedures = {name.replace("/", "."): content.decode() for name, content in _below(members, MODULES, ".py")}
+    wiring = decode_wiring(_document(members, WIRING), graph) if manifest["format"] == WIRED else None
+    known = 1 + len(weights) + len(procedures) + (wiring is not None)
+    if manifest != _manifest(graph.master, weights, procedures, wiring, members) or len(members) != known:
+        raise BundleError("this bundle's files are not those of its manifest")
+    _refuse_strangers(graph, weights, procedures)
+    return Bundle(Policy(graph, weights), procedures, wiring)
+
+
+def _refuse_strangers(graph: Graph, skills: Iterable[str], modules: Iterable[str]) -> None:
+    """BundleError where there are weights of nobody, or a module of no name."""
+    learning = {skill.name for skill in graph.skills if genes(skill) and not skill.like}
+    for name in skills:
+        if name not in learning:
+            raise BundleError(f"this bundle has weights of {name!r:.60}, which is no skill of it that learns")
+    for module in modules:
+        if not all(part.isidentifier() for part in module.split(".")):
+            raise BundleError(f"this bundle has a module {module!r:.60}, which is no name")
+
+
+def _below(members: Mapping[str, bytes], folder: str, suffix: str) -> Iterator[tuple[str, bytes]]:
+    """The files in a folder of a bundle, by their names without folder and suffix."""
+    for name, content in members.items():
+        if name.startswith(folder) and name.endswith(suffix):
+            yield name[len(folder) : -len(suffix)], content
+
+
+def _document(members: Mapping[str, bytes], name: str) -> Any:
+    if name not in members:
+        raise BundleError(f"this bundle has no {name}")
+    return parsed(members[name], MAX_JSON_BYTES)
+
+
+def _foreign(manifest: object) -> str:
+    """Why a bundle with such a manifest cannot be read."""
+    version = manifest.get("format") if isinstance(manifest, dict) else None
+    if not isinstance(version, str) or not version.startswith("mind bundle"):
+        return "this is not a bundle"
+    return (
+        f"this is a {version!r:.40}, this mindrun reads those up to {WIRED!r}: "
+        "build it again, or install the mindrun of the mindc that built it"
+    )
+
+
+def _json(value: Any) -> bytes:
+    return json.dumps(value, ensure_ascii=False, sort_keys=True, separators=(",", ":")).encode()

@@ -1,0 +1,150 @@
+"""Dataclasses as plain data for JSON, and back: their annotations say what must stand there, and nothing else may."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import MISSING, dataclass, fields, is_dataclass
+from math import isfinite
+from types import NoneType, UnionType
+from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_type_hints
+
+from mindrun.errors import MindError
+from mindrun.kinds.registry import bases, kinds, names
+from mindrun.numbers.quantity import Quantity, Reference, fits
+
+PLAIN = (bool, int, float, str)
+MAX_WHOLE_NUMBER = 2**53 - 1  # what any reader of JSON takes
+
+Options = Mapping[str, Any]
+Prepare = Callable[[str, Options], Options]  # what is done with the data of a kind of a noun before it is looked for
+
+_known_hints: dict[type[Any], dict[str, Any]] = {}  # of each class that was decoded
+
+
+class CodecError(ValueError):
+    """Data that nothing was encoded as; `unknown`: it may have been, by another version."""
+
+    def __init__(self, message: str, unknown: bool = False) -> None:
+        super().__init__(message)
+        self.unknown = unknown
+
+
+def encode(value: object, extra: Callable[[object], Options] = lambda value: {}) -> Any:
+    """A dataclass, or any part of one, as dicts, lists, strings and numbers; a kind names itself under "is".
+
+    `extra` is what else a kind says.
+    """
+    if isinstance(value, tuple):
+        return [encode(part, extra) for part in value]
+    if not is_dataclass(value):
+        return value
+    data = {field.name: encode(getattr(value, field.name), extra) for field in fields(value)}
+    name = names().get(type(value))
+    return data if name is None else {"is": name, **extra(value), **data}
+
+
+def decode(hint: Any, data: Any, where: str, prepare: Prepare = lambda noun, data: data, is_older: bool = False) -> Any:
+    """The value of type `hint` of which `encode` made this data; CodecError says `where` there is none.
+
+    What data that `is_older` does not say is as where nothing is said: it is from before there was a word for it.
+    """
+    return _Decoder(prepare, is_older).value(hint, data, where)
+
+
+@dataclass(frozen=True, slots=True)
+class _Decoder:
+    prepare: Prepare
+    is_older: bool
+
+    def value(self, hint: Any, data: Any, where: str) -> Any:
+        origin, parts = get_origin(hint), get_args(hint)
+        if origin is Annotated:
+            return _in_range(parts[1], self.value(parts[0], data, where), where)
+        if origin in (Union, UnionType):
+            return self.union(parts, data, where)
+        if origin is Literal:
+            return _word(parts, data, where)
+        if origin is tuple:
+            return self.tuple(parts, data, where)
+        if hint in bases():
+            return self.kind(bases()[hint], data, where)
+        return _plain(hint, data, where) if hint in PLAIN else self.fields(hint, data, where)
+
+    def union(self, hints: tuple[Any, ...], data: Any, where: str) -> Any:
+        if data is None and NoneType in hints:
+            return None
+        hints = tuple(hint for hint in hints if hint is not NoneType)
+        if isinstance(data, Mapping) and "is" in data:
+            hints = tuple(hint for hint in hints if names().get(hint) == data["is"])
+        elif len(hints) > 1:  # a number in an expression, one number or two
+            plain = tuple if isinstance(data, list) else type(data)
+            fitting = tuple(hint for hint in hints if (get_origin(hint) or hint) is plain)
+            hints = fitting or tuple(hint for hint in hints if hint is float and plain is int)
+        if len(hints) != 1:
+            raise CodecError(f"{where} is of an unknown kind")
+        return self.value(hints[0], data, where)
+
+    def tuple(self, hints: tuple[Any, ...], data: Any, where: str) -> tuple[Any, ...]:
+        if not isinstance(data, list):
+            raise CodecError(f"{where} is not a list")
+        if Ellipsis in hints:
+            hints = hints[:1] * len(data)
+        if len(hints) != len(data):
+            raise CodecError(f"{where} has {len(data)} entries")
+        pairs = enumerate(zip(hints, data, strict=True))
+        return tuple(self.value(hint, part, f"{where}[{place}]") for place, (hint, part) in pairs)
+
+    def kind(self, noun: str, data: Any, where: str) -> Any:
+        """A kind of a noun; another noun may have one of the same name."""
+        data = self.prepare(noun, data) if isinstance(data, Mapping) else {}
+        name = data.get("is")
+        if not isinstance(name, str) or name not in kinds(noun):
+            raise CodecError(f"{where} is {name!r:.60}, which is no {noun} of this mindrun", unknown=True)
+        try:
+            return self.fields(kinds(noun)[name], data, where)
+        except CodecError:
+            raise
+        except (MindError, ValueError) as error:
+            raise CodecError(f"{where} cannot be so: {error}", unknown=True) from error
+
+    def fields(self, cls: type[Any], data: Any, where: str) -> Any:
+        hints, name = _hints(cls), names().get(cls)
+        expected = hints.keys() | ({"is"} if name else set())
+        optional = {each.name for each in fields(cls) if each.default is not MISSING} if self.is_older else set()
+        if (
+            not isinstance(data, Mapping)
+            or not expected - optional <= data.keys() <= expected
+            or data.get("is") != name
+        ):
+            raise CodecError(f"{where} is not a {cls.__name__}")
+        said = {name: hint for name, hint in hints.items() if name in data}
+        return cls(**{name: self.value(hint, data[name], f"{where}.{name}") for name, hint in said.items()})
+
+
+def _plain(hint: Any, data: Any, where: str) -> Any:
+    if type(data) is int and abs(data) > MAX_WHOLE_NUMBER:
+        raise CodecError(f"{where} is no number that can be")
+    if hint is float and type(data) is int:
+        data = float(data)
+    if type(data) is not hint or (hint is float and not isfinite(data)):
+        raise CodecError(f"{where} cannot be {data!r:.60}")
+    if hint is str and not data.isprintable():
+        raise CodecError(f"{where} cannot be {data!r:.60}")
+    return data
+
+
+def _word(words: tuple[Any, ...], data: Any, where: str) -> Any:
+    if data not in words:
+        raise CodecError(f"{where} cannot be {data!r:.60}")
+    return data
+
+
+def _hints(cls: type[Any]) -> dict[str, Any]:
+    if cls not in _known_hints:
+        hints = get_type_hints(cls, include_extras=True)
+        _known_hints[cls] = {field.name: hints[field.name] for field in fields(cls)}
+    return _known_hints[cls]
+
+
+def _in_range(meaning: Quantity | Reference, value: Any, where: str) -> Any:
+    if not fits(meaning, value):
+        raise CodecError(f"{where} cannot be {value!r:.60}")
+    return value

@@ -1,0 +1,99 @@
+"""What a bundle holds, for people and for programs."""
+
+from collections.abc import Iterator
+from typing import Any
+
+from mindrun.graph.bundle import Bundle, fingerprint
+from mindrun.graph.codec import encode
+from mindrun.graph.named_readings import physical
+from mindrun.graph.wiring import Wiring, code_digests
+from mindrun.kinds.registry import names
+
+
+def describe(bundle: Bundle) -> str:
+    """What a bundle holds, as lines of text."""
+    return "\n".join(_lines(contents(bundle)))
+
+
+def contents(bundle: Bundle) -> dict[str, Any]:
+    """What a bundle holds, as plain data."""
+    graph, weights = bundle.graph, bundle.policy.weights
+    own = physical(graph)
+    return {
+        "master": graph.master,
+        "tick": graph.tick,
+        "sensors": [
+            {**_named(s.name, s.kind), "readings": s.width, "computed": s.name not in own} for s in graph.sensors
+        ],
+        "memories": [{**_named(m.name, m.kind), "decay": m.kind.decay} for m in graph.memories],
+        "actuators": [{**_named(a.name, a.kind), "neutral": a.kind.neutral} for a in graph.actuators],
+        "skills": [
+            {
+                **_named(s.name, s.function),
+                "inputs": len(s.inputs),
+                "weights": len(weights.get(s.owner, ())),
+                **({"like": s.like} if s.like else {}),
+            }
+            for s in graph.skills
+        ],
+        "procedures": sorted(bundle.procedures),
+        **({"robot": _robot(bundle.wiring)} if bundle.wiring else {}),
+    }
+
+
+def _robot(wiring: Wiring) -> dict[str, Any]:
+    """The wiring as it stands in the bundle; of each sensor the unit of its values, too."""
+    return {
+        "name": wiring.robot,
+        "wiring": fingerprint(wiring),
+        **({"drivers": digests} if (digests := code_digests(wiring)) else {}),
+        "sensors": [{**encode(wire), "unit": wire.driver.unit} for wire in wiring.sensors],
+        "actuators": [encode(wire) for wire in wiring.actuators],
+    }
+
+
+def _driver(wire: dict[str, Any]) -> str:
+    return str(wire["driver"].get("name", wire["driver"]["is"]))
+
+
+def _named(name: str, kind: object) -> dict[str, Any]:
+    return {"name": name, "kind": names()[type(kind)]}
+
+
+def _lines(found: dict[str, Any]) -> Iterator[str]:
+    yield f"master {found['master']}, {1 / found['tick']:g} ticks a second"
+    for part in found["sensors"]:
+        computed = ", computed by the mind itself" if part["computed"] else ""
+        yield f"sensor {part['name']} is {part['kind']}: {_counted(part['readings'], 'reading')}{computed}"
+    for part in found["memories"]:
+        yield f"memory {part['name']} is {part['kind']}: decay {part['decay']:g}"
+    for part in found["actuators"]:
+        yield f"actuator {part['name']} is {part['kind']}: neutral {part['neutral']:g}"
+    for part in found["skills"]:
+        weights = f", {_counted(part['weights'], 'weight')}" if part["weights"] else ""
+        shared = f", those of {part['like']}" if "like" in part else ""
+        yield f"skill {part['name']} is {part['kind']}: {_counted(part['inputs'], 'input')}{weights}{shared}"
+    if "robot" in found:
+        yield from _wires(found["robot"])
+
+
+def _wires(robot: dict[str, Any]) -> Iterator[str]:
+    yield f"robot {robot['name']}, wiring {robot['wiring'][:12]}"
+    for name, digest in robot.get("drivers", {}).items():
+        yield f"driver {name} is the user's own, {digest[:12]}"
+    for wire in robot["sensors"]:
+        median = f", the median of {wire['median']}" if wire["median"] > 1 else ""
+        values = f"{wire['low']:g} to {wire['high']:g} {wire['unit']}".rstrip()
+        yield (
+            f"sensor {wire['sensor']} is wired to {_driver(wire)}: {values}, {wire['rate']:g} Hz{median}, "
+            f"{wire['on_fault']} when older than {wire['max_age']:g} s"
+        )
+    for wire in robot["actuators"]:
+        slew = f", at most {wire['slew']:g} a second" if wire["slew"] else ""
+        turned = ", reversed" if wire["reversed"] else ""
+        limits = f"{wire['low']:g} to {wire['high']:g}"
+        yield f"actuator {wire['actuator']} is wired to {_driver(wire)}: {limits}{slew}{turned}"
+
+
+def _counted(count: int, noun: str) -> str:
+    return f"{count} {noun}" + ("" if count == 1 else "s")

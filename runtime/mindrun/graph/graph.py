@@ -1,0 +1,282 @@
+"""The compiled hierarchy as plain data: names as indices, units converted, skills in the order of influence."""
+
+from dataclasses import dataclass
+from typing import Annotated, Literal
+
+from mindrun.kinds.actuators import ActuatorKind
+from mindrun.kinds.actuators.gripper import REACH_UNITS
+from mindrun.kinds.bodies import BodyKind
+from mindrun.kinds.events import EventKind
+from mindrun.kinds.functions import Function
+from mindrun.kinds.learners import Learner
+from mindrun.kinds.measures import MeasureKind
+from mindrun.kinds.memory import Cell
+from mindrun.kinds.scenes import SceneKind
+from mindrun.kinds.sensors import SensorKind
+from mindrun.kinds.things import ThingKind
+from mindrun.kinds.variation import Failure as Failure
+from mindrun.kinds.variation import Variation as Variation
+from mindrun.numbers.expression import Program as Program
+from mindrun.numbers.quantity import ANGLE, COORDINATE, Place
+from mindrun.numbers.short_repr import ShortRepr
+
+Receiver = Literal["skill", "actuator", "memory"]  # of what a skill sends
+
+
+@dataclass(frozen=True, slots=True)
+class Sensor:
+    """A sensor and its place in the vector of readings: `width` readings from `start` on."""
+
+    name: str
+    kind: SensorKind
+    start: int
+    width: int
+
+
+@dataclass(frozen=True, slots=True)
+class Memory:
+    """A memory cell; it reads like a sensor of width 1 at `start`."""
+
+    name: str
+    kind: Cell
+    start: int
+
+
+@dataclass(frozen=True, slots=True)
+class Actuator:
+    """An actuator; its place in the tuple is its place in the vector of commands."""
+
+    name: str
+    kind: ActuatorKind
+
+
+@dataclass(frozen=True, slots=True)
+class Gate:
+    """When an edge sends its value. Where `when` does not hold it sends `otherwise`, or nothing where that is None."""
+
+    when: Program
+    otherwise: Program | None = None
+
+    @property
+    def programs(self) -> tuple[Program, ...]:
+        """Both programs, or the one that there is."""
+        return (self.when,) if self.otherwise is None else (self.when, self.otherwise)
+
+
+@dataclass(frozen=True, slots=True)
+class Edge:
+    """What a skill sends: to the skill, actuator or memory with index `target`.
+
+    The value is the function's output number `output`, or where that is None the `value` program, clamped to 0..1;
+    `gate` says when. An influence that is smaller than `cuts` when it arrives is none.
+    """
+
+    to: Receiver
+    target: int
+    output: int | None
+    value: Program = ()
+    gate: Gate | None = None
+    cuts: float = 0.0
+
+    @property
+    def programs(self) -> tuple[Program, ...]:
+        """All that is computed beside the function."""
+        return ((self.value,) if self.output is None else ()) + (self.gate.programs if self.gate else ())
+
+
+@dataclass(frozen=True, slots=True)
+class Skill:
+    """A skill: `inputs` are indices into the readings, `edges` in the order of the source.
+
+    Among a function's outputs number i belongs to the i-th edge without `at`. One that is `frozen` is not taught. One
+    that is `like` another has the same function, which sends the same, and shares its weights for ever.
+    """
+
+    name: str
+    function: Function
+    inputs: tuple[int, ...]
+    edges: tuple[Edge, ...]
+    frozen: bool = False
+    like: str = ""
+
+    @property
+    def owner(self) -> str:
+        """The skill under whose name its weights stand: itself, or the one that it is like."""
+        return self.like or self.name
+
+    @property
+    def outputs(self) -> int:
+        """How many outputs its internal function has."""
+        return sum(edge.output is not None for edge in self.edges)
+
+    @property
+    def is_base(self) -> bool:
+        """Whether it influences no other skill."""
+        return all(edge.to != "skill" for edge in self.edges)
+
+    @property
+    def is_complex(self) -> bool:
+        """Whether it influences other skills."""
+        return not self.is_base
+
+
+@dataclass(frozen=True, slots=True)
+class Thing:
+    """Something that a task's world contains."""
+
+    name: str
+    kind: ThingKind
+
+
+@dataclass(frozen=True, slots=True)
+class Reward:
+    """One reward line. `on` is an index into the task's events, or None for "per tick"; `when` is a condition.
+
+    With `each`, a sensor's (start, width), the amount is added once for each of those readings, which the programs
+    read as ("each", 0).
+    """
+
+    text: str
+    amount: Program
+    on: int | None
+    each: tuple[int, int] | None = None
+    when: Program | None = None
+
+    @property
+    def programs(self) -> tuple[Program, ...]:
+        """Its amount, and its condition if it has one."""
+        return (self.amount,) if self.when is None else (self.amount, self.when)
+
+
+@dataclass(frozen=True, slots=True)
+class End:
+    """What ends a run: an event, by its index, the `times`th time that it happens, or the condition `when`.
+
+    One that `succeeds` ends it as a success. `text` is the condition as it is written.
+    """
+
+    event: int | None
+    times: int = 1
+    when: Program | None = None
+    succeeds: bool = False
+    text: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Start:
+    """Where the robot is when a run begins, and which way it faces; None where that is drawn."""
+
+    at: Annotated[Place | None, COORDINATE] = None
+    facing: Annotated[float | None, ANGLE] = None
+
+
+@dataclass(frozen=True, slots=True)
+class Task:
+    """A task: its world, its ends, its rewards. `counts` are indices into `events`.
+
+    What of the world and the robot `varies` is drawn for each run, and so is when what `fails` does.
+    """
+
+    name: str
+    scene: SceneKind
+    things: tuple[Thing, ...]
+    ticks: int
+    measures: tuple[MeasureKind, ...]
+    events: tuple[EventKind, ...]
+    ends: tuple[End, ...]
+    rewards: tuple[Reward, ...]
+    counts: tuple[int, ...]
+    start: Start = Start()
+    varies: tuple[Variation, ...] = ()
+    fails: tuple[Failure, ...] = ()
+
+    @property
+    def programs(self) -> tuple[Program, ...]:
+        """All that its rewards and its ends compute."""
+        ends = (end.when for end in self.ends if end.when is not None)
+        return (*(program for reward in self.rewards for program in reward.programs), *ends)
+
+    @property
+    def can_succeed(self) -> bool:
+        """Whether any of its ends is a success."""
+        return any(end.succeeds for end in self.ends)
+
+
+@dataclass(frozen=True, slots=True)
+class Need:
+    """What a lesson has to reach on fresh layouts: a mean `score` or a share of `success` `above` a number."""
+
+    measure: Literal["score", "success"]
+    above: float
+
+    def __str__(self) -> str:
+        """In the words of the language."""
+        return f"{self.measure} > " + (f"{100 * self.above:g}%" if self.measure == "success" else f"{self.above:g}")
+
+
+@dataclass(frozen=True, slots=True)
+class Lesson:
+    """Who learns (`skill`), on which task, driven by which master, for how long, and how (`learner`).
+
+    With `with_subskills`, all that learn below the skill and are not frozen learn with it, as one genome. `number` is
+    its place in its curriculum, from 1; 0 in what was made before lessons had one. One that `starts_from` another skill
+    begins with a copy of its weights. One with `needs` has failed where its last attempt does not meet them all: it
+    ends with the first attempt that does, and what has failed is not taught.
+    """
+
+    curriculum: str
+    skill: str
+    task: str
+    master: str
+    generations: int
+    from_scratch: bool
+    with_subskills: bool
+    learner: Learner
+    number: int = 0
+    starts_from: str = ""
+    needs: tuple[Need, ...] = ()
+
+    @property
+    def name(self) -> str:
+        """The skill, and what is not to be expected: the task where it has another name, that its subskills learn."""
+        where = "" if self.skill == self.task else f"-on-{self.task}"
+        return f"{self.skill}{where}{'-with-subskills' * self.with_subskills}"
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Graph(ShortRepr):
+    """A whole mind, compiled. `tick` is in seconds; `skills` stand in topological order, parents first."""
+
+    tick: float
+    body: BodyKind
+    master: str
+    sensors: tuple[Sensor, ...]
+    memories: tuple[Memory, ...]
+    actuators: tuple[Actuator, ...]
+    skills: tuple[Skill, ...]
+    tasks: tuple[Task, ...]
+    lessons: tuple[Lesson, ...]
+
+    @property
+    def width(self) -> int:
+        """How many readings there are: those of the sensors, then one per memory."""
+        return sum(sensor.width for sensor in self.sensors) + len(self.memories)
+
+    @property
+    def skill_numbers(self) -> dict[str, int]:
+        """The place of each skill in `skills`, by its name."""
+        return {skill.name: number for number, skill in enumerate(self.skills)}
+
+    @property
+    def claw_reach(self) -> float:
+        """How far ahead of the body things come into reach, with a claw or without."""
+        return next((each.kind.reach for each in self.actuators if each.kind.reach is not None), REACH_UNITS)
+
+    def named(self, noun: Receiver, index: int) -> str:
+        """The name of the "skill", "actuator" or "memory" that an edge goes to by its index."""
+        match noun:
+            case "skill":
+                return self.skills[index].name
+            case "actuator":
+                return self.actuators[index].name
+        return self.memories[index].name

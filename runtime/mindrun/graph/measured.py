@@ -1,0 +1,87 @@
+"""Which readings are measured, in a simulated world and on a robot; all others are NaN, for nobody knows them."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from mindrun.graph.graph import Graph, Sensor, Skill, Task
+from mindrun.graph.named_readings import physical
+from mindrun.graph.skill_sets import reachable
+from mindrun.numbers.expression import leaves
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+
+@dataclass(frozen=True, slots=True)
+class Used:
+    """The sensors that are measured: those that `skills` depend on, and those `aside` that only rewards do.
+
+    Sources stand before what derives from them.
+    """
+
+    skills: list[Sensor]
+    aside: list[Sensor]
+
+    @property
+    def all(self) -> list[Sensor]:
+        """All of them."""
+        return [*self.skills, *self.aside]
+
+
+def used_sensors(graph: Graph, reached: Iterable[Skill], task: Task) -> Used:
+    """The sensors that a reached skill or a reward reads."""
+    skills = with_sources(graph, {row for skill in reached for row in skill.inputs})
+    rewards = with_sources(graph, _rewarded(task))
+    return Used(skills, [sensor for sensor in rewards if sensor not in skills])
+
+
+def measured_in_world(graph: Graph, master: str, task: Task) -> list[Sensor]:
+    """The sensors that a simulated run measures: what skills below the master and rewards depend on."""
+    return used_sensors(graph, reachable(graph, master), task).all
+
+
+def measured_on_robot(graph: Graph, wired: Collection[str]) -> list[Sensor]:
+    """These physical sensors, and those that are computed of nothing else."""
+    missing = physical(graph).keys() - {*wired}
+    sources = ((sensor, with_sources(graph, {sensor.start})) for sensor in graph.sensors)
+    return [sensor for sensor, each in sources if missing.isdisjoint(source.name for source in each)]
+
+
+def rows_of(graph: Graph, sensors: Iterable[Sensor]) -> NDArray[np.bool_]:
+    """Which readings [graph.width] are those of these sensors, or of memories, which are always known."""
+    import numpy as np
+
+    found = np.zeros(graph.width, bool)
+    for each in sensors:
+        found[each.start : each.start + each.width] = True
+    found[[memory.start for memory in graph.memories]] = True
+    return found
+
+
+def _rewarded(task: Task) -> set[int]:
+    """The readings that rewards and ends depend on."""
+    rows = {index for program in task.programs for index in leaves(program, "reading")}
+    for reward in task.rewards:
+        rows |= set(range(reward.each[0], sum(reward.each))) if reward.each else set()
+    return rows
+
+
+def with_sources(graph: Graph, rows: set[int]) -> list[Sensor]:
+    """The sensors that have these readings, and what those derive from; sources first."""
+    by_name = {sensor.name: sensor for sensor in graph.sensors}
+    ordered: dict[str, Sensor] = {}
+    for sensor in graph.sensors:
+        if rows.intersection(range(sensor.start, sensor.start + sensor.width)):
+            waiting = [sensor]
+            while waiting:
+                last = waiting[-1]
+                missing = [name for name in last.kind.sources if name in by_name and name not in ordered]
+                if missing:
+                    waiting.append(by_name[missing[0]])
+                else:
+                    ordered.setdefault(last.name, waiting.pop())
+    return list(ordered.values())

@@ -1,0 +1,74 @@
+"""Readings by name: what each is called, and what people and other programs write as the engine's vector."""
+
+from __future__ import annotations
+
+from collections.abc import Container, Mapping
+from typing import TYPE_CHECKING, Any
+
+from mindrun.errors import ReadingsError
+from mindrun.graph.graph import Graph, Sensor
+from mindrun.kinds.sensors import Physical
+from mindrun.nearest_name import nearest
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+
+def physical(graph: Graph) -> dict[str, Sensor]:
+    """The sensors that someone has to read; the engine computes the others."""
+    return {sensor.name: sensor for sensor in graph.sensors if isinstance(sensor.kind, Physical)}
+
+
+def reading_names(graph: Graph) -> list[str]:
+    """The name of every reading: its sensor's or memory's, with a number from 1 where there are several."""
+    wide = (
+        f"{sensor.name} {place + 1}" if sensor.width > 1 else sensor.name
+        for sensor in graph.sensors
+        for place in range(sensor.width)
+    )
+    return [*wide, *(memory.name for memory in graph.memories)]
+
+
+def vector(
+    graph: Graph, given: Mapping[str, Any], fill: float | None = None, needed: Container[str] | None = None
+) -> NDArray[np.float32]:
+    """Readings [graph.width] from `{"proximity": [1, 0.5], "battery": 0.4}`; a missing sensor reads `fill`.
+
+    One that is not `needed`, since nobody reads it, may be missing anyway: it is NaN, as a reading that failed. Raises
+    ReadingsError for anything else that is not a number in 0..1.
+    """
+    import numpy as np
+
+    sensors = physical(graph)
+    for name in given:
+        if name not in sensors:
+            raise ReadingsError(_unknown(graph, name))
+    readings = np.zeros(graph.width, np.float32)
+    for name, sensor in sensors.items():
+        if name not in given and needed is not None and name not in needed:
+            readings[sensor.start : sensor.start + sensor.width] = np.nan
+            continue
+        if name not in given and fill is None:
+            raise ReadingsError(f"there is no reading of sensor {name} (--fill 0.5 would set it)")
+        values = given.get(name, [fill] * sensor.width)
+        readings[sensor.start : sensor.start + sensor.width] = _checked(sensor, values)
+    return readings
+
+
+def _checked(sensor: Sensor, given: Any) -> list[float]:
+    values: list[Any] = given if isinstance(given, list) else [given]
+    if len(values) != sensor.width:
+        many = f"{sensor.width} reading{'s' * (sensor.width > 1)}"
+        raise ReadingsError(f"sensor {sensor.name} has {many}, not {len(values)}")
+    for value in values:
+        if type(value) not in (int, float) or value < 0 or value > 1:
+            raise ReadingsError(f"sensor {sensor.name} cannot read {value!r}: a reading is a number from 0 to 1")
+    return values
+
+
+def _unknown(graph: Graph, name: str) -> str:
+    if name in {s.name for s in graph.sensors} | {m.name for m in graph.memories}:
+        return f"{name} is computed by the mind itself, leave it out"
+    near = nearest(name, physical(graph))
+    return f"there is no sensor {name}" + (f"; did you mean {near}?" if near else "")

@@ -1,0 +1,56 @@
+"""The module of a procedure where it stands beside the source: its text, if it can be all that the skill needs."""
+
+from importlib.util import find_spec
+from pathlib import Path
+
+from mindrun.graph.graph import Skill
+from mindrun.kinds.functions.procedure import module_source
+from mindrun.kinds.procedure_text import STANDS_ALONE, fault, fit, imports, texts
+
+
+def source_of(skill: Skill, folder: Path) -> str:
+    """The text of the module that a skill calls, in a folder; nothing is run.
+
+    ProcedureError where the function is not there or cannot fit the skill, or the module needs another file: no bundle
+    would hold that.
+    """
+    calls = str(skill.function.calls)
+    source = module_source(calls, folder)
+    fit(calls, source, len(skill.inputs), skill.outputs)
+    for line, module, _, _ in imports(calls, source):
+        top = module.partition(".")[0]
+        places = f"{top}.py", f"{top}/__init__.py", f"{module.replace('.', '/')}.py"
+        if not top or any(_is_file(folder / place) for place in places):
+            raise fault(calls, f"imports {module}, a file that no bundle holds", line, STANDS_ALONE)
+        if _is_folder(folder / top) and not is_installed(top, folder):  # a package without an __init__.py
+            raise fault(calls, f"imports {module}, a folder that no bundle holds", line, STANDS_ALONE)
+    for line, text in texts(calls, source):
+        if "." in text and _is_file(folder / text):
+            raise fault(calls, f"names {text}, a file that no bundle holds", line, STANDS_ALONE)
+    return source
+
+
+def is_installed(module: str, folder: Path) -> bool:
+    """Whether a module is there wherever Python is begun, without a dot in its name; a folder's own does not count."""
+    try:
+        spec = find_spec(module)
+    except ValueError:  # what is imported already, and from no file
+        return True
+    if spec is None or spec.origin is not None or spec.submodule_search_locations is None:
+        return spec is not None
+    own = (folder / module).resolve()
+    return any(Path(place).resolve() != own for place in spec.submodule_search_locations)
+
+
+def _is_file(path: Path) -> bool:
+    try:
+        return path.is_file()
+    except (OSError, ValueError):  # no name that a file could have
+        return False
+
+
+def _is_folder(path: Path) -> bool:
+    try:
+        return path.is_dir()
+    except (OSError, ValueError):
+        return False

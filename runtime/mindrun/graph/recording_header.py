@@ -1,0 +1,212 @@
+"""The first line of a recording: what its columns are, in JSON, with a checksum of its own."""
+
+import json
+import re
+import zlib
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass, fields, replace
+from pathlib import Path
+from typing import Any, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mindrun.errors import MindError
+from mindrun.files.strict_json import are_names, is_whole, parsed
+from mindrun.graph.graph import Graph, Task
+from mindrun.graph.named_readings import physical
+from mindrun.graph.validate import MAX_TICK_SECONDS, MIN_TICK_SECONDS
+
+FORMAT, WITHOUT_WORLD, UNSEALED = "mind recording 3", "mind recording 2", "mind recording 1"
+MAX_HEADER_BYTES = 1 << 20
+MAX_SEED, MAX_UNITS = (1 << 64) - 1, 1e9
+CHECKSUM_FIELD = b', "check": "'  # the checksum of the line before it, which is the last that it says
+SHA256 = re.compile("[0-9a-f]{64}")
+POSE_COLUMNS, THING_COLUMNS, BOX_COLUMNS = 3, 4, 4  # x, y, angle; x, y, size, turned; x, y, half of both sides
+# Of the column `stopped`: who had every actuator at neutral. From BY_ACTUATOR on it is the guardian, of which the first
+# actuator had failed, or the second, …; the last number stands for all that come after it, too.
+NOT_STOPPED, BY_LOOP, BY_GUARDIAN, BY_ACTUATOR, BY_LAST = 0, 1, 2, 3, 255
+GOES_ON = -3  # of the column `ended`; else as `Scores.ended_by`
+
+
+class RecordingError(MindError):
+    """A recording that cannot be read, or was made of something else."""
+
+
+def by_guardian(actuator: int | None) -> int:
+    """What `stopped` says where the guardian had all at neutral, for the actuator of that number or another reason."""
+    return BY_GUARDIAN if actuator is None else min(BY_ACTUATOR + actuator, BY_LAST)
+
+
+def world_row(things: int, rewards: int, events: int) -> np.dtype[Any]:
+    """The world after a tick: sums of the reward lines and counts of the events so far, the thing held or −1."""
+    return np.dtype([
+        ("pose", "<f8", (POSE_COLUMNS,)), ("things", "<f8", (things, THING_COLUMNS)), ("battery", "<f8"),
+        ("rewards", "<f8", (rewards,)), ("events", "<u8", (events,)), ("held", "<i4"), ("ended", "<i4"),
+        ("touching", "u1"),
+    ])  # fmt: skip
+
+
+def world_row_of(task: Task) -> np.dtype[Any]:
+    """The world of a task after a tick."""
+    things = sum(thing.kind.copies for thing in task.things if not thing.kind.is_obstacle)
+    return world_row(things, len(task.rewards), len(task.events))
+
+
+@dataclass(frozen=True, slots=True)
+class RecordedWorld:
+    """The simulated world of a recording: the task and the seed that it is of, and how many columns there are of it.
+
+    `boxes` [n] are its obstacles, `begin` the pose and then each thing as the recording begins, None where something
+    is nowhere.
+    """
+
+    task: str
+    seed: int
+    things: int
+    rewards: int
+    events: int
+    boxes: tuple[tuple[float, ...], ...]
+    begin: tuple[float | None, ...]
+
+    @classmethod
+    def of(cls, task: Task, seed: int, boxes: NDArray[np.float64], begin: Sequence[float]) -> Self:
+        """The world of a run of a task, with its obstacles [boxes, 4] and what `begin` has."""
+        things = (len(begin) - POSE_COLUMNS) // THING_COLUMNS
+        there = tuple(float(number) if abs(number) < MAX_UNITS else None for number in begin)
+        standing = tuple(map(tuple, boxes.tolist()))
+        return cls(task.name, seed, things, len(task.rewards), len(task.events), standing, there)
+
+    @property
+    def row(self) -> np.dtype[Any]:
+        """The columns that the world has in each tick."""
+        return world_row(self.things, self.rewards, self.events)
+
+
+@dataclass(frozen=True, slots=True)
+class About:
+    """What a recording is of: the SHA-256 of its bundle, the master, the names of its columns, its world if it has one.
+
+    Older versions `lack` what virtual sensors and memories read.
+    """
+
+    bundle: str
+    master: str
+    tick: float
+    sensors: tuple[str, ...]
+    actuators: tuple[str, ...]
+    skills: tuple[str, ...]
+    readings: int
+    world: RecordedWorld | None = None
+    lacks_readings: bool = False
+
+    @classmethod
+    def of(cls, graph: Graph, bundle: str, master: str, sensors: Sequence[str]) -> Self:
+        """A recording of these wired sensors under a graph."""
+        actuators = tuple(actuator.name for actuator in graph.actuators)
+        skills = tuple(skill.name for skill in graph.skills)
+        return cls(bundle, master, graph.tick, tuple(sensors), actuators, skills, graph.width)
+
+    def refuse_another(self, bundle: str, graph: Graph) -> None:
+        """RecordingError unless the recording was made with the bundle of this SHA-256, which has this graph."""
+        if self.bundle != bundle:
+            raise RecordingError(
+                f"this was recorded with another bundle ({self.bundle[:8]}…, not {bundle[:8]}…)",
+                "take the bundle that was running",
+            )
+        worlds = [(task.name, world_row_of(task)) for task in graph.tasks]
+        expected = About.of(graph, bundle, self.master, self.sensors)
+        expected = replace(expected, world=self.world, lacks_readings=self.lacks_readings)
+        if (
+            self != expected
+            or self.master not in self.skills
+            or not set(self.sensors) <= physical(graph).keys()
+            or (self.world and (self.world.task, self.world.row) not in worlds)
+        ):
+            raise RecordingError("this has other columns than its bundle: it was recorded by something else")
+
+    @property
+    def row(self) -> np.dtype[Any]:
+        """A tick: its number and time, who had all at neutral, if it was armed; what was read, thought and sent."""
+        sensors, skills, actuators = (len(names) for names in (self.sensors, self.skills, self.actuators))
+        return np.dtype([
+            ("tick", "<u8"), ("time", "<f8"), ("stopped", "u1"), ("armed", "u1"),
+            ("faults", "u1", (sensors,)), ("ages", "<f4", (sensors,)), ("readings", "<f4", (self.readings,)),
+            ("influence", "<f4", (skills,)), ("commands", "<f4", (actuators,)), ("sent", "<f4", (actuators,)),
+            *([("world", self.world.row)] if self.world else []), ("check", "<u4"),
+        ])  # fmt: skip
+
+
+NAME_LISTS = ("sensors", "actuators", "skills")
+SAID_FIELDS = ("bundle", "master", "tick", *NAME_LISTS, "readings")
+
+
+def line_of(about: About) -> bytes:
+    """The first line; RecordingError where it would be longer than one that is read."""
+    said = {"format": FORMAT, **{name: getattr(about, name) for name in SAID_FIELDS}}
+    world = {"world": asdict(about.world)} if about.world else {}
+    line = _sealed(json.dumps(said | world, allow_nan=False).encode()[:-1] + CHECKSUM_FIELD)
+    if len(line) > MAX_HEADER_BYTES:
+        raise RecordingError("this world has too many things and obstacles to be recorded")
+    return line
+
+
+def about_of_line(line: bytes, path: Path) -> About:
+    """What a first line says; RecordingError where it says nothing that a recording could be of."""
+    try:
+        plain = parsed(line, MAX_HEADER_BYTES)
+        if not isinstance(plain, dict) or plain.get("format") not in (FORMAT, WITHOUT_WORLD, UNSEALED):
+            raise ValueError("it is of another form")
+        is_sealed = plain["format"] != UNSEALED or "check" in plain  # a bit is enough to make a 1 of a 3
+        if is_sealed and line != _sealed(line):
+            raise RecordingError(f"{path} is damaged in its first line")
+        found = _typed({name: plain.get(name) for name in SAID_FIELDS})
+        if plain["format"] != FORMAT:
+            return replace(found, lacks_readings=True)
+        return replace(found, world=_world(plain["world"])) if "world" in plain else found
+    except ValueError as error:
+        raise RecordingError(f"{path} is no recording of this mindrun: {error}") from error
+
+
+def _sealed(line: bytes) -> bytes:
+    """The line with the checksum of what it says before that."""
+    said = line.rpartition(CHECKSUM_FIELD)[0]
+    return said + CHECKSUM_FIELD + f"{zlib.crc32(said):08x}".encode() + b'"}\n'
+
+
+def _typed(plain: dict[str, Any]) -> About:
+    """What a recording is of, from plain data; ValueError where that is none."""
+    if not all(are_names(plain[name]) for name in NAME_LISTS) or not are_names([plain["master"]]):
+        raise ValueError("its columns have no names")
+    if not isinstance(plain["bundle"], str) or not SHA256.fullmatch(plain["bundle"]):
+        raise ValueError("it does not say of which bundle it is")
+    if type(plain["tick"]) not in (int, float) or not MIN_TICK_SECONDS <= plain["tick"] <= MAX_TICK_SECONDS:
+        raise ValueError("it does not say how long a tick is")
+    if not is_whole(plain["readings"], high=MAX_HEADER_BYTES):
+        raise ValueError("it does not say how many readings there are")
+    return About(**plain | {name: tuple(plain[name]) for name in NAME_LISTS})
+
+
+def _world(plain: object) -> RecordedWorld:
+    """A world from plain data; ValueError where that is none."""
+    if not isinstance(plain, dict) or plain.keys() != {field.name for field in fields(RecordedWorld)}:
+        raise ValueError("it does not say what its world is")
+    if not are_names([plain["task"]]) or not is_whole(plain["seed"], high=MAX_SEED):
+        raise ValueError("its world has no task or no seed")
+    if not all(is_whole(plain[name], high=MAX_HEADER_BYTES) for name in ("things", "rewards", "events")):
+        raise ValueError("it does not say how many columns its world has")
+    boxes, begin = plain["boxes"], plain["begin"]
+    if not isinstance(boxes, list) or not all(_are_numbers(box, BOX_COLUMNS) for box in boxes):
+        raise ValueError("the obstacles of its world are no boxes")
+    places = POSE_COLUMNS + THING_COLUMNS * plain["things"]
+    if not isinstance(begin, list) or not _are_numbers([0.0 if n is None else n for n in begin], places):
+        raise ValueError("its world does not say how it began")
+    return RecordedWorld(**plain | {"boxes": tuple(map(tuple, boxes)), "begin": tuple(begin)})
+
+
+def _are_numbers(value: object, count: int) -> bool:
+    return (
+        isinstance(value, list)
+        and len(value) == count
+        and all(type(number) in (int, float) and abs(number) <= MAX_UNITS for number in value)
+    )

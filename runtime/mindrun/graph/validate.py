@@ -1,0 +1,230 @@
+"""Whether a graph holds together: the promises that the types of `mindrun.graph.graph` cannot make."""
+
+import re
+from collections.abc import Container, Iterator, Mapping, Sequence
+
+from mindrun.graph.graph import Graph, Lesson, Program, Skill, Task
+from mindrun.graph.varied import varied_kind
+from mindrun.kinds.registry import arguments
+from mindrun.kinds.things.thing import MAX_OBSTACLES, MAX_THINGS
+from mindrun.kinds.variation import varied_quantity
+from mindrun.numbers.expression import OPERATORS, is_condition, is_valid_program, leaves
+from mindrun.numbers.quantity import THING, UNSAID
+
+NAME = re.compile(r"[^\W\d_]\w*([+.]\w+)*")
+MIN_TICK_SECONDS, MAX_TICK_SECONDS = 1e-9, 1e9  # seconds of a tick
+
+
+def graph_flaw(graph: Graph) -> str | None:
+    """The first thing that is wrong with a graph, if anything is."""
+    return next(_flaws(graph), None)
+
+
+def _flaws(graph: Graph) -> Iterator[str]:
+    """What is wrong, in an order in which each may build upon what was right before."""
+    if not MIN_TICK_SECONDS <= graph.tick <= MAX_TICK_SECONDS:
+        yield f"its tick cannot be {graph.tick:g} s"
+    yield from _name_flaws(graph)
+    yield from _sense_flaws(graph)
+    width = graph.width
+    for number, skill in enumerate(graph.skills):
+        yield from (f"skill {skill.name} {what}" for what in _skill_flaws(graph, number, skill, width))
+    yield from _likeness_flaws(graph)
+    for task in graph.tasks:
+        flaws = (*_task_flaws(task, width, len(graph.actuators)), *_variation_flaws(graph, task))
+        yield from (f"task {task.name} {what}" for what in flaws)
+    skills, tasks = {skill.name for skill in graph.skills}, {task.name for task in graph.tasks}
+    for lesson in graph.lessons:
+        yield from lesson_flaws(lesson)
+        named = {lesson.skill, lesson.master, lesson.starts_from or lesson.skill}
+        if not (named <= skills and lesson.task in tasks):
+            yield f"the lesson of {lesson.skill} names what is not there"
+
+
+def _name_flaws(graph: Graph) -> Iterator[str]:
+    """Names are those that a source can have, so that they can be told; no two of a kind are the same."""
+    for noun in (graph.sensors + graph.memories, graph.actuators, graph.skills, graph.tasks):
+        names: set[str] = set()
+        for part in noun:
+            if not NAME.fullmatch(part.name) or part.name in names:
+                yield f"there cannot be a part called {part.name!r:.60}" + " twice" * (part.name in names)
+            names.add(part.name)
+    if graph.master not in {skill.name for skill in graph.skills}:
+        yield f"its master {graph.master!r:.60} is not one of its skills"
+
+
+def lesson_flaws(lesson: Lesson) -> Iterator[str]:
+    """What is wrong with a lesson by itself."""
+    named = (lesson.curriculum, lesson.skill, lesson.task, lesson.master, lesson.starts_from or lesson.skill)
+    for name in named:
+        if not NAME.fullmatch(name):
+            yield f"a lesson cannot name {name!r:.60}"
+    if lesson.generations < 1:
+        yield f"the lesson of {lesson.skill} has no generation"
+
+
+def _sense_flaws(graph: Graph) -> Iterator[str]:
+    """Readings lie side by side, and each sensor has as many as its kind."""
+    start = 0
+    widths = {memory.name: 1 for memory in graph.memories} | {sensor.name: sensor.width for sensor in graph.sensors}
+    for sensor in graph.sensors:
+        width = widths.get(sensor.kind.source) if sensor.kind.width is None else sensor.kind.width
+        if sensor.width != width or sensor.start != start or sensor.width < 1:
+            yield f"sensor {sensor.name} has not the readings of its kind"
+        elif not set(sensor.kind.sources) <= widths.keys() or sensor.kind.flaw(widths):
+            yield f"sensor {sensor.name} cannot be computed"
+        start += sensor.width
+    ending = depths(graph)
+    yield from (f"sensor {each.name} is the derivative of itself" for each in graph.sensors if each.name not in ending)
+    if [memory.start for memory in graph.memories] != list(range(start, start + len(graph.memories))):
+        yield "the readings of its memories do not follow those of its sensors"
+
+
+def depths(graph: Graph) -> dict[str, int]:
+    """How many virtual sensors stand between a sensor or memory and what is measured; without those that never end."""
+    return depths_of({sensor.name: sensor.kind.sources for sensor in graph.sensors})
+
+
+def depths_of(sources: Mapping[str, Sequence[str]]) -> dict[str, int]:
+    """The same of sensors with all that they are computed from."""
+    above: dict[str, list[str]] = {}
+    for name, of in sources.items():
+        for source in of:
+            above.setdefault(source, []).append(name)
+    left = {name: len(of) for name, of in sources.items()}
+    known = dict.fromkeys((name for name in (*above, *sources) if not sources.get(name)), 0)
+    waiting = list(known)
+    while waiting:
+        source = waiting.pop()
+        for name in above.get(source, ()):
+            left[name] -= 1
+            if left[name] == 0:
+                known[name] = 1 + max(known[each] for each in sources[name])
+                waiting.append(name)
+    return known
+
+
+def _skill_flaws(graph: Graph, number: int, skill: Skill, width: int) -> Iterator[str]:
+    """A skill reads what there is, and influences only skills after it: parents come first."""
+    targets = {
+        "skill": range(number + 1, len(graph.skills)),
+        "actuator": range(len(graph.actuators)),
+        "memory": range(len(graph.memories)),
+    }
+    if not all(0 <= index < width for index in skill.inputs):
+        yield "reads what is not there"
+    if not all(edge.target in targets.get(edge.to, ()) for edge in skill.edges):
+        yield "sends to what is not there"
+    outputs = [edge.output for edge in skill.edges if edge.output is not None]
+    if outputs != list(range(len(outputs))) or (outputs and not skill.function.has_outputs):
+        yield "has outputs that are not its function's"
+    readings = set(skill.inputs)
+    if not all(_computes(program, readings) for edge in skill.edges for program in edge.programs):
+        yield "has an expression that cannot be computed"
+    if not all(is_condition(edge.gate.when) for edge in skill.edges if edge.gate):
+        yield "has a condition that cannot be computed"
+    if not all(0 <= edge.cuts <= 1 and (edge.to == "skill" or edge.cuts == 0) for edge in skill.edges):
+        yield "cuts what cannot be cut"
+
+
+def _likeness_flaws(graph: Graph) -> Iterator[str]:
+    """A skill that is like another has a function of its shape, and that other one owns its weights."""
+    owners = {skill.name: skill for skill in graph.skills if not skill.like}
+    for skill in (skill for skill in graph.skills if skill.like):
+        owner = owners.get(skill.like)
+        if owner is None or not owner.function.learns:
+            yield f"skill {skill.name} is like {skill.like!r:.60}, which owns no weights"
+        elif _shape(skill) != _shape(owner) or skill.frozen:
+            yield f"skill {skill.name} has not the shape of {owner.name}, which it is like"
+
+
+def _shape(skill: Skill) -> object:
+    """What weights have to fit, and where the outputs go."""
+    return skill.function, len(skill.inputs), [(edge.to, edge.target, edge.output) for edge in skill.edges]
+
+
+def _task_flaws(task: Task, width: int, actuators: int) -> Iterator[str]:
+    """A task names its own things, measures and events, and readings that exist."""
+    if task.ticks < 1:
+        yield "does not last"
+    things = [thing.name for thing in task.things]
+    if len(set(things)) < len(things) or not all(map(NAME.fullmatch, things)):
+        yield "contains what has no name of its own"
+    if any(thing.kind.size == UNSAID for thing in task.things):
+        yield "contains what has no size"
+    if not {*_things_named(task)} - {""} <= {thing.name for thing in task.things if not thing.kind.is_obstacle}:
+        yield "names a thing that is not there"
+    yield from _world_flaws(task)
+    events, readings = range(len(task.events)), range(width)
+    rewarded = [reward.on for reward in task.rewards if reward.on is not None]
+    ending = [end.event for end in task.ends if end.event is not None]
+    if not all(event in events for event in (*ending, *task.counts, *rewarded)):
+        yield "names an event that is not there"
+    yield from _end_flaws(task, width, actuators)
+    for reward in task.rewards:
+        known = readings, len(task.measures), reward.each is not None, actuators
+        if not all(_computes(program, *known) for program in reward.programs):
+            yield "has a reward that cannot be computed"
+        if reward.when is not None and not is_condition(reward.when):
+            yield "has a condition that cannot be computed"
+        if reward.each and not (reward.each[0] >= 0 and 0 < reward.each[1] <= width - reward.each[0]):
+            yield "rewards readings that are not there"
+
+
+def _end_flaws(task: Task, width: int, actuators: int) -> Iterator[str]:
+    """An end is an event or a condition; a success comes of none that it makes itself."""
+    for end in task.ends:
+        if (end.event is None) == (end.when is None) or end.times < 1:
+            yield "has an end that never comes"
+        if end.when is not None and not (
+            is_condition(end.when) and _computes(end.when, range(width), len(task.measures), commands=actuators)
+        ):
+            yield "has an end that cannot be computed"
+        event = next((event for index, event in enumerate(task.events) if index == end.event), None)
+        if event is not None and event.is_of_success:
+            yield "ends on its own success"
+
+
+def _world_flaws(task: Task) -> Iterator[str]:
+    """A world has no more than it can look at, and only one with walls has patches."""
+    if sum(thing.kind.copies for thing in task.things if not thing.kind.is_obstacle) > MAX_THINGS:
+        yield f"contains more than {MAX_THINGS} things"
+    if sum(thing.kind.obstacles(task.scene) for thing in task.things) > MAX_OBSTACLES:
+        yield f"contains more than {MAX_OBSTACLES} obstacles"
+    if not task.scene.is_bounded and any(event.needs_walls for event in task.events):
+        yield "has patches without an arena"
+
+
+def _variation_flaws(graph: Graph, task: Task) -> Iterator[str]:
+    """What varies is an argument that can, within its bounds, and once; what fails is an actuator."""
+    for each in task.varies:
+        kind = varied_kind(graph, task, each)
+        quantity = varied_quantity(kind, each.argument) if kind else None
+        if quantity is None or not quantity.low <= each.low <= each.high <= quantity.high:
+            yield f"varies {each.argument!r:.60} of {each.of!r:.60}, which it cannot"
+    if len({(each.noun, each.of, each.argument) for each in task.varies}) < len(task.varies):
+        yield "varies something twice"
+    failing = [each.actuator for each in task.fails]
+    if len({*failing}) < len(failing) or not {*failing} <= {actuator.name for actuator in graph.actuators}:
+        yield "has failures of what is no actuator, or twice"
+
+
+def _things_named(task: Task) -> Iterator[str]:
+    """The things that the events and measures of a task are about."""
+    for part in (*task.events, *task.measures):
+        yield from (getattr(part, argument.field) for argument in arguments(type(part)) if argument.type == THING)
+
+
+def _computes(
+    program: Program, readings: Container[int], measures: int = 0, each: bool = False, commands: int = 0
+) -> bool:
+    """Whether a program has a value, and uses only these readings, measures, commands and, in a loop, the reading."""
+    words = {*OPERATORS, "negate", "number", "reading", "measure", "command"} | ({"each"} if each else set())
+    return (
+        is_valid_program(program)
+        and {word for word, _ in program} <= words
+        and all(isinstance(operand, int) for word, operand in program if word != "number")
+        and all(index in readings for index in leaves(program, "reading"))
+        and all(index in range(measures) for index in leaves(program, "measure"))
+        and all(index in range(commands) for index in leaves(program, "command"))
+    )

@@ -1,0 +1,47 @@
+"""What pushes the body at a point of it."""
+
+from dataclasses import dataclass
+from typing import Annotated
+
+from mindrun.kinds.actuators.actuator import THRUST
+from mindrun.kinds.actuators.pushing import Pushing
+from mindrun.kinds.bodies import BodyKind
+from mindrun.kinds.bodies.body import Point
+from mindrun.kinds.registry import kind
+from mindrun.numbers.quantity import ANGLE, RATIO, TICKS, Place, Quantity
+from mindrun.numbers.trigonometry import cosine, sine
+
+PLACE = Quantity("a place on the body in world units", {"": 1.0}, low=-1000.0, high=1000.0)
+
+
+@kind("actuator", "thruster")
+@dataclass(frozen=True, slots=True)
+class Thruster(Pushing):
+    """A force (2v − 1)·thrust `at` a point of the body, x ahead of its middle and y to its left: 0.5 is none.
+
+    It pushes the body to where it is `facing`, counterclockwise from straight ahead. A command acts `delay` ticks after
+    the tick that computed it, with up to `noise` more or less; up to `slip` of the force is lost, anew in every tick.
+    """
+
+    neutral: Annotated[float, RATIO]
+    at: Annotated[Place, PLACE] = (0.0, 0.0)
+    facing: Annotated[float, ANGLE] = 0.0
+    thrust: Annotated[float, THRUST] = 80.0
+    delay: Annotated[int, TICKS] = 0
+    noise: Annotated[float, RATIO] = 0.0
+    slip: Annotated[float, RATIO] = 0.0
+
+    drive = "thruster"
+
+    def place(self, body: BodyKind) -> Point:
+        """Where it is said to be."""
+        return self.at
+
+    @property
+    def direction(self) -> Point:
+        """Its angle."""
+        return cosine(self.facing), sine(self.facing)
+
+    def push(self, body: BodyKind) -> tuple[Point, Point]:
+        """There and thither."""
+        return self.at, self.direction

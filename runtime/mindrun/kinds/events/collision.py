@@ -1,0 +1,19 @@
+"""The robot meets something."""
+
+from dataclasses import dataclass
+
+from mindrun.kinds.events.event import EventKind, Hindrance, World
+from mindrun.kinds.registry import kind
+
+
+@kind("event", "collision")
+@dataclass(frozen=True, slots=True)
+class Collision(EventKind):
+    """The body, or the item it holds, begins to touch an obstacle or a wall; to push a box or ball is no collision."""
+
+    def prevented(self, world: World) -> Hindrance | None:
+        """Nothing stands in the way."""
+        if world.has_fixed:
+            return None
+        hint = "Write in arena size 100, or add contains rock is obstacle count 10."
+        return Hindrance("there is nothing to collide with", hint)

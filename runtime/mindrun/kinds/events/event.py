@@ -1,0 +1,98 @@
+"""What every kind of event says of itself: the rest of the program asks, and knows no kind by name."""
+
+from collections.abc import Collection, Mapping, Set
+from typing import NamedTuple, Protocol
+
+from mindrun.kinds.registry import base
+from mindrun.kinds.scenes import SceneKind
+from mindrun.kinds.things import ThingKind
+from mindrun.kinds.things.about import AboutThing
+
+Row = Mapping[str, float]  # columns of the lanes' table of events
+
+
+class Hindrance(NamedTuple):
+    """Why an event cannot happen, as a sentence, and what to do about it."""
+
+    reason: str
+    hint: str
+
+
+class TaskWorld(Protocol):
+    """What a task says of its world."""
+
+    @property
+    def scene(self) -> SceneKind | None:
+        """The scene; None where it is not known."""
+        ...
+
+    @property
+    def kinds(self) -> Collection[ThingKind]:
+        """The kinds of all things that are known."""
+        ...
+
+    @property
+    def has_battery(self) -> bool:
+        """Whether a sensor reads a battery."""
+        ...
+
+    @property
+    def can_succeed(self) -> bool:
+        """Whether a line says when a run is a success."""
+        ...
+
+
+class World(Protocol):
+    """What is known of a task's world from the whole mind, before anything runs in it."""
+
+    @property
+    def has_fixed(self) -> bool:
+        """Whether anything stands in the way that does not give way."""
+        ...
+
+    @property
+    def can_hold(self) -> bool:
+        """Whether a claw may ever close."""
+        ...
+
+    @property
+    def drains(self) -> bool:
+        """Whether the battery can become empty."""
+        ...
+
+    @property
+    def loose(self) -> Set[str]:
+        """Things that can be pushed."""
+        ...
+
+    @property
+    def fleeting(self) -> Set[str]:
+        """Items that are gone as soon as they are reached."""
+        ...
+
+
+@base("event")
+class EventKind(AboutThing):
+    """An event that can happen in any world; a kind says what is different about it."""
+
+    __slots__ = ()
+
+    outcome = ""  # the argument by which a thing says what becomes of it when the event happens
+    needs_walls = False  # whether it can be computed in an arena alone
+    is_outside = False  # whether an environment says when it happens
+    is_of_success = False  # whether an end of the task makes it happen
+    is_of_battery = False  # whether it depends on the battery, of which it names no sensor
+
+    def missing(self, task: TaskWorld) -> Hindrance | None:
+        """What its task lacks, without which it can never happen."""
+        return None
+
+    def prevented(self, world: World) -> Hindrance | None:
+        """What keeps it from ever happening in a world that has all that it needs."""
+        return None
+
+    def row(self, scene: SceneKind) -> Row:
+        """What the lanes are told of it beside the thing that it is about: the `columns` and
+        `rows` of patches, and their side.
+        """
+        return {}

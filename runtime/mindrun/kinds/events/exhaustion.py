@@ -1,0 +1,24 @@
+"""The battery is empty."""
+
+from dataclasses import dataclass
+
+from mindrun.kinds.events.event import EventKind, Hindrance, TaskWorld, World
+from mindrun.kinds.registry import kind
+
+
+@kind("event", "exhaustion")
+@dataclass(frozen=True, slots=True)
+class Exhaustion(EventKind):
+    """The battery is empty."""
+
+    is_of_battery = True
+
+    def missing(self, task: TaskWorld) -> Hindrance | None:
+        """A battery."""
+        if task.has_battery:
+            return None
+        return Hindrance("Without a battery nothing is exhausted.", "Declare one: sensor battery is battery.")
+
+    def prevented(self, world: World) -> Hindrance | None:
+        """It never loses any charge."""
+        return None if world.drains else Hindrance("the battery does not drain", "Give it a drain above 0.")

@@ -1,0 +1,20 @@
+"""The run has succeeded."""
+
+from dataclasses import dataclass
+
+from mindrun.kinds.events.event import EventKind, Hindrance, TaskWorld
+from mindrun.kinds.registry import kind
+
+
+@kind("event", "success")
+@dataclass(frozen=True, slots=True)
+class Success(EventKind):
+    """The run ends as a success: what a line of the task with `succeeds` says has come."""
+
+    is_of_success = True
+
+    def missing(self, task: TaskWorld) -> Hindrance | None:
+        """A line that says when."""
+        if task.can_succeed:
+            return None
+        return Hindrance("The task does not say what a success is.", "Add a line: succeeds on 5 delivery of red.")

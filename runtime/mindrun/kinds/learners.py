@@ -1,0 +1,108 @@
+"""Kinds of curricula: how the lessons are learnt. `train/ask_and_tell.py` knows who does it."""
+
+from dataclasses import dataclass, replace
+from typing import Annotated
+
+from mindrun.kinds.registry import kind
+from mindrun.numbers.quantity import COUNT, GENERATIONS, RATIO, Quantity
+
+OCTAVES = Quantity("a whole number up to 8", {"": 1.0}, low=0, high=8, whole=True)
+SPREAD = Quantity("a number above zero", {"": 1.0}, low=1e-6, high=1000.0)
+PATIENCE_GENERATIONS = replace(GENERATIONS, low=0)
+RUNGS = Quantity("a whole number up to 16", {"": 1.0}, low=0, high=16, whole=True)
+FOUNDERS = Quantity("a whole number", {"": 1.0}, low=0, high=100_000, whole=True)
+FEW_CHILDREN = 0.1  # of a population that is bred anew
+NEAR_WEIGHT = 0.01  # so near to another a weight does as that does
+POPULATION = Quantity("a whole number of at least 4", {"": 1.0}, low=4, high=100_000, whole=True)
+
+
+@kind("curriculum", "genetic")
+@dataclass(frozen=True, slots=True)
+class Genetic:
+    """The paper's learner: a genetic algorithm over the weights of one skill.
+
+    Every generation, `population` genomes are scored on the same `layouts` worlds; `attempts` independent runs
+    are made and the best is kept. `mutation` is the spread of a mutated weight, `mutated` the share of weights it
+    hits; with `octaves` each child has its own, up to so many times doubled or halved. With `patience` an attempt ends
+    early when its best has not become better beyond doubt for so many generations. From scratch, the first population
+    is the best of `founders` random genomes, where these are more than it has. With `rungs` an attempt ends early at a
+    half, a quarter, an eighth … of its generations, so many times, where it is not in the better half of the attempts
+    that have come there (successive halving, as it stops trials one by one). A lesson may say any of these for itself.
+    """
+
+    population: Annotated[int, POPULATION] = 100
+    attempts: Annotated[int, COUNT] = 1
+    layouts: Annotated[int, COUNT] = 2
+    elite: Annotated[float, RATIO] = 0.1
+    mutation: Annotated[float, SPREAD] = 0.5
+    mutated: Annotated[float, RATIO] = 0.1
+    octaves: Annotated[int, OCTAVES] = 0
+    patience: Annotated[int, PATIENCE_GENERATIONS] = 0
+    founders: Annotated[int, FOUNDERS] = 0
+    rungs: Annotated[int, RUNGS] = 0
+
+    def standstill(self, weights: int, generations: int) -> str:
+        """Why it finds nothing in so many generations that its first genomes are not, as a sentence; empty if it may.
+
+        `weights` is how many a genome has.
+        """
+        children = self.population - min(max(1, round(self.elite * self.population)), self.population - 1)
+        bred = children * (generations - 1)
+        if not bred:
+            return "One generation is the first genomes alone, and nothing is bred from them"
+        if children <= FEW_CHILDREN * self.population:
+            return f"An elite of {self.elite:.0%} leaves {children} of {self.population} genomes to be bred anew"
+        most = 2**self.octaves  # times as often and as far as is said
+        if self.mutated * most * weights * bred < 1:
+            return (
+                f"With {self.mutated:.2g} of the weights mutated none ever is, and children mix the first genomes alone"
+            )
+        return _no_steps(self.mutation * most, generations)
+
+
+@kind("curriculum", "restarting")
+@dataclass(frozen=True, slots=True)
+class Restarting(Genetic):
+    """The genetic algorithm that gets there soonest: steps of all sizes, and no time for what is stuck.
+
+    It is `genetic` with other defaults. An attempt that no longer becomes better ends at once, and of several attempts
+    the best is kept.
+    """
+
+    attempts: Annotated[int, COUNT] = 4
+    octaves: Annotated[int, OCTAVES] = 2
+    patience: Annotated[int, PATIENCE_GENERATIONS] = 40
+
+
+@kind("curriculum", "evolution_strategy")
+@dataclass(frozen=True, slots=True)
+class EvolutionStrategy:
+    """An evolution strategy (Rechenberg, 1973), which finishes in few generations what a skill knows already.
+
+    Every generation, `population` genomes are drawn around one, a normal step of spread `mutation` away in all their
+    weights, and scored on the same `layouts` worlds. Then that one moves to the mean of the best quarter of them,
+    weighted by rank, in which the luck of single runs cancels out. From scratch it begins with the best of `founders`
+    random genomes. `attempts`, `patience` and `rungs` are those of `genetic`.
+    """
+
+    population: Annotated[int, POPULATION] = 50
+    attempts: Annotated[int, COUNT] = 1
+    layouts: Annotated[int, COUNT] = 2
+    mutation: Annotated[float, SPREAD] = 0.2
+    patience: Annotated[int, PATIENCE_GENERATIONS] = 0
+    founders: Annotated[int, FOUNDERS] = 0
+    rungs: Annotated[int, RUNGS] = 0
+
+    def standstill(self, weights: int, generations: int) -> str:
+        """Why it comes nowhere in so many generations, as a sentence; empty where it may."""
+        return _no_steps(self.mutation, generations)
+
+
+def _no_steps(spread: float, generations: int) -> str:
+    """That steps of a spread come nowhere, where no weight is elsewhere after so many of them."""
+    if spread * generations >= NEAR_WEIGHT:
+        return ""
+    return f"Steps of {spread:g} leave every weight where it was, in {generations} generations"
+
+
+Learner = Genetic | Restarting | EvolutionStrategy

@@ -1,0 +1,99 @@
+"""Procedures at work: their modules run, their functions called."""
+
+import sys
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from functools import lru_cache
+from hashlib import sha256
+from traceback import walk_tb
+from types import CodeType, ModuleType
+from typing import Any
+from warnings import catch_warnings
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mindrun.errors import ProcedureError
+from mindrun.kinds.procedure_text import examine, file_of, module_of
+from mindrun.numbers.given_numbers import number, values
+
+
+@dataclass(slots=True)
+class Called:
+    """A procedure at work: its function, of a module that is run anew for each run that calls it."""
+
+    calls: str
+    sources: Mapping[str, str]
+    outputs: int
+    function: Callable[..., Any] = field(init=False)
+    was_called: bool = False
+
+    def __post_init__(self) -> None:
+        """Run the module."""
+        self.function = load(self.calls, self.sources)
+
+    def reset(self) -> None:
+        """Forget what the module remembers."""
+        if self.was_called:
+            self.function, self.was_called = load(self.calls, self.sources), False
+
+    def __call__(self, inputs: NDArray[np.float32]) -> NDArray[np.float32]:
+        """Its outputs, before the clamp."""
+        self.was_called = True
+        return call(self.calls, self.function, self.outputs, inputs)
+
+
+def load(calls: str, sources: Mapping[str, str]) -> Callable[..., Any]:
+    """Run a procedure's module, from its text by dotted name, and give the function."""
+    source = sources.get(module_of(calls))
+    if source is None:
+        raise ProcedureError(f"procedure from {calls}: there is no module {module_of(calls)}")
+    examine(calls, source)
+    path, digest = file_of(calls), sha256(source.encode()).hexdigest()[:12]
+    module = ModuleType(f"_mind_{module_of(calls).replace('.', '_')}_{digest}")
+    sys.modules[module.__name__] = module  # dataclasses look their module up
+    try:
+        exec(_code(source, path), module.__dict__)
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:
+        raise ProcedureError(f"procedure from {calls}: its module fails{_error_text(error, path)}") from error
+    function = getattr(module, calls.rpartition(".")[2], None)
+    if not callable(function):
+        raise ProcedureError(f"procedure from {calls}: its module has no such function")
+    return function  # type: ignore[no-any-return]
+
+
+@lru_cache(64)
+def _code(source: str, path: str) -> CodeType:
+    with catch_warnings(action="ignore"):
+        return compile(source, path, "exec")
+
+
+def call(calls: str, function: Callable[..., Any], outputs: int, inputs: NDArray[np.float32]) -> NDArray[np.float32]:
+    """The function's outputs for float32 inputs; one without outputs is not called."""
+    if outputs == 0:
+        return np.zeros(0, np.float32)
+    try:
+        answer = function(*inputs.tolist())
+        found = values(answer)
+        given = [number(value) for value in ([answer] if found is None else found)]
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:
+        said = _error_text(error, file_of(calls))
+        raise ProcedureError(f"procedure {calls} fails for {inputs.tolist()}{said}") from error
+    if len(given) != outputs:
+        raise ProcedureError(f"procedure {calls} returned {len(given)} values instead of {outputs}")
+    return np.array(given).astype(np.float32)
+
+
+def _error_text(error: BaseException, path: str) -> str:
+    """Where in the module an error arose, where it did, and what it says."""
+    lines = [line for frame, line in walk_tb(error.__traceback__) if frame.f_code.co_filename == path]
+    where = f" in {path}, line {lines[-1]}" if lines else ""
+    try:
+        text = str(error)
+    except Exception:  # an exception of the user's may fail even here
+        text = ""
+    return f"{where}: {type(error).__name__}: {text}"

@@ -1,0 +1,125 @@
+"""Kinds of the language, found by name: frozen dataclasses whose fields are their `.mind` arguments."""
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import MISSING, dataclass, fields
+from importlib import import_module
+from pkgutil import iter_modules
+from typing import Annotated, Any, Literal, TypeVar, get_args, get_origin, get_type_hints
+
+from mindrun.numbers.quantity import SLOT, Extent, Place, Quantity, Reference, Span
+
+T = TypeVar("T")
+
+_kinds: dict[str, dict[str, type[Any]]] = {}
+_names: dict[type[Any], str] = {}
+_bases: dict[type[Any], str] = {}
+_arguments: dict[Any, tuple["Argument", ...]] = {}  # of each kind that was asked for
+
+
+Shape = Literal["one", "list", "span", "name", "extent", "place", "places", "lines"]
+"""Of an argument: a number, several, a `Span`, a word, an `Extent`, a place, several, the lines of a text file."""
+
+
+@dataclass(frozen=True, slots=True)
+class Argument:
+    """One argument of a kind."""
+
+    key: str
+    field: str
+    type: Quantity | Reference
+    shape: Shape
+    default: Any
+
+    @property
+    def required(self) -> bool:
+        """Whether the argument must be written."""
+        return self.default is MISSING
+
+
+def kind(noun: str, name: str) -> Callable[[type[T]], type[T]]:
+    """Register a frozen dataclass as the kind `name` of `noun`."""
+
+    def register(cls: type[T]) -> type[T]:
+        _kinds.setdefault(noun, {})[name] = cls
+        _names[cls] = name
+        return cls
+
+    return register
+
+
+def kinds(noun: str) -> dict[str, type[Any]]:
+    """Every kind of a noun, by name."""
+    return _kinds.get(noun, {})
+
+
+def share_kinds(noun: str, of: str) -> None:
+    """Say that a noun has the kinds of another: a scene is one of those that a task can be in."""
+    _kinds[noun] = _kinds[of]
+
+
+def base(noun: str) -> Callable[[type[T]], type[T]]:
+    """Say that a class is what the kinds of a noun have in common: an annotation with it takes each of them."""
+
+    def register(cls: type[T]) -> type[T]:
+        _bases[cls] = noun
+        return cls
+
+    return register
+
+
+def bases() -> Mapping[type[Any], str]:
+    """The noun of every class that kinds have in common."""
+    return _bases
+
+
+def register_all(package: str, path: Iterable[str]) -> None:
+    """Import every module of a package, so that the kinds in them are known: each is a file of its own."""
+    for module in iter_modules(path):
+        import_module(f"{package}.{module.name}")
+
+
+def names() -> Mapping[type[Any], str]:
+    """The name of every registered kind."""
+    return _names
+
+
+def arguments(cls: type[Any]) -> tuple[Argument, ...]:
+    """The arguments that a kind takes, in the order of its fields, its own before those that others have too."""
+    if cls not in _arguments:
+        _arguments[cls] = _read(cls)
+    return _arguments[cls]
+
+
+def named_arguments(cls: type[Any]) -> tuple[Argument, ...]:
+    """Those that are written with their keys: what stands behind the kind itself, as in `observation 1`, is none."""
+    return tuple(each for each in arguments(cls) if each.key != _names[cls] and each.type != SLOT)
+
+
+def _read(cls: type[Any]) -> tuple[Argument, ...]:
+    hints = get_type_hints(cls, include_extras=True)
+    return tuple(
+        Argument(f.name.removesuffix("_"), f.name, *_type(hints[f.name]), default=f.default)
+        for f in sorted(fields(cls), key=lambda field: field.kw_only is True)
+    )
+
+
+def _type(hint: Any) -> tuple[Quantity | Reference, Shape]:
+    if get_origin(hint) is not Annotated:
+        raise TypeError(f"{hint} does not say what an argument means")
+    plain, meaning = get_args(hint)[:2]
+    match plain, meaning:
+        case _, Reference() if plain == tuple[str, ...]:
+            return meaning, "lines"
+        case _, Reference():
+            return meaning, "name"
+        case _ if plain is Span:
+            return meaning, "span"
+        case _ if plain == Extent:
+            return meaning, "extent"
+        case _ if plain == tuple[Place, ...]:
+            return meaning, "places"
+        case _ if plain == Place:
+            return meaning, "place"
+        case _ if get_origin(plain) is tuple:
+            return meaning, "list"
+    return meaning, "one"

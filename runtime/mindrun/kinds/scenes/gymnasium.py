@@ -1,0 +1,23 @@
+"""A world that is somebody else's: an environment of Gymnasium."""
+
+from dataclasses import dataclass
+from typing import Annotated
+
+from mindrun.kinds.registry import kind
+from mindrun.kinds.scenes.scene import SceneKind
+from mindrun.numbers.quantity import Reference
+
+ENVIRONMENT = Reference("environment")
+
+
+@kind("task", "gymnasium")
+@dataclass(frozen=True, slots=True)
+class Gymnasium(SceneKind):
+    """The environment of Gymnasium with that name: each tick is one of its steps, and it says how a run begins."""
+
+    gymnasium: Annotated[str, ENVIRONMENT]
+
+    @property
+    def environment(self) -> str:
+        """Its name."""
+        return self.gymnasium

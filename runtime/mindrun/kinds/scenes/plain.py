@@ -1,0 +1,18 @@
+"""A world without walls."""
+
+from dataclasses import dataclass
+
+from mindrun.kinds.registry import kind
+from mindrun.kinds.scenes.scene import SceneKind
+
+MIN_DISTANCE_UNITS, MAX_DISTANCE_UNITS = 10.0, 40.0  # units from the robot
+
+
+@kind("task", "plain")
+@dataclass(frozen=True, slots=True)
+class Plain(SceneKind):
+    """A world without borders; the robot starts in its origin."""
+
+    def distances(self, least: float) -> tuple[float, float]:
+        """Where the robot can find it."""
+        return MIN_DISTANCE_UNITS, MAX_DISTANCE_UNITS

@@ -1,0 +1,43 @@
+"""What every kind of scene says of itself: the rest of the program asks, and knows no kind by name."""
+
+from math import hypot, inf
+
+from mindrun.kinds.registry import base
+from mindrun.numbers.quantity import Place
+
+TOUCHING_UNITS = 1e-6  # what is so little beyond something, or in it, only touches it: sums of decimals are rounded
+
+DISTANCE_SHARE = 1 / 3  # of the way from corner to corner: no farther from the robot is what does not say so
+
+
+@base("task")
+class SceneKind:
+    """A world without borders; a kind says what is different about it."""
+
+    __slots__ = ()
+
+    @property
+    def environment(self) -> str:
+        """The environment that is this world; empty where the lanes simulate it."""
+        return ""
+
+    @property
+    def sides(self) -> tuple[float, float]:
+        """A scene's lengths along x and y in world units; infinite where it has no walls. The origin is its middle."""
+        return inf, inf
+
+    @property
+    def is_bounded(self) -> bool:
+        """Whether walls stand around it."""
+        return self.sides[0] < inf
+
+    def has_room(self, place: Place, extent: float) -> bool:
+        """Whether something of that half size, at a place, is inside its walls."""
+        return all(abs(at) + extent <= side / 2 + TOUCHING_UNITS for at, side in zip(place, self.sides, strict=True))
+
+    def distances(self, least: float) -> tuple[float, float]:
+        """How near to the robot and how far from it a thing is placed that does not say so.
+
+        `least` is how far away such a thing is where walls keep it near, and leave so much room.
+        """
+        return min(least, hypot(*self.sides) * DISTANCE_SHARE), inf

@@ -1,0 +1,62 @@
+"""In which direction a thing is."""
+
+from dataclasses import dataclass
+from math import inf
+from typing import TYPE_CHECKING, Annotated, Any
+
+from mindrun.kinds.registry import kind
+from mindrun.kinds.sensors.sensor import Physical, Row, Scene, World
+from mindrun.kinds.things.thing import ThingKind
+from mindrun.numbers.quantity import LENGTH, RATIO, THING
+
+if TYPE_CHECKING:  # a lane is given these when it is compiled
+    from mindrun.numbers.arithmetic import COSINE, DISTANCE, HALF, SINE, F, X, Y, bearing, nearest
+
+
+@kind("sensor", "bearing")
+@dataclass(frozen=True, slots=True)
+class Bearing(Physical):
+    """Direction of a thing: 0.5 straight ahead, less on the left, more on the right; 0.5 without it.
+
+    It goes round: noise leads from 0 to 1, which are both behind.
+    0.5 − atan2(y, x)/2π in the body's frame, of several the nearest's; of an obstacle, a wall or a map its nearest
+    point's. Within `dead_zone` of straight ahead it reads 0.5; with a `range`, a thing farther away than that, too.
+    """
+
+    of: Annotated[str, THING]
+    range: Annotated[float, LENGTH] = 0.0
+    dead_zone: Annotated[float, RATIO] = 0.0
+
+    circular = True
+    scaled = True
+    blank = rest = 0.5
+
+    @staticmethod
+    def is_about(kind: type[ThingKind]) -> bool:
+        """Whatever there is."""
+        return True
+
+    def constant(self, world: World) -> float | None:
+        """0.5 without the thing, and where all directions are in the dead zone."""
+        return 0.5 if self.of not in world.things or self.dead_zone > 0.5 else None
+
+    def row(self, scene: Scene) -> Row:
+        """The thing, and how far away it may be."""
+        return {"range": self.range or inf, "dead_zone": self.dead_zone}
+
+    @staticmethod
+    def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
+        """0.5 − atan2/2π in the body's frame."""
+        out = s.readings[sensor.start]
+        if sensor.things == 0 and sensor.boxes == 0:
+            for p in range(n):
+                out[p] = HALF
+            return
+        thing = nearest(s, sensor, n)
+        x, y, away = thing[X], thing[Y], thing[DISTANCE]
+        for p in range(n):
+            dx, dy = F(x[p] - s.body[X, p]), F(y[p] - s.body[Y, p])
+            cosine, sine = F(s.heading[COSINE, p]), F(s.heading[SINE, p])
+            v = bearing(cosine * dx + sine * dy, cosine * dy - sine * dx)
+            v = HALF if abs(v - HALF) < sensor.dead_zone else v
+            out[p] = v if away[p] <= sensor.range else HALF

@@ -1,0 +1,143 @@
+"""Where the body touches something solid."""
+
+from dataclasses import dataclass
+from math import pi
+from typing import TYPE_CHECKING, Annotated, Any
+
+from mindrun.kinds.registry import kind
+from mindrun.kinds.sensors.sensor import Physical, World
+from mindrun.numbers.quantity import ANGLE, Quantity
+from mindrun.numbers.trigonometry import cosine, sine
+
+if TYPE_CHECKING:  # a lane is given these when it is compiled
+    import numpy as np
+
+    from mindrun.numbers.arithmetic import (
+        BOX_COLUMNS,
+        COSINE,
+        HALF_X,
+        HALF_Y,
+        LOOSE_ROWS,
+        ONE,
+        SINE,
+        SIZE,
+        THING_ROWS,
+        TURN,
+        ZERO,
+        X,
+        Y,
+        sine_cosine,
+    )
+
+WIDTH = Quantity("an angle", {"deg": pi / 180}, low=pi / 180, high=2 * pi)
+
+
+@kind("sensor", "bumper")
+@dataclass(frozen=True, slots=True)
+class Bumper(Physical):
+    """Switches around the body, one reading per angle: 1 while something solid touches it there, else 0.
+
+    That is an obstacle, a wall, or a box or ball that can be pushed; what the claw holds has no switch.
+    Angles turn counterclockwise from straight ahead; each switch is `width` wide, half of it to either side.
+    """
+
+    at: Annotated[tuple[float, ...], ANGLE] = (0.0,)
+    width_: Annotated[float, WIDTH] = pi / 4
+
+    near = 1
+    remedy = "Let a task contain something solid"
+
+    @property
+    def width(self) -> int:
+        """One reading per angle."""
+        return len(self.at)
+
+    @property
+    def directions(self) -> tuple[float, ...]:
+        """Its angles."""
+        return self.at
+
+    @property
+    def sector(self) -> float:
+        """The width of each switch."""
+        return self.width_
+
+    @property
+    def numbers(self) -> tuple[float, ...]:
+        """The cosine of half the width, then cosine and sine of each angle."""
+        return cosine(self.width_ / 2), *(f(angle) for angle in self.at for f in (cosine, sine))
+
+    def constant(self, world: World) -> float | None:
+        """0 where nothing is solid."""
+        return None if world.is_solid else 0.0
+
+    @staticmethod
+    def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
+        """The nearest point of each box and of each wall, where it is not outside of the body."""
+        half_x, half_y = t.world[0].half_x, t.world[0].half_y
+        for p in range(n):
+            for k in range(sensor.width):
+                s.readings[sensor.start + k, p] = ZERO
+            x, y = s.body[X, p], s.body[Y, p]
+            for b in range(s.nearby_count[p]):
+                box = BOX_COLUMNS * b
+                dx = beyond(s.nearby[box + X, p] - x, s.nearby[box + HALF_X, p])
+                dy = beyond(s.nearby[box + Y, p] - y, s.nearby[box + HALF_Y, p])
+                press(t, s, sensor, dx, dy, dx == 0.0 or dy == 0.0, p)
+            press(t, s, sensor, half_x - x, 0.0, True, p)
+            press(t, s, sensor, -half_x - x, 0.0, True, p)
+            press(t, s, sensor, 0.0, half_y - y, True, p)
+            press(t, s, sensor, 0.0, -half_y - y, True, p)
+            for i in range(len(t.loose)):
+                lean(t, s, sensor, i, p)
+
+
+def lean(t: Any, s: Any, sensor: Any, i: Any, p: Any) -> None:
+    """The same of loose thing i, however it is turned."""
+    thing = THING_ROWS * t.loose[i].thing
+    dx, dy = s.things[thing + X, p] - s.body[X, p], s.things[thing + Y, p] - s.body[Y, p]
+    half = s.things[thing + SIZE, p] / 2
+    if np.isnan(dx):
+        return  # it has vanished
+    if t.loose[i].is_round:
+        far = np.sqrt(dx * dx + dy * dy)
+        share = 1.0 - half / far if far > half else 0.0
+        press(t, s, sensor, dx * share, dy * share, False, p)
+    else:
+        sn, c = sine_cosine(s.loose[LOOSE_ROWS * i + TURN, p])
+        along, across = beyond(c * dx + sn * dy, half), beyond(c * dy - sn * dx, half)
+        is_flat = along == 0.0 or across == 0.0
+        press(t, s, sensor, c * along - sn * across, sn * along + c * across, is_flat, p)
+
+
+def beyond(away: Any, side: Any) -> Any:
+    """How far along an axis the nearest point is of what reaches so far to both sides of its middle; 0 within."""
+    if away > side:
+        return away - side
+    return away + side if away < -side else 0.0
+
+
+def touches(body: Any, ahead: Any, aside: Any, is_flat: Any) -> Any:
+    """Whether the nearest point of something inside of the circle around a body is not outside of the body.
+
+    What is flat there meets a corner of a rectangle before that point is in it.
+    """
+    if body.is_round:
+        return True
+    if is_flat:
+        return ahead * ahead + aside * aside <= body.front * ahead + body.side * aside
+    return ahead <= body.front and aside <= body.side
+
+
+def press(t: Any, s: Any, sensor: Any, dx: Any, dy: Any, is_flat: Any, p: Any) -> None:
+    """1 for the switches of lane p that a point so far from the body's middle presses, if it is not outside of it."""
+    far = np.sqrt(dx * dx + dy * dy)
+    if not far <= t.world[0].radius:  # infinitely far, where there is no wall, and no number, where it has vanished
+        return
+    c, sn = s.heading[COSINE, p], s.heading[SINE, p]
+    ahead, aside = c * dx + sn * dy, c * dy - sn * dx
+    if touches(t.world[0], abs(ahead), abs(aside), is_flat):
+        for k in range(sensor.width):
+            first = sensor.number + 1 + 2 * k
+            if ahead * t.numbers[first + COSINE] + aside * t.numbers[first + SINE] >= t.numbers[sensor.number] * far:
+                s.readings[sensor.start + k, p] = ONE

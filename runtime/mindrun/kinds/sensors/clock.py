@@ -1,0 +1,59 @@
+"""How much of a period has gone by."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import floor
+from typing import TYPE_CHECKING, Annotated, Any
+
+from mindrun.kinds.registry import kind
+from mindrun.kinds.sensors.sensor import Begin, Bounds, Row, Scene, SensorKind, World
+from mindrun.numbers.quantity import SECONDS
+
+if TYPE_CHECKING:  # a lane is given these when it is compiled
+    import numpy as np
+
+    from mindrun.numbers.arithmetic import F
+    from mindrun.numbers.arrays import Reader, Readings
+
+
+@kind("sensor", "clock")
+@dataclass(frozen=True, slots=True)
+class Clock(SensorKind):
+    """A saw tooth: from 0 to 1 in every period, then 0 again; t/period without its whole part."""
+
+    period: Annotated[float, SECONDS]
+
+    remedy = "Give it a period of more than a tick"
+
+    def constant(self, world: World) -> float | None:
+        """0 where each tick begins a period."""
+        return 0.0 if self.period == world.tick else None
+
+    def first(self, begin: Begin) -> Bounds:
+        """0: a period begins."""
+        return 0.0, 0.0
+
+    def reader(self, scene: Scene) -> Reader:
+        """t/period without its whole part, t in seconds since the first tick."""
+        import numpy as np
+
+        period = self.period / scene.tick
+
+        def read(number: int, now: Readings, before: Readings | None) -> np.float32:
+            turned = number / period
+            return np.float32(turned - floor(turned))
+
+        return read
+
+    def row(self, scene: Scene) -> Row:
+        """The period in ticks."""
+        return {"period": self.period / scene.tick}
+
+    @staticmethod
+    def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
+        """t/T − ⌊t/T⌋."""
+        out = s.readings[sensor.start]
+        for p in range(n):
+            turned = s.tick[p] / sensor.period
+            out[p] = F(turned - np.floor(turned))

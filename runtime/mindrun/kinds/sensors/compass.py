@@ -1,0 +1,42 @@
+"""In which direction north is."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated, Any
+
+from mindrun.kinds.registry import kind
+from mindrun.kinds.sensors.sensor import Physical, Row, Scene, World
+from mindrun.numbers.quantity import RATIO
+
+if TYPE_CHECKING:  # a lane is given these when it is compiled
+    from mindrun.numbers.arithmetic import COSINE, HALF, SINE, F, bearing
+
+
+@kind("sensor", "compass")
+@dataclass(frozen=True, slots=True)
+class Compass(Physical):
+    """Direction of north, where the world's y axis points: 0.5 straight ahead, less on the left, more on the right.
+
+    Within `dead_zone` of straight ahead it reads 0.5. It goes round: noise leads from 0 to 1, which are both behind.
+    """
+
+    dead_zone: Annotated[float, RATIO] = 0.0
+
+    circular = True
+    scaled = True
+    blank = rest = 0.5
+
+    def constant(self, world: World) -> float | None:
+        """0.5 where all directions are in the dead zone."""
+        return 0.5 if self.dead_zone > 0.5 else None
+
+    def row(self, scene: Scene) -> Row:
+        """The dead zone."""
+        return {"dead_zone": self.dead_zone}
+
+    @staticmethod
+    def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
+        """0.5 − atan2/2π of north in the body's frame."""
+        out = s.readings[sensor.start]
+        for p in range(n):
+            v = bearing(F(s.heading[SINE, p]), F(s.heading[COSINE, p]))
+            out[p] = HALF if abs(v - HALF) < sensor.dead_zone else v

@@ -1,0 +1,98 @@
+"""An expression over other readings."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass
+from math import isfinite
+from typing import TYPE_CHECKING, Annotated, Any
+
+from mindrun.kinds.registry import kind
+from mindrun.kinds.sensors.sensor import Flaw, Scene, SensorKind, World
+from mindrun.numbers.constant_value import constant_value, single
+from mindrun.numbers.expression import Formula, fold, is_valid_program, named, placed
+from mindrun.numbers.quantity import EXPRESSION
+from mindrun.numbers.stack_machine import evaluate as run_program
+
+if TYPE_CHECKING:  # a lane is given these when it is compiled
+    import numpy as np
+
+    from mindrun.numbers.arithmetic import NAN, ONE, ZERO, F, clamp, finite
+    from mindrun.numbers.arrays import Reader, Readings
+
+
+@kind("sensor", "computed")
+@dataclass(frozen=True, slots=True)
+class Computed(SensorKind):
+    """The value of an expression over sensors and memories of one reading, clamped to 0..1. 0/0 is no reading.
+
+    A direction more or less numbers is one: it goes round, and 1.1 is 0.1.
+    """
+
+    at: Annotated[Formula, EXPRESSION]
+
+    remedy = "Let it depend on a reading, or write the number where it is read"
+
+    @property
+    def sources(self) -> tuple[str, ...]:
+        """All that it names."""
+        return named(self.at)
+
+    @property
+    def formula(self) -> Formula:
+        """The expression that it computes, in postfix order, with readings by their names."""
+        return self.at
+
+    def goes_round(self, directions: Collection[str]) -> bool:
+        """Whether it is one direction, taken once, more or less numbers."""
+
+        def leaf(word: str, operand: Any) -> int | None:
+            return 0 if word == "number" else 1 if operand in directions else None
+
+        def combined(symbol: str, left: int | None, right: int | None) -> int | None:
+            if left is None or right is None or not (symbol in "+-" or left == right == 0):
+                return None
+            return left - right if symbol == "-" else left + right
+
+        return fold(self.at, leaf, lambda count: None if count is None else -count, combined) in (1, -1)
+
+    def flaw(self, widths: Mapping[str, int]) -> Flaw | None:
+        """An expression takes one number of each reading that it names."""
+        starts = dict.fromkeys(self.sources, 0)
+        if not (is_valid_program(placed(self.at, starts)) and all(widths.get(name) == 1 for name in self.sources)):
+            return Flaw("wide-reading", "at", "It has an expression that cannot be computed.", "Read single readings.")
+        return None
+
+    def constant(self, world: World) -> float | None:
+        """The value of an expression that names no reading; None where it names one, or is no finite number."""
+        if self.sources:
+            return None
+        value = single(constant_value(placed(self.at, {})))
+        return min(max(0.0, value), 1.0) if isfinite(value) else None
+
+    def reader(self, scene: Scene) -> Reader:
+        """How the engine computes the expression: as a float32, clamped, of a direction less whole turns; NaN else."""
+        import numpy as np
+
+        from mindrun.numbers.arithmetic import NAN, clamp
+        from mindrun.numbers.evaluation import evaluate
+
+        program, turns = placed(self.at, scene.starts), self.goes_round(scene.directions)
+
+        def read(number: int, now: Readings, before: Readings | None) -> np.float32:
+            value = np.float32(evaluate(program, now))
+            if turns and not 0 <= value <= 1:
+                value = value - np.floor(value)
+            return clamp(value) if isfinite(value) else NAN
+
+        return read
+
+    @staticmethod
+    def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
+        """The program over all lanes."""
+        codes, out = t.codes[sensor.code : sensor.code + sensor.length], s.readings[sensor.start]
+        run_program(codes, s.readings, s.stack, s.readings, 0, s.stack, s.active, n, True)
+        for p in range(n):
+            v = F(s.stack[0, p])
+            v = v - np.floor(v) if sensor.turns and (v < ZERO or v > ONE) else v
+            out[p] = clamp(v) if finite(v) else NAN

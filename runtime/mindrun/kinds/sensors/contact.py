@@ -1,0 +1,42 @@
+"""Whether the claw can take a thing."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated, Any
+
+from mindrun.kinds.registry import kind
+from mindrun.kinds.sensors.sensor import Physical, World
+from mindrun.kinds.things import ThingKind
+from mindrun.numbers.quantity import THING
+
+if TYPE_CHECKING:  # a lane is given these when it is compiled
+    from mindrun.numbers.arithmetic import ONE, ZERO, in_claw
+
+
+@kind("sensor", "contact")
+@dataclass(frozen=True, slots=True)
+class Contact(Physical):
+    """1 while the thing, or one of its name, is in the claw's reach, else 0."""
+
+    of: Annotated[str, THING]
+
+    near = 1
+
+    @staticmethod
+    def is_about(kind: type[ThingKind]) -> bool:
+        """What a claw can take, push or catch."""
+        return kind.can_be_held or kind.is_loose or kind.walks
+
+    def constant(self, world: World) -> float | None:
+        """0 without the thing."""
+        return None if self.of in world.things else 0.0
+
+    @staticmethod
+    def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
+        """1 where the claw could take the thing."""
+        world, out = t.world[0], s.readings[sensor.start]
+        for p in range(n):
+            out[p] = ZERO
+        for i in range(sensor.thing, sensor.thing + sensor.things):
+            for p in range(n):
+                there = in_claw(s.body, s.heading, s.things, world.front, world.claw, i, p)
+                out[p] = ONE if there else out[p]

@@ -1,0 +1,148 @@
+"""How far a thing is in some directions: one line of a camera that sees its colour alone."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated, Any
+
+from mindrun.kinds.registry import kind
+from mindrun.kinds.sensors.sensor import Physical, Row, Scene, World
+from mindrun.kinds.things.thing import ThingKind
+from mindrun.numbers.quantity import ANGLE, POSITIVE, THING
+
+if TYPE_CHECKING:  # a lane is given these when it is compiled
+    import numpy as np
+
+    from mindrun.numbers.arithmetic import (
+        BOX_COLUMNS,
+        COSINE,
+        HALF_X,
+        HALF_Y,
+        MAX_FLOAT32,
+        ONE,
+        SINE,
+        SIZE,
+        THING_ROWS,
+        ZERO,
+        F,
+        X,
+        Y,
+        clamp,
+    )
+
+
+@kind("sensor", "eye")
+@dataclass(frozen=True, slots=True)
+class Eye(Physical):
+    """Distance from the body's rim to a thing, one reading per angle: 0 touching or inside, 1 where the ray meets none.
+
+    A range finder that sees all things of that name and no other, obstacles and walls too; whatever is solid before one
+    hides it, but for those of its own name that can be pushed. Angles turn counterclockwise from straight ahead. Of a
+    box that can be pushed it sees the disc in it.
+    """
+
+    of: Annotated[str, THING]
+    at: Annotated[tuple[float, ...], ANGLE] = (0.0,)
+    range: Annotated[float, POSITIVE] = 30.0
+
+    scaled = True
+    near = 0
+    unit = "m"
+    blank = 1.0
+    remedy = "Let a task contain what it is about"
+
+    @property
+    def width(self) -> int:
+        """One reading per angle."""
+        return len(self.at)
+
+    @property
+    def rays(self) -> tuple[float, ...]:
+        """Its angles."""
+        return self.at
+
+    @property
+    def reach(self) -> float:
+        """Its range."""
+        return self.range
+
+    @staticmethod
+    def is_about(kind: type[ThingKind]) -> bool:
+        """Whatever there is."""
+        return True
+
+    def constant(self, world: World) -> float | None:
+        """1 without the thing."""
+        return None if self.of in world.things else 1.0
+
+    def row(self, scene: Scene) -> Row:
+        """How far it looks."""
+        return {"range": self.range}
+
+    @staticmethod
+    def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
+        """The distance along each ray to the thing that it meets first, if nothing solid comes before."""
+        scale, out = ONE / F(sensor.range), s.readings[sensor.start : sensor.start + sensor.width]
+        for k in range(sensor.width):
+            for p in range(n):
+                out[k, p] = MAX_FLOAT32
+        for i in range(sensor.thing, sensor.thing + sensor.things):
+            locate(s.body, s.things[THING_ROWS * i : THING_ROWS * (i + 1)], s.frame, n)
+            is_disc = t.things[i].is_round or t.things[i].loose >= 0
+            for k in range(sensor.width):
+                cosine, sine = t.rays[COSINE, sensor.ray + k], t.rays[SINE, sensor.ray + k]
+                if is_disc:
+                    meet_disc(s.sight, s.frame, cosine, sine, out[k], n)
+                else:
+                    meet_rectangle(s.sight, s.frame, cosine, sine, out[k], n)
+        for b in range(sensor.box, sensor.box + sensor.boxes):
+            locate_box(s.body, s.boxes, b, s.frame, n)
+            for k in range(sensor.width):
+                cosine, sine = t.rays[COSINE, sensor.ray + k], t.rays[SINE, sensor.ray + k]
+                meet_rectangle(s.sight, s.frame, cosine, sine, out[k], n)
+        for k in range(sensor.width):
+            solid, rim = s.sight[4 + sensor.ray + k], t.rims[sensor.ray + k]
+            for p in range(n):
+                out[k, p] = clamp((out[k, p] - rim) * scale) if out[k, p] <= solid[p] else ONE
+
+
+def locate(body: Any, thing: Any, frame: Any, n: Any) -> None:
+    """Where a thing is from each robot's middle, and half of its size along x and y, in float32."""
+    for p in range(n):
+        frame[X, p], frame[Y, p] = F(thing[X, p] - body[X, p]), F(thing[Y, p] - body[Y, p])
+        frame[HALF_X, p] = frame[HALF_Y, p] = F(thing[SIZE, p] / 2)
+
+
+def locate_box(body: Any, boxes: Any, b: Any, frame: Any, n: Any) -> None:
+    """The same of box number b."""
+    for p in range(n):
+        box = BOX_COLUMNS * b
+        frame[X, p], frame[Y, p] = F(boxes[p, box + X] - body[X, p]), F(boxes[p, box + Y] - body[Y, p])
+        frame[HALF_X, p], frame[HALF_Y, p] = F(boxes[p, box + HALF_X]), F(boxes[p, box + HALF_Y])
+
+
+def meet_disc(heading: Any, frame: Any, cosine: Any, sine: Any, out: Any, n: Any) -> None:
+    """`out` lowered to the distance from each robot's middle along a ray to a disc, where that is less."""
+    for p in range(n):
+        c = heading[COSINE, p] * cosine - heading[SINE, p] * sine
+        s = heading[SINE, p] * cosine + heading[COSINE, p] * sine
+        dx, dy, half, before = frame[X, p], frame[Y, p], frame[HALF_X, p], out[p]
+        along, aside = c * dx + s * dy, c * dy - s * dx
+        inner = half * half - aside * aside
+        chord = F(np.sqrt(inner if inner > ZERO else ZERO))
+        near = along - chord
+        near = near if near > ZERO else ZERO
+        out[p] = near if (inner >= ZERO) & (along + chord >= ZERO) & (near < before) else before
+
+
+def meet_rectangle(heading: Any, frame: Any, cosine: Any, sine: Any, out: Any, n: Any) -> None:
+    """The same to a rectangle (the slab method)."""
+    for p in range(n):
+        ix = ONE / (heading[COSINE, p] * cosine - heading[SINE, p] * sine)
+        iy = ONE / (heading[SINE, p] * cosine + heading[COSINE, p] * sine)
+        dx, dy, half_x, half_y, before = frame[X, p], frame[Y, p], frame[HALF_X, p], frame[HALF_Y, p], out[p]
+        left, right, low, high = (dx - half_x) * ix, (dx + half_x) * ix, (dy - half_y) * iy, (dy + half_y) * iy
+        enter_x, leave_x = (left, right) if left < right else (right, left)
+        enter_y, leave_y = (low, high) if low < high else (high, low)
+        enter = enter_x if enter_x > enter_y else enter_y
+        leave = leave_x if leave_x < leave_y else leave_y
+        near = enter if enter > ZERO else ZERO
+        out[p] = near if (enter <= leave) & (leave >= ZERO) & (near < before) else before

@@ -1,0 +1,77 @@
+"""What lies under some points of the robot."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated, Any
+
+from mindrun.kinds.registry import kind
+from mindrun.kinds.sensors.sensor import Physical, World
+from mindrun.kinds.things import ThingKind
+from mindrun.numbers.quantity import THING, Quantity
+
+if TYPE_CHECKING:  # a lane is given these when it is compiled
+    from mindrun.numbers.arithmetic import COSINE, ONE, SINE, SIZE, THING_ROWS, ZERO, X, Y, inside
+
+OFFSET = Quantity("a length in world units", {"": 1.0}, low=-1000.0, high=1000.0)
+
+
+@kind("sensor", "floor")
+@dataclass(frozen=True, slots=True)
+class Floor(Physical):
+    """Light sensors that look down, one reading each: 1 where it is over a thing or one of its name, else 0.
+
+    They stand on a bar across the robot, `ahead` of its middle; `at` says how far to the left of the middle each is.
+    """
+
+    of: Annotated[str, THING]
+    at: Annotated[tuple[float, ...], OFFSET] = (0.0,)
+    ahead: Annotated[float, OFFSET] = 0.0
+
+    remedy = "Let a task contain what it is about"
+
+    @staticmethod
+    def is_about(kind: type[ThingKind]) -> bool:
+        """What can lie on the floor."""
+        return not kind.is_solid
+
+    @property
+    def width(self) -> int:
+        """One reading per place."""
+        return len(self.at)
+
+    @property
+    def spots(self) -> tuple[tuple[float, float], ...]:
+        """Its places on the bar."""
+        return tuple((self.ahead, left) for left in self.at)
+
+    @property
+    def numbers(self) -> tuple[float, ...]:
+        """How far ahead they are, then how far to the left each is."""
+        return self.ahead, *self.at
+
+    def constant(self, world: World) -> float | None:
+        """0 without the thing."""
+        return None if self.of in world.things else 0.0
+
+    @staticmethod
+    def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
+        """1 where a point of the body's frame, turned into the world, lies on one of the things."""
+        ahead = t.numbers[sensor.number]
+        for k in range(sensor.width):
+            out, left = s.readings[sensor.start + k], t.numbers[sensor.number + 1 + k]
+            for p in range(n):
+                cosine, sine = s.heading[COSINE, p], s.heading[SINE, p]
+                x = s.body[X, p] + (cosine * ahead - sine * left)
+                y = s.body[Y, p] + (sine * ahead + cosine * left)
+                there = False
+                for i in range(sensor.thing, sensor.thing + sensor.things):
+                    there = there or (
+                        in_disc(s.things, i, x, y, p) if t.things[i].is_round else inside(s.things, i, x, y, p)
+                    )
+                out[p] = ONE if there else ZERO
+
+
+def in_disc(things: Any, i: Any, x: Any, y: Any, p: Any) -> Any:
+    """Whether a point is inside the disc of thing i, in lane p."""
+    dx, dy = things[THING_ROWS * i + X, p] - x, things[THING_ROWS * i + Y, p] - y
+    half = things[THING_ROWS * i + SIZE, p] / 2
+    return dx * dx + dy * dy <= half * half

@@ -1,0 +1,43 @@
+"""Whether the claw holds a thing."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated, Any
+
+from mindrun.kinds.registry import kind
+from mindrun.kinds.sensors.sensor import Begin, Bounds, Physical, World
+from mindrun.kinds.things import ThingKind
+from mindrun.numbers.quantity import THING
+
+if TYPE_CHECKING:  # a lane is given these when it is compiled
+    from mindrun.numbers.arithmetic import ONE, ZERO
+
+
+@kind("sensor", "held")
+@dataclass(frozen=True, slots=True)
+class Held(Physical):
+    """1 while the claw holds the thing, or one of its name, else 0."""
+
+    of: Annotated[str, THING]
+
+    near = 1
+    remedy = "Let a skill that acts drive a gripper"
+
+    @staticmethod
+    def is_about(kind: type[ThingKind]) -> bool:
+        """What a claw can take."""
+        return kind.can_be_held
+
+    def constant(self, world: World) -> float | None:
+        """0 without the thing, and where no claw ever closes."""
+        return None if self.of in world.things and world.can_hold else 0.0
+
+    def first(self, begin: Begin) -> Bounds | None:
+        """0, since a claw begins empty; None where noise hides that."""
+        return None if self.noise else (0.0, 0.0)
+
+    @staticmethod
+    def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
+        """1 where the claw holds the thing."""
+        for p in range(n):
+            k = s.held[p] - sensor.thing
+            s.readings[sensor.start, p] = ONE if k >= 0 and k < sensor.things else ZERO

@@ -1,0 +1,124 @@
+"""How bright a thing is from where the robot is."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated, Any
+
+from mindrun.kinds.registry import kind
+from mindrun.kinds.sensors.sensor import Physical, Row, Scene, World
+from mindrun.numbers.quantity import POSITIVE, THING
+
+if TYPE_CHECKING:  # a lane is given these when it is compiled
+    import numpy as np
+
+    from mindrun.numbers.arithmetic import (
+        BOX_COLUMNS,
+        DISTANCE,
+        HALF_X,
+        HALF_Y,
+        LOOSE_ROWS,
+        SIZE,
+        THING_ROWS,
+        TURN,
+        ZERO,
+        F,
+        X,
+        Y,
+        nearest,
+        sine_cosine,
+    )
+
+
+@kind("sensor", "light")
+@dataclass(frozen=True, slots=True)
+class Light(Physical):
+    """Light of a thing, of several the nearest: 1 at its middle, 0.5 at `range`, far away falling with the square.
+
+    1 / (1 + (distance of the middles / range)²); 0 without it, and where something solid is between the middles: an
+    obstacle, a wall, or a box or ball of another name.
+    """
+
+    of: Annotated[str, THING]
+    range: Annotated[float, POSITIVE] = 10.0
+
+    near = 1
+    remedy = "Let a task contain what it is about"
+
+    def constant(self, world: World) -> float | None:
+        """0 without the thing."""
+        return None if self.of in world.things else 0.0
+
+    def row(self, scene: Scene) -> Row:
+        """Where it reads half."""
+        return {"range": self.range}
+
+    @staticmethod
+    def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
+        """The square law, and nothing in the shadow."""
+        out = s.readings[sensor.start]
+        if sensor.things == 0:
+            for p in range(n):
+                out[p] = ZERO
+            return
+        thing = nearest(s, sensor, n)
+        x, y, away = thing[X], thing[Y], thing[DISTANCE]
+        for p in range(n):
+            share = away[p] / sensor.range
+            v = F(1.0 / (1.0 + share * share))
+            middle_x, middle_y = s.body[X, p], s.body[Y, p]
+            half_x, half_y = (x[p] - middle_x) / 2, (y[p] - middle_y) / 2
+            middle_x, middle_y = middle_x + half_x, middle_y + half_y
+            is_dark = (
+                np.isnan(share)
+                or is_shaded(s.boxes, middle_x, middle_y, half_x, half_y, p)
+                or is_shaded_by_loose(t, s, sensor, middle_x, middle_y, half_x, half_y, p)
+            )
+            out[p] = ZERO if is_dark else v
+
+
+def is_shaded(boxes: Any, x: Any, y: Any, half_x: Any, half_y: Any, p: Any) -> Any:
+    """Whether a box of lane p meets a straight line, given by its middle and half of its way."""
+    for b in range(boxes.shape[1] // BOX_COLUMNS):
+        box = BOX_COLUMNS * b
+        dx, dy = x - boxes[p, box + X], y - boxes[p, box + Y]
+        if meets_rectangle(dx, dy, half_x, half_y, boxes[p, box + HALF_X], boxes[p, box + HALF_Y]):
+            return True
+    return False
+
+
+def is_shaded_by_loose(t: Any, s: Any, sensor: Any, x: Any, y: Any, half_x: Any, half_y: Any, p: Any) -> Any:
+    """The same of boxes and balls that can be pushed, however they are turned, but for those the sensor is about."""
+    for i in range(len(t.loose)):
+        thing = t.loose[i].thing
+        if (sensor.thing <= thing) & (thing < sensor.thing + sensor.things):
+            continue
+        row = THING_ROWS * thing
+        dx, dy, half = x - s.things[row + X, p], y - s.things[row + Y, p], s.things[row + SIZE, p] / 2
+        if t.loose[i].is_round:
+            is_met = meets_disc(dx, dy, half_x, half_y, half)
+        else:
+            sine, cosine = sine_cosine(s.loose[LOOSE_ROWS * i + TURN, p])
+            along, across = cosine * half_x + sine * half_y, cosine * half_y - sine * half_x
+            is_met = meets_rectangle(cosine * dx + sine * dy, cosine * dy - sine * dx, along, across, half, half)
+        if is_met:
+            return True
+    return False
+
+
+def meets_rectangle(dx: Any, dy: Any, half_x: Any, half_y: Any, wide: Any, high: Any) -> Any:
+    """Whether a line, whose middle is so far from a rectangle's, meets it: no axis separates them; False of NaN."""
+    return (
+        abs(dx) <= wide + abs(half_x)
+        and abs(dy) <= high + abs(half_y)
+        and abs(half_x * dy - half_y * dx) <= high * abs(half_x) + wide * abs(half_y)
+    )
+
+
+def meets_disc(dx: Any, dy: Any, half_x: Any, half_y: Any, radius: Any) -> Any:
+    """The same of a disc: the point of the line that is nearest to its middle, an end or one between, is in it."""
+    along, square = dx * half_x + dy * half_y, half_x * half_x + half_y * half_y
+    if abs(along) < square:
+        aside = half_x * dy - half_y * dx
+        return aside * aside <= radius * radius * square
+    way = -1.0 if along > 0.0 else 1.0
+    end_x, end_y = dx + way * half_x, dy + way * half_y
+    return end_x * end_x + end_y * end_y <= radius * radius

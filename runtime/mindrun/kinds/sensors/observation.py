@@ -1,0 +1,42 @@
+"""One number of what an environment observes."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+from mindrun.kinds.registry import kind
+from mindrun.kinds.sensors.sensor import Flaw, Physical
+from mindrun.kinds.slot import Slot
+from mindrun.numbers.quantity import INDEX, NUMBER, SLOT, Span
+
+
+@kind("sensor", "observation")
+@dataclass(frozen=True, slots=True)
+class Observation(Physical):
+    """One number of a Gymnasium environment's observation: 0 at the low end of `range`, 1 at the high end.
+
+    The first number is 0; of an array, one index for each of its axes; of a `Dict`, the name of the part goes before
+    them, of a `Tuple` its number. What is beyond the range reads as its end, and how often is told.
+    """
+
+    observation: Annotated[tuple[int, ...], INDEX]
+    range: Annotated[Span, NUMBER]
+    part: Annotated[str, SLOT] = ""
+
+    scaled = True
+
+    @property
+    def slot(self) -> Slot:
+        """That number."""
+        return Slot(self.part, self.observation, self.range)
+
+    def flaw(self, widths: Mapping[str, int]) -> Flaw | None:
+        """Its range has two ends."""
+        if self.slot.has_two_ends:
+            return None
+        hint = "Write the least and the greatest number that it will be: range -0.5 to 2."
+        return Flaw("open-range", "range", "An observation has a range with two ends.", hint)
+
+    @staticmethod
+    def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
+        """Its reading stands there: whoever stepped the environment wrote it."""

@@ -1,0 +1,48 @@
+"""How fast a wheel rolls."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated, Any
+
+from mindrun.kinds.actuators import Side
+from mindrun.kinds.actuators.wheel import SIDE
+from mindrun.kinds.registry import kind
+from mindrun.kinds.sensors.sensor import Physical, Row, Scene
+from mindrun.numbers.quantity import POSITIVE
+
+if TYPE_CHECKING:  # a lane is given these when it is compiled
+    from mindrun.numbers.arithmetic import COSINE, HALF, SINE, SPEED_X, SPEED_Y, SPIN, F, clamp
+
+
+@kind("sensor", "odometer")
+@dataclass(frozen=True, slots=True)
+class Odometer(Physical):
+    """Speed of a wheel on the body's rim, as its encoder counts it: 0.5 standing, 1 forward with `range` units/s.
+
+    0.5 + 0.5 · (distance a second) / range, 0 backward; the wheel rolls as its side of the body moves along the heading
+    and never slips. The driver `encoder` measures it with `measure: speed`.
+    """
+
+    side: Annotated[Side, SIDE]
+    range: Annotated[float, POSITIVE] = 10.0
+
+    scaled = True
+    unit = "m/s"
+    blank = rest = still = 0.5
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """Backward and forward with `range`."""
+        return -self.range, self.range
+
+    def row(self, scene: Scene) -> Row:
+        """What a unit a second adds, and the side: −1 left, 1 right."""
+        return {"gain": 0.5 / self.range, "part": 1 if self.side == "right" else -1}
+
+    @staticmethod
+    def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
+        """0.5 + (speed ± spin · arm) · gain."""
+        arm = t.world[0].side if sensor.part > 0 else -t.world[0].side
+        out, x, y, spin = s.readings[sensor.start], s.body[SPEED_X], s.body[SPEED_Y], s.body[SPIN]
+        for p in range(n):
+            ahead = x[p] * s.heading[COSINE, p] + y[p] * s.heading[SINE, p] + arm * spin[p]
+            out[p] = clamp(HALF + F(ahead * sensor.gain))

@@ -1,0 +1,249 @@
+"""What every kind of sensor says of itself: the rest of the program asks, and knows no kind by name."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Set
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, Protocol
+
+from mindrun.kinds.registry import base
+from mindrun.kinds.slot import Slot
+from mindrun.kinds.things.about import AboutThing
+from mindrun.numbers.expression import Formula
+from mindrun.numbers.quantity import RATIO, TICKS
+
+if TYPE_CHECKING:
+    from mindrun.numbers.arrays import Reader
+
+Row = Mapping[str, float]  # columns of the lanes' table of sensors
+Bounds = tuple[float, float]  # the least and the greatest
+
+
+class Begin(Protocol):
+    """What is known of how a run begins."""
+
+    def is_within(self, thing: str) -> bool | None:
+        """Whether the robot begins inside of a thing; None where that is drawn."""
+        ...
+
+    def first(self, name: str) -> Bounds:
+        """The least and greatest that a sensor or a memory reads in the first tick."""
+        ...
+
+
+class Flaw(NamedTuple):
+    """What is wrong with a sensor: a code, the field of the argument, a sentence, and what to do."""
+
+    code: str
+    field: str
+    message: str
+    hint: str
+
+
+class BatteryModel(NamedTuple):
+    """With how much a battery starts, what it loses in a tick, and what it gains in one where it charges; 1 is full."""
+
+    start: float
+    drain: float
+    charge: float
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """What a sensor can depend on beside its own arguments.
+
+    The length of a `tick` in seconds, where the readings of each sensor and memory stand, and which are directions.
+    """
+
+    tick: float
+    places: Mapping[str, slice]
+    directions: Set[str] = frozenset()
+
+    @property
+    def starts(self) -> Mapping[str, int]:
+        """Where the readings of each sensor and memory begin."""
+        return {name: place.start for name, place in self.places.items()}
+
+
+class World(Protocol):
+    """What is known of the worlds of a mind's tasks before anything runs in them."""
+
+    @property
+    def things(self) -> Set[str]:
+        """The things that a sensor can be about."""
+        ...
+
+    @property
+    def is_solid(self) -> bool:
+        """Whether anything stands in the way, fixed or loose."""
+        ...
+
+    @property
+    def charges(self) -> bool:
+        """Whether a battery can charge."""
+        ...
+
+    @property
+    def can_hold(self) -> bool:
+        """Whether a claw may ever close."""
+        ...
+
+    @property
+    def tick(self) -> float:
+        """The length of a tick in seconds."""
+        ...
+
+    def is_constant(self, reading: str) -> bool:
+        """Whether a sensor or memory always reads the same."""
+        ...
+
+
+@base("sensor")
+class SensorKind(AboutThing):
+    """A sensor of one reading that varies; a kind says what is different about it."""
+
+    __slots__ = ()
+
+    varying: tuple[str, ...] = ()  # the arguments that can differ from run to run
+    circular: bool | None = False  # whether it reads a direction, which goes round: 1 is 0; None where its source does
+    compares = False  # whether it compares its source with numbers
+    scaled = False  # whether its values mean something by themselves, so that they need no calibration
+    near: int | None = None  # the reading of what is near
+    unit = ""  # of a driver that measures the same: m for a length, m/s for a speed
+    keeps_lost = False  # whether a reading that fails is the one before, and not `blank`
+    remembered = 0  # how many numbers the lanes keep of each of its readings
+    blank, rest = 0.0, 0.0  # what it reads where there is nothing to measure, and in its dead zone
+    still: float | None = None  # what it reads of a robot that stands, as it does when a run begins
+    remedy = "Give it a dead_zone below 0.5"  # for one that is constant
+
+    @property
+    def slot(self) -> Slot | None:
+        """The number of an environment's observation that it is; None outside of environments."""
+        return None
+
+    @property
+    def is_outside(self) -> bool:
+        """Whether it belongs to an environment."""
+        return self.slot is not None
+
+    @property
+    def width(self) -> int | None:
+        """How many readings it has; None where as many as its source."""
+        return 1
+
+    @property
+    def source(self) -> str:
+        """The sensor or memory from which it is computed, if there is one."""
+        return ""
+
+    @property
+    def sources(self) -> tuple[str, ...]:
+        """All sensors and memories from which it is computed."""
+        return (self.source,) if self.source else ()
+
+    @property
+    def formula(self) -> Formula:
+        """What it computes, where that is said in an expression."""
+        return ()
+
+    def goes_round(self, directions: Collection[str]) -> bool:
+        """Whether its reading is a direction, where those of these sensors are."""
+        return self.source in directions if self.circular is None else self.circular
+
+    def flaw(self, widths: Mapping[str, int]) -> Flaw | None:
+        """What is wrong with it beside other sensors and memories, of which it is told how many readings they have."""
+        return None
+
+    @property
+    def battery(self) -> BatteryModel | None:
+        """How the battery that it reads drains and charges."""
+        return None
+
+    @property
+    def rays(self) -> tuple[float, ...]:
+        """The directions in which it looks, counterclockwise from straight ahead, one for each reading."""
+        return ()
+
+    @property
+    def directions(self) -> tuple[float, ...]:
+        """Where around the robot it measures, one angle for each reading: where it looks, if nothing else is said."""
+        return self.rays
+
+    @property
+    def spots(self) -> tuple[tuple[float, float], ...]:
+        """The points of the floor that it looks at, one for each reading: x ahead of the body, y to its left."""
+        return ()
+
+    @property
+    def sector(self) -> float:
+        """How wide a part of the rim feels a touch around each of its directions, an angle; 0 where none does."""
+        return 0.0
+
+    @property
+    def numbers(self) -> tuple[float, ...]:
+        """What its lane function reads beside its row: `t.numbers`, from `sensor.number` on."""
+        return ()
+
+    @property
+    def reach(self) -> float:
+        """How far it looks, in world units."""
+        return 0.0
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """What its readings 0 and 1 are in units of the world, of what has a `unit`: a length, or one a second."""
+        return 0.0, self.reach
+
+    def row(self, scene: Scene) -> Row:
+        """What its lane function is told: range, dead_zone, gain, period, source or part, those that it reads."""
+        return {}
+
+    @staticmethod
+    def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
+        """Write its readings in n lanes of a simulated world: `s.readings[sensor.start, p]`.
+
+        Compiled, in the terms of `numbers.arithmetic`, which it is given then: its file imports them for checkers of
+        types alone, since whoever reads a mind has no numpy. `t` are the tables of the program, `s` is the state of
+        the lanes (`sim/state.py` has every array), `clock` counts ticks, `sensor` is the row of the table.
+        """
+
+    def constant(self, world: World) -> float | None:
+        """What it always reads in a world; None where that varies, or nobody knows."""
+        return None
+
+    def first(self, begin: Begin) -> Bounds | None:
+        """The least and greatest of its readings in the first tick of a run; None where nobody knows."""
+        return None
+
+    def reader(self, scene: Scene) -> Reader | None:
+        """How the engine computes it, from the number of the tick and the readings now and before; None where measured.
+
+        A reader may remember: it is asked in every tick, from the first on, and made anew for another run.
+        """
+        return None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Physical(SensorKind):
+    """What is not perfect about a sensor that measures something, and is so in training.
+
+    It is read `every` so many ticks and says the same in between. `noise` is how far off a reading may be, `lost` the
+    share of readings that fail: they read as if there were nothing (of a battery: as before). What a skill sees is
+    `delay` ticks old.
+    """
+
+    noise: Annotated[float, RATIO] = 0.0
+    lost: Annotated[float, RATIO] = 0.0
+    every: Annotated[int, TICKS] = 1
+    delay: Annotated[int, TICKS] = 0
+
+    varying = ("noise", "lost", "delay")
+
+    def first(self, begin: Begin) -> Bounds | None:
+        """What it reads of a robot that stands, give or take the noise."""
+        return None if self.still is None else self.around(self.still)
+
+    def around(self, value: float) -> Bounds:
+        """The least and greatest reading of what it measures."""
+        low, high = max(0.0, value - self.noise), min(1.0, value + self.noise)
+        return (min(low, self.blank), max(high, self.blank)) if self.lost and not self.keeps_lost else (low, high)

@@ -1,0 +1,62 @@
+"""A wave, for what should happen again and again."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import floor, isclose, pi
+from typing import TYPE_CHECKING, Annotated, Any
+
+from mindrun.kinds.registry import kind
+from mindrun.kinds.sensors.sensor import Begin, Bounds, Row, Scene, SensorKind, World
+from mindrun.numbers.quantity import SECONDS
+from mindrun.numbers.trigonometry import sine
+
+if TYPE_CHECKING:  # a lane is given these when it is compiled
+    import numpy as np
+
+    from mindrun.numbers.arithmetic import F, sine_cosine
+    from mindrun.numbers.arrays import Reader, Readings
+
+
+@kind("sensor", "sine")
+@dataclass(frozen=True, slots=True)
+class Sine(SensorKind):
+    """A wave: 0.5 + 0.5 sin(2πt/period)."""
+
+    period: Annotated[float, SECONDS]
+
+    remedy = "Give it a period of more than two ticks"
+
+    def constant(self, world: World) -> float | None:
+        """0.5 where every tick meets the wave there: it lasts one tick or two, or goes round in a part of one."""
+        halves = 2 * world.tick / self.period
+        return 0.5 if halves > 0.5 and isclose(halves, round(halves)) else None
+
+    def first(self, begin: Begin) -> Bounds:
+        """0.5: the wave begins there."""
+        return 0.5, 0.5
+
+    def reader(self, scene: Scene) -> Reader:
+        """0.5 + 0.5 sin(2πt/period), t in seconds since the first tick."""
+        import numpy as np
+
+        period = self.period / scene.tick
+
+        def read(number: int, now: Readings, before: Readings | None) -> np.float32:
+            turned = number / period
+            return np.float32(0.5 + 0.5 * sine(2 * pi * (turned - floor(turned))))
+
+        return read
+
+    def row(self, scene: Scene) -> Row:
+        """The period in ticks."""
+        return {"period": self.period / scene.tick}
+
+    @staticmethod
+    def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
+        """0.5 + 0.5 sin(2πt/T)."""
+        out = s.readings[sensor.start]
+        for p in range(n):
+            turns = s.tick[p] / sensor.period
+            wave, _ = sine_cosine(2 * np.pi * (turns - np.floor(turns)))
+            out[p] = F(0.5 + 0.5 * wave)

@@ -1,0 +1,49 @@
+"""How fast the robot drives."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated, Any
+
+from mindrun.kinds.registry import kind
+from mindrun.kinds.sensors.sensor import Physical, Row, Scene, World
+from mindrun.numbers.quantity import POSITIVE, RATIO
+
+if TYPE_CHECKING:  # a lane is given these when it is compiled
+    from mindrun.numbers.arithmetic import COSINE, HALF, SINE, SPEED_X, SPEED_Y, F, clamp
+
+
+@kind("sensor", "speed")
+@dataclass(frozen=True, slots=True)
+class Speed(Physical):
+    """Speed along the heading: 0.5 standing, 1 forward with `range` units a second or more, 0 backward.
+
+    0.5 + 0.5 · speed / range; what the body slides aside does not count. Within `dead_zone` of 0.5 it reads 0.5.
+    """
+
+    range: Annotated[float, POSITIVE] = 10.0
+    dead_zone: Annotated[float, RATIO] = 0.0
+
+    scaled = True
+    unit = "m/s"
+    blank = rest = still = 0.5
+
+    def constant(self, world: World) -> float | None:
+        """0.5 where all speeds are in the dead zone."""
+        return 0.5 if self.dead_zone > 0.5 else None
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """Backward and forward with `range`."""
+        return -self.range, self.range
+
+    def row(self, scene: Scene) -> Row:
+        """What a unit a second adds."""
+        return {"gain": 0.5 / self.range, "dead_zone": self.dead_zone}
+
+    @staticmethod
+    def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
+        """0.5 + speed · gain."""
+        out, x, y = s.readings[sensor.start], s.body[SPEED_X], s.body[SPEED_Y]
+        for p in range(n):
+            ahead = x[p] * s.heading[COSINE, p] + y[p] * s.heading[SINE, p]
+            v = clamp(HALF + F(ahead * sensor.gain))
+            out[p] = HALF if abs(v - HALF) < sensor.dead_zone else v

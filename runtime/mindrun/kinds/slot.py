@@ -1,0 +1,26 @@
+"""A number of what an environment observes or takes, by the way that leads to it."""
+
+from dataclasses import dataclass
+
+from mindrun.numbers.quantity import Span
+
+
+@dataclass(frozen=True, slots=True)
+class Slot:
+    """The number with that `index` in a `part` of an observation or an action, which has no name where it is the whole.
+
+    It is within `range`, None where the environment says that. An action that is one of several is the choice `chosen`.
+    """
+
+    part: str
+    index: tuple[int, ...]
+    range: Span | None = None
+    chosen: int | None = None
+
+    def __str__(self) -> str:
+        return " ".join([self.part, *map(str, self.index)]).strip()
+
+    @property
+    def has_two_ends(self) -> bool:
+        """Whether its range, where it has one, goes from a number to a greater one."""
+        return self.range is None or (self.range.by is None and self.range.first < self.range.last)

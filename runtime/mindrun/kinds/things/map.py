@@ -1,0 +1,117 @@
+"""Walls drawn in characters."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import Annotated
+
+from mindrun.kinds.registry import kind
+from mindrun.kinds.scenes import SceneKind
+from mindrun.kinds.things.rectangle import Rectangle
+from mindrun.kinds.things.thing import DEFAULT_DISTANCE, DEFAULT_SIZE, Mistake, ThingKind
+from mindrun.numbers.quantity import LENGTH, Place, Reference
+
+WALL, FLOOR = "#", "."
+MAX_MAP_CELLS = 40_000  # 200 by 200
+CELL = replace(LENGTH, low=0.01, high=1000.0)
+TEXT_FILE = Reference("text file")
+
+Lines = tuple[str, ...]
+
+
+@kind("content", "map")
+@dataclass(frozen=True, slots=True)
+class Map(ThingKind):
+    """Walls drawn in a text file: `#` is wall, `.` is floor, each a square of side `cell`; its middle is the world's.
+
+    A letter is floor on which a thing stands when a run begins: the one of that name, or whose name begins with it.
+    """
+
+    from_: Annotated[Lines, TEXT_FILE]
+    cell: Annotated[float, CELL] = 4.0
+
+    is_obstacle = True
+    is_solid = True
+    size = DEFAULT_SIZE
+    away = DEFAULT_DISTANCE
+    at = ()
+    count = 1
+    unplaceable = "Draw walls with #, and write another letter for what stands there."
+
+    def obstacles(self, scene: SceneKind | None) -> int:
+        """As many rectangles as its walls make."""
+        return len(_rectangles(self.from_))
+
+    @property
+    def walls(self) -> tuple[Rectangle, ...]:
+        """Its `#`, side by side as one."""
+        found = []
+        for column, row, wide, high in _rectangles(self.from_):
+            (x, y), (to_x, to_y) = self._place(column, row), self._place(column + wide - 1, row + high - 1)
+            sides = self.cell * wide / 2, self.cell * high / 2
+            found.append(Rectangle((x + to_x) / 2, (y + to_y) / 2, *sides))
+        return tuple(found)
+
+    @property
+    def drawing(self) -> Lines:
+        """That of its file."""
+        return self.from_
+
+    @property
+    def letters(self) -> Mapping[str, tuple[Place, ...]]:
+        """Where each letter stands, line by line."""
+        found: dict[str, list[Place]] = {}
+        for row, line in enumerate(self.from_):
+            for column, letter in enumerate(line):
+                if letter not in (WALL, FLOOR):
+                    found.setdefault(letter, []).append(self._place(column, row))
+        return {letter: tuple(places) for letter, places in found.items()}
+
+    def _place(self, column: int, row: int) -> Place:
+        """The middle of a square; the first line is the farthest along y."""
+        columns, rows = max(map(len, self.from_)), len(self.from_)
+        return self.cell * (column - (columns - 1) / 2), self.cell * ((rows - 1) / 2 - row)
+
+    def at_places(self, places: tuple[Place, ...]) -> None:
+        """No map moves it."""
+
+    def mistake(self, scene: SceneKind | None) -> Mistake | None:
+        """Its lines are of one length, have floor, are not too many and fit into the arena."""
+        columns = max(map(len, self.from_), default=0)
+        for number, line in enumerate(self.from_, 1):
+            if len(line) != columns:
+                long = f"Line {number} has {len(line)} characters, the longest has {columns}"
+                hint = f"{long}: fill it up with {FLOOR} or {WALL}."
+                return Mistake("ragged-map", "The lines of this map are of different lengths.", hint)
+        if columns * len(self.from_) > MAX_MAP_CELLS:
+            hint = f"A map has up to {MAX_MAP_CELLS} squares: draw it coarser, with a larger cell."
+            return Mistake("map-too-large", f"This map has {columns * len(self.from_)} squares.", hint)
+        if not any(letter != WALL for line in self.from_ for letter in line):
+            return Mistake("map-without-floor", "This map has no floor.", f"Draw {FLOOR} where the robot can be.")
+        half_x, half_y = self.cell * columns / 2, self.cell * len(self.from_) / 2
+        if scene is None or scene.has_room((half_x, half_y), 0.0):
+            return None
+        hint = f"It is {2 * half_x:g} wide and {2 * half_y:g} deep: write a smaller cell or a larger arena."
+        return Mistake("outside-arena", "This map is larger than the arena.", hint)
+
+
+@lru_cache(64)
+def _rectangles(lines: Lines) -> Sequence[tuple[int, int, int, int]]:
+    """Column, row, width and height of rectangles that cover the walls, few and none twice: wide ones, then high."""
+    if sum(map(len, lines)) > MAX_MAP_CELLS:
+        return ()
+    left = {(column, row) for row, line in enumerate(lines) for column, mark in enumerate(line) if mark == WALL}
+    return tuple(_taken(left))
+
+
+def _taken(left: set[tuple[int, int]]) -> Iterator[tuple[int, int, int, int]]:
+    for column, row in sorted(left, key=lambda cell: cell[::-1]):
+        if (column, row) not in left:
+            continue
+        wide, high = 1, 1
+        while (column + wide, row) in left:
+            wide += 1
+        while all((column + i, row + high) in left for i in range(wide)):
+            high += 1
+        left -= {(column + i, row + k) for i in range(wide) for k in range(high)}
+        yield column, row, wide, high

@@ -1,0 +1,94 @@
+"""What stands in the way."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from itertools import product
+from typing import Annotated
+
+from mindrun.kinds.registry import kind
+from mindrun.kinds.scenes import SceneKind
+from mindrun.kinds.things.rectangle import Rectangle
+from mindrun.kinds.things.thing import DEFAULT_DISTANCE, DEFAULT_SIZE, MAX_OBSTACLES, Mistake, Row, ThingKind
+from mindrun.numbers.quantity import COORDINATE, LENGTH, Place, Quantity, Span
+
+COUNT = Quantity("a whole number", {"": 1.0}, low=0, high=1000, whole=True)
+MIDDLE_UNITS: tuple[Place, ...] = ((0.0, 0.0),)  # of a grid
+MAX_GRID_LINES = 1e9  # lines of a grid, far more than can be
+
+
+@kind("content", "obstacle")
+@dataclass(frozen=True, slots=True)
+class Obstacle(ThingKind):
+    """Solid squares of side `size`: `count` of them anywhere, one `at` a place, or one at each point of a `grid`.
+
+    Each stands up to `jitter` off its point, both ways along both axes.
+    """
+
+    size: Annotated[Span, LENGTH] = DEFAULT_SIZE
+    grid: Annotated[float, LENGTH] = 0.0
+    jitter: Annotated[float, LENGTH] = 0.0
+    count: Annotated[int, COUNT] = 0
+    away: Annotated[Span, LENGTH] = DEFAULT_DISTANCE
+    at: Annotated[tuple[Place, ...], COORDINATE] = ()
+
+    unplaceable = "Write a count of as many as the map draws, and neither a place nor a grid."
+    is_obstacle = True
+    is_solid = True
+    least_distance = 0.0
+
+    def grid_lines(self, scene: SceneKind | None) -> tuple[int, int]:
+        """How many columns and rows its grid has in a scene, none on its walls; there is no grid without walls."""
+        if scene and scene.is_bounded and self.grid:
+            columns, rows = (max(0, round(min(side / self.grid, MAX_GRID_LINES)) - 1) for side in scene.sides)
+            return columns, rows
+        return 0, 0
+
+    def obstacles(self, scene: SceneKind | None) -> int:
+        """One at each point of its grid, one at its place, or its count."""
+        columns, rows = self.grid_lines(scene)
+        return columns * rows if self.grid else self.count or len(self.at)
+
+    def standing(self, scene: SceneKind | None, may: bool = False) -> Iterable[Rectangle]:
+        """What the smallest of them covers wherever jitter moves it; with `may` all that the largest can cover."""
+        least, most = sorted((self.size.first, self.size.last))
+        half = most / 2 + self.jitter if may else least / 2 - self.jitter
+        columns, rows = self.grid_lines(scene) if self.grid else (1, 1)
+        if half <= 0 or not (self.grid or self.at) or columns * rows > MAX_OBSTACLES:
+            return
+        for (x, y), column, row in product(self.at or MIDDLE_UNITS, range(columns), range(rows)):
+            yield Rectangle(
+                x + (column - (columns - 1) / 2) * self.grid, y + (row - (rows - 1) / 2) * self.grid, half, half
+            )
+
+    def at_places(self, places: tuple[Place, ...]) -> "Obstacle | None":
+        """As many as its count says: an obstacle without one, a grid or a place is none."""
+        return None if self.at or self.grid or self.count != len(places) else replace(self, at=places, count=0)
+
+    def rows(self, scene: SceneKind) -> Iterable[Row]:
+        """A grid, which has a single point where it stands at a place, or a count."""
+        columns, rows = (1, 1) if self.at else self.grid_lines(scene)
+        count = 0 if self.grid or self.at else self.count
+        grid = {"grid": self.grid, "jitter": self.jitter, "columns": columns, "rows": rows, "count": count}
+        return [{**grid, "x": x, "y": y} for x, y in self.at or MIDDLE_UNITS]
+
+    def mistake(self, scene: SceneKind | None) -> Mistake | None:
+        """A grid needs the borders of an arena and must not be too close; without one it needs a count or a place."""
+        if self.at and (self.grid or self.count):
+            hint = "Write at and its place, or a count, or a grid."
+            return Mistake("place-for-many", "Several things cannot stand at one place.", hint)
+        if self.size.by is not None:
+            small, large = sorted((self.size.first, self.size.last))
+            hint = f"Write size {small:g} to {large:g}: a size between the two is drawn for each."
+            return Mistake("fixed-schedule", "An obstacle never moves, so its size has no schedule.", hint)
+        if self.grid and self.away != DEFAULT_DISTANCE:
+            hint = "Leave away out: what stands in a grid is as far away as that is."
+            return Mistake("place-and-distance", "It says where it is, and how far away.", hint)
+        if self.grid and scene and not scene.is_bounded:
+            hint = "Write in arena size 100, or count 10 instead of the grid."
+            return Mistake("endless-grid", "In a plain scene a grid of obstacles would never end.", hint)
+        if (made := self.obstacles(scene)) > MAX_OBSTACLES:
+            hint = f"A world takes {MAX_OBSTACLES}: space it out."
+            return Mistake("too-many-obstacles", f"That is a grid of {made} obstacles.", hint)
+        if not self.grid and not self.count and not self.at:
+            return Mistake("no-obstacles", "That makes no obstacle.", "Add grid 20, or count 10, or at 30 -20.")
+        return ThingKind.mistake(self, scene)

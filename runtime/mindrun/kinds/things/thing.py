@@ -1,0 +1,160 @@
+"""What every kind of thing says of itself: the rest of the program asks, and knows no kind by name."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+from math import hypot
+from typing import Literal, NamedTuple, get_args
+
+from mindrun.kinds.registry import base
+from mindrun.kinds.scenes import SceneKind
+from mindrun.kinds.things.rectangle import Rectangle
+from mindrun.numbers.quantity import UNSAID, Place, Reference, Span
+
+DEFAULT_SIZE = Span(1.0, 1.0)
+DEFAULT_DISTANCE = UNSAID  # as far away as its scene says
+
+Outcome = Literal["stays", "moves", "vanishes"]
+OUTCOMES: tuple[Outcome, ...] = get_args(Outcome)
+OUTCOME = Reference("outcome", OUTCOMES)
+STAYS: Outcome = "stays"
+MOVES: Outcome = "moves"
+VANISHES: Outcome = "vanishes"
+
+MAX_OBSTACLES, MAX_THINGS = 2500, 100  # in one world, which looks at all of its things in every tick
+
+Row = Mapping[str, float]  # columns of the lanes' table of obstacles
+
+
+class Mistake(NamedTuple):
+    """Why a thing cannot be in a scene as it is said: the code of the error, its message, and what to do."""
+
+    code: str
+    message: str
+    hint: str
+
+
+@base("content")
+class ThingKind:
+    """A thing with a place, which touches nothing; a kind says what is different about it.
+
+    Every kind has the arguments `size`, and `away`, the distance from the robot at which it is placed, or `at`, where.
+    """
+
+    __slots__ = ()
+
+    size: Span
+    away: Span
+    at: tuple[Place, ...]
+    count: int
+
+    varying: tuple[str, ...] = ()  # the arguments that can differ from run to run
+    is_obstacle = False  # whether it is squares that stand in the way: no sensor, event or measure is about these
+    is_solid = False  # whether it stands in the way, although nobody holds it
+    is_loose = False  # whether it gives way when it is pushed
+    walks = False  # whether it moves by itself
+    wanders = False  # whether it goes another way in each run
+    speed = 0.0  # at which it does, in units per second
+    can_be_held = False  # whether a claw can take it
+    can_be_delivered = False  # whether it counts as delivered when it comes into a zone
+    is_area = False  # whether it lies on the floor, so that a robot or an item can be inside
+    takes_items = False  # whether items are delivered into it
+    charges = False  # whether the battery charges in it
+    is_round = False  # its outline: a disc, not a square
+    unplaceable = "Leave its place and its count out: the map says both."  # what to do where a map cannot place it
+    least_distance = 10.0  # from the robot, in world units, where walls keep it near
+
+    @property
+    def places(self) -> tuple[Place, ...]:
+        """Every place that it names; its copies stand at the first of them when a run begins."""
+        return self.at
+
+    @property
+    def copies(self) -> int:
+        """How many things of its name there are: each has a row of its own, one after the other."""
+        return len(self.at) or self.count
+
+    @property
+    def largest(self) -> float:
+        """The size that it has at most."""
+        return max(self.size.first, self.size.last)
+
+    @property
+    def begins(self) -> tuple[float, float]:
+        """The least and the greatest size that it begins with: the first of a schedule, any of its span otherwise."""
+        first, last = self.size.first, self.size.last
+        return (first, first) if self.size.by is not None else (min(first, last), max(first, last))
+
+    @property
+    def outcomes(self) -> Mapping[str, Outcome]:
+        """What becomes of it, by what happens to it: `reached`, `delivered`. It stays where nothing is said."""
+        return {}
+
+    def distances(self, scene: SceneKind) -> tuple[float, float]:
+        """How near to the robot and how far from it it is placed."""
+        return (
+            (self.away.first, self.away.last) if self.away != DEFAULT_DISTANCE else scene.distances(self.least_distance)
+        )
+
+    def obstacles(self, scene: SceneKind | None) -> int:
+        """How many squares it puts in the way; `scene` is None where that is not known."""
+        return 0
+
+    def standing(self, scene: SceneKind | None, may: bool = False) -> Iterable[Rectangle]:
+        """What it fills with something solid in every run, or in some, where it `may`.
+
+        `scene` is None where that is not known.
+        """
+        return self.walls
+
+    @property
+    def walls(self) -> tuple[Rectangle, ...]:
+        """What it fills with something solid that is known before any run."""
+        return ()
+
+    @property
+    def drawing(self) -> tuple[str, ...]:
+        """The lines of the text that it is drawn in."""
+        return ()
+
+    @property
+    def letters(self) -> Mapping[str, tuple[Place, ...]]:
+        """The places of things that it draws, by their letters."""
+        return {}
+
+    def at_places(self, places: tuple[Place, ...]) -> "ThingKind | None":
+        """Itself where a map draws it; None where its own line says otherwise."""
+        return None if self.places or self.count not in (1, len(places)) else replace(self, at=places)  # type: ignore[type-var]
+
+    def rows(self, scene: SceneKind) -> Iterable[Row]:
+        """What the lanes are told of its obstacles: the spacing of their `grid` and how many `columns` and `rows` it
+        has around `x` and `y`, their `jitter` and `count`.
+        """
+        return ()
+
+    def mistake(self, scene: SceneKind | None) -> Mistake | None:
+        """Why it cannot be in a scene; `scene` is None where that is not known."""
+        if not self.at:
+            return self._distance_mistake(scene)
+        if self.away != DEFAULT_DISTANCE:
+            hint = "Leave away out: what stands at a place is as far away as that is."
+            return Mistake("place-and-distance", "It says where it is, and how far away.", hint)
+        if self.count > 1 and self.count != len(self.at):
+            hint = "Leave the count out, or the place."
+            return Mistake("place-for-many", "Several things cannot stand at one place.", hint)
+        if scene is None or all(scene.has_room(place, self.largest / 2) for place in self.at):
+            return None
+        hint = "Write a place that is in it with all of the thing; 0 0 is the middle."
+        return Mistake("outside-arena", "That is not inside the arena.", hint)
+
+    def _distance_mistake(self, scene: SceneKind | None) -> Mistake | None:
+        """A distance is drawn anew each time, and is one that two places of the scene can have."""
+        if self.away == DEFAULT_DISTANCE:
+            return None
+        if self.away.by is not None:
+            near, far = sorted((self.away.first, self.away.last))
+            hint = f"Write away {near:g} to {far:g}: a distance between the two is drawn each time."
+            return Mistake("distance-schedule", "A distance has no schedule.", hint)
+        if scene is None or self.away.first < hypot(*scene.sides):
+            return None
+        hint = f"Its corners are {hypot(*scene.sides):g} apart: write a smaller distance, or a larger arena."
+        return Mistake("too-far-away", "Nothing in this arena is so far from the robot.", hint)

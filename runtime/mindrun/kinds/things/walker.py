@@ -1,0 +1,71 @@
+"""What moves by itself."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from math import pi
+from typing import Annotated
+
+from mindrun.kinds.registry import kind
+from mindrun.kinds.scenes import SceneKind
+from mindrun.kinds.things.thing import DEFAULT_DISTANCE, DEFAULT_SIZE, OUTCOME, STAYS, Mistake, Outcome, ThingKind
+from mindrun.numbers.quantity import ANGLE, COORDINATE, COUNT, LENGTH, POSITIVE, Place, Span
+
+SPEED = replace(POSITIVE, name="a speed in world units per second", high=1e4)
+TURNING = replace(ANGLE, low=0.0)
+
+
+@kind("content", "walker")
+@dataclass(frozen=True, slots=True)
+class Walker(ThingKind):
+    """A disc of diameter `size` on the floor that moves at `speed`, in units per second, and touches nothing.
+
+    It wanders: its direction drifts by about `turning` in a second, and where its next step would meet a wall or an
+    obstacle it stands for that tick and faces anywhere. Or it goes `along` places, from the last of them to the first
+    again, in straight lines through whatever is there. It is reached when it is caught: in the claw's reach.
+    """
+
+    size: Annotated[Span, LENGTH] = DEFAULT_SIZE
+    speed: Annotated[float, SPEED] = 1.0
+    turning: Annotated[float, TURNING] = pi / 2
+    along: Annotated[tuple[Place, ...], COORDINATE] = ()
+    away: Annotated[Span, LENGTH] = DEFAULT_DISTANCE
+    at: Annotated[tuple[Place, ...], COORDINATE] = ()
+    count: Annotated[int, COUNT] = 1
+    reached: Annotated[Outcome, OUTCOME] = STAYS
+
+    is_round = True
+    walks = True
+
+    @property
+    def places(self) -> tuple[Place, ...]:
+        """Those of its way, where it goes along one."""
+        return self.along or self.at
+
+    @property
+    def wanders(self) -> bool:  # type: ignore[override]
+        """Where it has no way."""
+        return not self.along
+
+    @property
+    def outcomes(self) -> Mapping[str, Outcome]:
+        """When it is caught."""
+        return {"reached": self.reached}
+
+    def mistake(self, scene: SceneKind | None) -> Mistake | None:
+        """A way goes somewhere, inside the arena, and has a place for each to begin at."""
+        if not self.along:
+            return ThingKind.mistake(self, scene)
+        if self.at or self.away != DEFAULT_DISTANCE:
+            hint = "Leave at and away out: it begins where its way does."
+            return Mistake("place-and-way", "It says where it goes, and where it stands.", hint)
+        if len(self.along) < 2 or any(place == next_ for place, next_ in pairwise((*self.along, self.along[0]))):
+            hint = "Write places of which none is the next, nor the last the first: along 0 0 to 10 0 to 10 10."
+            return Mistake("endless-way", "This way does not go anywhere.", hint)
+        if self.count > len(self.along):
+            hint = f"Each begins at another place of the way: name {self.count} places, or write a smaller count."
+            return Mistake("place-for-many", "Several things cannot stand at one place.", hint)
+        if scene is None or all(scene.has_room(place, self.largest / 2) for place in self.along):
+            return None
+        hint = "Write places that are in it with all of the thing; 0 0 is the middle."
+        return Mistake("outside-arena", "That is not inside the arena.", hint)

@@ -1,0 +1,68 @@
+"""A wall from place to place."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from typing import Annotated
+
+from mindrun.kinds.registry import kind
+from mindrun.kinds.scenes import SceneKind
+from mindrun.kinds.things.rectangle import Rectangle
+from mindrun.kinds.things.thing import DEFAULT_DISTANCE, DEFAULT_SIZE, Mistake, ThingKind
+from mindrun.numbers.quantity import COORDINATE, LENGTH, Place
+
+THICKNESS = replace(LENGTH, low=0.01, high=1000.0)
+
+
+@kind("content", "wall")
+@dataclass(frozen=True, slots=True)
+class Wall(ThingKind):
+    """A solid wall along the places that `from` names, one after the other; each stretch lies along an axis."""
+
+    from_: Annotated[tuple[Place, ...], COORDINATE]
+    thickness: Annotated[float, THICKNESS] = 1.0
+
+    is_obstacle = True
+    is_solid = True
+    size = DEFAULT_SIZE
+    away = DEFAULT_DISTANCE
+    at = ()
+    count = 1
+    unplaceable = "Draw walls with #, and write another letter for what stands there."
+
+    def obstacles(self, scene: SceneKind | None) -> int:
+        """One for each stretch."""
+        return len(self.from_) - 1
+
+    @property
+    def walls(self) -> tuple[Rectangle, ...]:
+        """Its stretches; where one goes on into another they fill the corner."""
+        return tuple(self._stretches())
+
+    def _stretches(self) -> Iterator[Rectangle]:
+        half, last = self.thickness / 2, len(self.from_) - 2
+        for number, ((x, y), (to_x, to_y)) in enumerate(pairwise(self.from_)):
+            before, behind = half * (number > 0), half * (number < last)
+            if y == to_y:
+                left, right = (x - before, to_x + behind) if x < to_x else (to_x - behind, x + before)
+                yield Rectangle((left + right) / 2, y, (right - left) / 2, half)
+            else:
+                low, high = (y - before, to_y + behind) if y < to_y else (to_y - behind, y + before)
+                yield Rectangle(x, (low + high) / 2, half, (high - low) / 2)
+
+    def at_places(self, places: tuple[Place, ...]) -> None:
+        """No map moves it."""
+
+    def mistake(self, scene: SceneKind | None) -> Mistake | None:
+        """Each stretch goes somewhere along one axis, inside the arena."""
+        if len(self.from_) < 2 or any(place == next_ for place, next_ in pairwise(self.from_)):
+            hint = "Write where it begins and where it ends: wall from -20 10 to 5 10."
+            return Mistake("endless-wall", "This wall does not go anywhere.", hint)
+        for (x, y), (to_x, to_y) in pairwise(self.from_):
+            if x != to_x and y != to_y:
+                hint = f"Make it of walls along the axes: wall from {x:g} {y:g} to {to_x:g} {y:g} to {to_x:g} {to_y:g}."
+                return Mistake("slanting-wall", "This wall does not lie along an axis.", hint)
+        if scene is None or all(scene.has_room(place, 0.0) for place in self.from_):
+            return None
+        hint = "Write places that are in it, or on its border; 0 0 is the middle."
+        return Mistake("outside-arena", "That is not inside the arena.", hint)

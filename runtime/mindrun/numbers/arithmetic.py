@@ -1,0 +1,201 @@
+"""Arithmetic of the lanes: + − × ÷ only, in a fixed order, nothing fused, so that every processor gives the same bits.
+
+Plain functions, which `mindrun.sim.arithmetic` compiles: the kinds of sensors say in their terms what they read.
+"""
+
+from types import FunctionType
+from typing import Any
+
+import numpy as np
+
+from mindrun.numbers.sigmoid import DENOMINATOR, LIMIT, NUMERATOR, sigmoid
+from mindrun.numbers.trigonometry import C1, C2, C3, C4, C5, C6, PART_1, PART_2, PART_3, S1, S2, S3, S4, S5, S6
+
+F = np.float32
+X, Y, ANGLE, SPEED_X, SPEED_Y, SPIN = range(6)  # rows of a body; of all else that has a place the first two
+COSINE, SINE = range(2)  # rows of a heading
+THING_ROWS, SIZE, DISTANCE = 4, 2, 3  # of a thing: how many, its size, how far the robot was as the tick began
+BOX_COLUMNS, HALF_X, HALF_Y = 4, 2, 3  # of a box: how many, and half of its sides along x and y
+TURN, PUSHED_X, PUSHED_Y, PUSHED_SPIN, LOOSE_ROWS = range(5)  # rows of a loose thing beside those, and how many
+ZERO, HALF, ONE, NAN = F(0), F(0.5), F(1), F(np.nan)
+MIN_DENOMINATOR = F(1e-7)
+A1, A3, A5, A7, A9, A11, A13 = (F(a) for a in NUMERATOR)
+B0, B2, B4, B6 = (F(b) for b in DENOMINATOR)
+SIGMOID_LIMIT = F(LIMIT)
+MAX_FLOAT32 = np.finfo(F).max
+
+
+def clamp(v: Any) -> Any:
+    """`v` within 0..1; the caller has looked whether it is finite."""
+    v = v if v > ZERO else ZERO
+    return v if v < ONE else ONE
+
+
+def wrapped(v: Any) -> Any:
+    """A direction that is less than a turn beyond 0..1, where it is within: 1.02 is 0.02. What is within stays."""
+    v = v + ONE if v < ZERO else v
+    return v - ONE if v > ONE else v
+
+
+def short_way(d: Any) -> Any:
+    """What lies between two directions whose difference is `d`, the short way round: −0.5 to 0.5."""
+    return d - np.rint(d)
+
+
+def finite(v: Any) -> Any:
+    """Whether a float32 is neither infinite nor NaN."""
+    return abs(v) <= MAX_FLOAT32
+
+
+def sine_cosine(x: Any) -> Any:
+    """(sin x, cos x) of a float64: the arithmetic of `mindrun.numbers.trigonometry`, with selects for its branches."""
+    k = np.floor(x * 0.6366197723675814 + 0.5)
+    r = ((x - k * PART_1) - k * PART_2) - k * PART_3
+    z = r * r
+    s = r + z * r * (S1 + z * (S2 + z * (S3 + z * (S4 + z * (S5 + z * S6)))))
+    half = 0.5 * z
+    rest = 1.0 - half
+    tail = z * z * (C1 + z * (C2 + z * (C3 + z * (C4 + z * (C5 + z * C6)))))
+    c = rest + (((1.0 - rest) - half) + tail)
+    q = k - 4.0 * np.floor(k * 0.25)
+    odd = (q == 1.0) | (q == 3.0)
+    sine = c if odd else s
+    cosine = s if odd else c
+    sine = -sine if q >= 2.0 else sine
+    cosine = -cosine if (q == 1.0) | (q == 2.0) else cosine
+    return sine, cosine
+
+
+PI32, HALF_PI32 = F(np.pi), F(np.pi / 2)
+# Abramowitz and Stegun 4.4.49: within 2e-8.
+T1, T3, T5, T7 = F(0.9999993329), F(-0.3332985605), F(0.1994653599), F(-0.1390853351)
+T9, T11, T13, T15 = F(0.0964200441), F(-0.0559098861), F(0.0218612288), F(-0.0040540580)
+PER_TURN = F(0.5 / np.pi)
+
+
+def bearing(x: Any, y: Any) -> Any:
+    """0.5 − atan2(y, x)/2π of float32s; 0.5 at the origin."""
+    ax, ay = abs(x), abs(y)
+    low = ax if ax < ay else ay
+    high = ax if ax > ay else ay
+    t = low / (high if high > MIN_DENOMINATOR else ONE)
+    z = t * t
+    p = T15
+    p = p * z + T13
+    p = p * z + T11
+    p = p * z + T9
+    p = p * z + T7
+    p = p * z + T5
+    p = p * z + T3
+    p = p * z + T1
+    angle = p * t
+    angle = HALF_PI32 - angle if ay > ax else angle
+    angle = PI32 - angle if x < ZERO else angle
+    angle = -angle if y < ZERO else angle
+    return HALF - angle * PER_TURN
+
+
+def in_claw(body: Any, heading: Any, things: Any, front: Any, reach: Any, i: Any, p: Any) -> Any:
+    """Whether thing i is ahead of the claw, `front` ahead of the body's middle, and its rim within reach, in lane p."""
+    dx, dy = things[THING_ROWS * i + X, p] - body[X, p], things[THING_ROWS * i + Y, p] - body[Y, p]
+    ahead = heading[COSINE, p] * dx + heading[SINE, p] * dy - front
+    aside = heading[COSINE, p] * dy - heading[SINE, p] * dx
+    far = reach + things[THING_ROWS * i + SIZE, p] / 2
+    return (ahead >= 0) & (ahead * ahead + aside * aside <= far * far)  # no branch: lanes side by side
+
+
+def inside(things: Any, i: Any, x: Any, y: Any, p: Any) -> Any:
+    """Whether a point is inside the square of thing i, in lane p."""
+    half = things[THING_ROWS * i + SIZE, p] / 2
+    return (abs(things[THING_ROWS * i + X, p] - x) <= half) & (abs(things[THING_ROWS * i + Y, p] - y) <= half)
+
+
+def nearest(s: Any, sensor: Any, n: Any) -> Any:
+    """The rows [THING_ROWS, lane] of the thing that a sensor speaks of: of several, in each lane the nearest one.
+
+    The first where two are as near; one that has vanished is nowhere, and NaN where all have. Sensors that follow one
+    another and are about the same things look for it once. Of obstacles it is the nearest point of any of them.
+    """
+    if sensor.boxes > 0:
+        find_nearest_point(s, sensor, n)
+        return s.nearest
+    if sensor.things == 1:
+        return s.things[THING_ROWS * sensor.thing : THING_ROWS * (sensor.thing + 1)]
+    found, first = s.nearest, THING_ROWS * sensor.thing
+    if s.nearest_of[0] == sensor.thing:
+        return found
+    s.nearest_of[0] = sensor.thing
+    for p in range(n):  # lane by lane: in numbers, not in rows
+        x, y = s.things[first + X, p], s.things[first + Y, p]
+        size, far = s.things[first + SIZE, p], s.things[first + DISTANCE, p]
+        for i in range(sensor.thing + 1, sensor.thing + sensor.things):
+            one = THING_ROWS * i
+            closer = (s.things[one + DISTANCE, p] < far) | (far != far)
+            x = s.things[one + X, p] if closer else x
+            y = s.things[one + Y, p] if closer else y
+            size = s.things[one + SIZE, p] if closer else size
+            far = s.things[one + DISTANCE, p] if closer else far
+        found[X, p], found[Y, p], found[SIZE, p], found[DISTANCE, p] = x, y, size, far
+    return found
+
+
+def find_nearest_point(s: Any, sensor: Any, n: Any) -> None:
+    """The same of a sensor's boxes, into `s.nearest`: the point of any of them that is nearest to the robot's middle.
+
+    It has no size. The first where two are as near; the middle itself where that is in a box.
+    """
+    found, asked = s.nearest, -2 - sensor.box
+    if s.nearest_of[0] == asked:
+        return
+    s.nearest_of[0] = asked
+    for p in range(n):
+        x, y, least, to_x, to_y = s.body[X, p], s.body[Y, p], np.inf, np.nan, np.nan
+        for b in range(sensor.box, sensor.box + sensor.boxes):
+            box = BOX_COLUMNS * b
+            low, high = s.boxes[p, box + X] - s.boxes[p, box + HALF_X], s.boxes[p, box + X] + s.boxes[p, box + HALF_X]
+            near_x = low if x < low else (high if x > high else x)
+            low, high = s.boxes[p, box + Y] - s.boxes[p, box + HALF_Y], s.boxes[p, box + Y] + s.boxes[p, box + HALF_Y]
+            near_y = low if y < low else (high if y > high else y)
+            dx, dy = near_x - x, near_y - y
+            square = dx * dx + dy * dy
+            closer = square < least
+            to_x, to_y = near_x if closer else to_x, near_y if closer else to_y
+            least = square if closer else least
+        found[X, p], found[Y, p], found[SIZE, p], found[DISTANCE, p] = to_x, to_y, 0.0, np.sqrt(least)
+
+
+LANES = 16  # side by side, as one value
+
+
+def splat(value: Any) -> Any:
+    """The same number in sixteen lanes."""
+    return np.full(LANES, value, F)
+
+
+def broadcast(array: Any, index: Any) -> Any:
+    """An element of a flat array in sixteen lanes."""
+    return splat(array[index])
+
+
+def load(array: Any, row: Any, lane: Any) -> Any:
+    """Sixteen lanes of a row of an array [row, lane], from `lane` on."""
+    return array[row, lane : lane + LANES].copy()
+
+
+def store(array: Any, row: Any, lane: Any, value: Any) -> None:
+    """Sixteen lanes into a row of an array [row, lane], from `lane` on."""
+    array[row, lane : lane + LANES] = value
+
+
+def sigmoids(values: Any) -> Any:
+    """The sigmoid in sixteen lanes."""
+    return sigmoid(values)
+
+
+def terms(function: FunctionType) -> dict[str, Any]:
+    """What the names in a function of a kind's file stand for: what that file has, else what stands here.
+
+    And what attributes in it would stand for, were they names.
+    """
+    known = globals() | function.__globals__
+    return {name: known[name] for name in function.__code__.co_names if name in known}

@@ -1,0 +1,66 @@
+"""Expressions of the language as postfix programs; `mindrun.numbers.evaluation` computes them."""
+
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any, TypeVar
+
+T = TypeVar("T")
+
+# An expression in postfix order: ("number", x), ("reading", index), ("each", 0), ("measure", index into the task's
+# measures), ("command", index of an actuator), or (operator, 0) with one of OPERATORS or negate. A condition is one
+# that ends in one of TRUTHS: 1 where it holds, 0 where not, NaN where nobody can know.
+Program = tuple[tuple[str, float | int], ...]
+
+Formula = tuple[tuple[str, float | int | str], ...]  # a program in which readings stand by their names
+TRUTHS = ("<", "<=", ">", ">=", "and", "or")
+OPERATORS = frozenset({"+", "-", "*", "/", "least", "greatest", *TRUTHS})
+
+
+def fold(
+    program: Iterable[tuple[str, Any]],
+    leaf: Callable[[str, Any], T],
+    negated: Callable[[T], T],
+    combined: Callable[[str, T, T], T],
+) -> T:
+    """What a program comes to, from its leaves up: `leaf` gets a word such as "number" or "reading" and its operand.
+
+    `combined` gets an operator, what is left of it and what is right. IndexError where the program is not whole.
+    """
+    stack: list[T] = []
+    for word, operand in program:
+        if word in OPERATORS:
+            right = stack.pop()
+            stack.append(combined(word, stack.pop(), right))
+        else:
+            stack.append(negated(stack.pop()) if word == "negate" else leaf(word, operand))
+    return stack.pop()
+
+
+def placed(formula: Formula, starts: Mapping[str, int]) -> Program:
+    """The program of a formula; KeyError where it names what is not there."""
+    return tuple((word, starts[x] if isinstance(x, str) else x) for word, x in formula)
+
+
+def named(formula: Formula) -> tuple[str, ...]:
+    """The readings that a formula names, each once."""
+    return tuple(dict.fromkeys(x for _, x in formula if isinstance(x, str)))
+
+
+def leaves(program: Program, leaf: str) -> set[int]:
+    """The indices that a program names as `leaf`: "reading" or "measure"."""
+    return {int(operand) for operator, operand in program if operator == leaf}
+
+
+def is_condition(program: Program) -> bool:
+    """Whether a program says 1 or 0: a comparison, or several with `and` and `or`."""
+    return is_valid_program(program) and program[-1][0] in TRUTHS
+
+
+def is_valid_program(program: Program) -> bool:
+    """Whether a program never takes from an empty stack and leaves exactly one value."""
+    height = 0
+    for operator, _ in program:
+        takes = 2 if operator in OPERATORS else 1 if operator == "negate" else 0
+        if height < takes:
+            return False
+        height += 1 - takes
+    return height == 1
