@@ -12,7 +12,7 @@ import torch
 from torch import nn
 
 import mindlang
-from mindlang.torch.skill import Skill
+from mindlang.weights.torch_skill import Skill
 
 COLLECT = Path(__file__).parents[1] / "examples" / "collect" / "collect.mind"
 BATCH_READINGS, COMPARED_ROUNDS, ROUND_STEPS = 512, 15, 20

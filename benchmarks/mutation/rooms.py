@@ -66,11 +66,20 @@ BREAKPOINTS = "format", "messages", "report", "watch", "recorded", "check_comman
 GUARDIAN = ("frames", "urgent", "main", "decisions", "guard", "plan", "output", "serving", "client", "process")
 ROOMS = {
     "engine": Room(
-        tuple(f"{R}{name}.py" for name in ("engine", "virtual_sensors", "expression", "sigmoid", "arithmetic")),
+        tuple(
+            f"{R}{name}.py"
+            for name in (
+                "engine/engine",
+                "engine/virtual_sensors",
+                "numbers/expression",
+                "numbers/sigmoid",
+                "numbers/arithmetic",
+            )
+        ),
         tuple(f"tests/engine/test_{name}.py" for name in ("influence", "sound", "procedure", "bits")),
     ),
     "functions": Room(
-        (f"{R}functions/*.py",),
+        (f"{R}kinds/functions/*.py",),
         (
             "tests/engine/test_procedure.py",
             "tests/language/test_procedures.py",
@@ -81,7 +90,7 @@ ROOMS = {
         interpreted=True,
     ),
     "sensors": Room(
-        (f"{R}sensors/*.py",),
+        (f"{R}kinds/sensors/*.py",),
         (
             "tests/sensors/test_compass.py",
             "tests/sensors/test_nearest.py",
@@ -96,7 +105,7 @@ ROOMS = {
         ),
         interpreted=True,
     ),
-    "think": Room((f"{R}think.py",), ("tests/engine/test_influence.py", "tests/engine/test_bits.py")),
+    "think": Room((f"{R}engine/think.py",), ("tests/engine/test_influence.py", "tests/engine/test_bits.py")),
     "lanes": Room(
         (f"{R}sim/lanes/*.py",),
         (
@@ -114,7 +123,7 @@ ROOMS = {
         interpreted=True,
     ),
     "outside": Room(
-        (f"{R}sim/outside/*.py", f"{R}slot.py", "mindlang/compiler/resolve/outside.py"),
+        (f"{R}sim/outside/*.py", f"{R}kinds/slot.py", "mindlang/compiler/resolve/outside.py"),
         (
             *(
                 f"tests/outside/test_{name}.py"
@@ -146,7 +155,7 @@ ROOMS = {
         ),
     ),
     "bundle": Room(
-        tuple(f"{R}{name}.py" for name in ("bundle", "codec", "encoding", "policy", "validate", "weights")),
+        tuple(f"{R}graph/{name}.py" for name in ("bundle", "codec", "encoding", "policy", "validate", "weights")),
         tuple(
             f"tests/engine/test_{name}.py"
             for name in ("sound", "npy", "older", "resealed_bundle", "weights", "bundle", "encoding", "influence")
@@ -229,8 +238,17 @@ ROOMS = {
     ),
     "numbers": Room(
         (
-            *(f"{R}{name}.py" for name in ("measured", "given_numbers", "one_world", "nearest_name", "short_repr")),
-            *(f"mindlang/{name}.py" for name in ("analysis/intervals", "run/paired_difference", "wiring/speed")),
+            *(
+                f"{R}{name}.py"
+                for name in (
+                    "graph/measured",
+                    "graph/one_world",
+                    "numbers/given_numbers",
+                    "nearest_name",
+                    "numbers/short_repr",
+                )
+            ),
+            *(f"mindlang/{name}.py" for name in ("lint/intervals", "run/paired_difference", "robot/speed")),
             *(f"mindlang/lint/rules/{name}.py" for name in ("zero_division", "direction_as_number", "coarse_tick")),
         ),
         (

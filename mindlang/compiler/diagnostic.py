@@ -13,6 +13,7 @@ from mindrun.numbers.short_repr import ShortRepr
 from mindlang.compiler.source import Span
 from mindlang.compiler.splice import Splice
 
+ERRORS = Path(__file__).with_name("errors.md")  # what each code means: a section a code
 MAX_DIAGNOSTICS = 100  # diagnostics that are read
 MAX_COMPARED_NAMES = 50_000  # names that are held against words
 

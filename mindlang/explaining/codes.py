@@ -1,10 +1,12 @@
-"""Every code of a diagnostic: errors from `errors.md`, lint rules from themselves."""
+"""Every code of a diagnostic: errors from the compiler's `errors.md`, lint rules from themselves."""
 
 from collections.abc import Iterator
 from functools import cache
 
+from mindlang.compiler.diagnostic import ERRORS
 from mindlang.explaining.article import Article
 from mindlang.explaining.sections import sections, titled
+from mindlang.lint.rules import all_rules
 
 ERROR, RULE = "error", "lint rule"
 
@@ -17,14 +19,12 @@ def codes() -> dict[str, Article]:
 
 def errors() -> Iterator[Article]:
     """The errors."""
-    for each in sections("errors.md"):
+    for each in sections(ERRORS):
         wrong, right = each.labelled("mind bad"), each.labelled("mind good")
         yield Article(each.name, ERROR, ERROR, each.chapter, each.title, each.text, wrong=wrong, right=right)
 
 
 def _rules() -> Iterator[Article]:
-    from mindlang.lint.rules import all_rules
-
     for rule in all_rules().values():
         wrong, right = (tuple(mind.lstrip("\n") for mind in minds) for minds in (rule.bad, rule.good))
         yield Article(rule.code, RULE, RULE, "Lint rules", *titled(rule.text), wrong=wrong, right=right)

@@ -28,9 +28,9 @@ class Section:
         return tuple(text for each, text in self.examples if each == label)
 
 
-def sections(name: str) -> Iterator[Section]:
-    """The sections of one of these texts, in their order."""
-    text = Path(__file__).with_name(name).read_text(encoding="utf-8")
+def sections(name: str | Path) -> Iterator[Section]:
+    """The sections of one of these texts, or of one elsewhere, in their order."""
+    text = (Path(__file__).parent / name).read_text(encoding="utf-8")
     fences = [found.span() for found in _EXAMPLE.finditer(text)]
     headings = [each for each in _HEADING.finditer(text) if not any(a <= each.start() < b for a, b in fences)]
     ends = [*(each.start() for each in headings[1:]), len(text)]

@@ -12,7 +12,7 @@ from typing import Any
 from mindrun.errors import reason
 from mindrun.files.regular_files import read_regular
 
-from mindlang.compiler.diagnostic import Diagnostic, did_you_mean, listed
+from mindlang.compiler.diagnostic import ERRORS, Diagnostic, did_you_mean, listed
 from mindlang.compiler.source import MAX_SOURCE_BYTES, Source, Span, decode
 from mindlang.file_search import folders_above, name_from_here
 from mindlang.lint.rules import all_rules
@@ -32,11 +32,9 @@ def settings_of(path: Path) -> LintSettings:
 
 def why_no_rule(code: str) -> tuple[str, str] | None:
     """Why a code cannot be selected or ignored, and what may have been meant; None where it can."""
-    from mindlang.explaining.codes import errors
-
     if code in all_rules():
         return None
-    if any(code == error.name for error in errors()):
+    if f"\n## {code}\n" in ERRORS.read_text(encoding="utf-8"):
         return f"{code} is an error, not a rule: errors are always reported.", ""
     return f"There is no rule called {code}.", did_you_mean(code, all_rules()) or "mindc explain lists them."
 

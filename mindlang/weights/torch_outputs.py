@@ -13,7 +13,7 @@ def in_torch(network: Network, genome: Weights, inputs: Rows) -> Rows:
     """A network's outputs [ticks, outputs] for a run's inputs [ticks, inputs], by PyTorch; ImportError without it."""
     import torch
 
-    from mindlang.torch.module import NetworkModule
+    from mindlang.weights.torch_module import NetworkModule
 
     module, rows = NetworkModule(network, genome), torch.from_numpy(inputs)
     with torch.no_grad():

@@ -43,7 +43,9 @@ def emitted() -> set[str]:
     found: set[str] = set()
     for node in (
         node
-        for path in modules(COMPILER, RUNTIME / "things", RUNTIME / "sensors", RUNTIME / "sim" / "outside")
+        for path in modules(
+            COMPILER, RUNTIME / "kinds" / "things", RUNTIME / "kinds" / "sensors", RUNTIME / "sim" / "outside"
+        )
         for node in ast.walk(tree(path))
     ):
         if isinstance(node, ast.Call) and _name(node.func) in EMITTERS and node.args:

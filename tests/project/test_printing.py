@@ -16,7 +16,7 @@ SPEAKING = {
 CLOCKS = {"datetime.datetime.now", "time.perf_counter", "time.time", "time.monotonic"}
 COMMANDS = {  # of the runtime, and why each may speak
     "__main__.py": "mindrun itself",
-    "standard_streams.py": "makes the streams of both programs so that none can end them",
+    "terminal/standard_streams.py": "makes the streams of both programs so that none can end them",
     "robot/command.py": "mindrun on a robot: sentences for the journal",
     "robot/stop_signals.py": "a second Ctrl-C ends a robot at once",
     "robot/guardian/__main__.py": "the guardian, a program of its own",
@@ -30,14 +30,14 @@ COMMANDS = {  # of the runtime, and why each may speak
     "sim/outside/apart.py": "what an environment prints in its process is talk of this one",
     "sim/outside/making.py": "what an environment's package says when it is imported is no answer of a command",
     "sim/warmup.py": "python -m mindrun.sim.warmup: the process that compiles",
-    "tools/adopt.py": "mindrun adopt",
-    "tools/calibrate.py": "mindrun calibrate",
-    "tools/doctor.py": "mindrun doctor",
-    "tools/replay.py": "mindrun replay",
-    "tools/report.py": "mindrun report",
-    "tools/work.py": "mindrun work: a worker whose environment hangs, or whom nobody hears, ends in its midst",
+    "cli/tools/adopt.py": "mindrun adopt",
+    "cli/tools/calibrate.py": "mindrun calibrate",
+    "cli/tools/doctor.py": "mindrun doctor",
+    "cli/tools/replay.py": "mindrun replay",
+    "cli/tools/report.py": "mindrun report",
+    "cli/tools/work.py": "mindrun work: a worker whose environment hangs, or whom nobody hears, ends in its midst",
 }
-PROGRAMS = {"wiring/driver_inspection.py": "a process that imports a driver of a user, whatever that does"}
+PROGRAMS = {"robot/driver_inspection.py": "a process that imports a driver of a user, whatever that does"}
 TIMED = {
     "api.py": "a lesson notes when it began, and counts its seconds",
     "cluster/answering.py": "what a worker of Dask runs, as mindrun work is what one behind pipes runs",

@@ -84,7 +84,9 @@ def test_an_editor_is_told_the_same() -> None:
     assert found == run(EDITOR, (COLLECT,), set())
 
 
-@pytest.mark.parametrize("path", modules(RUNTIME / "kinds" / "sensors", RUNTIME / "kinds" / "functions"), ids=lambda path: path.stem)
+@pytest.mark.parametrize(
+    "path", modules(RUNTIME / "kinds" / "sensors", RUNTIME / "kinds" / "functions"), ids=lambda path: path.stem
+)
 def test_the_methods_of_a_kind_import_what_they_use(path: Path) -> None:
     """What a file imports for checkers of types is there in a lane alone, which is given it when it is compiled."""
     guarded = {name for node in tree(path).body if isinstance(node, ast.If) for name in bound(node)}

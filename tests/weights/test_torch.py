@@ -20,9 +20,9 @@ from tests.edits.taught import MIND, recorded, teach, write_mind
 
 torch = pytest.importorskip("torch", reason="PyTorch is not installed: pip install 'mindlang[torch]'")
 
-from mindlang.torch.functions import OrderedProduct, RationalSigmoid, ReturningClamp  # noqa: E402
-from mindlang.torch.module import NetworkModule  # noqa: E402
-from mindlang.torch.skill import Skill  # noqa: E402
+from mindlang.weights.torch_functions import OrderedProduct, RationalSigmoid, ReturningClamp  # noqa: E402
+from mindlang.weights.torch_module import NetworkModule  # noqa: E402
+from mindlang.weights.torch_skill import Skill  # noqa: E402
 
 SHAPES = ("mlp hidden 0", "mlp hidden 1", "mlp hidden 2", "mlp hidden 3 width 9", "elman", "elman width 3")
 

@@ -9,11 +9,13 @@ import mindlang.torch
 
 
 def test_a_sentence_says_which_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
-    for name in [each for each in sys.modules if each.split(".")[0] == "torch" or each == "mindlang.torch.skill"]:
+    for name in [
+        each for each in sys.modules if each.split(".")[0] == "torch" or each == "mindlang.weights.torch_skill"
+    ]:
         monkeypatch.delitem(sys.modules, name)
     monkeypatch.setitem(sys.modules, "torch", None)
-    monkeypatch.delitem(sys.modules, "mindlang.torch.module", raising=False)
-    monkeypatch.delitem(sys.modules, "mindlang.torch.functions", raising=False)
+    monkeypatch.delitem(sys.modules, "mindlang.weights.torch_module", raising=False)
+    monkeypatch.delitem(sys.modules, "mindlang.weights.torch_functions", raising=False)
     with pytest.raises(MindError, match="needs PyTorch") as error:
         _ = mindlang.torch.Skill
     assert error.value.hint == "pip install 'mindlang[torch]'"

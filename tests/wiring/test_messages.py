@@ -53,7 +53,7 @@ def codes() -> set[str]:
 
 
 def test_every_code_of_the_sources_has_a_case() -> None:
-    texts = [path.read_text(encoding="utf-8") for path in (COMPILER / "wiring").glob("*.py")]
+    texts = [path.read_text(encoding="utf-8") for path in (COMPILER / "robot").glob("*.py")]
     told = {code for text in texts for code in re.findall(r'"((?:yaml|no|not|wrong|missing|unknown)-[a-z-]+)"', text)}
     assert told - {"yaml-large"} <= codes()
 

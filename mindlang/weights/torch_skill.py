@@ -12,9 +12,9 @@ from mindrun.graph.weights import Weights
 from mindlang.lock import lock_sources, read_locks
 from mindlang.lock.arrange import arrange
 from mindlang.lock.status import trained_weights
-from mindlang.torch.module import NetworkModule
 from mindlang.weights.files import load_genome, save
 from mindlang.weights.network import Network, network_of
+from mindlang.weights.torch_module import NetworkModule
 
 if TYPE_CHECKING:
     from mindlang.api import Mind

@@ -10,7 +10,7 @@ PyTorch is imported when `Skill` is asked for: `pip install 'mindlang[torch]'`.
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from mindlang.torch.skill import Skill as Skill
+    from mindlang.weights.torch_skill import Skill as Skill
 
 __all__ = ["Skill"]
 
@@ -21,7 +21,7 @@ def __getattr__(name: str) -> Any:
     from mindrun.errors import MindError
 
     try:
-        from mindlang.torch.skill import Skill
+        from mindlang.weights.torch_skill import Skill
     except ImportError as error:
         raise MindError("mindlang.torch needs PyTorch", "pip install 'mindlang[torch]'") from error
     return Skill

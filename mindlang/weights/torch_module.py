@@ -5,8 +5,8 @@ import torch
 from mindrun.graph.weights import Weights
 from torch import Tensor, nn
 
-from mindlang.torch.functions import OrderedProduct, RationalSigmoid, ReturningClamp
 from mindlang.weights.network import Network, matrices_of
+from mindlang.weights.torch_functions import OrderedProduct, RationalSigmoid, ReturningClamp
 
 
 class Layer(nn.Module):
