@@ -20,6 +20,7 @@ from mindrun.sim.rollouts import rollout_for
 from mindrun.sim.trace import Trace, trace
 from mindrun.train.lesson_state import Record
 from mindrun.train.training import Watch
+from networkx import DiGraph
 
 from mindlang import executors
 from mindlang.bounds import as_layout, as_workers
@@ -73,6 +74,18 @@ class Mind(ShortRepr):
         graph = self._without_errors().graph
         assert graph
         return graph
+
+    @property
+    def hierarchy(self) -> DiGraph:
+        """All parts and what flows between them, as a graph of networkx.
+
+        >>> mind = mindlang.load("collect.mind")
+        >>> sorted(str(node) for node in networkx.descendants(mind.hierarchy, ("skill", "Grab")))
+        ['actuator claw']
+        """
+        mind = self._without_errors().mind
+        assert mind
+        return mind.hierarchy
 
     def policy(self, master: str | None = None) -> Policy:
         """The hierarchy with the weights that `master` (default: the mind's) needs to act."""

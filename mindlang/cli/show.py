@@ -1,4 +1,4 @@
-"""`mindc show`: the hierarchy of a mind, as a tree, as a drawing, as data."""
+"""`mindc show`: the hierarchy of a mind as a tree, and for other programs: Graphviz, GraphML, JSON."""
 
 import click
 
@@ -6,6 +6,7 @@ EXAMPLES = """\b
 Examples:
   mindc show collect.mind
   mindc show collect.mind --dot | dot -Tsvg > collect.svg
+  mindc show collect.mind --graphml > collect.graphml
   mindc show collect.mind --json
 """
 
@@ -13,22 +14,24 @@ Examples:
 @click.command(epilog=EXAMPLES)
 @click.argument("file")
 @click.option("--dot", "as_dot", is_flag=True, help="Graphviz instead: mindc show collect.mind --dot | dot -Tsvg")
-@click.option("--json", "as_json", is_flag=True, help="The compiled graph as JSON: mindc show collect.mind --json")
-def command(file: str, as_dot: bool, as_json: bool) -> None:
+@click.option("--graphml", "as_graphml", is_flag=True, help="GraphML, which yEd, Gephi and networkx read.")
+@click.option("--json", "as_json", is_flag=True, help="Nodes and links, as networkx.node_link_graph reads them.")
+def command(file: str, as_dot: bool, as_graphml: bool, as_json: bool) -> None:
     """Show the hierarchy of a mind, from the master down."""
-    from mindrun.graph.codec import encode
+    from networkx import generate_graphml, node_link_data, relabel_nodes
 
     from mindlang.cli._terminal import console, load_compiled, print_document, print_json
     from mindlang.compiler.drawing import dot, tree
 
-    if as_dot and as_json:
-        raise click.UsageError("Choose one of --dot and --json.")
-    compiled = load_compiled(file)
-    assert compiled.graph
-    assert compiled.mind
-    if as_json:
-        print_json(encode(compiled.graph))
-    elif as_dot:
-        print_document(dot(compiled.mind) + "\n")
+    if as_dot + as_graphml + as_json > 1:
+        raise click.UsageError("Choose one of --dot, --graphml and --json.")
+    mind = load_compiled(file).mind
+    assert mind
+    if as_dot:
+        print_document(dot(mind) + "\n")
+    elif as_graphml:
+        print_document("\n".join(generate_graphml(relabel_nodes(mind.hierarchy, str))) + "\n")
+    elif as_json:
+        print_json(node_link_data(relabel_nodes(mind.hierarchy, str), edges="links"))
     else:
-        console().print(tree(compiled.mind), soft_wrap=False)
+        console().print(tree(mind), soft_wrap=False)

@@ -56,7 +56,8 @@ def _sensors(mind: model.Mind) -> tuple[graph.Sensor, ...]:
 
 
 def _skills(mind: model.Mind, places: Mapping[str, tuple[int, int]]) -> tuple[graph.Skill, ...]:
-    order = in_order(mind.skills)
+    skills = {skill.name: skill for skill in mind.skills}
+    order = [skills[name] for name in in_order(mind.influences)]
     targets = {
         "skill": {skill.name: index for index, skill in enumerate(order)},
         "actuator": {actuator.name: index for index, actuator in enumerate(mind.actuators)},

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Generic, TypeVar
 
 from mindrun.graph.graph import Failure, Need, Receiver, Start, Variation
@@ -15,7 +16,9 @@ from mindrun.kinds.memory import Cell
 from mindrun.kinds.scenes import SceneKind
 from mindrun.kinds.sensors import SensorKind
 from mindrun.kinds.things import ThingKind
+from networkx import DiGraph
 
+from mindlang.compiler.hierarchy import hierarchy
 from mindlang.compiler.names import Names
 from mindlang.compiler.source import Span
 from mindlang.compiler.syntax import (
@@ -243,12 +246,12 @@ class Lesson:
     fact: Teaches
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Mind:
     """A whole mind, in the order of its sources. `tick` is in seconds; `names` are all declarations, as written.
 
-    `numbers` are what the names of numbers stand for, each with its unit; `unit_metres` is how long a unit of the world
-    is on a robot, None where that is not said.
+    `influences` is who influences whom, a DAG; `numbers` what the names of numbers stand for, each with its unit.
+    `unit_metres` is how long a unit of the world is on a robot, None where that is not said.
     """
 
     tick: float
@@ -262,5 +265,11 @@ class Mind:
     lessons: tuple[Lesson, ...]
     files: tuple[File, ...]
     names: Names
+    influences: DiGraph = field(repr=False, compare=False)
     numbers: Mapping[str, tuple[float, str, str]] = field(default_factory=dict)
     unit_metres: float | None = None
+
+    @cached_property
+    def hierarchy(self) -> DiGraph:
+        """All parts and what flows between them, as a graph of networkx."""
+        return hierarchy(self)

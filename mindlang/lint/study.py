@@ -1,18 +1,17 @@
 """What a lint rule looks at, and what it finds."""
 
 import re
-from collections.abc import Container, Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
 from mindrun.graph.graph import Graph, Lesson
-from mindrun.graph.reachability import reached_from
 from mindrun.kinds.events import EventKind
 from mindrun.kinds.sensors import SensorKind
 
 from mindlang.compiler.compile import Compiled
 from mindlang.compiler.diagnostic import Fix, Label
-from mindlang.compiler.hierarchy import in_order
+from mindlang.compiler.hierarchy import below, ends_first, in_order, source_graph
 from mindlang.compiler.model import Mind, Skill, Task
 from mindlang.compiler.references import Mention, mentions
 from mindlang.compiler.source import Source, Span
@@ -47,7 +46,7 @@ class Study:
     @cached_property
     def children_first(self) -> tuple[Skill, ...]:
         """The skills in an order in which a table that a skill has from its subskills can be filled."""
-        return in_order(self.mind.skills)[::-1]
+        return tuple(self.skills[name] for name in reversed(in_order(self.mind.influences)))
 
     @cached_property
     def masters(self) -> set[str]:
@@ -57,7 +56,7 @@ class Study:
     @cached_property
     def active(self) -> set[str]:
         """The skills that a master reaches."""
-        return self.below(self.masters)
+        return below(self.mind.influences, self.masters)
 
     @cached_property
     def acting(self) -> set[str]:
@@ -79,19 +78,9 @@ class Study:
     @cached_property
     def roots(self) -> dict[str, frozenset[str]]:
         """What each sensor comes from in the end: itself, or what stands at the end of all that it is computed from."""
-        found: dict[str, frozenset[str]] = {}
-        waiting = [*self.sensors]
-        while waiting:
-            name = waiting[-1]
-            sources = self.sensors[name].sources if name in self.sensors else ()
-            missing = [source for source in sources if source not in found]
-            if missing:
-                waiting += missing
-            else:
-                found[name] = (
-                    frozenset[str]().union(*(found[source] for source in sources)) if sources else frozenset({name})
-                )
-                waiting.pop()
+        graph, found = source_graph(self.mind.sensors), dict[str, frozenset[str]]()
+        for name in ends_first(graph):
+            found[name] = frozenset[str]().union(*(found[source] for source in graph[name])) or frozenset({name})
         return found
 
     @cached_property
@@ -127,14 +116,6 @@ class Study:
     def main(self) -> Source:
         """The file that is linted."""
         return self.mind.files[0].source
-
-    def below(self, names: Iterable[str], known: Container[str] = ()) -> set[str]:
-        """These skills and all that they influence; what is `known`, and what only stands below that, is left out."""
-
-        def unknown(names: Iterable[str]) -> Iterator[str]:
-            return (name for name in names if name not in known)
-
-        return reached_from(unknown(names), lambda name: unknown(self.skills[name].subskills))
 
     def goals(self, task: Task) -> frozenset[str]:
         """The things on which no run of a task begins."""

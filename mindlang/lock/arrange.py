@@ -3,8 +3,8 @@
 from dataclasses import replace
 
 from mindrun.graph.graph import Edge, Graph, Skill
+from networkx import DiGraph, lexicographical_topological_sort
 
-from mindlang.compiler.hierarchy import parents_first
 from mindlang.lock import Lock
 from mindlang.lock.signature import signature
 
@@ -55,7 +55,7 @@ def _by_name(graph: Graph) -> Graph:
         skill.name: [graph.named(edge.to, edge.target) for edge in skill.edges if edge.to == "skill"]
         for skill in graph.skills
     }
-    order = parents_first(children)
+    order = list(lexicographical_topological_sort(DiGraph(children)))
     place = {name: index for index, name in enumerate(order)}
     moved = {
         skill.name: replace(skill, edges=tuple(_moved(graph, edge, place) for edge in skill.edges))

@@ -16,7 +16,6 @@ from mindrun.errors import ProcedureError
 from mindrun.graph.codec import encode
 from mindrun.graph.graph import Edge, Graph, Lesson, Reward, Skill, Start, Task
 from mindrun.graph.physics import physics
-from mindrun.graph.reachability import reached_from
 from mindrun.graph.skill_sets import genes, reachable
 from mindrun.kinds.environment_module import module_beside
 from mindrun.kinds.functions.procedure import module_source
@@ -25,6 +24,7 @@ from mindrun.kinds.sensors import SensorKind
 from mindrun.numbers.expression import leaves
 
 from mindlang.compiler.drawing import phrase
+from mindlang.compiler.hierarchy import below, source_graph
 from mindlang.lock.training_world import LessonKey, TrainingWorld
 from mindlang.lock.wording import Leaf, infix, number
 
@@ -82,7 +82,7 @@ class Worlds:
         driven = {self.graph.named(edge.to, edge.target) for skill in skills for edge in skill.edges}
         if any(task.events[event].is_of_battery for event in _happening(task)):
             read |= {*[sensor.name for sensor in self.graph.sensors if sensor.kind.battery][:1]}
-        sources = self._with_sources(read)
+        sources = below(source_graph(self.graph.sensors), read & self._sensors.keys()) | read
         for sensor in self.graph.sensors:
             if sensor.name in sources:
                 yield f"sensor {sensor.name}", encode(sensor.kind)
@@ -94,14 +94,6 @@ class Worlds:
                 yield f"actuator {actuator.name}", encode(actuator.kind)
         if any(thing.kind.can_be_delivered for thing in task.things):
             yield "claw", self.graph.claw_reach
-
-    def _with_sources(self, read: set[str]) -> set[str]:
-        """The sensors of these names, and all that those are computed from."""
-
-        def sources(name: str) -> Sequence[str]:
-            return self._sensors[name].sources if name in self._sensors else ()
-
-        return reached_from(read, sources)
 
     @cached_property
     def _sensors(self) -> Mapping[str, SensorKind]:

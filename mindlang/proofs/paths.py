@@ -12,6 +12,7 @@ from itertools import islice
 import numpy as np
 from mindrun.graph.graph import Edge, Graph, Skill
 from mindrun.graph.weights import reachable
+from networkx import DiGraph, all_simple_paths
 
 from mindlang.proofs.interval import Boxes, evaluate
 
@@ -20,7 +21,7 @@ MAX_COUNTED_PATHS = 10**15  # stands for itself and for more
 
 @dataclass(frozen=True, slots=True)
 class Paths:
-    """How many paths lead to an actuator, up to MANY, and the first of them: names of skills, the driver last."""
+    """How many paths lead to an actuator, up to MAX_COUNTED_PATHS, and the first: names of skills, the driver last."""
 
     count: int
     first: tuple[tuple[str, ...], ...]
@@ -82,7 +83,7 @@ def paths(found: Ways, actuators: int, listed: int) -> list[Paths]:
 
 
 def _counts(found: Ways, actuators: int) -> dict[int, list[int]]:
-    """By skill, how many paths lead from it to each actuator, up to MANY."""
+    """By skill, how many paths lead from it to each actuator, up to MAX_COUNTED_PATHS."""
     counts: dict[int, list[int]] = {}
     for skill in reversed(found.skills):
         own = [int(actuator in found.drives[skill]) for actuator in range(actuators)]
@@ -94,10 +95,10 @@ def _counts(found: Ways, actuators: int) -> dict[int, list[int]]:
 
 def _first(found: Ways, counts: dict[int, list[int]], actuator: int) -> Iterator[tuple[str, ...]]:
     """Paths in the order of the lines, no step of which leads astray."""
-    waiting: list[tuple[int, ...]] = [found.skills[:1]] if counts[found.skills[0]][actuator] else []
-    while waiting:
-        path = waiting.pop()
-        if actuator in found.drives[path[-1]]:
-            yield tuple(found.names[skill] for skill in path)
-        onward = (way.target for way in found.onward[path[-1]] if counts[way.target][actuator])
-        waiting += reversed([(*path, target) for target in onward])
+    graph, end = DiGraph(), -1  # the actuator, below all that drive it
+    for skill in (skill for skill in found.skills if counts[skill][actuator]):
+        graph.add_edges_from((skill, end) for driven in found.drives[skill] if driven == actuator)
+        graph.add_edges_from((skill, way.target) for way in found.onward[skill] if counts[way.target][actuator])
+    if counts[found.skills[0]][actuator]:
+        for path in all_simple_paths(graph, found.skills[0], end):
+            yield tuple(found.names[skill] for skill in path[:-1])

@@ -8,7 +8,9 @@ from typing import Literal
 
 from mindrun.graph.graph import Actuator, Edge, Graph, Skill
 from mindrun.graph.weights import Weights, reachable
+from networkx import DiGraph
 
+from mindlang.compiler.hierarchy import above
 from mindlang.proofs.branch_and_bound import EdgeRange
 from mindlang.proofs.interval import is_known
 from mindlang.proofs.joint import together
@@ -134,15 +136,16 @@ class _Rests:
     """On whose weights a claim rests: of the skills on the way, those whose weights say more than "0 to 1"."""
 
     def __init__(self, graph: Graph, weights: Mapping[str, Weights], bounds: ProvedReach) -> None:
-        self._graph, self._weights, self._bounds = graph, weights, bounds
-        self._parents: dict[int, list[tuple[Skill, Edge, EdgeRange]]] = {}
-        self._drivers: dict[int, list[tuple[Skill, Edge, EdgeRange]]] = {}
-        for skill in reachable(graph, graph.master):
-            for edge, sends in zip(skill.edges, bounds.edges[skill.name], strict=True):
-                into = {"skill": self._parents, "actuator": self._drivers}.get(edge.to)
-                if into is not None:
-                    into.setdefault(edge.target, []).append((skill, edge, sends))
+        self._weights = weights
         self._place = graph.skill_numbers
+        self._flow, self._live = DiGraph(), DiGraph()  # what is sent, and that of it which is not always 0
+        for skill in reachable(graph, graph.master):
+            self._live.add_node(("skill", self._place[skill.name]))
+            for edge, sends in zip(skill.edges, bounds.edges[skill.name], strict=True):
+                ends = ("skill", self._place[skill.name]), (edge.to, edge.target)
+                self._flow.add_edge(*ends, sends=(skill, edge, sends))
+                if not sends.is_dead:
+                    self._live.add_edge(*ends)
 
     def says(self, skill: Skill, edge: Edge, sends: EdgeRange) -> bool:
         """Whether an edge is learnt, and its weights narrow what it sends, or see to it that a command is a number."""
@@ -151,28 +154,24 @@ class _Rests:
 
     def of_actuator(self, actuator: int, is_joint: bool) -> tuple[str, ...]:
         """Of all ways to an actuator; a joint claim looks at all of them."""
-        found, known, waiting = set(), set(), list(self._drivers.get(actuator, ()))
-        while waiting:
-            skill, edge, sends = waiting.pop()
-            if self.says(skill, edge, sends) or (is_joint and skill.owner in self._weights):
-                found.add(skill.owner)
-            if skill.name not in known:
-                known.add(skill.name)
-                waiting += self._parents.get(self._place[skill.name], ())
-        return self._in_order(found)
+        node = "actuator", actuator
+        if node not in self._flow:
+            return ()
+        ways = self._flow.in_edges(above(self._flow, [node]), data="sends")
+        return self._in_order(
+            {
+                skill.owner
+                for _, _, (skill, edge, sends) in ways
+                if self.says(skill, edge, sends) or (is_joint and skill.owner in self._weights)
+            }
+        )
 
     def of_dead(self, name: str) -> tuple[str, ...]:
         """Of the edges that send nothing to a dead skill or to those above it that are dead as well."""
-        found, known, waiting = set(), {name}, [name]
-        while waiting:
-            for skill, edge, sends in self._parents.get(self._place[waiting.pop()], ()):
-                if sends.is_dead:
-                    if self.says(skill, edge, sends):
-                        found.add(skill.owner)
-                elif skill.name not in known:
-                    known.add(skill.name)
-                    waiting.append(skill.name)
-        return self._in_order(found)
+        ways = self._flow.in_edges(above(self._live, [("skill", self._place[name])]), data="sends")
+        return self._in_order(
+            {skill.owner for _, _, (skill, edge, sends) in ways if sends.is_dead and self.says(skill, edge, sends)}
+        )
 
     def _in_order(self, names: set[str]) -> tuple[str, ...]:
         return tuple(sorted(names, key=self._place.__getitem__))

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 from mindrun.errors import MindError
 from mindrun.kinds.registry import kinds
+from networkx import DiGraph, single_target_shortest_path
 
 from mindlang.compiler.comments import comment_of
 from mindlang.compiler.drawing import text_after_name
@@ -39,20 +40,13 @@ def card(view: MindView, noun: str, name: str) -> str:
 
 def paths_to(view: MindView, skill: str) -> list[str]:
     """The ways on which influence comes down to a skill, the shortest one from each top."""
-    parents: dict[str, list[str]] = {}
+    influences: DiGraph = DiGraph()
     for name, declaration in view.names.declarations("skill"):
-        for fact in declaration.facts:
-            if isinstance(fact, Influences):
-                parents.setdefault(fact.name.text, []).append(name)
-    found, waiting, seen = [], [[skill]], {skill}
-    while waiting:
-        path = waiting.pop(0)
-        above = [parent for parent in parents.get(path[0], []) if parent not in seen]
-        seen.update(above)
-        waiting += [[parent, *path] for parent in above]
-        if path[0] not in parents and len(path) > 1:
-            found.append(" → ".join(path))
-    return found
+        influences.add_node(name)
+        facts = (fact for fact in declaration.facts if isinstance(fact, Influences))
+        influences.add_edges_from((name, fact.name.text) for fact in facts)
+    ways = single_target_shortest_path(influences, skill).items()
+    return [" → ".join(way) for top, way in ways if top != skill and not influences.pred[top]]
 
 
 def _skill(view: MindView, name: str, declaration: Declaration) -> Iterator[str]:

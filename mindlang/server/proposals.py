@@ -9,7 +9,7 @@ from typing import Any
 from mindrun.graph.skill_sets import genes
 
 from mindlang.compiler.diagnostic import listed
-from mindlang.compiler.hierarchy import skills_above, skills_reached
+from mindlang.compiler.hierarchy import above, below
 from mindlang.compiler.syntax import Declaration, Drives, Influences, Reads, Stays
 from mindlang.editing.project import EditError, Project, facts, has_outputs, kind_of
 from mindlang.server.changing import proposed
@@ -186,14 +186,14 @@ def not_yet_below(project: Project, skill: str) -> Iterator[tuple[str, list[str]
 
 def replacements(project: Project, skill: str) -> list[str]:
     """Skills that are not above it; those that drive other actuators are refused by the edit itself."""
-    skills = {known.name: known for known in project.mind.skills}
-    parents = {name for name, known in skills.items() if skill in known.subskills}
-    higher = skills_above(skills.values(), parents)
+    influences = project.mind.influences
+    parents = set(influences.pred[skill])
+    higher = above(influences, parents)
     others = (
         name
-        for name in skills
+        for name in influences
         if name != skill
-        and (name not in higher or (name in parents and not (parents - {name}) & skills_reached(skills, name)))
+        and (name not in higher or (name in parents and not (parents - {name}) & below(influences, [name])))
     )
     return [*islice(others, 8 * MAX_TARGETS)]
 
@@ -211,7 +211,7 @@ def lesson(project: Project, skill: str) -> dict[str, Any]:
 
 def _below(project: Project, skill: str) -> list[str]:
     """The skills that a skill could influence without a circle, and does not."""
-    skills = {known.name: known for known in project.mind.skills}
-    alike = [name for name, known in skills.items() if known.like == skill]  # they would influence it, too
-    not_below = {*skills[skill].subskills, *skills_above(skills.values(), [skill, *alike])}
-    return [name for name in skills if name not in not_below]
+    influences = project.mind.influences
+    alike = [known.name for known in project.mind.skills if known.like == skill]  # they would influence it, too
+    not_below = {*influences[skill], *above(influences, [skill, *alike])}
+    return [name for name in influences if name not in not_below]

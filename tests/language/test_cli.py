@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 import click
+import networkx
 import pytest
 
 from mindlang.cli import commands
@@ -68,15 +69,21 @@ def test_show_draws_a_shared_skill_once(mindc: Call) -> None:
     assert "reads proximity, moving, pulse" in out
 
 
-def test_show_as_graphviz_and_as_json(mindc: Call) -> None:
+def test_show_as_graphviz_as_json_and_as_graphml(mindc: Call) -> None:
     _, dot, _ = mindc("show", TOUR, "--dot")
     assert dot.startswith("digraph mind {")
     assert dot.endswith("}\n")
     assert '  "skill Work" -> "skill Avoid" [label="1/2"]' in dot
     _, data, _ = mindc("show", TOUR, "--json")
-    graph = json.loads(data)
-    assert graph["master"] == "Live"
-    assert [sensor["kind"]["is"] for sensor in graph["sensors"][:3]] == ["range_finder", "bearing", "derivative"]
+    graph = networkx.node_link_graph(json.loads(data), edges="links")
+    assert [name for name, is_master in graph.nodes(data="master") if is_master] == ["skill Live"]
+    assert {"actuator left_wheel", "actuator claw"} <= networkx.descendants(graph, "skill Live")
+    _, xml, _ = mindc("show", TOUR, "--graphml")
+    said = networkx.parse_graphml(xml)
+    assert (dict(said.nodes(data=True)), [*said.edges(data=True)]) == (
+        dict(graph.nodes(data=True)),
+        [*graph.edges(data=True)],
+    )
 
 
 @pytest.mark.parametrize(("path", "code"), [(WRONG, 1), ("nowhere.mind", 2)])

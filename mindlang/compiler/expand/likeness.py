@@ -3,8 +3,11 @@
 from collections.abc import Callable
 from dataclasses import replace
 
+from networkx import DiGraph
+
 from mindlang.compiler.diagnostic import Findings, Label, a
 from mindlang.compiler.expand.replacement import with_more
+from mindlang.compiler.hierarchy import circles, ends_first
 from mindlang.compiler.names import Names
 from mindlang.compiler.syntax import Declaration
 
@@ -44,26 +47,23 @@ def tasks(names: Names, known_scenes: Declarations, findings: Findings) -> Decla
 
 def _followed(noun: str, names: Names, begun: Callable[[Declaration], Declaration], findings: Findings) -> Declarations:
     """The declarations of a noun, each with what it is like; one that is like nothing is what `begun` makes of it."""
+    declared = dict(names.declarations(noun))
+    graph = DiGraph()
+    graph.add_nodes_from(declared)
+    for name, declaration in declared.items():
+        like = declaration.header.like
+        if like and names.find(like, (noun,), findings):
+            graph.add_edge(name, like.text)
+    for circle in circles(graph):
+        _refuse_circle(noun, [declared[name] for name in circle], findings)
     found: dict[str, Declaration] = {}
-    for name in names.of(noun):
-        following: str | None = name
-        path: dict[str, Declaration] = {}
-        while following and following not in found and following not in path:
-            path[following] = declaration = names.table[noun][following]
-            following = _next(declaration, noun, names, findings)
-        if following in path:
-            _refuse_circle(noun, [*path.values()][[*path].index(following) :], findings)
-        for own, each in reversed(path.items()):
-            like = each.header.like
-            other = found.get(like.text) if like else None
-            found[own] = _like(each, other) if other else replace(each, whole=False) if like else begun(each)
-    return {name: found[name] for name in names.of(noun)}
-
-
-def _next(declaration: Declaration, noun: str, names: Names, findings: Findings) -> str | None:
-    """What a declaration is like; None where it is like nothing that there is."""
-    like = declaration.header.like
-    return like.text if like and names.find(like, (noun,), findings) else None
+    for name in ends_first(graph):
+        own, other = declared[name], next(iter(graph[name]), None)
+        if other:
+            found[name] = _like(own, found[other])
+        elif not own.header.like:
+            found[name] = begun(own)
+    return {name: found.get(name) or replace(each, whole=False) for name, each in declared.items()}
 
 
 def _like(own: Declaration, other: Declaration) -> Declaration:

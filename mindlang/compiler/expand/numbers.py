@@ -2,29 +2,30 @@
 
 from dataclasses import replace
 
+from networkx import DiGraph
+
 from mindlang.compiler.diagnostic import Findings, Label
+from mindlang.compiler.hierarchy import circles, ends_first
 from mindlang.compiler.names import Names
 from mindlang.compiler.syntax import Amount
 
 
 def numbers(names: Names, findings: Findings) -> dict[str, Amount]:
     """The amount that each name stands for; one that stands for itself in the end is reported, and left out."""
+    graph = DiGraph()
+    graph.add_nodes_from(names.numbers)
+    for name, number in names.numbers.items():
+        if other := number.amount.name:
+            graph.add_edge(name, other)
+    for circle in circles(graph):
+        _refuse_circle([*circle, circle[0]], names, findings)
     found: dict[str, Amount] = {}
-    done: set[str] = set()
-    for name in names.numbers:
-        path: list[str] = []
-        while name in names.numbers and name not in done:
-            done.add(name)
-            path.append(name)
-            name = names.numbers[name].amount.name
-        if name in path:
-            _refuse_circle([*path[path.index(name) :], name], names, findings)
-        for each in reversed(path):
-            amount = names.numbers[each].amount
-            if not amount.name:
-                found[each] = amount
-            elif names.find(amount.constant, ("number",), findings) and amount.name in found:
-                found[each] = instead(amount, found[amount.name])
+    for name in (each for each in ends_first(graph) if each in names.numbers):
+        amount = names.numbers[name].amount
+        if not amount.name:
+            found[name] = amount
+        elif names.find(amount.constant, ("number",), findings) and amount.name in found:
+            found[name] = instead(amount, found[amount.name])
     return found
 
 

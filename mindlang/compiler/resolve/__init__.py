@@ -9,7 +9,7 @@ from mindrun.kinds.bodies import BodyKind
 from mindlang.compiler import model
 from mindlang.compiler.diagnostic import Findings, Label
 from mindlang.compiler.expand import expand, numbers
-from mindlang.compiler.hierarchy import check_cycles
+from mindlang.compiler.hierarchy import check_cycles, influence_graph
 from mindlang.compiler.names import Names, gather
 from mindlang.compiler.resolve.curricula import lessons
 from mindlang.compiler.resolve.drives import check_drives
@@ -36,12 +36,13 @@ def resolve(files: Sequence[File], findings: Findings) -> model.Mind | None:
     width = dict.fromkeys(names.of("sensor", "memory"), 1) | {each.name: each.width for each in known_sensors}
     memories, actuators = parts("memory", names, findings), parts("actuator", names, findings)
     known_skills = skills(names, width, findings)
-    check_cycles(known_skills, findings)
+    influences = influence_graph(known_skills)
+    check_cycles(influences, findings)
     body = body_outside(names, findings) if (outside := is_outside(names)) else _body(names, findings)
     robot = RobotFacts(names, width, tick, files[0].source.folder, body, actuators, known_sensors)
     known_tasks = tasks(robot, findings)
     check_outside(known_tasks, known_sensors, actuators, findings)
-    known_lessons = tuple(lessons(names, known_skills, known_tasks, width, findings))
+    known_lessons = tuple(lessons(names, known_skills, influences, known_tasks, width, findings))
     if body and not outside:
         check_drives(body, actuators, findings)
     head = master(files[0], names, findings)
@@ -61,6 +62,7 @@ def resolve(files: Sequence[File], findings: Findings) -> model.Mind | None:
         known_lessons,
         tuple(files),
         written,
+        influences,
         {name: (amount.number, amount.unit, amount.per) for name, amount in values.items()},
         unit,
     )

@@ -7,10 +7,11 @@ from typing import Any, cast
 from mindrun.graph.graph import Need
 from mindrun.kinds.registry import kinds
 from mindrun.numbers.quantity import GENERATIONS, NUMBER, RATIO, Quantity
+from networkx import DiGraph
 
 from mindlang.compiler import model
 from mindlang.compiler.diagnostic import Findings, listed
-from mindlang.compiler.hierarchy import skills_reached
+from mindlang.compiler.hierarchy import below
 from mindlang.compiler.names import Names
 from mindlang.compiler.resolve.kinds import Scope, a_name, make, once, overrides
 from mindlang.compiler.resolve.origin import check_origin
@@ -31,6 +32,7 @@ USING = "using"  # a kind of learner other than the curriculum's
 def lessons(
     names: Names,
     skills: tuple[model.Skill, ...],
+    influences: DiGraph,
     tasks: tuple[model.Task, ...],
     widths: Mapping[str, int],
     findings: Findings,
@@ -44,7 +46,7 @@ def lessons(
         learner = make("curriculum", phrase, Scope(names, None), findings) if phrase else None
         taught = [fact for fact in declaration.facts if isinstance(fact, Teaches)]
         heirs = {fact.skill.text: origin.text for fact in taught if (origin := _origin(fact))}
-        curriculum = _Curriculum(name, learner, names, by_name, hopeless, widths, heirs, findings)
+        curriculum = _Curriculum(name, learner, names, by_name, influences, hopeless, widths, heirs, findings)
         yield from filter(None, (curriculum.lesson(number, fact) for number, fact in enumerate(taught, 1)))
 
 
@@ -60,6 +62,7 @@ class _Curriculum:
     learner: Any
     names: Names
     skills: Mapping[str, model.Skill]
+    influences: DiGraph
     hopeless: Set[str]
     widths: Mapping[str, int]
     heirs: Mapping[str, str]
@@ -79,13 +82,14 @@ class _Curriculum:
         if starts_from:
             found.append(self._find(starts_from, "skill"))
         if found[0]:
-            _check_learns(fact, self.skills, "with" in switches, self.findings)
+            self._check_learns(fact, "with" in switches)
         master = fact.master or fact.skill
         if None not in found:
-            _check_reached(fact, master, self.skills, self.findings)
+            self._check_reached(fact, master)
             if starts_from:
-                taught = self.skills[fact.skill.text]
-                check_origin(starts_from, taught, self.skills, self.widths, self.heirs, self.findings)
+                check_origin(
+                    starts_from, self.skills[fact.skill.text], self.skills, self.widths, self.heirs, self.findings
+                )
         needs = self._needs(fact)
         if learner is None or generations is None or len(self.findings.diagnostics) > before:
             return None
@@ -149,6 +153,32 @@ class _Curriculum:
             return None
         return Need(cast(Any, measure), above)
 
+    def _check_learns(self, fact: Teaches, with_subskills: bool) -> None:
+        """Report a lesson in which nobody learns, or a skill that has no weights of its own."""
+        skill = self.skills[fact.skill.text]
+        if skill.like:
+            message = f"{skill.name} is like {skill.like}, so it has no weights of its own to be taught."
+            self.findings.error(
+                "taught-by-another", fact.skill.span, message, f"Teach {skill.like}: both learn from that."
+            )
+            return
+        taught = below(self.influences, [skill.name]) if with_subskills else {skill.name}
+        functions = [self.skills[name].function for name in taught]
+        if None in functions or any(function.learns for function in functions):
+            return
+        kind = type(skill.function).__name__.lower()
+        hint = f"Leave the lesson out, or make {skill.name} an mlp."
+        message = f"{skill.name} is a {kind}, which does not learn{', and nothing below it does' * with_subskills}."
+        self.findings.error("cannot-learn", fact.skill.span, message, hint)
+
+    def _check_reached(self, fact: Teaches, master: Name) -> None:
+        """Report a learner that the master never influences: nothing that it does would show."""
+        reached = below(self.influences, [master.text])
+        if fact.skill.text not in {each for name in reached for each in (name, self.skills[name].owner)}:
+            hint = f"Let {master.text} or a skill below it influence {fact.skill.text}, or leave under out."
+            message = f"{master.text} has no influence on {fact.skill.text}, which would learn nothing."
+            self.findings.error("out-of-reach", master.span, message, hint)
+
 
 def _origin(fact: Teaches) -> Name | None:
     """The skill with a copy of whose weights a lesson begins."""
@@ -164,29 +194,3 @@ def _check_switches(written: tuple[Argument, ...], findings: Findings) -> None:
         if word and (not isinstance(argument.value, Name) or argument.value.text != word):
             said = f"{argument.key.text} {word}"
             findings.error(said.replace(" ", "-"), argument.span, message, f"Write {said}.")
-
-
-def _check_learns(fact: Teaches, skills: Mapping[str, model.Skill], with_subskills: bool, findings: Findings) -> None:
-    """Report a lesson in which nobody learns, or a skill that has no weights of its own."""
-    if owner := skills[fact.skill.text].like:
-        message = f"{fact.skill.text} is like {owner}, so it has no weights of its own to be taught."
-        findings.error("taught-by-another", fact.skill.span, message, f"Teach {owner}: both learn from that.")
-        return
-    taught = skills_reached(skills, fact.skill.text) if with_subskills else {fact.skill.text}
-    functions = [skills[name].function for name in taught]
-    if None in functions or any(function.learns for function in functions):
-        return
-    skill = skills[fact.skill.text]
-    kind = type(skill.function).__name__.lower()
-    hint = f"Leave the lesson out, or make {skill.name} an mlp."
-    message = f"{skill.name} is a {kind}, which does not learn{', and nothing below it does' * with_subskills}."
-    findings.error("cannot-learn", fact.skill.span, message, hint)
-
-
-def _check_reached(fact: Teaches, master: Name, skills: Mapping[str, model.Skill], findings: Findings) -> None:
-    """Report a learner that the master never influences: nothing that it does would show."""
-    reached = skills_reached(skills, master.text)
-    if fact.skill.text not in {each for name in reached for each in (name, skills[name].owner)}:
-        hint = f"Let {master.text} or a skill below it influence {fact.skill.text}, or leave under out."
-        message = f"{master.text} has no influence on {fact.skill.text}, which would learn nothing."
-        findings.error("out-of-reach", master.span, message, hint)

@@ -4,8 +4,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import fields, replace
 from typing import Any
 
+from networkx import DiGraph
+
 from mindlang.compiler import model
 from mindlang.compiler.diagnostic import Findings, Label, listed
+from mindlang.compiler.hierarchy import circles, ends_first
 from mindlang.compiler.names import Names
 from mindlang.compiler.source import Span
 from mindlang.compiler.syntax import Declaration, Reads
@@ -17,19 +20,14 @@ def alike(
     """Every skill that is like another, `own` are those that are not; one that is not well said has no function."""
     found = dict(own)
     declared = {name: each for name, each in names.declarations("skill") if each.header.like}
-    for name in declared:
-        chain: list[str] = []
-        seen: set[str] = set()
-        while name in declared and name not in found and name not in seen:
-            chain.append(name)
-            seen.add(name)
-            name = _other(declared[name])
-        if name in seen:
-            _report_circle(chain[chain.index(name) :], declared, findings)
-            found |= {each: _unknown(each, declared[each]) for each in chain}
-        for each in () if name in seen else reversed(chain):
-            found[each] = _Likeness(declared[each], found.get(_other(declared[each])), names, widths, findings).skill()
-    return {name: found[name] for name in declared}
+    graph = DiGraph()
+    graph.add_nodes_from(declared)
+    graph.add_edges_from((name, _other(each)) for name, each in declared.items())
+    for circle in circles(graph):
+        _report_circle(circle, declared, findings)
+    for name in (each for each in ends_first(graph) if each in declared):
+        found[name] = _Likeness(declared[name], found.get(_other(declared[name])), names, widths, findings).skill()
+    return {name: found.get(name) or _unknown(name, each) for name, each in declared.items()}
 
 
 def _other(declaration: Declaration) -> str:

@@ -4,11 +4,11 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
-from mindrun.graph.validate import depths_of
 from mindrun.kinds.sensors import Computed
 from mindrun.numbers.expression import Formula
 
 from mindlang.compiler.diagnostic import Findings, Label, a, listed
+from mindlang.compiler.hierarchy import circles, source_graph
 from mindlang.compiler.model import Expression, Number, Part, Reading, Term
 from mindlang.compiler.names import Names
 from mindlang.compiler.resolve.expressions import Visible, resolve
@@ -67,7 +67,7 @@ def sensors(names: Names, findings: Findings) -> tuple[Part[Any], ...]:
         formula = _formula(resolve(at, visible, findings))
         plain[name] = Part(name, Computed(formula), names.table["sensor"][name].header.name.span)
     found = tuple(replace(plain[name], width=widths[name]) for name in names.of("sensor") if name in plain)
-    _refuse_loops({sensor.name: sensor for sensor in found}, findings)
+    _refuse_loops(found, findings)
     _refuse_too_many(found, findings)
     for sensor in found:
         if sensor.name not in formulas and (flaw := sensor.kind.flaw(widths)):
@@ -112,18 +112,12 @@ def _widths(sensors: Mapping[str, Part[Any]], of_one: Iterable[str]) -> dict[str
     return widths
 
 
-def _refuse_loops(sensors: Mapping[str, Part[Any]], findings: Findings) -> None:
+def _refuse_loops(sensors: Sequence[Part[Any]], findings: Findings) -> None:
     """Report sensors that are computed from themselves, each circle once."""
-    ending = depths_of({name: each.kind.sources for name, each in sensors.items()})
-    done: set[str] = set()
-    for name in (name for name in sensors if name not in ending):
-        path: dict[str, None] = {}
-        while name not in done and name not in path:
-            path[name] = None
-            name = next(source for source in sensors[name].kind.sources if source not in ending)
-        if name in path:
-            _loop([*path], name, sensors, findings)
-        done.update(path)
+    for circle in circles(source_graph(sensors)):
+        message = f"A sensor is derived from itself: {' → '.join([*circle, circle[0]])}."
+        span = next(sensor.span for sensor in sensors if sensor.name == circle[0])
+        findings.error("derivative-loop", span, message, "Derive one of them from another sensor.")
 
 
 def _refuse_too_many(sensors: tuple[Part[Any], ...], findings: Findings) -> None:
@@ -131,9 +125,3 @@ def _refuse_too_many(sensors: tuple[Part[Any], ...], findings: Findings) -> None
         widest = max(sensors, key=lambda sensor: sensor.width)
         message = f"With these {widest.width} the mind has {readings} readings."
         findings.error("too-many-readings", widest.span, message, f"A mind takes {MOST_READINGS}: leave some out.")
-
-
-def _loop(chain: list[str], again: str, derived: Mapping[str, Part[Any]], findings: Findings) -> None:
-    path = [*chain[chain.index(again) :], again]
-    message = f"A sensor is derived from itself: {' → '.join(path)}."
-    findings.error("derivative-loop", derived[again].span, message, "Derive one of them from another sensor.")

@@ -1,7 +1,7 @@
 """`mindc edit replace`."""
 
 from mindlang.compiler.diagnostic import listed
-from mindlang.compiler.hierarchy import skills_reached
+from mindlang.compiler.hierarchy import Node, below
 from mindlang.compiler.syntax import Influences
 from mindlang.editing.insertion import instead
 from mindlang.editing.project import EditError, MindChange, Project, Replaced
@@ -41,7 +41,5 @@ def _refuse_other_drives(project: Project, skill: str, new: str) -> None:
 
 
 def _drives(project: Project, skill: str) -> set[str]:
-    skills = {known.name: known for known in project.mind.skills}
-    return {
-        edge.target for name in skills_reached(skills, skill) for edge in skills[name].edges if edge.to == "actuator"
-    }
+    hierarchy, reached = project.mind.hierarchy, below(project.mind.influences, [skill])
+    return {node.name for name in reached for node in hierarchy[Node("skill", name)] if node.noun == "actuator"}

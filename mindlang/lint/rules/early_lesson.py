@@ -7,6 +7,7 @@ lesson begin `from` a skill without weights. `mindc train` teaches these first w
 from collections.abc import Sequence
 
 from mindlang.compiler.diagnostic import Label
+from mindlang.compiler.hierarchy import below
 from mindlang.compiler.model import Lesson
 from mindlang.lint.study import Finding, Found, Study
 from mindlang.lock.status import mismatches
@@ -64,11 +65,13 @@ def check(study: Study) -> Found:
 def _firsts(study: Study, lessons: Sequence[Lesson]) -> dict[str, int]:
     """The place of the first lesson that teaches each skill."""
     found: dict[str, int] = {}
-    seen: set[str] = set()
+    unseen = study.mind.influences.copy()
     for place, lesson in enumerate(lessons):
-        below = study.below([lesson.skill], seen) if lesson.with_subskills else {lesson.skill}
-        seen |= below if lesson.with_subskills else set()
-        for skill in {study.skills[name].owner for name in below} & study.learning:
+        taught = {lesson.skill}
+        if lesson.with_subskills:
+            taught = below(unseen, taught & unseen.nodes)
+            unseen.remove_nodes_from(taught)
+        for skill in {study.skills[name].owner for name in taught} & study.learning:
             found.setdefault(skill, place)
     return found
 

@@ -7,6 +7,7 @@ subskills`; one that has been taught elsewhere and is not to change `stays froze
 from collections.abc import Sequence
 
 from mindlang.compiler.diagnostic import listed
+from mindlang.compiler.hierarchy import below
 from mindlang.compiler.model import Skill
 from mindlang.lint.study import Finding, Found, Study
 
@@ -50,7 +51,7 @@ def check(study: Study) -> Found:
 
 def _taught(study: Study) -> set[str]:
     lessons = study.mind.lessons
-    jointly = study.below(lesson.skill for lesson in lessons if lesson.with_subskills)
+    jointly = below(study.mind.influences, {lesson.skill for lesson in lessons if lesson.with_subskills})
     return {study.skills[name].owner for name in jointly} | {lesson.skill for lesson in lessons}
 
 

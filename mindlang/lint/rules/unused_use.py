@@ -7,7 +7,10 @@ curriculum, no tick, no lock with weights.
 from collections.abc import Iterable
 from pathlib import Path
 
+from networkx import DiGraph
+
 from mindlang.compiler.diagnostic import Fix
+from mindlang.compiler.hierarchy import below
 from mindlang.compiler.syntax import Declaration, File, Tick, Use
 from mindlang.editing.lines import first_line, remove_lines
 from mindlang.lint.study import Finding, Found, Study
@@ -24,7 +27,8 @@ def check(study: Study) -> Found:
     main, *others = study.mind.files
     known = {file.source.path: file for file in others}
     uses = [setting for setting in main.settings if isinstance(setting, Use)]
-    reach = {id(use): _reach(use, known) for use in uses}
+    brings = _brings(known)
+    reach = {id(use): below(brings, {path} & known.keys()) for use in uses for path in [_path(use)]}
     for use in uses:
         shared = {path for other in uses if other is not use for path in reach[id(other)]}
         brought = [known[path] for path in reach[id(use)] - shared]
@@ -35,17 +39,18 @@ def check(study: Study) -> Found:
             yield Finding(use.span, f"Nothing of {use.path} is used.", hint, fix=fix)
 
 
-def _reach(use: Use, known: dict[Path, File]) -> set[Path]:
-    """The files that a line brings, those that the used file uses among them."""
-    found: set[Path] = set()
-    waiting = [use]
-    while waiting:
-        step = waiting.pop()
-        path = (step.span.source.folder / step.path).resolve()
-        if path in known and path not in found:
-            found.add(path)
-            waiting += [setting for setting in known[path].settings if isinstance(setting, Use)]
-    return found
+def _path(use: Use) -> Path:
+    return (use.span.source.folder / use.path).resolve()
+
+
+def _brings(known: dict[Path, File]) -> DiGraph:
+    """The used files, an edge to each that one of them uses."""
+    graph = DiGraph()
+    for path, file in known.items():
+        graph.add_node(path)
+        used = (_path(setting) for setting in file.settings if isinstance(setting, Use))
+        graph.add_edges_from((path, other) for other in used if other in known)
+    return graph
 
 
 def _is_used(study: Study, files: Iterable[File]) -> bool:
