@@ -6,7 +6,7 @@ from collections.abc import Mapping
 import numpy as np
 import pymunk
 from mindrun.graph.graph import Graph, Skill
-from mindrun.kinds.functions import Mlp
+from mindrun.kinds.functions.mlp import Mlp
 from mindrun.numbers.network import matrices
 from mindrun.sim.trace import Trace
 from numpy.typing import NDArray

@@ -1,11 +1,13 @@
 """Small minds for tests, put together by hand."""
 
 from mindrun.graph.graph import Actuator, Edge, Graph, Memory, Program, Sensor, Skill
-from mindrun.kinds.actuators import Gripper, Wheel
-from mindrun.kinds.bodies import Disc
-from mindrun.kinds.functions import Function, Rule
+from mindrun.kinds.actuators.gripper import Gripper
+from mindrun.kinds.actuators.wheel import Wheel
+from mindrun.kinds.bodies.disc import Disc
+from mindrun.kinds.functions.function import Function
+from mindrun.kinds.functions.rule import Rule
 from mindrun.kinds.memory import Cell
-from mindrun.kinds.sensors import Battery
+from mindrun.kinds.sensors.battery import Battery
 
 WHEELS = (Actuator("left_wheel", Wheel("left", 0.5)), Actuator("right_wheel", Wheel("right", 0.5)))
 CLAW = Actuator("claw", Gripper(0.25))

@@ -4,11 +4,17 @@ import math
 import operator
 
 import numpy as np
-from mindrun.kinds.functions import Mlp, Procedure
 from mindrun.kinds.functions.elman import Elman
-from mindrun.kinds.sensors import Average, Bearing, Computed, Derivative, Reading, Sine
+from mindrun.kinds.functions.mlp import Mlp
+from mindrun.kinds.functions.procedure import Procedure
+from mindrun.kinds.sensors.average import Average
+from mindrun.kinds.sensors.bearing import Bearing
 from mindrun.kinds.sensors.clock import Clock
 from mindrun.kinds.sensors.compass import Compass
+from mindrun.kinds.sensors.computed import Computed
+from mindrun.kinds.sensors.derivative import Derivative
+from mindrun.kinds.sensors.reading import Reading
+from mindrun.kinds.sensors.sine import Sine
 from mindrun.numbers.sigmoid import DENOMINATOR, LIMIT, NUMERATOR
 from mindrun.numbers.trigonometry import sine
 

@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 
 from mindrun.graph.graph import Receiver
-from mindrun.kinds.events import EventKind
-from mindrun.kinds.measures import MeasureKind
+from mindrun.kinds.events.event import EventKind
+from mindrun.kinds.measures.measure import MeasureKind
 from mindrun.numbers.expression import Program
 
 from mindlang.breakpoints.robot_events import RobotEvent

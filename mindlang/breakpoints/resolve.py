@@ -5,7 +5,7 @@ from dataclasses import replace
 
 from mindrun.graph.graph import Receiver
 from mindrun.graph.skill_sets import reachable
-from mindrun.kinds.events import EventKind
+from mindrun.kinds.events.event import EventKind
 from mindrun.kinds.registry import kinds
 from mindrun.numbers.expression import Program, leaves
 from mindrun.numbers.quantity import Quantity

@@ -9,7 +9,7 @@ from typing import Any, Protocol
 import numpy as np
 from mindrun.engine.engine import procedure_sources
 from mindrun.engine.think import Hierarchy, hierarchy
-from mindrun.kinds.events import EventKind
+from mindrun.kinds.events.event import EventKind
 from mindrun.numbers.evaluation import OPERATORS
 from mindrun.numbers.expression import Program, fold
 from numpy.typing import NDArray

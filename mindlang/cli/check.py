@@ -91,13 +91,14 @@ def command(files: tuple[str, ...], task: str | None, master: str | None, as_jso
 
 def _note_speeds(compiled: Mapping[str, Compiled]) -> None:
     """Say which robots are so fast that a tick of theirs cannot be simulated whole."""
-    from mindrun.terminal.command_line import command_line
-
-    from mindlang.cli._terminal import talk
-    from mindlang.lint.rules.coarse_tick import farthest_step, simulated_step
+    from mindlang.lint.top_speed import farthest_step, simulated_step
 
     for file, each in compiled.items():
         if each.graph and (far := farthest_step(each.graph))[0] > (most := simulated_step(each.graph)):
+            from mindrun.terminal.command_line import command_line
+
+            from mindlang.cli._terminal import talk
+
             moves = f"its robot moves {far[0]:.3g} units in a tick of {far[1]} at full thrust"
             hint = f"{command_line('mindc', 'lint', Path(file))} says what helps"
             talk.print(f"note: {file}: {moves}; beside a wall {most:.3g} of them are simulated; {hint}", markup=False)

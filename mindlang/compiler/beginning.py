@@ -12,10 +12,10 @@ from math import cos, hypot, sin
 from typing import Any, Literal
 
 from mindrun.graph.graph import Start
-from mindrun.kinds.bodies import BodyKind
-from mindrun.kinds.scenes import TOUCHING_UNITS, SceneKind
-from mindrun.kinds.things import ThingKind
+from mindrun.kinds.bodies.body import BodyKind
+from mindrun.kinds.scenes.scene import TOUCHING_UNITS, SceneKind
 from mindrun.kinds.things.rectangle import Rectangle
+from mindrun.kinds.things.thing import ThingKind
 from mindrun.numbers.quantity import Place
 
 from mindlang.compiler.model import Part

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from mindrun.kinds.things import MOVES, STAYS
+from mindrun.kinds.things.thing import MOVES, STAYS
 
 from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.parse import parse

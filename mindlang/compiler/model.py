@@ -6,16 +6,16 @@ from functools import cached_property
 from typing import Generic, TypeVar
 
 from mindrun.graph.graph import Failure, Need, Receiver, Start, Variation
-from mindrun.kinds.actuators import ActuatorKind
-from mindrun.kinds.bodies import BodyKind
-from mindrun.kinds.events import EventKind
-from mindrun.kinds.functions import Function
+from mindrun.kinds.actuators.actuator import ActuatorKind
+from mindrun.kinds.bodies.body import BodyKind
+from mindrun.kinds.events.event import EventKind
+from mindrun.kinds.functions.function import Function
 from mindrun.kinds.learners import Learner
-from mindrun.kinds.measures import MeasureKind
+from mindrun.kinds.measures.measure import MeasureKind
 from mindrun.kinds.memory import Cell
-from mindrun.kinds.scenes import SceneKind
-from mindrun.kinds.sensors import SensorKind
-from mindrun.kinds.things import ThingKind
+from mindrun.kinds.scenes.scene import SceneKind
+from mindrun.kinds.sensors.sensor import SensorKind
+from mindrun.kinds.things.thing import ThingKind
 from networkx import DiGraph
 
 from mindlang.compiler.hierarchy import hierarchy

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 from math import cos, hypot, inf, sin
 from typing import NamedTuple
 
-from mindrun.kinds.scenes import TOUCHING_UNITS
+from mindrun.kinds.scenes.scene import TOUCHING_UNITS
 from mindrun.kinds.things.rectangle import Rectangle
 from mindrun.numbers.quantity import Place
 

@@ -7,7 +7,7 @@ from typing import TypeVar
 
 from mindrun.errors import MindError
 from mindrun.graph.graph import Graph
-from mindrun.kinds.functions import Function
+from mindrun.kinds.functions.function import Function
 from mindrun.kinds.registry import kinds
 
 from mindlang.compiler.compile import Compiled

@@ -7,10 +7,10 @@ from math import cos, hypot, inf, pi, sin
 from random import Random
 
 from mindrun.graph.beginning import meets_robot
-from mindrun.kinds.bodies import BodyKind
-from mindrun.kinds.scenes import SceneKind
-from mindrun.kinds.things import ThingKind
+from mindrun.kinds.bodies.body import BodyKind
+from mindrun.kinds.scenes.scene import SceneKind
 from mindrun.kinds.things.rectangle import Rectangle
+from mindrun.kinds.things.thing import ThingKind
 from mindrun.numbers.quantity import Place, Span
 
 from mindlang.compiler.model import Task

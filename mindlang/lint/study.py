@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from mindrun.graph.graph import Graph, Lesson
-from mindrun.kinds.events import EventKind
-from mindrun.kinds.sensors import SensorKind
+from mindrun.kinds.events.event import EventKind
+from mindrun.kinds.sensors.sensor import SensorKind
 
 from mindlang.compiler.compile import Compiled
 from mindlang.compiler.diagnostic import Fix, Label

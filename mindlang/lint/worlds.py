@@ -3,8 +3,8 @@
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from mindrun.kinds.sensors import Physical
-from mindrun.kinds.things import STAYS
+from mindrun.kinds.sensors.sensor import Physical
+from mindrun.kinds.things.thing import STAYS
 
 from mindlang.compiler.model import Expression, Reward, Task
 from mindlang.lint.intervals import UNIT_INTERVAL, Interval, interval

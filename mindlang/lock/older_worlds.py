@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
-from mindrun.kinds.things import MOVES
+from mindrun.kinds.things.thing import MOVES
 
 ONE_ANYWHERE = {"at": [], "count": 1}  # what every thing was before there was a word for it
 EVENTS = {"reached": "reach", "delivered": "delivery"}

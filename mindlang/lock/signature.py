@@ -6,7 +6,7 @@ from typing import Any
 
 from mindrun.graph.graph import Graph, Skill
 from mindrun.kinds.registry import arguments, names
-from mindrun.kinds.sensors import SensorKind
+from mindrun.kinds.sensors.sensor import SensorKind
 
 from mindlang.lock import Entry, Signature
 

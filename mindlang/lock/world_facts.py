@@ -20,7 +20,7 @@ from mindrun.graph.skill_sets import genes, reachable
 from mindrun.kinds.environment_module import module_beside
 from mindrun.kinds.functions.procedure import module_source
 from mindrun.kinds.registry import names
-from mindrun.kinds.sensors import SensorKind
+from mindrun.kinds.sensors.sensor import SensorKind
 from mindrun.numbers.expression import leaves
 
 from mindlang.compiler.drawing import phrase

@@ -1,7 +1,7 @@
 """The robot of a run: its body, its claw, its lamps, the wheels of a car, and where its thrusters push."""
 
 import numpy as np
-from mindrun.kinds.bodies import BodyKind
+from mindrun.kinds.bodies.body import BodyKind
 
 from mindlang.pictures.canvas import Canvas, rectangle
 from mindlang.pictures.pose import Floats, placed

@@ -6,7 +6,7 @@ from itertools import cycle
 import numpy as np
 from mindrun.graph.graph import Thing
 from mindrun.kinds.registry import names
-from mindrun.kinds.scenes import SceneKind
+from mindrun.kinds.scenes.scene import SceneKind
 from numpy.typing import NDArray
 
 from mindlang.pictures.canvas import Canvas, rectangle, square

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from mindrun.graph.graph import Edge, Gate, Program, Skill
 from mindrun.graph.weights import Weights
-from mindrun.kinds.functions import Mlp
+from mindrun.kinds.functions.mlp import Mlp
 from numpy.typing import NDArray
 
 from mindlang.proofs.batch import values

@@ -4,7 +4,7 @@ from dataclasses import replace
 from typing import Any
 
 from mindrun.graph.graph import Sensor
-from mindrun.kinds.sensors import SensorKind
+from mindrun.kinds.sensors.sensor import SensorKind
 from mindrun.numbers.quantity import fits
 from mindrun.robot.driver_support import METRES
 

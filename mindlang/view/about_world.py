@@ -6,7 +6,7 @@ from typing import Any
 
 from mindrun.graph.graph import Graph, Task
 from mindrun.kinds.registry import names
-from mindrun.kinds.things import ThingKind
+from mindrun.kinds.things.thing import ThingKind
 from mindrun.sim.task_rows import things_of
 
 from mindlang.pictures.scene import half_sides, thing_colours

@@ -14,7 +14,7 @@ from mindrun.engine.engine import Engine
 from mindrun.graph.graph import Edge, Gate, Graph, Program, Sensor
 from mindrun.graph.policy import Policy
 from mindrun.graph.weights import genes
-from mindrun.kinds.sensors import Battery
+from mindrun.kinds.sensors.battery import Battery
 
 from mindlang.compiler.compile import load
 from mindlang.editing.apply import apply_edit

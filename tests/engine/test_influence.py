@@ -9,10 +9,12 @@ from mindrun.errors import MindError, ReadingsError, WeightsError
 from mindrun.graph.graph import Edge, Sensor
 from mindrun.graph.policy import Policy
 from mindrun.graph.weights import genes
-from mindrun.kinds.functions import Mlp
+from mindrun.kinds.functions.mlp import Mlp
 from mindrun.kinds.memory import Cell
-from mindrun.kinds.sensors import Battery, Derivative, Sine
+from mindrun.kinds.sensors.battery import Battery
+from mindrun.kinds.sensors.derivative import Derivative
 from mindrun.kinds.sensors.sensor import Scene
+from mindrun.kinds.sensors.sine import Sine
 from mindrun.numbers.network import matrices
 
 from tests.hierarchies import doubling

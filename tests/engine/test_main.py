@@ -13,7 +13,8 @@ from mindrun.graph.bundle import Bundle, write_bundle
 from mindrun.graph.graph import Edge
 from mindrun.graph.policy import Policy
 from mindrun.graph.weights import genes
-from mindrun.kinds.functions import Mlp, Procedure
+from mindrun.kinds.functions.mlp import Mlp
+from mindrun.kinds.functions.procedure import Procedure
 from mindrun.kinds.memory import Cell
 
 from mindlang.compiler.compile import load

@@ -6,7 +6,7 @@ import pytest
 from mindrun.engine.engine import Engine, procedure_sources
 from mindrun.errors import ProcedureError
 from mindrun.graph.policy import Policy
-from mindrun.kinds.functions import Procedure
+from mindrun.kinds.functions.procedure import Procedure
 
 from tests.minds import mind, skill
 

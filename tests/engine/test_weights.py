@@ -10,7 +10,7 @@ from mindrun.errors import WeightsError
 from mindrun.files.npy import to_npy
 from mindrun.graph.graph import Graph, Lesson
 from mindrun.graph.weights import below, genes, learners, parts, reachable, read_weights, weights_of
-from mindrun.kinds.functions import Mlp
+from mindrun.kinds.functions.mlp import Mlp
 from mindrun.kinds.learners import Genetic
 
 from tests.hierarchies import random_graph

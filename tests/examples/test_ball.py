@@ -4,7 +4,7 @@ import json
 
 import pytest
 from mindrun.graph.graph import Sensor
-from mindrun.kinds.sensors import Physical
+from mindrun.kinds.sensors.sensor import Physical
 
 from mindlang.compiler.compile import load
 from tests.calling import Call

@@ -4,12 +4,15 @@ from itertools import pairwise
 
 import pytest
 from mindrun.graph.graph import Edge, End, Graph, Reward, Skill
-from mindrun.kinds.functions import Mlp, Rule
+from mindrun.kinds.functions.mlp import Mlp
+from mindrun.kinds.functions.rule import Rule
 from mindrun.kinds.learners import Genetic
-from mindrun.kinds.measures import Change, Forward
-from mindrun.kinds.scenes import Arena
-from mindrun.kinds.sensors import Sine
-from mindrun.kinds.things import Item, Obstacle
+from mindrun.kinds.measures.change import Change
+from mindrun.kinds.measures.forward import Forward
+from mindrun.kinds.scenes.arena import Arena
+from mindrun.kinds.sensors.sine import Sine
+from mindrun.kinds.things.item import Item
+from mindrun.kinds.things.obstacle import Obstacle
 from mindrun.numbers.quantity import Span
 
 from mindlang.compiler.compile import load

@@ -6,7 +6,7 @@ from pathlib import Path
 from hypothesis import given
 from hypothesis import strategies as st
 from mindrun.graph.policy import Policy
-from mindrun.kinds.things import Map
+from mindrun.kinds.things.map import Map
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 

@@ -6,8 +6,8 @@ import pytest
 from mindrun.graph.graph import Graph
 from mindrun.kinds.learners import EvolutionStrategy, Genetic, Restarting
 from mindrun.kinds.registry import arguments, kinds
-from mindrun.kinds.sensors import RangeFinder
-from mindrun.kinds.things import Obstacle
+from mindrun.kinds.sensors.range_finder import RangeFinder
+from mindrun.kinds.things.obstacle import Obstacle
 from mindrun.numbers.quantity import Span
 
 from mindlang.compiler.compile import load

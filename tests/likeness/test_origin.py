@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from mindrun.kinds.functions import Mlp
 from mindrun.kinds.functions.elman import Elman
 from mindrun.kinds.functions.function import Function
+from mindrun.kinds.functions.mlp import Mlp
 from mindrun.train import RunError
 
 from mindlang.compiler.counterparts import counterparts

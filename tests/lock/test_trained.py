@@ -11,8 +11,9 @@ from mindrun.engine.engine import Engine
 from mindrun.graph.graph import Edge, Graph, Sensor
 from mindrun.graph.policy import Policy
 from mindrun.graph.weights import genes
-from mindrun.kinds.functions import Mlp, Procedure
-from mindrun.kinds.sensors import RangeFinder
+from mindrun.kinds.functions.mlp import Mlp
+from mindrun.kinds.functions.procedure import Procedure
+from mindrun.kinds.sensors.range_finder import RangeFinder
 
 from mindlang.lock import LockError, Taught, read_lock
 from mindlang.lock.arrange import arrange

@@ -10,7 +10,7 @@ from mindrun.kinds.actuators.action import Action
 from mindrun.kinds.actuators.choice import Choice
 from mindrun.kinds.events.its_end import ItsEnd
 from mindrun.kinds.measures.its_reward import ItsReward
-from mindrun.kinds.scenes import Gymnasium
+from mindrun.kinds.scenes.gymnasium import Gymnasium
 from mindrun.sim.outside.rollout import EnvironmentRollout
 
 from mindlang.compiler.compile import Compiled, compile_source

@@ -7,9 +7,9 @@ from importlib import import_module
 from pathlib import Path
 
 import pytest
-from mindrun.kinds.functions import Function
+from mindrun.kinds.functions.function import Function
 from mindrun.kinds.registry import arguments, bases, kinds
-from mindrun.kinds.sensors import SensorKind
+from mindrun.kinds.sensors.sensor import SensorKind
 from mindrun.numbers.quantity import THING
 from mindrun.sim.codes import ACTUATOR_CODES, EVENT_CODES, MEASURE_CODES, THING_CODES
 

@@ -6,9 +6,10 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from mindrun.graph.graph import Edge, Graph, Sensor, Skill
 from mindrun.graph.weights import Weights
-from mindrun.kinds.functions import Mlp, Procedure
+from mindrun.kinds.functions.mlp import Mlp
+from mindrun.kinds.functions.procedure import Procedure
 from mindrun.kinds.memory import Cell
-from mindrun.kinds.sensors import RangeFinder
+from mindrun.kinds.sensors.range_finder import RangeFinder
 
 from mindlang.proofs.recorded import Recorded, Undriven
 from tests.hierarchies import doubling

@@ -14,7 +14,7 @@ from mindrun.engine.think import values as really_sent
 from mindrun.graph.graph import Edge, Graph, Skill
 from mindrun.graph.policy import Policy
 from mindrun.graph.weights import Weights, genes, reachable
-from mindrun.kinds.functions import Mlp
+from mindrun.kinds.functions.mlp import Mlp
 from mindrun.numbers.sigmoid import sigmoid
 
 from mindlang.compiler.compile import load

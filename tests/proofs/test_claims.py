@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from mindrun.graph.graph import Graph
 from mindrun.graph.weights import genes
-from mindrun.kinds.functions import Mlp, Procedure
+from mindrun.kinds.functions.mlp import Mlp
+from mindrun.kinds.functions.procedure import Procedure
 
 from mindlang.proofs import silence_search
 from mindlang.proofs.branch_and_bound import readings_to_try

@@ -6,7 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from mindrun.graph.graph import Edge, Graph, Program, Skill
 from mindrun.graph.weights import NO_WEIGHTS, genes
-from mindrun.kinds.functions import Mlp, Procedure
+from mindrun.kinds.functions.mlp import Mlp
+from mindrun.kinds.functions.procedure import Procedure
 
 from mindlang.proofs import branch_and_bound
 from mindlang.proofs.batch import values

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from mindrun.graph.graph import Edge, Graph, Skill
-from mindrun.kinds.functions import Mlp
+from mindrun.kinds.functions.mlp import Mlp
 
 from mindlang.proofs.leak import leaks
 from mindlang.proofs.paths import MAX_COUNTED_PATHS, Way, Ways, paths, ways

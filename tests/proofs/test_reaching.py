@@ -7,7 +7,8 @@ from hypothesis import strategies as st
 from mindrun.engine.engine import Engine
 from mindrun.graph.graph import Edge, Graph, Program, Skill
 from mindrun.graph.policy import Policy
-from mindrun.kinds.functions import Mlp, Procedure
+from mindrun.kinds.functions.mlp import Mlp
+from mindrun.kinds.functions.procedure import Procedure
 
 from mindlang.proofs import joint, reach
 from mindlang.proofs.batch import think

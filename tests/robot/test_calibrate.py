@@ -3,9 +3,9 @@
 import pytest
 from mindrun.cli.tools.calibrate import lines, reading_statistics
 from mindrun.graph.wiring import SensorWire
-from mindrun.kinds.sensors import Inertial
 from mindrun.kinds.sensors.compass import Compass
 from mindrun.kinds.sensors.distance import Distance
+from mindrun.kinds.sensors.inertial import Inertial
 from mindrun.robot.sampling import Sample
 
 from tests.robot.faults import Scripted

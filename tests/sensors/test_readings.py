@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from mindrun.graph.graph import Graph, Reward, Sensor
 from mindrun.graph.policy import Policy
 from mindrun.kinds.registry import kinds
-from mindrun.kinds.sensors import Bearing, Physical, SensorKind
+from mindrun.kinds.sensors.bearing import Bearing
 from mindrun.kinds.sensors.bumper import Bumper
 from mindrun.kinds.sensors.clock import Clock
 from mindrun.kinds.sensors.distance import Distance
@@ -21,6 +21,7 @@ from mindrun.kinds.sensors.floor import Floor
 from mindrun.kinds.sensors.light import Light
 from mindrun.kinds.sensors.odometer import Odometer
 from mindrun.kinds.sensors.position import Position
+from mindrun.kinds.sensors.sensor import Physical, SensorKind
 from mindrun.kinds.sensors.speed import Speed
 from mindrun.kinds.sensors.turn_rate import TurnRate
 from mindrun.numbers.arithmetic import DISTANCE, LOOSE_ROWS, THING_ROWS

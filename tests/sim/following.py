@@ -6,7 +6,7 @@ from collections.abc import Mapping
 import numpy as np
 from mindrun.engine.engine import Engine
 from mindrun.graph.graph import Graph
-from mindrun.kinds.sensors import Physical
+from mindrun.kinds.sensors.sensor import Physical
 from mindrun.numbers.quantity import Span
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import Moment, trace

@@ -2,7 +2,10 @@
 
 import math
 
-from mindrun.kinds.bodies import Box, Car, Disc, Holonomic
+from mindrun.kinds.bodies.box import Box
+from mindrun.kinds.bodies.car import Car
+from mindrun.kinds.bodies.disc import Disc
+from mindrun.kinds.bodies.holonomic import Holonomic
 
 
 def sides_of(body):

@@ -6,7 +6,9 @@ from collections import deque
 import numpy as np
 import pymunk
 from mindrun.kinds import actuators, events, measures, scenes, sensors, things
-from mindrun.kinds.bodies import Car, Disc, Holonomic
+from mindrun.kinds.bodies.car import Car
+from mindrun.kinds.bodies.disc import Disc
+from mindrun.kinds.bodies.holonomic import Holonomic
 from mindrun.kinds.sensors.compass import Compass
 from mindrun.numbers.trigonometry import cosine, sine
 

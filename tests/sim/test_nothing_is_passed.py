@@ -10,7 +10,7 @@ import pytest
 from mindrun.engine.engine import Engine
 from mindrun.graph.graph import Start, Thing
 from mindrun.graph.policy import Policy
-from mindrun.kinds.things import Map
+from mindrun.kinds.things.map import Map
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.task_rows import things_of
 from mindrun.sim.trace import trace

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from mindrun.graph.graph import Graph
 from mindrun.graph.policy import Policy
-from mindrun.kinds.things import OUTCOMES
+from mindrun.kinds.things.thing import OUTCOMES
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import Moment, trace
 

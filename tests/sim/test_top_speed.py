@@ -10,7 +10,7 @@ from mindrun.sim.rollout import Rollout
 from mindrun.sim.strides import MOST_STRIDES, STRIDE_SHARE
 from mindrun.sim.trace import trace
 
-from mindlang.lint.rules.coarse_tick import step_of
+from mindlang.lint.top_speed import step_of
 from tests.calling import Call
 from tests.sim.minds import compile_text
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass, fields, is_dataclass, replace
 from functools import cache
 from typing import Any
 
-from mindrun.kinds.registry import arguments, kinds
+from mindrun.kinds.registry import arguments, find_kind, kinds
 from mindrun.numbers.quantity import Quantity
 
 from mindlang.compiler.expand.numbers import instead
@@ -89,7 +89,8 @@ class _Writer:
             case Expression(terms, span):
                 return Expression(tuple(self._term(term) for term in terms), span)
             case Phrase(kind, written, span):
-                classes = [cls for name, cls in kinds(noun).items() if name == kind.text]
+                cls = find_kind(noun, kind.text) if written else None
+                classes = [cls] if cls else []
                 return Phrase(kind, tuple(self._argument(each, classes) for each in written), span)
             case Argument():
                 return self._argument(node, kinds(noun).values())
@@ -97,8 +98,8 @@ class _Writer:
                 return tuple(self.node(part, noun) for part in node)
             case _ if is_dataclass(node):
                 of = node.noun.text if isinstance(node, Header) else NOUNS.get(type(node), noun)
-                cls: Any = type(node)
-                return cls(*[self.node(getattr(node, name), of) for name in _fields(cls)])
+                line: Any = type(node)
+                return line(*[self.node(getattr(node, name), of) for name in _fields(line)])
         return node
 
     def _term(self, term: Term) -> Term:

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import TypeVar
 
-from mindrun.kinds.bodies import BodyKind
+from mindrun.kinds.bodies.body import BodyKind
 
 from mindlang.compiler import model
 from mindlang.compiler.diagnostic import Findings, Label

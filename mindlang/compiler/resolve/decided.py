@@ -2,8 +2,8 @@
 
 from collections.abc import Iterable
 
-from mindrun.kinds.events import EventKind
-from mindrun.kinds.sensors import SensorKind
+from mindrun.kinds.events.event import EventKind
+from mindrun.kinds.sensors.sensor import SensorKind
 
 from mindlang.compiler.beginning import Beginning
 from mindlang.compiler.diagnostic import Findings, Label

@@ -2,8 +2,8 @@
 
 from collections.abc import Sequence
 
-from mindrun.kinds.actuators import ActuatorKind
-from mindrun.kinds.bodies import BodyKind
+from mindrun.kinds.actuators.actuator import ActuatorKind
+from mindrun.kinds.bodies.body import BodyKind
 from mindrun.kinds.registry import kinds, names
 
 from mindlang.compiler.diagnostic import Findings, Label, a, listed

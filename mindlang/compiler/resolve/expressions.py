@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Set
 from dataclasses import dataclass
 
-from mindrun.kinds.registry import kinds
+from mindrun.kinds.registry import find_kind, kinds
 from mindrun.numbers.quantity import Quantity
 
 from mindlang.compiler import model, syntax
@@ -73,7 +73,7 @@ def _term(term: syntax.Term, visible: Visible, findings: Findings) -> model.Term
             return _reading(term, visible, findings)
         case Phrase(arguments=()) if term.kind.text in visible.commands:
             return model.Command(term.kind.text, term.span)
-        case Phrase() if visible.measures and term.kind.text in kinds("measure"):
+        case Phrase() if visible.measures and find_kind("measure", term.kind.text):
             measure = make("measure", term, visible.measures, findings)
             return model.Measured(measure, term.span) if measure else None
     _unknown(term, visible, findings)

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from mindrun.kinds.registry import Argument as Parameter
-from mindrun.kinds.registry import arguments, kinds
+from mindrun.kinds.registry import arguments, find_kind, kinds
 from mindrun.kinds.things.about import AboutThing
 from mindrun.numbers.quantity import SLOT, Quantity, Reference
 
@@ -40,7 +40,7 @@ class Scope:
 
 def make(noun: str, phrase: Phrase, scope: Scope, findings: Findings) -> Any:
     """The kind that a phrase names, with its arguments, or None after reporting what is wrong with it."""
-    cls = kinds(noun).get(phrase.kind.text)
+    cls = find_kind(noun, phrase.kind.text)
     if cls is None:
         message = f"There is no kind of {USER_NOUNS.get(noun, noun)} called {phrase.kind.text}."
         findings.error("unknown-kind", phrase.kind.span, message, _known_kinds(noun, phrase.kind.text, scope))
@@ -167,7 +167,7 @@ def _check(noun: str, phrase: Phrase, parameter: Parameter, name: Name, scope: S
     assert isinstance(type_, Reference)
     match type_.noun:
         case "thing":
-            _check_thing(name, about(noun, phrase.kind.text, key), phrase.kind.text, scope, findings)
+            _check_thing(name, noun, phrase.kind.text, key, scope, findings)
         case "sensor":
             scope.names.find(name, ("sensor", "memory"), findings)
         case "environment" | "name of a part of an observation or an action":
@@ -183,18 +183,25 @@ def _check(noun: str, phrase: Phrase, parameter: Parameter, name: Name, scope: S
 
 def about(noun: str, kind: str, argument: str = "of") -> Set[str]:
     """The kinds of things that an argument of a kind can name."""
-    cls = kinds(noun).get(kind, AboutThing)
+    cls = find_kind(noun, kind) or AboutThing
     return {name for name, thing in kinds("content").items() if cls.accepts(argument, thing)}
 
 
-def _check_thing(name: Name, about: Set[str], kind: str, scope: Scope, findings: Findings) -> None:
+def _check_thing(name: Name, noun: str, kind: str, key: str, scope: Scope, findings: Findings) -> None:
     if scope.things is None:
         return
     if name.text not in scope.things:
-        add = f"Add contains {name.text} is {listed(sorted(about))} to the task."
+        add = f"Add contains {name.text} is {listed(sorted(about(noun, kind, key)))} to the task."
         hint = findings.suggest(name.text, scope.things) or add
         findings.error("unknown-thing", name.span, f"There is nothing called {name.text} in {scope.place}.", hint)
-    elif not scope.things[name.text] & about and scope.things[name.text] <= set(kinds("content")):
+        return
+    cls, there = find_kind(noun, kind) or AboutThing, [find_kind("content", each) for each in scope.things[name.text]]
+    if all(there) and not any(cls.accepts(key, thing) for thing in there if thing):
         is_ = listed(a(kind) for kind in sorted(scope.things[name.text]))
-        hint = f"{name.text} is {is_}; {kind} is about {listed(a(kind) for kind in sorted(about))}."
-        findings.error("unfit-thing", name.span, f"{kind} cannot be about {name.text}.", hint)
+        known = listed(a(each) for each in sorted(about(noun, kind, key)))
+        findings.error(
+            "unfit-thing",
+            name.span,
+            f"{kind} cannot be about {name.text}.",
+            f"{name.text} is {is_}; {kind} is about {known}.",
+        )

@@ -7,7 +7,7 @@ from typing import Any
 
 from mindrun.errors import reason
 from mindrun.files.regular_files import read_regular
-from mindrun.kinds.scenes import SceneKind
+from mindrun.kinds.scenes.scene import SceneKind
 from mindrun.kinds.things.map import FLOOR, WALL
 from mindrun.numbers.quantity import Place
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from mindrun.kinds.functions import Function
+from mindrun.kinds.functions.function import Function
 
 from mindlang.compiler import model
 from mindlang.compiler.counterparts import counterparts

@@ -4,9 +4,10 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from mindrun.errors import MindError
-from mindrun.kinds.bodies import BodyKind, Disc
+from mindrun.kinds.bodies.body import BodyKind
+from mindrun.kinds.bodies.disc import Disc
 from mindrun.kinds.registry import names as kind_names
-from mindrun.kinds.sensors import Physical
+from mindrun.kinds.sensors.sensor import Physical
 
 from mindlang.compiler import model
 from mindlang.compiler.diagnostic import Findings, a

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
-from mindrun.kinds.sensors import Computed
+from mindrun.kinds.sensors.computed import Computed
 from mindrun.numbers.expression import Formula
 
 from mindlang.compiler.diagnostic import Findings, Label, a, listed

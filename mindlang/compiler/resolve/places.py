@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from mindrun.graph.graph import Start
-from mindrun.kinds.scenes import SceneKind
+from mindrun.kinds.scenes.scene import SceneKind
 from mindrun.kinds.things.thing import MAX_THINGS
 from mindrun.numbers.quantity import ANGLE, COORDINATE, Place
 

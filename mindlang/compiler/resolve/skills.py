@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from mindrun.graph.graph import Receiver
-from mindrun.kinds.functions import Function
+from mindrun.kinds.functions.function import Function
 from mindrun.numbers.quantity import RATIO
 
 from mindlang.compiler import model, syntax

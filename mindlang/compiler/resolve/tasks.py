@@ -6,10 +6,9 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from mindrun.kinds.actuators.gripper import REACH_UNITS
-from mindrun.kinds.bodies import BodyKind
-from mindrun.kinds.scenes import SceneKind
-from mindrun.kinds.things import ThingKind
-from mindrun.kinds.things.thing import MAX_OBSTACLES
+from mindrun.kinds.bodies.body import BodyKind
+from mindrun.kinds.scenes.scene import SceneKind
+from mindrun.kinds.things.thing import MAX_OBSTACLES, ThingKind
 from mindrun.numbers.quantity import SECONDS, TICKS, Quantity
 
 from mindlang.compiler import model

@@ -6,7 +6,7 @@ A holonomic body moves in the directions in which thrusters push it: where all p
 
 from itertools import combinations
 
-from mindrun.kinds.actuators import ActuatorKind
+from mindrun.kinds.actuators.actuator import ActuatorKind
 
 from mindlang.compiler.model import Part
 from mindlang.lint.study import Finding, Found, Study

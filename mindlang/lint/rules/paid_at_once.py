@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from math import pi
 
-from mindrun.kinds.events import EventKind
+from mindrun.kinds.events.event import EventKind
 
 from mindlang.compiler.beginning import Beginning, beginning
 from mindlang.compiler.model import Task

@@ -4,7 +4,7 @@ No sensor tells the robot of it, and no reward, event or count depends on it, so
 Obstacles are of use by standing in the way, a power by charging the battery, and a zone by taking the task's items.
 """
 
-from mindrun.kinds.things import ThingKind
+from mindrun.kinds.things.thing import ThingKind
 
 from mindlang.compiler.diagnostic import Fix
 from mindlang.compiler.source import Source, Span

@@ -6,7 +6,7 @@ follow. Lead the way around it, place by place.
 
 from collections.abc import Iterator
 
-from mindrun.kinds.things import ThingKind
+from mindrun.kinds.things.thing import ThingKind
 from mindrun.numbers.quantity import Place
 
 from mindlang.compiler.diagnostic import Label

@@ -4,7 +4,7 @@ from dataclasses import fields
 from typing import Any
 
 from mindrun.kinds.registry import kinds
-from mindrun.kinds.things import MOVES, STAYS
+from mindrun.kinds.things.thing import MOVES, STAYS
 
 
 def migrate_graph(graph: Any) -> Any:

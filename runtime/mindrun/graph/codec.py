@@ -7,7 +7,7 @@ from types import NoneType, UnionType
 from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_type_hints
 
 from mindrun.errors import MindError
-from mindrun.kinds.registry import bases, kinds, names
+from mindrun.kinds.registry import bases, find_kind, names
 from mindrun.numbers.quantity import Quantity, Reference, fits
 
 PLAIN = (bool, int, float, str)
@@ -96,10 +96,11 @@ class _Decoder:
         """A kind of a noun; another noun may have one of the same name."""
         data = self.prepare(noun, data) if isinstance(data, Mapping) else {}
         name = data.get("is")
-        if not isinstance(name, str) or name not in kinds(noun):
+        cls = find_kind(noun, name) if isinstance(name, str) else None
+        if cls is None:
             raise CodecError(f"{where} is {name!r:.60}, which is no {noun} of this mindrun", unknown=True)
         try:
-            return self.fields(kinds(noun)[name], data, where)
+            return self.fields(cls, data, where)
         except CodecError:
             raise
         except (MindError, ValueError) as error:

@@ -2,7 +2,7 @@
 
 from mindrun.graph.graph import Graph, Task
 from mindrun.graph.measured import with_sources
-from mindrun.kinds.things import STAYS
+from mindrun.kinds.things.thing import STAYS
 from mindrun.numbers.expression import leaves
 
 

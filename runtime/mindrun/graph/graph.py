@@ -3,17 +3,17 @@
 from dataclasses import dataclass
 from typing import Annotated, Literal
 
-from mindrun.kinds.actuators import ActuatorKind
+from mindrun.kinds.actuators.actuator import ActuatorKind
 from mindrun.kinds.actuators.gripper import REACH_UNITS
-from mindrun.kinds.bodies import BodyKind
-from mindrun.kinds.events import EventKind
-from mindrun.kinds.functions import Function
+from mindrun.kinds.bodies.body import BodyKind
+from mindrun.kinds.events.event import EventKind
+from mindrun.kinds.functions.function import Function
 from mindrun.kinds.learners import Learner
-from mindrun.kinds.measures import MeasureKind
+from mindrun.kinds.measures.measure import MeasureKind
 from mindrun.kinds.memory import Cell
-from mindrun.kinds.scenes import SceneKind
-from mindrun.kinds.sensors import SensorKind
-from mindrun.kinds.things import ThingKind
+from mindrun.kinds.scenes.scene import SceneKind
+from mindrun.kinds.sensors.sensor import SensorKind
+from mindrun.kinds.things.thing import ThingKind
 from mindrun.kinds.variation import Failure as Failure
 from mindrun.kinds.variation import Variation as Variation
 from mindrun.numbers.expression import Program as Program

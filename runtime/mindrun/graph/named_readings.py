@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from mindrun.errors import ReadingsError
 from mindrun.graph.graph import Graph, Sensor
-from mindrun.kinds.sensors import Physical
+from mindrun.kinds.sensors.sensor import Physical
 from mindrun.nearest_name import nearest
 
 if TYPE_CHECKING:

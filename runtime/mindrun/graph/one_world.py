@@ -3,7 +3,7 @@
 from mindrun.graph.graph import Graph, Task
 from mindrun.graph.measured import measured_in_world
 from mindrun.graph.skill_sets import reachable
-from mindrun.kinds.things import MOVES
+from mindrun.kinds.things.thing import MOVES
 
 ROUGH = ("noise", "lost", "slip")  # arguments of sensors and actuators of which something is drawn in every tick
 

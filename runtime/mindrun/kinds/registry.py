@@ -1,7 +1,8 @@
 """Kinds of the language, found by name: frozen dataclasses whose fields are their `.mind` arguments."""
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import MISSING, dataclass, fields
+from functools import cache
 from importlib import import_module
 from pkgutil import iter_modules
 from typing import Annotated, Any, Literal, TypeVar, get_args, get_origin, get_type_hints
@@ -10,6 +11,13 @@ from mindrun.numbers.quantity import SLOT, Extent, Place, Quantity, Reference, S
 
 T = TypeVar("T")
 
+ROOMS = {  # where the kinds of a noun stand: a module for each, of its name, or one for all
+    "sensor": "mindrun.kinds.sensors", "skill": "mindrun.kinds.functions", "actuator": "mindrun.kinds.actuators",
+    "content": "mindrun.kinds.things", "event": "mindrun.kinds.events", "measure": "mindrun.kinds.measures",
+    "body": "mindrun.kinds.bodies", "task": "mindrun.kinds.scenes", "scene": "mindrun.kinds.scenes",
+    "memory": "mindrun.kinds.memory", "curriculum": "mindrun.kinds.learners",
+}  # fmt: skip
+SHARED_NOUNS = {"scene": "task"}  # a scene is one of those that a task can be in
 _kinds: dict[str, dict[str, type[Any]]] = {}
 _names: dict[type[Any], str] = {}
 _bases: dict[type[Any], str] = {}
@@ -48,13 +56,31 @@ def kind(noun: str, name: str) -> Callable[[type[T]], type[T]]:
 
 
 def kinds(noun: str) -> dict[str, type[Any]]:
-    """Every kind of a noun, by name."""
-    return _kinds.get(noun, {})
+    """Every kind of a noun, by name; all of its modules are imported for it."""
+    if noun in ROOMS:
+        _import_all(ROOMS[noun])
+    found = _kinds.get(SHARED_NOUNS.get(noun, noun), {})
+    return {name: found[name] for name in sorted(found)}
 
 
-def share_kinds(noun: str, of: str) -> None:
-    """Say that a noun has the kinds of another: a scene is one of those that a task can be in."""
-    _kinds[noun] = _kinds[of]
+def find_kind(noun: str, name: str) -> type[Any] | None:
+    """The kind of that name, whose module alone is imported where it has the kind's name; None where there is none."""
+    known, module = _kinds.get(SHARED_NOUNS.get(noun, noun), {}), name.replace(" ", "_")
+    if name not in known and noun in ROOMS and module in _modules(ROOMS[noun]):
+        import_module(f"{ROOMS[noun]}.{module}")
+        known = _kinds.get(SHARED_NOUNS.get(noun, noun), {})
+    return known.get(name) or kinds(noun).get(name)
+
+
+@cache
+def _modules(room: str) -> list[str]:
+    return [module.name for module in iter_modules(getattr(import_module(room), "__path__", []))]
+
+
+@cache
+def _import_all(room: str) -> None:
+    for module in _modules(room):
+        import_module(f"{room}.{module}")
 
 
 def base(noun: str) -> Callable[[type[T]], type[T]]:
@@ -70,12 +96,6 @@ def base(noun: str) -> Callable[[type[T]], type[T]]:
 def bases() -> Mapping[type[Any], str]:
     """The noun of every class that kinds have in common."""
     return _bases
-
-
-def register_all(package: str, path: Iterable[str]) -> None:
-    """Import every module of a package, so that the kinds in them are known: each is a file of its own."""
-    for module in iter_modules(path):
-        import_module(f"{package}.{module.name}")
 
 
 def names() -> Mapping[type[Any], str]:

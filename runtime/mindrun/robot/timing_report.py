@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from mindrun.graph.graph import Graph, Sensor
 from mindrun.graph.recording_header import BY_ACTUATOR, BY_GUARDIAN
-from mindrun.kinds.sensors import Physical
+from mindrun.kinds.sensors.sensor import Physical
 from mindrun.robot.reading_filter import FINE
 from mindrun.robot.recording import RecordingError, read
 from mindrun.terminal.tick_count import ticks

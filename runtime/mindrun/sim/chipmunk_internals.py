@@ -14,8 +14,7 @@ from numba.extending import intrinsic
 from pymunk import _chipmunk
 
 from mindrun.errors import MindError
-from mindrun.kinds.bodies import BodyKind
-from mindrun.kinds.bodies.body import FRICTION_COEFFICIENT
+from mindrun.kinds.bodies.body import FRICTION_COEFFICIENT, BodyKind
 from mindrun.sim.compiling import callback
 from mindrun.sim.versions import remedy
 

@@ -4,8 +4,6 @@ from typing import Any
 
 import numpy as np
 
-import mindrun.kinds.functions
-import mindrun.kinds.sensors  # noqa: F401  # which registers them
 from mindrun.kinds.registry import kinds
 
 PUSH, STEERING, GRIPPER, IDLE = range(4)

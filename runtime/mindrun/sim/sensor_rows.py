@@ -10,7 +10,7 @@ from mindrun.engine.virtual_sensors import scene_of
 from mindrun.graph.graph import Graph, Sensor, Task
 from mindrun.graph.measured import Used
 from mindrun.kinds.registry import names
-from mindrun.kinds.sensors import Physical
+from mindrun.kinds.sensors.sensor import Physical
 from mindrun.numbers.expression import placed
 from mindrun.sim.codes import SENSOR, sensor_codes
 from mindrun.sim.parameter_rows import Parameters

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from mindrun.graph.goals import goals
 from mindrun.graph.graph import End, Graph, Reward, Sensor, Task, Thing
 from mindrun.kinds.registry import names
-from mindrun.kinds.sensors import Battery
-from mindrun.kinds.things import OUTCOMES, STAYS, ThingKind
+from mindrun.kinds.sensors.battery import Battery
+from mindrun.kinds.things.thing import OUTCOMES, STAYS, ThingKind
 from mindrun.numbers.arithmetic import BOX_COLUMNS, NAN
 from mindrun.sim.codes import (
     DAMPING,

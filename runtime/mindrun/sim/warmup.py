@@ -11,10 +11,10 @@ import numpy as np
 
 from mindrun.graph.graph import Actuator, Graph, Reward, Skill, Task
 from mindrun.graph.policy import Policy
-from mindrun.kinds.actuators import Wheel
-from mindrun.kinds.bodies import Disc
-from mindrun.kinds.functions import Rule
-from mindrun.kinds.scenes import Plain
+from mindrun.kinds.actuators.wheel import Wheel
+from mindrun.kinds.bodies.disc import Disc
+from mindrun.kinds.functions.rule import Rule
+from mindrun.kinds.scenes.plain import Plain
 from mindrun.low_priority import give_way
 from mindrun.sim import cache
 from mindrun.sim.changed_ticks import compile_stages

@@ -20,7 +20,7 @@ from mindrun.errors import MindError
 from mindrun.files.printable import visible
 from mindrun.graph.bundle import read_bundle
 from mindrun.graph.wiring import SensorWire, reading, still
-from mindrun.kinds.sensors import SensorKind
+from mindrun.kinds.sensors.sensor import SensorKind
 from mindrun.robot.sampling import Sample, Sampler
 from mindrun.robot.sudden_end import refuse_success
 from mindrun.terminal.arguments import real

@@ -3,8 +3,7 @@
 from collections.abc import Mapping
 from typing import Literal
 
-from mindrun.kinds.bodies import BodyKind
-from mindrun.kinds.bodies.body import Drive, Point
+from mindrun.kinds.bodies.body import BodyKind, Drive, Point
 from mindrun.kinds.registry import base
 from mindrun.kinds.slot import Slot
 from mindrun.numbers.quantity import Quantity

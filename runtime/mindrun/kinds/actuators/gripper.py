@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import Annotated
 
 from mindrun.kinds.actuators.actuator import ActuatorKind, Row
-from mindrun.kinds.bodies import BodyKind
+from mindrun.kinds.bodies.body import BodyKind
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import LENGTH, RATIO, TICKS
 

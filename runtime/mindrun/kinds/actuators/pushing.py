@@ -1,8 +1,7 @@
 """What the actuators have in common that push the body."""
 
 from mindrun.kinds.actuators.actuator import STOPPED_COMMAND, ActuatorKind, Row
-from mindrun.kinds.bodies import BodyKind
-from mindrun.kinds.bodies.body import Point
+from mindrun.kinds.bodies.body import BodyKind, Point
 
 
 class Pushing(ActuatorKind):

@@ -5,7 +5,7 @@ from math import pi
 from typing import Annotated
 
 from mindrun.kinds.actuators.actuator import STOPPED_COMMAND, ActuatorKind, Row
-from mindrun.kinds.bodies import BodyKind
+from mindrun.kinds.bodies.body import BodyKind
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import RATIO, TICKS, Quantity
 

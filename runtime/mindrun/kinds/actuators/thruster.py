@@ -5,8 +5,7 @@ from typing import Annotated
 
 from mindrun.kinds.actuators.actuator import THRUST
 from mindrun.kinds.actuators.pushing import Pushing
-from mindrun.kinds.bodies import BodyKind
-from mindrun.kinds.bodies.body import Point
+from mindrun.kinds.bodies.body import BodyKind, Point
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import ANGLE, RATIO, TICKS, Place, Quantity
 from mindrun.numbers.trigonometry import cosine, sine

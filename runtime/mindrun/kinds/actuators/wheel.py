@@ -5,8 +5,7 @@ from typing import Annotated, get_args
 
 from mindrun.kinds.actuators.actuator import THRUST, Side
 from mindrun.kinds.actuators.pushing import Pushing
-from mindrun.kinds.bodies import BodyKind
-from mindrun.kinds.bodies.body import Point
+from mindrun.kinds.bodies.body import BodyKind, Point
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import RATIO, TICKS, Reference
 

@@ -5,7 +5,7 @@ from typing import Annotated
 
 from mindrun.kinds.events.event import EventKind, Hindrance, TaskWorld, World
 from mindrun.kinds.registry import kind
-from mindrun.kinds.things import ThingKind
+from mindrun.kinds.things.thing import ThingKind
 from mindrun.numbers.quantity import THING
 
 

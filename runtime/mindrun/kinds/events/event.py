@@ -4,9 +4,9 @@ from collections.abc import Collection, Mapping, Set
 from typing import NamedTuple, Protocol
 
 from mindrun.kinds.registry import base
-from mindrun.kinds.scenes import SceneKind
-from mindrun.kinds.things import ThingKind
+from mindrun.kinds.scenes.scene import SceneKind
 from mindrun.kinds.things.about import AboutThing
+from mindrun.kinds.things.thing import ThingKind
 
 Row = Mapping[str, float]  # columns of the lanes' table of events
 

@@ -6,7 +6,7 @@ from typing import Annotated
 
 from mindrun.kinds.events.event import EventKind, Hindrance, Row, TaskWorld
 from mindrun.kinds.registry import kind
-from mindrun.kinds.scenes import SceneKind
+from mindrun.kinds.scenes.scene import SceneKind
 from mindrun.numbers.quantity import Quantity, Reference
 
 PATCH = Quantity("a length in world units", {"": 1.0}, low=0.1, high=1e5)

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
 from mindrun.kinds.sensors.sensor import Physical, World
-from mindrun.kinds.things import ThingKind
+from mindrun.kinds.things.thing import ThingKind
 from mindrun.numbers.quantity import THING
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled

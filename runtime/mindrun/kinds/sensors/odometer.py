@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
-from mindrun.kinds.actuators import Side
+from mindrun.kinds.actuators.actuator import Side
 from mindrun.kinds.actuators.wheel import SIDE
 from mindrun.kinds.registry import kind
 from mindrun.kinds.sensors.sensor import Physical, Row, Scene

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Annotated
 
 from mindrun.kinds.bodies.body import DAMPING, DENSITY
-from mindrun.kinds.scenes import SceneKind
+from mindrun.kinds.scenes.scene import SceneKind
 from mindrun.kinds.things.thing import (
     DEFAULT_DISTANCE,
     DEFAULT_SIZE,

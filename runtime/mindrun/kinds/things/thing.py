@@ -6,7 +6,7 @@ from math import hypot
 from typing import Literal, NamedTuple, get_args
 
 from mindrun.kinds.registry import base
-from mindrun.kinds.scenes import SceneKind
+from mindrun.kinds.scenes.scene import SceneKind
 from mindrun.kinds.things.rectangle import Rectangle
 from mindrun.numbers.quantity import UNSAID, Place, Reference, Span
 

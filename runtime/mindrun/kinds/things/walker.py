@@ -7,7 +7,7 @@ from math import pi
 from typing import Annotated
 
 from mindrun.kinds.registry import kind
-from mindrun.kinds.scenes import SceneKind
+from mindrun.kinds.scenes.scene import SceneKind
 from mindrun.kinds.things.thing import DEFAULT_DISTANCE, DEFAULT_SIZE, OUTCOME, STAYS, Mistake, Outcome, ThingKind
 from mindrun.numbers.quantity import ANGLE, COORDINATE, COUNT, LENGTH, POSITIVE, Place, Span
 

@@ -6,7 +6,7 @@ from itertools import pairwise
 from typing import Annotated
 
 from mindrun.kinds.registry import kind
-from mindrun.kinds.scenes import SceneKind
+from mindrun.kinds.scenes.scene import SceneKind
 from mindrun.kinds.things.rectangle import Rectangle
 from mindrun.kinds.things.thing import DEFAULT_DISTANCE, DEFAULT_SIZE, Mistake, ThingKind
 from mindrun.numbers.quantity import COORDINATE, LENGTH, Place
