@@ -5,12 +5,15 @@ and end, and of what sort they are, is all that the grammar asks of them: lines 
 """
 
 import re
+import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields, is_dataclass
 from functools import cache, lru_cache
 from itertools import accumulate
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
+
+from mindrun.files.user_cache import user_cache
 
 from mindlang.compiler import syntax
 from mindlang.compiler.source import Source, Span
@@ -46,8 +49,23 @@ def read_grammar(name: str, *starts: str) -> "Lark":
     here = Path(__file__).parents[2]
     folder = next(folder for folder in (here / "grammar", here.parent / "grammar") if folder.is_dir())
     return Lark.open(
-        str(folder / name), parser="lalr", start=[*starts], propagate_positions=True, maybe_placeholders=False
+        str(folder / name),
+        parser="lalr",
+        start=[*starts],
+        propagate_positions=True,
+        maybe_placeholders=False,
+        cache=_table_file(name),
     )
+
+
+def _table_file(name: str) -> str | bool:
+    """Where Lark keeps the table of a grammar, which takes ten times as long to make as to read; False for nowhere."""
+    try:
+        folder = user_cache()
+        folder.mkdir(parents=True, exist_ok=True)
+    except (OSError, RuntimeError):
+        return False
+    return str(folder / f"{name}.{sys.implementation.cache_tag}.table")
 
 
 def parse_line(code: str, source: Source, offset: int) -> syntax.Line:

@@ -5,7 +5,6 @@ types), so one that stands there fits, and begins with a hash, so one that is da
 """
 
 import atexit
-import os
 import pickle
 import shutil
 import sys
@@ -20,6 +19,7 @@ import llvmlite
 import numba
 from llvmlite.binding import get_host_cpu_features, get_host_cpu_name
 
+from mindrun.files.user_cache import user_cache
 from mindrun.sim.compile_lock import exclusive
 from mindrun.sim.numba_internals import KeptCode, made_for, packed, unpacked
 
@@ -51,7 +51,7 @@ def folder() -> Path:
 def writable(name: str) -> Path:
     """A folder of that name in the user's cache, or one for this process alone."""
     try:
-        found = _users().absolute() / name  # a relative one is of the folder in which we began
+        found = user_cache() / name
         found.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=found):
             return found
@@ -59,14 +59,6 @@ def writable(name: str) -> Path:
         found = Path(tempfile.mkdtemp(prefix="mind-"))  # never a known name: whoever can write it can run code here
         atexit.register(shutil.rmtree, found, ignore_errors=True)
         return found
-
-
-def _users() -> Path:
-    """Where a user wants such things kept; RuntimeError where there is no home."""
-    if given := os.environ.get("NUMBA_CACHE_DIR"):
-        return Path(given)
-    shared = Path(os.environ.get("XDG_CACHE_HOME", ""))  # of which a relative one does not count
-    return (shared if shared.is_absolute() else Path.home() / ".cache") / "mind"
 
 
 class MachineCode(KeptCode):
