@@ -11,7 +11,7 @@ import pytest
 pytest.importorskip("gymnasium")
 
 from mindlang.view import exported_images
-from mindlang.view.exported_images import ExportedImages
+from mindlang.view.export import ExportedImages
 from tests.calling import Call, caller
 from tests.outside import worlds
 from tests.outside.test_commands import rules

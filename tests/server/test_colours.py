@@ -1,5 +1,6 @@
 """The editor's grammar says of every character of every example what the real grammar says."""
 
+import json
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -11,11 +12,11 @@ from mindlang.breakpoints.parse import grammar as breakpoints
 from mindlang.compiler.parse.shape import grammar
 from mindlang.explaining.words import words_of
 from tests.language.examples import EXAMPLES
-from tests.server.textmate import Grammar
+from tests.server.textmate import scopes
 
 FOLDER = Path(__file__).parents[2] / "editors" / "vscode"
 OTHERS = sorted(Path(__file__).parents[1].rglob("*.mind"))
-COLOURS = Grammar(FOLDER / "syntaxes" / "mind.tmLanguage.json")
+COLOURS = json.loads((FOLDER / "syntaxes" / "mind.tmLanguage.json").read_text(encoding="utf-8"))
 
 NOUN, VERB, WORD = "storage.type", "keyword.control", "keyword.other"
 DECLARED, TITLE, PART = "entity.name.function", "entity.name.type", "variable.other"
@@ -164,12 +165,12 @@ stop in tick late"""
 def check(line: str, grammar: Lark) -> int:
     """Hold a line against the grammar; how many of its characters are of a token. UnexpectedInput where it is none."""
     code = code_of(line)
-    scopes = COLOURS.scopes(line)
+    coloured = scopes(COLOURS, line)
     wanted = expected(code, grammar) if code else {}
     for at, scope in wanted.items():
-        assert f"{scopes[at]}.".startswith(f"{scope}."), (line, line[at:], scopes[at], scope)
+        assert f"{coloured[at]}.".startswith(f"{scope}."), (line, line[at:], coloured[at], scope)
     for at in range(len(code), len(line)):
-        assert line[at].isspace() or scopes[at].startswith("comment"), line
+        assert line[at].isspace() or coloured[at].startswith("comment"), line
     return len(wanted)
 
 
@@ -202,16 +203,14 @@ def test_every_readable_line_of_the_tests() -> None:
 
 
 def test_a_wrong_colour_is_found() -> None:
-    data = {**COLOURS.data, "patterns": COLOURS.data["patterns"][1:]}
-    colourless = Grammar.__new__(Grammar)
-    colourless.data = data
-    assert colourless.scopes("tick 1/60 s  # slow")[-1] != COLOURS.scopes("tick 1/60 s  # slow")[-1]
+    colourless = {**COLOURS, "patterns": COLOURS["patterns"][1:]}
+    assert scopes(colourless, "tick 1/60 s  # slow")[-1] != scopes(COLOURS, "tick 1/60 s  # slow")[-1]
 
 
 def test_a_line_that_is_being_written_has_its_colours() -> None:
     for word in (*words_of("Nouns"), *words_of("Settings"), *words_of("Verbs"), "stop"):
-        assert COLOURS.scopes(f"  {word}")[2].split(".")[0] in ("storage", "keyword"), word
-        assert COLOURS.scopes(f"  {word} ")[2]
+        assert scopes(COLOURS, f"  {word}")[2].split(".")[0] in ("storage", "keyword"), word
+        assert scopes(COLOURS, f"  {word} ")[2]
 
 
 def test_the_words_of_the_language_are_explained() -> None:
