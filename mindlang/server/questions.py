@@ -6,9 +6,7 @@ from pathlib import Path
 
 from lsprotocol import types
 
-from mindlang.breakpoints.format import formatted as tidy_stops
 from mindlang.compiler.format import format_splices
-from mindlang.compiler.format import formatted as tidy_mind
 from mindlang.compiler.source import Source, Span
 from mindlang.compiler.splice import Splice
 from mindlang.compiler.syntax import Declaration, Master, Teaches
@@ -168,7 +166,7 @@ def formatted(ls: MindServer, params: types.DocumentFormattingParams) -> list[ty
     """The file as it should be written."""
     path = ls.session.lsp.path(params.text_document.uri)
     source = Source(str(path), ls.session.workspace.text(path), path.parent)
-    splices = format_splices(source, tidy_stops if are_breakpoints(path) else tidy_mind)
+    splices = format_splices(source, "stop" if are_breakpoints(path) else "line")
     return [ls.session.lsp.text_edit(splice) for splice in splices]
 
 

@@ -4,9 +4,9 @@ from collections.abc import Sequence
 from itertools import takewhile
 from pathlib import Path
 
-from mindlang.breakpoints.checking import subject_of_mind
-from mindlang.breakpoints.file import breakpoints_of
-from mindlang.breakpoints.robot_events import FAULT, OF, WORDS
+from mindlang.breakpoints.breakpoint import FAULT, OF, ROBOT_WORDS
+from mindlang.breakpoints.resolve import breakpoints_of
+from mindlang.breakpoints.subject import subject_of_mind
 from mindlang.compiler.diagnostic import Diagnostic
 from mindlang.compiler.references import READABLE_NOUNS
 from mindlang.compiler.source import Source
@@ -55,7 +55,7 @@ def stop_offers(view: MindView, line: Sequence[str]) -> list[Offer]:
 def _event(view: MindView, rest: Sequence[str]) -> list[Offer]:
     match rest:
         case []:
-            return [*kinds_of("event"), *words(*WORDS)]
+            return [*kinds_of("event"), *words(*ROBOT_WORDS)]
         case [word] if word == FAULT:
             return words(OF)
         case [word, of] if (word, of) == (FAULT, OF):
