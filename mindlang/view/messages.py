@@ -110,11 +110,17 @@ def message(text: str | bytes) -> Message:
         raise RefusedError(f"this is no message: {error}") from error
 
 
-def refusal(why: str, of: Message | None) -> dict[str, Any]:
-    """What is said where there is no answer: with the kind of the message, and the number of its question."""
-    return {
-        "say": "refused",
-        "why": why,
-        "of": str(of.__struct_config__.tag) if of else None,
-        "ask": of.ask if isinstance(of, AskRows | AskColumns) else None,
-    }
+class _Question(Struct):
+    """The kind of a message, whatever else is wrong with it, and the number of its question, where it has one."""
+
+    say: str | None = None
+    ask: Whole | None = None
+
+
+def refusal(text: str | bytes, why: str) -> dict[str, Any]:
+    """What is said where there is no answer to a message."""
+    try:
+        of = msgspec.json.decode(text, type=_Question)
+    except (msgspec.DecodeError, RecursionError, UnicodeError):
+        of = _Question()
+    return {"say": "refused", "why": why, "of": of.say, "ask": of.ask}

@@ -24,7 +24,7 @@ from websockets.frames import CloseCode
 
 from mindlang.view.http_answers import HttpAnswers
 from mindlang.view.learning import MAX_GENERATIONS
-from mindlang.view.messages import MAX_MESSAGE_BYTES, Message, RefusedError, message, refusal
+from mindlang.view.messages import MAX_MESSAGE_BYTES, RefusedError, message, refusal
 from mindlang.view.session import MAX_HAPPENED, Session
 from mindlang.view.viewed import Viewed
 
@@ -173,12 +173,10 @@ class ViewServer:
     async def _listen(self, viewer: Viewer) -> None:
         """Answer one message after the other."""
         async for text in viewer.connection:
-            asked: Message | None = None
             try:
-                asked = message(text)
-                answer = await self._session.answer(asked, viewer.edits)
+                answer = await self._session.answer(message(text), viewer.edits)
             except RefusedError as error:
-                answer = refusal(str(error), asked)
+                answer = refusal(text, str(error))
             if answer is not None:
                 await viewer.send(answer)
 

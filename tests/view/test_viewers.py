@@ -292,7 +292,6 @@ def test_a_question_is_about_the_run_that_was_seen_when_it_was_asked(path: Path)
         ({"say": "columns", "columns": [[0, 999]], "from": 0, "to": 5, "ask": 8}, "columns", 8),
         ({"say": "columns", "columns": [], "from": 0, "to": 5, "ask": 9}, "columns", 9),
         ({"say": "why", "tick": 99_999, "actuator": 0}, "why", None),
-        ({"say": "rows", "from": 0, "to": 5, "ask": -1}, "rows", None),
         ({"say": "nothing", "ask": "x"}, None, None),
     ],
 )
