@@ -15,8 +15,8 @@ from click.shell_completion import (
 
 EXAMPLES = """\b
 Examples:
-  eval "$(mindc completion bash)"         in ~/.bashrc
-  eval "$(mindc completion zsh)"          in ~/.zshrc
+  mindc completion bash >> ~/.bashrc
+  mindc completion zsh >> ~/.zshrc
   mindc completion fish > ~/.config/fish/completions/mindc.fish
 """
 SHELLS = {"bash": BashComplete, "zsh": ZshComplete, "fish": FishComplete}
