@@ -31,6 +31,10 @@ from mindlang.view.rows import DOUBLE_BLOCK, SINGLE_BLOCK
 from mindlang.view.texts import error_text
 from mindlang.view.viewed import Fork, SeenMind, Viewed, data_url
 
+if TYPE_CHECKING:
+    from mindlang.view.viewed_champion import Champions
+
+
 MAX_HAPPENED = 10_000  # events, and stops, that are told at once
 
 
@@ -245,7 +249,3 @@ def _nodes_by_name(mind: SeenMind) -> dict[str, int]:
     numbers = node_numbers(mind.policy.graph, mind.skills)
     places: Sequence[Skill] = mind.policy.graph.skills
     return {skill.name: numbers["skill", place] for place, skill in enumerate(places) if ("skill", place) in numbers}
-
-
-if TYPE_CHECKING:
-    from mindlang.view.viewed_champion import Champions

@@ -8,6 +8,10 @@ from typing import TYPE_CHECKING
 from mindrun.errors import MindError
 from mindrun.files.printable import visible
 
+if TYPE_CHECKING:
+    from mindlang.breakpoints.watch import Stop
+
+
 SHOWN_CHARACTERS = 200
 
 
@@ -20,10 +24,6 @@ def shown(text: str) -> str:
 def error_text(error: MindError) -> str:
     """What is wrong, and what to do."""
     return shown("; ".join(filter(None, (str(error), error.hint))))
-
-
-if TYPE_CHECKING:
-    from mindlang.breakpoints.watch import Stop
 
 
 def stop_texts(stops: Iterable[Stop]) -> tuple[tuple[int, str], ...]:
