@@ -37,11 +37,9 @@ from mindlang.proofs.proof import prove
 from mindlang.server.changing import perform
 from mindlang.server.completing import complete
 from mindlang.server.hovering import hover
-from mindlang.server.mending import all_mended, mendings
 from mindlang.server.navigating import definitions, everything, highlights, references, symbols
-from mindlang.server.proposals import proposals
-from mindlang.server.selection import Selection
-from mindlang.server.session import Session
+from mindlang.server.proposals import Selection, all_mended, mendings, proposals
+from mindlang.server.server import Session
 
 LINEAR_RATIO = 2.8  # what shapes with names of more digits, or that change into one another, come to by themselves
 

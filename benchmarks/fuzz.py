@@ -34,8 +34,8 @@ from mindlang.proofs.proof import prove
 from mindlang.server.completing import complete
 from mindlang.server.hovering import hover
 from mindlang.server.lsp_types import LspConverter
-from mindlang.server.mending import all_mended, mendings
 from mindlang.server.navigating import definitions, highlights, references, symbols
+from mindlang.server.proposals import all_mended, mendings
 from mindlang.server.workspace import Workspace
 
 CPU_SECONDS = 2.0  # seconds of the processor

@@ -1,5 +1,6 @@
-"""What breakpoints say once their names are found: when a run stops."""
+"""What breakpoints say once their names are found: when a run, or a robot's recording, stops."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from mindrun.graph.graph import Receiver
@@ -7,13 +8,36 @@ from mindrun.kinds.events.event import EventKind
 from mindrun.kinds.measures.measure import MeasureKind
 from mindrun.numbers.expression import Program
 
-from mindlang.breakpoints.robot_events import RobotEvent
+STOPPED, FAULT, OF = "stopped", "fault", "of"
+ROBOT_WORDS = (STOPPED, FAULT)
+
+
+@dataclass(frozen=True, slots=True)
+class Stopped:
+    """All actuators of a robot become neutral, whatever the skills command."""
+
+
+@dataclass(frozen=True, slots=True)
+class Fault:
+    """A sensor becomes faulty: the one of that name, or any of those that are wired where it is empty."""
+
+    sensor: str = ""
+
+
+RobotEvent = Stopped | Fault  # the simulator knows neither
+
+
+def robot_events(sensors: Sequence[str]) -> tuple[RobotEvent, ...]:
+    """All events of a robot with these wired sensors: that it stops, any fault, the fault of each."""
+    return Stopped(), Fault(), *map(Fault, sensors)
 
 
 @dataclass(frozen=True, slots=True)
 class Transmission(MeasureKind):
-    """With what weight a skill counts in a target, by their indices: the influence that it sends to a skill, or its
-    share of the influence that arrives at an actuator or a memory.
+    """The weight with which a skill counts in a target, by their indices.
+
+    That is the influence that it sends to a skill, or its share of the influence that arrives at an actuator or a
+    memory.
     """
 
     skill: int

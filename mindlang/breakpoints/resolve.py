@@ -1,7 +1,8 @@
-"""Lines of a .break file → breakpoints of a run: names found, numbers converted, mistakes reported."""
+"""A .break file → breakpoints of a run: its lines parsed by the compiler, names found, numbers converted."""
 
-from collections.abc import Iterable, Iterator
-from dataclasses import replace
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from pathlib import Path
 
 from mindrun.graph.graph import Receiver
 from mindrun.graph.skill_sets import reachable
@@ -10,165 +11,214 @@ from mindrun.kinds.registry import kinds
 from mindrun.numbers.expression import Program, leaves
 from mindrun.numbers.quantity import Quantity
 
-from mindlang.breakpoints.breakpoint import Breakpoint, Happens, Holds, Reaches, Transmission
-from mindlang.breakpoints.robot_events import WORDS, RobotEvent, robot_event
+from mindlang.breakpoints.breakpoint import (
+    FAULT,
+    OF,
+    ROBOT_WORDS,
+    STOPPED,
+    Breakpoint,
+    Fault,
+    Happens,
+    Holds,
+    Reaches,
+    RobotEvent,
+    Stopped,
+    Transmission,
+)
 from mindlang.breakpoints.subject import Subject
-from mindlang.breakpoints.syntax import Line, Moment, Transmits
-from mindlang.compiler import lower, model, syntax
-from mindlang.compiler.diagnostic import Findings, did_you_mean, listed
+from mindlang.compiler import lower, model
+from mindlang.compiler.compile import read_main
+from mindlang.compiler.diagnostic import Diagnostic, Findings, did_you_mean, listed
 from mindlang.compiler.expand import numbers
 from mindlang.compiler.expand.amounts import writer
+from mindlang.compiler.parse import parse_stops
 from mindlang.compiler.resolve import expressions
+from mindlang.compiler.resolve.kinds import a_name
 from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.resolve.tasks import MAX_RUN_TICKS, TIMES, event_in
+from mindlang.compiler.source import Source, Span
+from mindlang.compiler.syntax import Comparison, Phrase, Stop, Transmits, When
 
 WEIGHT = Quantity("how much a skill influences", {"": 1.0, "%": 0.01}, low=0, high=1)
-NO_NUMBERS = "Write the number itself: a bundle has no names of numbers."
 WHICH_TICK = Quantity("the number of a tick", {"": 1.0}, low=1, high=MAX_RUN_TICKS, whole=True)
+NO_NUMBERS = "Write the number itself: a bundle has no names of numbers."
 
 
-def resolve(lines: Iterable[Line], subject: Subject, findings: Findings) -> tuple[Breakpoint, ...]:
-    """The breakpoints of the lines; what is wrong with the others is reported."""
-    findings.numbers = subject.names.numbers.keys()
-    written_out = writer(numbers(subject.names, Findings()), subject.graph.tick)
-    found = tuple(_breakpoints(map(written_out, lines), subject, findings))
-    if subject.is_recorded:
-        findings.diagnostics = [
-            replace(each, hint=NO_NUMBERS) if each.code == "unknown-number" else each for each in findings.diagnostics
-        ]
-    return found
+@dataclass(frozen=True, slots=True)
+class BreakpointFile:
+    """What became of a .break file; where anything is wrong in it, the diagnostics say so."""
+
+    breakpoints: tuple[Breakpoint, ...]
+    diagnostics: tuple[Diagnostic, ...]
 
 
-def _breakpoints(lines: Iterable[Line], subject: Subject, findings: Findings) -> Iterator[Breakpoint]:
-    for line in lines:
-        before = len(findings.diagnostics)
-        cause = _cause(line, subject, findings)
-        if cause and len(findings.diagnostics) == before:
-            yield Breakpoint(line.span.line, " ".join(line.span.text.split()), cause)
+def load_breakpoints(path: Path | str, subject: Subject | None) -> BreakpointFile:
+    """The breakpoints of the file at `path`, or with "-" of standard input."""
+    source = read_main(path)
+    return BreakpointFile((), (source,)) if isinstance(source, Diagnostic) else breakpoints_of(source, subject)
 
 
-def _cause(line: Line, subject: Subject, findings: Findings) -> Holds | Happens | Reaches | None:
-    match line:
-        case Moment(tick):
-            last = subject.task.ticks if subject.task else MAX_RUN_TICKS
-            number = convert(tick, replace(WHICH_TICK, high=last), findings)
-            return None if number is None else Reaches(int(number))
-        case syntax.Ends(times, event, None):
-            return _happens(times, event, subject, findings) if event else None
-    return _holds(line.when, subject, findings) if line.when else None
+def breakpoints_of(source: Source, subject: Subject | None) -> BreakpointFile:
+    """The breakpoints of a text; none where nobody knows what they are about, and its lines are only read."""
+    findings = Findings()
+    lines = parse_stops(source, findings)
+    if not lines and not findings.diagnostics:
+        hint = "Write a line such as stop on collision."
+        findings.error("empty-file", Span(source, 0, 0), "There is nothing in this file.", hint)
+    found = tuple(_Resolver(subject, findings).breakpoints(lines)) if subject else ()
+    in_order = sorted(findings.diagnostics, key=lambda each: each.span.start if each.span else -1)
+    if subject and subject.is_recorded:
+        in_order = [replace(each, hint=NO_NUMBERS) if each.code == "unknown-number" else each for each in in_order]
+    return BreakpointFile(found, tuple(in_order))
 
 
-def _happens(
-    times: syntax.Amount | None, written: syntax.Phrase, subject: Subject, findings: Findings
-) -> Happens | None:
-    """An event that somebody notices in what is stopped."""
-    count = convert(times, TIMES, findings) if times else 0
-    event = _event(written, subject, findings)
-    return None if event is None or count is None else Happens(event, int(count))
+@dataclass(frozen=True, slots=True)
+class _Resolver:
+    """What lines are about, and what is found to be wrong with them."""
 
+    subject: Subject
+    findings: Findings
 
-def _event(written: syntax.Phrase, subject: Subject, findings: Findings) -> EventKind | RobotEvent | None:
-    word = written.kind.text
-    if word in WORDS:
-        return robot_event(written, subject.sensors, findings)
-    near = did_you_mean(word, WORDS)
-    if subject.sensors is not None and word not in kinds("event") and (near or subject.task is None):
-        hint = near or "What happens to a robot is stopped, fault, and fault of SENSOR."
-        findings.error("unknown-kind", written.kind.span, f"There is no kind of event called {word}.", hint)
+    def breakpoints(self, lines: list[Stop]) -> Iterator[Breakpoint]:
+        """The breakpoints of the lines with which nothing is wrong."""
+        names = self.subject.names
+        self.findings.numbers = names.numbers.keys()
+        for line in map(writer(numbers(names, Findings()), self.subject.graph.tick), lines):
+            before = len(self.findings.diagnostics)
+            cause = self._cause(line)
+            if cause and len(self.findings.diagnostics) == before:
+                yield Breakpoint(line.span.line, " ".join(line.span.text.split()), cause)
+
+    def _cause(self, line: Stop) -> Holds | Happens | Reaches | None:
+        if line.when:
+            return self._holds(line.when)
+        if line.event:
+            times = convert(line.times, TIMES, self.findings) if line.times else 0
+            event = self._event(line.event)
+            return None if event is None or times is None else Happens(event, int(times))
+        last = self.subject.task.ticks if self.subject.task else MAX_RUN_TICKS
+        tick = convert(line.tick, replace(WHICH_TICK, high=last), self.findings) if line.tick else None
+        return None if tick is None else Reaches(int(tick))
+
+    def _event(self, written: Phrase) -> EventKind | RobotEvent | None:
+        """An event that somebody notices in what is stopped."""
+        word = written.kind.text
+        if word in ROBOT_WORDS:
+            return self._robot_event(written)
+        near = did_you_mean(word, ROBOT_WORDS)
+        is_of_robot = self.subject.sensors is not None and (near or self.subject.task is None)
+        if is_of_robot and word not in kinds("event"):
+            hint = near or "What happens to a robot is stopped, fault, and fault of SENSOR."
+            self.findings.error("unknown-kind", written.kind.span, f"There is no kind of event called {word}.", hint)
+            return None
+        return self._world_event(written)
+
+    def _robot_event(self, written: Phrase) -> RobotEvent | None:
+        word, said, sensors = written.kind.text, written.arguments, self.subject.sensors
+        if sensors is None:
+            hint = "It is for the recording of one: mindc view day.rec NAME.bundle --break FILE."
+            message = f"{word} is what happens to a robot, not in the simulator."
+            self.findings.error("impossible-event", written.span, message, hint)
+        elif not said:
+            return Stopped() if word == STOPPED else Fault()
+        elif word == STOPPED:
+            message = f"{word} takes no arguments."
+            self.findings.error("unknown-argument", written.span, message, f"Write stop on {word}.")
+        elif len(said) > 1 or said[0].key.text != OF:
+            hint = f"Write stop on {FAULT} of SENSOR."
+            self.findings.error("unknown-argument", written.span, f"{word} takes of and the name of a sensor.", hint)
+        elif name := a_name(said[0], "Here stands the name of a sensor.", self.findings):
+            if name.text in sensors:
+                return Fault(name.text)
+            wired = f"Wired are {listed(sensors, 'and')}." if sensors else "No sensor of this robot is wired."
+            hint = self.findings.suggest(name.text, sensors) or wired
+            message = f"The robot has no wired sensor called {name.text}."
+            self.findings.error("unknown-sensor", name.span, message, hint)
         return None
-    return _world_event(written, subject, findings)
 
-
-def _world_event(written: syntax.Phrase, subject: Subject, findings: Findings) -> EventKind | None:
-    """An event that the task notices, or could without becoming another world."""
-    if subject.task is None or subject.world is None:
-        hint = "Write a condition, such as stop when holding > 0.5, or what it does record: stopped, fault of SENSOR."
-        message = "A robot does not record what happens in the world around it."
-        findings.error("impossible-event", written.span, message, hint)
-        return None
-    event: EventKind | None = event_in(written, subject.world, findings)
-    if event and subject.is_recorded and event not in subject.task.events:
-        hint = "Write a condition instead; only events of which a line of the task speaks are recorded."
-        findings.error("unnoticed-event", written.span, f"Task {subject.task.name} did not notice this event.", hint)
-        return None
-    if event and event.outcome and event not in subject.task.events:
-        message = f"No line of task {subject.task.name} speaks of this event, so nobody looks for it."
+    def _world_event(self, written: Phrase) -> EventKind | None:
+        """An event that the task notices, or could without becoming another world."""
+        task, world = self.subject.task, self.subject.world
+        if task is None or world is None:
+            hint = "Write a condition, as stop when holding > 0.5, or what it does record: stopped, fault of SENSOR."
+            message = "A robot does not record what happens in the world around it."
+            self.findings.error("impossible-event", written.span, message, hint)
+            return None
+        event: EventKind | None = event_in(written, world, self.findings)
+        if event is None or event in task.events or not (self.subject.is_recorded or event.outcome):
+            return event
+        message = f"No line of task {task.name} speaks of this event, so nobody looks for it."
         hint = f"Add the line counts {' '.join(written.span.text.split())} to the task."
-        findings.error("unnoticed-event", written.span, message, hint)
+        if self.subject.is_recorded:
+            message = f"Task {task.name} did not notice this event."
+            hint = "Write a condition instead; only events of which a line of the task speaks are recorded."
+        self.findings.error("unnoticed-event", written.span, message, hint)
         return None
-    return event
 
+    def _holds(self, when: When) -> Holds:
+        places = replace(self.subject.places, measures={})
+        widths = {name: width for name, (_, width) in places.readings.items()}
+        visible = expressions.Visible(
+            widths,
+            commands=frozenset(places.actuators),
+            made_of="numbers, readings, memories and the commands of actuators",
+            where="What a run stops at",
+        )
 
-def _holds(when: syntax.When, subject: Subject, findings: Findings) -> Holds:
-    widths = {name: width for name, (_, width) in subject.places.readings.items()}
-    visible = expressions.Visible(
-        widths,
-        commands=frozenset(subject.places.actuators),
-        made_of="numbers, readings, memories and the commands of actuators",
-        where="What a run stops at",
-    )
+        def compared(each: Comparison | Transmits) -> model.Comparison:
+            if isinstance(each, Transmits):
+                return self._transmits(each)
+            left, right = (expressions.resolve(side, visible, self.findings) for side in (each.left, each.right))
+            return model.Comparison(left, each.compare, right)
 
-    def compared(each: syntax.Comparison | Transmits) -> model.Comparison:
-        if isinstance(each, Transmits):
-            return _transmits(each, subject, findings)
-        left, right = (expressions.resolve(side, visible, findings) for side in (each.left, each.right))
-        return model.Comparison(left, each.compare, right)
+        before = len(self.findings.diagnostics)
+        found = model.When(tuple(tuple(map(compared, all_)) for all_ in when.alternatives), when.span)
+        if len(self.findings.diagnostics) > before:
+            return Holds((), (), ())
+        program = lower.condition(found, places)
+        asked = leaves(program, "reading")
+        for name in self.subject.unmeasured:
+            if places.readings[name][0] in asked:
+                hint = f"Name a sensor that a skill below {self.subject.master} or a reward reads, or that is wired."
+                message = f"Nobody measures {name} in this run."
+                self.findings.error("unmeasured-reading", when.span, message, hint)
+        transmissions = tuple(places.measures)
+        return Holds(program, transmissions, tuple(_named(program, transmissions, self.subject)))
 
-    before = len(findings.diagnostics)
-    found = model.When(tuple(tuple(map(compared, all_)) for all_ in when.alternatives), when.span)
-    if len(findings.diagnostics) > before:
-        return Holds((), (), ())
-    places = replace(subject.places, measures={})
-    program = lower.condition(found, places)
-    asked = leaves(program, "reading")
-    for name in subject.unmeasured:
-        if subject.places.readings[name][0] in asked:
-            hint = f"Name a sensor that a skill below {subject.master} or a reward reads, or that is wired."
-            findings.error("unmeasured-reading", when.span, f"Nobody measures {name} in this run.", hint)
-    transmissions = tuple(places.measures)
-    return Holds(program, transmissions, tuple(_named(program, transmissions, subject)))
+    def _transmits(self, written: Transmits) -> model.Comparison:
+        """`SKILL influences NAME above AMOUNT`, the weight on the left."""
+        level = convert(written.amount, WEIGHT, self.findings)
+        skill = self.subject.names.find(written.skill, ("skill",), self.findings)
+        is_skill = written.to.text.rpartition(".")[2][:1].isupper()
+        nouns: tuple[Receiver, ...] = ("skill",) if is_skill else ("actuator", "memory")
+        to = self.subject.names.find(written.to, nouns, self.findings)
+        terms: tuple[model.Term, ...] = ()
+        if skill and to and (found := self._transmission(written, to)):
+            terms = (model.Measured(found, written.span),)
+        right = model.Expression((model.Number(float(level or 0), written.amount.span),), written.amount.span)
+        return model.Comparison(model.Expression(terms, written.span), "<" if written.level == "below" else ">", right)
 
-
-def _transmits(written: Transmits, subject: Subject, findings: Findings) -> model.Comparison:
-    """`SKILL influences NAME above AMOUNT`, the weight on the left."""
-    names = subject.names
-    level = convert(written.amount, WEIGHT, findings)
-    skill = names.find(written.skill, ("skill",), findings)
-    is_skill = written.to.text.rpartition(".")[2][:1].isupper()
-    nouns: tuple[Receiver, ...] = ("skill",) if is_skill else ("actuator", "memory")
-    to = names.find(written.to, nouns, findings)
-    terms: tuple[model.Term, ...] = ()
-    if skill and to and (found := _transmission(written, to, subject, findings)):
-        terms = (model.Measured(found, written.span),)
-    right = model.Expression((model.Number(float(level or 0), written.amount.span),), written.amount.span)
-    return model.Comparison(model.Expression(terms, written.span), "<" if written.level == "below" else ">", right)
-
-
-def _transmission(written: Transmits, to: Receiver, subject: Subject, findings: Findings) -> Transmission | None:
-    skills = [skill.name for skill in subject.graph.skills]
-    targets = {
-        "skill": skills,
-        "actuator": [actuator.name for actuator in subject.graph.actuators],
-        "memory": [memory.name for memory in subject.graph.memories],
-    }
-    skill, target = written.skill.text, written.to.text
-    found = Transmission(skills.index(skill), to, targets[to].index(target))
-    reached = [each.name for each in reachable(subject.graph, subject.master)]
-    senders = [
-        each.name
-        for each in subject.graph.skills
-        if each.name in reached and any((edge.to, edge.target) == (found.to, found.target) for edge in each.edges)
-    ]
-    if skill in senders:
-        return found
-    if skill not in reached:
-        hint = f"{subject.master} is in charge of the run, and influences it by no path."
-        findings.error("skill-not-in-run", written.skill.span, f"{skill} takes no part in this run.", hint)
+    def _transmission(self, written: Transmits, to: Receiver) -> Transmission | None:
+        """What a skill that takes part in the run sends to a target itself."""
+        graph, skill, target = self.subject.graph, written.skill.text, written.to.text
+        targets = {"skill": len(graph.skills), "actuator": len(graph.actuators), "memory": len(graph.memories)}
+        index = next(place for place in range(targets[to]) if graph.named(to, place) == target)
+        running = {each.name for each in reachable(graph, self.subject.master)}
+        senders = [
+            each.name
+            for each in graph.skills
+            if each.name in running and any((edge.to, edge.target) == (to, index) for edge in each.edges)
+        ]
+        if skill in senders:
+            return Transmission(graph.skill_numbers[skill], to, index)
+        if skill not in running:
+            hint = f"{self.subject.master} is in charge of the run, and influences it by no path."
+            self.findings.error("skill-not-in-run", written.skill.span, f"{skill} takes no part in this run.", hint)
+            return None
+        sends = "influences" if to == "skill" else "drives"
+        hint = f"What {sends} {target} is {listed(senders, 'and')}." if senders else f"Nothing {sends} {target} here."
+        self.findings.error("no-edge", written.to.span, f"{skill} sends nothing to {target} itself.", hint)
         return None
-    sends = "influences" if to == "skill" else "drives"
-    hint = f"What {sends} {target} is {listed(senders, 'and')}." if senders else f"Nothing {sends} {target} here."
-    findings.error("no-edge", written.to.span, f"{skill} sends nothing to {target} itself.", hint)
-    return None
 
 
 def _named(

@@ -2,22 +2,29 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from mindrun.graph.graph import Graph, Task
 from mindrun.graph.measured import measured_in_world, measured_on_robot
+from mindrun.graph.named_readings import physical
 from mindrun.kinds.registry import names as kind_names
 
 from mindlang.compiler import lower, model
+from mindlang.compiler.compile import Compiled, load
 from mindlang.compiler.names import Names
 from mindlang.compiler.resolve.kinds import Scope
 from mindlang.compiler.resolve.tasks import World
 from mindlang.compiler.source import Source, Span
 from mindlang.compiler.syntax import Declaration, Header, Name
+from mindlang.run.chosen_task import master_of, task_of
 
 if TYPE_CHECKING:
+    from mindrun.graph.bundle import Bundle
+
     from mindlang.run.setup import RunSetup
 
 NOWHERE = Span(Source("", ""), 0, 0)  # where what is in a graph was declared
@@ -78,15 +85,46 @@ class Subject:
 
 def names_in(graph: Graph) -> Names:
     """The names of a compiled mind, of which only the graph is there; those of its numbers are not known."""
-    nouns = {
-        "sensor": [each.name for each in graph.sensors],
-        "memory": [each.name for each in graph.memories],
-        "actuator": [each.name for each in graph.actuators],
-        "skill": [each.name for each in graph.skills],
-        "task": [each.name for each in graph.tasks],
+    nouns: dict[str, Sequence[Any]] = {
+        "sensor": graph.sensors,
+        "memory": graph.memories,
+        "actuator": graph.actuators,
+        "skill": graph.skills,
+        "task": graph.tasks,
     }
-    return Names({noun: {name: _declared(noun, name) for name in names} for noun, names in nouns.items()})
+    return Names({noun: {each.name: _declared(noun, each.name) for each in found} for noun, found in nouns.items()})
 
 
 def _declared(noun: str, name: str) -> Declaration:
     return Declaration(Header(Name(noun, NOWHERE), Name(name, NOWHERE), None, NOWHERE), ())
+
+
+def mind_of(path: str, given: Mapping[str, Compiled]) -> Compiled | None:
+    """The mind that a .break file is about: the only one of those that are given, else that of its name beside it.
+
+    None where there is none, or where it does not compile.
+    """
+    minds = [compiled for compiled in given.values() if compiled.graph]
+    beside = Path(path).with_suffix(".mind")
+    found = minds[0] if len(minds) == 1 else load(beside) if beside.exists() else None
+    return found if found and found.graph else None
+
+
+def subject_of_mind(compiled: Compiled, task: str | None = None, master: str | None = None) -> Subject:
+    """A run of a mind, with the task and the master of these names or those of a run by default.
+
+    Events of the task and of a robot count both: a file may be for both. SetupError where there is none of that name.
+    """
+    assert compiled.mind
+    assert compiled.graph
+    graph, sensors = compiled.graph, tuple(physical(compiled.graph))
+    chosen = task_of(graph, task)[0] if graph.tasks or task else None
+    return Subject(compiled.mind.names, graph, master_of(graph, chosen, master), chosen, sensors)
+
+
+def subject_of_bundle(bundle: Bundle, task: str | None = None, master: str | None = None) -> Subject:
+    """What a robot with this bundle will record; with a task, what a dry run of it will. SetupError as above."""
+    graph = bundle.graph
+    wired = [wire.sensor for wire in bundle.wiring.sensors] if bundle.wiring and not task else physical(graph)
+    chosen = task_of(graph, task)[0] if task else None
+    return Subject.of_recording(graph, master_of(graph, None, master), tuple(wired), chosen)

@@ -1,58 +1,52 @@
-"""Where breakpoints stop a run, found in its rows; they may be fed as they come, in parts of any size."""
+"""Where breakpoints stop a run or a robot's recording, found in its rows, which may come in parts of any size."""
+
+from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import chain
 from operator import neg
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from mindrun.engine.engine import procedure_sources
 from mindrun.engine.think import Hierarchy, hierarchy
+from mindrun.graph.bundle import Bundle
+from mindrun.graph.graph import Graph
+from mindrun.graph.recording_header import About
 from mindrun.kinds.events.event import EventKind
 from mindrun.numbers.evaluation import OPERATORS
 from mindrun.numbers.expression import Program, fold
 from numpy.typing import NDArray
 
-from mindlang.breakpoints.breakpoint import Breakpoint, Happens, Holds, Reaches, Transmission
-from mindlang.breakpoints.robot_events import RobotEvent
-from mindlang.breakpoints.transmission import Transmissions
+from mindlang.breakpoints.breakpoint import (
+    Breakpoint,
+    Happens,
+    Holds,
+    Reaches,
+    RobotEvent,
+    Transmission,
+    robot_events,
+)
+from mindlang.breakpoints.subject import Subject
+from mindlang.run.edge_flow import EdgeFlow, EdgeFlows, FlowWalker, accumulated
+from mindlang.run.recorded_run import RecordedRun
+from mindlang.run.running_bundle import task_of
+from mindlang.run.sent_values import Places, Singles
 from mindlang.run.setup import RunSetup
 
 Leaf = Callable[[str, Any], Any]
 Measured = Mapping[Transmission, NDArray[np.float64]]
 
 
-class Rows(Protocol):
-    """Rows of a run, one a tick, such as those of a RecordedRun: what was read, thought, sent and had happened so far.
-
-    `events` [rows, events] has how often each has happened since the beginning of the run.
-    """
-
-    @property
-    def readings(self) -> NDArray[np.float32]:
-        """[rows, width], as the skills read them."""
-        ...
-
-    @property
-    def influence(self) -> NDArray[np.float32]:
-        """[rows, skills]."""
-        ...
-
-    @property
-    def commands(self) -> NDArray[np.float32]:
-        """[rows, actuators]."""
-        ...
-
-    @property
-    def events(self) -> NDArray[np.int64]:
-        """[rows, events]; no columns where nobody notices any."""
-        ...
-
-
 @dataclass(frozen=True, slots=True)
 class Part:
-    """Some rows of a run."""
+    """Some rows of a run, one a tick: `readings` [rows, width] as the skills read them, `influence` [rows, skills] and
+    `commands` [rows, actuators].
+
+    `events` [rows, events] has how often each has happened since the beginning of the run; no columns where nobody
+    notices any.
+    """
 
     readings: NDArray[np.float32]
     influence: NDArray[np.float32]
@@ -60,10 +54,7 @@ class Part:
     events: NDArray[np.int64]
 
 
-def part(rows: Rows, first: int, end: int) -> Part:
-    """The rows from `first` up to `end`, counted from 0."""
-    here = slice(first, end)
-    return Part(rows.readings[here], rows.influence[here], rows.commands[here], rows.events[here])
+Rows = Part | RecordedRun
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,11 +73,7 @@ class Watcher:
     """Where breakpoints stop a run, of whose rows it has been fed the first `ticks`."""
 
     def __init__(
-        self,
-        breakpoints: Sequence[Breakpoint],
-        events: Sequence[EventKind | RobotEvent],
-        mind: Hierarchy,
-        actuators: int,
+        self, breakpoints: Sequence[Breakpoint], events: Sequence[EventKind | RobotEvent], graph: Graph, mind: Hierarchy
     ) -> None:
         self.ticks = 0
         self._breakpoints = breakpoints
@@ -95,7 +82,7 @@ class Watcher:
         self._times = [0] * len(breakpoints)
         asked = chain.from_iterable(each.cause.transmissions for each in breakpoints if isinstance(each.cause, Holds))
         self._asked = tuple(dict.fromkeys(asked))
-        self._transmissions = Transmissions(self._asked, mind, actuators)
+        self._transmissions = Transmissions(self._asked, graph, mind)
 
     def feed(self, rows: Rows, begins: Iterable[int] = ()) -> list[Stop]:
         """All stops in the rows that follow those of before, in the order of their ticks and then of their lines.
@@ -156,8 +143,7 @@ def watcher(breakpoints: Sequence[Breakpoint], setup: RunSetup) -> Watcher:
     """What watches a run of the setup for breakpoints; WeightsError or ProcedureError where its skills cannot think."""
     graph = setup.ready.policy.graph
     sources = procedure_sources(graph, setup.folder, setup.master)
-    mind = hierarchy(setup.ready.policy, sources, setup.master)
-    return Watcher(breakpoints, setup.task.events, mind, len(graph.actuators))
+    return Watcher(breakpoints, setup.task.events, graph, hierarchy(setup.ready.policy, sources, setup.master))
 
 
 def over(program: Program, leaf: Leaf, rows: int) -> NDArray[np.float64]:
@@ -184,3 +170,90 @@ def _leaf(rows: Rows, measures: Sequence[NDArray[np.float64]]) -> Leaf:
         return np.float64(operand)
 
     return column
+
+
+Sink = tuple[bool, int]  # where an edge goes, as the engine has it: whether it drives, and the place
+
+
+class Transmissions:
+    """The weights of some transmissions, row after row, computed by the engine's own functions.
+
+    A function with a memory needs every row that was before.
+    """
+
+    def __init__(self, asked: Sequence[Transmission], graph: Graph, mind: Hierarchy) -> None:
+        """The hierarchy is of the graph, and nothing else makes its skills compute."""
+        self._asked = asked
+        self._begins: set[int] = set()
+        self._flows = EdgeFlows(graph, FlowWalker(mind, self._rows, self._begins)) if asked else None
+        self._fed = 0  # rows, before those of now
+        self._now: tuple[Singles, Singles]  # those rows
+
+    def feed(self, readings: Singles, influence: Singles, begins: Iterable[int] = ()) -> NDArray[np.float64]:
+        """The weights [transmissions, rows] over the next readings [rows, width] and influence [rows, skills].
+
+        Toward a skill that is the influence sent to it, a summand of Eq. 2; toward what is driven, the share of the
+        influence that arrives there, a weight of the mean of Eq. 3. 0 where a skill transmits nothing. In the rows of
+        `begins` the mind was begun anew.
+        """
+        self._now = readings, influence
+        self._begins.update(self._fed + int(row) for row in begins)
+        found = np.zeros((len(self._asked), len(readings)))
+        end = self._fed + len(readings)
+        if self._flows:
+            for part, flow in self._flows.walker.parts(np.arange(self._fed, end)):
+                found[:, part] = [_weights(self._flows, flow, each) for each in self._asked]
+            self._flows.walker.go_on(end)
+        self._fed = end
+        return found
+
+    def _rows(self, rows: Places) -> tuple[Singles, Singles]:
+        readings, influence = self._now
+        return readings[rows - self._fed], influence[rows - self._fed]
+
+
+def _weights(flows: EdgeFlows, flow: EdgeFlow, asked: Transmission) -> NDArray[np.float64]:
+    arriving = flows.links_to.get((asked.to, asked.target), [])
+    own = [place for place in arriving if flows.links[place].source == asked.skill]
+    sent = accumulated(flow.transmitted[:, own]).astype(np.float64)
+    if asked.to == "skill":
+        return sent
+    with np.errstate(all="ignore"):
+        return np.where(sent == 0, 0.0, sent / accumulated(flow.transmitted[:, arriving]).astype(np.float64))
+
+
+def recording_subject(of: About, mind: Bundle) -> Subject:
+    """What the breakpoints of a recording are about, made with the mind of this bundle."""
+    return Subject.of_recording(mind.graph, of.master, of.sensors, task_of(of, mind))
+
+
+class RecordingWatcher:
+    """Where breakpoints stop a recording, of which it has been fed some rows from the first on."""
+
+    def __init__(self, breakpoints: Sequence[Breakpoint], of: About, mind: Bundle) -> None:
+        """WeightsError or ProcedureError where a skill of the bundle cannot be made ready."""
+        ready, task = hierarchy(mind.policy, mind.procedures, of.master), task_of(of, mind)
+        events = (*robot_events(of.sensors), *(task.events if task else ()))
+        self._watcher = Watcher(breakpoints, events, mind.graph, ready)
+        self._before = np.zeros((1, 1 + len(of.sensors)), bool)  # whether it had to stop, and the faults
+        self._times = np.zeros((1, 2 + len(of.sensors)), np.int64)
+
+    def feed(self, rows: NDArray[Any], readings: NDArray[np.float32]) -> list[Stop]:
+        """All stops in the rows that follow, with the readings [rows, width] as the skills had them."""
+        facts = np.concatenate([self._before, np.column_stack([rows["stopped"], rows["faults"]]) != 0])
+        happened = self._times + np.cumsum(times(facts[:, 0], facts[:, 1:]), axis=0)
+        self._before, self._times = facts[-1:], np.concatenate([self._times, happened])[-1:]
+        if "world" in (rows.dtype.names or ()):
+            happened = np.concatenate([happened, rows["world"]["events"].astype(np.int64)], axis=1)
+        part = Part(readings, rows["influence"], rows["commands"], happened)
+        return self._watcher.feed(part, np.flatnonzero(rows["tick"] == 0))
+
+
+def times(stopped: NDArray[np.bool_], faults: NDArray[np.bool_]) -> NDArray[np.int64]:
+    """How often each event begins in each row [rows, events]; of rows and the one before them.
+
+    `stopped` [1 + rows] says where the robot had to stop, `faults` [1 + rows, sensors] which sensors were faulty.
+    """
+    begins = np.column_stack([stopped, faults]).astype(np.int64)
+    begins = np.maximum(np.diff(begins, axis=0), 0)
+    return np.insert(begins, 1, begins[:, 1:].sum(axis=1), axis=1)

@@ -2,7 +2,6 @@
 
 import os
 import sys
-from functools import partial
 from gc import set_threshold
 from importlib import import_module
 from pkgutil import iter_modules
@@ -82,8 +81,9 @@ def main() -> None:
 
 def _run() -> int:
     try:
-        shell = os.environ.get("_MINDC_COMPLETE")
-        code = _complete(shell) if shell else commands.main(prog_name="mindc", standalone_mode=False)
+        if "_MINDC_COMPLETE" in os.environ:  # a shell asks click what may come next
+            import_module(f"{__name__}.completion")
+        code = commands.main(prog_name="mindc", standalone_mode=False)
     except SystemExit as stop:
         code = stop.code
     except click.exceptions.Exit as stop:
@@ -96,17 +96,6 @@ def _run() -> int:
     except Exception as error:
         code = _unforeseen(error)
     return code if isinstance(code, int) else OK
-
-
-def _complete(shell: str) -> int:
-    """Answer a shell that asks what may come next."""
-    from mindrun.cli.shell_completion import reply
-
-    from mindlang.cli._completing import answers
-    from mindlang.cli._terminal import print_document
-
-    print_document(reply(shell, sys.argv[1:], partial(answers, commands)))
-    return OK
 
 
 def _unforeseen(error: Exception) -> int:

@@ -10,9 +10,9 @@ from mindrun.graph.bundle import Bundle
 from mindrun.robot.recording import About
 
 from mindlang.breakpoints.breakpoint import Breakpoint
-from mindlang.breakpoints.file import load_breakpoints
-from mindlang.breakpoints.recorded import RecordingWatcher, recording_subject
+from mindlang.breakpoints.resolve import load_breakpoints
 from mindlang.breakpoints.subject import Subject
+from mindlang.breakpoints.watch import RecordingWatcher, recording_subject
 from mindlang.cli._diagnostic_printer import print_report
 from mindlang.cli._terminal import FINDINGS, MISUSE, console
 from mindlang.compiler.compile import Compiled

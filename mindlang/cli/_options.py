@@ -93,25 +93,11 @@ class WhereOption(click.ParamType[Any]):
             return self.fail(f"{error}; {error.hint}.", param, ctx)
 
     def shell_complete(self, ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
-        """The kinds, and what is known of what is said of one."""
-        from mindrun.cli.shell_completion import FILES
+        """The kinds; what stands behind their colon is the user's."""
+        from mindlang.executors import THREADS, kinds_by_usage
 
-        from mindlang.executors import THREADS, completed, kinds_by_usage
-
-        kind, colon, argument = incomplete.partition(":")
-        if not colon:
-            known = [CompletionItem(THREADS, help="of this process"), *(
-                CompletionItem(f"{name}:", help=usage, goes_on=True) for name, usage in kinds_by_usage().items()
-            )]  # fmt: skip
-            return [item for item in known if item.value.startswith(kind)]
-        before = f"{kind}:"
-        found = completed(kind, argument)
-        return [
-            CompletionItem("", type="file", ends=each.text, behind=before)
-            if each.kind == FILES
-            else CompletionItem(before + each.text, help=each.about)
-            for each in found
-        ] or [CompletionItem("", type="unknown")]
+        known = {THREADS: "of this process", **{f"{name}:": usage for name, usage in kinds_by_usage().items()}}
+        return [CompletionItem(name, help=usage) for name, usage in known.items() if name.startswith(incomplete)]
 
 
 class NewFile(click.Path):

@@ -15,10 +15,8 @@ from mindrun.terminal.tick_count import ticks as in_words
 
 from mindlang.cli._run_session import RunSession
 from mindlang.cli._terminal import MISUSE, fail, procedures_talk, talk, write_file
-from mindlang.view.browser import open_browser
-from mindlang.view.export import exported, refuse_too_long
-from mindlang.view.exported_images import exported_images
-from mindlang.view.server import PortError, ViewServer
+from mindlang.view.export import exported, exported_images, refuse_too_long
+from mindlang.view.server import PortError, ViewServer, open_browser
 from mindlang.view.session import Session
 from mindlang.view.viewed import Viewed
 

@@ -113,8 +113,8 @@ def _breakpoints(
     from mindrun.errors import MindError
     from mindrun.terminal.command_line import command_line
 
-    from mindlang.breakpoints.checking import mind_of, subject_of_bundle, subject_of_mind
-    from mindlang.breakpoints.file import load_breakpoints
+    from mindlang.breakpoints.resolve import load_breakpoints
+    from mindlang.breakpoints.subject import mind_of, subject_of_bundle, subject_of_mind
     from mindlang.cli._terminal import MISUSE, fail, talk
 
     for file in dict.fromkeys(files):

@@ -1,71 +1,50 @@
-"""`mindc completion`: shells complete the words of mindc and mindrun."""
+"""`mindc completion`: click's script with which a shell completes the words of mindc, and names of files."""
 
 from __future__ import annotations
 
-import os
-from collections.abc import Iterable
-from pathlib import Path
-
 import click
+from click.shell_completion import (
+    BashComplete,
+    CompletionItem,
+    FishComplete,
+    ShellComplete,
+    ZshComplete,
+    add_completion_class,
+    get_completion_class,
+)
 
 EXAMPLES = """\b
 Examples:
-  mindc completion --install              for the shell in which you are
-  mindc completion zsh --install
-  mindc completion bash                   what is installed, to be read
-  eval "$(mindc completion bash)"         for this shell alone
+  mindc completion bash >> ~/.bashrc
+  mindc completion zsh >> ~/.zshrc
+  mindc completion fish > ~/.config/fish/completions/mindc.fish
 """
-SHELLS = ("bash", "zsh", "fish")
+SHELLS = {"bash": BashComplete, "zsh": ZshComplete, "fish": FishComplete}
 
 
 @click.command(epilog=EXAMPLES)
-@click.argument("shell", type=click.Choice(SHELLS), required=False)
-@click.option("--install", is_flag=True, help="Install it for you: mindc completion --install")
-def command(shell: str | None, install: bool) -> None:
-    """Let a shell complete the words of mindc and mindrun.
+@click.argument("shell", type=click.Choice(tuple(SHELLS)))
+@click.pass_context
+def command(context: click.Context, shell: str) -> None:
+    """Print what lets a shell complete the words of mindc.
 
-    Commands, options, files, and the names in the mind that stands on the line. Prints a script for SHELL, or installs
-    it: for fish in its folder of completions; for bash and zsh in your data folder, with a line in ~/.bashrc or
-    ~/.zshrc that reads it. Without SHELL it is that of $SHELL.
+    Commands, options, files, and the names in the mind that stands on the line.
     """
-    from mindlang.cli._terminal import MISUSE, fail, print_document, talk, write_file
-    from mindlang.compiler.diagnostic import listed
+    from mindlang.cli._terminal import print_document
 
-    chosen = shell or Path(os.environ.get("SHELL", "")).name
-    if chosen not in SHELLS:
-        fail("$SHELL says no shell that is known.", "Write mindc completion bash, zsh or fish.", MISUSE)
-    scripts = _scripts(chosen)
-    if not install:
-        print_document("\n".join(scripts.values()))
-        return
-    try:
-        for path, text in scripts.items():
-            path.parent.mkdir(parents=True, exist_ok=True)
-            write_file(path, text.encode())
-        readers = [] if chosen == "fish" else [_read_in(Path.home() / f".{chosen}rc", scripts)]
-    except OSError as error:
-        fail(f"{error.filename} cannot be written: {error.strerror}", code=MISUSE)
-    talk.print(f"written: {listed(map(str, [*scripts, *readers]), 'and')}", markup=False)
-    talk.print("Every shell that you start from now on completes mindc and mindrun.", markup=False)
+    script = get_completion_class(shell)
+    assert script
+    print_document(script(context.find_root().command, {}, "mindc", "_MINDC_COMPLETE").source())
 
 
-def _scripts(shell: str) -> dict[Path, str]:
-    """What completes both programs, by the files into which it is installed."""
-    from mindrun.cli.shell_completion import script
+class Files(ShellComplete):
+    """Names of files where an argument or an option takes any word."""
 
-    mindc, mindrun = script(shell, "mindc"), script(shell, "mindrun")
-    if shell == "fish":
-        folder = Path(os.environ.get("XDG_CONFIG_HOME") or Path.home() / ".config") / "fish" / "completions"
-        return {folder / "mindc.fish": mindc, folder / "mindrun.fish": mindrun}
-    folder = Path(os.environ.get("XDG_DATA_HOME") or Path.home() / ".local" / "share") / "mind"
-    begin = "(( $+functions[compdef] )) || { autoload -Uz compinit && compinit }\n" if shell == "zsh" else ""
-    return {folder / f"completion.{shell}": f"{begin}{mindc}\n{mindrun}"}
+    def get_completions(self, args: list[str], incomplete: str) -> list[CompletionItem]:
+        """As click finds them, or that the shell knows better."""
+        found = super().get_completions(args, incomplete)
+        return found if found or incomplete.startswith("-") else [CompletionItem(incomplete, type="file")]
 
 
-def _read_in(settings: Path, scripts: Iterable[Path]) -> Path:
-    """A shell's file of settings, which reads these files from now on; each is named in it once."""
-    text = settings.read_text(encoding="utf-8", errors="surrogateescape") if settings.exists() else ""
-    lines = [f'source "{path}"' for path in scripts if f'source "{path}"' not in text.splitlines()]
-    with settings.open("a", encoding="utf-8") as file:
-        file.writelines(f"\n{line}\n" for line in lines)
-    return settings
+for _name, _class in SHELLS.items():
+    add_completion_class(type(_class.__name__, (Files, _class), {}), _name)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -70,16 +71,12 @@ def _tidy(file: str, check: bool, diff: bool) -> int:
 def _language(file: str) -> tuple[Callable[[Source, Findings], object], Callable[[str], str]]:
     """What reads a file of this name, and what writes its text as it should be."""
     from mindlang.breakpoints import SUFFIX
+    from mindlang.compiler.format import formatted
+    from mindlang.compiler.parse import parse, parse_stops
 
     if Path(file).suffix == SUFFIX:
-        from mindlang.breakpoints import format as of_breakpoints
-        from mindlang.breakpoints.parse import parse as parse_breakpoints
-
-        return parse_breakpoints, of_breakpoints.formatted
-    from mindlang.compiler import format as of_minds
-    from mindlang.compiler.parse import parse
-
-    return parse, of_minds.formatted
+        return parse_stops, partial(formatted, start="stop")
+    return parse, formatted
 
 
 def _put(file: str, source: Source, text: str, check: bool, diff: bool) -> int:

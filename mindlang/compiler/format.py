@@ -1,24 +1,21 @@
-"""The one way in which a `.mind` file is written: spaces and blank lines are set, nothing else is touched.
+"""The one way in which a file is written: spaces and blank lines are set, nothing else is touched.
 
 Facts stand two spaces in, words one space apart, comments two spaces after what they follow. What owns facts is set off
 by a blank line. Nothing is reordered or aligned, and no comment changes.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, fields, is_dataclass
 from functools import lru_cache
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from mindlang.compiler import syntax
 from mindlang.compiler.parse import BLANKS, code_of
-from mindlang.compiler.parse.shape import MAX_SHAPES, grammar, parse_line, pieces, shape_of
+from mindlang.compiler.parse.shape import MAX_SHAPES, Start, grammar, parse_line, pieces, shape_of
 from mindlang.compiler.source import Source
 from mindlang.compiler.splice import Splice
 from mindlang.compiler.syntax import NOUNS, SETTINGS
-
-if TYPE_CHECKING:
-    from lark import Lark
 
 INDENT = "  "
 Stretch = tuple[int, int]
@@ -54,16 +51,20 @@ class _Line:
         return "  ".join(filter(None, (self.code, self.comment)))
 
 
-def formatted(text: str) -> str:
-    """The text as it should be written; one that cannot be read keeps the words of its bad lines as they are."""
-    lines = [_line(line) for line in text.split("\n")]
+def formatted(text: str, start: Start = "line") -> str:
+    """The text of a mind, or of a .break file, as it should be written.
+
+    One that cannot be read keeps the words of its bad lines as they are.
+    """
+    lines = [_line(line, start) for line in text.split("\n")]
     end = "\r\n" if "\r\n" in text else "\n"
-    return "".join(f"{line}{end}" for line in _set_off(list(_indented(lines))))
+    placed = [*_indented(lines)] if start == "line" else [(line, "") for line in lines]
+    return "".join(f"{line}{end}" for line in _set_off(placed))
 
 
-def _line(text: str) -> _Line:
+def _line(text: str, start: Start) -> _Line:
     code = code_of(text)
-    return _Line(spaced(code.lstrip(" \t").rstrip(BLANKS)), text[len(code) :].strip(), text[:1] in (" ", "\t"))
+    return _Line(spaced(code.lstrip(" \t").rstrip(BLANKS), start), text[len(code) :].strip(), text[:1] in (" ", "\t"))
 
 
 def _indented(lines: list[_Line]) -> Iterator[tuple[_Line, str]]:
@@ -109,18 +110,18 @@ def _is_set_off(above: tuple[_Line, str], following: _Line | None) -> bool:
     return following.opens or bool(above[1])
 
 
-def spaced(code: str) -> str:
+def spaced(code: str, start: Start = "line") -> str:
     """A line with its words one space apart; as it is where it cannot be read."""
     if not code:
         return ""
-    plan = _plan(code if '"' in code else shape_of(code))
+    plan = _plan(code if '"' in code else shape_of(code), start)
     if plan is None:
         return code
     parts = pieces(code)
-    return "".join(tight("".join(parts[first:end])) + after for first, end, after in plan)
+    return "".join(_tight("".join(parts[first:end])) + after for first, end, after in plan)
 
 
-def tight(word: str) -> str:
+def _tight(word: str) -> str:
     """A word as it is; one of two, such as `least of`, with one space between."""
     return word if word.startswith('"') else " ".join(word.split())
 
@@ -129,12 +130,12 @@ Plan = tuple[tuple[int, int, str], ...]  # which pieces of a line are a word, an
 
 
 @lru_cache(MAX_SHAPES)
-def _plan(shape: str) -> Plan | None:
+def _plan(shape: str, start: Start) -> Plan | None:
     """How the words of the lines of a shape are set apart; None where Lark cannot read it."""
     from lark import UnexpectedInput
 
     try:
-        line = parse_line(shape, Source("shape", shape), 0)
+        line = parse_line(shape, Source("shape", shape), 0, start)
     except UnexpectedInput:
         return None
     places: dict[int, int] = {}
@@ -143,17 +144,17 @@ def _plan(shape: str) -> Plan | None:
         places[at] = number
         at += len(piece)
     places[at] = len(places)
-    return tuple((places[start], places[end], after) for start, end, after in words(shape, line, grammar()))
+    return tuple((places[first], places[end], after) for first, end, after in _words(shape, line, start))
 
 
-def words(code: str, line: Any, grammar: "Lark") -> Iterator[tuple[int, int, str]]:
-    """From where to where the words of a line go that its grammar reads as `line`, and what stands after each."""
-    tokens = list(grammar.parse_interactive(code, start="line").iter_parse())
+def _words(code: str, line: Any, start: Start) -> Iterator[tuple[int, int, str]]:
+    """From where to where the words of a line go that the grammar reads as `line`, and what stands after each."""
+    tokens = list(grammar().parse_interactive(code, start=start).iter_parse())
     signs = set(_signs(line))
     for token, following in zip(tokens, [*tokens[1:], None], strict=True):
-        start = token.start_pos or 0
-        glued = following is None or token == "(" or following in (")", "%") or start in signs
-        yield start, token.end_pos or 0, "" if glued else " "
+        first = token.start_pos or 0
+        glued = following is None or token == "(" or following in (")", "%") or first in signs
+        yield first, token.end_pos or 0, "" if glued else " "
 
 
 def _signs(node: Any) -> Iterator[int]:
@@ -171,12 +172,12 @@ def _signs(node: Any) -> Iterator[int]:
                 yield from _signs(getattr(node, field.name))
 
 
-def format_splices(source: Source, tidied: Callable[[str], str] = formatted) -> list[Splice]:
+def format_splices(source: Source, start: Start = "line") -> list[Splice]:
     """The splices that format a text; they touch few lines, so that an editor's cursor and marks stay where they are.
 
     No line comes or goes but for blank ones, so each that says something is held against the one in its place.
     """
-    text = tidied(source.text)
+    text = formatted(source.text, start)
     before, after = [*_stretches(source.text)], [*_stretches(text)]
     if len(before) != len(after):
         return [Splice(source, 0, len(source.text), text)]

@@ -133,6 +133,17 @@ class Comparison:
 
 
 @dataclass(frozen=True, slots=True)
+class Transmits:
+    """`SKILL influences NAME above AMOUNT`, a comparison of what stops a run."""
+
+    skill: Name
+    to: Name
+    level: str
+    amount: Amount
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
 class When:
     """`when A < B and C > D or …`: one of the alternatives holds, each of which is comparisons that all hold."""
 
@@ -321,6 +332,17 @@ class Teaches:
     generations: Amount
     arguments: tuple[Argument, ...]
     needs: tuple[Needs, ...]
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Stop:
+    """A line of a .break file: `stop on [TIMES] EVENT`, `stop when CONDITION` or `stop in tick TICK`."""
+
+    times: Amount | None
+    event: Phrase | None
+    when: When | None
+    tick: Amount | None
     span: Span
 
 

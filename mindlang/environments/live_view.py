@@ -19,8 +19,7 @@ from numpy.typing import NDArray
 
 from mindlang.environments.agent import Agent
 from mindlang.run.run_recording import world_of
-from mindlang.view.background import BackgroundView
-from mindlang.view.browser import open_browser
+from mindlang.view.server import BackgroundView, open_browser
 from mindlang.view.viewed import Viewed
 from mindlang.view.viewed_recording import viewed_mind
 

@@ -9,7 +9,6 @@ from importlib import import_module
 from pkgutil import iter_modules
 from typing import TYPE_CHECKING
 
-from mindrun.cli.shell_completion import Answer
 from mindrun.errors import MindError
 from mindrun.work.assignment import Assignment
 from mindrun.work.executor import JobExecutor
@@ -91,8 +90,3 @@ def usages() -> str:
 def kinds_by_usage() -> dict[str, str]:
     """How each kind is said, by its name."""
     return {kind: import_module(f"{__name__}.{kind}").USAGE for kind in kinds()}
-
-
-def completed(kind: str, argument: str) -> list[Answer]:
-    """What a shell may write behind the colon of a kind, where something of it is written."""
-    return [*import_module(f"{__name__}.{kind}").completed(argument)] if kind in kinds() else []

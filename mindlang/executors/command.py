@@ -3,7 +3,6 @@
 import shlex
 from collections.abc import Callable
 
-from mindrun.cli.shell_completion import Answer
 from mindrun.work.assignment import Assignment
 from mindrun.work.child import Place
 from mindrun.work.crew import Crew
@@ -22,11 +21,6 @@ def flaw(argument: str) -> str:
     if not words:
         return "there are no words"
     return "" if 1 <= count <= MAX_COMMANDS else f"there are not 1 to {MAX_COMMANDS} of them"
-
-
-def completed(argument: str) -> list[Answer]:
-    """Nothing is known of the words of a command."""
-    return []
 
 
 def begin(argument: str, assignment: Assignment, say: Callable[[str], object]) -> JobExecutor:

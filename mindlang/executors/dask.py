@@ -3,7 +3,6 @@
 from collections.abc import Callable
 from importlib.util import find_spec
 
-from mindrun.cli.shell_completion import FILES, Answer
 from mindrun.errors import MindError
 from mindrun.work.assignment import Assignment
 from mindrun.work.executor import JobExecutor
@@ -22,11 +21,6 @@ def flaw(argument: str) -> str:
     if not (found := flaw_of(argument)):
         address_of(destination(argument))
     return found
-
-
-def completed(argument: str) -> list[Answer]:
-    """Files that schedulers write."""
-    return [Answer(".json", kind=FILES)]
 
 
 def begin(argument: str, assignment: Assignment, say: Callable[[str], object]) -> JobExecutor:

@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 
-from mindrun.cli.shell_completion import Answer
 from mindrun.cores import cores
 from mindrun.work.assignment import Assignment
 from mindrun.work.executor import JobExecutor
@@ -18,13 +17,6 @@ def flaw(argument: str) -> str:
     if not (argument.isascii() and argument.isdigit() and len(argument) <= MAX_DIGITS):
         return "it is no whole number"
     return "" if 1 <= int(argument) <= MAX_PROCESSES else f"it is not from 1 to {MAX_PROCESSES}"
-
-
-def completed(argument: str) -> list[Answer]:
-    """As many as there are cores, and half as many, and half of them."""
-    most = cores()
-    counts = [most >> halved for halved in range(most.bit_length())]
-    return [Answer(f"{count}", "processes") for count in counts if f"{count}".startswith(argument)]
 
 
 def begin(argument: str, assignment: Assignment, say: Callable[[str], object]) -> JobExecutor:

@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 
-from mindrun.cli.shell_completion import Answer
 from mindrun.work.assignment import Assignment
 from mindrun.work.child import Place
 from mindrun.work.crew import Crew
@@ -20,11 +19,6 @@ def flaw(argument: str) -> str:
         return "a machine has no name"
     wrong = next((host for host in hosts if host.startswith("-") or not host.isprintable() or " " in host), "")
     return f"{wrong!r:.40} is no machine" if wrong else ""
-
-
-def completed(argument: str) -> list[Answer]:
-    """Nothing is known of machines."""
-    return []
 
 
 def begin(argument: str, assignment: Assignment, say: Callable[[str], object]) -> JobExecutor:

@@ -12,9 +12,7 @@ from mindlang.compiler.splice import Splice, spliced
 from mindlang.editing.edits import edit, names
 from mindlang.editing.project import EditError
 from mindlang.server.changing import EditOutcome, project
-from mindlang.server.mending import Mending, all_mended, mendings
-from mindlang.server.proposals import Proposal, proposals
-from mindlang.server.selection import Selection
+from mindlang.server.proposals import Mending, Proposal, Selection, all_mended, mendings, proposals
 from mindlang.server.server import MindServer, failed
 
 EDIT, EDITS = "mind.edit", "mind.edits"

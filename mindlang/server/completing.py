@@ -12,11 +12,10 @@ from mindlang.compiler.syntax import NOUNS, SETTINGS
 from mindlang.editing.owners import OWNERS
 from mindlang.explaining.words import language_words
 from mindlang.file_search import files_below
-from mindlang.server.cursor_line import CursorLine
-from mindlang.server.facts import FACTS
+from mindlang.server.facts import FACTS, CursorLine
 from mindlang.server.offers import Offer, arguments_of, functions, kinds_of, names, words
-from mindlang.server.stops import are_breakpoints, stop_offers
-from mindlang.server.view import MindView, declaration_at
+from mindlang.server.stops import stop_offers
+from mindlang.server.workspace import MindView, are_breakpoints, declaration_at
 
 MAX_OFFERED_FILES = 200  # that are offered
 

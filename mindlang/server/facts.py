@@ -1,35 +1,59 @@
 """What may be written in a fact, by its verb and the words that stand behind it."""
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
 
 from mindrun.kinds.registry import kinds
 
 from mindlang.compiler.references import DRIVABLE_NOUNS, READABLE_NOUNS
-from mindlang.compiler.syntax import Drives, Influences, Reads
-from mindlang.server import offers
-from mindlang.server.cursor_line import CursorLine
-from mindlang.server.expressions import (
-    awaits_value,
-    condition_offers,
-    condition_words,
-    reward_offers,
-    takes_value,
-    values,
-)
+from mindlang.compiler.syntax import Declaration, Drives, Influences, Reads
 from mindlang.server.offers import (
     NUMBER,
     Offer,
     arguments_of,
+    awaits_value,
+    condition_offers,
+    condition_words,
     inputs_of,
+    keys,
     kinds_of,
     names,
     numbers,
+    reward_offers,
+    takes_value,
     units,
+    units_of,
+    values,
+    varying_parts,
     words,
+    written_arguments,
 )
-from mindlang.server.run_facts import fails, starts, varies
+from mindlang.server.workspace import MindView, on_line
 
 EDGE_JOINTS = ("at", "when", "otherwise", "cuts")
+SIGNS = ("+", "-")
+
+
+@dataclass(frozen=True, slots=True)
+class CursorLine:
+    """What stands before a place in its line, and the declaration to which the line belongs."""
+
+    view: MindView
+    folder: Path
+    words: Sequence[str]
+    above: Declaration | None
+    offset: int
+
+    @property
+    def noun(self) -> str:
+        """The noun of the declaration above."""
+        return self.above.header.noun.text if self.above else ""
+
+    def names_after(self, *forms: type[Reads | Drives | Influences]) -> set[str]:
+        """What the skill above says with these verbs on its other lines."""
+        facts = [fact for fact in (self.above.facts if self.above else ()) if isinstance(fact, forms)]
+        return {fact.name.text for fact in facts if not on_line(fact.span, self.offset)}
 
 
 Answer = Callable[[CursorLine, Sequence[str]], list[Offer]]
@@ -156,7 +180,7 @@ def _lesson(line: CursorLine, rest: Sequence[str]) -> list[Offer]:
     if learner not in kinds("curriculum"):
         return switches
     found = arguments_of(line.view, "curriculum", learner, rest[2:], None)
-    waits = offers.written_arguments(kinds("curriculum")[learner], rest[2:]).awaits_number
+    waits = written_arguments(kinds("curriculum")[learner], rest[2:]).awaits_number
     return [] if waits else [*found, *switches]
 
 
@@ -165,15 +189,58 @@ def _number(*of: str) -> Answer:
     return lambda line, rest: units(*of) if len(rest) == 1 and rest[0][0] in NUMBER else []
 
 
+def _starts(line: CursorLine, rest: Sequence[str]) -> list[Offer]:
+    match [word for word in rest if word not in SIGNS]:
+        case []:
+            return words("at", "facing")
+        case [*_, "facing"] | ["at"] | ["at", _]:
+            return numbers(line.view)
+        case [*_, "facing", _]:
+            return units("deg")
+        case ["at", _, _]:
+            return words("facing")
+    return []
+
+
+def _varies(line: CursorLine, rest: Sequence[str]) -> list[Offer]:
+    varying = dict(varying_parts(line.view, line.above))
+    match [word for word in rest if word not in SIGNS]:
+        case []:
+            return keys({argument.key: argument for found in varying.values() for argument in found}.values())
+        case [_]:
+            return [Offer("of", "word")]
+        case [argument, "of"]:
+            return [part for part, found in varying.items() if argument in (each.key for each in found)]
+        case [argument, "of", part, *said]:
+            of = [each for name, found in varying.items() if name.label == part for each in found]
+            own = [units_of(each) for each in of if each.key == argument and said and said[-1][0] in NUMBER]
+            found = [unit for each in own for unit in each]
+            return [*found, *words("to")] if said and "to" not in said else found or numbers(line.view)
+    return []
+
+
+def _fails(line: CursorLine, rest: Sequence[str]) -> list[Offer]:
+    match rest:
+        case []:
+            return names(line.view, "actuator")
+        case [_]:
+            return numbers(line.view)
+        case [*_, "per"]:
+            return [*units("s"), Offer("tick", "word")]
+        case [_, *_, "%"] | [_, _] if "per" not in rest:
+            return [*(units("%") if rest[-1] != "%" else []), *words("per")]
+    return []
+
+
 FACTS: Mapping[str, Answer] = {
     "reads": _reads,
     "drives": _drives,
     "influences": _influences,
     "stays": lambda line, rest: [] if rest else words("frozen"),
     "contains": _contains,
-    "starts": starts,
-    "varies": varies,
-    "fails": fails,
+    "starts": _starts,
+    "varies": _varies,
+    "fails": _fails,
     "lasts": _number("ticks", "s"),
     "ends": _ends,
     "succeeds": _ends,

@@ -10,13 +10,14 @@ from urllib.parse import quote
 
 from lsprotocol import types
 from pygls.uris import from_fs_path, to_fs_path
+from pygls.workspace import PositionCodec
 
 from mindlang.compiler.diagnostic import Diagnostic
-from mindlang.compiler.source import Source, Span
+from mindlang.compiler.source import Span
 from mindlang.compiler.splice import Splice
 
 SEVERITIES = {"error": types.DiagnosticSeverity.Error, "warning": types.DiagnosticSeverity.Warning}
-CACHED_RULERS = 16  # of texts that are remembered
+CACHED_TEXTS = 16  # whose lines are remembered
 _LINE_END = re.compile(r"\r\n|\n|\r")
 
 
@@ -24,18 +25,14 @@ _LINE_END = re.compile(r"\r\n|\n|\r")
 class LspConverter:
     """How paths and offsets are said to one editor: its URIs, and the units that its columns count."""
 
-    encoding: str = "utf-16"
+    codec: PositionCodec = field(default_factory=PositionCodec)
     uris: dict[Path, str] = field(default_factory=dict)  # of the open files, as the editor says them
     versions: dict[Path, int] = field(default_factory=dict)
 
     def path(self, uri: str) -> Path:
         """The path that a URI stands for; one that is no file has a path where no file is."""
-        try:
-            name = to_fs_path(uri)
-            path = Path(name).resolve() if name else None
-        except (OSError, RuntimeError, ValueError):  # a loop of links, a null byte, a port that is no number
-            path = None
-        return path or Path("/", ".untitled", quote(uri, safe="", errors="replace"))
+        name = to_fs_path(uri)
+        return Path(name).resolve() if name else Path("/", ".untitled", quote(uri, safe=""))
 
     def uri(self, path: Path) -> str:
         """The URI of a file."""
@@ -43,18 +40,12 @@ class LspConverter:
 
     def offset(self, text: str, position: types.Position) -> int:
         """The offset of a position."""
-        return ruler(text, self.encoding).offset(position.line, position.character)
+        return lines_of(text).offset(position, self.codec)
 
     def range(self, span: Span) -> types.Range:
         """A span as a range."""
-        of = ruler(span.source.text, self.encoding)
-        start, end = of.place(span.start), of.place(span.end)
-        return types.Range(types.Position(*start), types.Position(*end))
-
-    def whole(self, text: str) -> types.Range:
-        """The range of a whole text."""
-        source = Source("text", text)
-        return self.range(Span(source, 0, len(text)))
+        lines = lines_of(span.source.text)
+        return types.Range(lines.position(span.start, self.codec), lines.position(span.end, self.codec))
 
     def location(self, span: Span) -> types.Location:
         """A span with its file."""
@@ -104,63 +95,33 @@ class LspConverter:
 
 
 @dataclass(frozen=True)
-class Ruler:
+class TextLines:
     """The lines of a text as the protocol counts them: a lone carriage return ends one, too."""
 
     text: str
-    encoding: str = "utf-16"
 
     @cached_property
     def starts(self) -> list[int]:
         """The offset at which each line begins."""
         return [0, *(end.end() for end in _LINE_END.finditer(self.text))]
 
-    def offset(self, line: int, column: int) -> int:
-        """The offset of a place; one behind the end of its line, or of the text, is that end."""
-        if line < 0 or line >= len(self.starts):
-            return 0 if line < 0 else len(self.text)
-        start, end = self.starts[line], self._end(line)
-        if self._is_plain:
-            return min(start + max(column, 0), end)
-        return start + self._characters(self.text[start:end], max(column, 0))
-
-    def place(self, offset: int) -> tuple[int, int]:
-        """The line and the column of an offset."""
-        offset = min(max(offset, 0), len(self.text))
-        line = bisect_right(self.starts, offset) - 1
-        start = self.starts[line]
-        if self._is_plain:
-            return line, offset - start
-        return line, self._units(self.text[start:offset])
-
-    @cached_property
-    def _is_plain(self) -> bool:
-        """Whether a column is a number of characters, whatever is counted."""
-        return self.encoding == "utf-32" or self.text.isascii()
-
-    def _end(self, line: int) -> int:
-        """Where the characters of a line end."""
-        if line + 1 == len(self.starts):
+    def offset(self, position: types.Position, codec: PositionCodec) -> int:
+        """The offset of a position; one behind the end of its line, or of the text, is that end."""
+        if position.line >= len(self.starts):
             return len(self.text)
-        end = self.starts[line + 1]
-        return end - (2 if self.text[end - 2 : end] == "\r\n" else 1)
+        start, end = [*self.starts, len(self.text)][position.line : position.line + 2]
+        line = self.text[start:end].rstrip("\r\n")
+        column = min(position.character, codec.client_num_units(line))
+        found = codec.position_from_client_units([line], types.Position(0, column))
+        return start + found.character
 
-    def _units(self, text: str) -> int:
-        """How many columns a text takes."""
-        if self.encoding == "utf-8":
-            return len(text.encode("utf-8", "surrogatepass"))
-        return len(text.encode("utf-16-le", "surrogatepass")) // 2
-
-    def _characters(self, text: str, columns: int) -> int:
-        """How many characters begin before a column; one that is cut by it does."""
-        low, high = 0, len(text)
-        while low < high:
-            middle = (low + high) // 2
-            low, high = (middle + 1, high) if self._units(text[:middle]) < columns else (low, middle)
-        return low
+    def position(self, offset: int, codec: PositionCodec) -> types.Position:
+        """The position of an offset."""
+        line = bisect_right(self.starts, offset) - 1
+        return types.Position(line, codec.client_num_units(self.text[self.starts[line] : offset]))
 
 
-@lru_cache(CACHED_RULERS)
-def ruler(text: str, encoding: str) -> Ruler:
-    """The ruler of a text."""
-    return Ruler(text, encoding)
+@lru_cache(CACHED_TEXTS)
+def lines_of(text: str) -> TextLines:
+    """The lines of a text."""
+    return TextLines(text)

@@ -13,9 +13,7 @@ from mindlang.compiler.references import Mention, introductions
 from mindlang.compiler.source import Source, Span
 from mindlang.compiler.syntax import Argument, Contains, File, Name, Phrase, Use
 from mindlang.file_search import files_below, text_of, within_read_limits
-from mindlang.server.tree import path_to
-from mindlang.server.view import MindView
-from mindlang.server.workspace import Workspace
+from mindlang.server.workspace import MindView, Workspace, path_to
 
 MAX_SYMBOLS = 500  # that are found
 CACHED_FILES = 1000  # files whose symbols are remembered

@@ -1,5 +1,6 @@
-"""The edits of `mindc edit` that make sense where the cursor is, with their arguments."""
+"""Code actions where the cursor is: the edits of `mindc edit` that make sense there, and quick fixes of findings."""
 
+import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from itertools import chain, count, islice
@@ -8,15 +9,49 @@ from typing import Any
 
 from mindrun.graph.skill_sets import genes
 
-from mindlang.compiler.diagnostic import listed
+from mindlang.compiler.compile import compile_source
+from mindlang.compiler.diagnostic import Diagnostic, listed
 from mindlang.compiler.hierarchy import above, below
-from mindlang.compiler.syntax import Declaration, Drives, Influences, Reads, Stays
+from mindlang.compiler.source import Source
+from mindlang.compiler.splice import Splice
+from mindlang.compiler.syntax import Declaration, Drives, Fact, Influences, Reads, Stays
 from mindlang.editing.project import EditError, Project, facts, has_outputs, kind_of
+from mindlang.lint.fixing import fixed
 from mindlang.server.changing import proposed
-from mindlang.server.selection import Selection
-from mindlang.server.view import fact_at, on_line
+from mindlang.server.workspace import MindView, fact_at, on_line
 
 MAX_TARGETS = 6  # of each sort; the command line and the editor's own dialogue know them all
+_SUGGESTED_NAME = re.compile(r"Did you mean (\S+)\?")
+
+
+@dataclass(frozen=True, slots=True)
+class Selection:
+    """What is selected of a file: from offset `start` up to `end`, which is the same where the cursor just stands."""
+
+    project: Project
+    path: Path
+    start: int
+    end: int
+
+    @property
+    def declarations(self) -> list[Declaration]:
+        """The declarations of the file whose headers are selected."""
+        return [each for each in self._own if self.start <= each.header.span.start and each.header.span.end <= self.end]
+
+    @property
+    def declaration(self) -> Declaration | None:
+        """The declaration on one of whose lines the selection begins."""
+        lines = ((each, span) for each in self._own for span in [each.header.span, *(f.span for f in each.facts)])
+        return next((each for each, span in lines if on_line(span, self.start)), None)
+
+    @property
+    def _own(self) -> tuple[Declaration, ...]:
+        file = self.project.paths.get(self.path)
+        return file.declarations if file else ()
+
+    def touches(self, fact: Fact) -> bool:
+        """Whether the line of a fact is selected, or some of it."""
+        return on_line(fact.span, self.start) or (self.start <= fact.span.end and fact.span.start < self.end)
 
 
 @dataclass(frozen=True, slots=True)
@@ -215,3 +250,42 @@ def _below(project: Project, skill: str) -> list[str]:
     alike = [known.name for known in project.mind.skills if known.like == skill]  # they would influence it, too
     not_below = {*influences[skill], *above(influences, [skill, *alike])}
     return [name for name in influences if name not in not_below]
+
+
+@dataclass(frozen=True, slots=True)
+class Mending:
+    """A quick fix: its title, what it mends, what it splices, and whether it is safe to choose without thinking."""
+
+    title: str
+    of: Diagnostic
+    splices: tuple[Splice, ...]
+    is_safe: bool
+
+
+def mendings(view: MindView, path: Path, start: int, end: int) -> Iterator[Mending]:
+    """The quick fixes of what is found between two offsets of a file."""
+    for found in view.findings:
+        span = found.span
+        if span is None or span.source.path != path or span.start > end or span.end < start:
+            continue
+        if found.fix:
+            yield Mending(found.fix.title, found, found.fix.splices, found.fix.is_safe)
+        if nearly := _SUGGESTED_NAME.search(found.hint):
+            splice = Splice(span.source, span.start, span.end, nearly[1])
+            yield Mending(f"Write {nearly[1]}", found, (splice,), True)
+
+
+def all_mended(view: MindView, path: Path, texts: dict[Path, str]) -> str | None:
+    """The text of a main file with all safe fixes made, or None where there is none to make."""
+    if path != view.main or view.compiled.graph is None:
+        return None
+    source = view.compiled.sources[0]
+
+    def findings_of(now: Source) -> tuple[Diagnostic, ...]:
+        if now is source:
+            return view.findings
+        compiled = compile_source(now, path, {**texts, path: now.text})
+        return MindView(path, compiled, (), view.names).findings
+
+    mended, made = fixed(source, findings_of)
+    return mended.text if made else None

@@ -1,18 +1,104 @@
 """The server of one editor: what it remembers, what it may ask for, and how it talks."""
 
 import asyncio
+from collections.abc import Iterator
+from dataclasses import dataclass, field
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
 from lsprotocol import types
 from mindrun.errors import MindError
-from pygls.exceptions import FeatureRequestError, JsonRpcException
+from pygls.exceptions import JsonRpcException
 from pygls.lsp.server import LanguageServer
 
-from mindlang.server.changing import EditOutcome, perform
-from mindlang.server.protocol import NO_JSON, MindProtocol
-from mindlang.server.session import Session
+from mindlang.compiler.diagnostic import Diagnostic, listed
+from mindlang.server.changing import EditOutcome, PendingRename, keep_up, perform
+from mindlang.server.lsp_types import LspConverter
+from mindlang.server.stops import stop_findings
+from mindlang.server.workspace import MindView, Workspace, are_breakpoints
+
+Report = tuple[int | None, list[types.Diagnostic]]
+MAX_PENDING_EDITS = 8  # edits whose locks are looked after
+MAX_PUBLISHED_DIAGNOSTICS = 1000  # findings in a file
+
+
+@dataclass
+class Session:
+    """The state of one editor: open files, reported findings, and pending renames of locks."""
+
+    workspace: Workspace = field(default_factory=Workspace)
+    lsp: LspConverter = field(default_factory=LspConverter)
+    following: list[PendingRename] = field(default_factory=list)
+    _told: dict[Path, Report] = field(default_factory=dict)
+
+    def set(self, uri: str, version: int, text: str) -> None:
+        """A file has this text now."""
+        path = self.lsp.path(uri)
+        self.lsp.uris[path], self.lsp.versions[path] = uri, version
+        self.workspace.texts[path] = text
+
+    def close(self, uri: str) -> None:
+        """A file is no longer open."""
+        path = self.lsp.path(uri)
+        self.workspace.close(path)
+        self.lsp.versions.pop(path, None)
+        self.lsp.uris.pop(path, None)
+
+    def place(self, uri: str, position: types.Position) -> tuple[MindView, Path, int]:
+        """The mind of a file, its path, and the offset of a position in it."""
+        path = self.lsp.path(uri)
+        return self.workspace.view(path), path, self.lsp.offset(self.workspace.text(path), position)
+
+    def news(self) -> Iterator[types.PublishDiagnosticsParams]:
+        """The findings that have changed since the last report: by file, empty for files that have none now."""
+        found = self._findings_by_file()
+        for path in [*found, *(path for path in self._told if path not in found)]:
+            now = self.lsp.versions.get(path), [self.lsp.diagnostic(each) for each in found.get(path, ())]
+            if self._told.get(path) != now:
+                yield types.PublishDiagnosticsParams(self.lsp.uri(path), now[1], now[0])
+            self._told[path] = now
+        self._told = {path: report for path, report in self._told.items() if report[1] or path in found}
+
+    def _findings_by_file(self) -> dict[Path, list[Diagnostic]]:
+        """The findings by file, each once, also where several minds have it."""
+        found: dict[Path, dict[tuple[object, ...], Diagnostic]] = {path: {} for path in self.workspace.texts}
+        for main in self.workspace.mains():
+            for each in self.workspace.mind(main).findings:
+                path = each.span.source.path if each.span else main
+                place = (each.span.start, each.span.end) if each.span else (0, 0)
+                found.setdefault(path, {}).setdefault((*place, each.code, each.message), each)
+        mistakes = {path: self._stop_findings(path) for path in self.workspace.texts if are_breakpoints(path)}
+        return {path: _first(path, mistakes.get(path, [*each.values()])) for path, each in found.items()}
+
+    def _stop_findings(self, path: Path) -> list[Diagnostic]:
+        return [*stop_findings(path, self.workspace.text(path), self.workspace.view(path))]
+
+    def follow(self, following: PendingRename | None) -> None:
+        """Let locks follow an edit once its files are saved."""
+        if following:
+            self.following = [*self.following, following][-MAX_PENDING_EDITS:]
+
+    def saved(self, path: Path) -> Iterator[str]:
+        """A file lies on the disk as it is; what there is to say of the locks that have followed."""
+        self.workspace.forget()
+        for following in [each for each in self.following if path in each.files]:
+            try:
+                if locks := keep_up(following):
+                    yield f"{listed((lock.name for lock in locks), 'and')} has followed: no weights are lost"
+            except MindError as error:
+                yield f"{error}. The locks have not followed; mindc status says which weights no longer fit."
+
+
+def _first(path: Path, found: list[Diagnostic]) -> list[Diagnostic]:
+    """The first findings of a file, and how many more there are: nobody reads them all, and editors wait for them."""
+    if len(found) <= MAX_PUBLISHED_DIAGNOSTICS:
+        return found
+    more = Diagnostic(
+        "", f"There are {len(found) - MAX_PUBLISHED_DIAGNOSTICS} more findings in {path.name}.", severity="warning"
+    )
+    return [*found[:MAX_PUBLISHED_DIAGNOSTICS], more]
+
 
 TYPING_PAUSE_SECONDS = 0.15  # seconds without typing, after which a text is checked
 REQUEST_FAILED = -32803  # RequestFailed
@@ -23,8 +109,9 @@ class MindServer(LanguageServer):
 
     def __init__(self) -> None:
         sync = types.TextDocumentSyncKind.Full
-        super().__init__("mindc", version("mindlang"), text_document_sync_kind=sync, protocol_cls=MindProtocol)
+        super().__init__("mindc", version("mindlang"), text_document_sync_kind=sync)
         self.session = Session()
+        self.is_shut_down = False  # whether the editor has said that all is over
         self._due: asyncio.TimerHandle | None = None
 
     def check_soon(self) -> None:
@@ -39,19 +126,6 @@ class MindServer(LanguageServer):
             self._due.cancel()
         for news in self.session.news():
             self.text_document_publish_diagnostics(news)
-
-    def report_server_error(self, error: Exception, source: Any) -> None:
-        """Tell the editor of what is no answer to a request: a message that is no JSON, or a fault of ours."""
-        match error:
-            case ValueError() | RecursionError() if source is JsonRpcException:
-                self._protocol.refuse(None, NO_JSON, "A message is one JSON object.")
-            case _ if source is not FeatureRequestError:
-                self.say(f"mindc failed: {error}. Please report it.", types.MessageType.Error)
-
-    @property
-    def _protocol(self) -> MindProtocol:
-        assert isinstance(self.protocol, MindProtocol)
-        return self.protocol
 
     def say(self, message: str, type_: types.MessageType = types.MessageType.Info) -> None:
         """Show the user a message."""

@@ -4,28 +4,28 @@ from collections.abc import Sequence
 from itertools import takewhile
 from pathlib import Path
 
-from mindlang.breakpoints import SUFFIX
-from mindlang.breakpoints.checking import subject_of_mind
-from mindlang.breakpoints.file import breakpoints_of
-from mindlang.breakpoints.robot_events import FAULT, OF, WORDS
+from mindlang.breakpoints.breakpoint import FAULT, OF, ROBOT_WORDS
+from mindlang.breakpoints.resolve import breakpoints_of
+from mindlang.breakpoints.subject import subject_of_mind
 from mindlang.compiler.diagnostic import Diagnostic
 from mindlang.compiler.references import READABLE_NOUNS
 from mindlang.compiler.source import Source
-from mindlang.server.expressions import condition_words, takes_value, values
-from mindlang.server.offers import NUMBER, Offer, arguments_of, kinds_of, names, numbers, units, words
-from mindlang.server.view import MindView
+from mindlang.server.offers import (
+    NUMBER,
+    Offer,
+    arguments_of,
+    condition_words,
+    kinds_of,
+    names,
+    numbers,
+    takes_value,
+    units,
+    values,
+    words,
+)
+from mindlang.server.workspace import MindView
 
 JOINTS = ("when", "and", "or")
-
-
-def are_breakpoints(path: Path) -> bool:
-    """Whether a file of this name has breakpoints, and no mind."""
-    return path.suffix == SUFFIX
-
-
-def mind_beside(path: Path) -> Path:
-    """Where the mind of a file of breakpoints is."""
-    return path.with_suffix(".mind")
 
 
 def stop_findings(path: Path, text: str, mind: MindView) -> tuple[Diagnostic, ...]:
@@ -55,7 +55,7 @@ def stop_offers(view: MindView, line: Sequence[str]) -> list[Offer]:
 def _event(view: MindView, rest: Sequence[str]) -> list[Offer]:
     match rest:
         case []:
-            return [*kinds_of("event"), *words(*WORDS)]
+            return [*kinds_of("event"), *words(*ROBOT_WORDS)]
         case [word] if word == FAULT:
             return words(OF)
         case [word, of] if (word, of) == (FAULT, OF):

@@ -1,22 +1,151 @@
 """The files that an editor has open, as it has them, and the minds of which they are part."""
 
 import re
-from collections.abc import Iterator
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, fields, is_dataclass, replace
+from functools import cached_property
 from itertools import chain
 from pathlib import Path
+from typing import Any
 
+from mindrun.errors import MindError
+
+from mindlang.breakpoints import SUFFIX
 from mindlang.compiler.compile import Compiled, load
+from mindlang.compiler.diagnostic import Diagnostic, Findings
+from mindlang.compiler.expand import expand
+from mindlang.compiler.names import Names, gather
+from mindlang.compiler.references import Mention, mentions
 from mindlang.compiler.resolve.maps import map_paths
-from mindlang.compiler.source import within
+from mindlang.compiler.source import Span, within
+from mindlang.compiler.syntax import Declaration, Fact, File, Setting
+from mindlang.compiler.use import files
 from mindlang.file_search import files_beside, folders_above, text_of, within_read_limits
-from mindlang.server.stops import are_breakpoints, mind_beside
-from mindlang.server.view import MindView, view
 
 _MASTER = re.compile(r"^[ \t]*master\b", re.MULTILINE)
 _USE = re.compile(r'^[ \t]*use[ \t]+"', re.MULTILINE)
 
+Texts = Mapping[Path, str]
 Stamp = tuple[int, int] | None  # when a file was written, and how long it is
+
+
+def are_breakpoints(path: Path) -> bool:
+    """Whether a file of this name has breakpoints, and no mind."""
+    return path.suffix == SUFFIX
+
+
+@dataclass(frozen=True)
+class MindView:
+    """The files of a mind, main one first, and what is declared in them."""
+
+    main: Path
+    compiled: Compiled
+    files: tuple[File, ...]
+    names: Names
+
+    @property
+    def paths(self) -> list[Path]:
+        """Where the files stand."""
+        return [file.source.path for file in self.files]
+
+    def file(self, path: Path) -> File | None:
+        """The file at a path, if it is one of these."""
+        return next((file for file in self.files if file.source.path == path), None)
+
+    @cached_property
+    def whole(self) -> Names:
+        """What is declared, with all that scenes and tasks say which others are like."""
+        return expand(self.names, {}, 1.0, Findings())
+
+    @cached_property
+    def mentions(self) -> tuple[Mention, ...]:
+        """Every name in the files that is declared in one of them."""
+        return tuple(mentions(self.files, self.names))
+
+    def mention_at(self, path: Path, offset: int) -> Mention | None:
+        """The name in which, or right behind which, an offset lies."""
+        here = (mention for mention in self.mentions if mention.name.span.source.path == path)
+        return next((each for each in here if each.name.span.start <= offset <= each.name.span.end), None)
+
+    @cached_property
+    def findings(self) -> tuple[Diagnostic, ...]:
+        """What is wrong, and where nothing is, what is hardly meant; a damaged lock is a finding, too."""
+        from mindlang.lint.lint import lint
+        from mindlang.lint.settings_file import settings_of
+
+        settings = settings_of(self.main)
+        try:
+            found = lint(self.compiled, settings.codes(self.main))
+            return (*map(self._in_first_line, settings.wrong), *found)
+        except MindError as error:
+            where = Span(self.compiled.sources[0], 0, 0)
+            damage = Diagnostic("damaged-lock", f"{error}.", where, error.hint, severity="warning")
+            return (*self.compiled.diagnostics, damage)
+
+    def _in_first_line(self, diagnostic: Diagnostic) -> Diagnostic:
+        """What is wrong in another file, said in the first line of the mind's own: an editor has that one open."""
+        where = f"{diagnostic.span.source.name}:{diagnostic.span.line}: " if diagnostic.span else ""
+        here = Span(self.compiled.sources[0], 0, 0) if self.compiled.sources else None
+        return replace(diagnostic, message=f"{where}{diagnostic.message}", span=here, severity="warning")
+
+
+def view(main: Path, texts: Texts) -> MindView:
+    """The mind whose main file stands at a path; files in `texts` are taken from there."""
+    compiled = load(main, texts)
+    if compiled.mind:
+        found = compiled.mind.files
+    elif compiled.sources:
+        found = tuple(files(compiled.sources[0], main, Findings(), texts)[0])
+    else:
+        found = ()
+    return MindView(main, compiled, found, gather(found, Findings()))
+
+
+def declaration_at(file: File, offset: int) -> Declaration | None:
+    """The declaration to which a line at an offset belongs: the one whose header stands last before it."""
+    lines: list[tuple[int, Setting | Declaration]] = [(setting.span.start, setting) for setting in file.settings]
+    lines += [(declaration.header.span.start, declaration) for declaration in file.declarations]
+    above = max((line for line in lines if line[0] <= offset), key=lambda line: line[0], default=(0, None))[1]
+    return above if isinstance(above, Declaration) else None
+
+
+def fact_at(declaration: Declaration, offset: int) -> Fact | None:
+    """The fact on whose line an offset lies."""
+    return next((fact for fact in declaration.facts if on_line(fact.span, offset)), None)
+
+
+def on_line(span: Span, offset: int) -> bool:
+    """Whether an offset lies on the line of a span."""
+    text = span.source.text
+    end = text.find("\n", span.end)
+    return text.rfind("\n", 0, span.start) < offset <= (len(text) if end < 0 else end)
+
+
+def path_to(file: File, offset: int) -> list[Any]:
+    """The nodes that hold an offset, each inside the one before; a declaration holds what stands in it."""
+    path: list[Any] = []
+    nodes: Iterator[Any] = iter((*file.settings, *file.declarations))
+    while (found := next((node for node in nodes if _holds(node, offset)), None)) is not None:
+        path.append(found)
+        nodes = _parts(found)
+    return path
+
+
+def _parts(node: Any) -> Iterator[Any]:
+    for each in fields(node):
+        value = getattr(node, each.name)
+        yield from (part for part in (value if isinstance(value, tuple) else (value,)) if _is_node(part))
+
+
+def _is_node(value: Any) -> bool:
+    return is_dataclass(value) and not isinstance(value, Span)
+
+
+def _holds(node: Any, offset: int) -> bool:
+    span = getattr(node, "span", None)
+    if span is None:
+        return any(_holds(part, offset) for part in _parts(node))
+    return bool(span.start <= offset <= span.end)
 
 
 @dataclass
@@ -58,7 +187,7 @@ class Workspace:
     def main_of(self, path: Path) -> Path:
         """The main file of the mind to which a file belongs: of one without a master, a mind that uses it."""
         if are_breakpoints(path):
-            return mind_beside(path)
+            return path.with_suffix(".mind")  # the mind beside it
         if _MASTER.search(self.text(path)):
             return path
         known = self._mains.get(path)

@@ -1,7 +1,8 @@
 """A run as one file: the page with all rows in it, which opens from a disk without a server.
 
 Rows are kept to the bit. Each column is the difference (exclusive or) of every value to that before it, its bytes apart
-by their place in the number, and all of it deflated: what does not change costs nothing.
+by their place in the number, and all of it deflated: what does not change costs nothing. The images of a run in an
+environment are made smaller, and fewer, until they fit.
 """
 
 from __future__ import annotations
@@ -10,21 +11,74 @@ import base64
 import hashlib
 import json
 import zlib
-from dataclasses import asdict
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
+import cv2
 import numpy as np
 from mindrun.errors import MindError
 from numpy.typing import NDArray
 
-from mindlang.view.columns import DOUBLE_BLOCK, SINGLE_BLOCK
-from mindlang.view.exported_images import ExportedImages
-from mindlang.view.viewed import Viewed
+from mindlang.view.rows import DOUBLE_BLOCK, SINGLE_BLOCK
+from mindlang.view.texts import error_text
+from mindlang.view.viewed import Image, Viewed, data_url
 
 PAGE = Path(__file__).parent / "page"
 MAX_EXPORTED_BYTES = 512 << 20  # of rows, which a browser holds in memory
 SCRIPT, STYLE = '<script defer src="view.js"></script>', '<link rel="stylesheet" href="view.css" />'
+MAX_IMAGES_BYTES = 64 << 20  # of all images, as text
+MAX_SIDE_PIXELS = 1000
+QUALITY = cv2.IMWRITE_WEBP_QUALITY, 90  # a fifth of a PNG, and as fast for a photograph as for a drawing
+
+
+@dataclass(frozen=True, slots=True)
+class ExportedImages:
+    """Images of the ticks 0, `every`, 2 · `every` …; `why` says what is wrong where there are none."""
+
+    every: int
+    images: Sequence[str]
+    why: str = ""
+
+    @property
+    def note(self) -> str:
+        """What is left out, in a sentence; empty where nothing is."""
+        if self.why:
+            return f"the page has no images: {self.why}"
+        if self.every == 1:
+            return ""
+        return f"the page has an image of every {self.every} ticks: all would be more than {MAX_IMAGES_BYTES >> 20} MiB"
+
+
+def exported_images(viewed: Viewed, drawn: Callable[[int], None]) -> ExportedImages | None:
+    """As many of a run that is over as fit; None where its world is no environment. `drawn` is told of each tick."""
+    if viewed.drawing is None:
+        return None
+    images: list[str] = []
+    every, size = 1, 0
+    try:
+        for tick in range(viewed.known + 1):
+            if tick % every == 0:
+                images.append(data_url(_reduced(viewed.image(tick)), "webp", QUALITY))
+                size += len(images[-1])
+            while size > MAX_IMAGES_BYTES and len(images) > 1:
+                images, every = images[::2], 2 * every
+                size = sum(map(len, images))
+            drawn(tick)
+    except MindError as error:
+        return ExportedImages(1, (), error_text(error))
+    return ExportedImages(every, images)
+
+
+def _reduced(image: Image) -> Image:
+    """The image, smaller where it is larger than a page shows it."""
+    scale = MAX_SIDE_PIXELS / max(image.shape)
+    if scale >= 1:
+        return image
+    height, width, _ = image.shape
+    size = max(1, round(scale * width)), max(1, round(scale * height))
+    return cv2.resize(image, size, interpolation=cv2.INTER_AREA).astype(image.dtype)
 
 
 class ExportError(MindError):

@@ -7,11 +7,14 @@ import hmac
 import json
 import os
 import secrets
+import webbrowser
 from asyncio import BaseTransport
 from collections.abc import Callable
+from concurrent.futures import Future
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import partial
+from threading import Thread
 from typing import Any
 
 from mindrun.errors import MindError
@@ -21,8 +24,9 @@ from websockets.frames import CloseCode
 
 from mindlang.view.http_answers import HttpAnswers
 from mindlang.view.learning import MAX_GENERATIONS
-from mindlang.view.messages import MAX_MESSAGE_BYTES, Plain, RefusedError, message, plain_message, refusal
+from mindlang.view.messages import MAX_MESSAGE_BYTES, RefusedError, message, refusal
 from mindlang.view.session import MAX_HAPPENED, Session
+from mindlang.view.viewed import Viewed
 
 LOOPBACK = "127.0.0.1"
 MAX_VIEWERS, MAX_STRANGERS = 16, 64
@@ -169,12 +173,10 @@ class ViewServer:
     async def _listen(self, viewer: Viewer) -> None:
         """Answer one message after the other."""
         async for text in viewer.connection:
-            asked: Plain = {}
             try:
-                asked = plain_message(_as_text(text))
-                answer = await self._session.answer(message(asked), viewer.edits)
+                answer = await self._session.answer(message(text), viewer.edits)
             except RefusedError as error:
-                answer = refusal(asked, str(error))
+                answer = refusal(text, str(error))
             if answer is not None:
                 await viewer.send(answer)
 
@@ -232,7 +234,45 @@ class ViewServer:
                 await asyncio.gather(*closing)
 
 
-def _as_text(said: str | bytes) -> str:
-    if isinstance(said, bytes):
-        raise RefusedError("a message is text")
-    return said
+class BackgroundView:
+    """Served at `address` until it is closed, or the program ends. PortError where no port can be had."""
+
+    def __init__(self, viewed: Viewed) -> None:
+        self._session = Session(viewed)
+        self._loop = asyncio.new_event_loop()
+        self._ready: Future[str] = Future()
+        self._serving: asyncio.Task[None] | None = None
+        self._thread = Thread(target=self._run, name="view", daemon=True)
+        self._thread.start()
+        self.address = self._ready.result()
+
+    def see(self, viewed: Viewed) -> None:
+        """Let all viewers see another run."""
+        self._loop.call_soon_threadsafe(self._session.see, viewed)
+
+    def close(self) -> None:
+        """End it: pages keep what they have fetched."""
+        if self._serving and self._thread.is_alive():
+            self._loop.call_soon_threadsafe(self._serving.cancel)
+            self._thread.join()
+
+    def _run(self) -> None:
+        with asyncio.Runner(loop_factory=lambda: self._loop) as runner, suppress(asyncio.CancelledError):
+            runner.run(self._serve())
+
+    async def _serve(self) -> None:
+        self._serving = asyncio.current_task()
+        try:
+            await ViewServer(self._session).serve(self._ready.set_result)
+        except Exception as error:  # said where the view was asked for
+            self._ready.set_exception(error)
+
+
+def open_browser(address: str) -> bool:
+    """Open a browser with windows; whether there is one: what runs in a terminal would take this one."""
+    with suppress(webbrowser.Error):
+        browser = webbrowser.get()
+        if type(browser) is not webbrowser.GenericBrowser:
+            Thread(target=browser.open, args=(address,), daemon=True).start()
+            return True
+    return False

@@ -1,18 +1,19 @@
-"""What several viewers see together: a run and its forks, who may change them, and answers to what is asked."""
+"""A session of several viewers: a run and its forks, who may change them, and answers to what is asked."""
 
 from __future__ import annotations
 
 import asyncio
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from math import isfinite
 from typing import TYPE_CHECKING, Any
 
 from mindrun.errors import MindError
+from mindrun.graph.graph import Skill
 
-from mindlang.view.columns import DOUBLE_BLOCK, SINGLE_BLOCK
-from mindlang.view.command_shares import command_shares
-from mindlang.view.environment_images import data_url
+from mindlang.attribution.shares import shares
+from mindlang.view.about import node_numbers
 from mindlang.view.learning import WATCH_SECONDS
 from mindlang.view.messages import (
     MAX_FORKS,
@@ -26,11 +27,13 @@ from mindlang.view.messages import (
     Run,
     Why,
 )
+from mindlang.view.rows import DOUBLE_BLOCK, SINGLE_BLOCK
 from mindlang.view.texts import error_text
-from mindlang.view.viewed import Fork, Viewed
+from mindlang.view.viewed import Fork, SeenMind, Viewed, data_url
 
 if TYPE_CHECKING:
     from mindlang.view.viewed_champion import Champions
+
 
 MAX_HAPPENED = 10_000  # events, and stops, that are told at once
 
@@ -130,7 +133,8 @@ class Session:
         """See the champion of another generation."""
         if self.champions is None or asked.run >= len(self.champions.learning.runs):
             raise RefusedError(f"there is no training {asked.run}")
-        given = asked.run, asked.attempt, asked.generation, asked.seed
+        seed = None if asked.seed is None else int(asked.seed)
+        given = asked.run, asked.attempt, asked.generation, seed
         try:
             viewed = await asyncio.get_running_loop().run_in_executor(self._grower, self.champions.begin, *given)
         except MindError as error:
@@ -184,11 +188,11 @@ class Session:
 def _computed(viewed: Viewed, message: Message) -> bytes | dict[str, Any]:
     try:
         match message:
-            case AskRows(fork, first, below, every, ask):
-                return viewed.rows(fork, first, below, every, ask)
-            case AskColumns(fork, columns, first, below, every, ask):
-                return viewed.some_columns(fork, columns, first, below, every, ask)
-            case AskImage(fork, tick):
+            case AskRows():
+                return viewed.rows(message)
+            case AskColumns():
+                return viewed.some_columns(message)
+            case AskImage(fork=fork, tick=tick):
                 image = data_url(viewed.image(tick), "png")
                 return {"say": "image", "fork": fork, "tick": tick, "image": image}
             case Why():
@@ -202,3 +206,46 @@ def _begun(forked: Callable[[Change], Fork], change: Change) -> Fork:
     fork = forked(change)
     fork.viewed.grow()
     return fork
+
+
+def command_shares(viewed: Viewed, asked: Why) -> dict[str, Any]:
+    """What each path has contributed to a command; RefusedError where there is no such actuator or tick."""
+    mind = viewed.mind
+    graph = mind.policy.graph
+    if viewed.about["source"] == "environment":
+        raise RefusedError("a program acts here: no path of influence has made its commands")
+    if asked.actuator >= len(graph.actuators):
+        raise RefusedError(f"there is no actuator {asked.actuator}")
+    if asked.tick > viewed.known:
+        raise RefusedError(f"tick {asked.tick} is not known yet")
+    found = shares(viewed.flows, ("actuator", asked.actuator), range(asked.tick, asked.tick + 1))
+    if not all(isfinite(number) for each in found.paths for number in (each.influence, each.share)):
+        raise RefusedError(f"the influence of tick {asked.tick} is beyond all numbers")
+    nodes = _nodes_by_name(mind)
+    end = node_numbers(graph, mind.skills)["actuator", asked.actuator]
+    return {
+        "say": "why",
+        "fork": asked.fork,
+        "tick": asked.tick,
+        "actuator": asked.actuator,
+        "command": found.command,
+        "neutral": found.neutral,
+        "rounding": found.rounding,
+        "paths": [
+            {
+                "path": [*(nodes[name] for name in each.path[:-1]), end],
+                "value": each.value,
+                "influence": each.influence,
+                "share": each.share,
+            }
+            for each in found.paths
+        ],
+        "rest": found.rest.share,
+        "rest_paths": found.rest.paths,
+    }
+
+
+def _nodes_by_name(mind: SeenMind) -> dict[str, int]:
+    numbers = node_numbers(mind.policy.graph, mind.skills)
+    places: Sequence[Skill] = mind.policy.graph.skills
+    return {skill.name: numbers["skill", place] for place, skill in enumerate(places) if ("skill", place) in numbers}

@@ -1,7 +1,16 @@
-"""Texts of a mind or of a recording as a page may show them, whoever wrote them."""
+"""Texts of a mind, of a recording or of breakpoints as a page may show them, whoever wrote them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
 
 from mindrun.errors import MindError
 from mindrun.files.printable import visible
+
+if TYPE_CHECKING:
+    from mindlang.breakpoints.watch import Stop
+
 
 SHOWN_CHARACTERS = 200
 
@@ -15,3 +24,8 @@ def shown(text: str) -> str:
 def error_text(error: MindError) -> str:
     """What is wrong, and what to do."""
     return shown("; ".join(filter(None, (str(error), error.hint))))
+
+
+def stop_texts(stops: Iterable[Stop]) -> tuple[tuple[int, str], ...]:
+    """The tick of each stop, and which line it is of."""
+    return tuple((stop.tick, shown(f"line {stop.breakpoint.line}: {stop.breakpoint.text}")) for stop in stops)

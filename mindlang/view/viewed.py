@@ -2,32 +2,65 @@
 
 from __future__ import annotations
 
+import base64
 from collections.abc import Callable, Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, field
+from functools import partial
+from pathlib import Path
 from typing import Any
 
+import cv2
 import numpy as np
 from mindrun.engine.think import Hierarchy, hierarchy
 from mindrun.errors import MindError, reason
-from mindrun.graph.graph import Skill
+from mindrun.graph.graph import Graph, Skill, Task
 from mindrun.graph.policy import Policy
 from mindrun.graph.weights import reachable
-from mindrun.sim.outside.seen import SeenEpisode
+from mindrun.sim.outside.seen import UNKNOWN_FAILURES, SeenEpisode, Sent
 from numpy.typing import NDArray
 
 from mindlang.run.edge_flow import EdgeFlows, FlowWalker
-from mindlang.view.columns import DOUBLE_BLOCK, FLOW, SINGLE_BLOCK, Columns
-from mindlang.view.environment_images import Drawing, Image
-from mindlang.view.frames import columns_frame, rows_frame, rows_that_fit
-from mindlang.view.messages import Change, RefusedError
-from mindlang.view.row_blocks import Chunk, Doubles, RowBlocks, Singles, TickNumbers
+from mindlang.view.messages import AskColumns, AskRows, Change, RefusedError
+from mindlang.view.rows import (
+    DOUBLE_BLOCK,
+    FLOW,
+    SINGLE_BLOCK,
+    Chunk,
+    Columns,
+    Doubles,
+    RowBlocks,
+    Singles,
+    TickNumbers,
+    columns_frame,
+    rows_frame,
+    rows_that_fit,
+)
 from mindlang.view.texts import error_text, shown
 
+Drawing = Callable[[Sent], SeenEpisode]
+Image = NDArray[np.uint8]
 FLOW_ROWS = 1024  # of a curve of what an edge transmits
 MAX_COMPUTED_EDGES = 200_000  # in one answer, so that nobody waits long for another's
 MAX_KEPT_BYTES = 2 << 30  # of rows, of a run and of all that are beside it
-
 Answer = dict[str, Any]
+
+
+def drawing_of(graph: Graph, task: Task | None, folder: Path, seed: int) -> Drawing | None:
+    """What draws the run of a task; None where its world is no environment."""
+    if task is None or not task.scene.environment:
+        return None
+    return _undrawn if task.fails else partial(SeenEpisode, graph, task.scene.environment, folder, seed)
+
+
+def _undrawn(sent: Sent) -> SeenEpisode:
+    raise MindError(UNKNOWN_FAILURES, "mindc run --picture and --video draw such a run")
+
+
+def data_url(image: Image, kind: str, quality: tuple[int, ...] = ()) -> str:
+    """An image [height, width, 3], red first, as an address that a page takes it from; `kind` is png or webp."""
+    done, data = cv2.imencode(f".{kind}", image[:, :, ::-1], quality)
+    assert done
+    return f"data:image/{kind};base64,{base64.b64encode(bytes(data)).decode()}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -125,23 +158,24 @@ class Viewed:
         self.blocks.append(chunk)
         self.ended_by, self.over = chunk.ended_by, chunk.is_last
 
-    def rows(self, fork: int, first: int, below: int, every: int, ask: int) -> bytes:
+    def rows(self, asked: AskRows) -> bytes:
         """A frame of rows: as many as are known and fit."""
         fit = rows_that_fit(self.columns.width(DOUBLE_BLOCK), self.columns.width(SINGLE_BLOCK))
-        ticks = self.blocks.ticks(first, below, every, min(fit, self._computed_rows))
-        return rows_frame(fork, ask, first, every, self.blocks.doubles(ticks), self.singles(ticks))
+        ticks = self.blocks.ticks(asked.first, asked.below, asked.every, min(fit, self._computed_rows))
+        header = asked.fork, asked.ask, asked.first, asked.every
+        return rows_frame(*header, self.blocks.doubles(ticks), self.singles(ticks))
 
-    def some_columns(
-        self, fork: int, asked: Sequence[tuple[int, int]], first: int, below: int, every: int, ask: int
-    ) -> bytes:
+    def some_columns(self, asked: AskColumns) -> bytes:
         """A frame of columns; RefusedError where there is no such column."""
-        for block, index in asked:
+        for block, index in asked.columns:
             if index >= self.columns.width(block):
                 raise RefusedError(f"there is no column {index} in block {block}")
-        flows = any(block == SINGLE_BLOCK and index >= self.columns.kept_singles for block, index in asked)
-        most = rows_that_fit(len(asked), 0)
-        ticks = self.blocks.ticks(first, below, every, min(most, FLOW_ROWS, self._computed_rows) if flows else most)
-        return columns_frame(fork, ask, first, every, self._asked(asked, ticks))
+        flows = any(block == SINGLE_BLOCK and index >= self.columns.kept_singles for block, index in asked.columns)
+        most = rows_that_fit(len(asked.columns), 0)
+        most = min(most, FLOW_ROWS, self._computed_rows) if flows else most
+        ticks = self.blocks.ticks(asked.first, asked.below, asked.every, most)
+        header = asked.fork, asked.ask, asked.first, asked.every
+        return columns_frame(*header, self._asked(asked.columns, ticks))
 
     def _asked(self, asked: Sequence[tuple[int, int]], ticks: TickNumbers) -> Doubles:
         """Columns [ticks, asked] as doubles; nothing else is gathered."""

@@ -19,7 +19,7 @@ from mindlang.compiler.drawing import text_after_name
 from mindlang.lock.ready import ReadyMind
 from mindlang.run.setup import RunSetup
 from mindlang.training.subject import Subject, open_subject
-from mindlang.view.about_hierarchy import Texts
+from mindlang.view.about import Texts
 from mindlang.view.learning import Learning, LearntRun
 from mindlang.view.viewed import Viewed
 from mindlang.view.viewed_run import ViewedRun

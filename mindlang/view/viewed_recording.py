@@ -20,20 +20,14 @@ from numpy.typing import NDArray
 
 from mindlang.run import outcome
 from mindlang.run.running_bundle import measured_in, running_bundle, task_of
-from mindlang.view.about_hierarchy import HierarchyData
-from mindlang.view.about_world import run_data
-from mindlang.view.columns import FLOW, Columns
-from mindlang.view.environment_images import drawing_of
+from mindlang.view.about import HierarchyData, WorldEvents, run_data
 from mindlang.view.growing_bytes import growing_bytes
-from mindlang.view.recorded_columns import beginning, blocks, world_columns
-from mindlang.view.row_blocks import Chunk, Singles
-from mindlang.view.stop_texts import stop_texts
-from mindlang.view.texts import shown
-from mindlang.view.viewed import SeenMind, Viewed
-from mindlang.view.world_events import WorldEvents
+from mindlang.view.rows import FLOW, Chunk, Columns, Singles, beginning, blocks, world_columns
+from mindlang.view.texts import shown, stop_texts
+from mindlang.view.viewed import SeenMind, Viewed, drawing_of
 
 if TYPE_CHECKING:
-    from mindlang.breakpoints.recorded import RecordingWatcher
+    from mindlang.breakpoints.watch import RecordingWatcher
 
 CHUNK_TICKS = 1000
 NOTHING = np.float32(np.nan)  # the reading of what was not measured

@@ -1,14 +1,16 @@
-"""A simulated run that is seen while it is made."""
+"""A simulated run that is seen while it is made, and the changes with which a viewer forks it."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
-from mindrun.engine import changes
+from mindrun.engine.changes import Change, What
 from mindrun.engine.engine import procedure_sources
+from mindrun.graph.graph import Graph, Task
+from mindrun.graph.named_readings import reading_names
 from mindrun.graph.recording_header import About
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.task_rows import things_of
@@ -22,19 +24,14 @@ from mindlang.breakpoints.watch import Part, Stop, Watcher, watcher
 from mindlang.run import outcome
 from mindlang.run.run_recording import recorded_rows, world_of
 from mindlang.run.setup import RunSetup
-from mindlang.view.about_hierarchy import HierarchyData, Texts
-from mindlang.view.about_world import run_data
-from mindlang.view.columns import FLOW, Columns
-from mindlang.view.environment_images import drawing_of
-from mindlang.view.messages import Change
-from mindlang.view.recorded_columns import beginning, blocks, world_columns
-from mindlang.view.replacement import replacement, replacement_text
-from mindlang.view.row_blocks import Chunk
-from mindlang.view.stop_texts import stop_texts
-from mindlang.view.texts import shown
-from mindlang.view.viewed import Fork, SeenMind, Viewed
-from mindlang.view.world_events import WorldEvents
+from mindlang.view import messages
+from mindlang.view.about import HierarchyData, Texts, WorldEvents, run_data
+from mindlang.view.messages import RefusedError
+from mindlang.view.rows import FLOW, Chunk, Columns, beginning, blocks, world_columns
+from mindlang.view.texts import shown, stop_texts
+from mindlang.view.viewed import Fork, SeenMind, Viewed, drawing_of
 
+GROUPS: dict[What, str] = {"reading": "readings", "influence": "influence", "memory": "readings"}
 COMPILING = "compiling what a changed run takes, once: about a minute…"
 
 
@@ -47,7 +44,7 @@ class ViewedRun:
     seed: int
     texts: Texts
     breakpoints: Sequence[Breakpoint] = ()
-    changes: tuple[changes.Change, ...] = ()
+    changes: tuple[Change, ...] = ()
 
     def begun(self) -> Viewed:
         """The run that the rollout makes of the seed, with the changes."""
@@ -61,7 +58,7 @@ class ViewedRun:
         about = {**self._about(run, mind, columns), "drawn": drawing is not None}
         return Viewed(about, columns, chunks, mind, self._forked, _compilation, drawing=drawing)
 
-    def _forked(self, asked: Change) -> Fork:
+    def _forked(self, asked: messages.Change) -> Fork:
         setup, graph = self.setup, self.setup.ready.policy.graph
         columns = run_columns(setup, 0)
         change = replacement(graph, setup.task, columns, asked)
@@ -120,3 +117,27 @@ def run_chunks(
 def _stops(ticks: Ticks, events: NDArray[np.int64], watching: Watcher | None) -> list[Stop]:
     """Where breakpoints stop a chunk, of which `events` says how often each has happened since the beginning."""
     return watching.feed(Part(ticks.readings, ticks.influence, ticks.commands, events)) if watching else []
+
+
+def replacement(graph: Graph, task: Task, columns: Columns, asked: messages.Change) -> Change:
+    """The change that was asked for; RefusedError where there is no such value, or no such tick."""
+    what = next(each for each in get_args(What) if each == asked.what)
+    block, index = asked.column
+    group = columns[GROUPS[what]]
+    row = index - group.first
+    sensed = sum(sensor.width for sensor in graph.sensors)
+    first, last = {"reading": (0, sensed), "influence": (0, group.count), "memory": (sensed, group.count)}[what]
+    if block != group.block or not first <= row < last:
+        raise RefusedError(f"column {index} of block {block} has no {what}")
+    if asked.tick > task.ticks:
+        raise RefusedError(f"tick is a whole number from 1 to {task.ticks}")
+    return Change(what, row, (asked.value,), asked.tick, asked.tick + asked.lasts - 1)
+
+
+def replacement_text(graph: Graph, change: Change) -> str:
+    """The change in words."""
+    of_skill = change.what == "influence"
+    name = graph.skills[change.row].name if of_skill else reading_names(graph)[change.row]
+    what = f"the influence of {name} is" if of_skill else f"{name} is"
+    ticks = f"tick {change.first}" if change.first == change.last else f"ticks {change.first} to {change.last}"
+    return shown(f"{what} {change.values[0]:g} in {ticks}")

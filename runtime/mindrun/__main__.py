@@ -13,7 +13,6 @@ from math import isnan
 from typing import Any
 
 from mindrun.cli.driving_arguments import driving_parser
-from mindrun.cli.shell_completion import reply, variable
 from mindrun.cli.tools import run_tool, tools
 from mindrun.engine.engine import Engine
 from mindrun.errors import MindError, ProcedureError, ReadingsError, surroundings
@@ -32,8 +31,7 @@ MAX_LINE_CHARACTERS = 1 << 20  # of one line of readings
 def main() -> None:
     """Run the command line; whatever happens ends in one message and an exit code."""
     standard_streams.prepare(standard_streams.Printable)
-    shell = os.environ.get(variable("mindrun"))
-    code = guarded((lambda: _complete(shell)) if shell else _command)
+    code = guarded(_command)
     if why := standard_streams.finish():
         _say(why)
         code = code or FAILED
@@ -59,14 +57,6 @@ def guarded(command: Callable[[], int]) -> int:
         if why := surroundings(error):
             return _say(why)
         return _say(f"failed: {type(error).__name__}: {error}", "Set MIND_DEBUG=1 to see where, and please report it.")
-
-
-def _complete(shell: str) -> int:
-    """Answer a shell that asks what may come next."""
-    from mindrun.cli.completing import answers
-
-    standard_streams.document(reply(shell, sys.argv[1:], answers))
-    return OK
 
 
 def _command() -> int:

@@ -6,6 +6,7 @@ from pathlib import Path
 from mindrun.graph.named_readings import physical
 
 from mindlang.breakpoints.subject import Subject
+from mindlang.breakpoints.watch import Part, Rows
 from mindlang.compiler.compile import load
 
 RIGHT = Path(__file__).parents[1] / "language" / "right.mind"
@@ -20,3 +21,9 @@ def subject(master: str = "Go", has_task: bool = True) -> Subject:
     if not has_task:
         return Subject.of_recording(compiled.graph, master, tuple(physical(compiled.graph)))
     return Subject(compiled.mind.names, compiled.graph, master, compiled.graph.tasks[0])
+
+
+def part(rows: Rows, first: int, end: int) -> Part:
+    """The rows from `first` up to `end`, counted from 0."""
+    here = slice(first, end)
+    return Part(rows.readings[here], rows.influence[here], rows.commands[here], rows.events[here])

@@ -5,9 +5,9 @@ import re
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mindlang.breakpoints.format import formatted
-from mindlang.breakpoints.parse import parse
 from mindlang.compiler.diagnostic import Findings
+from mindlang.compiler.format import formatted as formatted_file
+from mindlang.compiler.parse import parse_stops
 from mindlang.compiler.source import Source
 from tests.fmt.test_format import comments, plain
 
@@ -27,6 +27,10 @@ LINES = st.sampled_from([
 ])  # fmt: skip
 
 
+def formatted(text: str) -> str:
+    return formatted_file(text, "stop")
+
+
 @st.composite
 def texts(draw: st.DrawFn) -> str:
     """Lines with odd blanks, some of which say nothing, and comments."""
@@ -43,7 +47,7 @@ def texts(draw: st.DrawFn) -> str:
 def meaning(text: str) -> object:
     """What the lines say, without their places, and what those say that cannot be read."""
     findings = Findings()
-    lines = plain(tuple(parse(Source("text", text), findings)))
+    lines = plain(tuple(parse_stops(Source("text", text), findings)))
     return lines, [each.code for each in findings.diagnostics]
 
 

@@ -11,15 +11,12 @@ from pathlib import Path
 
 import pytest
 
-from mindlang.breakpoints.breakpoint import Happens, Holds, Reaches
-from mindlang.breakpoints.file import BreakpointFile, breakpoints_of, load_breakpoints
-from mindlang.breakpoints.mistakes import OWN_MISTAKES
-from mindlang.breakpoints.parse import parse
-from mindlang.breakpoints.robot_events import Fault, Stopped
+from mindlang.breakpoints.breakpoint import Fault, Happens, Holds, Reaches, Stopped
+from mindlang.breakpoints.resolve import BreakpointFile, breakpoints_of, load_breakpoints
 from mindlang.cli._diagnostic_printer import plain
 from mindlang.compiler.diagnostic import Findings
-from mindlang.compiler.parse import MAX_UNREADABLE_LINES
-from mindlang.compiler.parse.mistakes import Mistake
+from mindlang.compiler.parse import MAX_UNREADABLE_LINES, parse_stops
+from mindlang.compiler.parse.mistakes import MISTAKES, STOP_MISTAKES, Mistake
 from mindlang.compiler.source import Source
 from tests.breakpoints.subjects import subject
 
@@ -43,10 +40,10 @@ def test_one_message_for_one_mistake(path: Path, monkeypatch: pytest.MonkeyPatch
     assert found.diagnostics[0].hint
 
 
-@pytest.mark.parametrize("mistake", OWN_MISTAKES, ids=lambda mistake: mistake.code)
+@pytest.mark.parametrize("mistake", sorted({*STOP_MISTAKES} - {*MISTAKES}, key=repr), ids=lambda each: each.code)
 def test_the_example_of_a_mistake_is_explained_by_it(mistake: Mistake) -> None:
     findings = Findings()
-    parse(Source("example", mistake.example), findings)
+    parse_stops(Source("example", mistake.example), findings)
     assert [diagnostic.code for diagnostic in findings.diagnostics] == [mistake.code]
 
 

@@ -15,11 +15,9 @@ from mindrun.graph.recording_header import About, about_of_line
 from mindrun.graph.weights import reachable
 from mindrun.robot.recording import whole_rows
 
-from mindlang.breakpoints.breakpoint import Breakpoint, Happens, Holds, Reaches, Transmission
-from mindlang.breakpoints.file import breakpoints_of
-from mindlang.breakpoints.recorded import RecordingWatcher, recording_subject
-from mindlang.breakpoints.robot_events import Fault, Stopped
-from mindlang.breakpoints.watch import watcher
+from mindlang.breakpoints.breakpoint import Breakpoint, Fault, Happens, Holds, Reaches, Stopped, Transmission
+from mindlang.breakpoints.resolve import breakpoints_of
+from mindlang.breakpoints.watch import RecordingWatcher, recording_subject, watcher
 from mindlang.compiler.source import Source
 from mindlang.lock.ready import ReadyMind
 from mindlang.run.recorded_run import record_run

@@ -8,13 +8,14 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mindlang.breakpoints.file import breakpoints_of
+from mindlang.breakpoints.resolve import breakpoints_of
 from mindlang.breakpoints.subject import Subject
-from mindlang.breakpoints.watch import noticing, part, watcher
+from mindlang.breakpoints.watch import noticing, watcher
 from mindlang.compiler.compile import load
 from mindlang.compiler.source import Source
 from mindlang.run.recorded_run import RecordedRun, record_run
 from mindlang.run.setup import set_up
+from tests.breakpoints.subjects import part
 from tests.calling import Call
 from tests.language.examples import COLLECT, ROOT
 

@@ -16,8 +16,8 @@ from mindrun.numbers.expression import Program
 from numpy.typing import NDArray
 
 from mindlang.breakpoints.breakpoint import Breakpoint, Happens, Holds, Reaches, Transmission
-from mindlang.breakpoints.transmission import Transmissions
-from mindlang.breakpoints.watch import Part, Stop, Watcher, part
+from mindlang.breakpoints.watch import Part, Stop, Transmissions, Watcher
+from tests.breakpoints.subjects import part, subject
 from tests.hierarchies import PROCEDURES, Case, conditions, programs, random_case
 
 WIDTH, TICKS = 3, 12
@@ -51,7 +51,7 @@ def random_watched(draw: st.DrawFn) -> Watched:
 
 
 def watcher(watched: Watched) -> Watcher:
-    return Watcher(watched.breakpoints, (Collision(), Exhaustion()), NO_SKILLS, 0)
+    return Watcher(watched.breakpoints, (Collision(), Exhaustion()), subject().graph, NO_SKILLS)
 
 
 def where(stops: list[Stop]) -> list[tuple[int, int]]:
@@ -107,7 +107,7 @@ def test_all_weights_together_are_what_thinking_adds_up(case: Case) -> None:
     """Toward a skill its influence; toward what is driven the whole, or nothing where nothing drives it."""
     graph, watching = case.graph, ready(case)
     influence, asked = influence_of(case, case.readings), all_sent(case)
-    weights = Transmissions(asked, watching, len(graph.actuators)).feed(case.readings, influence)
+    weights = Transmissions(asked, graph, watching).feed(case.readings, influence)
     for to, target in {(each.to, each.target) for each in asked}:
         arriving = [
             weight for each, weight in zip(asked, weights, strict=True) if (each.to, each.target) == (to, target)
@@ -124,11 +124,8 @@ def test_all_weights_together_are_what_thinking_adds_up(case: Case) -> None:
 def test_where_a_mind_is_begun_anew_its_weights_are_as_at_the_beginning(case: Case, cut: int) -> None:
     halves = np.split(case.readings, [cut % (len(case.readings) + 1)])
     influence, asked = [influence_of(case, half) for half in halves], all_sent(case)
-    whole, parts = (Transmissions(asked, ready(case), len(case.graph.actuators)) for _ in range(2))
-    alone = [
-        Transmissions(asked, ready(case), len(case.graph.actuators)).feed(*half)
-        for half in zip(halves, influence, strict=True)
-    ]
+    whole, parts = (Transmissions(asked, case.graph, ready(case)) for _ in range(2))
+    alone = [Transmissions(asked, case.graph, ready(case)).feed(*half) for half in zip(halves, influence, strict=True)]
     found = whole.feed(case.readings, np.concatenate(influence), [0, len(halves[0])])
     assert np.array_equal(found, np.concatenate(alone, axis=1), equal_nan=True)
     for fed, expected in zip(zip(halves, influence, strict=True), alone, strict=True):

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from mindlang.breakpoints.file import breakpoints_of
+from mindlang.breakpoints.resolve import breakpoints_of
 from mindlang.compiler.compile import load
 from mindlang.compiler.diagnostic import Diagnostic
 from mindlang.compiler.resolve.curricula import SWITCHES

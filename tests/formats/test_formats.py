@@ -10,8 +10,8 @@ from mindrun.kinds.registry import kinds
 from mindrun.robot.replay import replay_recording
 
 import mindlang
-from mindlang.breakpoints.checking import subject_of_mind
-from mindlang.breakpoints.file import breakpoints_of
+from mindlang.breakpoints.resolve import breakpoints_of
+from mindlang.breakpoints.subject import subject_of_mind
 from mindlang.compiler.source import Source
 from mindlang.pictures.learning_log import load_curves
 from mindlang.robot.wire import load_wiring

@@ -9,7 +9,7 @@ from mindrun.errors import ProcedureError
 from mindrun.kinds.procedure_text import fit
 
 import mindlang
-from mindlang.server.view import view
+from mindlang.server.workspace import view
 from tests.calling import RULES, Call
 
 CALLING = RULES.replace("skill Turn is rule", "skill Turn is procedure from turning.turn\n  reads feeler").replace(

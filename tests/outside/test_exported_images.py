@@ -10,8 +10,8 @@ import pytest
 
 pytest.importorskip("gymnasium")
 
-from mindlang.view import exported_images
-from mindlang.view.exported_images import ExportedImages
+from mindlang.view import export
+from mindlang.view.export import ExportedImages
 from tests.calling import Call, caller
 from tests.outside import worlds
 from tests.outside.test_commands import rules
@@ -29,7 +29,7 @@ def mindc(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -
 
 
 def images_of(folder: Path, world: type[worlds.Line] = worlds.Line) -> ExportedImages:
-    found = exported_images.exported_images(seen_run(folder, world), lambda tick: None)
+    found = export.exported_images(seen_run(folder, world), lambda tick: None)
     assert found
     return found
 
@@ -43,7 +43,7 @@ def pixels(url: str) -> np.ndarray:
 
 def test_every_tick_has_its_image(tmp_path: Path) -> None:
     viewed = seen_run(tmp_path)
-    found = exported_images.exported_images(viewed, lambda tick: None)
+    found = export.exported_images(viewed, lambda tick: None)
     assert found
     assert (found.every, found.note, len(found.images)) == (1, "", TICKS + 1)
     places = [int(viewed.image(tick)[19, :, 0].argmax()) for tick in range(TICKS + 1)]
@@ -55,7 +55,7 @@ def test_every_tick_has_its_image(tmp_path: Path) -> None:
 def test_where_not_all_fit_those_of_a_step_do(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, least: int) -> None:
     every = images_of(tmp_path).images
     limit = sum(map(len, every)) * least // (TICKS + 1) + 200
-    monkeypatch.setattr(exported_images, "MAX_IMAGES_BYTES", limit)
+    monkeypatch.setattr(export, "MAX_IMAGES_BYTES", limit)
     found = images_of(tmp_path)
     assert [*found.images] == [*every[:: found.every]]
     assert sum(map(len, found.images)) <= limit
@@ -64,8 +64,8 @@ def test_where_not_all_fit_those_of_a_step_do(tmp_path: Path, monkeypatch: pytes
 
 
 def test_a_large_image_is_smaller_in_a_page() -> None:
-    assert exported_images._reduced(np.zeros((3000, 20, 3), np.uint8)).shape == (1000, 7, 3)
-    assert exported_images._reduced(np.zeros((40, 60, 3), np.uint8)).shape == (40, 60, 3)
+    assert export._reduced(np.zeros((3000, 20, 3), np.uint8)).shape == (1000, 7, 3)
+    assert export._reduced(np.zeros((40, 60, 3), np.uint8)).shape == (40, 60, 3)
 
 
 @pytest.mark.parametrize("source", ["run", "recording"])
@@ -89,7 +89,7 @@ def test_the_page_shows_each_tick_from_a_disk(mindc: Call, tmp_path: Path, sourc
 
 def test_the_page_says_which_tick_it_shows(mindc: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     page = tmp_path / "run.html"
-    monkeypatch.setattr(exported_images, "MAX_IMAGES_BYTES", 4 * len(images_of(tmp_path).images[0]))
+    monkeypatch.setattr(export, "MAX_IMAGES_BYTES", 4 * len(images_of(tmp_path).images[0]))
     said = mindc("view", rules(tmp_path), "--seed", 3, "--export", page)
     every = json.loads(Page(page.read_text()).scripts["recording"])["images"]["every"]
     assert f"an image of every {every} ticks" in said.err

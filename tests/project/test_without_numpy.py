@@ -25,8 +25,7 @@ COMPUTING = {"numpy", "numba", "llvmlite", "pymunk", "cv2", "PIL", "matplotlib",
 COMMAND = "from mindlang.cli import main; main()"
 EDITOR = """
 from pathlib import Path
-import mindlang.server.server
-from mindlang.server.session import Session
+from mindlang.server.server import Session
 
 path = Path(sys.argv[1]).resolve()
 session = Session()

@@ -1,21 +1,21 @@
 """The editor's grammar says of every character of every example what the real grammar says."""
 
+import json
 import re
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from lark import Lark, Token, Tree, UnexpectedInput
+from lark import Token, Tree, UnexpectedInput
 
-from mindlang.breakpoints.parse import grammar as breakpoints
-from mindlang.compiler.parse.shape import grammar
+from mindlang.compiler.parse.shape import Start, grammar
 from mindlang.explaining.words import words_of
 from tests.language.examples import EXAMPLES
-from tests.server.textmate import Grammar
+from tests.server.textmate import scopes
 
 FOLDER = Path(__file__).parents[2] / "editors" / "vscode"
 OTHERS = sorted(Path(__file__).parents[1].rglob("*.mind"))
-COLOURS = Grammar(FOLDER / "syntaxes" / "mind.tmLanguage.json")
+COLOURS = json.loads((FOLDER / "syntaxes" / "mind.tmLanguage.json").read_text(encoding="utf-8"))
 
 NOUN, VERB, WORD = "storage.type", "keyword.control", "keyword.other"
 DECLARED, TITLE, PART = "entity.name.function", "entity.name.type", "variable.other"
@@ -56,9 +56,9 @@ def code_of(line: str) -> str:
     return found[0].rstrip() if found else ""
 
 
-def expected(code: str, grammar: Lark) -> dict[int, str]:
+def expected(code: str, start: Start) -> dict[int, str]:
     """The scope of each character that the grammar makes a token of, by offset; words that it filters out as well."""
-    tree = grammar.parse(code, start="line")
+    tree = grammar().parse(code, start=start)
     found = {at: scope for token, scope in _tokens(tree, "") for at in range(token.start_pos, token.end_pos)}
     kept = set(found)
     for word in _words(code):
@@ -75,7 +75,7 @@ def _words(code: str) -> Iterator[re.Match[str]]:
 def _tokens(tree: Tree[Token], event: str) -> Iterator[tuple[Token, str]]:
     """The tokens with their scopes; in an event even a bare name is a function."""
     names = 0
-    is_about_event = tree.data in ("ends", "succeeds", "counts", "rewards", "happening")
+    is_about_event = tree.data in ("ends", "succeeds", "counts", "rewards", "stop")
     for number, child in enumerate(tree.children):
         if isinstance(child, Tree):
             is_event = is_about_event and child.data == "call" and number >= (tree.data == "rewards")
@@ -161,57 +161,53 @@ stop in tick 812
 stop in tick late"""
 
 
-def check(line: str, grammar: Lark) -> int:
+def check(line: str, start: Start = "line") -> int:
     """Hold a line against the grammar; how many of its characters are of a token. UnexpectedInput where it is none."""
     code = code_of(line)
-    scopes = COLOURS.scopes(line)
-    wanted = expected(code, grammar) if code else {}
+    coloured = scopes(COLOURS, line)
+    wanted = expected(code, start) if code else {}
     for at, scope in wanted.items():
-        assert f"{scopes[at]}.".startswith(f"{scope}."), (line, line[at:], scopes[at], scope)
+        assert f"{coloured[at]}.".startswith(f"{scope}."), (line, line[at:], coloured[at], scope)
     for at in range(len(code), len(line)):
-        assert line[at].isspace() or scopes[at].startswith("comment"), line
+        assert line[at].isspace() or coloured[at].startswith("comment"), line
     return len(wanted)
 
 
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
 def test_every_token_of_every_example(path: Path) -> None:
     lines = path.read_text(encoding="utf-8").splitlines()
-    assert (
-        sum(check(line, grammar()) for line in lines) > sum(len(code_of(line).replace(" ", "")) for line in lines) * 0.9
-    )
+    assert sum(check(line) for line in lines) > sum(len(code_of(line).replace(" ", "")) for line in lines) * 0.9
 
 
 @pytest.mark.parametrize("line", ODD.split("\n"))
 def test_odd_lines(line: str) -> None:
-    assert check(line, grammar())
+    assert check(line)
 
 
 @pytest.mark.parametrize("line", STOPS.split("\n"))
 def test_breakpoints(line: str) -> None:
-    assert check(line, breakpoints())
+    assert check(line, "stop")
 
 
 def test_every_readable_line_of_the_tests() -> None:
     read = 0
     for line in dict.fromkeys(line for path in OTHERS for line in path.read_text(encoding="utf-8").split("\n")):
         try:
-            read += bool(check(line.rstrip("\r"), grammar()))
+            read += bool(check(line.rstrip("\r")))
         except UnexpectedInput:
             continue
     assert read > 150
 
 
 def test_a_wrong_colour_is_found() -> None:
-    data = {**COLOURS.data, "patterns": COLOURS.data["patterns"][1:]}
-    colourless = Grammar.__new__(Grammar)
-    colourless.data = data
-    assert colourless.scopes("tick 1/60 s  # slow")[-1] != COLOURS.scopes("tick 1/60 s  # slow")[-1]
+    colourless = {**COLOURS, "patterns": COLOURS["patterns"][1:]}
+    assert scopes(colourless, "tick 1/60 s  # slow")[-1] != scopes(COLOURS, "tick 1/60 s  # slow")[-1]
 
 
 def test_a_line_that_is_being_written_has_its_colours() -> None:
     for word in (*words_of("Nouns"), *words_of("Settings"), *words_of("Verbs"), "stop"):
-        assert COLOURS.scopes(f"  {word}")[2].split(".")[0] in ("storage", "keyword"), word
-        assert COLOURS.scopes(f"  {word} ")[2]
+        assert scopes(COLOURS, f"  {word}")[2].split(".")[0] in ("storage", "keyword"), word
+        assert scopes(COLOURS, f"  {word} ")[2]
 
 
 def test_the_words_of_the_language_are_explained() -> None:

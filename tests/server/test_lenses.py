@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from mindlang.server.lenses import lenses
+from mindlang.server.questions import lenses
 from mindlang.server.workspace import Workspace
 from tests.calling import RULES, Call
 from tests.language.examples import EXAMPLES, TOUR

@@ -10,8 +10,8 @@ import pytest
 from mindrun.graph.bundle import Bundle
 from mindrun.robot.recording import About, Recorder
 
-from mindlang.breakpoints.file import breakpoints_of
-from mindlang.breakpoints.recorded import RecordingWatcher, recording_subject
+from mindlang.breakpoints.resolve import breakpoints_of
+from mindlang.breakpoints.watch import RecordingWatcher, recording_subject
 from mindlang.compiler.source import Source
 from mindlang.view.viewed_recording import followed_recording
 from tests.view.browser import Opened, chromium

@@ -13,8 +13,8 @@ import pytest
 
 from mindlang.pictures.influence_flow import Flow
 from mindlang.run.recorded_run import record_run
-from mindlang.view.command_shares import command_shares
 from mindlang.view.messages import Change, RefusedError, Why
+from mindlang.view.session import command_shares
 from mindlang.view.viewed import Fork, Viewed
 from tests.calling import write_rules
 from tests.view.browser import Opened, chromium

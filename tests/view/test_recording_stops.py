@@ -13,9 +13,8 @@ from mindrun.graph.policy import Policy
 from mindrun.robot.recording import About, Recorder, read
 
 from mindlang.breakpoints.breakpoint import Breakpoint
-from mindlang.breakpoints.file import breakpoints_of
-from mindlang.breakpoints.recorded import RecordingWatcher, recording_subject
-from mindlang.breakpoints.watch import Stop
+from mindlang.breakpoints.resolve import breakpoints_of
+from mindlang.breakpoints.watch import RecordingWatcher, Stop, recording_subject
 from mindlang.compiler.source import Source
 from mindlang.view.viewed_recording import followed_recording, viewed_recording
 from tests.calling import Call

@@ -8,8 +8,7 @@ from hypothesis import strategies as st
 
 from mindlang.pictures.influence_flow import Flow
 from mindlang.run.recorded_run import record_run
-from mindlang.view.frames import unpacked
-from mindlang.view.row_blocks import Chunk, RowBlocks
+from mindlang.view.rows import Chunk, RowBlocks, unpacked
 from tests.view.serving import Served, prepared
 
 

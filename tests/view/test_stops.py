@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from mindlang.breakpoints.file import breakpoints_of
+from mindlang.breakpoints.resolve import breakpoints_of
 from mindlang.breakpoints.subject import Subject
 from mindlang.breakpoints.watch import noticing, watcher
 from mindlang.compiler.compile import load

@@ -19,8 +19,7 @@ from websockets.sync.client import connect
 from websockets.typing import Origin
 
 from mindlang.cli._run_view import ViewChoice, run_view
-from mindlang.view.browser import open_browser
-from mindlang.view.server import ViewServer
+from mindlang.view.server import ViewServer, open_browser
 from mindlang.view.session import Session
 from tests.calling import Call
 from tests.view.serving import ANSWER_SECONDS, ViewingClient

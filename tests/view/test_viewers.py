@@ -14,15 +14,15 @@ from mindrun.engine.changes import change_of
 from mindrun.errors import MindError
 from mindrun.sim.trace import trace
 from websockets.exceptions import ConnectionClosed
+from websockets.frames import Frame, Opcode
 
 from mindlang.view import server
-from mindlang.view.frames import MAX_FRAME_BYTES, unpacked
 from mindlang.view.http_answers import SECURITY
 from mindlang.view.messages import AskRows, Change
+from mindlang.view.rows import MAX_FRAME_BYTES, unpacked
 from mindlang.view.session import Session
 from mindlang.view.viewed import Fork
 from tests.view.serving import ANSWER_SECONDS, UPGRADE, Served, ViewingClient, prepared, request, served, simulated
-from tests.view.test_hostile_messages import frame
 
 CHANGE = {"say": "change", "tick": 200, "what": "reading", "value": 0.25, "lasts": 300}
 
@@ -178,8 +178,9 @@ def test_one_who_does_not_read_is_dropped_and_no_other_waits(path: Path, monkeyp
             deaf.connect(("127.0.0.1", view.port))
             deaf.sendall(request(view, "GET /rows HTTP/1.1", Origin="http://HOST", **UPGRADE))
             assert deaf.recv(16).startswith(b"HTTP/1.1 101")
-            deaf.sendall(frame(1, view.token.encode()))
-            asked = frame(1, json.dumps({"say": "rows", "from": 0, "to": 1200}).encode())
+            deaf.sendall(Frame(Opcode.TEXT, view.token.encode()).serialize(mask=True))
+            question = json.dumps({"say": "rows", "from": 0, "to": 1200}).encode()
+            asked = Frame(Opcode.TEXT, question).serialize(mask=True)
             with suppress(ConnectionResetError, BrokenPipeError):
                 while True:
                     deaf.sendall(asked)
@@ -187,7 +188,7 @@ def test_one_who_does_not_read_is_dropped_and_no_other_waits(path: Path, monkeyp
 
 
 def test_a_frame_is_no_larger_than_it_may_be(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("mindlang.view.frames.MAX_FRAME_BYTES", 10_000)
+    monkeypatch.setattr("mindlang.view.rows.MAX_FRAME_BYTES", 10_000)
     with served(simulated(path)) as view, view.viewer() as viewer:
         about = viewer.hear("about")
         viewer.run(1200)
@@ -273,7 +274,7 @@ def test_a_question_is_about_the_run_that_was_seen_when_it_was_asked(path: Path)
 
     async def asked() -> bytes | dict[str, Any] | None:
         session._answerer.submit(held.wait)
-        asking = asyncio.create_task(session.answer(AskRows(1, 0, 10, 1, 7), edits=False))
+        asking = asyncio.create_task(session.answer(AskRows(first=0, below=10, fork=1, ask=7), edits=False))
         await asyncio.sleep(0)
         session._see(simulated(path))
         held.set()
@@ -291,7 +292,6 @@ def test_a_question_is_about_the_run_that_was_seen_when_it_was_asked(path: Path)
         ({"say": "columns", "columns": [[0, 999]], "from": 0, "to": 5, "ask": 8}, "columns", 8),
         ({"say": "columns", "columns": [], "from": 0, "to": 5, "ask": 9}, "columns", 9),
         ({"say": "why", "tick": 99_999, "actuator": 0}, "why", None),
-        ({"say": "rows", "from": 0, "to": 5, "ask": -1}, "rows", None),
         ({"say": "nothing", "ask": "x"}, None, None),
     ],
 )

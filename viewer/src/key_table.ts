@@ -1,11 +1,23 @@
 /** Which key does what. */
 
 import { element } from "./elements";
+import type { Hierarchy } from "./hierarchy";
 import type { Key } from "./keys";
-import type { View } from "./view";
+import type { Playback } from "./playback";
+import type { Timeline } from "./timeline";
+import type { World } from "./world";
 
 const STEP_TICKS = 10;
 const ZOOM = 1.25;
+
+/** What keys act on. */
+interface Parts {
+  playback: Playback;
+  timeline: Timeline;
+  hierarchy: Hierarchy;
+  world: World | null;
+  follow: () => void;
+}
 
 export function keysOf({ playback, timeline, hierarchy, world, follow }: Parts, search: () => void, help: () => void): Key[] {
   const to = (direction: 1 | -1) => {
@@ -33,5 +45,3 @@ export function keysOf({ playback, timeline, hierarchy, world, follow }: Parts, 
     { keys: ["?"], shown: "?", says: "this help", act: help },
   ];
 }
-
-type Parts = Pick<View, "playback" | "timeline" | "hierarchy" | "world"> & { follow: () => void };

@@ -62,7 +62,7 @@ export class Rows {
   ) {
     const bytes = Math.max(1, 8 * about.doubles + 4 * about.singles);
     const rows = 2 ** Math.floor(Math.log2(CHUNK_BYTES / bytes));
-    this.track = new Track(about, this, changed);
+    this.track = new Track(about, (...asked) => this.series(...asked), () => this.known, changed);
     this.chunkRows = Math.min(CHUNK_ROWS_MAX, Math.max(CHUNK_ROWS_MIN, rows));
     this.keptChunks = Math.max(2 * CHUNKS_AHEAD_MAX, Math.floor(KEPT_BYTES / (bytes * this.chunkRows)));
   }

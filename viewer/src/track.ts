@@ -1,9 +1,11 @@
 /** Where the robot was: its poses alone, which come faster than whole rows. */
 
-import { type About, columnOf } from "./protocol";
-import type { Rows } from "./rows";
+import { type About, type Column, columnOf } from "./protocol";
 
 export type Pose = [x: number, y: number, angle: number];
+
+/** Fetches the values of some columns from one tick to another, no more than about `most` of each. */
+type Series = (columns: Column[], from: number, to: number, most: number, then: (found: { values: number[][] }) => void) => void;
 
 const BLOCK_TICKS = 2048;
 const KEPT_BLOCKS = 200;
@@ -14,7 +16,8 @@ export class Track {
 
   constructor(
     private readonly about: About,
-    private readonly rows: Rows,
+    private readonly series: Series,
+    private readonly known: () => number,
     private readonly changed: () => void,
   ) {}
 
@@ -41,11 +44,11 @@ export class Track {
 
   private block(place: number): Pose[] {
     const found = this.blocks.get(place) ?? [];
-    const [from, to] = [place * BLOCK_TICKS + found.length, Math.min(this.rows.known, (place + 1) * BLOCK_TICKS - 1)];
+    const [from, to] = [place * BLOCK_TICKS + found.length, Math.min(this.known(), (place + 1) * BLOCK_TICKS - 1)];
     const columns = [0, 1, 2].map((number) => columnOf(this.about, "robot", number)).filter((column) => column !== null);
     if (from > to || columns.length < 3 || this.awaited.has(place)) return found;
     this.awaited.add(place);
-    this.rows.series(columns, from, to, BLOCK_TICKS, ({ values: [x, y, angle] }) => {
+    this.series(columns, from, to, BLOCK_TICKS, ({ values: [x, y, angle] }) => {
       this.awaited.delete(place);
       if (this.blocks.size > KEPT_BLOCKS) this.blocks.clear();
       this.blocks.set(place, [...found, ...x.map((_, row): Pose => [x[row], y[row], angle[row]])]);

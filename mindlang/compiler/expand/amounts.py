@@ -24,6 +24,7 @@ from mindlang.compiler.syntax import (
     Numbers,
     Phrase,
     Rewards,
+    Stop,
     Succeeds,
     Teaches,
     Term,
@@ -32,8 +33,8 @@ from mindlang.compiler.syntax import (
 LEARNER = "curriculum"
 # Of which noun the kind is that a phrase names, by what the phrase stands in.
 NOUNS: Mapping[type, str] = {
-    Contains: "content", Ends: "event", Succeeds: "event", Counts: "event", Rewards: "event", Expression: "measure",
-    Teaches: LEARNER,
+    Contains: "content", Ends: "event", Succeeds: "event", Counts: "event", Stop: "event", Rewards: "event",
+    Expression: "measure", Teaches: LEARNER,
 }  # fmt: skip
 _WORD = re.compile(r"[a-z]\w*")
 

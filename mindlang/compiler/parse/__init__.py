@@ -4,13 +4,14 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import lru_cache
+from typing import Any
 
 from mindrun.nearest_name import nearest
 
 from mindlang.compiler import syntax
 from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.parse.explain import explain, proper
-from mindlang.compiler.parse.shape import parse_line
+from mindlang.compiler.parse.shape import Start, parse_line
 from mindlang.compiler.source import Source, Span
 from mindlang.compiler.syntax import NOUNS, SETTINGS, VERBS
 
@@ -63,20 +64,27 @@ def parse(source: Source, findings: Findings) -> syntax.File:
     return syntax.File(source, tuple(settings), tuple(declarations))
 
 
+def parse_stops(source: Source, findings: Findings) -> list[syntax.Stop]:
+    """The lines of a .break file as far as they can be read; the others are reported."""
+    return [line for line in _lines(source, findings, "stop") if isinstance(line, syntax.Stop)]
+
+
 def code_of(line: str) -> str:
     """The part of a line before its comment."""
     found = _CODE.match(line)
     return found[0] if found else ""
 
 
-def _lines(source: Source, findings: Findings) -> Iterator[syntax.Line | _Unread]:
-    for span, code in coded_lines(source):
-        if has_too_many_mistakes(span, "Is this a .mind file?", findings):
+def _lines(source: Source, findings: Findings, start: Start = "line") -> Iterator[Any]:
+    for span, code in _coded_lines(source):
+        if len(findings.diagnostics) > MAX_UNREADABLE_LINES:
+            hint = f"Is this a {'.mind' if start == 'line' else '.break'} file?"
+            findings.error("too-many-mistakes", span, "Too many lines cannot be read; this is where I stop.", hint)
             return
-        yield from _line(span, code, findings)
+        yield _line(span, code, findings, start)
 
 
-def coded_lines(source: Source) -> Iterator[tuple[Span, str]]:
+def _coded_lines(source: Source) -> Iterator[tuple[Span, str]]:
     """The lines of a source that are more than a comment, each without it and without the blanks before it."""
     offset = 0
     for text in source.text.split("\n"):
@@ -85,15 +93,7 @@ def coded_lines(source: Source) -> Iterator[tuple[Span, str]]:
         offset += len(text) + 1
 
 
-def has_too_many_mistakes(line: Span, hint: str, findings: Findings) -> bool:
-    """Whether so many lines cannot be read that no more are; this is reported."""
-    if len(findings.diagnostics) <= MAX_UNREADABLE_LINES:
-        return False
-    findings.error("too-many-mistakes", line, "Too many lines cannot be read; this is where I stop.", hint)
-    return True
-
-
-def is_too_deep(span: Span, code: str, findings: Findings) -> bool:
+def _is_too_deep(span: Span, code: str, findings: Findings) -> bool:
     """Whether a line has more parentheses inside one another than can be read; this is reported."""
     if code.count("(") + code.count("-") <= MAX_NESTING or _depth(code) <= MAX_NESTING:
         return False
@@ -102,18 +102,17 @@ def is_too_deep(span: Span, code: str, findings: Findings) -> bool:
     return True
 
 
-def _line(span: Span, code: str, findings: Findings) -> Iterator[syntax.Line | _Unread]:
+def _line(span: Span, code: str, findings: Findings, start: Start) -> syntax.Line | syntax.Stop | _Unread:
     """What the line says, or after reporting it what can be saved of it."""
     from lark import UnexpectedInput
 
-    if is_too_deep(span, code, findings):
-        yield _Unread()
-        return
+    if _is_too_deep(span, code, findings):
+        return _Unread()
     try:
-        yield parse_line(code, span.source, span.start)
+        return parse_line(code, span.source, span.start, start)
     except UnexpectedInput as error:
-        findings.diagnostics.append(explain(error, code, span))
-        yield _saved(code, span)
+        findings.diagnostics.append(explain(error, code, span, start))
+        return _saved(code, span)
 
 
 def _saved(code: str, span: Span) -> syntax.Header | _Unread:

@@ -17,9 +17,9 @@ Terms = list[Term]
 _NUMBER = re.compile(r"([+-]?)[ \t]*([0-9./]+)")
 
 
-def build(tree: Tree[Token], source: Source, offset: int) -> syntax.Line:
+def build(tree: Tree[Token], source: Source, offset: int) -> syntax.Line | syntax.Stop:
     """The line that stands at `offset` of `source`."""
-    return cast(syntax.Line, Builder(source, offset).transform(tree))
+    return cast(syntax.Line | syntax.Stop, Builder(source, offset).transform(tree))
 
 
 @dataclass(frozen=True, slots=True)
@@ -174,6 +174,18 @@ class Builder(Transformer_NonRecursive[Token, Any]):
     def succeeds(self, meta: Any, parts: list[Any]) -> syntax.Succeeds:
         times, event, when = (_one(parts, form) for form in (Amount, Phrase, syntax.When))
         return syntax.Succeeds(times, event, when, self._span(meta))
+
+    def stop(self, meta: Any, parts: list[Any]) -> syntax.Stop:
+        """A tick stands in a list, since the times of an event are an amount, too."""
+        times, event, when, tick = (_one(parts, form) for form in (Amount, Phrase, syntax.When, list))
+        return syntax.Stop(times, event, when, tick[0] if tick else None, self._span(meta))
+
+    def moment(self, meta: Any, parts: list[Any]) -> list[Amount]:
+        return parts
+
+    def transmission(self, meta: Any, parts: list[Any]) -> syntax.Transmits:
+        skill, to, level, amount = parts
+        return syntax.Transmits(self._name(skill), self._name(to), str(level), amount, self._span(meta))
 
     def rewards(self, meta: Any, parts: list[Any]) -> syntax.Rewards:
         amount, *rest = parts

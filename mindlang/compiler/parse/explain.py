@@ -9,12 +9,14 @@ from unicodedata import normalize
 from mindrun.kinds.registry import arguments, kinds, named_arguments
 
 from mindlang.compiler.diagnostic import Diagnostic, a, did_you_mean, listed
-from mindlang.compiler.parse.mistakes import MISTAKES, OPENINGS, Mistake
+from mindlang.compiler.parse.mistakes import MISTAKES, OPENINGS, STOP_MISTAKES, Mistake
 from mindlang.compiler.source import Span
 from mindlang.compiler.syntax import NOUNS, PARTS, SETTINGS, VERBS
 
 if TYPE_CHECKING:
     from lark import UnexpectedInput
+
+    from mindlang.compiler.parse.shape import Start
 
 MAX_EXPLAINED_CHARACTERS = 400  # a longer line is no common mistake, and patterns would take their time over it
 
@@ -56,7 +58,9 @@ LINES = {
     "number": "number sight is 12",
 }
 
-JOINTS = ("for", "to", "by", "below", "facing", "per")  # after which a number comes that is no argument's
+STOPS = "stop when holding > 0.5, stop on collision or stop in tick 812"  # lines of a .break file
+
+JOINTS = ("for", "to", "by", "below", "facing", "per", "when")  # after which a value comes that is no argument's
 
 # What people write for a word of the language.
 FOREIGN_WORDS = {
@@ -98,8 +102,10 @@ def _title(name: str) -> str:
     return "".join(part[:1].upper() + part[1:] for part in name.split("_"))
 
 
-def explain(error: "UnexpectedInput", code: str, line: Span) -> Diagnostic:
-    """Why the grammar refuses the line `code`, in the user's words."""
+def explain(error: "UnexpectedInput", code: str, line: Span, start: "Start" = "line") -> Diagnostic:
+    """Why the grammar refuses the line `code`, of a mind or of a .break file, in the user's words."""
+    if start == "stop":
+        return _no_stop(code, line) or common_mistake(STOP_MISTAKES, code, line) or unexpected(error, code, line, STOPS)
     return (
         _opening(code, line)
         or common_mistake(MISTAKES, code, line)
@@ -136,6 +142,17 @@ def _opening(code: str, line: Span) -> Diagnostic | None:
     if not word[0].isalpha():
         hint = "A line begins with a noun such as skill, a verb such as reads, or a setting such as tick."
     return Diagnostic("no-verb", message, here, hint)
+
+
+def _no_stop(code: str, line: Span) -> Diagnostic | None:
+    """A line of a .break file that does not begin with stop."""
+    first = re.match(r"\s*(\S+)", code)
+    if not first or re.match(r"stop\b", first[1]):
+        return None
+    if not first[1][0].isalpha() and (told := common_mistake(OPENINGS, code, line)):
+        return told
+    message = "A line of a .break file begins with stop."
+    return Diagnostic("no-stop", message, _at(line, *first.span(1)), f"Write for example {STOPS}.")
 
 
 @cache

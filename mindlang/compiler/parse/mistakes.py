@@ -1,6 +1,7 @@
 """Common malformed lines and what to say of them; each has an example, which the tests hold it to.
 
-`OPENINGS` are lines that begin with no word of the language, `MISTAKES` lines that do.
+`OPENINGS` are lines that begin with no word of the language, `MISTAKES` lines that do; `STOP_MISTAKES` are lines of a
+.break file.
 """
 
 from dataclasses import dataclass
@@ -463,5 +464,26 @@ MISTAKES = (
     Mistake("operator", r"^\s*(?:drives|influences)\s+\S+\s+at\s.*?[\d)](?=[\sa-z(])\s*(?P<here>[a-z(\d][\w.]*)",
         "Between two values an operator is missing.", "Write one of + - * and / before {here}.",
         "drives claw at 2 holding"),
+)
+
+_HAPPENS = r"(?:\d+\s+)?(?:reach|delivery|visit|collision|exhaustion|success|stopped|fault)\b[^<>]*"
+STOP_MISTAKES = (  # of lines of a .break file
+    Mistake("missing-when", r"^\s*stop\s+(?P<here>if|while|until|once|unless)\b", "A condition stands after when.",
+        "Write when instead of {here}.", "stop if holding > 0.5"),
+    Mistake("missing-when", r"^\s*stop\s+(?P<here>on|at)\s+(?P<rest>.*[<>].*)$",
+        "A condition stands after when.", "Write stop when {rest}.", "stop on holding > 0.5"),
+    Mistake("missing-on", rf"^\s*stop\s+(?:(?:when|at|after)\s+)?(?P<here>{_HAPPENS})$",
+        "An event stands after on.", "Write stop on {here}.", "stop when collision"),
+    Mistake("which-tick",
+        r"^\s*stop\s+(?P<here>(?:at|after|on|when|in)?\s*(?:tick\s*)?[<>=]*\s*(?P<rest>\d+)\s*(?:ticks)?)\s*$",
+        "In which tick it stops, is said after in tick.", "Write stop in tick {rest}.", "stop at tick 812"),
+    Mistake("no-level",
+        r"\binfluences\s+[\w.+]+\s*(?P<here>[<>]=?|over|under|exceeds|with|by|at(?:\s+(?:least|most))?|(?:more|less)\s+than|$)",
+        "How much a skill influences, is compared with above or below.", "Write above 50%, or below 50%.",
+        "stop when Avoid influences left_wheel > 50%"),
+    Mistake("capital-name", r"\bwhen\s+(?P<here>[a-z]\w*)\s+influences\b",
+        "The name of a skill begins with a capital letter.", "Did you mean {title}?",
+        "stop when avoid influences left_wheel above 50%"),
+    *(mistake for mistake in MISTAKES if mistake.code != "two-facts"),  # what a skill influences is part of a line here
 )
 # fmt: on

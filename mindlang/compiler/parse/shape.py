@@ -11,7 +11,7 @@ from dataclasses import dataclass, fields, is_dataclass
 from functools import cache, lru_cache
 from itertools import accumulate
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any, Literal, cast
 
 from mindrun.files.user_cache import user_cache
 
@@ -34,49 +34,48 @@ class _Line:
 
 
 Maker = Callable[[_Line], Any]
+Start = Literal["line", "stop"]  # a rule of the grammar: a line of a mind or of a .break file
 
 
 @cache
 def grammar() -> "Lark":
-    """The grammar, with `start` for a whole file and `line` for one line."""
-    return read_grammar("mind.lark", "start", "line")
-
-
-def read_grammar(name: str, *starts: str) -> "Lark":
-    """A grammar of the folder `grammar/`, ready to parse from each of the rules `starts`."""
+    """The grammar, with `start` for a whole file, `line` for one line and `stop` for one of a .break file."""
     from lark import Lark
 
     here = Path(__file__).parents[2]
     folder = next(folder for folder in (here / "grammar", here.parent / "grammar") if folder.is_dir())
+    starts = ["start", "line", "stop"]
     return Lark.open(
-        str(folder / name),
+        str(folder / "mind.lark"),
         parser="lalr",
-        start=[*starts],
+        start=starts,
         propagate_positions=True,
         maybe_placeholders=False,
-        cache=_table_file(name),
+        cache=_table_file(),
     )
 
 
-def _table_file(name: str) -> str | bool:
-    """Where Lark keeps the table of a grammar, which takes ten times as long to make as to read; False for nowhere."""
+def _table_file() -> str | bool:
+    """Where Lark keeps its table, which takes six times as long to make as to read; False for nowhere."""
     try:
         folder = user_cache()
         folder.mkdir(parents=True, exist_ok=True)
     except (OSError, RuntimeError):
         return False
-    return str(folder / f"{name}.{sys.implementation.cache_tag}.table")
+    return str(folder / f"mind.lark.{sys.implementation.cache_tag}.table")
 
 
-def parse_line(code: str, source: Source, offset: int) -> syntax.Line:
-    """What a line without comment says that stands at `offset` of a source; lark.UnexpectedInput where it says nothing.
+def parse_line(code: str, source: Source, offset: int, start: Start = "line") -> syntax.Line | syntax.Stop:
+    """What a line without comment says that stands at `offset` of a source.
 
-    The error is about `code`.
+    lark.UnexpectedInput where it says nothing; the error is about `code`.
     """
-    maker = None if '"' in code else _maker(shape_of(code))
+    maker = None if '"' in code else _maker(shape_of(code), start)
     if maker is None:
-        return _parsed(code, source, offset)
-    return cast(syntax.Line, maker(_Line(source, tuple(accumulate(map(len, pieces(code)), initial=offset)))))
+        return _parsed(code, source, offset, start)
+    return cast(
+        syntax.Line | syntax.Stop, maker(_Line(source, tuple(accumulate(map(len, pieces(code)), initial=offset))))
+    )
 
 
 def pieces(code: str) -> list[str]:
@@ -107,19 +106,19 @@ def _words() -> frozenset[str]:
     return frozenset(word for terminal in grammar().terminals for word in re.findall(r"\w+", terminal.pattern.value))
 
 
-def _parsed(code: str, source: Source, offset: int) -> syntax.Line:
+def _parsed(code: str, source: Source, offset: int, start: Start) -> syntax.Line | syntax.Stop:
     from mindlang.compiler.parse.build import build
 
-    return build(grammar().parse(code, start="line"), source, offset)
+    return build(grammar().parse(code, start=start), source, offset)
 
 
 @lru_cache(MAX_SHAPES)
-def _maker(shape: str) -> Maker | None:
+def _maker(shape: str, start: Start) -> Maker | None:
     """What makes the lines of a shape; None where Lark cannot read it."""
     from lark import UnexpectedInput
 
     try:
-        line = _parsed(shape, Source("shape", shape), 0)
+        line = _parsed(shape, Source("shape", shape), 0, start)
     except UnexpectedInput:
         return None
     at = accumulate(map(len, pieces(shape)), initial=0)

@@ -1,1 +1,1 @@
-"""The command line of `mindrun`: its arguments, its completion, and its tools."""
+"""The command line of `mindrun`: its arguments and its tools."""
