@@ -63,5 +63,5 @@ def test_a_hostile_file_is_one_sentence(data: bytes, message: str) -> None:
 @given(st.binary(min_size=8, max_size=64), st.integers(0, len(WHOLE) - 1))
 def test_no_bytes_raise_anything_else(noise: bytes, end: int) -> None:
     for hostile in (noise, WHOLE + noise, WHOLE[:end]):
-        with pytest.raises(WeightsError, match="^.{,500}$"):
+        with pytest.raises(WeightsError, match=r"^.{,500}$"):
             from_bytes(hostile)
