@@ -22,7 +22,6 @@ from mindrun.train.lesson_state import Record
 from mindrun.train.training import Watch
 
 from mindlang import executors
-from mindlang.bounds import as_layout, as_workers
 from mindlang.compiler.compile import Compiled, compile_source
 from mindlang.compiler.compile import load as load_file
 from mindlang.compiler.diagnostic import Diagnostic
@@ -32,8 +31,8 @@ from mindlang.editing.apply import Edited, apply_edit
 from mindlang.editing.project import EditError, open_project
 from mindlang.editing.summary import broken_sentences, diff, summarise
 from mindlang.editing.writing import write
+from mindlang.limits import as_layout, as_workers, refuse_too_large, refuse_too_many
 from mindlang.lock.ready import ReadyMind, make_ready
-from mindlang.resource_limits import refuse_too_large, refuse_too_many
 from mindlang.run.columns import Column
 from mindlang.run.many_runs import run_timed
 from mindlang.run.outcome import bench_data, over_at_once

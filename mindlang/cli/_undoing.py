@@ -32,7 +32,7 @@ def command(place: str, as_json: bool) -> None:
     from mindlang.compiler.diagnostic import listed
     from mindlang.editing.transaction import TransactionError
     from mindlang.editing.undoing import kept_in, undo
-    from mindlang.named_files import is_folder
+    from mindlang.files import is_folder
 
     here = Path(place).absolute()
     if not here.exists():

@@ -1,1 +1,1 @@
-"""The checks of `mindc doctor`: what this machine and this installation have, and the line that mends what they lack."""
+"""The checks of `mindc doctor`: what is installed on this machine, and the line that mends what is missing."""

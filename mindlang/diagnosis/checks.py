@@ -13,7 +13,7 @@ from pathlib import Path
 import mindrun
 
 import mindlang
-from mindlang import resource_limits
+from mindlang import limits
 
 SMALL_MEMORY_BYTES = 512 << 20  # below which compiling the simulator may fail
 SEVERAL_BYTES = 200 << 20  # of older versions' machine code, from which on they are told
@@ -87,12 +87,12 @@ def python() -> Iterator[Finding]:
 
 def machine() -> Iterator[Finding]:
     """The processor, how many cores this process may use, and how much memory is free."""
-    from mindrun.cores import cores
+    from mindrun.processors import cores
 
     all_cores, usable = os.cpu_count() or 1, cores()
     words = f"{usable} cores" if usable == all_cores else f"{usable} of {all_cores} cores"
     yield Finding("machine", State.FINE, f"{platform.machine()}, {platform.system()}, {words} to use")
-    free = resource_limits.available()
+    free = limits.available()
     if free is None:
         yield Finding("memory", State.ABSENT, "nobody knows how much is free", "nothing to do: it is not limited")
     elif free < SMALL_MEMORY_BYTES:

@@ -3,7 +3,6 @@
 from collections.abc import Iterator
 from difflib import SequenceMatcher
 from io import StringIO
-from os.path import commonprefix
 
 CONTEXT_LINES = 3  # around a change
 MAX_COMPARED_LINES = 6000  # of both texts between their ends: difflib takes up to the square of their number
@@ -24,8 +23,8 @@ def unified(name: str, old: str, new: str) -> str:
 
 def _hunks(before: list[str], after: list[str]) -> Iterator[str]:
     """The lines of each hunk, compared without what both texts begin and end with but for its context."""
-    head = len(commonprefix([before, after]))
-    tail = len(commonprefix([before[head:][::-1], after[head:][::-1]]))
+    head = _common(before, after)
+    tail = _common(before[head:][::-1], after[head:][::-1])
     first, last = max(0, head - CONTEXT_LINES), max(0, tail - CONTEXT_LINES)
     a, b = before[first : len(before) - last], after[first : len(after) - last]
     above, ends = head - first, (len(a) - tail + last, len(b) - tail + last)
@@ -40,6 +39,12 @@ def _hunks(before: list[str], after: list[str]) -> Iterator[str]:
         for tag, i, i_end, j, j_end in group:
             yield from (_whole(f"{' ' if tag == 'equal' else '-'}{line}") for line in a[i:i_end])
             yield from (_whole(f"+{line}") for line in b[j:j_end] if tag != "equal")
+
+
+def _common(before: list[str], after: list[str]) -> int:
+    """How many lines two texts begin with that are the same."""
+    pairs = enumerate(zip(before, after, strict=False))
+    return next((place for place, (a, b) in pairs if a != b), min(len(before), len(after)))
 
 
 def _whole(line: str) -> str:

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 
 from mindrun.cli.shell_completion import Answer
-from mindrun.cores import cores
+from mindrun.processors import cores
 from mindrun.work.assignment import Assignment
 from mindrun.work.executor import JobExecutor
 from mindrun.work.local import local_workers

@@ -9,7 +9,7 @@ from pathlib import Path
 from mindlang.compiler.compile import Compiled, load
 from mindlang.compiler.resolve.maps import map_paths
 from mindlang.compiler.source import within
-from mindlang.file_search import files_beside, folders_above, text_of, within_read_limits
+from mindlang.files import files_beside, folders_above, text_of, within_read_limits
 from mindlang.server.stops import are_breakpoints, mind_beside
 from mindlang.server.view import MindView, view
 

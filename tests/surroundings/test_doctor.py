@@ -98,7 +98,7 @@ def test_programs_of_two_versions(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_little_memory_and_an_old_python(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("mindlang.resource_limits.available", lambda: 100 << 20)
+    monkeypatch.setattr("mindlang.limits.available", lambda: 100 << 20)
     assert [each.seen for each in checks.machine() if each.state is State.WRONG] == ["100 MiB free"]
     monkeypatch.setattr("platform.python_version", lambda: "3.10.2")
     assert [each.state for each in checks.python()] == [State.WRONG]

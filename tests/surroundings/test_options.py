@@ -15,7 +15,7 @@ from mindrun.graph.bundle import Bundle, write_bundle
 from mindrun.graph.policy import Policy
 from mindrun.terminal.arguments import parser
 
-from mindlang import resource_limits
+from mindlang import limits
 from mindlang.cli import commands
 from mindlang.compiler.compile import load
 from tests.calling import Call, write_rules
@@ -199,7 +199,7 @@ def test_no_option_can_be_half_said() -> None:
 def test_what_no_memory_could_hold_is_refused_before_it_begins(
     mindc: Call, rules: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(resource_limits, "available", lambda: 1 << 20)
+    monkeypatch.setattr(limits, "available", lambda: 1 << 20)
     said = mindc("bench", rules, "--runs", 1_000_000)
     assert (said.code, said.out) == (2, "")
     assert "1,000,000 runs take about" in said.err

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import lru_cache
 
-from mindrun.nearest_name import nearest
+from mindrun.errors import nearest
 
 from mindlang.compiler import syntax
 from mindlang.compiler.diagnostic import Findings
