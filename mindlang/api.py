@@ -26,7 +26,7 @@ from mindlang.compiler.compile import Compiled, compile_source
 from mindlang.compiler.compile import load as load_file
 from mindlang.compiler.diagnostic import Diagnostic
 from mindlang.compiler.source import Source
-from mindlang.editing import edits, transaction
+from mindlang.editing import edits
 from mindlang.editing.apply import Edited, apply_edit
 from mindlang.editing.project import EditError, open_project
 from mindlang.editing.summary import broken_sentences, diff, summarise
@@ -236,11 +236,7 @@ class EditedMind(ShortRepr):
 
 
 def load(path: Path | str) -> Mind:
-    """The mind in a file; whatever stands there, nothing is raised for it: `diagnostics` says what is wrong.
-
-    An edit that was interrupted is taken back first; TransactionError, a MindError, where that would lose work.
-    """
-    transaction.recover(Path(path).absolute().parent)
+    """The mind in a file; whatever stands there, nothing is raised for it: `diagnostics` says what is wrong."""
     return Mind(Path(path), load_file(Path(path)))
 
 

@@ -1,4 +1,4 @@
-"""Expressions of the language as postfix programs, without numpy; `mindrun.numbers.evaluation` computes them with it."""
+"""Expressions of the language as postfix programs, without numpy; `mindrun.numbers.evaluation` computes with it."""
 
 from array import array
 from collections.abc import Callable, Iterable, Mapping
