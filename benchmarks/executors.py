@@ -15,9 +15,9 @@ from statistics import median
 
 import numpy as np
 import psutil
-from mindrun.cores import cores
 from mindrun.graph.bundle import Bundle, pack
 from mindrun.graph.policy import Policy
+from mindrun.processors import cores
 from mindrun.sim.rollout import Rollout
 from mindrun.train.attempts import side_by_side
 from mindrun.train.lesson import teach

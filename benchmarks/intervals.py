@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from mindrun.cores import cores
+from mindrun.processors import cores
 from numpy.typing import NDArray
 
 from mindlang.compiler.compile import load

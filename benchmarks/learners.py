@@ -22,10 +22,10 @@ from multiprocessing import get_context
 from typing import Any
 
 import numpy as np
-from mindrun.cores import cores
 from mindrun.graph.graph import Lesson
 from mindrun.graph.weights import learners
 from mindrun.kinds.learners import EvolutionStrategy, Genetic, Restarting
+from mindrun.processors import cores
 from mindrun.sim.rollout import Rollout
 from mindrun.train.attempt import REEVALUATED_CANDIDATES, REEVALUATION_GENERATIONS, judge
 from mindrun.train.attempt import REEVALUATION_LAYOUTS as TRIES

@@ -12,9 +12,9 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from mindrun.cores import cores
 from mindrun.graph.graph import Graph, Lesson
 from mindrun.graph.policy import Policy
+from mindrun.processors import cores
 from mindrun.sim.rollout import Rollout
 from mindrun.train.lesson import teach
 from mindrun.train.lesson_state import Course, begin

@@ -14,7 +14,7 @@ from shutil import copy
 from tempfile import TemporaryDirectory
 
 import numpy as np
-from mindrun.cores import cores
+from mindrun.processors import cores
 
 import mindlang
 

@@ -23,18 +23,17 @@ from mindrun.train.training import Watch
 from networkx import DiGraph
 
 from mindlang import executors
-from mindlang.bounds import as_layout, as_workers
 from mindlang.compiler.compile import Compiled, compile_source
 from mindlang.compiler.compile import load as load_file
 from mindlang.compiler.diagnostic import Diagnostic
 from mindlang.compiler.source import Source
-from mindlang.editing import edits, transaction
+from mindlang.editing import edits
 from mindlang.editing.apply import Edited, apply_edit
 from mindlang.editing.project import EditError, open_project
 from mindlang.editing.summary import broken_sentences, diff, summarise
 from mindlang.editing.writing import write
+from mindlang.limits import as_layout, as_workers, refuse_too_large, refuse_too_many
 from mindlang.lock.ready import ReadyMind, make_ready
-from mindlang.resource_limits import refuse_too_large, refuse_too_many
 from mindlang.run.columns import Column
 from mindlang.run.many_runs import run_timed
 from mindlang.run.outcome import bench_data, over_at_once
@@ -250,11 +249,7 @@ class EditedMind(ShortRepr):
 
 
 def load(path: Path | str) -> Mind:
-    """The mind in a file; whatever stands there, nothing is raised for it: `diagnostics` says what is wrong.
-
-    An edit that was interrupted is taken back first; TransactionError, a MindError, where that would lose work.
-    """
-    transaction.recover(Path(path).absolute().parent)
+    """The mind in a file; whatever stands there, nothing is raised for it: `diagnostics` says what is wrong."""
     return Mind(Path(path), load_file(Path(path)))
 
 

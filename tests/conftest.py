@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 from hypothesis import settings
-from mindrun.cores import cores
+from mindrun.processors import cores
 
 from tests.calling import Call, caller, write_rules
 from tests.draws import EXPLORE

@@ -15,14 +15,14 @@ from mindlang.cli._terminal import FINDINGS, MISUSE, OK, fail, print_json, proce
 from mindlang.number_format import number
 from mindlang.training.lock_update import COMPARED_LAYOUTS
 from mindlang.training.subject import Subject
-from mindlang.weights.importing import Imported, bring, read_incoming
+from mindlang.weights.importing import Imported, import_weights, read_incoming
 from mindlang.weights.trial import open_trial
 
 
 def import_file(
     subject: Subject, skill: str, path: Path, recording: str | None, force: bool, as_json: bool, quiet: bool
 ) -> None:
-    """Bring the weights of a file, print what came of them, and end the program."""
+    """Import the weights of a file, print what came of them, and end the program."""
 
     def say(line: str) -> None:
         if not quiet:
@@ -33,7 +33,7 @@ def import_file(
             incoming = read_incoming(subject, skill, path)
             trial = open_trial(subject, incoming.lesson, incoming.network, subject.shown)
             ensure_compiled(trial.rollout, say)
-            found = bring(trial, incoming, recording, force)
+            found = import_weights(trial, incoming, recording, force)
     except NotFoundError as error:
         fail(f"{error}.", error.hint, MISUSE)
     except MindError as error:
@@ -46,7 +46,7 @@ def import_file(
 
 
 def _lines(found: Imported, lock: str, recording: str | None) -> Iterator[str]:
-    skill, lesson, compared = found.incoming.network.skill.name, found.incoming.lesson, found.comparison
+    skill, lesson, compared = found.incoming.network.skill.name, found.incoming.lesson, found.deviation
     where = recording or f"a run of {lesson.task}"
     yield (
         f"{found.incoming.path}: {len(found.incoming.genome):,} weights of {skill}; "

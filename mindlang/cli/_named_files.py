@@ -8,7 +8,7 @@ def files_of(words: Sequence[str], *suffixes: str) -> list[str]:
     from mindrun.errors import MindError
 
     from mindlang.cli._terminal import MISUSE, fail
-    from mindlang.named_files import named_files
+    from mindlang.files import named_files
 
     try:
         return named_files(words, *suffixes)
@@ -18,7 +18,7 @@ def files_of(words: Sequence[str], *suffixes: str) -> list[str]:
 
 def in_files(words: Sequence[str], files: Sequence[str]) -> str:
     """The end of a summary that says in how many files; empty where each of them was named by itself."""
-    from mindlang.named_files import is_folder
+    from mindlang.files import is_folder
 
     if not any(map(is_folder, words)):
         return ""

@@ -10,7 +10,7 @@ import click
 from click.core import ParameterSource
 from click.shell_completion import CompletionItem
 
-from mindlang import bounds
+from mindlang import limits
 from mindlang.cli._declared_names import SKILLS, TASKS
 
 SHOWN_CHARACTERS = 20  # of what is refused
@@ -37,7 +37,7 @@ class LayoutOption(WholeOption):
         if not slash:
             return super().convert(value, param, ctx)
         first = SEED.convert(seed, param, ctx)
-        run = WholeOption(*bounds.RUN_BOUNDS).convert(number, param, ctx)
+        run = WholeOption(*limits.RUN_BOUNDS).convert(number, param, ctx)
         from mindlang.run.layouts import layouts
 
         return layouts(first, run)[-1]
@@ -126,9 +126,9 @@ def refuse_ineffective(what_they_are: str, *names: str) -> None:
         raise click.UsageError(f"{listed(words, 'and')} {verb} {what_they_are}.")
 
 
-SEED = WholeOption(*bounds.SEED_BOUNDS)
-LAYOUT = LayoutOption(*bounds.LAYOUT_BOUNDS)
-WORKERS = WholeOption(*bounds.WORKER_BOUNDS)
+SEED = WholeOption(*limits.SEED_BOUNDS)
+LAYOUT = LayoutOption(*limits.LAYOUT_BOUNDS)
+WORKERS = WholeOption(*limits.WORKER_BOUNDS)
 ON = WhereOption()
 IN_CHARGE = "Who is in charge. Default: the mind's master if a lesson on the task is under it, else that of the first."
 UNDER_MASTER = click.option("--master", metavar="SKILL", shell_complete=SKILLS, help=IN_CHARGE)

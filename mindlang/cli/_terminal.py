@@ -111,18 +111,6 @@ def write_file(path: Path, data: Data) -> None:
         fail(f"{path} cannot be written: {error.strerror}", code=MISUSE)
 
 
-def take_back(path: Path | str) -> None:
-    """Take back an edit of a file that was interrupted; end the program where that would lose work."""
-    from mindlang.editing.transaction import TransactionError, recover
-
-    folder = Path(path).absolute().parent
-    try:
-        if recover(folder):
-            say("An edit was interrupted, and has been taken back.", "Make it again.")
-    except TransactionError as error:
-        fail(f"{error}.", error.hint, MISUSE)
-
-
 def load_compiled(path: Path | str) -> Compiled:
     """The compiled file; one whose text has errors is reported to stderr, and ends the program (2 when unreadable).
 
@@ -131,7 +119,6 @@ def load_compiled(path: Path | str) -> Compiled:
     from mindlang.cli._diagnostic_printer import print_report
     from mindlang.compiler.compile import load
 
-    take_back(path)
     compiled = load(path)
     if compiled.graph is None:
         print_report(compiled.diagnostics, console(stderr=True))

@@ -12,8 +12,7 @@ from time import perf_counter
 from types import FrameType
 from typing import Any
 
-from mindrun.cores import cores
-from mindrun.cpu_time import cpu_seconds
+from mindrun.processors import cores, cpu_seconds
 from mindrun.sim.rollout import Rollout
 from mindrun.terminal.command_line import command_line
 from mindrun.train import RunError

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 if TYPE_CHECKING:
-    from mindlang.editing.undoing import Files
+    from mindlang.editing.transaction import Files
 
 EXAMPLES = """\b
 Examples:
@@ -28,17 +28,14 @@ def command(place: str, as_json: bool) -> None:
     working directory. Where one of the files has been changed since, nothing is. Edits before the last are not kept.
     """
     from mindlang.cli._diff_printer import print_diff
-    from mindlang.cli._terminal import FINDINGS, MISUSE, fail, print_json, take_back, talk
+    from mindlang.cli._terminal import FINDINGS, MISUSE, fail, print_json, talk
     from mindlang.compiler.diagnostic import listed
-    from mindlang.editing.transaction import TransactionError
-    from mindlang.editing.undoing import kept_in, undo
-    from mindlang.named_files import is_folder
+    from mindlang.editing.transaction import TransactionError, noted_in, undo
 
     here = Path(place).absolute()
     if not here.exists():
         fail(f"{place} is not there.", "Name a file or a folder in which an edit was written.", MISUSE)
-    take_back(here / "any" if is_folder(place) else here)
-    folder = kept_in(here)
+    folder = noted_in(here)
     if folder is None:
         fail(
             f"In {place} no edit has been written that could be taken back.",

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from mindlang import bounds
+from mindlang import limits
 from mindlang.cli._declared_names import SKILLS
 from mindlang.cli._options import IN_CHARGE, OF_TASK, ON, SEED, WORKERS, NewFile, WholeOption, refuse_ineffective
 
@@ -34,7 +34,7 @@ Examples:
 @OF_TASK
 @click.option(
     "--runs",
-    type=WholeOption(*bounds.RUN_BOUNDS),
+    type=WholeOption(*limits.RUN_BOUNDS),
     default=200,
     show_default=True,
     help="How many layouts to run the task on.",
@@ -75,7 +75,7 @@ def command(
     With OTHER, or two masters, both run on the same layouts: how much they differ, with a confidence interval, and what
     may be said of it. It is said of the weights that both have, not of how such minds are taught in general.
     """
-    from mindrun.cores import cores
+    from mindrun.processors import cores
 
     from mindlang.cli._bench_pair import compare_benched, contenders
     from mindlang.cli._run_session import BenchChoice

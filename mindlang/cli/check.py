@@ -62,13 +62,11 @@ def command(files: tuple[str, ...], task: str | None, master: str | None, as_jso
     from mindlang.breakpoints import SUFFIX
     from mindlang.cli._diagnostic_printer import as_data, print_report
     from mindlang.cli._named_files import files_of, in_files
-    from mindlang.cli._terminal import FINDINGS, MISUSE, OK, console, print_json, take_back
+    from mindlang.cli._terminal import FINDINGS, MISUSE, OK, console, print_json
     from mindlang.compiler.diagnostic import distinct
     from mindlang.editing.neighbours import minds
 
     named = files_of(files, ".mind", SUFFIX)
-    for file in named:
-        take_back(file)
     breaks = [file for file in named if Path(file).suffix == SUFFIX]
     if (task or master) and not breaks:
         raise click.UsageError("--task and --master are for files of breakpoints, and none is given.")

@@ -10,7 +10,7 @@ import click
 if TYPE_CHECKING:
     from rich.text import Text
 
-    from mindlang.diagnosis.finding import Finding
+    from mindlang.diagnosis.checks import Finding
 
 EXAMPLES = """\b
 Examples:
@@ -32,8 +32,7 @@ def command(as_json: bool) -> None:
 
     from mindlang.cli._terminal import FINDINGS, OK, console, print_json
     from mindlang.cli._text_columns import columns
-    from mindlang.diagnosis.checks import findings
-    from mindlang.diagnosis.finding import State
+    from mindlang.diagnosis.checks import State, findings
 
     found = list(findings())
     is_fine = all(each.state is not State.WRONG for each in found)

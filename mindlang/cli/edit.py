@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -108,9 +109,7 @@ def _is_mind(word: str) -> bool:
 
 
 def _is_file(word: str) -> bool:
-    from mindlang.named_files import is_file
-
-    return is_file(word)
+    return os.path.isfile(word)  # noqa: PTH113 (pathlib raises where one may not look)
 
 
 def _option(option: EditOption) -> click.Option:

@@ -52,11 +52,10 @@ def command(files: tuple[str, ...], check: bool, diff: bool) -> None:
 def _tidy(file: str, check: bool, diff: bool) -> int:
     """Tidy one file, or only look; how the program would end if it were the only one."""
     from mindlang.cli._diagnostic_printer import print_report
-    from mindlang.cli._terminal import FINDINGS, MISUSE, console, take_back
+    from mindlang.cli._terminal import FINDINGS, MISUSE, console
     from mindlang.compiler.compile import read_main
     from mindlang.compiler.diagnostic import Diagnostic, Findings
 
-    take_back(file)
     source = read_main(file)
     if isinstance(source, Diagnostic):
         print_report([source], console(stderr=True))

@@ -58,7 +58,7 @@ def command(files: tuple[str, ...], fix: bool, select: tuple[str, ...], ignore: 
     from mindrun.errors import MindError
 
     from mindlang.cli._named_files import files_of, in_files
-    from mindlang.cli._terminal import FINDINGS, MISUSE, OK, fail, take_back
+    from mindlang.cli._terminal import FINDINGS, MISUSE, OK, fail
     from mindlang.compiler.diagnostic import distinct
     from mindlang.editing.neighbours import minds
     from mindlang.lint.lint_file import linted
@@ -67,8 +67,6 @@ def command(files: tuple[str, ...], fix: bool, select: tuple[str, ...], ignore: 
         fail("Standard input cannot be mended.", "Leave --fix out, or save it as a file.", MISUSE)
     selected, ignored = _codes(select), _codes(ignore)
     named = files_of(files, ".mind")
-    for file in named:
-        take_back(file)
     try:
         done = [
             linted(file, compiled, _settings(file).codes(Path(realpath(file)), selected, ignored), fix)

@@ -35,14 +35,13 @@ def _migrate(file: str, write: bool) -> int:
     """Migrate one file; how the program would end if it were the only one."""
     from mindlang.cli._diagnostic_printer import print_report
     from mindlang.cli._diff_printer import print_diff
-    from mindlang.cli._terminal import FINDINGS, MISUSE, OK, console, print_document, take_back
+    from mindlang.cli._terminal import FINDINGS, MISUSE, OK, console, print_document
     from mindlang.compiler.compile import read_main
     from mindlang.compiler.diagnostic import Findings
     from mindlang.compiler.migration import migrated
     from mindlang.compiler.source import Source
     from mindlang.editing.unified_diff import unified
 
-    take_back(file)
     source = read_main(file)
     if not isinstance(source, Source):
         print_report([source], console(stderr=True))

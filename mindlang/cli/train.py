@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from mindlang import bounds
+from mindlang import limits
 from mindlang.cli._declared_names import SKILLS, declared
 from mindlang.cli._options import ON, SEED, WORKERS, NumberOption, WholeOption
 from mindlang.cli._terminal import INTERRUPTED, MISUSE, OK, fail
@@ -41,10 +41,10 @@ A cluster with SLURM (what tls.pem is, and other ways: docs/cluster.md):
     shell_complete=declared("curriculum"),
     help="Whose lessons to teach (default: the first in the file).",
 )
-@click.option("--generations", type=WholeOption(*bounds.GENERATION_BOUNDS), help="Instead of what the lesson says.")
+@click.option("--generations", type=WholeOption(*limits.GENERATION_BOUNDS), help="Instead of what the lesson says.")
 @click.option("--scale", type=NumberOption(0, 1000, min_open=True), default=1.0, help="Times so many generations.")
-@click.option("--population", type=WholeOption(*bounds.POPULATION_BOUNDS), help="Genomes in a generation.")
-@click.option("--attempts", type=WholeOption(*bounds.ATTEMPT_BOUNDS), help="Independent attempts; the best is kept.")
+@click.option("--population", type=WholeOption(*limits.POPULATION_BOUNDS), help="Genomes in a generation.")
+@click.option("--attempts", type=WholeOption(*limits.ATTEMPT_BOUNDS), help="Independent attempts; the best is kept.")
 @click.option("--from-scratch", is_flag=True, help="Forget the weights that the skill has.")
 @click.option("--force", is_flag=True, help="Teach what is up to date, too, and keep it even where it does worse.")
 @click.option("--seed", type=SEED, help="The same seed gives the same weights.")

@@ -77,15 +77,14 @@ def export_weights(file: str, skill: str, weights: Path) -> None:
     from mindrun.errors import MindError
 
     from mindlang.cli._terminal import console, fail, refuse_unwritable, write_file
-    from mindlang.weights.exporting import outgoing
-    from mindlang.weights.files import bytes_of
+    from mindlang.weights.files import to_bytes, trained_network
 
     refuse_unwritable(weights, ".safetensors")
     try:
-        network, genome = outgoing(_subject(file), skill)
+        network, genome = trained_network(_subject(file), skill)
     except MindError as error:
         fail(f"{error}.", error.hint)
-    write_file(weights, bytes_of(network, genome))
+    write_file(weights, to_bytes(network, genome))
     talk = console(stderr=True)
     talk.print(f"{weights}: {len(genome):,} weights of {skill}", markup=False)
 

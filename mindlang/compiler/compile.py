@@ -1,12 +1,12 @@
 """The way through: text → File → Mind → Graph, for any input without an exception."""
 
+import re
 import sys
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 from mindrun.errors import reason
-from mindrun.files.atomic_write import descriptor_of
 from mindrun.graph.graph import Graph
 from mindrun.numbers.short_repr import ShortRepr
 
@@ -19,6 +19,7 @@ from mindlang.compiler.syntax import File
 from mindlang.compiler.use import files, read
 
 STDIN = "<stdin>"
+SHELLS_PIPE = re.compile(r"/(?:dev|proc/self)/fd/\d+|/dev/stdin")  # <(git show HEAD:collect.mind)
 NO_TEXTS: Mapping[Path, str] = {}
 
 
@@ -64,8 +65,8 @@ def read_main(path: Path | str, texts: Mapping[Path, str] = NO_TEXTS) -> Source 
             return Source(str(path), within(texts[resolved]), resolved.parent)
         if str(path) == "-":
             return Source(STDIN, decode(sys.stdin.buffer.read(MAX_SOURCE_BYTES + 1)), Path.cwd().resolve())
-        if descriptor_of(Path(path)) is not None:
-            with Path(path).open("rb") as stream:  # that a shell has opened: <(git show HEAD:collect.mind)
+        if SHELLS_PIPE.fullmatch(str(path)):
+            with Path(path).open("rb") as stream:
                 return Source(str(path), decode(stream.read(MAX_SOURCE_BYTES + 1)), Path.cwd().resolve())
         return read(Path(path), str(path))
     except (OSError, RuntimeError) as error:

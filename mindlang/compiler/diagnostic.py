@@ -7,7 +7,7 @@ from itertools import chain
 from pathlib import Path
 from typing import Literal
 
-from mindrun.nearest_name import nearest
+from mindrun.errors import nearest
 from mindrun.numbers.short_repr import ShortRepr
 
 from mindlang.compiler.source import Span

@@ -1,1 +1,1 @@
-"""What `mindc doctor` looks at, one check a file in `checks/`, and what mends what is missing."""
+"""The checks of `mindc doctor`: what is installed on this machine, and the line that mends what is missing."""

@@ -1,67 +1,40 @@
-"""What this installation of mindlang asks for, by itself and for each extra, and which versions are there."""
+"""The packages that the installed mindlang asks for, always and for each extra, held against those that are there."""
 
-import re
-from collections.abc import Iterator
-from dataclasses import dataclass
-from importlib.metadata import PackageNotFoundError, requires, version
+from importlib.metadata import PackageNotFoundError, metadata, requires, version
 
-_LINE = re.compile(r"(?P<name>[\w.-]+)\s*(?P<bounds>[^;]*?)\s*(?:;.*extra == ['\"](?P<extra>[\w-]+)['\"].*)?$")
-_BOUND = re.compile(r"(>=|<)\s*([\d.]+)")
+from packaging.requirements import Requirement
+from packaging.specifiers import SpecifierSet
 
 
-@dataclass(frozen=True, slots=True)
-class Requirement:
-    """A package with the bounds of its version, and the extra that needs it; "" for what is always needed."""
-
-    name: str
-    bounds: str
-    extra: str
-
-    @property
-    def installed(self) -> str | None:
-        """The version that is there, if any."""
-        try:
-            return version(self.name)
-        except PackageNotFoundError:
-            return None
-
-    @property
-    def is_met(self) -> bool:
-        """Whether a version within the bounds is there."""
-        found = self.installed
-        return found is not None and self.admits(found)
-
-    def admits(self, found: str) -> bool:
-        """Whether a version is within the bounds."""
-        return all(
-            _numbers(found) >= _numbers(bound) if sign == ">=" else _numbers(found) < _numbers(bound)
-            for sign, bound in _BOUND.findall(self.bounds)
-        )
-
-    @property
-    def remedy(self) -> str:
-        """The line that installs it."""
-        return f"pip install '{self.name}{self.bounds}'"
+def requirements(extra: str = "") -> list[Requirement]:
+    """What an extra needs beyond what is always needed, or the latter; PackageNotFoundError where no mindlang is."""
+    found = map(Requirement, requires("mindlang") or ())
+    return [each for each in found if _is_for(each, extra) and not (extra and _is_for(each, ""))]
 
 
-def requirements() -> list[Requirement]:
-    """Those of the installed mindlang, in the order in which it says them; PackageNotFoundError where none is."""
-    return list(map(parsed, requires("mindlang") or ()))
+def extras() -> list[str]:
+    """The extras of the installed mindlang by name."""
+    return metadata("mindlang").get_all("Provides-Extra") or []
 
 
-def parsed(line: str) -> Requirement:
-    """A line of metadata: 'smbus2>=0.4; extra == "robot"'."""
-    found = _LINE.match(line)
-    assert found
-    return Requirement(found["name"], found["bounds"].strip("() "), found["extra"] or "")
+def python_bounds() -> SpecifierSet:
+    """The versions of Python that it is made for."""
+    return SpecifierSet(metadata("mindlang")["Requires-Python"] or "")
 
 
-def extras() -> Iterator[tuple[str, list[Requirement]]]:
-    """Each extra with what it needs."""
-    needed = requirements()
-    for extra in dict.fromkeys(each.extra for each in needed if each.extra):
-        yield extra, [each for each in needed if each.extra == extra]
+def installed(package: Requirement) -> str | None:
+    """The version that is there, if any."""
+    try:
+        return version(package.name)
+    except PackageNotFoundError:
+        return None
 
 
-def _numbers(text: str) -> tuple[int, ...]:
-    return tuple(int(digits) for digits in re.findall(r"\d+", text)[:3])
+def is_met(package: Requirement) -> bool:
+    """Whether a version within the bounds is there."""
+    found = installed(package)
+    return found is not None and package.specifier.contains(found, prereleases=True)
+
+
+def _is_for(package: Requirement, extra: str) -> bool:
+    return package.marker is None or package.marker.evaluate({"extra": extra})

@@ -5,7 +5,7 @@ from os.path import realpath
 from pathlib import Path
 
 from mindlang.compiler.compile import Compiled, load
-from mindlang.file_search import files_beside, folders_above, name_from_here, text_of, within_read_limits
+from mindlang.files import files_beside, folders_above, name_from_here, text_of, within_read_limits
 
 
 def neighbours(files: Collection[Path]) -> Iterator[Compiled]:

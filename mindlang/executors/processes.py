@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from mindrun.cores import cores
+from mindrun.processors import cores
 from mindrun.work.assignment import Assignment
 from mindrun.work.executor import JobExecutor
 from mindrun.work.local import local_workers

@@ -14,7 +14,7 @@ from mindrun.files.regular_files import read_regular
 
 from mindlang.compiler.diagnostic import ERRORS, Diagnostic, did_you_mean, listed
 from mindlang.compiler.source import MAX_SOURCE_BYTES, Source, Span, decode
-from mindlang.file_search import folders_above, name_from_here
+from mindlang.files import folders_above, name_from_here
 from mindlang.lint.rules import all_rules
 from mindlang.lint.settings import LintSettings
 

@@ -6,8 +6,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
-from mindrun.errors import MindError
-from mindrun.nearest_name import nearest
+from mindrun.errors import MindError, nearest
 from mindrun.numbers.quantity import Quantity, Reference
 
 from mindlang.compiler.diagnostic import Findings, errors, listed

@@ -3,10 +3,10 @@
 from collections.abc import Callable, Iterator, Mapping, Sequence, Set
 from typing import Any, TypeVar
 
+from mindrun.errors import nearest
 from mindrun.graph.graph import Actuator, Graph, Sensor
 from mindrun.graph.named_readings import physical
 from mindrun.graph.wiring import ActuatorWire, SensorWire, read_by
-from mindrun.nearest_name import nearest
 
 from mindlang.compiler.diagnostic import Findings, a, listed
 from mindlang.robot.driver import Wired, wired

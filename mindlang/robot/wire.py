@@ -3,11 +3,10 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-from mindrun.errors import reason
+from mindrun.errors import nearest, reason
 from mindrun.files.regular_files import read_regular
 from mindrun.graph.graph import Graph
 from mindrun.graph.wiring import Wiring
-from mindrun.nearest_name import nearest
 
 from mindlang.compiler.diagnostic import Diagnostic, Findings, errors, near_file
 from mindlang.compiler.source import Source, decode

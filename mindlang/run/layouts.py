@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mindlang.bounds import as_runs, as_seed
+from mindlang.limits import as_runs, as_seed
 
 NO_GENOME = np.zeros((1, 0), np.float32)  # the genome where nobody learns
 

@@ -6,8 +6,8 @@ from collections.abc import Callable, Sequence
 from time import perf_counter
 from typing import TYPE_CHECKING
 
-from mindrun.cpu_time import cpu_seconds
 from mindrun.graph.run_scores import Scores
+from mindrun.processors import cpu_seconds
 from mindrun.work.blocks import Block, empty_scores, place
 from mindrun.work.job_scorer import JobScorer
 

@@ -11,7 +11,7 @@ from mindrun.sim.outside import making
 from mindlang.compiler.syntax import NOUNS, SETTINGS
 from mindlang.editing.owners import OWNERS
 from mindlang.explaining.words import language_words
-from mindlang.file_search import files_below
+from mindlang.files import files_below
 from mindlang.server.facts import FACTS, CursorLine
 from mindlang.server.offers import Offer, arguments_of, functions, kinds_of, names, words
 from mindlang.server.stops import stop_offers

@@ -12,7 +12,7 @@ from mindlang.compiler.parse import parse
 from mindlang.compiler.references import Mention, introductions
 from mindlang.compiler.source import Source, Span
 from mindlang.compiler.syntax import Argument, Contains, File, Name, Phrase, Use
-from mindlang.file_search import files_below, text_of, within_read_limits
+from mindlang.files import files_below, text_of, within_read_limits
 from mindlang.server.workspace import MindView, Workspace, path_to
 
 MAX_SYMBOLS = 500  # that are found

@@ -19,7 +19,7 @@ from mindlang.explaining import markdown
 from mindlang.explaining.kinds import kind_article
 from mindlang.explaining.parameters import meaning, parameter
 from mindlang.explaining.words import language_words
-from mindlang.file_search import files_beside, text_of
+from mindlang.files import files_beside, text_of
 from mindlang.server.workspace import MindView
 
 NUMBER = "0123456789"

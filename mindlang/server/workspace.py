@@ -20,7 +20,7 @@ from mindlang.compiler.resolve.maps import map_paths
 from mindlang.compiler.source import Span, within
 from mindlang.compiler.syntax import Declaration, Fact, File, Setting
 from mindlang.compiler.use import files
-from mindlang.file_search import files_beside, folders_above, text_of, within_read_limits
+from mindlang.files import files_beside, folders_above, text_of, within_read_limits
 
 _MASTER = re.compile(r"^[ \t]*master\b", re.MULTILINE)
 _USE = re.compile(r'^[ \t]*use[ \t]+"', re.MULTILINE)

@@ -8,15 +8,15 @@ from mindrun.graph.graph import Graph, Lesson
 from mindrun.graph.weights import learners
 from mindrun.train import NotFoundError, RunError
 
-from mindlang import bounds
+from mindlang import limits
 from mindlang.compiler.diagnostic import did_you_mean, listed
 from mindlang.lock.lessons import needed_skills
 
 BOUNDS = {
-    "generations": bounds.GENERATION_BOUNDS,
-    "population": bounds.POPULATION_BOUNDS,
-    "attempts": bounds.ATTEMPT_BOUNDS,
-    "rungs": bounds.RUNG_BOUNDS,
+    "generations": limits.GENERATION_BOUNDS,
+    "population": limits.POPULATION_BOUNDS,
+    "attempts": limits.ATTEMPT_BOUNDS,
+    "rungs": limits.RUNG_BOUNDS,
 }
 MAX_SCALE = 1000
 
@@ -39,7 +39,7 @@ class TrainOptions:
         """MindError where a number is none that `mindc train` would take."""
         for what in BOUNDS:
             if (value := getattr(self, what)) is not None:
-                object.__setattr__(self, what, bounds.whole(what, BOUNDS[what], value))  # one of numpy becomes an int
+                object.__setattr__(self, what, limits.whole(what, BOUNDS[what], value))  # one of numpy becomes an int
         if not 0 < self.scale <= MAX_SCALE:
             raise MindError(f"scale cannot be {self.scale!r}", f"scale is a number above 0, and at most {MAX_SCALE}")
 

@@ -13,9 +13,9 @@ from mindrun.train import RunError
 from mindrun.train.manifest import Manifest, fingerprint, hashes, processor, versions
 from mindrun.train.run_folder import RunFolder, create, unfinished
 
-from mindlang.bounds import as_seed
 from mindlang.compiler.compile import Compiled
 from mindlang.compiler.diagnostic import listed
+from mindlang.limits import as_seed
 from mindlang.lock import Lock, lock_path, lock_sources, read_lock, read_locks
 from mindlang.lock.arrange import arrange
 from mindlang.lock.due import is_due

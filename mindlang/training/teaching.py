@@ -25,7 +25,7 @@ from mindrun.work.job_scorer import JobScorer
 from mindrun.work.kept_segments import KeptSegments, RememberingExecutor
 
 from mindlang.executors import Where, scorer_on
-from mindlang.resource_limits import refuse_too_large, refuse_too_long
+from mindlang.limits import refuse_too_large, refuse_too_long
 from mindlang.training.lock_update import Kept, keep
 from mindlang.training.results import Result, result_of
 from mindlang.training.subject import Subject

@@ -1,6 +1,6 @@
 """Messages of a page: JSON objects told apart by `say`, decoded by msgspec with the bounds of every part.
 
-Numbers of rows go into the header of a frame, which has 32 bits for each. It is msgspec and not cattrs, since bounds and
+Numbers of rows go into the header of a frame, which has 32 bits for each. It is msgspec, not cattrs, since bounds and
 unknown keys are part of its types, and cattrs comes with the extra of the language server alone.
 """
 

@@ -1,4 +1,4 @@
-"""What the program that taught weights computes with them, beside what the engine does, on the same readings."""
+"""The deviation of the engine from PyTorch, or from float64, with the same weights on the same readings."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -6,16 +6,17 @@ from functools import partial
 
 import numpy as np
 from mindrun.graph.weights import Weights
+from mindrun.numbers.network import matrices
 from numpy.typing import NDArray
 
-from mindlang.weights.network import Network, matrices_of
-from mindlang.weights.torch_outputs import Rows, in_torch
+from mindlang.weights.network import Network
 
+Rows = NDArray[np.float32]  # [ticks, values]
 Compute = Callable[[Rows], Rows]  # inputs [ticks, inputs] of a run to outputs [ticks, outputs], in 0..1
 
 
 @dataclass(frozen=True, slots=True)
-class Comparison:
+class Deviation:
     """The largest `difference` of an output from that of the `reference`, in the `ticks` that were compared.
 
     `faults` are the outputs that were finite in one of both alone, or in none: the engine sends nothing there.
@@ -27,7 +28,7 @@ class Comparison:
     faults: int
 
 
-def compare(network: Network, genome: Weights, inputs: Rows) -> Comparison:
+def compare(network: Network, genome: Weights, inputs: Rows) -> Deviation:
     """The function in PyTorch, or where that is not installed in float64 as it stands in a book, and in the engine."""
     sound = inputs[np.isfinite(inputs).all(axis=1)]
     name, compute = _reference(network, genome)
@@ -35,7 +36,7 @@ def compare(network: Network, genome: Weights, inputs: Rows) -> Comparison:
         theirs, ours = compute(sound), _engine(network, genome, sound)
     finite = np.isfinite(theirs) & np.isfinite(ours)
     difference = np.abs(theirs.astype(np.float64) - ours, where=finite, out=np.zeros(ours.shape))
-    return Comparison(name, len(sound), float(difference.max(initial=0.0)), int((~finite).sum()))
+    return Deviation(name, len(sound), float(difference.max(initial=0.0)), int((~finite).sum()))
 
 
 def _engine(network: Network, genome: Weights, inputs: Rows) -> Rows:
@@ -54,12 +55,29 @@ def _reference(network: Network, genome: Weights) -> tuple[str, Compute]:
         import torch
     except ImportError:
         return "float64", partial(_in_float64, network, genome)
-    return f"PyTorch {torch.__version__}", partial(in_torch, network, genome)
+    return f"PyTorch {torch.__version__}", partial(_in_torch, network, genome)
+
+
+def _in_torch(network: Network, genome: Weights, inputs: Rows) -> Rows:
+    """Outputs of `mindlang.torch.Skill`."""
+    import torch
+
+    from mindlang.weights.torch_skill import NetworkModule
+
+    module, rows = NetworkModule(network, genome), torch.from_numpy(inputs)
+    with torch.no_grad():
+        if not network.state:
+            return np.asarray(module(rows).numpy())
+        found, state = [], None
+        for row in rows:
+            outputs, state = module(row, state)
+            found.append(outputs.numpy())
+    return np.array(found, np.float32).reshape(len(inputs), network.outputs)
 
 
 def _in_float64(network: Network, genome: Weights, inputs: Rows) -> Rows:
     """Products of matrices and 1/(1 + e^−x), in float64."""
-    *hidden, last = (matrix.astype(np.float64) for matrix in matrices_of(network, genome))
+    *hidden, last = (matrix.astype(np.float64) for matrix in matrices(genome, network.shapes))
     values: NDArray[np.floating] = inputs.astype(np.float64)
     if network.state:
         state, rows = np.zeros(network.state), []

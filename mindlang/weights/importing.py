@@ -1,4 +1,4 @@
-"""Weights in a file held against the engine and tried, and written into the lock if they do."""
+"""Weights from a file: held against the engine, tried in their lesson, and written into the lock if they do well."""
 
 from dataclasses import dataclass
 from hashlib import sha256
@@ -18,9 +18,9 @@ from mindlang.lock.ready import elsewhere_sentences
 from mindlang.lock.status import status, trained_weights
 from mindlang.lock.world_facts import Worlds
 from mindlang.training.lesson_choice import chosen_lessons
-from mindlang.training.lock_update import Comparison as ScoreComparison
+from mindlang.training.lock_update import Comparison
 from mindlang.training.subject import Subject
-from mindlang.weights.comparison import Comparison, compare
+from mindlang.weights.comparison import Deviation, compare
 from mindlang.weights.files import genome_in, read_bytes
 from mindlang.weights.network import Network, network_of
 from mindlang.weights.trial import Trial
@@ -44,23 +44,23 @@ class Incoming:
 
 @dataclass(frozen=True, slots=True)
 class Imported:
-    """What came of weights: how they compare with the engine, how they score, and whether the lock has them now.
+    """The outcome of an import: the engine's deviation, the scores, and whether the lock has the weights now.
 
     `scores` has the old ones beside them, where there were any that fit. `notes` say which skills were taught with
     those that were there. The lock `is_unchanged` where it had these very weights.
     """
 
     incoming: Incoming
-    comparison: Comparison
+    deviation: Deviation
     score: float
-    scores: ScoreComparison | None
+    scores: Comparison | None
     is_kept: bool
     is_unchanged: bool = False
     notes: tuple[str, ...] = ()
 
     def data(self) -> dict[str, Any]:
-        """What was brought and what came of it, as plain data for JSON."""
-        incoming, compared = self.incoming, self.comparison
+        """The file, the deviation and the scores as plain data for JSON."""
+        incoming, compared = self.incoming, self.deviation
         return {
             "skill": incoming.network.skill.name,
             "file": str(incoming.path),
@@ -89,7 +89,7 @@ def read_incoming(subject: Subject, skill: str, path: Path) -> Incoming:
     return Incoming(path, network, lesson, genome_in(path, data, network), sha256(data).hexdigest())
 
 
-def bring(trial: Trial, incoming: Incoming, recording: str | None, force: bool) -> Imported:
+def import_weights(trial: Trial, incoming: Incoming, recording: str | None, force: bool) -> Imported:
     """Compare and try weights, and write them into the lock, unless what is there does better; with `force` even then.
 
     LockError where the lock cannot be read or written.

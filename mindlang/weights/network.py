@@ -1,8 +1,7 @@
 """A skill that learns as other programs know it: a network of matrices without biases, and its genome as these."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass
-from itertools import accumulate
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
 from mindrun.errors import WeightsError
@@ -10,13 +9,24 @@ from mindrun.files.printable import visible
 from mindrun.graph.graph import Graph, Skill
 from mindrun.graph.weights import Weights, genes
 from mindrun.numbers.arrays import Layers
+from mindrun.numbers.network import matrices
+from numpy.typing import NDArray
 
 from mindlang.lock import Signature
 from mindlang.lock.signature import differences, places, signature
-from mindlang.weights.safetensors import Matrix, Tensors
 
 MAX_SHOWN = 400  # characters of what another program wrote
 KEYS = ("mind.function", "mind.reads", "mind.sends")  # of the metadata: the signature of the weights
+
+Matrix = NDArray[np.float32]
+
+
+@dataclass(frozen=True, slots=True)
+class Tensors:
+    """The tensors of a file by name, and what it says of itself."""
+
+    by_name: Mapping[str, Matrix]
+    metadata: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,19 +75,12 @@ def matrix_names(network: Network) -> tuple[str, ...]:
     return tuple(f"layers.{number}.weight" for number in range(len(network.shapes)))
 
 
-def matrices_of(network: Network, genome: Weights) -> tuple[Matrix, ...]:
-    """A genome as its matrices [values out, values in]."""
-    ends = [*accumulate(before * after for before, after in network.shapes)]
-    parts = np.split(genome, ends[:-1])
-    return tuple(part.reshape(after, before) for part, (before, after) in zip(parts, network.shapes, strict=True))
-
-
-def to_tensors(network: Network, matrices: Sequence[Matrix]) -> Tensors:
-    """The matrices by name, and which skill they are for."""
-    own = network.signature
+def to_tensors(network: Network, genome: Weights) -> Tensors:
+    """The matrices of a genome by name, and which skill they are for."""
+    own, found = network.signature, matrices(genome, network.shapes)
     said = (own.function, " ".join(own.reads), " ".join(own.sends))
     metadata = {"format": "pt", "mind.skill": network.skill.name, **dict(zip(KEYS, said, strict=True))}
-    return Tensors(dict(zip(matrix_names(network), matrices, strict=True)), metadata)
+    return Tensors(dict(zip(matrix_names(network), found, strict=True)), metadata)
 
 
 def to_genome(network: Network, tensors: Tensors) -> Weights:

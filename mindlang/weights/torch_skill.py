@@ -1,23 +1,176 @@
-"""A skill of a mind as a module of PyTorch, and the file in which its weights go there and back."""
+"""A skill of a mind as a module of PyTorch: forward the bits of the engine, backward the derivatives.
+
+Forward every sum is taken in the engine's order, and nothing is fused. Backward the order means nothing, and a product
+of matrices is fast.
+"""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import torch
 from mindrun.graph.weights import Weights
+from mindrun.numbers.network import matrices
+from mindrun.numbers.sigmoid import DENOMINATOR, LIMIT, NUMERATOR
+from torch import Tensor, nn
+from torch.autograd import Function
 
 from mindlang.lock import lock_sources, read_locks
 from mindlang.lock.arrange import arrange
 from mindlang.lock.status import trained_weights
-from mindlang.weights.files import load_genome, save
+from mindlang.weights.files import load_genome, save_genome
 from mindlang.weights.network import Network, network_of
-from mindlang.weights.torch_module import NetworkModule
 
 if TYPE_CHECKING:
     from mindlang.api import Mind
+
+
+class OrderedProduct(Function):
+    """y[..., q] = Σ weight[q, j] · x[..., j], strictly from j = 0 on; the derivatives of a product of matrices."""
+
+    generate_vmap_rule = True
+
+    @staticmethod
+    def forward(x: Tensor, weight: Tensor) -> Tensor:
+        """The sums."""
+        total = x[..., :1] * weight[:, 0]
+        for j in range(1, weight.shape[1]):
+            total += x[..., j : j + 1] * weight[:, j]
+        return total
+
+    @staticmethod
+    def setup_context(ctx: Any, inputs: tuple[Tensor, Tensor], output: Tensor) -> None:
+        """Keep what the derivatives need."""
+        ctx.save_for_backward(*inputs)
+
+    @staticmethod
+    def backward(ctx: Any, grad: Tensor) -> tuple[Tensor, Tensor]:
+        """Of the values, and of the weights."""
+        x, weight = ctx.saved_tensors
+        return grad @ weight, grad.reshape(-1, weight.shape[0]).T @ x.reshape(-1, weight.shape[1])
+
+
+class RationalSigmoid(Function):
+    """The sigmoid of `mindrun.numbers.sigmoid`; its derivative is taken as y·(1 − y), as that of the true sigmoid."""
+
+    generate_vmap_rule = True
+
+    @staticmethod
+    def forward(x: Tensor) -> Tensor:
+        """A quotient of two polynomials, within 1e-6 of 1/(1 + e^−x); NaN gives what −∞ gives."""
+        x = torch.fmin(torch.fmax(x * 0.5, x.new_tensor(-LIMIT)), x.new_tensor(LIMIT))
+        y = x * x
+        return _polynomial(y, NUMERATOR).mul_(x).div_(_polynomial(y, DENOMINATOR)).mul_(0.5).add_(0.5)
+
+    @staticmethod
+    def setup_context(ctx: Any, inputs: tuple[Tensor], output: Tensor) -> None:
+        """Keep the values."""
+        ctx.save_for_backward(output)
+
+    @staticmethod
+    def backward(ctx: Any, grad: Tensor) -> Tensor:
+        """y·(1 − y)."""
+        (y,) = ctx.saved_tensors
+        return grad * y * (1 - y)
+
+
+def _polynomial(y: Tensor, coefficients: tuple[float, ...]) -> Tensor:
+    """Lowest power first, evaluated from the highest on."""
+    *rest, top = coefficients
+    total = y * top
+    for a in reversed(rest[1:]):
+        total.add_(a).mul_(y)
+    return total.add_(rest[0])
+
+
+class ReturningClamp(Function):
+    """The value within 0..1. What leads a value that is outside back has its derivative, what leads on has none.
+
+    As nothing comes back through torch.clamp, a neuron that is outside for all readings would never learn again.
+    """
+
+    generate_vmap_rule = True
+
+    @staticmethod
+    def forward(x: Tensor) -> Tensor:
+        """The engine sends nothing where a value is not finite: that is NaN here."""
+        return torch.where(torch.isfinite(x), x.clamp(0, 1), torch.nan)
+
+    @staticmethod
+    def setup_context(ctx: Any, inputs: tuple[Tensor], output: Tensor) -> None:
+        """Keep the values before the clamp."""
+        ctx.save_for_backward(*inputs)
+
+    @staticmethod
+    def backward(ctx: Any, grad: Tensor) -> Tensor:
+        """Descent moves a value against its derivative: above 1 it may fall, below 0 it may rise."""
+        (x,) = ctx.saved_tensors
+        leads_on = ((x > 1) & (grad < 0)) | ((x < 0) & (grad > 0))
+        return torch.where(leads_on, torch.zeros_like(grad), grad)
+
+
+class Layer(nn.Module):
+    """`weight` [values out, values in] without biases, as the engine sums."""
+
+    def __init__(self, inputs: int, outputs: int) -> None:
+        super().__init__()
+        self.weight = nn.Parameter(torch.zeros(outputs, inputs))
+
+    def forward(self, x: Tensor) -> Tensor:
+        """[..., values in] to [..., values out]."""
+        return OrderedProduct.apply(x, self.weight)
+
+
+class NetworkModule(nn.Module):
+    """Readings [..., inputs] to what its skill sends [..., outputs], in 0..1, with the weights of a genome.
+
+    Through the clamp comes the derivative that leads a value back into 0..1, and none that leads it on. A network that
+    remembers is called with its state, too, and returns that of the next tick: `sent, state = skill(readings, state)`,
+    with None or `start(batch)` in the beginning.
+    """
+
+    def __init__(self, network: Network, genome: Weights) -> None:
+        super().__init__()
+        self.network = network
+        self.layers = nn.ModuleList(Layer(before, after) for before, after in network.shapes)
+        self.take(genome)
+
+    def forward(self, readings: Tensor, state: Tensor | None = None) -> Tensor | tuple[Tensor, Tensor]:
+        """What it sends; with what it remembers, where it does."""
+        if not self.network.state:
+            return ReturningClamp.apply(self.before_clamp(readings))
+        before = self.start(*readings.shape[:-1]) if state is None else state
+        neurons = RationalSigmoid.apply(self.layers[0](torch.cat([readings, before], -1)))
+        return ReturningClamp.apply(self.layers[1](neurons)), neurons
+
+    def before_clamp(self, readings: Tensor) -> Tensor:
+        """What its last layer adds up to, of a network that remembers nothing: the mean of a policy that explores."""
+        *hidden, last = self.layers
+        values = readings
+        for layer in hidden:
+            values = RationalSigmoid.apply(layer(values))
+        return last(values)
+
+    def start(self, *batch: int) -> Tensor:
+        """What it remembers before the first tick of a run: zeros [..., state]."""
+        return self.layers[0].weight.new_zeros(*batch, self.network.state)
+
+    def take(self, genome: Weights) -> None:
+        """Take the weights of a genome."""
+        with torch.no_grad():
+            for layer, matrix in zip(self.layers, matrices(genome, self.network.shapes), strict=True):
+                layer.weight.copy_(torch.from_numpy(np.array(matrix)))
+
+    def genome(self) -> Weights:
+        """Its weights as the engine has them: float32 [genes]."""
+        flat = [layer.weight.detach().to("cpu", torch.float32).numpy().ravel() for layer in self.layers]
+        return np.concatenate(flat)
+
+    def extra_repr(self) -> str:
+        """Whose function it is."""
+        return f"{self.network.skill.name} is {self.network.signature.function}"
 
 
 class Skill(NetworkModule):
@@ -39,7 +192,7 @@ class Skill(NetworkModule):
 
     def save(self, path: Path | str) -> None:
         """Write its weights as safetensors, with what they read and send; `mindc weights import` takes them."""
-        save(Path(path), self.network, self.genome())
+        save_genome(Path(path), self.network, self.genome())
 
     def load(self, path: Path | str) -> None:
         """Take the weights of a file; WeightsError where they are not those of this skill."""

@@ -1,4 +1,4 @@
-"""A skill with weights from elsewhere tried in its lesson: what it reads there, and how it scores."""
+"""A skill with weights from elsewhere at work in its lesson: its readings there, and its score."""
 
 from dataclasses import dataclass
 from math import isfinite

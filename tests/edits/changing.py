@@ -19,7 +19,7 @@ def main(folder: Path) -> None:
     print("ready", flush=True)
     while True:
         for state in (OTHER, ONE):
-            change(folder, files(folder, state))
+            change(folder, files(folder, state), keeps=True)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,6 @@
 """Files of an edit are changed together or not at all: killed, out of room, or changed by somebody else meanwhile."""
 
 import errno
-import json
 import os
 import signal
 import subprocess
@@ -19,9 +18,8 @@ from mindlang.compiler.compile import load
 from mindlang.editing.apply import apply_edit
 from mindlang.editing.edits.rename import rename
 from mindlang.editing.project import EditError, open_project
-from mindlang.editing.transaction import JOURNAL_NAME, TransactionError, change, recover
+from mindlang.editing.transaction import UNDO_NAME, TransactionError, change, undo
 from mindlang.editing.writing import write
-from tests.calling import Call
 from tests.edits.changing import ONE, OTHER, files
 
 CHANGING = Path(__file__).parent / "changing.py"
@@ -60,33 +58,19 @@ def failing(patch: pytest.MonkeyPatch, fails: Callable[[int, str], BaseException
     return numbers
 
 
-def changed_with(folder: Path, fails: Callable[[int, str], BaseException | None]) -> BaseException | None:
-    """How a change ends when operations fail."""
+def changed_with(
+    folder: Path, fails: Callable[[int, str], BaseException | None], killed: bool = False
+) -> BaseException | None:
+    """How a change ends when operations fail; where the process is `killed`, nothing is put back."""
     with pytest.MonkeyPatch.context() as patch:
         failing(patch, fails)
+        if killed:
+            patch.setattr("mindlang.editing.transaction._put_back", lambda *_: None)
         try:
-            change(folder, files(folder, OTHER))
+            change(folder, files(folder, OTHER), keeps=True)
         except (Crash, TransactionError, KeyboardInterrupt) as error:
             return error
     return None
-
-
-def test_a_crash_between_any_two_operations_leaves_all_files_as_they_were_or_changes_all(folder: Path) -> None:
-    ends = []
-    for last in count():
-        crashed = changed_with(folder, lambda number, _, last=last: Crash() if number >= last else None)
-        interrupted = (folder / JOURNAL_NAME).exists()
-        assert recover(folder) == interrupted
-        now = found(folder)
-        now.pop(f".{JOURNAL_NAME}.mind-tmp", None)  # nobody reads it, and it goes with the next edit
-        assert now in (ONE, OTHER), f"after {last} operations"
-        ends.append(now == OTHER)
-        change(folder, files(folder, ONE))
-        (folder / "new.mind").unlink(missing_ok=True)
-        if crashed is None:
-            break
-    assert sorted(ends) == ends
-    assert len(ends) > 15
 
 
 @pytest.mark.parametrize("error", [OSError(errno.EIO, "Input/output error"), KeyboardInterrupt()])
@@ -95,7 +79,7 @@ def test_an_operation_that_fails_changes_nothing(folder: Path, error: BaseExcept
         failed = changed_with(folder, lambda number, _, place=place: error if number == place else None)
         if failed is None:  # whether the journal's end is on the disk makes no difference
             break
-        now = found(folder)
+        now = {name: data for name, data in found(folder).items() if name != UNDO_NAME}
         if now == OTHER:  # stopped when all was done already
             assert isinstance(failed, KeyboardInterrupt)
             break
@@ -104,7 +88,35 @@ def test_an_operation_that_fails_changes_nothing(folder: Path, error: BaseExcept
     assert place > 10
 
 
-def test_on_a_full_disk_all_is_put_back_as_soon_as_there_is_room(folder: Path) -> None:
+def test_what_is_killed_while_it_writes_can_be_taken_back(folder: Path) -> None:
+    ends = []
+    for last in count():
+        crashed = changed_with(folder, lambda number, _, last=last: Crash() if number >= last else None, killed=True)
+        if (folder / UNDO_NAME).exists():
+            undo(folder)
+        now = {name: data for name, data in found(folder).items() if not name.endswith(".mind-tmp")}
+        assert now == ONE, f"after {last} operations"
+        ends.append(crashed)
+        if crashed is None:
+            break
+    assert len(ends) > 10
+
+
+def test_whatever_moment_a_process_is_killed_at(folder: Path) -> None:
+    rng = Random(1)
+    for _ in range(8):
+        with subprocess.Popen([sys.executable, CHANGING, folder], stdout=subprocess.PIPE) as process:
+            assert process.stdout
+            process.stdout.readline()
+            sleep(rng.uniform(0, 0.03))
+            process.send_signal(signal.SIGKILL)
+        if (folder / UNDO_NAME).exists():
+            undo(folder)
+        now = {name: data for name, data in found(folder).items() if not name.endswith(".mind-tmp")}
+        assert now in (ONE, OTHER, ONE | {"new.mind": OTHER["new.mind"]})
+
+
+def test_on_a_full_disk_what_could_not_be_put_back_can_be_taken_back(folder: Path) -> None:
     full = OSError(errno.ENOSPC, "No space left on device")
     ends = set()
     for place in count():
@@ -116,83 +128,10 @@ def test_on_a_full_disk_all_is_put_back_as_soon_as_there_is_room(folder: Path) -
         assert "No space left on device" in str(failed)
         assert isinstance(failed, TransactionError)
         ends.add(failed.hint)
-        recover(folder)
+        if (folder / UNDO_NAME).exists():
+            undo(folder)
         assert found(folder) == ONE, f"after {place} operations"
-    assert ends == {
-        "",
-        f"the edit is half done; any mindc command takes it back as soon as {folder} can be written again",
-    }
-
-
-def test_whatever_moment_a_process_is_killed_at(folder: Path) -> None:
-    rng = Random(1)
-    interrupted = 0
-    for _ in range(12):
-        with subprocess.Popen([sys.executable, CHANGING, folder], stdout=subprocess.PIPE) as process:
-            assert process.stdout
-            process.stdout.readline()
-            sleep(rng.uniform(0, 0.03))
-            process.send_signal(signal.SIGKILL)
-        interrupted += recover(folder)
-        now = found(folder)
-        now.pop(f".{JOURNAL_NAME}.mind-tmp", None)
-        assert now in (ONE, OTHER, ONE | {"new.mind": OTHER["new.mind"]})
-    assert interrupted
-
-
-def test_what_was_changed_by_hand_since_is_not_overwritten(folder: Path) -> None:
-    with pytest.MonkeyPatch.context() as patch:
-        replaced = count()
-        failing(patch, lambda _, name: Crash() if name == "replace" and next(replaced) > 1 else None)
-        patch.setattr("mindlang.editing.transaction._undo", lambda *_: None)  # the process is gone
-        with pytest.raises(Crash):
-            change(folder, files(folder, OTHER))
-    (folder / "a.lock").write_text("by hand")
-    before = found(folder)
-    with pytest.raises(TransactionError, match=r"a\.lock has been changed since an edit of a\.mind") as refused:
-        recover(folder)
-    assert str(folder / JOURNAL_NAME) in refused.value.hint
-    with pytest.raises(TransactionError):
-        change(folder, files(folder, OTHER))
-    assert found(folder) == before
-    (folder / JOURNAL_NAME).unlink()
-    assert not recover(folder)
-
-
-@pytest.mark.parametrize(
-    "name", ["../out.mind", "/tmp/out.mind", "x.py", "weights/../../out.mind", "link/out.mind", "link.mind"]
-)
-def test_a_journal_from_somewhere_else_changes_nothing_outside(folder: Path, tmp_path_factory: Any, name: str) -> None:
-    outside = tmp_path_factory.mktemp("outside")
-    (folder / "link").symlink_to(outside)
-    (folder / "link.mind").symlink_to(outside / "out.mind")
-    (folder / JOURNAL_NAME).write_text(json.dumps({name: {"was": "eA==", "becomes": ""}}))
-    with pytest.raises(TransactionError, match="is not what mindc wrote"):
-        recover(folder)
-    assert list(outside.iterdir()) == []
-    assert not (folder.parent / "out.mind").exists()
-
-
-@pytest.mark.parametrize(
-    "text", ["", "{", "[]", '{"a.mind": 1}', '{"a.mind": {"was": "?", "becomes": 1}}', "{1}", "\udcff"]
-)
-def test_a_damaged_journal_is_told(mindc: Call, rules: Path, text: str) -> None:
-    (rules.parent / JOURNAL_NAME).write_bytes(text.encode("utf-8", "surrogateescape"))
-    said = mindc("check", rules)
-    assert said.code == 2
-    assert f"{JOURNAL_NAME} is not what mindc wrote" in said.err
-
-
-def test_any_command_puts_back_what_an_edit_left(mindc: Call, rules: Path) -> None:
-    old = rules.read_text()
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("mindlang.editing.transaction._done", lambda *_: Path("/nowhere").stat())
-        patch.setattr("mindlang.editing.transaction._undo", lambda *_: None)
-        assert mindc("edit", "rename", "Turn", "Spin", rules, "--write").code == 1
-    assert rules.read_text() != old
-    assert mindc("check", rules).code == 0
-    assert rules.read_text() == old
-    assert sorted(path.name for path in rules.parent.iterdir()) == [rules.name]
+    assert ends == {"", "the edit is half done: mindc edit undo takes it back"}
 
 
 def test_what_was_written_since_the_file_was_read_is_not_lost(rules: Path) -> None:
@@ -231,21 +170,6 @@ def test_who_may_read_a_file_still_may(rules: Path) -> None:
     assert "Spin" in rules.read_text()
     assert rules.stat().st_mode & 0o777 == 0o640
     assert rules.with_name("rules.mind.tmp").read_text() == "mine"
-
-
-def test_what_is_taken_back_is_said(mindc: Call, rules: Path) -> None:
-    text = rules.read_text()
-    project = open_project(load(rules))
-    edited = apply_edit(project, rename(project, "Turn", "Spin"), keep_weights=False)
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("mindlang.editing.transaction._done", lambda *_: (_ for _ in ()).throw(Crash()))
-        patch.setattr("mindlang.editing.transaction._undo", lambda *_: None)
-        with pytest.raises(Crash):
-            write(edited)
-    assert rules.read_text() != text
-    said = mindc("show", rules)
-    assert (said.code, rules.read_text()) == (0, text)
-    assert "An edit was interrupted, and has been taken back." in said.err
 
 
 def test_edits_of_several_processes_lose_nothing(rules: Path) -> None:

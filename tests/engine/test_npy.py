@@ -25,12 +25,6 @@ def test_the_bytes_are_numpy_s_own(vector: np.ndarray) -> None:
     assert from_npy(to_npy(vector)).tobytes() == vector.tobytes()
 
 
-def test_what_older_versions_of_numpy_wrote_is_read() -> None:
-    """They leave no space for the number to grow."""
-    header = b"{'descr': '<f4', 'fortran_order': False, 'shape': (1,), }\n"
-    assert from_npy(b"\x93NUMPY\x01\x00" + len(header).to_bytes(2, "little") + header + bytes(4)).tolist() == [0.0]
-
-
 def header(text: bytes, values: bytes = bytes(4)) -> bytes:
     """A file with this header."""
     return b"\x93NUMPY\x01\x00" + (len(text) + 1).to_bytes(2, "little") + text + b"\n" + values

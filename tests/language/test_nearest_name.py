@@ -3,7 +3,7 @@
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
-from mindrun.nearest_name import nearest
+from mindrun.errors import nearest
 
 KNOWN = ("battery", "bearing_of", "left_wheel", "Collect", "eye", "range_finder", "reward")
 WORDS = st.text("abcdwxyz_", min_size=5, max_size=9)

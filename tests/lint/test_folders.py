@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from mindlang import named_files
+from mindlang import files
 from tests.calling import RULES, Call
 
 BODY = "".join(RULES.splitlines(True)[2:5])
@@ -79,7 +79,7 @@ def test_a_folder_without_minds_is_one_sentence(mindc: Call, folder: Path, comma
 def test_a_folder_with_too_much_in_it_is_refused(
     mindc: Call, folder: Path, command: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(named_files, "MAX_FOLDER_ENTRIES", 3)
+    monkeypatch.setattr(files, "MAX_FOLDER_ENTRIES", 3)
     said = mindc(command, ".")
     assert (said.code, said.out) == (2, "")
     assert ". has more than 3 files and folders below it." in said.err

@@ -22,7 +22,7 @@ MODULES = {
     "pyyaml": "yaml",
     "stable-baselines3": "stable_baselines3",
 }
-WORKSTATION = {"numba", "llvmlite", "pymunk", "cv2"}
+WORKSTATION = {"numba", "llvmlite", "packaging", "pymunk", "cv2"}
 SIM = RUNTIME / "sim"
 
 

@@ -10,7 +10,7 @@ import pytest
 PROGRAM = """
 import os
 from pathlib import Path
-from mindrun.low_priority import give_way
+from mindrun.processors import give_way
 before = os.nice(0)
 give_way(7)
 print(os.nice(0) - before, Path("/proc/self/autogroup").read_text())

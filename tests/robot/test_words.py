@@ -102,13 +102,13 @@ def test_a_reader_that_comes_back_is_told_what_is_new() -> None:
     tell = LineWriter(writing, "guardian: ")
     for number in range(5000):
         tell(f"line {number}")
-    tell.flush(0.1)
+    tell.drain(0.1)
     tell("the last\x1b[2J")
     heard = b""
     while not heard.endswith(b"the last\\u001b[2J\n"):
         heard += os.read(reading, 1 << 16)
     assert b"guardian: line 4999\n" in heard
-    tell.flush(20)
+    tell.drain(20)
     os.close(writing)
     os.close(reading)
 

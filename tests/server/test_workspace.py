@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from mindlang import file_search
+from mindlang import files
 from tests.language.examples import RIGHT
 from tests.server.client import Editor, editing, uri
 
@@ -67,15 +67,15 @@ def test_what_is_no_file_is_said_when_it_is_used(odd: Path) -> None:
 
 
 def test_no_more_is_looked_through_than_one_can_wait_for(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(file_search, "MAX_FOLDER_ENTRIES", 10)
+    monkeypatch.setattr(files, "MAX_FOLDER_ENTRIES", 10)
     for number in range(30):
         (tmp_path / f"f{number:02}.mind").write_text("x")
         (tmp_path / f"d{number:02}").mkdir()
         (tmp_path / f"d{number:02}" / "g.mind").write_text("x")
-    assert len(file_search.files_beside(tmp_path)) <= 10
-    assert 0 < len([*file_search.files_below(tmp_path)]) <= 10
-    assert len([*file_search.within_read_limits((Path(str(n)), "x" * (1 << 20)) for n in range(99))]) == 8
-    assert len([*file_search.within_read_limits((Path(str(n)), "") for n in range(9999))]) == file_search.MAX_READ_FILES
+    assert len(files.files_beside(tmp_path)) <= 10
+    assert 0 < len([*files.files_below(tmp_path)]) <= 10
+    assert len([*files.within_read_limits((Path(str(n)), "x" * (1 << 20)) for n in range(99))]) == 8
+    assert len([*files.within_read_limits((Path(str(n)), "") for n in range(9999))]) == files.MAX_READ_FILES
 
 
 def test_many_findings_are_told_once(tmp_path: Path) -> None:

@@ -6,8 +6,6 @@ import stat
 from collections.abc import Callable
 from pathlib import Path
 
-import pytest
-
 Make = Callable[[Path], None]
 
 
@@ -23,16 +21,6 @@ def _socket(path: Path) -> None:
         os.chdir(here)
 
 
-def _node(mode: int, major: int, minor: int) -> Make:
-    def make(path: Path) -> None:
-        try:
-            os.mknod(path, mode | 0o666, os.makedev(major, minor))
-        except PermissionError:
-            pytest.skip("only root can make a device")
-
-    return make
-
-
 def _link_to(make: Make) -> Make:
     def link(path: Path) -> None:
         target = path.with_name("target")
@@ -42,26 +30,20 @@ def _link_to(make: Make) -> Make:
     return link
 
 
-DEVICES: dict[str, Make] = {
-    "pipe": os.mkfifo,
-    "null": _node(stat.S_IFCHR, 1, 3),
-    "zero": _node(stat.S_IFCHR, 1, 5),
-    "full": _node(stat.S_IFCHR, 1, 7),
-    "disk": _node(stat.S_IFBLK, 7, 250),
-}
-OTHERS: dict[str, Make] = {
-    "folder": Path.mkdir,
-    "socket": _socket,
-    "loop": lambda path: path.symlink_to(path.name),
-}
 FILES: dict[str, Make] = {
     "nothing": lambda path: None,
     "file": _file,
     "a link to a file": _link_to(_file),
     "a dangling link": lambda path: path.symlink_to("target"),
 }
-LINKS = {f"a link to a {name}": _link_to(make) for name, make in (DEVICES | OTHERS).items() if name != "loop"}
-IRREGULAR = DEVICES | OTHERS | LINKS
+IRREGULAR: dict[str, Make] = {
+    "pipe": os.mkfifo,
+    "folder": Path.mkdir,
+    "socket": _socket,
+    "loop": lambda path: path.symlink_to(path.name),
+    "a link to a device": lambda path: path.symlink_to("/dev/zero"),
+    "a link to a pipe": _link_to(os.mkfifo),
+}
 KINDS = FILES | IRREGULAR
 
 

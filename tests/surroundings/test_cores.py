@@ -11,9 +11,8 @@ from tempfile import TemporaryDirectory
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from mindrun import cores as cores_module
-from mindrun.cores import cores
-from mindrun.cpu_time import cpu_seconds
+from mindrun import processors
+from mindrun.processors import cores, cpu_seconds
 
 from mindlang.diagnosis.checks import machine
 from mindlang.executors import processes
@@ -61,9 +60,9 @@ def test_where_nothing_is_said_those_that_it_may_run_on_count(tmp_path: Path) ->
 
 def test_all_who_count_ask_the_same(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     write(tmp_path, V2, "", [1.0], True)
-    monkeypatch.setattr(cores_module, "ROOT", tmp_path)
+    monkeypatch.setattr(processors, "ROOT", tmp_path)
     assert [each.text for each in processes.completed("")] == ["1"]
-    assert next(iter(machine.check())).seen.endswith((f" 1 of {os.cpu_count()} cores to use", " 1 cores to use"))
+    assert next(iter(machine())).seen.endswith((f" 1 of {os.cpu_count()} cores to use", " 1 cores to use"))
 
 
 def test_the_time_of_processors_is_that_of_all_who_work_for_us() -> None:

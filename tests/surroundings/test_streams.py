@@ -15,22 +15,7 @@ from mindlang.compiler.compile import load
 from tests.calling import write_rules
 from tests.surroundings.streams import CLOSED, FULL, GONE, Ended, ended
 
-MINDC = """\
-check F | check missing.mind | check - | lint F | lint F --format json | lint F --format sarif | lint F --format github
-show F | show F --json | show F --dot | status F | status F --json | diff F F | diff F F --json | schema | fmt -
-explain | explain comma | explain --json | prove F | prove F --json | build F -o F.bundle --json | fmt F --diff
-edit rename Turn Spin F | edit rename Turn Spin F --json | plot L -o L.svg --json | train F | deploy F.none host
---help | --version | check --help | chekc"""
-MINDRUN = """\
-B | B --json | B --readings R | B --readings - | B --arm | --help | --ar | missing | doctor | doctor --help
-replay B B | report B B --json | adopt B | calibrate B x"""
-COMMANDS = [
-    f"{program} {words.strip()}"
-    for program, lines in (("mindc", MINDC), ("mindrun", MINDRUN))
-    for words in lines.replace("\n", "|").split("|")
-]
-FEW = ["mindc show F", "mindc schema", "mindc lint F", "mindrun B --readings R", "mindrun doctor"]  # in the plain suite
-ALL = [pytest.param(command, marks=pytest.mark.slow) for command in COMMANDS if command not in FEW]
+COMMANDS = ["mindc show F", "mindc lint F", "mindrun B --readings R", "mindrun doctor"]
 LOG = "attempt,generation,best\n1,1,0.5\n1,2,0.7\n"
 
 
@@ -58,7 +43,7 @@ def called(command: str, folder: Path, **streams: str) -> Ended:
     return ended(main, words, **streams)
 
 
-@pytest.mark.parametrize("command", FEW + ALL)
+@pytest.mark.parametrize("command", COMMANDS)
 def test_no_stream_ends_a_command(folder: Path, command: str) -> None:
     fine = called(command, folder)
     assert fine.code in (0, 1, 2)
@@ -74,20 +59,18 @@ def test_no_stream_ends_a_command(folder: Path, command: str) -> None:
         assert said.err.count(b"\n") == fine.err.count(b"\n") + bool(fine.out)
     said = called(command, folder, stdout=GONE)
     assert (said.code, said.err) == (fine.code, fine.err), "who has read enough is no reason to fail"
-    if "-" not in command.split():
-        assert called(command, folder, stdin=CLOSED) == fine
+    assert called(command, folder, stdin=CLOSED) == fine
     assert called(command, folder, stdin=CLOSED, stdout=CLOSED, stderr=CLOSED).code in (1, 2, fine.code)
 
 
-@pytest.mark.parametrize("command", FEW + ALL)
-@pytest.mark.parametrize("encoding", ["ascii", pytest.param("cp437", marks=pytest.mark.slow)])
-def test_every_encoding_will_do(folder: Path, command: str, encoding: str) -> None:
-    fine, said = called(command, folder), called(command, folder, encoding=encoding)
+@pytest.mark.parametrize("command", COMMANDS)
+def test_every_encoding_will_do(folder: Path, command: str) -> None:
+    fine, said = called(command, folder), called(command, folder, encoding="ascii")
     assert said.code == fine.code
     assert b"Traceback" not in said.err
     assert len(said.err.splitlines()) == len(fine.err.splitlines())
-    if "--json" in command or "--dot" in command or "--diff" in command or "schema" in command or "-" in command:
-        assert said.out == fine.out or "help" in command, "what programs read is UTF-8"
+    if "--readings" in command:
+        assert said.out == fine.out, "what programs read is UTF-8"
     assert len(said.out.splitlines()) == len(fine.out.splitlines())
 
 
@@ -103,14 +86,14 @@ def test_what_nobody_reads_any_more_is_not_computed(folder: Path) -> None:
     assert (said.code, said.err) == (0, b"")
 
 
-@pytest.mark.parametrize("redirected", [">&-", ">/dev/full", "2>&-", "<&-", ">&- 2>&- <&-", "2>/dev/full >/dev/full"])
+@pytest.mark.parametrize("redirected", [">&-", ">/dev/full", "2>&-", ">&- 2>&- <&-"])
 @pytest.mark.parametrize("module", ["mindc", "mindrun"])
 def test_as_a_shell_does_it(folder: Path, module: str, redirected: str) -> None:
     program = {"mindc": "from mindlang.cli import main", "mindrun": "from mindrun.__main__ import main"}[module]
     words = {"mindc": f"show {folder}/rules.mind", "mindrun": f"{folder}/b.bundle"}[module]
     line = f"exec {sys.executable} -c '{program}; main()' {words} {redirected}"
     done = subprocess.run(line, shell=True, capture_output=True, text=True, stdin=subprocess.DEVNULL)
-    lost = redirected.startswith(">") or redirected.endswith(">/dev/full")
+    lost = redirected.startswith(">")
     assert done.returncode == (1 if lost else 0)
     assert done.stderr.count("\n") == (lost and "2>" not in redirected)
 

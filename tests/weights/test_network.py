@@ -11,9 +11,8 @@ from mindrun.errors import WeightsError
 
 from mindlang.compiler.compile import load
 from mindlang.lock.arrange import arrange
-from mindlang.weights.comparison import Comparison, compare
-from mindlang.weights.network import Network, matrices_of, network_of, to_genome, to_tensors
-from mindlang.weights.safetensors import Tensors
+from mindlang.weights.comparison import Deviation, compare
+from mindlang.weights.network import Network, Tensors, network_of, to_genome, to_tensors
 from tests.edits.taught import MIND, write_mind
 
 KINDS = {"mlp": MIND, "elman": MIND.replace("skill Avoid is mlp hidden 2", "skill Avoid is elman")}
@@ -35,7 +34,7 @@ def genome_of(of: Network, seed: int = 1) -> np.ndarray:
 def test_there_and_back(tmp_path: Path, text: str) -> None:
     own = network(tmp_path, text)
     genome = genome_of(own)
-    back = to_genome(own, to_tensors(own, matrices_of(own, genome)))
+    back = to_genome(own, to_tensors(own, genome))
     assert back.tobytes() == genome.tobytes()
 
 
@@ -47,7 +46,7 @@ def test_weights_in_another_order_do_the_same(tmp_path: Path, text: str) -> None
     assert own.signature.reads == ("eye:3", "charge")
     assert its.signature.reads == ("charge", "eye:3")
     genome = genome_of(its)
-    brought = to_genome(own, to_tensors(its, matrices_of(its, genome)))
+    brought = to_genome(own, to_tensors(its, genome))
     rows = np.random.default_rng(2).random((20, own.inputs)).astype(np.float32)
     theirs = its.skill.function.ready(its.inputs, its.outputs, genome, {})
     ours = own.skill.function.ready(own.inputs, own.outputs, brought, {})
@@ -71,7 +70,7 @@ def test_of_no_readings_nothing_is_computed(tmp_path: Path, text: str, monkeypat
     monkeypatch.setitem(__import__("sys").modules, "torch", None)
     own = network(tmp_path, text)
     rows = np.full((3, own.inputs), np.nan, np.float32)
-    assert compare(own, genome_of(own), rows) == Comparison("float64", 0, 0.0, 0)
+    assert compare(own, genome_of(own), rows) == Deviation("float64", 0, 0.0, 0)
 
 
 @pytest.mark.parametrize(
@@ -136,7 +135,7 @@ WRONG: dict[str, tuple[Callable[[Tensors], Tensors], str]] = {
 @pytest.mark.parametrize(("change", "message"), WRONG.values(), ids=WRONG)
 def test_what_does_not_fit_is_one_sentence(tmp_path: Path, change: Callable[[Tensors], Tensors], message: str) -> None:
     own = network(tmp_path)
-    tensors = to_tensors(own, matrices_of(own, genome_of(own)))
+    tensors = to_tensors(own, genome_of(own))
     with pytest.raises(WeightsError, match=r"^[^\n]+$") as error:
         to_genome(own, change(tensors))
     assert message in str(error.value)
@@ -144,7 +143,7 @@ def test_what_does_not_fit_is_one_sentence(tmp_path: Path, change: Callable[[Ten
 
 def test_much_that_is_said_is_cut_off(tmp_path: Path) -> None:
     own = network(tmp_path)
-    tensors = to_tensors(own, matrices_of(own, genome_of(own)))
+    tensors = to_tensors(own, genome_of(own))
     with pytest.raises(WeightsError, match=r"sends x+…$") as error:
         to_genome(own, said(**MLP | {"sends": "x" * 100_000})(tensors))
     assert len(str(error.value)) < 600
@@ -155,7 +154,7 @@ def test_no_metadata_raises_anything_else(tmp_path_factory: pytest.TempPathFacto
     own = network(tmp_path_factory.mktemp("mind"))
     genome = genome_of(own)
     try:
-        back = to_genome(own, Tensors(to_tensors(own, matrices_of(own, genome)).by_name, metadata))
+        back = to_genome(own, Tensors(to_tensors(own, genome).by_name, metadata))
     except WeightsError:
         return
     assert back.tobytes() == genome.tobytes()

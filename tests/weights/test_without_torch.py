@@ -14,8 +14,6 @@ def test_a_sentence_says_which_to_install(monkeypatch: pytest.MonkeyPatch) -> No
     ]:
         monkeypatch.delitem(sys.modules, name)
     monkeypatch.setitem(sys.modules, "torch", None)
-    monkeypatch.delitem(sys.modules, "mindlang.weights.torch_module", raising=False)
-    monkeypatch.delitem(sys.modules, "mindlang.weights.torch_functions", raising=False)
     with pytest.raises(MindError, match="needs PyTorch") as error:
         _ = mindlang.torch.Skill
     assert error.value.hint == "pip install 'mindlang[torch]'"

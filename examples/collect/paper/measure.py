@@ -6,10 +6,10 @@ from functools import cache
 from math import sqrt
 from pathlib import Path
 
-from mindrun.cores import cores
 from mindrun.errors import MindError
 from mindrun.graph.graph import Lesson
 from mindrun.graph.weights import Weights, learners, reachable
+from mindrun.processors import cores
 from mindrun.sim.rollout import Rollout
 from plan import read_plan
 from protocol import Case

@@ -13,9 +13,9 @@ from time import perf_counter
 
 from logs import Log, keep, logs_of
 from measure import compiled, rollout_of
-from mindrun.cores import cores
 from mindrun.errors import MindError
 from mindrun.graph.graph import Lesson
+from mindrun.processors import cores
 from mindrun.terminal.arguments import MAX_SEED, real, whole
 from mindrun.train.rungs import heights
 from plan import Plan, keep_plan, read_plan

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Any
 
-from mindrun.nearest_name import nearest
+from mindrun.errors import nearest
 
 from mindlang.compiler import syntax
 from mindlang.compiler.diagnostic import Findings

@@ -5,9 +5,8 @@ from dataclasses import dataclass, field
 from math import isfinite
 from typing import Literal
 
-from mindrun.errors import MindError
+from mindrun.errors import MindError, nearest
 from mindrun.graph.graph import Graph
-from mindrun.nearest_name import nearest
 
 What = Literal["reading", "influence", "memory"]
 

@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Container, Mapping
 from typing import TYPE_CHECKING, Any
 
-from mindrun.errors import ReadingsError
+from mindrun.errors import ReadingsError, nearest
 from mindrun.graph.graph import Graph, Sensor
 from mindrun.kinds.sensors.sensor import Physical
-from mindrun.nearest_name import nearest
 
 if TYPE_CHECKING:
     import numpy as np

@@ -1,6 +1,9 @@
-"""Expressions of the language as postfix programs; `mindrun.numbers.evaluation` computes them."""
+"""Expressions of the language as postfix programs, without numpy; `mindrun.numbers.evaluation` computes with it."""
 
+from array import array
 from collections.abc import Callable, Iterable, Mapping
+from math import copysign, inf, isnan, nan
+from operator import ge, gt, le, lt
 from typing import Any, TypeVar
 
 T = TypeVar("T")
@@ -13,6 +16,7 @@ Program = tuple[tuple[str, float | int], ...]
 Formula = tuple[tuple[str, float | int | str], ...]  # a program in which readings stand by their names
 TRUTHS = ("<", "<=", ">", ">=", "and", "or")
 OPERATORS = frozenset({"+", "-", "*", "/", "least", "greatest", *TRUTHS})
+COMPARISONS: Mapping[str, Callable[[float, float], bool]] = {"<": lt, "<=": le, ">": gt, ">=": ge}
 
 
 def fold(
@@ -64,3 +68,44 @@ def is_valid_program(program: Program) -> bool:
             return False
         height += 1 - takes
     return height == 1
+
+
+def constant_value(program: Program) -> float:
+    """The value in float64 of a program of numbers alone; inf or NaN for a division by zero."""
+    return fold(program, _leaf, _negated, _combined)
+
+
+def single(value: float) -> float:
+    """The float32 that is nearest, inf where it is beyond all of them."""
+    return array("f", [value])[0]
+
+
+def _leaf(_: str, number: float) -> float:
+    return float(number)
+
+
+def _negated(value: float) -> float:
+    return -value
+
+
+def _combined(operator: str, left: float, right: float) -> float:
+    match operator:
+        case "+":
+            return left + right
+        case "-":
+            return left - right
+        case "*":
+            return left * right
+        case "/":
+            return _quotient(left, right)
+        case "least" | "and":
+            return right if right < left or isnan(right) else left
+        case "greatest" | "or":
+            return right if right > left or isnan(right) else left
+    return nan if isnan(left) or isnan(right) else float(COMPARISONS[operator](left, right))
+
+
+def _quotient(left: float, right: float) -> float:
+    if right:
+        return left / right
+    return nan if isnan(left) or not left else copysign(inf, left) * copysign(1.0, right)

@@ -26,7 +26,7 @@ VIEWER_NICENESS = 10
 END_SECONDS = 1.0  # for a viewer that was killed: one that waits for a disk ends later, by itself
 PROGRAM = (
     "import signal, sys; from mindrun.robot.parent_process import end_with_parent; "
-    "from mindrun.low_priority import give_way; "
+    "from mindrun.processors import give_way; "
     f"end_with_parent(int(sys.argv.pop(1)), signal.SIGKILL); give_way({VIEWER_NICENESS}); "
     "from mindlang.cli import main; main()"
 )

@@ -15,7 +15,7 @@ from mindrun.kinds.actuators.wheel import Wheel
 from mindrun.kinds.bodies.disc import Disc
 from mindrun.kinds.functions.rule import Rule
 from mindrun.kinds.scenes.plain import Plain
-from mindrun.low_priority import give_way
+from mindrun.processors import give_way
 from mindrun.sim import cache
 from mindrun.sim.changed_ticks import compile_stages
 from mindrun.sim.commanded_lanes import CommandedLanes

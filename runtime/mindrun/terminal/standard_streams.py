@@ -1,7 +1,7 @@
 """The standard streams, such that no program ends by them: there, in any encoding, and never an exception.
 
-What cannot be told on standard error is dropped, since it must not change what is done. What standard output does not
-take is dropped as well, and remembered: a document that is not whole is no success.
+What cannot be told is dropped, since it must not change what is done; what standard output does not take is
+remembered: a document that is not whole is no success.
 """
 
 import os
@@ -18,55 +18,26 @@ from mindrun.files.printable import visible
 from mindrun.terminal.line_writer import LineWriter
 
 OUTPUT_DESCRIPTOR, ERROR_DESCRIPTOR = 1, 2
-SIZE_VARIABLES = "COLUMNS", "LINES"  # of the terminal, as the environment may say them
-MAX_TERMINAL_SIZE = 9999
 USUAL_COLUMNS = 80  # of a terminal that does not say
-FLUSH_SECONDS = 1.0  # in which what has been told aside must be taken
+DRAIN_SECONDS = 1.0  # in which what a thread writes to standard error must be taken
 
 
-class StandardOutput(FileIO):
-    """Standard output; `failure` is its first error, and `to` the descriptor that leads there, during `talk`, too."""
+class Stream(FileIO):
+    """A standard stream; its first error is kept as its `failure`, and nothing is written any more."""
 
     failure: OSError | None = None
-    to: int = OUTPUT_DESCRIPTOR
 
     def write(self, data: Any) -> int:
-        """Write everything; an error is kept, never raised. Returns the length of `data` in any case."""
+        """Write everything, or drop it; the length of `data` in any case."""
         while self.failure is None:
             try:
-                return os.write(self.to, data)
-            except BlockingIOError:  # a terminal that another program left not blocking
-                select([], [self.to], [])
+                written = super().write(data)
             except OSError as error:
                 self.failure = error
-        return memoryview(data).nbytes
-
-
-class StandardError(FileIO):
-    """Standard error."""
-
-    def write(self, data: Any) -> int:
-        """Write everything; an error is kept, never raised. Returns the length of `data` in any case."""
-        try:
-            written = super().write(data)
-        except OSError:
-            written = None
-        return memoryview(data).nbytes if written is None else written
-
-
-class Aside(RawIOBase):
-    """Standard error of a program that must not wait for who reads it: a thread of its own writes."""
-
-    def __init__(self) -> None:
-        self.line_writer = LineWriter(ERROR_DESCRIPTOR)
-
-    def writable(self) -> bool:
-        """True."""
-        return True
-
-    def write(self, data: Any) -> int:
-        """Write everything; an error is kept, never raised. Returns the length of `data` in any case."""
-        self.line_writer.write(bytes(data))
+            else:
+                if written is not None:
+                    return written
+                select([], [self], [])  # a terminal that another program left not blocking
         return memoryview(data).nbytes
 
 
@@ -85,32 +56,29 @@ def prepare(kind: type[TextIOWrapper] = TextIOWrapper) -> None:
         _occupy(number)
     if sys.stdin is None:
         sys.stdin = open(0, encoding="utf-8", closefd=False)  # noqa: SIM115
-    if sys.stdout is sys.__stdout__:
-        sys.stdout = _text(kind, StandardOutput(OUTPUT_DESCRIPTOR, "w", closefd=False), sys.__stdout__)
+    if sys.stdout is sys.__stdout__:  # a descriptor of its own, which `talk` leaves alone
+        sys.stdout = _text(kind, Stream(os.dup(OUTPUT_DESCRIPTOR), "w"), sys.__stdout__)
     if sys.stderr is sys.__stderr__:
-        sys.stderr = _text(kind, StandardError(ERROR_DESCRIPTOR, "w", closefd=False), sys.__stderr__)
-    for name in SIZE_VARIABLES:
-        if not _is_size(os.environ.get(name, "80")):
-            del os.environ[name]
+        sys.stderr = _text(kind, Stream(ERROR_DESCRIPTOR, "w", closefd=False), sys.__stderr__)
 
 
 def detach_standard_error() -> None:
     """From now on a thread writes standard error: a robot drives on where its terminal is paused, or gone."""
-    if isinstance(_raw(sys.stderr), StandardError):
-        sys.stderr = _text(Printable, Aside(), sys.stderr)
+    if isinstance(_raw(sys.stderr), Stream):
+        sys.stderr = _text(Printable, LineWriter(ERROR_DESCRIPTOR), sys.stderr)
 
 
 def flush_standard_error() -> None:
     """Wait for a moment until detached messages are written."""
-    if isinstance(raw := _raw(sys.stderr), Aside):
+    if isinstance(raw := _raw(sys.stderr), LineWriter):
         sys.stderr.flush()
-        raw.line_writer.flush(FLUSH_SECONDS)
+        raw.drain(DRAIN_SECONDS)
 
 
 def is_error_read() -> bool:
     """Whether standard error has taken all that has been told so far."""
     raw = _raw(sys.stderr)
-    return raw.line_writer.is_idle if isinstance(raw, Aside) else True
+    return raw.is_idle if isinstance(raw, LineWriter) else True
 
 
 def error_columns() -> int | None:
@@ -126,7 +94,7 @@ def error_columns() -> int | None:
 def lost() -> OSError | None:
     """Why standard output has not taken everything, if it has not; BrokenPipeError where its reader is gone."""
     raw = _raw(sys.stdout)
-    return raw.failure if isinstance(raw, StandardOutput) else None
+    return raw.failure if isinstance(raw, Stream) else None
 
 
 def finish() -> str:
@@ -148,6 +116,13 @@ def document(text: str) -> None:
     sys.stdout.buffer.flush()
 
 
+def draw(text: str) -> None:
+    """Write control characters to a terminal: back to the beginning of the line, say."""
+    sys.stderr.flush()
+    sys.stderr.buffer.write(text.encode(sys.stderr.encoding, "backslashreplace"))
+    sys.stderr.buffer.flush()
+
+
 @contextmanager
 def talk() -> Iterator[None]:
     """Around code of somebody else: what it prints goes to standard error, also where it is written in C.
@@ -155,26 +130,15 @@ def talk() -> Iterator[None]:
     Who has had `sys.stdout` before still writes to standard output with it.
     """
     sys.stdout.flush()
-    kept, ours = os.dup(OUTPUT_DESCRIPTOR), _raw(sys.stdout)
+    kept = os.dup(OUTPUT_DESCRIPTOR)
     try:
         os.dup2(ERROR_DESCRIPTOR, OUTPUT_DESCRIPTOR)
-        if isinstance(ours, StandardOutput):
-            ours.to = kept
         with redirect_stdout(sys.stderr):
             yield
     finally:
         CDLL(None).fflush(None)  # C keeps back what does not go to a terminal
         os.dup2(kept, OUTPUT_DESCRIPTOR)
-        if isinstance(ours, StandardOutput):
-            ours.to = OUTPUT_DESCRIPTOR
         os.close(kept)
-
-
-def draw(text: str) -> None:
-    """Write control characters to a terminal: back to the beginning of the line, say."""
-    sys.stderr.flush()
-    sys.stderr.buffer.write(text.encode(sys.stderr.encoding, "backslashreplace"))
-    sys.stderr.buffer.flush()
 
 
 def _occupy(number: int) -> None:
@@ -194,11 +158,7 @@ def _raw(stream: TextIO) -> Any:
 
 
 def _text(kind: type[TextIOWrapper], raw: RawIOBase, old: TextIO | None) -> TextIOWrapper:
-    """As Python has it, but for what the encoding does not know: that is spelt out."""
+    """A stream with Python's own encoding, in which what that does not know is spelt out."""
     encoding = old.encoding if old else "utf-8"
     at_once = any(getattr(old, name, False) for name in ("line_buffering", "write_through"))  # PYTHONUNBUFFERED
     return kind(BufferedWriter(raw), encoding, "backslashreplace", line_buffering=at_once)
-
-
-def _is_size(text: str) -> bool:
-    return text.isascii() and text.isdigit() and 0 < int(text[:5]) <= MAX_TERMINAL_SIZE

@@ -16,8 +16,8 @@ from pathlib import Path
 from time import perf_counter
 from typing import Any, NoReturn
 
-from mindrun.cores import cores
 from mindrun.errors import MindError
+from mindrun.processors import cores
 from mindrun.terminal import standard_streams
 from mindrun.terminal.arguments import whole
 from mindrun.work.assigned import drop, scorer_of

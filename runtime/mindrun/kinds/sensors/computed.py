@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
 from mindrun.kinds.sensors.sensor import Flaw, Scene, SensorKind, World
-from mindrun.numbers.constant_value import constant_value, single
-from mindrun.numbers.expression import Formula, fold, is_valid_program, named, placed
+from mindrun.numbers.expression import Formula, constant_value, fold, is_valid_program, named, placed, single
 from mindrun.numbers.quantity import EXPRESSION
 from mindrun.numbers.stack_machine import evaluate as run_program
 

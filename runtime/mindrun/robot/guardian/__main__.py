@@ -86,12 +86,12 @@ def _guarded(plan: Plan, status: int) -> int:
         errors, states = LineWriter(ERROR_DESCRIPTOR, "guardian: "), LineWriter(status)
 
         def rests() -> None:
-            states.flush(1.0)
+            states.drain(1.0)
             say(status, REST)
             say(word, REST)
 
         code = guard(plan, frames, errors, states, rests)
-        errors.flush(0.2)
+        errors.drain(0.2)
         return code
 
     return watch(plan, frames, status, work)
@@ -108,7 +108,7 @@ def _refused(status: int, why: str) -> int:
     say(status, "failed", " ".join(why.split()))
     errors = LineWriter(ERROR_DESCRIPTOR, "guardian: ")
     errors(why)
-    errors.flush(0.2)
+    errors.drain(0.2)
     return USAGE
 
 

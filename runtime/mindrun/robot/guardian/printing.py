@@ -36,4 +36,4 @@ def printing_never_waits() -> Iterator[None]:
         for descriptor in (OUTPUT_DESCRIPTOR, ERROR_DESCRIPTOR):
             os.dup2(errors, descriptor)  # the last of the writing ends, but for those of forked processes that hang
         thread.join(LAST_SECONDS)
-        writer.flush(LAST_SECONDS)
+        writer.drain(LAST_SECONDS)

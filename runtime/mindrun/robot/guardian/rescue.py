@@ -116,4 +116,4 @@ def _bring(plan: Plan, words: int, seconds: float) -> None:
     for name in bring(process, report, seconds):
         say(words, name)
     process.close()
-    report.flush(0.2)
+    report.drain(0.2)

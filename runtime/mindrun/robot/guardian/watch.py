@@ -56,7 +56,7 @@ def report(line: str) -> None:
     """Say a line on standard error, as far as it is read."""
     errors = LineWriter(ERROR_DESCRIPTOR, "guardian: ")
     errors(line)
-    errors.flush(0.2)
+    errors.drain(0.2)
 
 
 def _begun(work: Callable[[int], int], words: int, word: int) -> int:

@@ -12,9 +12,8 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from mindrun.errors import MindError
+from mindrun.errors import MindError, nearest
 from mindrun.kinds.environment_module import module_beside
-from mindrun.nearest_name import nearest
 from mindrun.sim.outside.foreign import first_line, foreign_code
 
 NO_TIME_LIMIT = -1  # of steps: how long a run is, the task says

@@ -1,24 +1,68 @@
-"""How much memory and time something will take, held against what there is before it begins."""
+"""Limits of what a user may ask for: whole numbers within their bounds, and memory and time that are there."""
 
 from __future__ import annotations
 
 import resource
 from contextlib import suppress
+from operator import index
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from mindrun.errors import MindError
-from mindrun.graph.graph import Task
 
 if TYPE_CHECKING:
+    from mindrun.graph.graph import Task
     from mindrun.sim.rollout import Rollout
     from mindrun.sim.tables import Sizes
+
+Bounds = tuple[int, int]  # both may be given
+
+SEED_BOUNDS: Bounds = (0, 2**63 - 1)  # of a training, or of many runs
+LAYOUT_BOUNDS: Bounds = (0, 2**64 - 1)  # seed of one run
+RUN_BOUNDS: Bounds = (1, 10_000_000)
+WORKER_BOUNDS: Bounds = (1, 1024)
+GENERATION_BOUNDS: Bounds = (1, 10_000_000)
+POPULATION_BOUNDS: Bounds = (4, 1_000_000)  # genomes
+ATTEMPT_BOUNDS: Bounds = (1, 10_000)
+RUNG_BOUNDS: Bounds = (0, 1000)
 
 RUN_BYTES, ENTRY_BYTES = 160, 12  # bytes that a run takes, and each of its rewards and events
 LANE_BYTES, GENOME_COPIES = 2048, 6
 MAX_TICKS_PER_SECOND = 20_000_000  # agent-ticks in a second and worker, which no lesson reaches
 YEAR_SECONDS = 366 * 24 * 3600  # nobody waits for longer
 CGROUP_LIMIT_FILES = "/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"  # of a container
+
+
+def whole(what: str, bounds: Bounds, value: Any) -> int:
+    """The value as an int, those of numpy too; MindError where it is no whole number within its bounds."""
+    low, high = bounds
+    try:
+        number = index(value)
+    except TypeError:
+        number = low - 1
+    if isinstance(value, bool) or not low <= number <= high:
+        raise MindError(f"{what} cannot be {value!r:.40}", f"{what} is a whole number from {low} to {high}")
+    return number
+
+
+def as_seed(value: Any) -> int:
+    """The seed of a training, or of many runs."""
+    return whole("seed", SEED_BOUNDS, value)
+
+
+def as_layout(value: Any) -> int:
+    """The seed of one run."""
+    return whole("seed", LAYOUT_BOUNDS, value)
+
+
+def as_runs(value: Any) -> int:
+    """How many runs."""
+    return whole("runs", RUN_BOUNDS, value)
+
+
+def as_workers(value: Any) -> int:
+    """How many threads."""
+    return whole("workers", WORKER_BOUNDS, value)
 
 
 def refuse_too_many(task: Task, runs: int) -> None:
