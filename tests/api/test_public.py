@@ -40,7 +40,7 @@ def test_every_public_name_is_there_and_explained(package: object) -> None:
 
 def test_modules_of_the_packages_can_be_imported_from_them() -> None:
     assert importlib.import_module("mindrun.engine.engine").Engine is mindrun.Engine
-    assert loaded("from mindlang import transaction", "numba") == []
+    assert loaded("from mindlang.editing import transaction", "numba") == []
 
 
 def test_importing_them_imports_nothing() -> None:
