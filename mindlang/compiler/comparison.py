@@ -5,6 +5,8 @@ from dataclasses import dataclass, fields, is_dataclass
 from difflib import SequenceMatcher
 from typing import Any
 
+from msgspec import Struct
+
 from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.format import spaced
 from mindlang.compiler.model import Lesson, Mind, Part, Skill, Task
@@ -210,7 +212,7 @@ def _meaning(node: Any) -> Any:
     """A part of the model without its places."""
     if isinstance(node, tuple):
         return tuple(map(_meaning, node))
-    if is_dataclass(node):
-        values = (_meaning(getattr(node, field.name)) for field in fields(node) if field.name not in PLACES)
-        return (type(node).__name__, *values)
-    return node
+    if not isinstance(node, Struct) and not is_dataclass(node):
+        return node
+    names = node.__struct_fields__ if isinstance(node, Struct) else [field.name for field in fields(node)]
+    return (type(node).__name__, *(_meaning(getattr(node, name)) for name in names if name not in PLACES))

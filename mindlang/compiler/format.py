@@ -5,10 +5,13 @@ by a blank line. Nothing is reordered or aligned, and no comment changes.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass, fields, is_dataclass
+from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
 from typing import Any
+
+from msgspec import Struct
+from msgspec.structs import astuple
 
 from mindlang.compiler import syntax
 from mindlang.compiler.parse import BLANKS, code_of
@@ -167,9 +170,9 @@ def _signs(node: Any) -> Iterator[int]:
         case tuple():
             for part in node:
                 yield from _signs(part)
-        case _ if is_dataclass(node):
-            for field in fields(node):
-                yield from _signs(getattr(node, field.name))
+        case Struct():
+            for part in astuple(node):
+                yield from _signs(part)
 
 
 def format_splices(source: Source, start: Start = "line") -> list[Splice]:

@@ -16,6 +16,7 @@ from mindrun.kinds.memory import Cell
 from mindrun.kinds.scenes.scene import SceneKind
 from mindrun.kinds.sensors.sensor import SensorKind
 from mindrun.kinds.things.thing import ThingKind
+from msgspec import Struct
 from networkx import DiGraph
 
 from mindlang.compiler.hierarchy import hierarchy
@@ -37,8 +38,7 @@ from mindlang.compiler.syntax import (
 K = TypeVar("K")
 
 
-@dataclass(frozen=True, slots=True)
-class Part(Generic[K]):
+class Part(Struct, Generic[K], frozen=True):
     """Something with a name and a kind: a sensor, an actuator, a memory, a body, a thing of a task.
 
     `width` is how many readings a sensor has.
@@ -50,39 +50,34 @@ class Part(Generic[K]):
     width: int = 1
 
 
-@dataclass(frozen=True, slots=True)
-class Number:
+class Number(Struct, frozen=True):
     """A number, `%` converted."""
 
     value: float
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Reading:
+class Reading(Struct, frozen=True):
     """The reading of a sensor or memory of width 1."""
 
     name: str
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class EachReading:
+class EachReading(Struct, frozen=True):
     """The reading that `for each` names."""
 
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Command:
+class Command(Struct, frozen=True):
     """The command of an actuator, as it acts."""
 
     name: str
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Measured:
+class Measured(Struct, frozen=True):
     """The value of a measure."""
 
     measure: MeasureKind
@@ -92,16 +87,14 @@ class Measured:
 Term = Number | Reading | EachReading | Command | Measured | Operator
 
 
-@dataclass(frozen=True, slots=True)
-class Expression:
+class Expression(Struct, frozen=True):
     """Terms in postfix order."""
 
     terms: tuple[Term, ...]
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Comparison:
+class Comparison(Struct, frozen=True):
     """`left compare right`."""
 
     left: Expression
@@ -109,8 +102,7 @@ class Comparison:
     right: Expression
 
 
-@dataclass(frozen=True, slots=True)
-class When:
+class When(Struct, frozen=True):
     """A condition: one of the alternatives holds, each of which is comparisons that all hold."""
 
     alternatives: tuple[tuple[Comparison, ...], ...]
@@ -122,16 +114,14 @@ class When:
         return tuple(side for all_ in self.alternatives for each in all_ for side in (each.left, each.right))
 
 
-@dataclass(frozen=True, slots=True)
-class Gate:
+class Gate(Struct, frozen=True):
     """When something is sent, and what is sent otherwise: nothing, where that is None."""
 
     when: When
     otherwise: Expression | None
 
 
-@dataclass(frozen=True, slots=True)
-class Edge:
+class Edge(Struct, frozen=True):
     """What a skill sends: an output of its function, or the value of `at`; an influence below `cuts` is none."""
 
     to: Receiver
@@ -153,8 +143,7 @@ class Edge:
         return (*self.values, *(self.gate.when.expressions if self.gate else ()))
 
 
-@dataclass(frozen=True, slots=True)
-class Skill:
+class Skill(Struct, frozen=True):
     """A skill; `reads` are names of sensors and memories; one that is `frozen` is not taught.
 
     One that is `like` another has that one's function and weights; what it reads stands in that one's order, and its
@@ -180,8 +169,7 @@ class Skill:
         return tuple(edge.target for edge in self.edges if edge.to == "skill")
 
 
-@dataclass(frozen=True, slots=True)
-class Reward:
+class Reward(Struct, frozen=True):
     """A reward, per tick where `on` is None; `each` is the sensor that it goes through."""
 
     amount: Expression
@@ -196,8 +184,7 @@ class Reward:
         return (self.amount, *(self.when.expressions if self.when else ()))
 
 
-@dataclass(frozen=True, slots=True)
-class End:
+class End(Struct, frozen=True):
     """What ends a run, as a success or not: an event the `times`th time that it happens, or a condition."""
 
     event: EventKind | None
@@ -207,8 +194,7 @@ class End:
     fact: Ends | Succeeds
 
 
-@dataclass(frozen=True, slots=True)
-class Task:
+class Task(Struct, frozen=True):
     """A task: its world, its end, its rewards and what its benchmark counts.
 
     Its `facts` are those of its scene, too, or of the task that it is like; `declaration` has its own.
@@ -228,8 +214,7 @@ class Task:
     declaration: Declaration
 
 
-@dataclass(frozen=True, slots=True)
-class Lesson:
+class Lesson(Struct, frozen=True):
     """Who learns what, driven by whom, for how many generations, and how."""
 
     curriculum: str

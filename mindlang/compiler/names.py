@@ -3,10 +3,12 @@
 import re
 import unicodedata
 from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import chain, islice
 from typing import TypeVar
+
+from msgspec.structs import replace
 
 from mindlang.compiler.diagnostic import Findings, Label, a, listed
 from mindlang.compiler.source import Span

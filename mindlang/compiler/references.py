@@ -1,16 +1,17 @@
 """Every name in the files of a mind, with what it names: where a rename writes, and what a removal would break."""
 
 from collections.abc import Collection, Iterable, Iterator
-from dataclasses import dataclass, fields, is_dataclass
+from dataclasses import dataclass
 from typing import Any
 
 from mindrun.kinds.registry import arguments, kinds
 from mindrun.kinds.variation import VARIED_NOUNS
 from mindrun.numbers.quantity import Quantity
 from mindrun.numbers.quantity import Reference as Noun
+from msgspec import Struct
+from msgspec.structs import astuple
 
 from mindlang.compiler.names import Names
-from mindlang.compiler.source import Span
 from mindlang.compiler.syntax import (
     Amount,
     Argument,
@@ -112,9 +113,9 @@ class _Reader:
             case tuple():
                 for part in node:
                     yield from self.amounts(part)
-            case _ if is_dataclass(node) and not isinstance(node, Name | Span):
-                for field in fields(node):
-                    yield from self.amounts(getattr(node, field.name))
+            case Struct():
+                for part in astuple(node):
+                    yield from self.amounts(part)
 
     def reward(self, fact: Rewards) -> Iterator[Mention]:
         """The names in a reward; that of `for each` is its own."""

@@ -1,6 +1,6 @@
-"""The tree of a file: one small dataclass per fact, each with its span. Nothing in it is checked yet."""
+"""The tree of a file: one small struct per fact, each with its span. Nothing in it is checked yet."""
 
-from dataclasses import dataclass
+from msgspec import Struct
 
 from mindlang.compiler.comments import comment_of
 from mindlang.compiler.source import Source, Span
@@ -16,16 +16,14 @@ VERBS = (
 SETTINGS = ("use", "master", "tick", "mind", "unit", "number")
 
 
-@dataclass(frozen=True, slots=True)
-class Name:
+class Name(Struct, frozen=True):
     """A name as written, capitalised or not; also a noun, a kind, the key of an argument."""
 
     text: str
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Amount:
+class Amount(Struct, frozen=True):
     """A number with its unit, as written; `1/0` is not a number (nan). `per` is the time that a rate is for.
 
     Where a `name` stands for the number, `number` is its sign. When it is replaced by its number, `said` is where that
@@ -47,16 +45,14 @@ class Amount:
         return Name(self.name, Span(self.span.source, self.span.end - len(written), self.span.end))
 
 
-@dataclass(frozen=True, slots=True)
-class Numbers:
+class Numbers(Struct, frozen=True):
     """One amount or a list of them."""
 
     amounts: tuple[Amount, ...]
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Range:
+class Range(Struct, frozen=True):
     """`4 to 8` or `3 to 1 by 0.1`."""
 
     first: Amount
@@ -65,8 +61,7 @@ class Range:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Points:
+class Points(Struct, frozen=True):
     """`-20 10 to 5 10 to 5 0`: places one after the other, as written; a range has one number on each side."""
 
     points: tuple[Numbers, ...]
@@ -74,8 +69,7 @@ class Points:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Text:
+class Text(Struct, frozen=True):
     """`"maze.txt"`: a path, without its quotes."""
 
     text: str
@@ -85,8 +79,7 @@ class Text:
 Value = Numbers | Range | Points | Name | Text
 
 
-@dataclass(frozen=True, slots=True)
-class Argument:
+class Argument(Struct, frozen=True):
     """A key and its value."""
 
     key: Name
@@ -94,8 +87,7 @@ class Argument:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Phrase:
+class Phrase(Struct, frozen=True):
     """A kind and its arguments; in an expression also the bare name of a reading."""
 
     kind: Name
@@ -103,8 +95,7 @@ class Phrase:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Operator:
+class Operator(Struct, frozen=True):
     """One of + - * / least greatest or, for the minus of a single value, negate."""
 
     symbol: str
@@ -114,16 +105,14 @@ class Operator:
 Term = Amount | Phrase | Operator
 
 
-@dataclass(frozen=True, slots=True)
-class Expression:
+class Expression(Struct, frozen=True):
     """Terms in postfix order: a flat tuple, so that no depth of nesting ever needs a deep stack."""
 
     terms: tuple[Term, ...]
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Comparison:
+class Comparison(Struct, frozen=True):
     """`LEFT < RIGHT`"""
 
     left: Expression
@@ -132,8 +121,7 @@ class Comparison:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Transmits:
+class Transmits(Struct, frozen=True):
     """`SKILL influences NAME above AMOUNT`, a comparison of what stops a run."""
 
     skill: Name
@@ -143,8 +131,7 @@ class Transmits:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class When:
+class When(Struct, frozen=True):
     """`when A < B and C > D or …`: one of the alternatives holds, each of which is comparisons that all hold."""
 
     alternatives: tuple[tuple[Comparison, ...], ...]
@@ -156,8 +143,7 @@ class When:
         return tuple(side for all_ in self.alternatives for each in all_ for side in (each.left, each.right))
 
 
-@dataclass(frozen=True, slots=True)
-class Gate:
+class Gate(Struct, frozen=True):
     """`when CONDITION [otherwise EXPRESSION]`"""
 
     when: When
@@ -170,8 +156,7 @@ class Gate:
         return (*self.when.expressions, self.otherwise) if self.otherwise else self.when.expressions
 
 
-@dataclass(frozen=True, slots=True)
-class Reads:
+class Reads(Struct, frozen=True):
     """`reads NAME [for NAME]`; the second is the input of the skill that this one is like."""
 
     name: Name
@@ -179,8 +164,7 @@ class Reads:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Drives:
+class Drives(Struct, frozen=True):
     """`drives NAME [at EXPRESSION] [when CONDITION …]`"""
 
     name: Name
@@ -194,8 +178,7 @@ class Drives:
         return (*((self.at,) if self.at else ()), *(self.gate.expressions if self.gate else ()))
 
 
-@dataclass(frozen=True, slots=True)
-class Influences:
+class Influences(Struct, frozen=True):
     """`influences NAME [at EXPRESSION] [when CONDITION …] [cuts below AMOUNT]`"""
 
     name: Name
@@ -210,16 +193,14 @@ class Influences:
         return (*((self.at,) if self.at else ()), *(self.gate.expressions if self.gate else ()))
 
 
-@dataclass(frozen=True, slots=True)
-class Stays:
+class Stays(Struct, frozen=True):
     """`stays frozen`"""
 
     how: Name
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Contains:
+class Contains(Struct, frozen=True):
     """`contains NAME is PHRASE`"""
 
     name: Name
@@ -227,8 +208,7 @@ class Contains:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Starts:
+class Starts(Struct, frozen=True):
     """`starts [at X Y] [facing ANGLE]`"""
 
     place: tuple[Amount, Amount] | None
@@ -236,8 +216,7 @@ class Starts:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Varies:
+class Varies(Struct, frozen=True):
     """`varies ARGUMENT of NAME LOW to HIGH`"""
 
     argument: Name
@@ -247,8 +226,7 @@ class Varies:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Fails:
+class Fails(Struct, frozen=True):
     """`fails NAME RATE`"""
 
     name: Name
@@ -256,16 +234,14 @@ class Fails:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Lasts:
+class Lasts(Struct, frozen=True):
     """`lasts AMOUNT`"""
 
     amount: Amount
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Ends:
+class Ends(Struct, frozen=True):
     """`ends on [TIMES] EVENT` or `ends when CONDITION`"""
 
     times: Amount | None
@@ -274,8 +250,7 @@ class Ends:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Succeeds:
+class Succeeds(Struct, frozen=True):
     """`succeeds on [TIMES] EVENT` or `succeeds when CONDITION`"""
 
     times: Amount | None
@@ -284,8 +259,7 @@ class Succeeds:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Each:
+class Each(Struct, frozen=True):
     """`for each NAME in SENSOR`"""
 
     name: Name
@@ -293,8 +267,7 @@ class Each:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Rewards:
+class Rewards(Struct, frozen=True):
     """`rewards EXPRESSION per tick …` or, with an event, `rewards EXPRESSION on EVENT …`"""
 
     amount: Expression
@@ -304,16 +277,14 @@ class Rewards:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Counts:
+class Counts(Struct, frozen=True):
     """`counts EVENT`"""
 
     event: Phrase
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Needs:
+class Needs(Struct, frozen=True):
     """`needs MEASURE > NUMBER`, of a lesson."""
 
     measure: Name
@@ -322,8 +293,7 @@ class Needs:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Teaches:
+class Teaches(Struct, frozen=True):
     """`teaches SKILL on TASK [under MASTER] for GENERATIONS …`"""
 
     skill: Name
@@ -335,8 +305,7 @@ class Teaches:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Stop:
+class Stop(Struct, frozen=True):
     """A line of a .break file: `stop on [TIMES] EVENT`, `stop when CONDITION` or `stop in tick TICK`."""
 
     times: Amount | None
@@ -352,8 +321,7 @@ Fact = (
 )  # fmt: skip
 
 
-@dataclass(frozen=True, slots=True)
-class Header:
+class Header(Struct, frozen=True):
     """`NOUN NAME is PHRASE`; the phrase is missing where the line is malformed, or is that of another declaration.
 
     `like` is the skill, scene or task that this one is like, `inside` the scene of a task by its name, and `at` the
@@ -374,8 +342,7 @@ class Header:
         return bool(self.phrase or self.like or self.inside)
 
 
-@dataclass(frozen=True, slots=True)
-class Declaration:
+class Declaration(Struct, frozen=True):
     """A header and the facts below it; it is `whole` when every line below it could be read."""
 
     header: Header
@@ -388,8 +355,7 @@ class Declaration:
         return comment_of(self.header.span)
 
 
-@dataclass(frozen=True, slots=True)
-class Use:
+class Use(Struct, frozen=True):
     """`use "PATH" [as NAME]`; the span is that of the path."""
 
     path: str
@@ -397,40 +363,35 @@ class Use:
     alias: Name | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Master:
+class Master(Struct, frozen=True):
     """`master NAME`"""
 
     name: Name
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Tick:
+class Tick(Struct, frozen=True):
     """`tick AMOUNT`"""
 
     amount: Amount
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Version:
+class Version(Struct, frozen=True):
     """`mind NUMBER`: for which language the file was written"""
 
     amount: Amount
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Unit:
+class Unit(Struct, frozen=True):
     """`unit AMOUNT`: how long a unit of the world is on a robot"""
 
     amount: Amount
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Number:
+class Number(Struct, frozen=True):
     """`number NAME is AMOUNT`"""
 
     name: Name
@@ -442,8 +403,7 @@ Setting = Use | Master | Tick | Version | Unit | Number
 Line = Setting | Header | Fact
 
 
-@dataclass(frozen=True, slots=True)
-class File:
+class File(Struct, frozen=True):
     """A whole source."""
 
     source: Source

@@ -2,13 +2,15 @@
 
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, fields, is_dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import chain
 from pathlib import Path
 from typing import Any
 
 from mindrun.errors import MindError
+from msgspec import Struct
+from msgspec.structs import astuple
 
 from mindlang.breakpoints import SUFFIX
 from mindlang.compiler.compile import Compiled, load
@@ -132,13 +134,8 @@ def path_to(file: File, offset: int) -> list[Any]:
 
 
 def _parts(node: Any) -> Iterator[Any]:
-    for each in fields(node):
-        value = getattr(node, each.name)
-        yield from (part for part in (value if isinstance(value, tuple) else (value,)) if _is_node(part))
-
-
-def _is_node(value: Any) -> bool:
-    return is_dataclass(value) and not isinstance(value, Span)
+    for value in astuple(node):
+        yield from (part for part in (value if isinstance(value, tuple) else (value,)) if isinstance(part, Struct))
 
 
 def _holds(node: Any, offset: int) -> bool:

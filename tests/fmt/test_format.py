@@ -1,12 +1,13 @@
 """The formatter sets spaces and blank lines, and nothing else: idempotent, with the same meaning and comments."""
 
 import re
-from dataclasses import fields, is_dataclass
 from pathlib import Path
 from random import Random
 from typing import Any
 
 import pytest
+from msgspec import Struct
+from msgspec.structs import astuple
 
 from mindlang.compiler.comparison import differences
 from mindlang.compiler.compile import compile_source
@@ -30,9 +31,8 @@ def meaning(text: str) -> Any:
 def plain(node: Any) -> Any:
     if isinstance(node, tuple):
         return tuple(map(plain, node))
-    if is_dataclass(node):
-        values = (getattr(node, field.name) for field in fields(node))
-        return (type(node).__name__, *(plain(value) for value in values if not isinstance(value, Span)))
+    if isinstance(node, Struct):
+        return (type(node).__name__, *(plain(value) for value in astuple(node) if not isinstance(value, Span)))
     return repr(node)
 
 

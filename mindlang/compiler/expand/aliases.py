@@ -1,8 +1,11 @@
 """A file that is used under a name: what it declares has that name before its own, and its own lines mean that."""
 
 from collections.abc import Set
-from dataclasses import dataclass, fields, is_dataclass, replace
+from dataclasses import dataclass
 from typing import Any
+
+from msgspec import Struct
+from msgspec.structs import astuple, replace
 
 from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.names import gather
@@ -37,7 +40,6 @@ class _Renaming:
                 return node
             case tuple():
                 return tuple(self.node(part) for part in node)
-            case _ if is_dataclass(node):
-                cls: Any = type(node)
-                return cls(*(self.node(getattr(node, field.name)) for field in fields(node)))
+            case Struct():
+                return type(node)(*map(self.node, astuple(node)))
         return node

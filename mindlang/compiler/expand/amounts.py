@@ -2,12 +2,13 @@
 
 import re
 from collections.abc import Callable, Iterable, Mapping, Set
-from dataclasses import dataclass, fields, is_dataclass, replace
-from functools import cache
+from dataclasses import dataclass
 from typing import Any
 
 from mindrun.kinds.registry import arguments, find_kind, kinds
 from mindrun.numbers.quantity import Quantity
+from msgspec import Struct
+from msgspec.structs import astuple, replace
 
 from mindlang.compiler.expand.numbers import instead
 from mindlang.compiler.source import Span
@@ -76,7 +77,7 @@ class _Writer:
         if isinstance(line, Rewards) and line.each and line.each.name.text in self.numbers:
             own = line.each.name.text  # as it would hide a reading
             others = {name: amount for name, amount in self.numbers.items() if name != own}
-            return replace(self, numbers=others).node(line, "")
+            return _Writer(others, self.tick_seconds, self.words).node(line, "")
         return self.node(line, "")
 
     def node(self, node: Any, noun: str) -> Any:
@@ -97,10 +98,9 @@ class _Writer:
                 return self._argument(node, kinds(noun).values())
             case tuple():
                 return tuple(self.node(part, noun) for part in node)
-            case _ if is_dataclass(node):
+            case Struct():
                 of = node.noun.text if isinstance(node, Header) else NOUNS.get(type(node), noun)
-                line: Any = type(node)
-                return line(*[self.node(getattr(node, name), of) for name in _fields(line)])
+                return type(node)(*[self.node(part, of) for part in astuple(node)])
         return node
 
     def _term(self, term: Term) -> Term:
@@ -120,11 +120,6 @@ class _Writer:
     def _named(self, name: Name) -> Amount:
         amount: Amount = self.node(Amount(1.0, "", name.span, name=name.text), "")
         return amount
-
-
-@cache
-def _fields(cls: type[Any]) -> tuple[str, ...]:
-    return tuple(field.name for field in fields(cls))
 
 
 def _takes_number(classes: Iterable[type[Any]], key: str) -> bool:

@@ -1,8 +1,8 @@
 """Scenes and tasks that say what another one says, and then more."""
 
 from collections.abc import Callable
-from dataclasses import replace
 
+from msgspec.structs import replace
 from networkx import DiGraph
 
 from mindlang.compiler.diagnostic import Findings, Label, a

@@ -1,7 +1,6 @@
 """What the names of numbers stand for: `number sight is 12`."""
 
-from dataclasses import replace
-
+from msgspec.structs import replace
 from networkx import DiGraph
 
 from mindlang.compiler.diagnostic import Findings, Label

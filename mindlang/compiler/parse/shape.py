@@ -7,13 +7,15 @@ and end, and of what sort they are, is all that the grammar asks of them: lines 
 import re
 import sys
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, fields, is_dataclass
+from dataclasses import dataclass
 from functools import cache, lru_cache
 from itertools import accumulate
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, cast
 
 from mindrun.files.user_cache import user_cache
+from msgspec import Struct
+from msgspec.structs import astuple
 
 from mindlang.compiler import syntax
 from mindlang.compiler.source import Source, Span
@@ -141,9 +143,8 @@ def _making(node: Any, places: dict[int, int]) -> Maker:
         case tuple():
             makers = [_making(part, places) for part in node]
             return lambda line: tuple([make(line) for make in makers])
-        case _ if is_dataclass(node):
-            cls: type[Any] = type(node)
-            parts = [_making(getattr(node, field.name), places) for field in fields(node)]
+        case Struct():
+            cls, parts = type(node), [_making(part, places) for part in astuple(node)]
             return lambda line: cls(*[make(line) for make in parts])
     return lambda line: node
 

@@ -1,10 +1,10 @@
 """Files → Mind: names found, kinds built, units converted, and everything that is wrong reported."""
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import replace
 from typing import TypeVar
 
 from mindrun.kinds.bodies.body import BodyKind
+from msgspec.structs import replace
 
 from mindlang.compiler import model
 from mindlang.compiler.diagnostic import Findings, Label

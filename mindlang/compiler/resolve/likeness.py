@@ -1,9 +1,9 @@
 """Skills that are like others: the same function with the same weights, which reads something else."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import fields, replace
 from typing import Any
 
+from msgspec.structs import astuple, replace
 from networkx import DiGraph
 
 from mindlang.compiler import model
@@ -147,7 +147,7 @@ def _reading(node: Any, instead: Mapping[str, str]) -> Any:
             return tuple(_reading(each, instead) for each in node)
     if type(node).__module__ != model.__name__:  # a name, a span, a fact, an operator
         return node
-    return replace(node, **{field.name: _reading(getattr(node, field.name), instead) for field in fields(node)})
+    return type(node)(*[_reading(part, instead) for part in astuple(node)])
 
 
 def _readings(width: int) -> str:

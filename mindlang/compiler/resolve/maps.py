@@ -1,7 +1,6 @@
 """Maps drawn in text files: read, and the things that their letters place."""
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +9,7 @@ from mindrun.files.regular_files import read_regular
 from mindrun.kinds.scenes.scene import SceneKind
 from mindrun.kinds.things.map import FLOOR, WALL
 from mindrun.numbers.quantity import Place
+from msgspec.structs import replace
 
 from mindlang.compiler.diagnostic import Findings, listed
 from mindlang.compiler.model import Part

@@ -1,11 +1,11 @@
 """Sensors, memories, actuators and the body; how many readings each sensor has."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import replace
 from typing import Any
 
 from mindrun.kinds.sensors.computed import Computed
 from mindrun.numbers.expression import Formula
+from msgspec.structs import replace
 
 from mindlang.compiler.diagnostic import Findings, Label, a, listed
 from mindlang.compiler.hierarchy import circles, source_graph

@@ -8,7 +8,8 @@ from mindlang.editing.insertion import below_siblings
 from mindlang.editing.naming import refuse_lines
 from mindlang.editing.project import EditError, MindChange, Project
 
-VERBS = {"skill": Influences, "actuator": Drives, "memory": Drives, "sensor": Reads}
+Verb = type[Reads] | type[Drives] | type[Influences]
+VERBS: dict[str, Verb] = {"skill": Influences, "actuator": Drives, "memory": Drives, "sensor": Reads}
 
 
 def connect(
@@ -31,7 +32,7 @@ def connect(
     refuse_lines(at)
     is_sent = drives or bool(at)
     noun = project.find(target, *(VERBS if is_sent else reversed(VERBS))).header.noun.text
-    form = Reads if noun == "memory" and not is_sent else VERBS[noun]
+    form: Verb = Reads if noun == "memory" and not is_sent else VERBS[noun]
     if form is Reads and is_sent:
         raise EditError(f"{target} is {a(noun)}, which is read.", "Leave --at and --drives out.")
     if drives and form is Influences:

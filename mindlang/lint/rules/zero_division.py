@@ -7,9 +7,10 @@ condition, `1 / ahead per tick when ahead > 0.05`; that is looked at for reading
 """
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import replace
 from functools import partial
 from math import inf, nextafter
+
+from msgspec.structs import replace
 
 from mindlang.compiler.model import Comparison, Expression, Reading, When
 from mindlang.lint.conditions import OPPOSITES, TURNED, UPPER
