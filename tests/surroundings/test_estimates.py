@@ -64,11 +64,10 @@ def test_the_estimate_is_near_what_the_lanes_take(tmp_path: Path) -> None:
         assert 0.8 * taken < bytes_of(rollout, 64, 1) - genomes < 2 * taken + 2**20, said
 
 
-@pytest.mark.parametrize("rewards", [1, 9])
-def test_the_estimate_is_near_what_many_runs_take(tmp_path: Path, rewards: int) -> None:
+def test_the_estimate_is_near_what_many_runs_take(tmp_path: Path) -> None:
     graph_of(tmp_path)
     path, line = tmp_path / "m.mind", "  rewards 1 on visit of patch size 4\n"
-    path.write_text(path.read_text().replace("lasts 60 s", "lasts 2 ticks").replace(line, line * rewards))
+    path.write_text(path.read_text().replace("lasts 60 s", "lasts 2 ticks").replace(line, line * 9))
     graph = load(path).graph
     assert graph
     first = Rollout(Policy(graph, {}), "Roam", "Go", ["Go"])
@@ -96,10 +95,9 @@ def most_bytes(rollout: Rollout, runs: int) -> int:
     ("said", "what"),
     [
         ({"angles": " ".join(map(str, np.arange(0, 300, 0.06)))}, "the weights"),
-        ({"hidden": "16 width 1000"}, "the weights"),
         ({"patch": 0.1, "arena": 100_000}, "the patches to visit"),
     ],
-    ids=["angles", "layers", "patches"],
+    ids=["angles", "patches"],
 )
 def test_a_lesson_that_fits_no_memory_is_refused(
     mindc: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, said: dict[str, object], what: str

@@ -87,26 +87,23 @@ def test_a_used_file(mindc: Call, rules: Path, kind: str) -> None:
     assert "[unreadable-use]" in said.err or "[outside-project]" in said.err
 
 
-@pytest.mark.parametrize("kind", READ)
-def test_a_neighbour(mindc: Call, rules: Path, kind: str) -> None:
+def test_a_neighbour(mindc: Call, rules: Path) -> None:
     alone = mindc("lint", rules)
-    with in_place_of(rules.with_name("in.mind"), kind):
+    with in_place_of(rules.with_name("in.mind"), "pipe"):
         assert mindc("lint", rules) == alone
 
 
-@pytest.mark.parametrize("kind", READ)
-def test_a_lock(mindc: Call, rules: Path, kind: str) -> None:
-    with in_place_of(rules.with_suffix(".lock"), kind):
+def test_a_lock(mindc: Call, rules: Path) -> None:
+    with in_place_of(rules.with_suffix(".lock"), "pipe"):
         said = mindc("status", rules)
     assert said.code in (1, 2)
     assert "rules.lock" in said.err
     assert "failed" not in said.err
 
 
-@pytest.mark.parametrize("kind", READ)
-def test_a_robot_yaml_and_a_bundle(mindc: Call, rules: Path, kind: str) -> None:
+def test_a_robot_yaml_and_a_bundle(mindc: Call, rules: Path) -> None:
     path = rules.with_name("in")
-    with in_place_of(path, kind):
+    with in_place_of(path, "pipe"):
         said = mindc("build", rules, "--robot", path, "-o", rules.with_name("out"))
         assert (said.code, rules.with_name("out").exists()) == (2, False)
         assert load_wiring(path, None).readable is False  # type: ignore[arg-type]
@@ -115,10 +112,9 @@ def test_a_robot_yaml_and_a_bundle(mindc: Call, rules: Path, kind: str) -> None:
             read_plan(path)
 
 
-@pytest.mark.parametrize("kind", READ)
-def test_a_recording_and_a_table(mindc: Call, tmp_path: Path, kind: str) -> None:
+def test_a_recording_and_a_table(mindc: Call, tmp_path: Path) -> None:
     path = tmp_path / "log.csv"
-    with in_place_of(path, kind):
+    with in_place_of(path, "pipe"):
         with pytest.raises(MindError):
             read_recording(path)
         said = mindc("plot", path, "-o", tmp_path / "out.svg")
@@ -126,9 +122,8 @@ def test_a_recording_and_a_table(mindc: Call, tmp_path: Path, kind: str) -> None
         assert "failed" not in said.err
 
 
-@pytest.mark.parametrize("kind", READ)
-def test_a_procedure(tmp_path: Path, kind: str) -> None:
-    with in_place_of(tmp_path / "claw.py", kind), pytest.raises(ProcedureError, match="claw"):
+def test_a_procedure(tmp_path: Path) -> None:
+    with in_place_of(tmp_path / "claw.py", "pipe"), pytest.raises(ProcedureError, match="claw"):
         module_source("claw.grip", tmp_path)
 
 

@@ -27,7 +27,7 @@ def test_only_files_are_replaced(tmp_path: Path, kind: str) -> None:
     assert not [left for left in tmp_path.iterdir() if left.suffix == ".mind-tmp"]
 
 
-@pytest.mark.parametrize("kind", ["file", "pipe", "folder"])
+@pytest.mark.parametrize("kind", ["file", "pipe"])
 def test_a_bundle_goes_into_a_file_alone(mindc: Call, rules: Path, kind: str) -> None:
     out = rules.with_name("out")
     KINDS[kind](out)
