@@ -1,30 +1,44 @@
-"""Jobs given to the workers of a Dask cluster: one future each, bytes in and bytes out.
+"""Jobs given to the workers of a Dask cluster, one future each; and what a worker there makes of one.
 
 Dask does the jobs of a worker that is lost again, and gives one up that has cost more than its scheduler allows
 (`distributed.scheduler.allowed-failures`, three). That may be bad luck where machines come and go: such a job is asked
-again here, and so is one whose answer is nonsense, five times.
+again here, MAX_LOSSES times. A worker unpickles a job only where it is of the same build.
 """
 
+import pickle
 from collections.abc import Callable
 from concurrent.futures import CancelledError
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cache, lru_cache
+from pathlib import Path
 from queue import Empty, Queue
+from threading import local
 from time import monotonic
 from typing import Any
 
-from distributed import Client, Future, KilledWorker
-from mindrun.work import WorkError
-from mindrun.work.assignment import Assignment
-from mindrun.work.crew import FATAL, MAX_LOSSES, TAKE_SECONDS, refusal
-from mindrun.work.executor import Read
-from mindrun.work.frame import Frame, FrameError, unpack
-from mindrun.work.worker import LACKS
+from distributed import Client, Future, KilledWorker, get_worker
+from mindrun.train.build import Build, difference, own_build, sources_hash
+
+from mindlang.executors.jobs import FATAL, MAX_LOSSES, TAKE_SECONDS, Assignment, Done, Work, WorkError
+from mindlang.executors.processes import scorer_of
+from mindlang.executors.worker import answer
 
 LOOK_SECONDS = 1.0  # between two times that the scheduler is asked for its workers
 RESULT_SECONDS = 30.0  # to wait for the bytes of a job that has ended, before who asks may look at something else
 WAIT_SECONDS = 5.0  # without a worker, before it is said that there is none
 INSTALL = "install the same wheel on the machines of scheduler and workers, and begin them again"
+CORES = "cores"  # the resource by which a worker says that it has others than one for each of its threads
+KEPT_SCORERS = 4  # scorers that each thread of a worker keeps
+DONE, FAILED, REFUSED = "done", "failed", "refused"  # how an answer begins
+
+WireAnswer = tuple[str, bytes] | tuple[str, str, str]  # built-ins alone: whoever has no mindlang can read them
+
+
+@cache
+def cluster_build() -> Build:
+    """What jobs and their answers depend on: the build of mindrun, and what is pickled."""
+    return {**own_build(), "mindlang": sources_hash(Path(__file__).parent)}
 
 
 @dataclass(slots=True)
@@ -32,17 +46,15 @@ class Job:
     """A job at a worker."""
 
     number: int
-    data: bytes
-    read: Read
-    losses: int = 0  # times that Dask gave it up, and answers that were nonsense
-    has_assignment: bool = False  # beside it, for a worker that lacks that
+    work: bytes
+    losses: int = 0  # times that Dask gave it up
 
 
 class ClusterJobs:
     """The jobs of one assignment, done by whoever is connected to a scheduler; `say` is told when nobody is.
 
-    `function` is what a worker of Dask calls with a job, and with the assignment where it has said that it lacks that.
-    It is named and not pickled: a worker that does not have it says so, instead of dying of a task that it cannot read.
+    `function` is what a worker of Dask calls with a build, an assignment and a job. It is named and not pickled: a
+    worker that does not have it says so, instead of dying of a task that it cannot read. `ended` is called in the end.
     """
 
     def __init__(
@@ -50,12 +62,17 @@ class ClusterJobs:
         client: Client,
         assignment: Assignment,
         say: Callable[[str], object],
-        function: str = "mindlang.cluster.answering.answer",
+        function: str = "mindlang.executors.cluster_jobs.answer_here",
+        ended: Callable[[], object] = lambda: None,
     ) -> None:
         self.assignment = assignment
-        self._client, self._say = client, say
+        self._client, self._say, self._ended = client, say, ended
         module, _, name = function.rpartition(".")
-        self._call = f"__import__({module!r}, fromlist=[{name!r}]).{name}(job, assignment)"
+        self._call = f"__import__({module!r}, fromlist=[{name!r}]).{name}(build, assignment, work)"
+        self._shared = {
+            "build": dict(cluster_build()),
+            "assignment": pickle.dumps(replace(assignment, folder=None)),
+        }
         self._address: str = client.scheduler.address
         self._open: dict[Future, Job] = {}
         self._done: Queue[Future] = Queue()
@@ -76,12 +93,15 @@ class ClusterJobs:
         """Whether a worker would wait without another job."""
         return len(self._open) < self.workers
 
-    def submit(self, number: int, data: bytes, read: Read) -> None:
-        """Ask for a job, the bytes of a frame; `read` says what its answer means."""
-        self._submit(Job(number, data, read))
+    def submit(self, number: int, work: Work) -> None:
+        """Ask for a job."""
+        self._submit(Job(number, pickle.dumps(work)))
 
-    def take(self) -> tuple[int, Any] | None:
-        """A job and what came of it; None where for a while none came. WorkError where none can come any more."""
+    def take(self) -> tuple[int, Done] | None:
+        """The number of a job that has been done, and its answer; None after TAKE_SECONDS without one.
+
+        WorkError where none can come any more.
+        """
         try:
             future = self._done.get(timeout=TAKE_SECONDS)
         except Empty:
@@ -93,14 +113,13 @@ class ClusterJobs:
                 self._open[future] = job
                 self._done.put(future)
                 return None
-            return self._read(job, unpack(found))
+            return job.number, self._read(found)
         except KilledWorker as why:
-            flaw, hint = f"its workers ended, the last at {why.last_worker.address}", FATAL
-        except FrameError as why:
-            flaw, hint = f"its answer was nonsense: {why}", "install the same mindlang on the cluster's workers"
-        job.losses += 1
-        if job.losses >= MAX_LOSSES:
-            raise WorkError(f"a job was lost {job.losses} times, the last time {flaw}", hint)
+            job.losses += 1
+            if job.losses >= MAX_LOSSES:
+                last = why.last_worker.address
+                message = f"a job was lost {job.losses} times, the last time its workers ended, the last at {last}"
+                raise WorkError(message, FATAL) from why
         self._submit(job)
         return None
 
@@ -110,29 +129,30 @@ class ClusterJobs:
             self._client.cancel([*self._open], force=True)
         with suppress(Exception):
             self._client.close(timeout=LOOK_SECONDS)
+        self._ended()
 
-    def _read(self, job: Job, answer: Frame) -> tuple[int, Any] | None:
-        """What an answer means; None of a worker that lacks the assignment, and is asked again with it."""
-        if answer.kind == LACKS:
-            if job.has_assignment:
-                raise FrameError("the worker lacks what it was told")
-            job.has_assignment = True
-            self._submit(job)
-            return None
-        if (error := refusal(self._address, answer)) is not None:
-            raise error
-        return job.number, job.read(answer)
+    def _read(self, answer: object) -> Done:
+        """What an answer says was done; WorkError where it says why it was not."""
+        match answer:
+            case "done", bytes(done):
+                found: Done = pickle.loads(done)
+                return found
+            case "failed", str(message), str(hint):
+                raise WorkError(message, hint)
+            case "refused", str(message), str(hint):
+                raise WorkError(f"a worker at {self._address} is of another build: {message}", hint)
+        raise WorkError(f"a worker of {self._address} answers with something else", INSTALL)
 
     def _submit(self, job: Job) -> None:
-        words = {"job": job.data, "assignment": self.assignment.packed if job.has_assignment else b""}
+        words = {**self._shared, "work": job.work}
         future = self._client.submit(eval, self._call, words, pure=False, priority=-job.number)
         self._open[future] = job
         future.add_done_callback(self._done.put)
 
-    def _result(self, future: Future) -> bytes | None:
-        """The bytes that a future has come to; KilledWorker where Dask gave it up, WorkError where it has come to none.
+    def _result(self, future: Future) -> object:
+        """What a future has come to; KilledWorker where Dask gave it up, WorkError where it has come to nothing.
 
-        None where they are on a worker that does not answer: if it was lost, they are computed again.
+        None where that is on a worker that does not answer: if it was lost, it is computed again.
         """
         try:
             found = future.result(timeout=RESULT_SECONDS)
@@ -149,8 +169,6 @@ class ClusterJobs:
                 f"a job failed at {self._address}: {type(error).__name__}: {error}"[:1000], INSTALL
             ) from error
         future.release()
-        if not isinstance(found, bytes):
-            raise WorkError(f"a worker of {self._address} answers with no bytes", INSTALL)
         return found
 
     def _found_slots(self) -> int:
@@ -177,3 +195,28 @@ class ClusterJobs:
         if now - self._missed_since >= WAIT_SECONDS and not self._has_said:
             self._say(f"no worker is connected to {self._address}: waiting for one (Ctrl-C stops)")
             self._has_said = True
+
+
+def answer_here(build: Build, assignment: bytes, work: bytes) -> WireAnswer:
+    """The answer of a thread of a worker to a job; REFUSED where the job comes from another build."""
+    if differs := difference(build, cluster_build()):
+        return REFUSED, differs, "install the same wheel there, and the same versions of what it needs"
+    found = answer(lambda: _scorers.of(assignment), pickle.loads(work))
+    return (DONE, pickle.dumps(found)) if isinstance(found, Done) else (FAILED, found.message, found.hint)
+
+
+def _scorer(assignment: bytes) -> Any:
+    """What does the jobs of an assignment in a thread of this worker, on its share of the cores."""
+    state = get_worker().state
+    threads = int(state.total_resources.get(CORES, state.nthreads)) // state.nthreads
+    return scorer_of(pickle.loads(assignment), max(1, threads), steps_here=False)
+
+
+class Scorers(local):
+    """Those of each thread of a worker, by the assignment."""
+
+    def __init__(self) -> None:
+        self.of = lru_cache(KEPT_SCORERS)(_scorer)
+
+
+_scorers = Scorers()
