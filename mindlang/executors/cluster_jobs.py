@@ -5,6 +5,7 @@ Dask does the jobs of a worker that is lost again, and gives one up that has cos
 again here, MAX_LOSSES times. A worker unpickles a job only where it is of the same build.
 """
 
+import multiprocessing
 import pickle
 from collections.abc import Callable
 from concurrent.futures import CancelledError
@@ -16,13 +17,15 @@ from queue import Empty, Queue
 from threading import local
 from time import monotonic
 from typing import Any
+from weakref import finalize
 
 from distributed import Client, Future, KilledWorker, get_worker
 from mindrun.train.build import Build, difference, own_build, sources_hash
 
+from mindlang.executors.job_scorer import JobScorer
 from mindlang.executors.jobs import FATAL, MAX_LOSSES, TAKE_SECONDS, Assignment, Done, Work, WorkError
-from mindlang.executors.processes import scorer_of
-from mindlang.executors.worker import answer
+from mindlang.executors.processes import ProcessJobs
+from mindlang.executors.worker import answer, rollout_of
 
 LOOK_SECONDS = 1.0  # between two times that the scheduler is asked for its workers
 RESULT_SECONDS = 30.0  # to wait for the bytes of a job that has ended, before who asks may look at something else
@@ -206,10 +209,20 @@ def answer_here(build: Build, assignment: bytes, work: bytes) -> WireAnswer:
 
 
 def _scorer(assignment: bytes) -> Any:
-    """What does the jobs of an assignment in a thread of this worker, on its share of the cores."""
+    """What does the jobs of an assignment in a thread of this worker, on its share of the cores.
+
+    An environment is stepped in as many processes: it would leave other threads no interpreter, and may end or hang.
+    """
     state = get_worker().state
-    threads = int(state.total_resources.get(CORES, state.nthreads)) // state.nthreads
-    return scorer_of(pickle.loads(assignment), max(1, threads), steps_here=False)
+    threads = max(1, int(state.total_resources.get(CORES, state.nthreads)) // state.nthreads)
+    found: Assignment = pickle.loads(assignment)
+    rollout = rollout_of(found, threads)
+    if not rollout.task.scene.environment:
+        return rollout
+    multiprocessing.current_process().daemon = False  # one may have no children
+    scorer = JobScorer(rollout, jobs := ProcessJobs(threads, 1, found))
+    finalize(scorer, jobs.close)
+    return scorer
 
 
 class Scorers(local):

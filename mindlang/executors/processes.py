@@ -22,13 +22,11 @@ from threading import Thread
 from time import monotonic
 from types import ModuleType
 from typing import Any
-from weakref import finalize
 
 from mindrun.cli.shell_completion import Answer
 from mindrun.cores import cores
 from mindrun.work.last_step import MEMORY_BYTES, LastStep
 
-from mindlang.executors.job_scorer import JobScorer
 from mindlang.executors.jobs import FATAL, MAX_LOSSES, TAKE_SECONDS, Assignment, Done, Failed, Work, WorkError
 from mindlang.executors.worker import answer, rollout_of
 
@@ -69,13 +67,14 @@ class ProcessJobs:
 
     has_begun = True
 
-    def __init__(self, count: int, threads: int, assignment: Assignment, make: Make | None = None) -> None:
+    def __init__(self, count: int, threads: int, assignment: Assignment, make: Make = rollout_of) -> None:
         self.assignment = assignment
-        setup = assignment, threads, make or scorer_of
-        self.members = [Member(f"process {number}", *setup) for number in range(1, count + 1)]
+        self.members = [Member(f"process {number}", assignment, threads, make) for number in range(1, count + 1)]
         self._idle = self.members[::-1]
         self._ended: SimpleQueue[Member] = SimpleQueue()
         self._looked = monotonic()
+        for each in self.members:
+            each.begin()
 
     @property
     def workers(self) -> int:
@@ -105,6 +104,7 @@ class ProcessJobs:
             member = self._ended.get(timeout=TAKE_SECONDS)
         except Empty:
             return None
+        assert member.future is not None
         try:
             found = member.future.result()
         except BrokenProcessPool:
@@ -125,11 +125,11 @@ class ProcessJobs:
 
 
 class Member:
-    """A process, begun with its first job and with the next after it has ended; and the job that it is at."""
+    """A process, which is begun anew with the next job where it has ended; and the job that it is at."""
 
     number = 0
     work: Work
-    future: "Future[Done | Failed]"
+    future: "Future[Done | Failed] | None" = None
     losses = 0  # processes that the job has cost
 
     def __init__(self, name: str, assignment: Assignment, threads: int, make: Make) -> None:
@@ -144,18 +144,29 @@ class Member:
         """The process; None where none has begun."""
         return self._context.process if self._pool is not None else None
 
+    def begin(self) -> ProcessPoolExecutor:
+        """Begin the process where there is none, and do not wait until it is ready."""
+        if self._pool is None:
+            memory = self._context.RawArray(c_char, MEMORY_BYTES)
+            self.last_step = LastStep(shared=memory)
+            setup = Setup(self._assignment, self._threads, self._make, memory)
+            self._pool = ProcessPoolExecutor(1, self._context, _begin, (setup,))
+            with no_program():
+                self._pool.submit(os.getpid)  # a process is begun with the first that is asked
+        return self._pool
+
     def ask(self, ended: "SimpleQueue[Member]") -> None:
         """Have the process do its job; it is put into `ended` when there is an answer, or none any more."""
         try:
-            self.future = self._begin().submit(_answer, self.work)
+            self.future = self.begin().submit(_answer, self.work)
         except BrokenProcessPool:  # it has ended since its last job
             self.end()
-            self.future = self._begin().submit(_answer, self.work)
+            self.future = self.begin().submit(_answer, self.work)
         self.future.add_done_callback(lambda future: ended.put(self))
 
     def look(self, now: float) -> None:
         """Kill the process where it is at the same step of an environment for longer than a step may take."""
-        if self._pool is None or self.future.done():
+        if self._pool is None or self.future is None or self.future.done():
             return
         asked = self.last_step.asked()
         if asked is None or asked != self._seen:
@@ -186,16 +197,6 @@ class Member:
             self._pool.shutdown(cancel_futures=True)
         self._pool = None
 
-    def _begin(self) -> ProcessPoolExecutor:
-        if self._pool is None:
-            memory = self._context.RawArray(c_char, MEMORY_BYTES)
-            self.last_step = LastStep(shared=memory)
-            setup = Setup(self._assignment, self._threads, self._make, memory)
-            self._pool = ProcessPoolExecutor(1, self._context, _begin, (setup,))
-            with no_program():
-                self._pool.submit(os.getpid)  # a process is begun with the first that is asked
-        return self._pool
-
     def _ending(self) -> str:
         """How the process has ended, and in or after which step of an environment, as far as is known."""
         code = self._context.process.exitcode or 0
@@ -223,21 +224,6 @@ def no_program() -> Iterator[None]:
         yield
     finally:
         sys.modules["__main__"] = program
-
-
-def scorer_of(assignment: Assignment, threads: int, steps_here: bool = True) -> Any:
-    """What does the jobs of an assignment on so many cores.
-
-    With several an environment is stepped in as many processes, since a step leaves no thread the interpreter; with one
-    in this process, `steps_here`, where that does nothing else and may end.
-    """
-    rollout = rollout_of(assignment, threads)
-    if not rollout.task.scene.environment or (steps_here and threads == 1):
-        return rollout
-    multiprocessing.current_process().daemon = False  # a worker of Dask is one, which may have no children
-    scorer = JobScorer(rollout, jobs := ProcessJobs(threads, 1, assignment))
-    finalize(scorer, jobs.close)
-    return scorer
 
 
 @dataclass(frozen=True, slots=True)

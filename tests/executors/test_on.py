@@ -8,6 +8,7 @@ from pathlib import Path
 from time import sleep
 
 import pytest
+
 from tests.train.test_train_command import LONG, MIND, mindc
 
 TAUGHT = ("drive.mind", "Go", "--seed", "3", "--generations", "6", "--attempts", "3", "--from-scratch", "--json")

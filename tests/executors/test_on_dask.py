@@ -27,7 +27,8 @@ pem, workers = sys.argv[1], int(sys.argv[2])
 tls = {"protocol": "tls", "security": Security(**{f"tls_{who}_{what}": pem for who in ("client", "scheduler", "worker")
     for what in ("cert", "key")}, tls_ca_file=pem, require_encryption=True)} if pem else {}
 if __name__ == "__main__":
-    with LocalCluster(n_workers=workers, threads_per_worker=2, dashboard_address=None, host="127.0.0.1", **tls) as cluster:
+    here = {"host": "127.0.0.1", "dashboard_address": None, "threads_per_worker": 2}
+    with LocalCluster(n_workers=workers, **here, **tls) as cluster:
         print(cluster.scheduler_address, flush=True)
         sys.stdin.read()
 """
