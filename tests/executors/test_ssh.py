@@ -1,84 +1,98 @@
-"""`--on ssh:a,b` with an ssh that has no network: the shell there splits again what it is asked."""
+"""`--on ssh:a,b` with machines that are this one: an ssh server of asyncssh, to which ~/.ssh/config leads."""
 
 import os
-import shlex
-import shutil
+import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
-from tests.train.test_train_command import MIND
-from tests.work.test_on import TAUGHT, called, weights
+pytest.importorskip("distributed", reason="distributed is not installed: pip install 'mindlang[cluster]'")
+asyncssh = pytest.importorskip("asyncssh", reason="asyncssh is not installed: pip install 'mindlang[cluster]'")
+
+from mindlang.executors.ssh import Machine, arguments, machines
+from tests.executors.test_on import TAUGHT, weights
+from tests.train.test_train_command import MIND, mindc
 
 ROOT = Path(__file__).parents[2]
-FAKES = Path(__file__).parents[1] / "deploy" / "fakes"
-BENCHED = ("bench", "drive.mind", "--task", "Reach", "--runs", "70", "--csv", "runs.csv")
+SERVER = """
+import asyncio, os, sys
+import asyncssh
 
+async def handle(process):
+    with open("asked.log", "a") as log:
+        log.write(process.command + "\\n")
+    child = await asyncio.create_subprocess_shell(
+        process.command, stdin=asyncio.subprocess.PIPE, stdout=asyncio.subprocess.PIPE, stderr=asyncio.subprocess.PIPE,
+        start_new_session=True)
+    await process.redirect(stdin=child.stdin, stdout=child.stdout, stderr=child.stderr)
+    process.exit(await child.wait())
 
-def put_mindrun(path: Path) -> None:
-    """A `mindrun` of these sources, for a shell that has nothing of our environment."""
-    kept = {"PYTHONPATH": f"{ROOT}{os.pathsep}{ROOT / 'runtime'}"}
-    kept |= {name: value for name, value in os.environ.items() if name.startswith("NUMBA_")}
-    kept |= {"XDG_CACHE_HOME": os.environ.get("XDG_CACHE_HOME") or f"{Path.home() / '.cache'}"}  # else each compiles
-    words = ["exec", "env", *(f"{name}={value}" for name, value in kept.items()), sys.executable, "-m", "mindrun"]
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(f'#!/bin/sh\n{shlex.join(words)} "$@"\n')
-    path.chmod(0o755)
+async def main():
+    server = await asyncssh.listen("127.0.0.1", 0, server_host_keys=["host"], authorized_client_keys="id.pub",
+                                   process_factory=handle, encoding=None)
+    print(server.sockets[0].getsockname()[1], flush=True)
+    await asyncio.to_thread(sys.stdin.read)
 
-
-@pytest.fixture
-def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """The home of all machines that ssh leads to, whose PATH has `mindrun`."""
-    shutil.copy(FAKES / "ssh", tmp_path)
-    put_mindrun(tmp_path / "robot" / "mindrun")
-    monkeypatch.setenv("FAKE", str(tmp_path))
-    monkeypatch.setenv("PATH", f"{tmp_path}{os.pathsep}{os.environ['PATH']}")
-    (tmp_path / "home").mkdir()
-    return tmp_path / "home"
+asyncio.run(main())
+"""
 
 
 @pytest.fixture
-def project(tmp_path: Path) -> Path:
-    """A mind with weights."""
-    folder = tmp_path / "a mind"
-    folder.mkdir()
-    (folder / "drive.mind").write_text(MIND)
-    assert called(folder, "train", "drive.mind", "Go", "Drive", "--seed", "3", "-q").returncode == 0
-    return folder
+def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+    """The home folder here, and of all machines."""
+    folder = tmp_path / "home"
+    (folder / ".ssh").mkdir(parents=True)
+    for name in ("host", "id"):
+        key = asyncssh.generate_private_key("ssh-ed25519")
+        key.write_private_key(f"{folder / name}")
+        key.write_public_key(f"{folder / name}.pub")
+    (folder / "server.py").write_text(SERVER)
+    path = os.pathsep.join([str(ROOT), str(ROOT / "runtime")])
+    cache = os.environ.get("XDG_CACHE_HOME") or f"{Path.home() / '.cache'}"  # else each compiles
+    for name, value in {"PYTHONPATH": path, "HOME": f"{folder}", "XDG_CACHE_HOME": cache}.items():
+        monkeypatch.setenv(name, value)
+    with subprocess.Popen(
+        [sys.executable, "server.py"], cwd=folder, text=True, stdin=subprocess.PIPE, stdout=subprocess.PIPE
+    ) as server:
+        assert server.stdin
+        assert server.stdout
+        port = int(server.stdout.readline())
+        (folder / ".ssh" / "config").write_text(
+            f"Host a b\n  HostName 127.0.0.1\n  Port {port}\n  IdentityFile {folder / 'id'}\n"
+            "Host gone\n  HostName 127.0.0.1\n  Port 9\n"
+        )
+        (folder / ".ssh" / "known_hosts").write_text(f"[127.0.0.1]:{port} {(folder / 'host.pub').read_text()}")
+        yield folder
+        server.stdin.close()
 
 
-def test_it_teaches_the_weights_of_threads(tmp_path: Path, home: Path) -> None:
-    assert weights(tmp_path / "a b", "--on", "ssh:a,b") == weights(tmp_path / "threads")
-    asked = (tmp_path / "ssh.log").read_text().splitlines()
-    assert sorted(line.partition(" -- ")[2] for line in asked) == ["a mindrun work", "b mindrun work"]
+@pytest.mark.slow
+def test_it_teaches_the_weights_of_threads_and_leaves_nothing_there(tmp_path: Path, home: Path) -> None:
+    expected = weights(tmp_path / "threads")
+    assert weights(tmp_path / "there", "--on", f"ssh:a:{sys.executable},b,gone") == expected
+    asked = (home / "asked.log").read_text()
+    assert asked.count("distributed.cli.dask_spec") == 3  # a scheduler and two workers
+    assert "PRIVATE KEY" not in asked
+    assert [*home.glob(".mindc*")] == []
 
 
-@pytest.mark.parametrize("where", ["ssh:a,b", "command:ssh a \"'far away/mindrun' work --threads 1\""])
-def test_it_makes_the_runs_of_threads(project: Path, home: Path, where: str) -> None:
-    put_mindrun(home / "far away" / "mindrun")
-    rows = []
-    for words in ((), ("--on", where)):
-        done = called(project, *BENCHED, *words)
-        assert done.returncode == 0, done.stderr
-        rows.append((project / "runs.csv").read_bytes())
-    assert rows[0] == rows[1]
-    assert f"by {where}, in" in " ".join(done.stdout.split())
+def test_where_no_machine_takes_part_it_is_one_sentence(tmp_path: Path, home: Path) -> None:
+    (tmp_path / "drive.mind").write_text(MIND)
+    for where, words in (
+        ("ssh:gone", "no machine takes part; the last, gone: "),
+        ("ssh:a:/nowhere/python", "no machine takes part; the last, a: /bin/sh: 1: /nowhere/python: not found"),
+    ):
+        done = mindc(tmp_path, *TAUGHT, "--on", where)
+        said = " ".join(done.stderr.split())
+        assert (done.returncode, words in said, "--resume" in said) == (1, True, True), done.stderr
 
 
-def test_a_machine_that_is_not_there_is_one_sentence(project: Path, home: Path) -> None:
-    done = called(project, *BENCHED, "--on", "ssh:unreachable")
-    assert (done.returncode, done.stdout) == (1, "")
-    assert "no worker is left; the last, at unreachable, ended: ssh: connect to host" in done.stderr
-    assert "--resume" not in done.stderr  # nothing was saved of a bench
-    taught = called(project, "train", *TAUGHT, "--on", "ssh:unreachable")
-    assert (taught.returncode, "to go on: mindc train --resume runs/" in " ".join(taught.stderr.split())) == (1, True)
-
-
-def test_one_of_two_machines_is_enough(project: Path, home: Path) -> None:
-    assert called(project, *BENCHED, "--on", "ssh:unreachable,a").returncode == 0
-
-
-def test_cores_of_this_machine_are_refused_beside_others(project: Path) -> None:
-    done = called(project, *BENCHED, "--on", "ssh:a", "--workers", "2")
-    assert (done.returncode, "with --on others make the runs" in done.stderr) == (2, True)
+def test_what_stands_in_a_list_of_machines() -> None:
+    one, other = machines("me@a:~/mind/bin/python,b")
+    assert (one, other) == (Machine("a", "me", "~/mind/bin/python"), Machine("b"))
+    told = arguments([one, other])
+    assert told["hosts"] == ["a", "a", "b"]
+    assert told["remote_python"] == ["~/mind/bin/python", "~/mind/bin/python", sys.executable]
+    assert [each.get("username") for each in told["connect_options"]] == ["me", "me", None]
