@@ -13,7 +13,7 @@ from mindrun.cli.shell_completion import SHELLS, reply, words_of
 from mindrun.cli.tools import tool_parser, tools
 from mindrun.graph.bundle import write_bundle
 
-from mindlang.executors import kinds
+from mindlang.executors import KINDS
 from tests.calling import Call
 from tests.engine.bundles import wired
 from tests.surroundings.shells import START, Shell, programs, started
@@ -140,13 +140,13 @@ def test_files_of_any_name_are_offered_where_none_is_of_the_kind(bash: Path) -> 
 @pytest.mark.parametrize(
     ("line", "found"),
     [
-        ("mindc train a.mind --on ", [*["compopt -o nospace"] * 4, "threads", *(f"{each}:" for each in kinds())]),
+        ("mindc train a.mind --on ", [*["compopt -o nospace"] * 4, "threads", *(f"{each}:" for each in KINDS)]),
         ("mindc bench a.mind --on th", ["threads"]),
         ("mindc train a.mind --on=proc", ["compopt -o nospace", "processes:"]),
         ("mindc train a.mind --on processes:1", ["1"]),
         ("mindc train a.mind --on dask:", [*FILES, "scheduler.json"]),
         ("mindc train a.mind --on ssh:", [""]),
-        ("mindc train a.mind --on command:", [""]),
+        ("mindc train a.mind --on slurm:8,", ["compopt -o nospace", "slurm:8,cores="]),
         ("mindc train a.mind --on nowhere:", [""]),
     ],
 )  # fmt: skip
