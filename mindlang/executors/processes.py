@@ -1,8 +1,9 @@
 """Processes on this machine, which share its cores: each a pool of one process, whatever that does to itself.
 
 A pool of several would lose the jobs of all with the process of one, and not say whose fault that was. One that ends
-is begun anew, and its job is done again; a job that has cost MAX_LOSSES processes is at fault itself. At which step of
-which run an environment is stands in memory that outlives its process, and a step that takes too long ends it.
+is begun anew, and its job is done again; a job that has cost MAX_LOSSES processes is at fault itself, or MAX_STARTS
+that had not come to it yet. At which step of which run an environment is stands in memory that outlives its process,
+and a step that takes too long ends it.
 """
 
 import multiprocessing
@@ -11,7 +12,7 @@ import sys
 from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from ctypes import c_char
 from dataclasses import dataclass
 from functools import cache
@@ -35,6 +36,7 @@ MAX_PROCESSES = 1024
 MAX_DIGITS = 4
 Make = Callable[[Assignment, int], Any]
 
+MAX_STARTS = 20  # of processes for a job: where others end them, or the machine is busy, few come to it
 LOOK_SECONDS = 1.0  # between two looks at the step of an environment
 SLOW_HINT = "environments that slow take for instance --on processes:4,step-seconds=600"
 
@@ -88,7 +90,7 @@ class ProcessJobs:
     def submit(self, number: int, work: Work) -> None:
         """Ask for a job."""
         member = self._idle.pop()
-        member.number, member.work, member.losses = number, work, 0
+        member.number, member.work, member.losses, member.starts = number, work, 0, 0
         member.ask(self._ended)
 
     def take(self) -> tuple[int, Done] | None:
@@ -130,7 +132,7 @@ class Member:
     number = 0
     work: Work
     future: "Future[Done | Failed] | None" = None
-    losses = 0  # processes that the job has cost
+    losses = starts = 0  # processes that the job has cost, and those with others that had not come to it yet
 
     def __init__(self, name: str, assignment: Assignment, threads: int, make: Make) -> None:
         self.name, self._assignment, self._threads, self._make = name, assignment, threads, make
@@ -152,7 +154,7 @@ class Member:
             setup = Setup(self._assignment, self._threads, self._make, memory)
             self._pool = ProcessPoolExecutor(1, self._context, _begin, (setup,))
             with no_program():
-                self._pool.submit(os.getpid)  # a process is begun with the first that is asked
+                self._loaded = self._pool.submit(_load)
         return self._pool
 
     def ask(self, ended: "SimpleQueue[Member]") -> None:
@@ -181,9 +183,10 @@ class Member:
         self.end()
         if self._hung:
             raise WorkError(self._hung, SLOW_HINT)
-        self.losses += 1
-        if self.losses >= MAX_LOSSES:
-            raise WorkError(f"a job has ended {self.losses} workers, the last, {self.name}, {self._ending()}", FATAL)
+        has_come_to_it = not self._loaded.cancelled() and self._loaded.exception() is None
+        self.losses, self.starts = self.losses + has_come_to_it, self.starts + 1
+        if self.losses >= MAX_LOSSES or self.starts >= MAX_STARTS:
+            raise WorkError(f"a job has ended {self.starts} workers, the last, {self.name}, {self._ending()}", FATAL)
 
     def kill(self) -> None:
         """End the process, whatever it does; who waits for its answer is told."""
@@ -261,6 +264,12 @@ def _scorer() -> Any:
     if hasattr(scorer, "write_steps"):
         scorer.write_steps(LastStep(shared=_setup.memory))
     return scorer
+
+
+def _load() -> None:
+    """Have the scorer ready before a job comes; why there is none is the answer to that."""
+    with suppress(BaseException):
+        _scorer()
 
 
 def _answer(work: Work) -> Done | Failed:

@@ -20,18 +20,15 @@ SLOW_SECONDS = 0.02
 _calls = count(1)
 
 
-def sphere(assignment: Assignment, threads: int) -> Any:
-    return Sphere()
+def made(kind: type[Sphere], assignment: Assignment, threads: int) -> Sphere:
+    """What scores an assignment, whatever that is."""
+    return kind()
 
 
 class Slow(Sphere):
     def score(self, genomes: Any, seeds: Any) -> Results:
         sleep(SLOW_SECONDS)
         return Sphere.score(self, genomes, seeds)
-
-
-def slow(assignment: Assignment, threads: int) -> Any:
-    return Slow()
 
 
 class Dying(Sphere):
@@ -45,25 +42,13 @@ class Dying(Sphere):
         return Sphere.score(self, genomes, seeds)
 
 
-def dying(assignment: Assignment, threads: int) -> Any:
-    return Dying()
-
-
 class Deadly(Dying):
     every = 1
-
-
-def deadly(assignment: Assignment, threads: int) -> Any:
-    return Deadly()
 
 
 class Exiting(Sphere):
     def score(self, genomes: Any, seeds: Any) -> Results:
         raise SystemExit("out of " + "luck " * 1000)
-
-
-def exiting(assignment: Assignment, threads: int) -> Any:
-    return Exiting()
 
 
 class Hanging(Sphere):
@@ -81,10 +66,6 @@ class Hanging(Sphere):
         return Sphere.score(self, genomes, seeds)
 
 
-def hanging(assignment: Assignment, threads: int) -> Any:
-    return Hanging()
-
-
 class Breathing(Hanging):
     """Is at the same step of each run for as long as a step may take, but not of the same run."""
 
@@ -93,10 +74,6 @@ class Breathing(Hanging):
             Hanging.last_step.write(b"Maze-v0", 7, 0)
             sleep(0.7)
         return Sphere.score(self, genomes, seeds)
-
-
-def breathing(assignment: Assignment, threads: int) -> Any:
-    return Breathing()
 
 
 # What a worker of Dask calls

@@ -38,7 +38,7 @@ def test_of_a_single_attempt_the_runs_are_the_jobs(tmp_path: Path) -> None:
     assert weights(tmp_path / "processes", "--attempts", "1", "--on", "processes:2") == expected
 
 
-@pytest.mark.parametrize("words", [(), ("--no-interruption", "--master", "Drive"), ("drive.mind", "--master", "Go")])
+@pytest.mark.parametrize("words", [("--no-interruption", "--master", "Drive"), ("drive.mind", "--master", "Go")])
 def test_many_runs_are_the_same_wherever_they_are_made(tmp_path: Path, words: tuple[str, ...]) -> None:
     (tmp_path / "drive.mind").write_text(MIND)
     assert mindc(tmp_path, "drive.mind", "Go", "Drive", "--seed", "3", "-q").returncode == 0
@@ -106,7 +106,7 @@ def test_what_says_no_place_is_refused(tmp_path: Path, where: str, words: str) -
     assert not (tmp_path / "runs").exists()
 
 
-@pytest.mark.parametrize("where", [("--workers", "2"), ("--on", "processes:2")])
+@pytest.mark.parametrize("where", [pytest.param(("--workers", "2"), marks=pytest.mark.slow), ("--on", "processes:2")])
 def test_stopped_with_ctrl_c_it_goes_on_to_the_same_weights_there_or_here(
     tmp_path: Path, where: tuple[str, ...]
 ) -> None:
@@ -129,7 +129,7 @@ def test_stopped_with_ctrl_c_it_goes_on_to_the_same_weights_there_or_here(
     }
 
 
-@pytest.mark.parametrize("where", [("--workers", "2"), ("--on", "processes:2")])
+@pytest.mark.parametrize("where", [pytest.param(("--workers", "2"), marks=pytest.mark.slow), ("--on", "processes:2")])
 def test_killed_it_goes_on_to_the_same_weights(tmp_path: Path, where: tuple[str, ...]) -> None:
     (tmp_path / "drive.mind").write_text(MIND)
     words = (*LONG, "--attempts", "3")
@@ -143,6 +143,7 @@ def test_killed_it_goes_on_to_the_same_weights(tmp_path: Path, where: tuple[str,
     assert json.loads(mindc(tmp_path, "--resume", run, "--json").stdout)["weights"] == expected
 
 
+@pytest.mark.slow
 def test_event_files_have_every_generation_once_wherever_they_were_made(tmp_path: Path) -> None:
     pytest.importorskip("tensorboardX", reason="event files are written with tensorboardX")
     weights(tmp_path / "here", "--tensorboard")

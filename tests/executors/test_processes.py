@@ -4,9 +4,10 @@ import os
 import random
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from time import monotonic
 from typing import Any
@@ -31,20 +32,17 @@ COURSE = Course(lesson(250, attempts=5, rungs=2), 1, np.empty((0, LENGTH), np.fl
 ROOT = Path(__file__).parents[2]
 KILLS = 3
 UNGUARDED = """
-from mindlang.executors.processes import ProcessJobs
-from tests.executors import spheres
-from tests.executors.test_processes import taught
+from tests.executors.test_processes import processes, taught
 
 print("begun")
-jobs = ProcessJobs(1, 1, spheres.ASSIGNMENT, spheres.sphere)
-taught(jobs)
-jobs.close()
+with processes(1) as jobs:
+    taught(jobs)
 """
 
 
 @contextmanager
-def processes(count: int, make: Callable[..., Any] = spheres.sphere) -> Iterator[ProcessJobs]:
-    found = ProcessJobs(count, 1, ASSIGNMENT, make)
+def processes(count: int, kind: type[Sphere] = Sphere) -> Iterator[ProcessJobs]:
+    found = ProcessJobs(count, 1, ASSIGNMENT, partial(spheres.made, kind))
     try:
         yield found
     finally:
@@ -75,7 +73,7 @@ def test_any_number_of_processes_come_to_the_same_bits(expected: bytes, count: i
 
 
 def test_processes_that_end_now_and_then_change_no_bit(expected: bytes) -> None:
-    with processes(2, spheres.dying) as jobs:
+    with processes(2, spheres.Dying) as jobs:
         assert taught(jobs) == expected
 
 
@@ -96,20 +94,20 @@ class Killing(StretchExecutor):
 
 
 def test_killed_again_and_again_nothing_is_lost(expected: bytes) -> None:
-    with processes(2, spheres.slow) as jobs:
+    with processes(2, spheres.Slow) as jobs:
         assert taught(jobs, Killing) == expected
     assert Killing.killed == KILLS
 
 
 def test_a_job_that_costs_every_process_is_at_fault_itself() -> None:
     said = f"a job has ended {MAX_LOSSES} workers, the last, process 1, by SIGKILL"
-    with processes(1, spheres.deadly) as jobs, pytest.raises(WorkError, match=said) as error:
+    with processes(1, spheres.Deadly) as jobs, pytest.raises(WorkError, match=said) as error:
         taught(jobs)
     assert "the same job" in error.value.hint
 
 
 def test_a_job_that_fails_is_one_sentence() -> None:
-    with processes(1, spheres.exiting) as jobs, pytest.raises(WorkError, match="SystemExit: out of luck") as error:
+    with processes(1, spheres.Exiting) as jobs, pytest.raises(WorkError, match="SystemExit: out of luck") as error:
         taught(jobs)
     assert len(str(error.value)) <= 1000
 
@@ -117,14 +115,14 @@ def test_a_job_that_fails_is_one_sentence() -> None:
 def test_a_step_that_never_ends_is_told_though_its_process_cannot_speak() -> None:
     began = monotonic()
     said = "the environment Maze-v0 does not come back from step 3 of the run of seed 7, in 2 seconds"
-    with processes(1, spheres.hanging) as jobs, pytest.raises(WorkError, match=said) as error:
+    with processes(1, spheres.Hanging) as jobs, pytest.raises(WorkError, match=said) as error:
         taught(jobs)
     assert "step-seconds" in error.value.hint
     assert monotonic() - began < 60
 
 
 def test_many_runs_at_the_same_step_are_no_step_that_never_ends() -> None:
-    with processes(1, spheres.breathing) as jobs:
+    with processes(1, spheres.Breathing) as jobs:
         jobs.submit(1, spheres.Once())
         assert next(filter(None, iter(jobs.take, 0)))[0] == 1
 
@@ -133,7 +131,7 @@ def test_a_run_whose_workers_are_gone_goes_on_with_others(tmp_path: Path, expect
     run = create(tmp_path, manifest(COURSE.lesson), {}, {})
     with processes(1) as jobs:
         train(run, Sphere(), unwatched(stop_after=2), StretchExecutor(COURSE, jobs))
-    with processes(1, spheres.deadly) as jobs, pytest.raises(WorkError):
+    with processes(1, spheres.Deadly) as jobs, pytest.raises(WorkError):
         train(run, Sphere(), unwatched(), StretchExecutor(COURSE, jobs))
     with processes(2) as jobs:
         state = train(run, Sphere(), unwatched(), StretchExecutor(COURSE, jobs))
@@ -141,7 +139,7 @@ def test_a_run_whose_workers_are_gone_goes_on_with_others(tmp_path: Path, expect
 
 
 def test_no_process_is_left_behind() -> None:
-    with processes(2, spheres.slow) as jobs:
+    with processes(2, spheres.Slow) as jobs:
         taught(jobs)
         begun = [each.process for each in jobs.members]
     assert [process.exitcode for process in begun if process] == [-9, -9]

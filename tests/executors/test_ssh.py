@@ -9,7 +9,9 @@ from pathlib import Path
 import pytest
 
 pytest.importorskip("distributed", reason="distributed is not installed: pip install 'mindlang[cluster]'")
-asyncssh = pytest.importorskip("asyncssh", reason="asyncssh is not installed: pip install 'mindlang[cluster]'")
+pytest.importorskip("asyncssh", reason="asyncssh is not installed: pip install 'mindlang[cluster]'")
+
+import asyncssh
 
 from mindlang.executors.ssh import Machine, arguments, machines
 from tests.executors.test_on import TAUGHT, weights
