@@ -3,13 +3,11 @@
 A generation is 40 genomes on 3 layouts, and is scored here, with the environments in this process or apart, in another
 one, and by 1, 2 and 4 workers, which are warm. CPU
 is that of all processes, and is the figure to trust on a machine that others use, too. The last column is what a job
-takes beyond its runs: frames, pipes, and the lanes that a smaller job leaves empty.
+takes beyond its runs: pickles, pipes, and the lanes that a smaller job leaves empty.
 """
 
 import argparse
 import os
-from collections.abc import Callable
-from dataclasses import dataclass, field
 from pathlib import Path
 from time import perf_counter
 
@@ -20,12 +18,11 @@ from mindrun.graph.policy import Policy
 from mindrun.sim.outside.apart import Apart
 from mindrun.sim.outside.here import Here
 from mindrun.sim.rollouts import rollout_for
-from mindrun.work.assignment import Assignment
-from mindrun.work.crew import Crew
-from mindrun.work.job_scorer import JobScorer
-from mindrun.work.local import local_workers
 
 import mindlang
+from mindlang.executors.job_scorer import JobScorer
+from mindlang.executors.jobs import Assignment, Work
+from mindlang.executors.processes import ProcessJobs
 
 GENERATION_GENOMES, GENERATION_LAYOUTS, RUN_TICKS = 40, 3, 500
 ENVIRONMENTS = ("CartPole-v1", "LunarLanderContinuous-v3", "BipedalWalker-v3")
@@ -33,24 +30,19 @@ TICKS_PER_SECOND = os.sysconf("SC_CLK_TCK")
 LINE = "{name:<26} {where:<12} {rate:>8,.0f} ticks/s {cpu:>8,.0f} a CPU second {jobs:>4} jobs {cost:>7.2f} ms each"
 
 
-@dataclass
-class CountingCrew:
-    """Workers whose jobs are counted."""
+class CountingJobs(ProcessJobs):
+    """Processes whose jobs are counted."""
 
-    crew: Crew
-    jobs: int = field(default=0)
+    jobs = 0
 
-    def __getattr__(self, name: str) -> object:
-        return getattr(self.crew, name)
-
-    def submit(self, number: int, data: bytes, read: Callable[..., object]) -> None:
+    def submit(self, number: int, work: Work) -> None:
         """Ask for a job, and count it."""
         self.jobs += 1
-        self.crew.submit(number, data, read)
+        super().submit(number, work)
 
     def cpu_seconds(self) -> float:
         """What this process and the workers have taken so far."""
-        return sum(map(cpu_seconds, ["self", *(str(each.process.pid) for each in self.crew.children if each.process)]))
+        return sum(map(cpu_seconds, ["self", *(f"{each.process.pid}" for each in self.members if each.process)]))
 
 
 def cpu_seconds(process: str) -> float:
@@ -99,17 +91,17 @@ def measured(name: str, generations: int) -> None:
         print(LINE.format(where=where, jobs=0, cost=0.0, **said), flush=True)
     assignment = Assignment(pack(Bundle(Policy(graph, {}), {})), "Go", "Go", ("Go",))
     for count in (1, 2, 4):
-        crew = CountingCrew(local_workers(count, 1, assignment))
-        scorer = JobScorer(here, crew)  # type: ignore[arg-type]  # it has all that the crew has
+        processes = CountingJobs(count, 1, assignment)
+        scorer = JobScorer(here, processes)
         for _ in range(2):
             scorer.score(drawn[0], seeds[0])
-        crew.jobs, began, cpu = 0, perf_counter(), crew.cpu_seconds()
+        processes.jobs, began, cpu = 0, perf_counter(), processes.cpu_seconds()
         again = sum(int(scorer.score(*each).ticks.sum()) for each in zip(drawn, seeds, strict=True))
-        took = crew.cpu_seconds() - cpu
+        took = processes.cpu_seconds() - cpu
         said = {"name": name, "rate": again / (perf_counter() - began), "cpu": again / took}
-        cost = 1000 * (took - alone) / crew.jobs
-        print(LINE.format(where=f"{count} processes", jobs=crew.jobs, cost=cost, **said), flush=True)
-        crew.crew.close()
+        cost = 1000 * (took - alone) / processes.jobs
+        print(LINE.format(where=f"{count} processes", jobs=processes.jobs, cost=cost, **said), flush=True)
+        processes.close()
         assert again == ticks
 
 

@@ -9,14 +9,12 @@ from mindrun.sim.rollout import Rollout
 from mindrun.train.attempts import AttemptExecutor
 from mindrun.train.lesson_state import Course
 from mindrun.train.stretch_threads import StretchThreads
-from mindrun.work.assignment import Assignment
-from mindrun.work.crew import Crew
-from mindrun.work.executor import StretchExecutor
 
-from mindlang.cluster.connection import connect
-from mindlang.cluster.jobs import ClusterJobs
-from mindlang.cluster.scheduler import Destination
-from mindlang.executors import where
+from mindlang.executors.cluster_jobs import ClusterJobs
+from mindlang.executors.connection import connect
+from mindlang.executors.jobs import Assignment, StretchExecutor
+from mindlang.executors.processes import ProcessJobs, begin
+from mindlang.executors.scheduler import Destination
 
 Begin = Callable[
     [Course, Rollout], AttemptExecutor | None
@@ -38,18 +36,17 @@ def threads(count: int, assignment: Assignment) -> Iterator[tuple[Begin, Pids]]:
 
 @contextmanager
 def processes(count: int, assignment: Assignment) -> Iterator[tuple[Begin, Pids]]:
-    """Frames on standard streams."""
-    place = where(f"processes:{count}")
-    assert place
-    jobs = place.begin(assignment)
-    assert isinstance(jobs, Crew)
+    """A pool of one process for each."""
+    jobs = begin(f"{count}", assignment, print)
     try:
-        yield (
-            lambda course, rollout: StretchExecutor(course, jobs),
-            lambda: [child.process.pid for child in jobs.children if child.process],
-        )
+        yield lambda course, rollout: StretchExecutor(course, jobs), lambda: pids(jobs)
     finally:
         jobs.close()
+
+
+def pids(jobs: ProcessJobs) -> list[int]:
+    """The processes that are there."""
+    return [each.process.pid for each in jobs.members if each.process and each.process.pid]
 
 
 @contextmanager

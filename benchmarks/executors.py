@@ -15,17 +15,17 @@ from statistics import median
 
 import numpy as np
 import psutil
-from mindrun.graph.bundle import Bundle, pack
+from mindrun.graph.bundle import Bundle, pack, unpack
 from mindrun.graph.policy import Policy
 from mindrun.processors import cores
 from mindrun.sim.rollout import Rollout
 from mindrun.train.attempts import side_by_side
 from mindrun.train.lesson import teach
 from mindrun.train.lesson_state import Course, begin
-from mindrun.work.assignment import Assignment
 
 from benchmarks.executor_kinds import Begin, dask, one_by_one, processes, threads
 from benchmarks.workloads import collect
+from mindlang.executors.jobs import Assignment
 
 SKILL = "GoToObject"
 SHOWN_CHARACTERS = 16  # of a hash
@@ -70,7 +70,7 @@ def course_of(rollout: Rollout, attempts: int, generations: int, seed: int) -> C
 
 def rollout_of(assignment: Assignment, threads: int) -> Rollout:
     """What scores genomes in this process, compiled."""
-    rollout = Rollout(assignment.opened().policy, SKILL, SKILL, [SKILL], workers=threads)
+    rollout = Rollout(unpack(assignment.bundle).policy, SKILL, SKILL, [SKILL], workers=threads)
     rollout.compile()
     return rollout
 

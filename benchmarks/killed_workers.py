@@ -1,7 +1,7 @@
 """Workers killed at random moments: python benchmarks/killed_workers.py [--generations 60] [--kills 50] [--only NAME].
 
 Ten attempts of GoToObject by two workers of this machine, undisturbed and with SIGKILL 0.5 to 5.5 s after each other,
-again and again until there were so many kills: processes behind pipes; workers of Dask whose nannies begin them again;
+again and again until there were so many kills: processes; workers of Dask whose nannies begin them again;
 jobs of a cluster, worker and nanny at once, which are begun again as SLURM does. 1 where any weights differ.
 """
 
@@ -22,14 +22,13 @@ from threading import Event, Thread
 
 import psutil
 from distributed import Client
-from mindrun.work.assignment import Assignment
-from mindrun.work.executor import StretchExecutor
 
 from benchmarks.executor_kinds import Begin, processes
 from benchmarks.executors import SHOWN_CHARACTERS, Taught, assignment_of, course_of, rollout_of, taught
-from mindlang.cluster.connection import connect
-from mindlang.cluster.jobs import ClusterJobs
-from mindlang.cluster.scheduler import destination
+from mindlang.executors.cluster_jobs import ClusterJobs
+from mindlang.executors.connection import connect
+from mindlang.executors.jobs import Assignment, StretchExecutor
+from mindlang.executors.scheduler import destination
 
 MIN_KILL_SECONDS, MAX_KILL_SECONDS = 0.5, 5.5  # between two kills
 WORKER_COUNT = 2
@@ -74,8 +73,8 @@ class ClusterJob:
 
 
 @contextmanager
-def piped(assignment: Assignment) -> Iterator[tuple[Begin, FindKills]]:
-    """Processes, whose pipes begin them again."""
+def pooled(assignment: Assignment) -> Iterator[tuple[Begin, FindKills]]:
+    """Processes, begun again by who asks them."""
     with processes(WORKER_COUNT, assignment) as (executor, pids):
         yield executor, lambda: {pid: partial(os.kill, pid, signal.SIGKILL) for pid in pids()}
 
@@ -147,7 +146,7 @@ def wait_for(there: Callable[[], bool]) -> None:
 
 
 EXECUTORS: dict[str, Callable[[Assignment], AbstractContextManager[tuple[Begin, FindKills]]]] = {
-    "processes": piped,
+    "processes": pooled,
     "Dask, workers": partial(clustered, is_whole_job=False),
     "Dask, whole jobs": partial(clustered, is_whole_job=True),
 }

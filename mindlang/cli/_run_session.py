@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING
 from mindrun.errors import MindError
 from mindrun.graph.run_scores import Scores
 from mindrun.sim.rollout import Rollout
-from mindrun.work.job_scorer import JobScorer
 from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
 
 from mindlang.cli._simulator_compilation import ensure_compiled
 from mindlang.cli._terminal import FINDINGS, MISUSE, fail, load_compiled, procedures_talk, say, talk
 from mindlang.compiler.compile import Compiled
 from mindlang.executors import Where, scorer_on
+from mindlang.executors.job_scorer import JobScorer
 from mindlang.limits import refuse_too_large, refuse_too_many
 from mindlang.run.layouts import NO_GENOME
 from mindlang.run.many_runs import run_timed

@@ -21,12 +21,12 @@ from mindrun.train.lesson_state import LessonState, Record
 from mindrun.train.run_folder import RunFolder, open_run, read_result
 from mindrun.train.scoring import Scorer
 from mindrun.train.training import Watch, train
-from mindrun.work.job_scorer import JobScorer
 
 from mindlang.cli._simulator_compilation import ensure_compiled
 from mindlang.cli._terminal import load_compiled, procedures_talk, talk
 from mindlang.cli._training_progress import PrintedLines, ProgressBarLine, Silent, TimeLeft, Watcher
 from mindlang.executors import Where
+from mindlang.executors.job_scorer import JobScorer
 from mindlang.lock import LockError
 from mindlang.training.event_files import EventFiles
 from mindlang.training.lesson_choice import TrainOptions, chosen_lessons

@@ -19,6 +19,7 @@ Examples:
   mindc train on_the_job.mind --scale 0.1      a tenth of the generations
   mindc train on_the_job.mind --attempts 3     the best of three
   mindc train collect.mind --on ssh:a,b        attempts on two machines
+  mindc train collect.mind --on slurm:8,cores=4,memory=8GB
   mindc train --resume runs/GoToObject/20260714T120000Z-1
   mindc train collect.mind --tensorboard       then: tensorboard --logdir runs
 \b
@@ -54,7 +55,7 @@ A cluster with SLURM (what tls.pem is, and other ways: docs/cluster.md):
     "where",
     type=ON,
     metavar="WHERE",
-    help="Who does the attempts: processes:N, ssh:HOST,HOST, dask:SCHEDULER … (default: threads; processes in"
+    help="Who does the attempts: processes:N, ssh:HOST,HOST, slurm:N, dask:SCHEDULER … (default: threads; processes in"
     " environments of Gymnasium).",
 )
 @click.option("--runs", type=click.Path(path_type=Path), default="runs", show_default=True, help="Where runs are kept.")

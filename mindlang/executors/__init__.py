@@ -4,37 +4,47 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib import import_module
-from pkgutil import iter_modules
 from typing import TYPE_CHECKING
 
 from mindrun.errors import MindError
-from mindrun.work.assignment import Assignment
-from mindrun.work.executor import JobExecutor
-from mindrun.work.job_scorer import JobScorer
-from mindrun.work.local import local_workers
+
+from mindlang.executors.job_scorer import JobScorer
+from mindlang.executors.jobs import STEP_SECONDS, Assignment, JobExecutor
+from mindlang.executors.processes import ProcessJobs
 
 if TYPE_CHECKING:
     from mindrun.sim.rollout import Rollout
 
 THREADS = "threads"  # of this process: no executor, and no argument
+KINDS = ("dask", "processes", "slurm", "ssh")
+COMMAND = "command"  # was a kind
+INSTEAD_OF_COMMAND = (
+    "Dask begins workers now: --on ssh:a,b or --on slurm:8, or by any command: "
+    "dask worker --scheduler-file scheduler.json, and --on dask:scheduler.json"
+)
+STEP_OPTION = ",step-seconds="
+MAX_STEP_SECONDS = 86_400
 
 
 @dataclass(frozen=True, slots=True)
 class Where:
-    """A kind of executor, and what is said of it behind the colon."""
+    """A kind of executor, what is said of it behind the colon, and how long a step of an environment may take."""
 
     kind: str
     argument: str
+    step_seconds: int = STEP_SECONDS
 
     def __str__(self) -> str:
-        """As --on says it."""
-        return f"{self.kind}:{self.argument}"
+        """The words of --on."""
+        slow = "" if self.step_seconds == STEP_SECONDS else f"{STEP_OPTION}{self.step_seconds}"
+        return f"{self.kind}:{self.argument}{slow}"
 
     def begin(self, assignment: Assignment, say: Callable[[str], object] = lambda line: None) -> JobExecutor:
         """Workers for the jobs of an assignment, who `say` what they wait for; MindError where there can be none."""
-        executor: JobExecutor = import_module(f"{__name__}.{self.kind}").begin(self.argument, assignment, say)
+        slow = replace(assignment, step_seconds=self.step_seconds)
+        executor: JobExecutor = import_module(f"{__name__}.{self.kind}").begin(self.argument, slow, say)
         return executor
 
 
@@ -51,10 +61,11 @@ def scorer_on(
     Where --on says nothing the rollout does it in threads; in environments so many processes do, unless 0, since a step
     leaves no thread the interpreter.
     """
+    jobs: JobExecutor
     if where is not None:
         jobs = where.begin(assignment(), say)
     elif rollout.task.scene.environment and workers:
-        jobs = local_workers(workers, 1, assignment())
+        jobs = ProcessJobs(workers, 1, assignment())
     else:
         yield rollout
         return
@@ -64,22 +75,20 @@ def scorer_on(
         jobs.close()
 
 
-def kinds() -> list[str]:
-    """The kinds of executors, but for threads."""
-    return sorted(module.name for module in iter_modules(__path__))
-
-
 def where(text: str) -> Where | None:
-    """What --on says, None for the threads of this process; MindError where it says nothing that is known."""
-    kind, _, argument = text.partition(":")
+    """The kind of executor that --on says, None for the threads of this process; MindError where there is no such."""
+    said, slow, seconds = text.partition(STEP_OPTION)
+    kind, _, argument = said.partition(":")
     if text == THREADS:
         return None
-    if kind not in kinds():
+    if kind == COMMAND:
+        raise MindError(f"there is no --on {COMMAND}: any more", INSTEAD_OF_COMMAND)
+    if kind not in KINDS:
         raise MindError(f"nobody knows where {text!r:.60} is", f"--on says {THREADS}, or {usages()}")
     module = import_module(f"{__name__}.{kind}")
-    if flaw := module.flaw(argument):
+    if flaw := module.flaw(argument) or (slow and _flaw_of_seconds(seconds)):
         raise MindError(f"{text!r:.60} says no {kind}: {flaw}", f"--on says it so: {module.USAGE}")
-    return Where(kind, argument)
+    return Where(kind, argument, int(seconds or STEP_SECONDS))
 
 
 def usages() -> str:
@@ -89,4 +98,10 @@ def usages() -> str:
 
 def kinds_by_usage() -> dict[str, str]:
     """How each kind is said, by its name."""
-    return {kind: import_module(f"{__name__}.{kind}").USAGE for kind in kinds()}
+    return {kind: import_module(f"{__name__}.{kind}").USAGE for kind in KINDS}
+
+
+def _flaw_of_seconds(text: str) -> str:
+    if text.isascii() and text.isdigit() and len(text) <= len(f"{MAX_STEP_SECONDS}"):
+        return "" if 1 <= int(text) <= MAX_STEP_SECONDS else f"a step takes 1 to {MAX_STEP_SECONDS} seconds"
+    return "the seconds of a step are no whole number"

@@ -4,10 +4,9 @@ from collections.abc import Callable
 from importlib.util import find_spec
 
 from mindrun.errors import MindError
-from mindrun.work.assignment import Assignment
-from mindrun.work.executor import JobExecutor
 
-from mindlang.cluster.scheduler import address_of, destination, flaw_of
+from mindlang.executors.jobs import Assignment, JobExecutor
+from mindlang.executors.scheduler import address_of, destination, flaw_of
 
 USAGE = "dask:scheduler.json or dask:tls://HOST:8786, with ,tls.pem or ,trusted"
 
@@ -25,7 +24,7 @@ def flaw(argument: str) -> str:
 
 def begin(argument: str, assignment: Assignment, say: Callable[[str], object]) -> JobExecutor:
     """Whoever is connected to the scheduler, now or later."""
-    from mindlang.cluster.connection import connect
-    from mindlang.cluster.jobs import ClusterJobs
+    from mindlang.executors.cluster_jobs import ClusterJobs
+    from mindlang.executors.connection import connect
 
     return ClusterJobs(connect(destination(argument)), assignment, say)

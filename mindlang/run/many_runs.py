@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING
 
 from mindrun.graph.run_scores import Scores
 from mindrun.processors import cpu_seconds
-from mindrun.work.blocks import Block, empty_scores, place
-from mindrun.work.job_scorer import JobScorer
 
+from mindlang.executors.job_scorer import Block, JobScorer, empty_scores, place
 from mindlang.run.layouts import NO_GENOME
 
 if TYPE_CHECKING:

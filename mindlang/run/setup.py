@@ -12,9 +12,9 @@ from mindrun.graph.graph import Task
 from mindrun.graph.one_world import is_one_world
 from mindrun.graph.skill_sets import owners, reachable
 from mindrun.terminal.command_line import command_line
-from mindrun.work.assignment import Assignment
 
 from mindlang.compiler.compile import Compiled
+from mindlang.executors.jobs import Assignment
 from mindlang.lock.ready import ReadyMind, make_ready
 from mindlang.run.chosen_task import SetupError as SetupError
 from mindlang.run.chosen_task import master_of as master_of

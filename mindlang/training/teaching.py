@@ -10,6 +10,7 @@ from mindrun.graph.policy import Policy
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.rollouts import rollout_for
 from mindrun.terminal.command_line import command_line
+from mindrun.train.kept_segments import KeptSegments, RememberingExecutor
 from mindrun.train.lesson import Clock
 from mindrun.train.lesson_state import Course, LessonState, is_over
 from mindrun.train.population import founder_count
@@ -18,13 +19,10 @@ from mindrun.train.scoring import Scorer
 from mindrun.train.seeds import breeding_generator, layouts
 from mindrun.train.stretch_threads import StretchThreads
 from mindrun.train.training import Watch, train
-from mindrun.work import WorkError
-from mindrun.work.assignment import Assignment
-from mindrun.work.executor import StretchExecutor
-from mindrun.work.job_scorer import JobScorer
-from mindrun.work.kept_segments import KeptSegments, RememberingExecutor
 
 from mindlang.executors import Where, scorer_on
+from mindlang.executors.job_scorer import JobScorer
+from mindlang.executors.jobs import Assignment, StretchExecutor, WorkError
 from mindlang.limits import refuse_too_large, refuse_too_long
 from mindlang.training.lock_update import Kept, keep
 from mindlang.training.results import Result, result_of

@@ -26,6 +26,10 @@ from mindrun.terminal.arguments import emptiness
 
 OK, FAILED, MISUSE, INTERRUPTED = 0, 1, 2, 130
 MAX_LINE_CHARACTERS = 1 << 20  # of one line of readings
+WORK = "work"  # was a tool
+INSTEAD_OF_WORK = (
+    "Dask's workers do its jobs: dask worker --scheduler-file scheduler.json, for mindc train --on dask:scheduler.json"
+)
 
 
 def main() -> None:
@@ -64,6 +68,8 @@ def _command() -> int:
     words = sys.argv[1:]
     if flaw := emptiness(words):
         raise MindError(flaw, "write something there, or leave it out")
+    if words[:1] == [WORK]:
+        raise MindError(f"there is no mindrun {WORK} any more", INSTEAD_OF_WORK)
     return run_tool(words[0], words[1:]) if words and words[0] in tools() else run(driving_parser().parse_args())
 
 

@@ -12,7 +12,7 @@ from tests.pages.running import Reader
 from tests.pages.transcript import Command
 
 NOT_RUN = {  # what cannot be, by what it begins with or contains
-    r"--on (ssh|command|dask|processes)": "other machines, or tests/work and tests/cluster",
+    r"--on (ssh|slurm|dask|processes)": "other machines, or tests/executors",
     r"^mindc deploy|robot\.local": "a robot",
     r"^mindc view (?!.*--export)|--view": "a page that is shown until somebody ends it",
     r"^(~/.*)?mindrun ": "a robot, or a dry run, which takes its real time",

@@ -35,13 +35,16 @@ COMMANDS = {  # of the runtime, and why each may speak
     "cli/tools/doctor.py": "mindrun doctor",
     "cli/tools/replay.py": "mindrun replay",
     "cli/tools/report.py": "mindrun report",
-    "cli/tools/work.py": "mindrun work: a worker whose environment hangs, or whom nobody hears, ends in its midst",
 }
-PROGRAMS = {"robot/driver_inspection.py": "a process that imports a driver of a user, whatever that does"}
+PROGRAMS = {
+    "executors/processes.py": "a worker that ends with who asked it, whatever it is doing",
+    "robot/driver_inspection.py": "a process that imports a driver of a user, whatever that does",
+}
 TIMED = {
     "api.py": "a lesson notes when it began, and counts its seconds",
-    "cluster/answering.py": "what a worker of Dask runs, as mindrun work is what one behind pipes runs",
-    "cluster/jobs.py": "a scheduler is asked for its workers once a second",
+    "executors/cluster_jobs.py": "a scheduler is asked for its workers once a second",
+    "executors/processes.py": "how long an environment has been at a step",
+    "executors/worker.py": "a job says how long it took",
     "run/many_runs.py": "a bench counts the seconds of its runs",
 }
 

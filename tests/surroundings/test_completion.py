@@ -8,7 +8,6 @@ from pathlib import Path
 
 import pytest
 
-from mindlang.executors import kinds
 from tests.calling import Call
 
 MIND = """
@@ -53,7 +52,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
         ("mindc lint --format=sa", ["plain,sarif"]),
         ("mindc check bal", ["file,bal"]),
         ("mindc train a.mind --on t", ["plain,threads"]),
-        ("mindc train a.mind --on d", [f"plain,{kind}:" for kind in kinds() if kind.startswith("d")]),
+        ("mindc train a.mind --on d", [f"plain,{kind}:" for kind in KINDS if kind.startswith("d")]),
         ("mindc run a.mind --task W", ["plain,Walk", "plain,Wait"]),
         ("mindc run --task Wal", ["plain,Walk"]),
         ("mindc bench a.mind --master W", ["plain,Wander", "plain,Watch"]),

@@ -4,9 +4,9 @@ from pathlib import Path
 
 import pytest
 from mindrun.errors import MindError
-from mindrun.work import WorkError
 
-from mindlang.cluster.scheduler import Destination, address_of, destination, flaw_of
+from mindlang.executors.jobs import WorkError
+from mindlang.executors.scheduler import Destination, address_of, destination, flaw_of
 
 FILES = {
     "open.json": b'{"address": "tcp://10.1.2.3:8786"}',

@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mindrun.train.attempts import side_by_side
+from mindrun.train.kept_segments import NAME, KeptSegments, RememberingExecutor
 from mindrun.train.lesson_state import Course, LessonState, begin
-from mindrun.work.kept_segments import NAME, KeptSegments, RememberingExecutor
 
 from tests.train.climbing import LENGTH, Sphere, lesson
 from tests.train.test_attempts import COURSES, Shuffled, one_by_one, timeless

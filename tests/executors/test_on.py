@@ -8,28 +8,13 @@ from pathlib import Path
 from time import sleep
 
 import pytest
-from mindrun.work.frame import unpack
-from mindrun.work.worker import READY
 
 from tests.train.test_train_command import LONG, MIND, mindc
 
 TAUGHT = ("drive.mind", "Go", "--seed", "3", "--generations", "6", "--attempts", "3", "--from-scratch", "--json")
 
-SRUN = """\
-# Standard output as SLURM's slurmstepd passes it on: what is no whole line waits until there are 1,024 bytes.
-import subprocess, sys
-with subprocess.Popen(sys.argv[3:], stdout=subprocess.PIPE, bufsize=0) as worker:
-    kept = b""
-    while part := worker.stdout.read(1 << 16):
-        kept += part
-        whole = len(kept) if len(kept) >= 1024 else kept.rfind(b"\\n") + 1
-        sys.stdout.buffer.write(kept[:whole])
-        sys.stdout.buffer.flush()
-        kept = kept[whole:]
-"""
 TIMES = "seconds", "ticks_per_second", "cpu_seconds", "ticks_per_cpu_second", "workers", "on"
 RUN = "runs/Go-on-Reach/*"
-pytestmark = pytest.mark.slow  # the next issue takes this out: Dask alone is to make runs elsewhere
 
 
 def weights(folder: Path, *words: str) -> dict[str, str]:
@@ -46,15 +31,6 @@ def test_the_weights_are_the_same_on_threads_and_on_workers(tmp_path: Path) -> N
     assert weights(tmp_path / "threads", "--on", "threads", "--workers", "2") == expected
     assert weights(tmp_path / "more threads", "--workers", "4") == expected
     assert weights(tmp_path / "processes", "--on", "processes:2") == expected
-    assert weights(tmp_path / "command", "--on", f"command:{sys.executable} -m mindrun work --threads 1") == expected
-
-
-def test_srun_passes_on_whole_lines_alone(tmp_path: Path) -> None:
-    srun = tmp_path / "srun"
-    srun.write_text(f"#!{sys.executable}\n{SRUN}")
-    srun.chmod(0o755)
-    words = f"command:2:'{srun}' -n 1 {sys.executable} -m mindrun work --threads 1"
-    assert weights(tmp_path / "srun's", "--on", words) == weights(tmp_path / "threads")
 
 
 def test_of_a_single_attempt_the_runs_are_the_jobs(tmp_path: Path) -> None:
@@ -62,7 +38,7 @@ def test_of_a_single_attempt_the_runs_are_the_jobs(tmp_path: Path) -> None:
     assert weights(tmp_path / "processes", "--attempts", "1", "--on", "processes:2") == expected
 
 
-@pytest.mark.parametrize("words", [(), ("--no-interruption", "--master", "Drive"), ("drive.mind", "--master", "Go")])
+@pytest.mark.parametrize("words", [("--no-interruption", "--master", "Drive"), ("drive.mind", "--master", "Go")])
 def test_many_runs_are_the_same_wherever_they_are_made(tmp_path: Path, words: tuple[str, ...]) -> None:
     (tmp_path / "drive.mind").write_text(MIND)
     assert mindc(tmp_path, "drive.mind", "Go", "Drive", "--seed", "3", "-q").returncode == 0
@@ -99,14 +75,6 @@ def timeless(value: object) -> object:
     return [timeless(each) for each in value] if isinstance(value, list) else value
 
 
-def test_runs_that_nobody_makes_are_one_sentence(tmp_path: Path) -> None:
-    (tmp_path / "drive.mind").write_text(MIND)
-    assert mindc(tmp_path, "drive.mind", "Go", "Drive", "--seed", "3", "-q").returncode == 0
-    done = called(tmp_path, "bench", "drive.mind", "--task", "Reach", "--on", "command:false")
-    assert (done.returncode, done.stdout) == (1, "")
-    assert "no worker is left; the last, at false, ended: it ended" in done.stderr
-
-
 def called(folder: Path, *words: str) -> "subprocess.CompletedProcess[str]":
     command = [sys.executable, "-c", "from mindlang.cli import main; main()", *words]
     nothing = subprocess.DEVNULL
@@ -121,9 +89,13 @@ def called(folder: Path, *words: str) -> "subprocess.CompletedProcess[str]":
         ("processes:many", "it is no whole number"),
         ("ssh:", "a machine has no name"),
         ("ssh:a,-oProxyCommand=x", "is no machine"),
-        ("command:", "there are no words"),
-        ("command:0:true", "there are not 1 to 1024 of them"),
-        ("command:'a", "no closing quotation"),
+        ("ssh:a:no python", "is no machine"),
+        ("slurm:0", "is no number of jobs from 1 to 10000"),
+        ("slurm:8,nodes=2", "says none of cores, memory, queue, account, walltime"),
+        ("slurm:8,cores=many", "is no number of cores"),
+        ("processes:2,step-seconds=0", "a step takes 1 to 86400 seconds"),
+        ("processes:2,step-seconds=long", "the seconds of a step are no whole number"),
+        ("command:srun mindrun work", "any more; Dask begins workers now: --on ssh:a,b or --on slurm:8"),
     ],
 )
 def test_what_says_no_place_is_refused(tmp_path: Path, where: str, words: str) -> None:
@@ -134,15 +106,7 @@ def test_what_says_no_place_is_refused(tmp_path: Path, where: str, words: str) -
     assert not (tmp_path / "runs").exists()
 
 
-def test_a_command_that_is_no_worker_leaves_a_run_that_goes_on(tmp_path: Path) -> None:
-    (tmp_path / "drive.mind").write_text(MIND)
-    done = mindc(tmp_path, *TAUGHT, "--on", "command:false")
-    assert (done.returncode, "no worker is left" in done.stderr) == (1, True)
-    done = mindc(tmp_path, *TAUGHT)
-    assert done.returncode == 0, done.stderr
-
-
-@pytest.mark.parametrize("where", [("--workers", "2"), ("--on", "processes:2")])
+@pytest.mark.parametrize("where", [pytest.param(("--workers", "2"), marks=pytest.mark.slow), ("--on", "processes:2")])
 def test_stopped_with_ctrl_c_it_goes_on_to_the_same_weights_there_or_here(
     tmp_path: Path, where: tuple[str, ...]
 ) -> None:
@@ -165,26 +129,7 @@ def test_stopped_with_ctrl_c_it_goes_on_to_the_same_weights_there_or_here(
     }
 
 
-def test_the_first_ctrl_c_stops_where_no_worker_has_begun(tmp_path: Path) -> None:
-    (tmp_path / "drive.mind").write_text(MIND)
-    silent = f"{sys.executable} -c 'import sys; sys.stdin.read()'"
-    words = ["train", *TAUGHT, "--attempts", "1", "--on", f"command:{silent}"]
-    command = [sys.executable, "-c", "from mindlang.cli import main; main()", *words]
-    with subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
-        while process.poll() is None and not [*tmp_path.glob(f"{RUN}/progress.jsonl")]:
-            sleep(0.005)
-        process.send_signal(signal.SIGINT)
-        try:
-            _, talk = process.communicate(timeout=60)
-        finally:
-            process.kill()
-    assert process.returncode == 130, talk
-    assert "Ctrl-C again" not in talk
-    assert f"saved; to go on: mindc train --resume {next(tmp_path.glob(RUN)).relative_to(tmp_path)}" in talk
-    assert mindc(tmp_path, "--resume", str(next(tmp_path.glob(RUN)))).returncode == 0
-
-
-@pytest.mark.parametrize("where", [("--workers", "2"), ("--on", "processes:2")])
+@pytest.mark.parametrize("where", [pytest.param(("--workers", "2"), marks=pytest.mark.slow), ("--on", "processes:2")])
 def test_killed_it_goes_on_to_the_same_weights(tmp_path: Path, where: tuple[str, ...]) -> None:
     (tmp_path / "drive.mind").write_text(MIND)
     words = (*LONG, "--attempts", "3")
@@ -198,6 +143,7 @@ def test_killed_it_goes_on_to_the_same_weights(tmp_path: Path, where: tuple[str,
     assert json.loads(mindc(tmp_path, "--resume", run, "--json").stdout)["weights"] == expected
 
 
+@pytest.mark.slow
 def test_event_files_have_every_generation_once_wherever_they_were_made(tmp_path: Path) -> None:
     pytest.importorskip("tensorboardX", reason="event files are written with tensorboardX")
     weights(tmp_path / "here", "--tensorboard")
@@ -217,9 +163,8 @@ def scores(path: Path) -> dict[str, dict[int, float]]:
     return {tag: steps for tag, steps in read(path).items() if tag != SPEED}
 
 
-def test_a_worker_that_is_sent_no_frame_says_so() -> None:
-    command = [sys.executable, "-m", "mindrun", "work"]
-    done = subprocess.run(command, input=b"hello there, worker", capture_output=True, check=False)
-    assert done.returncode == 2
-    assert unpack(done.stdout.removesuffix(b"\n")).kind == READY  # which it says before it is asked, and no more
-    assert b"standard input is no frame: it begins with b'hello th'" in done.stderr
+def test_who_types_mindrun_work_is_told_what_takes_its_place() -> None:
+    done = subprocess.run([sys.executable, "-m", "mindrun", "work", "--threads", "1"], capture_output=True, check=False)
+    assert (done.returncode, done.stdout) == (2, b"")
+    assert b"there is no mindrun work any more" in done.stderr
+    assert b"dask worker --scheduler-file scheduler.json" in done.stderr

@@ -1,31 +1,39 @@
 """What attempts ahead of their turn have come to, in a file of the run: a run that goes on has not to do it again.
 
-A frame that says of which run and build it is, then the segments of each attempt, the first first. A stretch that
-begins where one of them did has that for its answer, since a segment depends on its stretch alone. A file that is
-damaged, or of another run or build, is as none.
+The file is a JSON line that says of which run and build it is, the segments of each attempt in their order, a NumPy
+array each, and the SHA-256 of all that. A stretch that begins where one of them did has that for its answer, since a
+segment depends on its stretch alone. A file that is damaged, or of another run or build, is as none.
 """
 
+import json
 from contextlib import suppress
+from dataclasses import astuple
+from hashlib import sha256
 from io import BytesIO
+from math import isnan, nan
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mindrun.files.atomic_write import write
 from mindrun.files.regular_files import read_whole
+from mindrun.train.attempt import Verdict
 from mindrun.train.attempts import AttemptExecutor
+from mindrun.train.build import own_build
 from mindrun.train.lesson import Clock
-from mindrun.train.lesson_state import AttemptState, Course, begin_attempt
+from mindrun.train.lesson_state import AttemptState, Course, Record, begin_attempt
+from mindrun.train.population import Population
 from mindrun.train.rungs import rung_at
 from mindrun.train.segment import Joined, Segment, Stretch
-from mindrun.work.build import own_build
-from mindrun.work.frame import Frame, FrameError, pack, read, unpack
-from mindrun.work.stretch_frame import segment_frame, segment_of
 
-NAME, KIND = "ahead", "ahead"
+NAME = "ahead"
+DIGEST_BYTES = 32
 MAX_FILE_BYTES = 1 << 30
 SAVE_SECONDS = 2.0  # between two times that the file is written anew, at least
 MAX_SAVE_SHARE = 0.05  # of the time that goes into writing it
+RECORD_NUMBERS, VERDICT_NUMBERS = 9, 5  # of a record and a verdict, in the order of their fields; NaN for None
 
 Chain = list[Joined]  # of an attempt, from rung to rung, each from where that before ends
 
@@ -35,9 +43,9 @@ class KeptSegments:
 
     def __init__(self, folder: Path, identity: str, course: Course) -> None:
         self.path, self.course = folder / NAME, course
-        self._about = {"identity": identity, "build": dict(own_build())}
+        self._head = json.dumps({"run": identity, "build": dict(own_build())}).encode() + b"\n"
         self.chains: dict[int, Chain] = {}
-        with suppress(OSError, FrameError):
+        with suppress(OSError, ValueError, EOFError, LookupError, TypeError, MemoryError):
             self.chains = self._read(read_whole(self.path, MAX_FILE_BYTES))
 
     def find(self, stretch: Stretch) -> Segment | None:
@@ -70,25 +78,25 @@ class KeptSegments:
         if not any(self.chains.values()):
             self.path.unlink(missing_ok=True)
             return
-        frames = [Frame(KIND, self._about)]
-        frames += [segment_frame(number, each.whole()) for number, chain in self.chains.items() for each in chain]
-        with suppress(OSError, FrameError):
-            write(self.path, b"".join(pack(frame) for frame in frames))
+        body = BytesIO(self._head)
+        body.seek(0, 2)
+        for number, chain in self.chains.items():
+            for each in chain:
+                np.save(body, _row(number, each.whole()), allow_pickle=False)
+        data = body.getvalue()
+        with suppress(OSError):
+            write(self.path, data + sha256(data).digest())
 
     def _read(self, data: bytes) -> dict[int, Chain]:
-        stream, chains = BytesIO(data), dict[int, Chain]()
-        first = read(stream)
-        if first is None or unpack(first) != Frame(KIND, self._about):
+        """The chains in the bytes of a file; ValueError where it is damaged, none where it is of another run."""
+        body, digest = data[:-DIGEST_BYTES], data[-DIGEST_BYTES:]
+        if not body.startswith(self._head) or sha256(body).digest() != digest:
             return {}
-        while (part := read(stream)) is not None:
-            frame = unpack(part)
-            number = frame.about.get("number")
-            if not isinstance(number, int):
-                raise FrameError("it does not say of which attempt it is")
-            chain = chains.setdefault(number, [])
-            start = chain[-1].state if chain else begin_attempt(self.course)
-            stretch = Stretch(number, start)
-            chain.append(Joined(segment_of(frame, self.course, stretch, self.course.lesson.generations)))
+        chains, stream = dict[int, Chain](), BytesIO(body)
+        stream.seek(len(self._head))
+        while stream.tell() < len(body):
+            number, segment = _segment(np.load(stream, allow_pickle=False), self.course)
+            chains.setdefault(number, []).append(Joined(segment))
         return chains
 
 
@@ -156,3 +164,49 @@ def is_same(one: AttemptState, other: AttemptState) -> bool:
             (one.champion, other.champion),
         )
     )
+
+
+def _row(number: int, segment: Segment) -> NDArray[Any]:
+    """A segment of an attempt as one structured number."""
+    state, verdict = segment.state, segment.verdict
+    counts = number, state.population.generation, state.since, state.told_apart
+    records = [[nan if value is None else value for value in astuple(record)] for record in segment.records]
+    ends = [] if verdict is None else [[*verdict.scores, verdict.passed, verdict.ticks, verdict.faults]]
+    arrays: dict[str, NDArray[Any]] = {
+        "counts": np.array(counts, np.int64),
+        "genomes": state.population.genomes,
+        "scores": state.population.scores,
+        "champion": state.champion,
+        "rival": state.rival,
+        "climbed": state.climbed,
+        "champions": segment.champions,
+        "records": np.array(records, np.float64).reshape(-1, RECORD_NUMBERS),
+        "verdict": np.array(ends, np.float64).reshape(-1, VERDICT_NUMBERS),
+    }
+    row = np.zeros((), [(name, array.dtype, array.shape) for name, array in arrays.items()])
+    for name, array in arrays.items():
+        row[name] = array
+    return row
+
+
+def _segment(row: NDArray[Any], course: Course) -> tuple[int, Segment]:
+    """The number of an attempt and a segment of it; ValueError where it is none of the course."""
+    number, generation, since, told_apart = row["counts"].tolist()
+    genomes, champion, rival, champions = (row[name].copy() for name in ("genomes", "champion", "rival", "champions"))
+    weights = course.start.shape[1]
+    if any(each.shape[1] != weights or not np.isfinite(each).all() for each in (genomes, champion, rival, champions)):
+        raise ValueError("its genomes are not those of the course")
+    population = Population(genomes, row["scores"].copy(), generation)
+    state = AttemptState(population, champion, rival, since, row["climbed"].copy(), bool(told_apart))
+    records = tuple(map(_record, row["records"].tolist()))
+    verdict = None
+    for first, second, passed, ticks, faults in row["verdict"].tolist():
+        verdict = Verdict(np.array([first, second]), bool(passed), int(ticks), int(faults))
+    return number, Segment(state, records, champions, verdict)
+
+
+def _record(numbers: list[float]) -> Record:
+    """The record that these numbers are."""
+    attempt, generation, best, mean, reevaluated, verdict, ticks, seconds, faults = numbers
+    tried, judged = (None if isnan(value) else value for value in (reevaluated, verdict))
+    return Record(int(attempt), int(generation), best, mean, tried, judged, int(ticks), seconds, int(faults))

@@ -9,7 +9,8 @@ from pathlib import Path
 
 from mindrun.files.regular_files import read_whole
 from mindrun.terminal.command_line import command_line
-from mindrun.work import WorkError
+
+from mindlang.executors.jobs import WorkError
 
 TRUSTED = "trusted"  # the network is, and nothing has to be encrypted
 MAX_FILE_BYTES = 1 << 24

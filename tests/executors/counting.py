@@ -1,5 +1,6 @@
 """A scorer whose results are plain arithmetic of a genome and a seed, with all that a rollout's have; and executors."""
 
+import pickle
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from types import SimpleNamespace
@@ -7,11 +8,10 @@ from typing import Any
 
 import numpy as np
 from mindrun.graph.run_scores import Scores
-from mindrun.work.assignment import Assignment
-from mindrun.work.executor import Read
-from mindrun.work.frame import FrameError, unpack
-from mindrun.work.worker import KEPT, LACKS, Worker
 from numpy.typing import NDArray
+
+from mindlang.executors.jobs import Assignment, Done, Work
+from mindlang.executors.worker import answer
 
 LENGTH, TICKS = 3, 100
 ASSIGNMENT = Assignment(b"no bundle", "Count", "Count")
@@ -61,8 +61,9 @@ class Shuffling:
     choices: Iterable[int]
     width: int = 2
     assignment: Assignment = ASSIGNMENT
-    jobs: list[tuple[int, bytes, Read]] = field(default_factory=list)
-    worker: Worker = field(default_factory=lambda: Worker(lambda assignment: Counting(), iter(range(10**9)).__next__))
+    has_begun: bool = True
+    jobs: list[tuple[int, Work]] = field(default_factory=list)
+    scorer: Counting = field(default_factory=Counting)
 
     def __post_init__(self) -> None:
         self.choices = iter(self.choices)
@@ -74,25 +75,20 @@ class Shuffling:
     def has_room(self) -> bool:
         return len(self.jobs) < self.width
 
-    def submit(self, number: int, data: bytes, read: Read) -> None:
-        self.jobs.append((number, data, read))
+    def submit(self, number: int, work: Work) -> None:
+        self.jobs.append((number, pickle.loads(pickle.dumps(work))))
 
-    def take(self) -> tuple[int, Any] | None:
+    def take(self) -> tuple[int, Done] | None:
         choice = next(self.choices, 0)  # type: ignore[call-overload]
         if not self.jobs:
             return None
-        number, data, read = self.jobs[choice % len(self.jobs)]
-        answer = unpack(self.worker.answer(data))
-        if answer.kind == LACKS:
-            assert unpack(self.worker.answer(self.assignment.packed)).kind == KEPT
-            answer = unpack(self.worker.answer(data))
+        number, work = self.jobs[choice % len(self.jobs)]
+        found = answer(lambda: self.scorer, work)
+        assert isinstance(found, Done), found
         if choice < 0:
             return None
-        self.jobs.remove((number, data, read))
-        try:
-            return number, read(answer)
-        except FrameError as error:
-            raise AssertionError(f"an honest worker is refused: {error}") from error
+        self.jobs = [job for job in self.jobs if job[0] != number]
+        return number, pickle.loads(pickle.dumps(found))
 
     def close(self) -> None:
         self.jobs.clear()

@@ -12,9 +12,9 @@ from time import sleep
 
 import pytest
 
-from mindlang.cluster.scheduler import TLS, sbatch
+from mindlang.executors.scheduler import TLS, sbatch
+from tests.executors.test_on import RUN, called
 from tests.train.test_train_command import LONG, MIND, mindc
-from tests.work.test_on import called
 
 pytest.importorskip("distributed", reason="distributed is not installed: pip install 'mindlang[cluster]'")
 
@@ -23,22 +23,23 @@ TAUGHT = ("drive.mind", "Go", "--seed", "3", "--generations", "6", "--attempts",
 CLUSTER = """
 import sys
 from distributed import LocalCluster, Security
-pem = sys.argv[1]
+pem, workers = sys.argv[1], int(sys.argv[2])
 tls = {"protocol": "tls", "security": Security(**{f"tls_{who}_{what}": pem for who in ("client", "scheduler", "worker")
     for what in ("cert", "key")}, tls_ca_file=pem, require_encryption=True)} if pem else {}
 if __name__ == "__main__":
-    with LocalCluster(n_workers=1, threads_per_worker=2, dashboard_address=None, host="127.0.0.1", **tls) as cluster:
+    here = {"host": "127.0.0.1", "dashboard_address": None, "threads_per_worker": 2}
+    with LocalCluster(n_workers=workers, **here, **tls) as cluster:
         print(cluster.scheduler_address, flush=True)
         sys.stdin.read()
 """
 
 
-def cluster_on_this_machine(folder: Path, pem: str = "") -> Iterator[str]:
-    """The address of a scheduler, whose one worker has two threads."""
+def cluster_on_this_machine(folder: Path, pem: str = "", workers: int = 1) -> Iterator[str]:
+    """The address of a scheduler, each of whose workers has two threads."""
     (folder / "cluster.py").write_text(CLUSTER)
     sources = {"PYTHONPATH": os.pathsep.join([str(ROOT), str(ROOT / "runtime")])}
     with subprocess.Popen(
-        [sys.executable, "cluster.py", pem],
+        [sys.executable, "cluster.py", pem, f"{workers}"],
         cwd=folder,
         env=os.environ | sources,
         text=True,
@@ -117,6 +118,25 @@ def test_ctrl_c_leaves_a_run_that_goes_on_to_the_same_weights(project: Path, clu
     assert process.returncode in (0, 130), talk  # a short lesson may have ended
     assert "Traceback" not in talk
     assert weights(project, *LONG, "--on", f"dask:{cluster}") == expected
+
+
+@pytest.mark.slow
+def test_the_first_ctrl_c_stops_where_no_worker_has_begun(project: Path) -> None:
+    for address in cluster_on_this_machine(project, workers=0):
+        words = ["train", *TAUGHT, "--attempts", "1", "--on", f"dask:{address}"]
+        command = [sys.executable, "-c", "from mindlang.cli import main; main()", *words]
+        with subprocess.Popen(command, cwd=project, stderr=subprocess.PIPE, text=True) as process:
+            while process.poll() is None and not [*project.glob(f"{RUN}/progress.jsonl")]:
+                sleep(0.005)
+            process.send_signal(signal.SIGINT)
+            try:
+                _, talk = process.communicate(timeout=60)
+            finally:
+                process.kill()
+        assert process.returncode == 130, talk
+        assert "Ctrl-C again" not in talk
+        assert f"saved; to go on: mindc train --resume {next(project.glob(RUN)).relative_to(project)}" in talk
+    assert mindc(project, "--resume", str(next(project.glob(RUN)))).returncode == 0
 
 
 @pytest.mark.parametrize(

@@ -7,28 +7,23 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
-from mindrun.train.attempts import side_by_side
 from mindrun.train.lesson import teach
-from mindrun.train.lesson_state import Course, begin
+from mindrun.train.lesson_state import begin
 from mindrun.train.segment import Segment
-from mindrun.work import WorkError
-from mindrun.work.executor import StretchExecutor
-from mindrun.work.frame import Frame, pack
 
-from tests.train.climbing import LENGTH, Sphere, lesson
-from tests.work.test_crew import timeless
-from tests.work.working import ASSIGNMENT
+from mindlang.executors.jobs import StretchExecutor, WorkError
+from tests.executors.spheres import ASSIGNMENT
+from tests.executors.test_processes import COURSE, taught, timeless
+from tests.train.climbing import Sphere
 
 pytest.importorskip("distributed", reason="distributed is not installed: pip install 'mindlang[cluster]'")
 
-from mindlang.cluster import jobs as cluster_jobs
-from mindlang.cluster.connection import connect
-from mindlang.cluster.jobs import ClusterJobs
-from mindlang.cluster.scheduler import destination
+from mindlang.executors import cluster_jobs
+from mindlang.executors.cluster_jobs import ClusterJobs
+from mindlang.executors.connection import connect
+from mindlang.executors.scheduler import destination
 
-COURSE = Course(lesson(250, attempts=5, rungs=2), 1, np.empty((0, LENGTH), np.float32))
 ROOT = Path(__file__).parents[2]
 KILLS = 2
 pytestmark = [pytest.mark.slow, pytest.mark.filterwarnings("ignore")]  # of Dask's own
@@ -66,19 +61,12 @@ def cluster() -> Iterator[Any]:
 @contextmanager
 def jobs_of(cluster: Any, function: str = "right", say: Callable[[str], object] = print) -> Iterator[ClusterJobs]:
     found = ClusterJobs(
-        connect(destination(cluster.scheduler_address)), ASSIGNMENT, say, f"tests.cluster.answers.{function}"
+        connect(destination(cluster.scheduler_address)), ASSIGNMENT, say, f"tests.executors.spheres.{function}"
     )
     try:
         yield found
     finally:
         found.close()
-
-
-def taught(jobs: ClusterJobs, make: type[StretchExecutor] = StretchExecutor) -> bytes:
-    last = begin(COURSE)
-    for step in side_by_side(COURSE, make(COURSE, jobs), last, lambda: False):
-        last = step.state
-    return timeless(last)
 
 
 @pytest.fixture(scope="module")
@@ -87,37 +75,26 @@ def expected() -> bytes:
     return timeless(state)
 
 
-@pytest.mark.parametrize("function", ["right", "now_and_then_nonsense"])
-def test_the_bits_are_those_of_one_machine(cluster: Any, expected: bytes, function: str) -> None:
-    with jobs_of(cluster, function) as jobs:
+def test_the_bits_are_those_of_one_machine(cluster: Any, expected: bytes) -> None:
+    with jobs_of(cluster) as jobs:
         assert taught(jobs) == expected
 
 
 @pytest.mark.parametrize(
     ("function", "words"),
     [
-        ("nonsense", "a job was lost 5 times, the last time its answer was nonsense: "),
-        ("garbage", "a job was lost 5 times, .* nonsense: it begins with b'Welcome "),
-        ("no_bytes", "answers with no bytes"),
-        ("raises", "a job failed at .*: RuntimeError: out of luck"),
+        ("no_answer", "answers with something else"),
+        ("raising", "a job failed at .*: RuntimeError: out of luck"),
         ("missing", "has no such mindlang: .*'missing'"),
-        ("deadly", "a job was lost 5 times, the last time its workers ended, the last at "),
+        ("killing", "a job was lost 5 times, the last time its workers ended, the last at "),
+        ("of_another_build", "a worker at .* is of another build: numpy is .* at the worker, and 1.0 where the job"),
     ],
 )
-def test_a_job_that_cannot_be_done_is_one_sentence(cluster: Any, function: Callable[..., Any], words: str) -> None:
+def test_a_job_that_cannot_be_done_is_one_sentence(cluster: Any, function: str, words: str) -> None:
     with jobs_of(cluster, function) as jobs, pytest.raises(WorkError, match=words) as error:
         taught(jobs)
     assert len(str(error.value)) <= 1000
     assert error.value.hint
-
-
-def test_a_worker_of_another_build_refuses_in_words(cluster: Any) -> None:
-    with jobs_of(cluster) as jobs:
-        about = {"build": {"numpy": "1.0"}, "assignment": ASSIGNMENT.name}
-        jobs.submit(1, pack(Frame("advance", about)), lambda answer: answer)
-        with pytest.raises(WorkError, match="of another build: mindrun is") as error:
-            next(filter(None, iter(jobs.take, 0)))
-    assert "install the same" in error.value.hint
 
 
 class Killing(StretchExecutor):
@@ -135,7 +112,7 @@ class Killing(StretchExecutor):
 
 
 def test_killed_again_and_again_nothing_is_lost(expected: bytes) -> None:
-    with begun() as cluster, jobs_of(cluster, "slow") as jobs:  # whose worker does not begin anew at this moment
+    with begun() as cluster, jobs_of(cluster, "delayed") as jobs:  # whose worker does not begin anew at this moment
         Killing.pids = lambda: [nanny.pid for nanny in cluster.workers.values() if nanny.pid]
         assert taught(jobs, Killing) == expected
     assert Killing.killed == KILLS
@@ -157,7 +134,7 @@ def test_without_workers_it_says_so_and_waits(expected: bytes, monkeypatch: pyte
 
 
 def test_a_scheduler_that_is_gone_is_one_sentence() -> None:
-    with begun() as cluster, jobs_of(cluster, "slow") as jobs:
+    with begun() as cluster, jobs_of(cluster, "delayed") as jobs:
 
         class Closing(StretchExecutor):
             def take(self) -> tuple[int, Segment] | None:

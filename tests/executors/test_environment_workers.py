@@ -16,10 +16,11 @@ import numpy as np
 from mindrun.graph.bundle import Bundle
 from mindrun.graph.bundle import pack as pack_bundle
 from mindrun.graph.policy import Policy
-from mindrun.work.assignment import Assignment
-from mindrun.work.job_scorer import JobScorer
-from mindrun.work.local import local_workers
 
+from mindlang.executors.job_scorer import JobScorer
+from mindlang.executors.jobs import Assignment
+from mindlang.executors.processes import ProcessJobs
+from tests.executors.test_on_dask import cluster_on_this_machine
 from tests.outside import minds
 
 ROOT = Path(__file__).parents[2]
@@ -58,8 +59,19 @@ def test_the_weights_are_those_of_any_number_of_processes(tmp_path: Path) -> Non
     expected = taught(tmp_path / "one", "--workers", "1")
     assert taught(tmp_path / "three", "--workers", "3") == expected
     assert taught(tmp_path / "attempts", "--on", "processes:2") == expected  # each attempt in a process
-    assert taught(tmp_path / "inner", "--on", f"command:{sys.executable} -m mindrun work --threads 2") == expected
     assert taught(tmp_path / "talking", "--workers", "2", world="Talking") == expected
+
+
+@pytest.mark.slow
+def test_the_weights_are_those_of_a_cluster_which_tells_a_step_that_never_ends(tmp_path: Path) -> None:
+    pytest.importorskip("distributed")
+    expected = taught(tmp_path / "here", "--workers", "1")
+    for address in cluster_on_this_machine(tmp_path):
+        assert taught(tmp_path / "there", "--on", f"dask:{address}") == expected
+        folder = project(tmp_path / "hanging", "tests/Hanging")
+        done = mindc(folder, "train", "go.mind", "--seed", "1", "--on", f"dask:{address},step-seconds=2")
+        assert "does not come back from step 3 of the run of" in " ".join(done.stderr.split())
+        assert done.returncode == 1
 
 
 def test_many_runs_are_the_same_in_any_number_of_processes(tmp_path: Path) -> None:
@@ -83,7 +95,7 @@ def test_a_module_beside_the_mind_is_found_from_elsewhere(tmp_path: Path) -> Non
     (folder / "beside_me.py").write_text(
         "import gymnasium\nfrom tests.outside.worlds import Line\ngymnasium.register('Mine-v0', Line)\n"
     )
-    for on in ((), ("--on", f"command:{sys.executable} -m mindrun work --threads 2 --folder {folder}")):
+    for on in ((), ("--on", "processes:1")):
         done = mindc(tmp_path, "train", "beside/go.mind", "--seed", "1", "-q", "--force", *on)
         assert (done.returncode, done.stderr) == (0, "")
 
@@ -96,16 +108,16 @@ def test_a_module_beside_the_mind_is_found_from_elsewhere(tmp_path: Path) -> Non
         ("Misshapen", ("failed", "an observation has the shape (3,), and its space says (2,)")),
         ("Blind", ("Go has learnt nothing: on 100 of 100 fresh layouts a reward or a command",)),
         ("Generous", ("Go has learnt nothing: on 100 of 100 fresh layouts a reward or a command",)),
-        ("Dying", ("a job has ended 5 workers", "--resume")),
+        ("Dying", ("a job has ended 5 workers", "in step 3 of the run of seed", "Dying-v0", "--resume")),
         ("Hanging", ("the environment tests.outside.kept:tests/Hanging-v0 does not come back from step 3 of the run of",
-                     "in 2 seconds", "--step-seconds")),
+                     "in 2 seconds", "step-seconds=")),
     ],
 )  # fmt: skip
 def test_what_an_environment_does_wrong_in_a_process_is_one_message(
     tmp_path: Path, world: str, words: tuple[str, ...]
 ) -> None:
     folder = project(tmp_path, f"tests/{world}")
-    on = ("--on", f"command:2:{sys.executable} -m mindrun work --threads 1 --step-seconds 2")
+    on = ("--on", "processes:2,step-seconds=2")
     done = mindc(folder, "train", "go.mind", "--seed", "1", *on)
     assert done.returncode == 1
     assert all(each in " ".join(done.stderr.split()) for each in words), done.stderr
@@ -119,25 +131,23 @@ def test_workers_end_with_who_asked_them_even_in_a_step_that_hangs(tmp_path: Pat
     path = os.pathsep.join([str(ROOT), str(ROOT / "runtime")])
     words = [sys.executable, "-c", "from mindlang.cli import main; main()", "train", "go.mind", "--workers", "2"]
     asking = subprocess.Popen(words, cwd=folder, env={**os.environ, "PYTHONPATH": path}, stderr=subprocess.DEVNULL)
-    until(lambda: sum("work" in each.split("\0") for each in workers_of(folder)) == 2)
+    until(lambda: sum("spawn_main" in each for each in workers_of(folder)) == 2)
     asking.kill()
     asking.wait()
     until(lambda: workers_of(folder) == [])
 
 
-def test_a_worker_ends_with_its_jobs_whatever_threads_an_environment_has_left() -> None:
+def test_a_process_ends_with_its_jobs_whatever_threads_an_environment_has_left() -> None:
     rollout = minds.rollout_of(minds.text(scene="tests.outside.kept:tests/Threaded-v0"))
     bundle = pack_bundle(Bundle(Policy(rollout.graph, {"Go": minds.genomes(rollout, 1)[0]}), {}))
-    jobs = local_workers(1, 1, Assignment(bundle, "Go", "Go", folder=ROOT))
+    jobs = ProcessJobs(1, 1, Assignment(bundle, "Go", "Go", folder=ROOT))
     try:
         assert (JobScorer(rollout, jobs).score(np.zeros((1, 0), np.float32), [1]).ticks > 0).all()
-        process = jobs.children[0].process
-        assert process is not None
-        assert process.stdin is not None
-        process.stdin.close()
-        assert process.wait(60) == 0
+        process = jobs.members[0].process
     finally:
         jobs.close()
+    assert process is not None
+    assert process.exitcode is not None
 
 
 def until(holds: Callable[[], bool]) -> None:

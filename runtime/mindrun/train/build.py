@@ -1,4 +1,4 @@
-"""What a worker's results depend on beside its job: our sources, and the versions of what they compute with."""
+"""The build that results depend on: the sources of mindrun, and the versions of what they compute with."""
 
 import platform
 from collections.abc import Mapping
@@ -18,7 +18,7 @@ Build = Mapping[str, str]
 def own_build() -> Build:
     """That of this process."""
     major, minor, _ = platform.python_version_tuple()
-    found = {"mindrun": _sources(), "python": f"{major}.{minor}"}
+    found = {"mindrun": sources_hash(SOURCES), "python": f"{major}.{minor}"}
     for package in PACKAGES:
         try:
             found[package] = version(package)
@@ -27,21 +27,20 @@ def own_build() -> Build:
     return found
 
 
-def difference(asked: object, own: Build) -> str:
+def difference(asked: Build, own: Build) -> str:
     """How the build that a job is for differs from one's own, in words; nothing where it does not."""
-    if not isinstance(asked, Mapping):
-        return "the job does not say of which build it is"
-    for name, here in own.items():
-        there = asked.get(name)
+    for name in sorted(own.keys() | asked.keys()):
+        here, there = own.get(name), asked.get(name)
         if there != here:
             return f"{name} is {_shown(here)} at the worker, and {_shown(there)} where the job comes from"
     return ""
 
 
-def _sources() -> str:
+def sources_hash(folder: Path) -> str:
+    """The SHA-256 of the Python files below a folder, and of their names."""
     digest = sha256()
-    for path in sorted(SOURCES.rglob("*.py")):
-        digest.update(path.relative_to(SOURCES).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
+    for path in sorted(folder.rglob("*.py")):
+        digest.update(path.relative_to(folder).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
     return digest.hexdigest()
 
 

@@ -8,9 +8,9 @@ from pathlib import Path
 
 from distributed import Client
 from distributed.security import Security
-from mindrun.work import WorkError
 
-from mindlang.cluster.scheduler import Destination, address_of, refuse_open
+from mindlang.executors.jobs import WorkError
+from mindlang.executors.scheduler import Destination, address_of, refuse_open
 
 CONNECT_SECONDS = 10.0
 WHERE = re.compile(r"^in <[^>]*>: ")  # in which of its objects Dask has failed
@@ -20,24 +20,31 @@ SHOWN_CHARACTERS = 300  # of what Dask says
 def connect(there: Destination) -> Client:
     """A client of the scheduler there. WorkError where nobody answers, or others could listen."""
     address = address_of(there)
-    security = security_of(there, address)
-    # What Dask logs of connections that fail is said by whoever asked for them.
-    for name in ("distributed.client", "distributed.comm", "distributed.core", "distributed.batched"):
-        logging.getLogger(name).setLevel(logging.CRITICAL)
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter(
-                "ignore"
-            )  # other versions of what results do not depend on; a worker's build says more
-            client = Client(address, security=security, timeout=CONNECT_SECONDS, set_as_default=False, name="mindc")
-    except (OSError, ssl.SSLError, ValueError, TypeError, RuntimeError, ImportError) as error:
-        raise _unreachable(address, error) from error
+    client = client_of(address, security_of(there, address))
     try:
         refuse_open(client.scheduler_info()["address"], there)
     except WorkError:
         client.close()
         raise
     return client
+
+
+def client_of(address: str, security: Security) -> Client:
+    """A client of the scheduler at an address. WorkError where nobody answers."""
+    silence()
+    try:
+        with warnings.catch_warnings():
+            # Other versions of what results do not depend on: a worker's build says more.
+            warnings.simplefilter("ignore")
+            return Client(address, security=security, timeout=CONNECT_SECONDS, set_as_default=False, name="mindc")
+    except (OSError, ssl.SSLError, ValueError, TypeError, RuntimeError, ImportError) as error:
+        raise _unreachable(address, error) from error
+
+
+def silence() -> None:
+    """Have Dask log nothing of connections that fail: whoever asked for them says so."""
+    for name in ("client", "comm", "core", "batched", "deploy", "scheduler", "worker", "nanny"):
+        logging.getLogger(f"distributed.{name}").setLevel(logging.CRITICAL)
 
 
 def security_of(there: Destination, address: str) -> Security:

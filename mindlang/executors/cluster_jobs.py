@@ -1,0 +1,235 @@
+"""Jobs given to the workers of a Dask cluster, one future each; and what a worker there makes of one.
+
+Dask does the jobs of a worker that is lost again, and gives one up that has cost more than its scheduler allows
+(`distributed.scheduler.allowed-failures`, three). That may be bad luck where machines come and go: such a job is asked
+again here, MAX_LOSSES times. A worker unpickles a job only where it is of the same build.
+"""
+
+import multiprocessing
+import pickle
+from collections.abc import Callable
+from concurrent.futures import CancelledError
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from functools import cache, lru_cache
+from pathlib import Path
+from queue import Empty, Queue
+from threading import local
+from time import monotonic
+from typing import Any
+from weakref import finalize
+
+from distributed import Client, Future, KilledWorker, get_worker
+from mindrun.train.build import Build, difference, own_build, sources_hash
+
+from mindlang.executors.job_scorer import JobScorer
+from mindlang.executors.jobs import FATAL, MAX_LOSSES, TAKE_SECONDS, Assignment, Done, Work, WorkError
+from mindlang.executors.processes import ProcessJobs
+from mindlang.executors.worker import answer, rollout_of
+
+LOOK_SECONDS = 1.0  # between two times that the scheduler is asked for its workers
+RESULT_SECONDS = 30.0  # to wait for the bytes of a job that has ended, before who asks may look at something else
+WAIT_SECONDS = 5.0  # without a worker, before it is said that there is none
+INSTALL = "install the same wheel on the machines of scheduler and workers, and begin them again"
+CORES = "cores"  # the resource by which a worker says that it has others than one for each of its threads
+KEPT_SCORERS = 4  # scorers that each thread of a worker keeps
+DONE, FAILED, REFUSED = "done", "failed", "refused"  # how an answer begins
+
+WireAnswer = tuple[str, bytes] | tuple[str, str, str]  # built-ins alone: whoever has no mindlang can read them
+
+
+@cache
+def cluster_build() -> Build:
+    """What jobs and their answers depend on: the build of mindrun, and what is pickled."""
+    return {**own_build(), "mindlang": sources_hash(Path(__file__).parent)}
+
+
+@dataclass(slots=True)
+class Job:
+    """A job at a worker."""
+
+    number: int
+    work: bytes
+    losses: int = 0  # times that Dask gave it up
+
+
+class ClusterJobs:
+    """The jobs of one assignment, done by whoever is connected to a scheduler; `say` is told when nobody is.
+
+    `function` is what a worker of Dask calls with a build, an assignment and a job. It is named and not pickled: a
+    worker that does not have it says so, instead of dying of a task that it cannot read. `ended` is called in the end.
+    """
+
+    def __init__(
+        self,
+        client: Client,
+        assignment: Assignment,
+        say: Callable[[str], object],
+        function: str = "mindlang.executors.cluster_jobs.answer_here",
+        ended: Callable[[], object] = lambda: None,
+    ) -> None:
+        self.assignment = assignment
+        self._client, self._say, self._ended = client, say, ended
+        module, _, name = function.rpartition(".")
+        self._call = f"__import__({module!r}, fromlist=[{name!r}]).{name}(build, assignment, work)"
+        self._shared = {
+            "build": dict(cluster_build()),
+            "assignment": pickle.dumps(replace(assignment, folder=None)),
+        }
+        self._address: str = client.scheduler.address
+        self._open: dict[Future, Job] = {}
+        self._done: Queue[Future] = Queue()
+        self._slots, self._looked = 0, float("-inf")
+        self._missed_since: float | None = None
+        self._has_said = False
+        self.has_begun = False
+
+    @property
+    def workers(self) -> int:
+        """How many jobs can be at work at once: the threads of all workers that are connected."""
+        if (now := monotonic()) - self._looked >= LOOK_SECONDS:
+            self._slots, self._looked = self._found_slots(), now
+            self._tell(now)
+        return self._slots
+
+    def has_room(self) -> bool:
+        """Whether a worker would wait without another job."""
+        return len(self._open) < self.workers
+
+    def submit(self, number: int, work: Work) -> None:
+        """Ask for a job."""
+        self._submit(Job(number, pickle.dumps(work)))
+
+    def take(self) -> tuple[int, Done] | None:
+        """The number of a job that has been done, and its answer; None after TAKE_SECONDS without one.
+
+        WorkError where none can come any more.
+        """
+        try:
+            future = self._done.get(timeout=TAKE_SECONDS)
+        except Empty:
+            self.workers  # noqa: B018  # looks whether there are any
+            return None
+        job = self._open.pop(future)
+        try:
+            if (found := self._result(future)) is None:
+                self._open[future] = job
+                self._done.put(future)
+                return None
+            return job.number, self._read(found)
+        except KilledWorker as why:
+            job.losses += 1
+            if job.losses >= MAX_LOSSES:
+                last = why.last_worker.address
+                message = f"a job was lost {job.losses} times, the last time its workers ended, the last at {last}"
+                raise WorkError(message, FATAL) from why
+        self._submit(job)
+        return None
+
+    def close(self) -> None:
+        """Send no more; what is at work ends by itself, and nobody hears of it."""
+        with suppress(Exception):  # of a scheduler that is gone, too
+            self._client.cancel([*self._open], force=True)
+        with suppress(Exception):
+            self._client.close(timeout=LOOK_SECONDS)
+        self._ended()
+
+    def _read(self, answer: object) -> Done:
+        """What an answer says was done; WorkError where it says why it was not."""
+        match answer:
+            case "done", bytes(done):
+                found: Done = pickle.loads(done)
+                return found
+            case "failed", str(message), str(hint):
+                raise WorkError(message, hint)
+            case "refused", str(message), str(hint):
+                raise WorkError(f"a worker at {self._address} is of another build: {message}", hint)
+        raise WorkError(f"a worker of {self._address} answers with something else", INSTALL)
+
+    def _submit(self, job: Job) -> None:
+        words = {**self._shared, "work": job.work}
+        future = self._client.submit(eval, self._call, words, pure=False, priority=-job.number)
+        self._open[future] = job
+        future.add_done_callback(self._done.put)
+
+    def _result(self, future: Future) -> object:
+        """What a future has come to; KilledWorker where Dask gave it up, WorkError where it has come to nothing.
+
+        None where that is on a worker that does not answer: if it was lost, it is computed again.
+        """
+        try:
+            found = future.result(timeout=RESULT_SECONDS)
+        except TimeoutError:
+            return None
+        except CancelledError as error:
+            raise self._gone() from error
+        except KilledWorker:
+            raise
+        except (ImportError, AttributeError) as error:
+            raise WorkError(f"a worker of {self._address} has no such mindlang: {error}", INSTALL) from error
+        except Exception as error:
+            raise WorkError(
+                f"a job failed at {self._address}: {type(error).__name__}: {error}"[:1000], INSTALL
+            ) from error
+        future.release()
+        return found
+
+    def _found_slots(self) -> int:
+        """The threads of all workers; WorkError where the scheduler does not answer."""
+        if self._client.status != "running":
+            raise self._gone()
+        try:
+            return sum(self._client.nthreads().values())
+        except (OSError, RuntimeError, CancelledError) as error:
+            raise self._gone() from error
+
+    def _gone(self) -> WorkError:
+        return WorkError(f"the scheduler at {self._address} is gone", "begin it again, and its workers")
+
+    def _tell(self, now: float) -> None:
+        """Say that there is no worker, and later that there is one."""
+        if self._slots:
+            self.has_begun = True
+            if self._has_said:
+                self._say("there are workers again")
+            self._missed_since, self._has_said = None, False
+            return
+        self._missed_since = now if self._missed_since is None else self._missed_since
+        if now - self._missed_since >= WAIT_SECONDS and not self._has_said:
+            self._say(f"no worker is connected to {self._address}: waiting for one (Ctrl-C stops)")
+            self._has_said = True
+
+
+def answer_here(build: Build, assignment: bytes, work: bytes) -> WireAnswer:
+    """The answer of a thread of a worker to a job; REFUSED where the job comes from another build."""
+    if differs := difference(build, cluster_build()):
+        return REFUSED, differs, "install the same wheel there, and the same versions of what it needs"
+    found = answer(lambda: _scorers.of(assignment), pickle.loads(work))
+    return (DONE, pickle.dumps(found)) if isinstance(found, Done) else (FAILED, found.message, found.hint)
+
+
+def _scorer(assignment: bytes) -> Any:
+    """What does the jobs of an assignment in a thread of this worker, on its share of the cores.
+
+    An environment is stepped in as many processes: it would leave other threads no interpreter, and may end or hang.
+    """
+    state = get_worker().state
+    threads = max(1, int(state.total_resources.get(CORES, state.nthreads)) // state.nthreads)
+    found: Assignment = pickle.loads(assignment)
+    rollout = rollout_of(found, threads)
+    if not rollout.task.scene.environment:
+        return rollout
+    multiprocessing.current_process().daemon = False  # one may have no children
+    scorer = JobScorer(rollout, jobs := ProcessJobs(threads, 1, found))
+    finalize(scorer, jobs.close)
+    return scorer
+
+
+class Scorers(local):
+    """Those of each thread of a worker, by the assignment."""
+
+    def __init__(self) -> None:
+        self.of = lru_cache(KEPT_SCORERS)(_scorer)
+
+
+_scorers = Scorers()

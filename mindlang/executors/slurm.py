@@ -1,0 +1,77 @@
+"""Jobs of SLURM, each a worker of Dask: `dask_jobqueue` submits them, and others in the place of those that end."""
+
+from collections.abc import Callable
+from contextlib import suppress
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+from mindrun.errors import MindError
+
+from mindlang.executors.jobs import Assignment, JobExecutor, WorkError
+
+USAGE = "slurm:N, or slurm:N,cores=4,memory=8GB with queue=, account=, walltime="
+OPTIONS = ("cores", "memory", "queue", "account", "walltime")
+MAX_JOBS = 10_000
+MAX_CORES = 10_000
+
+
+def flaw(argument: str) -> str:
+    """What is wrong with a number of jobs and what they are; nothing where nothing is.
+
+    MindError without dask-jobqueue.
+    """
+    if find_spec("dask_jobqueue") is None:
+        raise MindError("SLURM is asked by dask-jobqueue, which is not installed", "pip install 'mindlang[slurm]'")
+    count, *options = argument.split(",")
+    if not _is_count(count, MAX_JOBS):
+        return f"{count!r:.40} is no number of jobs from 1 to {MAX_JOBS}"
+    for each in options:
+        name, _, value = each.partition("=")
+        if name not in OPTIONS or not value or not value.isprintable():
+            return f"{each!r:.40} says none of {', '.join(OPTIONS)}"
+        if name == "cores" and not _is_count(value, MAX_CORES):
+            return f"{value!r:.40} is no number of cores"
+    return ""
+
+
+def begin(argument: str, assignment: Assignment, say: Callable[[str], object]) -> JobExecutor:
+    """A scheduler in this process, and so many jobs.
+
+    What is not said of them is read in ~/.config/dask/jobqueue.yaml.
+    """
+    from dask_jobqueue import SLURMCluster
+
+    from mindlang.executors.cluster_jobs import ClusterJobs
+    from mindlang.executors.connection import client_of, silence
+
+    silence()
+    count, *options = argument.split(",")
+    said: dict[str, Any] = dict(each.split("=", 1) for each in options)
+    if "cores" in said:
+        said["cores"] = int(said["cores"])
+    try:
+        cluster = SLURMCluster(
+            **said,
+            security=True,
+            shared_temp_directory=f"{Path.cwd()}",
+            scheduler_options={"dashboard": False, "dashboard_address": None},
+        )
+    except (ValueError, OSError, ImportError) as error:
+        raise WorkError(f"SLURM's jobs cannot be begun: {error}", f"--on says it so: {USAGE}") from error
+
+    def end() -> None:
+        with suppress(Exception):
+            cluster.close()
+
+    try:
+        cluster.adapt(minimum_jobs=int(count), maximum_jobs=int(count))
+        client = client_of(cluster.scheduler_address, cluster.security)
+    except BaseException:
+        end()
+        raise
+    return ClusterJobs(client, assignment, say, ended=end)
+
+
+def _is_count(text: str, most: int) -> bool:
+    return text.isascii() and text.isdigit() and len(text) <= len(f"{most}") and 1 <= int(text) <= most

@@ -1,0 +1,115 @@
+"""Workers of the sphere that cost next to nothing, with a fault now and then; by what their processes call."""
+
+import os
+import pickle
+from ctypes import PyDLL
+from itertools import count
+from time import sleep
+from typing import Any
+
+import numpy as np
+from mindrun.work.last_step import LastStep
+
+from mindlang.executors import cluster_jobs
+from mindlang.executors.jobs import Assignment, Done
+from mindlang.executors.worker import answer
+from tests.train.climbing import LENGTH, Results, Sphere
+
+ASSIGNMENT = Assignment(b"no bundle", "Climb", "Climb", step_seconds=2)
+SLOW_SECONDS = 0.02
+_calls = count(1)
+
+
+def made(kind: type[Sphere], assignment: Assignment, threads: int) -> Sphere:
+    """What scores an assignment, whatever that is."""
+    return kind()
+
+
+class Slow(Sphere):
+    def score(self, genomes: Any, seeds: Any) -> Results:
+        sleep(SLOW_SECONDS)
+        return Sphere.score(self, genomes, seeds)
+
+
+class Dying(Sphere):
+    """Its process ends with each call of a number that no job reaches alone."""
+
+    every = 450
+
+    def score(self, genomes: Any, seeds: Any) -> Results:
+        if next(_calls) % self.every == 0:
+            os.kill(os.getpid(), 9)
+        return Sphere.score(self, genomes, seeds)
+
+
+class Deadly(Dying):
+    every = 1
+
+
+class Exiting(Sphere):
+    def score(self, genomes: Any, seeds: Any) -> Results:
+        raise SystemExit("out of " + "luck " * 1000)
+
+
+class Hanging(Sphere):
+    """Comes to a step of an environment and never back, and lets no other thread of its process speak."""
+
+    last_step: LastStep
+
+    def write_steps(self, last_step: LastStep) -> None:
+        Hanging.last_step = last_step
+
+    def score(self, genomes: Any, seeds: Any) -> Results:
+        for step in range(1, 4):
+            Hanging.last_step.write(b"Maze-v0", 7, step)
+        PyDLL(None).sleep(1000)
+        return Sphere.score(self, genomes, seeds)
+
+
+class Breathing(Hanging):
+    """Is at the same step of each run for as long as a step may take, but not of the same run."""
+
+    def score(self, genomes: Any, seeds: Any) -> Results:
+        for _ in range(5):
+            Hanging.last_step.write(b"Maze-v0", 7, 0)
+            sleep(0.7)
+        return Sphere.score(self, genomes, seeds)
+
+
+# What a worker of Dask calls
+
+
+def right(build: Any, assignment: bytes, work: bytes) -> object:
+    found = answer(Sphere, pickle.loads(work))
+    assert isinstance(found, Done), found
+    return "done", pickle.dumps(found)
+
+
+def delayed(build: Any, assignment: bytes, work: bytes) -> object:
+    sleep(0.05)
+    return right(build, assignment, work)
+
+
+def no_answer(build: Any, assignment: bytes, work: bytes) -> object:
+    return {"an": "object"}
+
+
+def killing(build: Any, assignment: bytes, work: bytes) -> object:
+    os.kill(os.getpid(), 9)
+    return ()
+
+
+def raising(build: Any, assignment: bytes, work: bytes) -> object:
+    raise RuntimeError("out of " + "luck " * 1000)
+
+
+def of_another_build(build: Any, assignment: bytes, work: bytes) -> object:
+    return cluster_jobs.answer_here({**build, "numpy": "1.0"}, assignment, b"that nobody unpickles")
+
+
+class Once:
+    """A single call of what scores."""
+
+    def by(self, scorer: Any, clock: Any) -> int:
+        scorer.score(np.zeros((1, LENGTH), np.float32), np.zeros(1, np.uint64))
+        return 1

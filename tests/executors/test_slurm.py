@@ -1,0 +1,74 @@
+"""`--on slurm:2` with an sbatch that begins jobs on this machine."""
+
+import os
+import signal
+import sys
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("dask_jobqueue", reason="dask-jobqueue is not installed: pip install 'mindlang[slurm]'")
+pytest.importorskip("cryptography", reason="cryptography is not installed: pip install 'mindlang[slurm]'")
+
+from mindlang.executors import slurm
+from tests.executors.test_on import TAUGHT, weights
+from tests.train.test_train_command import MIND, mindc
+
+ROOT = Path(__file__).parents[2]
+SBATCH = f"""#!{sys.executable}
+import pathlib, shutil, subprocess, sys
+here = pathlib.Path(sys.argv[0]).parent
+job = shutil.copy(sys.argv[1], here / "job.sh")
+with (here / "jobs.log").open("a") as log, open("/dev/null", "w") as nothing:
+    pid = subprocess.Popen(["bash", job], start_new_session=True, stdout=nothing, stderr=nothing).pid
+    log.write(f"{{pid}}\\n")
+print(f"Submitted batch job {{pid}}")
+"""
+SCANCEL = f"""#!{sys.executable}
+import os, signal, sys
+for job in sys.argv[1:]:
+    try:
+        os.killpg(int(job), signal.SIGKILL)
+    except ProcessLookupError:
+        pass
+"""
+
+
+@pytest.fixture
+def cluster(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder with the commands of SLURM, on the PATH."""
+    folder = tmp_path / "bin"
+    folder.mkdir()
+    for name, text in (("sbatch", SBATCH), ("scancel", SCANCEL)):
+        (folder / name).write_text(text)
+        (folder / name).chmod(0o755)
+    monkeypatch.setenv("PATH", f"{folder}{os.pathsep}{os.environ['PATH']}")
+    monkeypatch.setenv("PYTHONPATH", os.pathsep.join([str(ROOT), str(ROOT / "runtime")]))
+    return folder
+
+
+@pytest.mark.slow
+def test_it_teaches_the_weights_of_threads_and_cancels_its_jobs(tmp_path: Path, cluster: Path) -> None:
+    expected = weights(tmp_path / "threads")
+    where = "slurm:2,cores=1,memory=2GB,queue=short,walltime=00:30:00"
+    assert weights(tmp_path / "there", "--on", where) == expected
+    assert "#SBATCH -p short" in (cluster / "job.sh").read_text()
+    assert "--protocol tls://" in (cluster / "job.sh").read_text()
+    jobs = [int(line) for line in (cluster / "jobs.log").read_text().split()]
+    assert len(jobs) == 2
+    for job in jobs:
+        with pytest.raises(ProcessLookupError):
+            os.killpg(job, signal.SIGTERM)
+
+
+def test_what_a_job_is_has_to_be_said(tmp_path: Path, cluster: Path) -> None:
+    (tmp_path / "drive.mind").write_text(MIND)
+    done = mindc(tmp_path, *TAUGHT, "--on", "slurm:2")
+    assert (done.returncode, "cores and memory" in done.stderr, "memory=8GB" in done.stderr) == (1, True, True)
+
+
+def test_without_the_package_its_line_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(slurm, "find_spec", lambda name: None)
+    with pytest.raises(slurm.MindError, match="which is not installed") as error:
+        slurm.flaw("2")
+    assert error.value.hint == "pip install 'mindlang[slurm]'"
