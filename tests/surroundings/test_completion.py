@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from mindlang.executors import KINDS
 from tests.calling import Call
 
 MIND = """
