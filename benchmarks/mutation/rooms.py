@@ -198,10 +198,10 @@ ROOMS = {
     "importing": Room(
         ("mindlang/weights/*.py",),
         (
-            *(f"tests/weights/test_{name}.py" for name in ("commands", "network", "without_torch")),
+            *(f"tests/weights/test_{name}.py" for name in ("commands", "files", "network", "without_torch")),
             "tests/outside/test_weights_from_elsewhere.py",
         ),
-        but=("mindlang/weights/torch_outputs.py",),  # whose tests need a library that a mutant's may not have
+        but=("mindlang/weights/torch_skill.py",),  # whose tests need a library that a mutant's may not have
     ),
     "beginnings": Room(
         (
@@ -244,7 +244,7 @@ ROOMS = {
                     "graph/measured",
                     "graph/one_world",
                     "numbers/given_numbers",
-                    "nearest_name",
+                    "errors",
                     "numbers/short_repr",
                 )
             ),
