@@ -5,6 +5,10 @@ from difflib import SequenceMatcher
 from io import StringIO
 
 CONTEXT_LINES = 3  # around a change
+LEADING_LINES, TRAILING_LINES = (
+    30,
+    6,
+)  # that are compared around all changes: what may slide slides down, and has context
 MAX_COMPARED_LINES = 6000  # of both texts between their ends: difflib takes up to the square of their number
 
 
@@ -25,14 +29,16 @@ def _hunks(before: list[str], after: list[str]) -> Iterator[str]:
     """The lines of each hunk, compared without what both texts begin and end with but for its context."""
     head = _common(before, after)
     tail = _common(before[head:][::-1], after[head:][::-1])
-    first, last = max(0, head - CONTEXT_LINES), max(0, tail - CONTEXT_LINES)
+    first, last = max(0, head - LEADING_LINES), max(0, tail - TRAILING_LINES)
     a, b = before[first : len(before) - last], after[first : len(after) - last]
     above, ends = head - first, (len(a) - tail + last, len(b) - tail + last)
     if len(a) + len(b) <= MAX_COMPARED_LINES:
         groups = [*SequenceMatcher(None, a, b).get_grouped_opcodes(CONTEXT_LINES)]
     else:
         changed = ("replace", above, ends[0], above, ends[1])
-        groups = [[("equal", 0, above, 0, above), changed, ("equal", ends[0], len(a), ends[1], len(b))]]
+        begin = max(0, above - CONTEXT_LINES)
+        below = min(len(a), ends[0] + CONTEXT_LINES), min(len(b), ends[1] + CONTEXT_LINES)
+        groups = [[("equal", begin, above, begin, above), changed, ("equal", ends[0], below[0], ends[1], below[1])]]
     for group in groups:
         (_, i, _, j, _), (_, _, i_end, _, j_end) = group[0], group[-1]
         yield f"@@ -{_counted(i + first, i_end + first)} +{_counted(j + first, j_end + first)} @@\n"
