@@ -146,7 +146,7 @@ def test_files_of_any_name_are_offered_where_none_is_of_the_kind(bash: Path) -> 
         ("mindc train a.mind --on processes:1", ["1"]),
         ("mindc train a.mind --on dask:", [*FILES, "scheduler.json"]),
         ("mindc train a.mind --on ssh:", [""]),
-        ("mindc train a.mind --on slurm:8,", ["compopt -o nospace", "slurm:8,cores="]),
+        ("mindc train a.mind --on slurm:", [""]),
         ("mindc train a.mind --on nowhere:", [""]),
     ],
 )  # fmt: skip
