@@ -1,4 +1,4 @@
-"""Workers killed at random moments: python benchmarks/killed_workers.py [--generations 60] [--kills 50] [--only NAME].
+"""Workers killed at random moments: python benchmarks/killed_workers.py [--kills 50] [--apart 1] [--only NAME].
 
 Ten attempts of GoToObject by two workers of this machine, undisturbed and with SIGKILL 0.5 to 5.5 s after each other,
 again and again until there were so many kills: processes; workers of Dask whose nannies begin them again;
@@ -158,18 +158,22 @@ def main() -> None:
     parser.add_argument("--generations", type=int, default=60, help="of each of the ten attempts (default 60)")
     parser.add_argument("--kills", type=int, default=50, help="with each executor (default 50)")
     parser.add_argument("--only", choices=[*EXECUTORS], help="one executor alone")
+    parser.add_argument("--apart", type=float, default=1.0, help="times so long between two kills, on a busy machine")
     options = parser.parse_args()
-    print(f"{options.kills} kills at random moments, {MIN_KILL_SECONDS} to {MAX_KILL_SECONDS} s apart, of two workers")
+    apart = MIN_KILL_SECONDS * options.apart, MAX_KILL_SECONDS * options.apart
+    print(f"{options.kills} kills at random moments, {apart[0]:g} to {apart[1]:g} s apart, of two workers", flush=True)
     assignment = assignment_of()
     rollout = rollout_of(assignment, 1)
     course, weights = course_of(rollout, 10, options.generations, 1), set[str]()
     for name in [options.only] if options.only else EXECUTORS:
         with EXECUTORS[name](assignment) as (executor, find_kills):
-            weights |= measured(name, options.kills, lambda: taught(course, rollout, executor), find_kills)
+            weights |= measured(name, options.kills, lambda: taught(course, rollout, executor), find_kills, apart)
     sys.exit(len(weights) != 1)
 
 
-def measured(name: str, count: int, teach: Callable[[], Taught], find_kills: FindKills) -> set[str]:
+def measured(
+    name: str, count: int, teach: Callable[[], Taught], find_kills: FindKills, apart: tuple[float, float]
+) -> set[str]:
     """Teach undisturbed, then again until there were so many kills; print what they cost. All weights that came of it.
 
     The first training of all lets the workers load what is compiled, and is not counted.
@@ -178,7 +182,7 @@ def measured(name: str, count: int, teach: Callable[[], Taught], find_kills: Fin
     whole, disturbed, total = teach(), list[Taught](), 0
     draw = random.Random(1)
     while total < count:
-        with killing(find_kills, count - total, draw) as killed:
+        with killing(find_kills, count - total, draw, apart) as killed:
             disturbed.append(teach())
         total += len(killed)
         weights.add(disturbed[-1].weights)
@@ -194,13 +198,13 @@ def measured(name: str, count: int, teach: Callable[[], Taught], find_kills: Fin
 
 
 @contextmanager
-def killing(find_kills: FindKills, most: int, draw: random.Random) -> Iterator[list[int]]:
+def killing(find_kills: FindKills, most: int, draw: random.Random, apart: tuple[float, float]) -> Iterator[list[int]]:
     """Kill a random worker now and then that was there at the look before, at most so many; who was killed."""
     killed, over = list[int](), Event()
 
     def kill() -> None:
         before = set[int]()
-        while len(killed) < most and not over.wait(draw.uniform(MIN_KILL_SECONDS, MAX_KILL_SECONDS)):
+        while len(killed) < most and not over.wait(draw.uniform(*apart)):
             there = find_kills()
             if found := [pid for pid in there if pid in before and pid not in killed]:
                 killed.append(draw.choice(found))

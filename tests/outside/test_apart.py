@@ -163,7 +163,7 @@ def test_a_training_says_at_which_step_of_which_run_and_can_go_on(tmp_path: Path
     done = mindc(tmp_path, "train", "go.mind", "--seed", "1", "--workers", "1")
     said = " ".join(done.stderr.split())
     assert done.returncode == 1
-    assert "it ended (exit code 3), in step 3 of the run of seed" in said
+    assert "by exit code 3, in step 3 of the run of seed" in said
     assert f"in {deadly('Exit', 'step')}" in said
     assert "to go on: mindc train --resume runs/" in said
     assert not (tmp_path / "go.lock").exists()

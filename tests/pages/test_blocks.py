@@ -31,7 +31,7 @@ NOT_HELD = {  # languages that nothing here reads; what runs them is tests/serve
 NOT_OURS = {  # programs of which it is only tried that the line is one of a shell
     ". alias cat cd code cp cut do done echo export git grep mkdir rm sed until": "the shell's and the system's own",
     "apt apt-get i2cdetect raspi-config sudo systemctl": "a Raspberry Pi, or the system",
-    "openssl podman sbatch tensorboard": "not installed here, or begun by tests of their own",
+    "openssl podman sbatch srun tensorboard": "not installed here, or begun by tests of their own",
     "mypy npm pip pytest ruff": "the network, or the tests themselves; the extras of pip are in tests/project",
 }
 EXCERPTS = {"README.md", "docs/index.md"}  # what they show of the language is part of an example

@@ -17,6 +17,7 @@ from tests.project.sources import COMPILER, ROOT, RUNTIME, arrows, imported, mod
 OUR_OWN = {"mindlang", "mindrun"}
 # whose names differ from what is imported
 MODULES = {
+    "dask-jobqueue": "dask_jobqueue",
     "opencv-python-headless": "cv2",
     "pillow": "PIL",
     "pyyaml": "yaml",
