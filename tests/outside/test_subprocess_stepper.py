@@ -15,10 +15,9 @@ import numpy as np
 from mindrun.errors import MindError
 from mindrun.graph.policy import Policy
 from mindrun.sim.outside import repeating
-from mindrun.sim.outside.apart import Apart
-from mindrun.sim.outside.here import Here
 from mindrun.sim.outside.rollout import EnvironmentRollout
-from mindrun.sim.outside.steppers import is_own, stepper_for
+from mindrun.sim.outside.stepper import LocalStepper
+from mindrun.sim.outside.subprocess_stepper import SubprocessStepper, is_own, stepper_for
 from mindrun.sim.takeover import take_over
 from mindrun.sim.trace import trace
 
@@ -75,12 +74,12 @@ def test_what_it_does_to_its_process_it_does_to_no_other(capfd: pytest.CaptureFi
 
 
 def test_its_process_ends_with_it_whatever_thread_an_environment_has_left() -> None:
-    apart = Apart(deadly("Thread", "make"))
-    apart.run([("", 0)], 5).begin()
-    process = apart._process._child.process
+    stepper = SubprocessStepper(deadly("Thread", "make"))
+    stepper.begin([("", 0)], [5])
+    process = stepper._process._process
     assert process is not None
     assert process.poll() is None
-    del apart
+    del stepper
     gc.collect()
     assert process.poll() is not None
 
@@ -89,7 +88,7 @@ def test_its_process_ends_with_it_whatever_thread_an_environment_has_left() -> N
 def test_it_comes_to_the_same_bits_there_as_here(name: str) -> None:
     source = MINDS[name].replace("gymnasium ", "gymnasium tests.outside.kept:")
     policy, found = Policy(minds.graph_of(source), {}), []
-    for steppers in (Here, Apart):
+    for steppers in (LocalStepper, SubprocessStepper):
         rollout = EnvironmentRollout(policy, "Go", "Go", ["Go"], lanes=3, steppers=steppers)
         scores = rollout.score(minds.genomes(rollout, 4), [1, 2**64 - 1])
         found.append((scores.total.tobytes(), scores.ticks.tobytes(), rollout.tally().tobytes()))
@@ -99,7 +98,7 @@ def test_it_comes_to_the_same_bits_there_as_here(name: str) -> None:
 def test_a_run_that_another_mind_takes_over_is_stepped_where_it_was_begun() -> None:
     graph = minds.graph_of(MINDS["numbers"].replace("gymnasium ", "gymnasium tests.outside.kept:"))
     policy = Policy(graph, {"Go": minds.genomes(minds.rollout_of(MINDS["numbers"]), 1)[0]})
-    ours, theirs = (EnvironmentRollout(policy, "Go", "Go", steppers=Apart) for _ in range(2))
+    ours, theirs = (EnvironmentRollout(policy, "Go", "Go", steppers=SubprocessStepper) for _ in range(2))
     plain = [moment.readings.tolist() for moment in trace(ours, 7).moments]
     assert [moment.readings.tolist() for moment in take_over(ours, 7, 4, theirs).moments] == plain[3:]
 
@@ -107,7 +106,7 @@ def test_a_run_that_another_mind_takes_over_is_stepped_where_it_was_begun() -> N
 def test_a_check_of_what_hangs_ends_and_says_that_nothing_is_known(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(repeating, "CHECKED_SECONDS", 0.2)
     name = "tests.outside.kept:tests/Hanging-v0"
-    rollout = minds.rollout_of(minds.text(scene=name), steppers=Apart)
+    rollout = minds.rollout_of(minds.text(scene=name), steppers=SubprocessStepper)
     rollout.make_again(minds.genomes(rollout, 1)[0], 1)
     [note] = rollout.notes
     assert note.startswith(f"whether {name} does the same again is not known: ")
@@ -116,9 +115,9 @@ def test_a_check_of_what_hangs_ends_and_says_that_nothing_is_known(monkeypatch: 
 def test_what_a_program_registers_itself_is_stepped_there() -> None:
     worlds.register()
     assert is_own(worlds.name(worlds.Line))
-    assert isinstance(stepper_for(worlds.name(worlds.Line)), Here)
+    assert isinstance(stepper_for(worlds.name(worlds.Line)), LocalStepper)
     assert not is_own("CartPole-v1")
-    assert isinstance(stepper_for("CartPole-v1"), Apart)
+    assert isinstance(stepper_for("CartPole-v1"), SubprocessStepper)
 
 
 def rules(folder: Path, world: str, lesson: str = "") -> Path:
