@@ -16,6 +16,7 @@ import numpy as np
 from mindrun.graph.bundle import Bundle
 from mindrun.graph.bundle import pack as pack_bundle
 from mindrun.graph.policy import Policy
+from mindrun.sim.outside.subprocess_stepper import VARIABLE
 from mindrun.work.assignment import Assignment
 from mindrun.work.job_scorer import JobScorer
 from mindrun.work.local import local_workers
@@ -96,16 +97,18 @@ def test_a_module_beside_the_mind_is_found_from_elsewhere(tmp_path: Path) -> Non
         ("Misshapen", ("failed", "an observation has the shape (3,), and its space says (2,)")),
         ("Blind", ("Go has learnt nothing: on 100 of 100 fresh layouts a reward or a command",)),
         ("Generous", ("Go has learnt nothing: on 100 of 100 fresh layouts a reward or a command",)),
-        ("Dying", ("a job has ended 5 workers", "--resume")),
+        ("Dying", ("the environment tests.outside.kept:tests/Dying-v0 has ended its process", "It was in step 3 of the",
+                   "SIGABRT", "--resume")),
         ("Hanging", ("the environment tests.outside.kept:tests/Hanging-v0 does not come back from step 3 of the run of",
-                     "in 2 seconds", "--step-seconds")),
+                     "in 5 seconds", VARIABLE)),
     ],
 )  # fmt: skip
 def test_what_an_environment_does_wrong_in_a_process_is_one_message(
-    tmp_path: Path, world: str, words: tuple[str, ...]
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, world: str, words: tuple[str, ...]
 ) -> None:
+    monkeypatch.setenv(VARIABLE, "5")
     folder = project(tmp_path, f"tests/{world}")
-    on = ("--on", f"command:2:{sys.executable} -m mindrun work --threads 1 --step-seconds 2")
+    on = ("--on", f"command:2:{sys.executable} -m mindrun work --threads 1")
     done = mindc(folder, "train", "go.mind", "--seed", "1", *on)
     assert done.returncode == 1
     assert all(each in " ".join(done.stderr.split()) for each in words), done.stderr

@@ -88,7 +88,7 @@ def test_a_space_without_numbers_is_refused_on_either_side(space: Any) -> None:
         (spaces.Box(-1, 1, (3,)), BOX, "observes Box(-1.0, 1.0, (3,), float32), and the first Box(-inf, inf, (2,), "),
         (worlds.INFINITE, spaces.Box(-1.0, 3.0, (1,)), "takes Box(-1.0, 3.0, (1,), float32), and the first Box(-1.0, "),
         (worlds.INFINITE, spaces.Discrete(2), "takes Discrete(2), and the first Box"),
-        (spaces.Dict({"a": worlds.INFINITE}), BOX, "observes Dict('a': Box(-inf, inf, (2,), float64)), and the first B"),
+        (spaces.Dict({"a": worlds.INFINITE}), BOX, "observes Dict('a': Box(-inf, inf, (2,), float64)), and the first "),
     ],
 )  # fmt: skip
 def test_spaces_that_are_others_when_it_is_made_again_are_one_error(observed: Any, acted: Any, why: str) -> None:

@@ -75,13 +75,14 @@ def main() -> None:
     """Answer questions until no more come."""
     end_with_standard_input()
     channel, server = Channel(socket(fileno=int(sys.argv[1]))), Server(mmap(int(sys.argv[2]), REACHED.size))
+    libc = CDLL(None)
     with suppress(EOFError, OSError):
         if making.is_there():
             making.library()  # its time to be imported is not that of an environment
         channel.send("ready")
         while True:
             answer = server.answer(channel.receive())
-            CDLL(None).fflush(None)  # C keeps back what does not go to a terminal
+            libc.fflush(None)  # C keeps back what does not go to a terminal
             channel.send(answer)
     os._exit(0)  # whatever threads an environment has left
 

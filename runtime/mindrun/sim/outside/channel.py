@@ -8,11 +8,14 @@ from typing import Any
 
 LENGTH = Struct("<Q")  # of a message, before it
 REACHED = Struct("<I")  # which environment of a question is asked, in memory that outlives the process
-MAX_READ_BYTES = 1 << 20  # at once: a length that lies takes no memory
+MAX_READ_BYTES = 1 << 20  # at once
 
 
 class Channel:
-    """One end of a connected pair of sockets; `look` is called whenever a wait has taken the socket's time limit."""
+    """One end of a connected pair of sockets, on which questions and answers alternate.
+
+    `look` is called whenever a wait has taken the socket's time limit.
+    """
 
     def __init__(self, end: socket, look: Callable[[], object] = lambda: None) -> None:
         self._socket, self._look = end, look
@@ -29,23 +32,18 @@ class Channel:
 
     def receive(self) -> Any:
         """The next message; EOFError where the other end is closed."""
-        [size] = LENGTH.unpack(self._read(LENGTH.size))
-        return pickle.loads(self._read(size))
-
-    def close(self) -> None:
-        """Close this end."""
-        self._socket.close()
-
-    def _read(self, size: int) -> bytes:
-        parts, left = list[bytes](), size
-        while left:
+        data = bytearray()
+        while len(data) < LENGTH.size or len(data) < LENGTH.size + LENGTH.unpack_from(data)[0]:
             try:
-                part = self._socket.recv(min(left, MAX_READ_BYTES))
+                part = self._socket.recv(MAX_READ_BYTES)
             except TimeoutError:
                 self._look()
                 continue
             if not part:
                 raise EOFError
-            parts.append(part)
-            left -= len(part)
-        return b"".join(parts)
+            data += part
+        return pickle.loads(memoryview(data)[LENGTH.size :])
+
+    def close(self) -> None:
+        """Close this end."""
+        self._socket.close()

@@ -38,6 +38,8 @@ class UnknownEnvironmentError(BrokenEnvironmentError):
 
 def library() -> ModuleType:
     """The package gymnasium; MindError where it is not installed."""
+    if (known := sys.modules.get("gymnasium")) is not None:
+        return known
     try:
         with _silence():
             return import_module("gymnasium")

@@ -45,10 +45,10 @@ class Part:
         """The indices that there are, in words."""
         return " and ".join(f"0 to {n - 1}" if n > 1 else "0" for n in self.axes)
 
-    def of(self, numbers: Floats) -> Any:
-        """Numbers [of its size] as the array that it is; a single choice is a number."""
-        array = numbers.astype(self.dtype).reshape(self.shape)
-        return array if self.shape or self.choices is None else array[()]
+    def values(self, numbers: Floats) -> list[Any]:
+        """Numbers [runs, of its size] as such an array for each run; a single choice is a number."""
+        values = numbers.astype(self.dtype).reshape(-1, *self.shape)
+        return [*values] if self.shape or self.choices is not None else [np.asarray(value) for value in values]
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,16 +123,17 @@ def found(parts: Mapping[str, Part], slot: Slot) -> tuple[str, Part | None, tupl
     return name, parts[name], index or (0,)
 
 
-def action_of(space: Any, acted: Mapping[str, Part], numbers: Floats) -> Any:
-    """The action of a space that numbers are: those of its parts `acted`, one part after the other."""
+def actions_of(space: Any, acted: Mapping[str, Part], numbers: Floats) -> list[Any]:
+    """The actions of a space that numbers are [runs, numbers]: those of its parts `acted`, one part after the other."""
     values, first = {}, 0
     for name, part in acted.items():
-        values[name] = part.of(numbers[first : first + len(part.low)])
+        values[name] = part.values(numbers[:, first : first + len(part.low)])
         first += len(part.low)
-    return _formed(space, values)
+    return [_formed(space, {name: each[run] for name, each in values.items()}) for run in range(len(numbers))]
 
 
 def _formed(space: Any, values: Mapping[str, Any], path: tuple[Any, ...] = ()) -> Any:
+    """What a space contains, made of the values of its parts."""
     within = _within(space)
     if within is None:
         return values[_name(path)]

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from mindrun.sim.outside import making
 from mindrun.sim.outside.making import BrokenEnvironmentError, first_line, foreign_code
-from mindrun.sim.outside.parts import Floats, Place, Source, Spaces, action_of, sources_of, spaces_of
+from mindrun.sim.outside.parts import Floats, Place, Source, Spaces, actions_of, sources_of, spaces_of
 
 SEED_LIMIT = 1 << 31  # some environments take no larger ones
 REWARD, TERMINATED, TRUNCATED = -3, -2, -1  # where they stand in a row, behind what is observed
@@ -100,6 +100,7 @@ class LocalStepper:
     ) -> None:
         self.environment, self._folder, self._reached = environment, folder, reached
         self._open: dict[Run, Made] = {}
+        self._at = Run(0, 0)  # the run of which the environment is asked
         finalize(self, _close, self._open)
 
     @cached_property
@@ -123,8 +124,8 @@ class LocalStepper:
         try:
             for run in self._each(runs):
                 self._open[run] = made = Made(making.make(self.environment, self._folder, is_seen), sources)
-                self._refuse_other_spaces(made.environment, run)
-                with self._blamed(run):
+                with self._blaming():
+                    self._refuse_other_spaces(made.environment, run)
                     made.reset(run)
         except BaseException:
             self.close(runs)
@@ -133,21 +134,22 @@ class LocalStepper:
 
     def reset(self, runs: Sequence[Run]) -> None:
         """Begin runs again, each in its environment."""
-        for run in self._each(runs):
-            with self._blamed(run):
+        with self._blaming():
+            for run in self._each(runs):
                 self._open[run].reset(run)
 
     def step(self, runs: Sequence[Run], actions: Floats) -> None:
         """Step each run: the numbers of its action, part after part [runs, numbers]."""
         _, acted = self._spaces
-        for run, numbers in zip(self._each(runs), actions, strict=True):
-            run.steps += 1
-            with self._blamed(run):
-                self._open[run].step(run, action_of(acted, self.spaces.acted, numbers))
+        with self._blaming():
+            for run, action in zip(self._each(runs), actions_of(acted, self.spaces.acted, actions), strict=True):
+                run.steps += 1
+                self._open[run].step(run, action)
 
     def image(self, run: Run) -> NDArray[Any]:
         """What is seen of a run now [height, width, 3], red first; another array where it draws nothing."""
-        with self._blamed(run):
+        with self._blaming():
+            self._at = run
             return np.asarray(self._open[run].environment.render())
 
     def close(self, runs: Sequence[Run]) -> None:
@@ -159,29 +161,30 @@ class LocalStepper:
     def _each(self, runs: Sequence[Run]) -> Iterator[Run]:
         for number, run in enumerate(runs):
             self._reached(number)
+            self._at = run
             yield run
 
     def _refuse_other_spaces(self, environment: Any, run: Run) -> None:
         """BrokenEnvironmentError where it has other spaces than the first of its name, to which a mind is wired."""
         now = making.spaces_in(self.environment, environment)
         for verb, first, other in zip(("observes", "takes"), self._spaces, now, strict=True):
-            with self._blamed(run):
-                is_other = first != other
-            if is_other:
+            if first != other:
                 why = f"it {verb} {other}, and the first {first}"
                 message = f"the environment {self.environment} has other spaces each time that it is made"
                 hint = f"In {run.where} {why}. Let it always have the same: a mind is wired to them once."
                 raise BrokenEnvironmentError(message, hint, why)
 
     @contextmanager
-    def _blamed(self, run: Run) -> Iterator[None]:
-        """Around what an environment is asked: whatever it raises is its fault, and says where in which run."""
+    def _blaming(self) -> Iterator[None]:
+        """Around what environments are asked: whatever one raises is its fault, and says where in which run."""
         try:
             with foreign_code():
                 yield
+        except BrokenEnvironmentError:
+            raise
         except Exception as error:
             why = first_line(error)
-            hint = f"It was in {run.where}, and the fault is the environment's: {why}.".replace("..", ".")
+            hint = f"It was in {self._at.where}, and the fault is the environment's: {why}.".replace("..", ".")
             raise BrokenEnvironmentError(f"the environment {self.environment} failed", hint, why) from error
 
 

@@ -209,7 +209,7 @@ class SubprocessStepper:
 
     def _blamed(self, method: str, runs: Sequence[Run], lost: LostError) -> BrokenEnvironmentError:
         """What an environment has done, of which nothing came back."""
-        name, where = self.environment, "its constructor"
+        name, where = self.environment, "being asked for its spaces"
         if runs:
             run = runs[min(lost.reached, len(runs) - 1)]
             where = {

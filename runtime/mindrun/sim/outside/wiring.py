@@ -110,7 +110,7 @@ def _written(name: str, index: tuple[int, ...]) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Choice:
-    """A choice at a `place` of an action: that of the `numbers` of which the command, one of the `rows`, is the largest."""
+    """A choice at a `place` of an action: of the `numbers` that of which the command is the largest, at the same of `rows`."""
 
     place: int
     rows: NDArray[np.int64]
