@@ -110,7 +110,7 @@ def _written(name: str, index: tuple[int, ...]) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Choice:
-    """A choice at a `place` of an action: of the `numbers` that of which the command is the largest, at the same of `rows`."""
+    """A choice at a `place` of an action: the one of `numbers` whose command, at the same of `rows`, is the largest."""
 
     place: int
     rows: NDArray[np.int64]
