@@ -15,8 +15,8 @@ import gymnasium
 import numpy as np
 from mindrun.graph.bundle import Bundle, pack
 from mindrun.graph.policy import Policy
-from mindrun.sim.outside.apart import Apart
-from mindrun.sim.outside.here import Here
+from mindrun.sim.outside.stepper import LocalStepper
+from mindrun.sim.outside.subprocess_stepper import SubprocessStepper
 from mindrun.sim.rollouts import rollout_for
 
 import mindlang
@@ -76,7 +76,10 @@ def source(name: str) -> str:
 def measured(name: str, generations: int) -> None:
     """Score the same generations in this process and in others."""
     graph = mindlang.loads(source(name)).graph
-    here, apart = (rollout_for(Policy(graph, {}), "Go", "Go", ["Go"], steppers=steppers) for steppers in (Here, Apart))
+    here, apart = (
+        rollout_for(Policy(graph, {}), "Go", "Go", ["Go"], steppers=steppers)
+        for steppers in (LocalStepper, SubprocessStepper)
+    )
     here.compile()
     rng = np.random.default_rng(1)
     drawn = [here.draw(GENERATION_GENOMES, rng) for _ in range(generations)]

@@ -19,7 +19,6 @@ from numpy.typing import NDArray
 TAKE_SECONDS = 0.2  # to wait for an answer before who asks may look at something else
 MAX_LOSSES = 5  # times that a job may be lost with its worker
 FATAL = "the same job ends whoever does it: memory may run out there, or a procedure or an environment end the process"
-STEP_SECONDS = 60  # that a step of an environment may take
 
 Tally = NDArray[np.int64]
 
@@ -42,7 +41,6 @@ class Assignment:
     learners: tuple[str, ...] = ()
     interrupt: bool = True
     folder: Path | None = None
-    step_seconds: int = STEP_SECONDS
 
 
 class Work(Protocol):

@@ -2,8 +2,7 @@
 
 A pool of several would lose the jobs of all with the process of one, and not say whose fault that was. One that ends
 is begun anew, and its job is done again; a job that has cost MAX_LOSSES processes is at fault itself, or MAX_STARTS
-that had not come to it yet. At which step of which run an environment is stands in memory that outlives its process,
-and a step that takes too long ends it.
+that had not come to it yet. Environments end none of them: they are stepped in processes of their own, and watched.
 """
 
 import multiprocessing
@@ -13,19 +12,16 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager, suppress
-from ctypes import c_char
 from dataclasses import dataclass
 from functools import cache
 from multiprocessing.context import SpawnContext, SpawnProcess
 from queue import Empty, SimpleQueue
 from signal import Signals
 from threading import Thread
-from time import monotonic
 from types import ModuleType
 from typing import Any
 
 from mindrun.processors import cores
-from mindrun.work.last_step import MEMORY_BYTES, LastStep
 
 from mindlang.executors.jobs import FATAL, MAX_LOSSES, TAKE_SECONDS, Assignment, Done, Failed, Work, WorkError
 from mindlang.executors.worker import answer, rollout_of
@@ -36,8 +32,6 @@ MAX_DIGITS = 4
 Make = Callable[[Assignment, int], Any]
 
 MAX_STARTS = 20  # of processes for a job: where others end them, or the machine is busy, few come to it
-LOOK_SECONDS = 1.0  # between two looks at the step of an environment
-SLOW_HINT = "environments that slow take for instance --on processes:4,step-seconds=600"
 
 
 def flaw(argument: str) -> str:
@@ -66,7 +60,6 @@ class ProcessJobs:
         self.members = [Member(f"process {number}", assignment, threads, make) for number in range(1, count + 1)]
         self._idle = self.members[::-1]
         self._ended: SimpleQueue[Member] = SimpleQueue()
-        self._looked = monotonic()
         for each in self.members:
             each.begin()
 
@@ -90,10 +83,6 @@ class ProcessJobs:
 
         WorkError where a job cannot be done.
         """
-        if (now := monotonic()) - self._looked >= LOOK_SECONDS:
-            self._looked = now
-            for each in self.members:
-                each.look(now)
         try:
             member = self._ended.get(timeout=TAKE_SECONDS)
         except Empty:
@@ -130,8 +119,6 @@ class Member:
         self.name, self._assignment, self._threads, self._make = name, assignment, threads, make
         self._context = Spawning()
         self._pool: ProcessPoolExecutor | None = None
-        self._seen: tuple[int, str, str] | None = None  # the step that it was at
-        self._since, self._hung = 0.0, ""
 
     @property
     def process(self) -> SpawnProcess | None:
@@ -141,9 +128,7 @@ class Member:
     def begin(self) -> ProcessPoolExecutor:
         """Begin the process where there is none, and do not wait until it is ready."""
         if self._pool is None:
-            memory = self._context.RawArray(c_char, MEMORY_BYTES)
-            self.last_step = LastStep(shared=memory)
-            setup = Setup(self._assignment, self._threads, self._make, memory)
+            setup = Setup(self._assignment, self._threads, self._make)
             self._pool = ProcessPoolExecutor(1, self._context, _begin, (setup,))
             with no_program():
                 self._loaded = self._pool.submit(_load)
@@ -158,23 +143,9 @@ class Member:
             self.future = self.begin().submit(_answer, self.work)
         self.future.add_done_callback(lambda future: ended.put(self))
 
-    def look(self, now: float) -> None:
-        """Kill the process where it is at the same step of an environment for longer than a step may take."""
-        if self._pool is None or self.future is None or self.future.done():
-            return
-        asked = self.last_step.asked()
-        if asked is None or asked != self._seen:
-            self._seen, self._since = asked, now
-        elif now - self._since >= (seconds := self._assignment.step_seconds):
-            _, where, environment = asked
-            self._hung = f"the environment {environment} does not come back from {where}, in {seconds} seconds"
-            self.kill()
-
     def count_loss(self) -> None:
         """Take note of an end of the process; WorkError where the job is at fault."""
         self.end()
-        if self._hung:
-            raise WorkError(self._hung, SLOW_HINT)
         has_come_to_it = not self._loaded.cancelled() and self._loaded.exception() is None
         self.losses, self.starts = self.losses + has_come_to_it, self.starts + 1
         if self.losses >= MAX_LOSSES or self.starts >= MAX_STARTS:
@@ -193,10 +164,9 @@ class Member:
         self._pool = None
 
     def _ending(self) -> str:
-        """How the process has ended, and in or after which step of an environment, as far as is known."""
+        """How the process has ended."""
         code = self._context.process.exitcode or 0
-        how = Signals(-code).name if -code in {*Signals} else f"exit code {code}"
-        return ", ".join((f"by {how}", *([" in ".join(at)] if (at := self.last_step.read()) else [])))
+        return f"by {Signals(-code).name}" if -code in {*Signals} else f"by exit code {code}"
 
 
 class Spawning(SpawnContext):
@@ -223,12 +193,11 @@ def no_program() -> Iterator[None]:
 
 @dataclass(frozen=True, slots=True)
 class Setup:
-    """What a process is told first; it writes each step of an environment into the memory."""
+    """What a process is told first."""
 
     assignment: Assignment
     threads: int
     make: Make
-    memory: Any
 
 
 _setup: Setup  # of this process
@@ -252,10 +221,7 @@ def _end_with_parent() -> None:
 
 @cache
 def _scorer() -> Any:
-    scorer = _setup.make(_setup.assignment, _setup.threads)
-    if hasattr(scorer, "write_steps"):
-        scorer.write_steps(LastStep(shared=_setup.memory))
-    return scorer
+    return _setup.make(_setup.assignment, _setup.threads)
 
 
 def _load() -> None:

@@ -40,7 +40,6 @@ def rollout_of(assignment: Assignment, threads: int) -> Rollout:
     """
     try:
         rollout_for = import_module("mindrun.sim.rollouts").rollout_for
-        here = import_module("mindrun.sim.outside.here").Here  # a worker is a process that may end
     except ImportError as error:
         raise WorkError(f"there is no simulator at the worker ({error})", "pip install mindlang there") from error
     bundle = unpack(assignment.bundle)
@@ -57,7 +56,6 @@ def rollout_of(assignment: Assignment, threads: int) -> Rollout:
             procedures=Path(folder),
             interrupt=assignment.interrupt,
             workers=threads,
-            steppers=here,
         )
         rollout.compile()
     return rollout

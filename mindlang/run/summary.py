@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import Any
 
-from mindrun.sim.outside.foreign import GAVE_NO_NUMBER
+from mindrun.sim.outside.making import GAVE_NO_NUMBER
 from rich.console import Group, RenderableType
 from rich.text import Text
 

@@ -2,20 +2,18 @@
 
 import os
 import pickle
-from ctypes import PyDLL
 from itertools import count
 from time import sleep
 from typing import Any
 
 import numpy as np
-from mindrun.work.last_step import LastStep
 
 from mindlang.executors import cluster_jobs
 from mindlang.executors.jobs import Assignment, Done
 from mindlang.executors.worker import answer
 from tests.train.climbing import LENGTH, Results, Sphere
 
-ASSIGNMENT = Assignment(b"no bundle", "Climb", "Climb", step_seconds=2)
+ASSIGNMENT = Assignment(b"no bundle", "Climb", "Climb")
 SLOW_SECONDS = 0.02
 _calls = count(1)
 
@@ -49,31 +47,6 @@ class Deadly(Dying):
 class Exiting(Sphere):
     def score(self, genomes: Any, seeds: Any) -> Results:
         raise SystemExit("out of " + "luck " * 1000)
-
-
-class Hanging(Sphere):
-    """Comes to a step of an environment and never back, and lets no other thread of its process speak."""
-
-    last_step: LastStep
-
-    def write_steps(self, last_step: LastStep) -> None:
-        Hanging.last_step = last_step
-
-    def score(self, genomes: Any, seeds: Any) -> Results:
-        for step in range(1, 4):
-            Hanging.last_step.write(b"Maze-v0", 7, step)
-        PyDLL(None).sleep(1000)
-        return Sphere.score(self, genomes, seeds)
-
-
-class Breathing(Hanging):
-    """Is at the same step of each run for as long as a step may take, but not of the same run."""
-
-    def score(self, genomes: Any, seeds: Any) -> Results:
-        for _ in range(5):
-            Hanging.last_step.write(b"Maze-v0", 7, 0)
-            sleep(0.7)
-        return Sphere.score(self, genomes, seeds)
 
 
 # What a worker of Dask calls

@@ -93,8 +93,6 @@ def called(folder: Path, *words: str) -> "subprocess.CompletedProcess[str]":
         ("slurm:0", "is no number of jobs from 1 to 10000"),
         ("slurm:8,nodes=2", "says none of cores, memory, queue, account, walltime"),
         ("slurm:8,cores=many", "is no number of cores"),
-        ("processes:2,step-seconds=0", "a step takes 1 to 86400 seconds"),
-        ("processes:2,step-seconds=long", "the seconds of a step are no whole number"),
         ("command:srun mindrun work", "any more; Dask begins workers now: --on ssh:a,b or --on slurm:8"),
     ],
 )

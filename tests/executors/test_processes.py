@@ -9,7 +9,6 @@ from contextlib import contextmanager
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from time import monotonic
 from typing import Any
 
 import numpy as np
@@ -110,21 +109,6 @@ def test_a_job_that_fails_is_one_sentence() -> None:
     with processes(1, spheres.Exiting) as jobs, pytest.raises(WorkError, match="SystemExit: out of luck") as error:
         taught(jobs)
     assert len(str(error.value)) <= 1000
-
-
-def test_a_step_that_never_ends_is_told_though_its_process_cannot_speak() -> None:
-    began = monotonic()
-    said = "the environment Maze-v0 does not come back from step 3 of the run of seed 7, in 2 seconds"
-    with processes(1, spheres.Hanging) as jobs, pytest.raises(WorkError, match=said) as error:
-        taught(jobs)
-    assert "step-seconds" in error.value.hint
-    assert monotonic() - began < 60
-
-
-def test_many_runs_at_the_same_step_are_no_step_that_never_ends() -> None:
-    with processes(1, spheres.Breathing) as jobs:
-        jobs.submit(1, spheres.Once())
-        assert next(filter(None, iter(jobs.take, 0)))[0] == 1
 
 
 def test_a_run_whose_workers_are_gone_goes_on_with_others(tmp_path: Path, expected: bytes) -> None:

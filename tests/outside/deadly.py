@@ -3,10 +3,12 @@
 No test imports this: what a program has registered itself is stepped in its own process.
 """
 
+import ctypes
 import os
 import signal
 import sys
 import threading
+import time
 from collections.abc import Callable
 from functools import partial
 from typing import Any
@@ -38,6 +40,11 @@ def leave_thread() -> None:
     threading.Thread(target=threading.Event().wait).start()
 
 
+def hold_interpreter() -> None:
+    """As code in C that gives it to no other thread."""
+    ctypes.PyDLL(None).sleep(1000)
+
+
 WAYS: dict[str, Callable[[], object]] = {
     "Exit": partial(os._exit, 3),
     "Fault": segmentation_fault,
@@ -46,12 +53,16 @@ WAYS: dict[str, Callable[[], object]] = {
     "Move": partial(os.chdir, "/"),
     "Signals": take_signals,
     "Thread": leave_thread,
+    "Hold": hold_interpreter,
+    "Stop": lambda: os.kill(os.getpid(), signal.SIGSTOP),
+    "Sleep": partial(time.sleep, 1000),
+    "Doze": partial(time.sleep, 0.5),
 }
-PLACES = "make", "reset", "step", "render"
+PLACES = "make", "reset", "step", "render", "close"
 
 
 class Deadly(worlds.Line):
-    """Does it in one place: when it is made, when a run begins, in its third step, or when it is drawn."""
+    """Does it in one place: when it is made, when a run begins, in its third step, when it is drawn or closed."""
 
     def __init__(self, render_mode: str | None = None, way: str = "", place: str = "") -> None:
         self._way, self._place = way, place
@@ -78,6 +89,12 @@ class Deadly(worlds.Line):
         """As ever."""
         self._do("render")
         return super().render()
+
+    def close(self) -> None:
+        """As ever; one that was made for its spaces alone has made no step."""
+        if self.steps:
+            self._do("close")
+        super().close()
 
 
 for way in WAYS:

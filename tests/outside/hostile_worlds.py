@@ -80,7 +80,7 @@ class Odd(worlds.Line):
 
 
 class Changing(worlds.Line):
-    """Takes and observes other spaces when it is made a second time."""
+    """Takes and observes other spaces once it has been made by a compiler and by a rollout."""
 
     made = 0
 

@@ -16,6 +16,7 @@ import numpy as np
 from mindrun.graph.bundle import Bundle
 from mindrun.graph.bundle import pack as pack_bundle
 from mindrun.graph.policy import Policy
+from mindrun.sim.outside.subprocess_stepper import VARIABLE
 
 from mindlang.executors.job_scorer import JobScorer
 from mindlang.executors.jobs import Assignment
@@ -69,7 +70,7 @@ def test_the_weights_are_those_of_a_cluster_which_tells_a_step_that_never_ends(t
     for address in cluster_on_this_machine(tmp_path):
         assert taught(tmp_path / "there", "--on", f"dask:{address}") == expected
         folder = project(tmp_path / "hanging", "tests/Hanging")
-        done = mindc(folder, "train", "go.mind", "--seed", "1", "--on", f"dask:{address},step-seconds=2")
+        done = mindc(folder, "train", "go.mind", "--seed", "1", "--on", f"dask:{address}")
         assert "does not come back from step 3 of the run of" in " ".join(done.stderr.split())
         assert done.returncode == 1
 
@@ -108,16 +109,18 @@ def test_a_module_beside_the_mind_is_found_from_elsewhere(tmp_path: Path) -> Non
         ("Misshapen", ("failed", "an observation has the shape (3,), and its space says (2,)")),
         ("Blind", ("Go has learnt nothing: on 100 of 100 fresh layouts a reward or a command",)),
         ("Generous", ("Go has learnt nothing: on 100 of 100 fresh layouts a reward or a command",)),
-        ("Dying", ("a job has ended 5 workers", "in step 3 of the run of seed", "Dying-v0", "--resume")),
+        ("Dying", ("the environment tests.outside.kept:tests/Dying-v0 has ended its process", "It was in step 3 of the",
+                   "SIGABRT", "--resume")),
         ("Hanging", ("the environment tests.outside.kept:tests/Hanging-v0 does not come back from step 3 of the run of",
-                     "in 2 seconds", "step-seconds=")),
+                     "in 5 seconds", VARIABLE)),
     ],
 )  # fmt: skip
 def test_what_an_environment_does_wrong_in_a_process_is_one_message(
-    tmp_path: Path, world: str, words: tuple[str, ...]
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, world: str, words: tuple[str, ...]
 ) -> None:
+    monkeypatch.setenv(VARIABLE, "5")
     folder = project(tmp_path, f"tests/{world}")
-    on = ("--on", "processes:2,step-seconds=2")
+    on = ("--on", "processes:2")
     done = mindc(folder, "train", "go.mind", "--seed", "1", *on)
     assert done.returncode == 1
     assert all(each in " ".join(done.stderr.split()) for each in words), done.stderr

@@ -85,14 +85,14 @@ def test_a_space_without_numbers_is_refused_on_either_side(space: Any) -> None:
 @pytest.mark.parametrize(
     ("observed", "acted", "why"),
     [
-        (spaces.Box(-1, 1, (3,)), BOX, "observes float32 of the shape (3,) in -1 to 1, and the first float64 of the"),
-        (worlds.INFINITE, spaces.Box(-1.0, 3.0, (1,)), "takes float32 of the shape (1,) in -1 to 3, and the first"),
-        (worlds.INFINITE, spaces.Discrete(2), "takes int64 of the shape (), choices in 0 to 1, and the first float32"),
-        (spaces.Dict({"a": worlds.INFINITE}), BOX, "observes nothing, and the first float64 of the shape (2,)"),
+        (spaces.Box(-1, 1, (3,)), BOX, "observes Box(-1.0, 1.0, (3,), float32), and the first Box(-inf, inf, (2,), "),
+        (worlds.INFINITE, spaces.Box(-1.0, 3.0, (1,)), "takes Box(-1.0, 3.0, (1,), float32), and the first Box(-1.0, "),
+        (worlds.INFINITE, spaces.Discrete(2), "takes Discrete(2), and the first Box"),
+        (spaces.Dict({"a": worlds.INFINITE}), BOX, "observes Dict('a': Box(-inf, inf, (2,), float64)), and the first "),
     ],
 )  # fmt: skip
 def test_spaces_that_are_others_when_it_is_made_again_are_one_error(observed: Any, acted: Any, why: str) -> None:
-    world, hostile_worlds.Changing.made = named(hostile_worlds.Changing, observed=observed, acted=acted), 0
+    world, hostile_worlds.Changing.made = named(hostile_worlds.Changing, observed=observed, acted=acted), -1
     with pytest.raises(MindError, match="has other spaces each time that it is made") as found:
         scored(world)
     assert f"In the beginning of the run of seed 1 it {why}" in found.value.hint

@@ -5,7 +5,6 @@ import pytest
 pytest.importorskip("gymnasium")
 
 from mindrun.errors import MindError
-from mindrun.sim.outside import making
 
 from tests.outside import minds, worlds
 
@@ -77,7 +76,6 @@ def test_without_gymnasium_a_sentence_says_what_to_install(monkeypatch: pytest.M
     graph_source = minds.text()
     assert minds.compiled(graph_source).graph is not None
     monkeypatch.setitem(__import__("sys").modules, "gymnasium", None)
-    making.spaces.cache_clear()
     with pytest.raises(MindError, match="needs the package gymnasium") as found:
         minds.rollout_of(graph_source)
     assert found.value.hint == "Install it: pip install 'mindlang[gymnasium]'."
@@ -111,8 +109,8 @@ def test_an_environment_may_be_that_of_a_scene() -> None:
 def test_what_is_of_two_values_has_two_choices() -> None:
     from gymnasium.spaces import MultiBinary
     from mindrun.kinds.slot import Slot
-    from mindrun.sim.outside.fitting import misfits
     from mindrun.sim.outside.parts import spaces_of
+    from mindrun.sim.outside.wiring import misfits
 
     both = spaces_of(MultiBinary(2), MultiBinary(2))
     each = {f"push{i}{chosen}": Slot("", (i,), chosen=chosen) for i in range(2) for chosen in range(2)}

@@ -12,11 +12,9 @@ from hypothesis import strategies as st
 
 gymnasium = pytest.importorskip("gymnasium")
 
-from mindrun.sim.outside.episode import Episode  # noqa: E402
-from mindrun.sim.outside.here import Here  # noqa: E402
 from mindrun.sim.outside.making import BrokenEnvironmentError  # noqa: E402
-from mindrun.sim.outside.repeating import WrittenDown  # noqa: E402
-from mindrun.sim.outside.taking import number_of, truth_of  # noqa: E402
+from mindrun.sim.outside.repeating import RecordingStepper  # noqa: E402
+from mindrun.sim.outside.stepper import LocalStepper, number_of, truth_of  # noqa: E402
 
 NAME, STEPS, PLACES = "Drawn-v0", 12, [("", 0)]
 
@@ -67,12 +65,11 @@ def flaw(seed: int, is_paid: bool = True) -> str:
     """What is said of a run of `STEPS` steps that is made again."""
     gymnasium.registry.pop(NAME, None)
     gymnasium.register(NAME, Drawn)
-    written = WrittenDown(Here(NAME))
-    run = written.run(PLACES, seed)
-    run.begin()
+    recorder = RecordingStepper(LocalStepper(NAME))
+    runs = recorder.begin(PLACES, [seed])
     for number in range(STEPS):
-        written.step([run], [{"": np.array([float(number)])}])
-    return written.flaw(Here(NAME), ["place"], is_paid)
+        recorder.step(runs, np.array([[float(number)]]))
+    return recorder.flaw(LocalStepper(NAME), ["place"], is_paid)
 
 
 @given(st.sampled_from(sorted(SOURCES)), st.booleans(), st.integers(0, STEPS), st.integers(0, 2**40))
@@ -137,10 +134,10 @@ def test_an_environment_that_says_texts_is_at_fault() -> None:
     Drawn.source = "nothing"
     gymnasium.registry.pop(NAME, None)
     gymnasium.register(NAME, Drawn)
-    run: Episode = Here(NAME).run(PLACES, 1)
-    run.begin()
+    stepper = LocalStepper(NAME)
+    [run] = stepper.begin(PLACES, [1])
     for answer in ((np.zeros(1), "1", False, False, {}), (np.zeros(1), 1.0, "no", False, {})):
-        run._environment.step = lambda action, answer=answer: answer
+        stepper._open[run].environment.step = lambda action, answer=answer: answer
         with pytest.raises(BrokenEnvironmentError) as raised:
-            run.step({"": np.zeros(1)})
+            stepper.step([run], np.zeros((1, 1)))
         assert "the fault is the environment's: TypeError: " in (raised.value.hint or "")

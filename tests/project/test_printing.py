@@ -27,7 +27,6 @@ COMMANDS = {  # of the runtime, and why each may speak
     "robot/sudden_end.py": "a driver's own end, which is made no success",
     "robot/simulated_world/__main__.py": "the simulated world, a program of its own",
     "sim/outside/__main__.py": "python -m mindrun.sim.outside: the process that steps environments",
-    "sim/outside/apart.py": "what an environment prints in its process is talk of this one",
     "sim/outside/making.py": "what an environment's package says when it is imported is no answer of a command",
     "sim/warmup.py": "python -m mindrun.sim.warmup: the process that compiles",
     "cli/tools/adopt.py": "mindrun adopt",

@@ -135,7 +135,7 @@ def _check_environment(
     if ":" in name or not making.is_there():
         return
     try:
-        from mindrun.sim.outside.steppers import known_spaces  # which needs numpy
+        from mindrun.sim.outside.subprocess_stepper import known_spaces  # which needs numpy
 
         spaces = known_spaces(name)
     except making.UnknownEnvironmentError as error:
@@ -145,10 +145,10 @@ def _check_environment(
         return
     except (ImportError, MindError):
         return  # what it needs is not installed here: a run says so
-    from mindrun.sim.outside import fitting
+    from mindrun.sim.outside.wiring import misfits
 
     spans = {part.name: part.span for part in (*sensors, *actuators)} | {"": header.span}
     ours = ({part.name: slot for part in parts if (slot := part.kind.slot)} for parts in (sensors, actuators))
-    for found in fitting.misfits(spaces, *ours):
+    for found in misfits(spaces, *ours):
         message = found.message.replace("environment", which or "environment", 1)
         findings.error(found.code, spans[found.name], message, found.hint)

@@ -1,22 +1,111 @@
-"""`python -m mindrun.sim.outside --last-step DESCRIPTOR`: a process that steps environments, and may end by them."""
+"""`python -m mindrun.sim.outside SOCKET FILE`: a process that steps environments, and may end by them.
 
+A question is the name of an environment, the folder of its module, what is asked of its stepper, and arguments.
+"""
+
+import fcntl
 import os
 import sys
+from contextlib import suppress
+from ctypes import CDLL
+from dataclasses import replace
+from mmap import mmap
+from pathlib import Path
+from signal import SIGKILL
+from socket import socket
+from typing import Any
 
-from mindrun.sim.outside.answering import Answering
-from mindrun.work.last_step import LastStep
-from mindrun.work.serving import Serving, own_streams
-from mindrun.work.worker import MAX_SILENT_SECONDS
+import numpy as np
 
-STEP_SECONDS = MAX_SILENT_SECONDS // 2  # nobody is in a hurry but who looks on, who stops it
+from mindrun.errors import MindError
+from mindrun.sim.outside import making
+from mindrun.sim.outside.channel import REACHED, Channel
+from mindrun.sim.outside.parts import Spaces
+from mindrun.sim.outside.stepper import LocalStepper, Run
+
+
+class Server:
+    """Steps environments as it is asked; `reached` is where it writes which one of a question is asked."""
+
+    def __init__(self, reached: mmap) -> None:
+        self._reached = reached
+        self._steppers: dict[tuple[str, Path | None], LocalStepper] = {}
+        self._runs: dict[int, Run] = {}
+
+    def answer(self, question: tuple[Any, ...]) -> tuple[bool, Any]:
+        """The answer to a question, or False and the error that it is."""
+        try:
+            return True, self._answer(question)
+        except MindError as error:
+            return False, error
+        except Exception as error:
+            return False, MindError(f"a question to an environment failed: {type(error).__name__}: {error}")
+
+    def _answer(self, question: tuple[Any, ...]) -> Any:
+        match question:
+            case ["registered"]:
+                return making.registered()
+            case name, folder, "spaces":
+                return _plain(self._stepper(name, folder).spaces)
+            case name, folder, "begin", numbers, *arguments:
+                begun = self._stepper(name, folder).begin(*arguments)
+                self._runs.update(zip(numbers, begun, strict=True))
+                return np.stack([run.row for run in begun])
+            case name, folder, "reset" | "step" as asked, numbers, *arguments:
+                runs = [self._runs[number] for number in numbers]
+                getattr(self._stepper(name, folder), asked)(runs, *arguments)
+                return np.stack([run.row for run in runs])
+            case name, folder, "image", number:
+                image = self._stepper(name, folder).image(self._runs[number])
+                return image if image.dtype == np.uint8 else np.zeros(0, np.uint8)
+            case name, folder, "close", numbers:
+                return self._stepper(name, folder).close([self._runs.pop(number) for number in numbers])
+        raise MindError(f"nobody knows what {question!r:.100} is")
+
+    def _stepper(self, name: str, folder: Path | None) -> LocalStepper:
+        if (name, folder) not in self._steppers:
+            self._steppers[name, folder] = LocalStepper(name, folder, self._reach)
+        return self._steppers[name, folder]
+
+    def _reach(self, number: int) -> None:
+        REACHED.pack_into(self._reached, 0, number)
 
 
 def main() -> None:
-    """Answer frames until no more come."""
-    requests, answers = own_streams()
-    last_step = LastStep(int(sys.argv[2]))
-    Serving(Answering(last_step), answers, lambda: os._exit(0), STEP_SECONDS).serve(requests)
+    """Answer questions until no more come."""
+    end_with_standard_input()
+    channel, server = Channel(socket(fileno=int(sys.argv[1]))), Server(mmap(int(sys.argv[2]), REACHED.size))
+    libc = CDLL(None)
+    with suppress(EOFError, OSError):
+        if making.is_there():
+            making.library()  # its time to be imported is not that of an environment
+        channel.send("ready")
+        while True:
+            answer = server.answer(channel.receive())
+            libc.fflush(None)  # C keeps back what does not go to a terminal
+            channel.send(answer)
     os._exit(0)  # whatever threads an environment has left
+
+
+def end_with_standard_input() -> None:
+    """Have the system kill this process when standard input ends, whatever it does then: sleep, hold the interpreter.
+
+    What reads from there finds nothing.
+    """
+    kept = os.dup(0)
+    fcntl.fcntl(kept, fcntl.F_SETOWN, os.getpid())
+    fcntl.fcntl(kept, fcntl.F_SETSIG, SIGKILL)
+    fcntl.fcntl(kept, fcntl.F_SETFL, fcntl.fcntl(kept, fcntl.F_GETFL) | os.O_ASYNC)
+    nothing = os.open(os.devnull, os.O_RDONLY)
+    os.dup2(nothing, 0)
+
+
+def _plain(spaces: Spaces) -> Spaces:
+    """Spaces without the keys that lead to their parts, which may be of classes that nobody else has."""
+    observed, acted = (
+        {name: replace(part, path=()) for name, part in parts.items()} for parts in (spaces.observed, spaces.acted)
+    )
+    return replace(spaces, observed=observed, acted=acted)
 
 
 if __name__ == "__main__":

@@ -5,7 +5,6 @@ import sys
 import warnings
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, redirect_stdout, suppress
-from functools import cache
 from importlib import import_module, invalidate_caches
 from importlib.util import find_spec
 from pathlib import Path
@@ -14,11 +13,11 @@ from typing import Any
 
 from mindrun.errors import MindError, nearest
 from mindrun.kinds.environment_module import module_beside
-from mindrun.sim.outside.foreign import first_line, foreign_code
 
 NO_TIME_LIMIT = -1  # of steps: how long a run is, the task says
 DRAWN = "rgb_array"  # the render mode of an environment that is to be seen
 WITHOUT_GREETING = {"PYGAME_HIDE_SUPPORT_PROMPT": "1"}  # which pygame says on standard output
+GAVE_NO_NUMBER = "gave what is no number"  # what is said of an environment where its own observation or reward is NaN
 WITHOUT_SCREEN = {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy"}  # pygame looks for neither
 
 _texts: dict[Path, bytes] = {}  # of the modules beside minds, as this program has them: Python imports each once
@@ -38,6 +37,8 @@ class UnknownEnvironmentError(BrokenEnvironmentError):
 
 def library() -> ModuleType:
     """The package gymnasium; MindError where it is not installed."""
+    if (known := sys.modules.get("gymnasium")) is not None:
+        return known
     try:
         with _silence():
             return import_module("gymnasium")
@@ -88,18 +89,8 @@ def registered() -> list[str]:
     return sorted(library().registry) if is_there() else []
 
 
-@cache
-def spaces(name: str, folder: Path | None = None) -> tuple[Any, Any]:
-    """The spaces of its observations and of its actions; BrokenEnvironmentError where it has none."""
-    environment = make(name, folder)
-    try:
-        return spaces_in(name, environment)
-    finally:
-        close(environment)
-
-
 def spaces_in(name: str, environment: Any) -> tuple[Any, Any]:
-    """The spaces of one that is made."""
+    """The spaces of its observations and of its actions; BrokenEnvironmentError where it has none."""
     try:
         with foreign_code():
             return environment.observation_space, environment.action_space
@@ -112,6 +103,33 @@ def close(environment: Any) -> None:
     """Give back what it holds: windows, processes, files. Whatever it says to that is of no use to anybody."""
     with suppress(Exception), foreign_code():
         environment.close()
+
+
+@contextmanager
+def foreign_code() -> Iterator[None]:
+    """Around such code: what it raises is an `Exception`, sys.exit too. Ctrl-C stays what it is.
+
+    A child that it has forked, and that comes back to here, ends as it was to.
+    """
+    process = os.getpid()
+    try:
+        yield
+    except (Exception, KeyboardInterrupt):
+        raise
+    except BaseException as error:
+        if os.getpid() != process:
+            raise
+        raise RuntimeError(first_line(error)) from error
+
+
+def first_line(error: BaseException) -> str:
+    """What an error of somebody else's code says, short enough for one line."""
+    try:
+        lines = str(error).splitlines()
+    except Exception:  # it is somebody else's code that says it
+        lines = []
+    said = next((line.strip() for line in lines if line.strip()), "")
+    return f"{type(error).__name__}: {said}"[:200] if said else type(error).__name__
 
 
 @contextmanager

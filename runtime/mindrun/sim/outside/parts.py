@@ -1,6 +1,6 @@
-"""The arrays that an observation or an action consists of, by the names that lead to them."""
+"""The arrays that an observation or an action consists of: by the names that lead to them, read and made."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import prod
 from typing import Any
@@ -9,6 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.kinds.slot import Slot
+
+NUMBERS = "biuf"  # kinds of arrays: truth values, whole numbers, others
+
+Floats = NDArray[np.float64]
+Place = tuple[str, int]  # of a number: the name of its part, and where it stands in the flat array of that
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,8 +25,8 @@ class Part:
     """
 
     shape: tuple[int, ...]
-    low: NDArray[np.float64]
-    high: NDArray[np.float64]
+    low: Floats
+    high: Floats
     dtype: Any
     choices: NDArray[np.int64] | None = None
     path: tuple[Any, ...] = ()
@@ -40,6 +45,11 @@ class Part:
         """The indices that there are, in words."""
         return " and ".join(f"0 to {n - 1}" if n > 1 else "0" for n in self.axes)
 
+    def values(self, numbers: Floats) -> list[Any]:
+        """Numbers [runs, of its size] as such an array for each run; a single choice is a number."""
+        values = numbers.astype(self.dtype).reshape(-1, *self.shape)
+        return [*values] if self.shape or self.choices is not None else [np.asarray(value) for value in values]
+
 
 @dataclass(frozen=True, slots=True)
 class Spaces:
@@ -50,9 +60,45 @@ class Spaces:
     others: tuple[str, ...] = ()
 
 
+@dataclass(frozen=True, slots=True)
+class Source:
+    """The numbers at some `places` of one part of an observation, which are read to the slots `to`."""
+
+    name: str
+    part: Part
+    places: NDArray[np.int64]
+    to: NDArray[np.int64]
+
+    def read(self, observation: Any, out: Floats) -> None:
+        """Put them into `out` [slots]; ValueError where the observation has another shape, or no real numbers."""
+        for key in self.part.path:
+            observation = observation[key]
+        seen = np.asarray(observation)
+        if seen.shape != self.part.shape or seen.dtype.kind not in NUMBERS:
+            raise ValueError(self._flaw(seen))
+        out[self.to] = seen.reshape(-1)[self.places]
+
+    def _flaw(self, seen: NDArray[Any]) -> str:
+        what = f"the part {self.name} of an observation" if self.name else "an observation"
+        if seen.shape != self.part.shape:
+            return f"{what} has the shape {seen.shape}, and its space says {self.part.shape}"
+        return f"{what} is of {seen.dtype}, which are no real numbers"
+
+
+def sources_of(parts: Mapping[str, Part], places: Sequence[Place]) -> list[Source]:
+    """Where the numbers at these places are read, one for each slot, in observations of these parts."""
+    sources = []
+    for name in dict.fromkeys(name for name, _ in places):
+        to = [slot for slot, (part, _) in enumerate(places) if part == name]
+        indices = np.array([places[slot][1] for slot in to], np.int64)
+        sources.append(Source(name, parts[name], indices, np.array(to, np.int64)))
+    return sources
+
+
 def spaces_of(observed: Any, acted: Any) -> Spaces:
     """The parts of both spaces of an environment."""
-    return Spaces(parts_of(observed), parts_of(acted), tuple(others_of(acted)))
+    others = tuple(_name(path) for path, leaf in _leaves(acted) if _part(leaf) is None)
+    return Spaces(parts_of(observed), parts_of(acted), others)
 
 
 def parts_of(space: Any) -> dict[str, Part]:
@@ -62,46 +108,6 @@ def parts_of(space: Any) -> dict[str, Part]:
     """
     known = ((path, _part(leaf)) for path, leaf in _leaves(space))
     return {_name(path): replace(part, path=path) for path, part in known if part is not None}
-
-
-def others_of(space: Any) -> list[str]:
-    """The names of the parts of a space that are no numbers."""
-    return [_name(path) for path, leaf in _leaves(space) if _part(leaf) is None]
-
-
-def formed(space: Any, values: Mapping[str, Any], path: tuple[Any, ...] = ()) -> Any:
-    """What a space contains, made of the values of its parts by their names."""
-    within = _within(space)
-    if within is None:
-        return values[_name(path)]
-    if isinstance(within, Mapping):
-        return {key: formed(inner, values, (*path, key)) for key, inner in within.items()}
-    return tuple(formed(inner, values, (*path, number)) for number, inner in enumerate(within))
-
-
-def difference(first: Spaces, now: Spaces) -> str:
-    """How spaces differ from those that the first environment of that name had, in words; empty where they do not."""
-    for what, was, parts in (("observes", first.observed, now.observed), ("takes", first.acted, now.acted)):
-        for name in dict.fromkeys([*was, *parts]):
-            one, other = was.get(name), parts.get(name)
-            if one is None or other is None or not _are_alike(one, other):
-                return f"it {what} {_described(name, other)}, and the first {_described(name, one)}"
-    return "" if first.others == now.others else "it takes other texts or graphs than the first"
-
-
-def _are_alike(one: Part, other: Part) -> bool:
-    is_choice = one.choices is not None, other.choices is not None
-    pairs = [(one.low, other.low), (one.high, other.high)] + [(one.choices, other.choices)] * all(is_choice)
-    alike = is_choice[0] == is_choice[1] and one.shape == other.shape and one.dtype == other.dtype
-    return alike and all(np.array_equal(a, b, equal_nan=a.dtype.kind == "f") for a, b in pairs)  # type: ignore[arg-type,union-attr]
-
-
-def _described(name: str, part: Part | None) -> str:
-    if part is None:
-        return f"no {name}" if name else "nothing"
-    numbers = f"{part.dtype} of the shape {part.shape}" + ", choices" * (part.choices is not None)
-    ends = f" in {part.low.min():g} to {part.high.max():g}" if part.low.size else ""
-    return f"{name}: {numbers}{ends}".removeprefix(": ")
 
 
 def found(parts: Mapping[str, Part], slot: Slot) -> tuple[str, Part | None, tuple[int, ...]]:
@@ -115,6 +121,25 @@ def found(parts: Mapping[str, Part], slot: Slot) -> tuple[str, Part | None, tupl
     if name not in parts:
         return slot.part, None, slot.index
     return name, parts[name], index or (0,)
+
+
+def actions_of(space: Any, acted: Mapping[str, Part], numbers: Floats) -> list[Any]:
+    """The actions of a space that numbers are [runs, numbers]: those of its parts `acted`, one part after the other."""
+    values, first = {}, 0
+    for name, part in acted.items():
+        values[name] = part.values(numbers[:, first : first + len(part.low)])
+        first += len(part.low)
+    return [_formed(space, {name: each[run] for name, each in values.items()}) for run in range(len(numbers))]
+
+
+def _formed(space: Any, values: Mapping[str, Any], path: tuple[Any, ...] = ()) -> Any:
+    """What a space contains, made of the values of its parts."""
+    within = _within(space)
+    if within is None:
+        return values[_name(path)]
+    if isinstance(within, Mapping):
+        return {key: _formed(inner, values, (*path, key)) for key, inner in within.items()}
+    return tuple(_formed(inner, values, (*path, number)) for number, inner in enumerate(within))
 
 
 def _leaves(space: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[tuple[Any, ...], Any]]:

@@ -1,16 +1,13 @@
 """Whether an environment does the same again: a run that was made is made once more, and held against itself."""
 
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
-from threading import Event, Timer
-from typing import Any
+from collections.abc import Iterator, Sequence
+from time import monotonic
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mindrun.errors import MindError
+from mindrun.sim.outside.parts import Floats, Place
 from mindrun.sim.outside.stepper import Run, Stepper
-from mindrun.sim.outside.taking import Place
 
 CHECKED_TICKS = 1000  # of a run: what is the same so far is taken to stay so
 CHECKED_SECONDS = 20.0  # for all that is done again
@@ -20,54 +17,77 @@ WORN = (
     "{name} does otherwise where it is reset again than where it is new: with seed {seed} {where}; each run has a new "
     "one, so figures can be repeated"
 )
-Row = NDArray[np.float64]
 
 
-class WrittenDown:
-    """A stepper that writes down what is done in its only run, and what comes of it: a row for each tick."""
+class SlowError(MindError):
+    """An environment of which too little came in the time that there is."""
+
+
+class RecordingStepper:
+    """A stepper that writes down what is done in its only run, and what comes of it: a row for each tick.
+
+    SlowError where that, or doing the same again, takes longer than `CHECKED_SECONDS` in all.
+    """
 
     def __init__(self, stepper: Stepper) -> None:
         self._stepper = stepper
-        self.environment = stepper.environment
-        self.actions: list[Mapping[str, Any]] = []
-        self.rows: list[Row] = []
+        self.environment, self._until = stepper.environment, monotonic() + CHECKED_SECONDS
+        self._places: Sequence[Place] = ()
+        self._seed = 0
+        self.actions, self.rows = list[Floats](), list[Floats]()
 
-    def run(self, places: Sequence[Place], seed: int, is_seen: bool = False) -> Any:
+    def begin(self, places: Sequence[Place], seeds: Sequence[int], is_seen: bool = False) -> list[Run]:
         """A new environment for the run."""
-        self._places, self._seed = places, seed
-        return self._stepper.run(places, seed, is_seen)
+        self._places, [self._seed] = places, seeds
+        [run] = self._stepper.begin(places, seeds, is_seen)
+        self.rows.append(run.row.copy())
+        return [run]
 
-    def step(self, runs: Sequence[Run], actions: Sequence[Mapping[str, Any]]) -> None:
+    def step(self, runs: Sequence[Run], actions: Floats) -> None:
         """Step it."""
-        if not self.rows:
-            self.rows.append(_row(runs[0]))
+        self._refuse_late()
         self._stepper.step(runs, actions)
-        self.actions += actions
-        self.rows.append(_row(runs[0]))
+        self.actions.append(actions[0])
+        self.rows.append(runs[0].row.copy())
+
+    def close(self, runs: Sequence[Run]) -> None:
+        """Give back what the run holds."""
+        self._stepper.close(runs)
 
     def flaw(self, another: Stepper, names: Sequence[str], is_paid: bool) -> str:
         """What is not the same when the same is done in two environments of another stepper side by side, or in the
         first of them once more, in a sentence about the sensors of these names; nothing where all is. A reward that
         nobody is paid may be what it likes.
         """
-        begun: list[Run] = []
-        said = {"name": self.environment, "seed": self._seed}
+        begun, said = list[Run](), {"name": self.environment, "seed": self._seed}
         try:
-            other = another.run(self._places, self._seed ^ 1)  # what a process keeps of its first run is now of this
-            other.begin()
-            other.close()
-            begun += (another.run(self._places, self._seed) for _ in range(2))
-            for runs, sentence in ((begun, FLAW), (begun[:1], WORN)):
-                if where := self._difference(_rows(another, runs, self.actions), names, is_paid):
-                    return sentence.format(where=where, **said)
+            # What a process keeps of its first run is now of this one.
+            another.close(another.begin(self._places, [self._seed ^ 1]))
+            begun += another.begin(self._places, [self._seed, self._seed])
+            if where := self._difference(self._again(another, begun), names, is_paid):
+                return FLAW.format(where=where, **said)
+            another.reset(begun[:1])
+            if where := self._difference(self._again(another, begun[:1]), names, is_paid):
+                return WORN.format(where=where, **said)
+        except SlowError:
+            raise
         except MindError as error:
             return FLAW.format(where=f"it failed then: {error}", **said)
         finally:
-            for run in begun:
-                run.close()
+            another.close(begun)
         return ""
 
-    def _difference(self, others: Iterator[list[Row]], names: Sequence[str], is_paid: bool) -> str:
+    def _again(self, stepper: Stepper, runs: Sequence[Run]) -> Iterator[list[Floats]]:
+        """The rows of runs that have begun, tick after tick, in which the same is done."""
+        yield [run.row for run in runs]
+        for action in self.actions:
+            if any(run.is_over for run in runs):
+                return
+            self._refuse_late()
+            stepper.step(runs, np.stack([action] * len(runs)))
+            yield [run.row for run in runs]
+
+    def _difference(self, others: Iterator[list[Floats]], names: Sequence[str], is_paid: bool) -> str:
         """What differs first, and in which tick."""
         words = *names, "its reward", "its end", "the time that it breaks off"
         for ticks, (row, rows) in enumerate(zip(self.rows, others, strict=False)):
@@ -79,37 +99,6 @@ class WrittenDown:
                     return f"{words[place]} in tick {tick} was {row[place]:.9g}, and {other[place]:.9g} then"
         return ""
 
-
-@contextmanager
-def in_time(*steppers: Stepper) -> Iterator[Event]:
-    """Meanwhile steppers have so long, and no longer, for all that they are asked; the event says that it was over."""
-    is_late = Event()
-
-    def break_off() -> None:
-        is_late.set()
-        for each in steppers:
-            each.break_off()
-
-    timer = Timer(CHECKED_SECONDS, break_off)
-    timer.daemon = True
-    timer.start()
-    try:
-        yield is_late
-    finally:
-        timer.cancel()
-
-
-def _rows(stepper: Stepper, runs: Sequence[Run], actions: Sequence[Mapping[str, Any]]) -> Iterator[list[Row]]:
-    for run in runs:
-        run.begin()
-    yield [_row(run) for run in runs]
-    for action in actions:
-        if any(run.is_over for run in runs):
-            return
-        stepper.step(runs, [action] * len(runs))
-        yield [_row(run) for run in runs]
-
-
-def _row(run: Run) -> Row:
-    """What is observed [slots], the reward, and how the run stands."""
-    return np.array([*run.observed, run.reward, run.is_terminated, run.is_truncated], np.float64)
+    def _refuse_late(self) -> None:
+        if monotonic() > self._until:
+            raise SlowError(SLOW.format(name=self.environment, seconds=CHECKED_SECONDS))

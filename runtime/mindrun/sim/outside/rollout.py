@@ -1,13 +1,11 @@
 """Rollouts whose worlds are environments: these are stepped one by one, and the skills think in lanes between."""
 
 from collections.abc import Callable, Sequence
-from contextlib import suppress
 from copy import copy
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 from typing import Any
-from weakref import finalize
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,15 +14,13 @@ from mindrun.errors import MindError
 from mindrun.graph.policy import Policy
 from mindrun.sim.codes import BROKEN_OFF
 from mindrun.sim.lanes.stages import act, before, conclude, run_skills
-from mindrun.sim.outside.asking import Asked
-from mindrun.sim.outside.foreign import GAVE_NO_NUMBER
-from mindrun.sim.outside.repeating import CHECKED_SECONDS, CHECKED_TICKS, SLOW, WrittenDown, in_time
-from mindrun.sim.outside.stepper import Run, Stepper
-from mindrun.sim.outside.steppers import stepper_for
+from mindrun.sim.outside.making import GAVE_NO_NUMBER
+from mindrun.sim.outside.repeating import CHECKED_TICKS, RecordingStepper, SlowError
+from mindrun.sim.outside.stepper import REWARD, TERMINATED, Run, Stepper
+from mindrun.sim.outside.subprocess_stepper import SilentEnvironmentError, stepper_for
 from mindrun.sim.outside.wiring import Wiring, wiring_of
 from mindrun.sim.rollout import SLOW_SLICE_TICKS, Rollout, Tile
 from mindrun.sim.state import Jobs, State
-from mindrun.work.last_step import LastStep
 
 ENVIRONMENT_LANES = 64  # environments side by side: so many share one call of what is compiled
 LEAST_SHARE = 0.001  # of the ticks, that is said as a number
@@ -32,9 +28,13 @@ LEAST_SHARE = 0.001  # of the ticks, that is said as a number
 
 @dataclass(frozen=True, slots=True)
 class Episodes:
-    """The environment of each run that goes on, by the number of its job; `native` is what a tile keeps anyway."""
+    """The environment of each run that goes on, by the number of its job, and what steps them, whoever thinks.
+
+    `native` is what a tile keeps anyway.
+    """
 
     native: Any
+    stepper: Stepper
     going_on: dict[int, Run] = field(default_factory=dict)
 
 
@@ -70,36 +70,32 @@ class EnvironmentRollout(Rollout):
         self.observed, self.clipped = 0, np.zeros(len(self.wiring.rows), np.int64)
         self.unreal = np.zeros(len(self.wiring.rows) + 1, np.int64)
         self._flaw = ""
-        self._open: set[Run] = set()
-        finalize(self, _close, self._open)
         self._rough = np.array([bool(row["is_rough"]) for row in self.tables.actuators], bool)
         self._rewards = [i for i, measure in enumerate(self.task.measures) if measure.is_outside]
         self._ends = [i for i, event in enumerate(self.task.events) if event.is_outside]
 
-    def asked(self) -> Asked | None:
-        """What an environment has been asked and has not answered, seen from another thread."""
-        return self._stepper.asked()
-
-    def write_steps(self, last_step: LastStep) -> None:
-        """Write each step there from now on, for who looks on from outside."""
-        self._stepper.write_steps(last_step)
-
     def make_again(self, genome: NDArray[np.float32], seed: int) -> None:
         """Make the run of a genome and a seed twice; what is not the same again is in `notes` from then on.
 
-        So it is where that takes too long. An environment that fails says so in the run itself.
+        So it is where that takes too long. An environment that fails says so in the run itself; one that does not come
+        back is waited for only once: SilentEnvironmentError.
         """
-        probe = copy(self)
-        probe._stepper = once = WrittenDown(self._stepper)  # type: ignore[assignment]  # it is asked for nothing else
+        probe, recorder = copy(self), RecordingStepper(self._stepper)
+        probe._stepper = recorder  # type: ignore[assignment]  # it is asked for nothing else
         probe.observed, probe.clipped, probe.unreal = 0, np.zeros_like(self.clipped), np.zeros_like(self.unreal)
-        tile, jobs = self.tile(1), self.jobs(genome[None], np.array([seed], np.uint64))
-        another, found = self._another_stepper(), ""
-        with in_time(self._stepper, another) as is_late, suppress(MindError):
+        tile, jobs = probe.tile(1), self.jobs(genome[None], np.array([seed], np.uint64))
+        try:
             probe.fill(tile, jobs)
             probe.advance(tile, jobs, CHECKED_TICKS)
+            self._flaw = recorder.flaw(self._another_stepper(), self.wiring.names, bool(self._rewards))
+        except SlowError as error:
+            self._flaw = str(error)
+        except SilentEnvironmentError:
+            raise
+        except MindError:
+            self._flaw = ""
+        finally:
             probe._release(tile.kept, set())
-            found = once.flaw(another, self.wiring.names, bool(self._rewards))
-        self._flaw = SLOW.format(name=once.environment, seconds=CHECKED_SECONDS) if is_late.is_set() else found
 
     def tally(self) -> NDArray[np.int64]:
         """How often was observed, for each sensor how often beyond its range, and what is `unreal`."""
@@ -142,7 +138,7 @@ class EnvironmentRollout(Rollout):
     def tile(self, lanes: int) -> Tile:
         """Room for so many lanes, and for their environments."""
         tile = super().tile(lanes)
-        return Tile(tile.state, tile.memories, Episodes(tile.kept))
+        return Tile(tile.state, tile.memories, Episodes(tile.kept, self._stepper))
 
     def advance(self, tile: Tile, jobs: Jobs, ticks: int) -> int:
         """Run so many ticks; how many lanes are still at work."""
@@ -166,7 +162,7 @@ class EnvironmentRollout(Rollout):
         self.observed += lanes
         if len(wiring.rows) == 0:
             return
-        seen = np.stack([episode.observed for episode in episodes], axis=1)
+        seen = np.stack([episode.row[:REWARD] for episode in episodes], axis=1)
         share = (seen - wiring.low[:, None]) / (wiring.high - wiring.low)[:, None]
         self.clipped += ((share < 0) | (share > 1)).sum(axis=1)
         self.unreal[:-1] += np.isnan(seen).sum(axis=1)
@@ -177,13 +173,14 @@ class EnvironmentRollout(Rollout):
         state, lanes = tile.state, int(jobs.lanes[0])
         act(self.tables, state, np.int64(lanes), jobs.clock[0])
         episodes = self._episodes(tile, jobs)
-        self._stepper.step(episodes, self.wiring.actions(self._commands(state, lanes)))
+        tile.kept.stepper.step(episodes, self.wiring.actions(self._commands(state, lanes)))
         judge, ended = state.judge, state.run.ended
-        rewards = np.array([episode.reward for episode in episodes])
+        rows = np.array([episode.row[REWARD:] for episode in episodes]).reshape(-1, -REWARD)
+        rewards = rows[:, REWARD]
         judge.measures[self._rewards, :lanes] = rewards
         self.unreal[-1] += np.count_nonzero(~np.isfinite(rewards)) if self._rewards else 0
-        judge.events[self._ends, :lanes] = [episode.is_terminated for episode in episodes]
-        ended[:lanes][[episode.is_over for episode in episodes]] = BROKEN_OFF  # unless one of the task's ends comes
+        judge.events[self._ends, :lanes] = rows[:, TERMINATED] != 0
+        ended[:lanes][(rows[:, TERMINATED:] != 0).any(axis=1)] = BROKEN_OFF  # unless one of the task's ends comes
         conclude(self.tables, state, jobs, self.interrupt)
 
     def _commands(self, state: State, lanes: int) -> NDArray[np.float32]:
@@ -198,25 +195,16 @@ class EnvironmentRollout(Rollout):
         begun = [job for job in working if job not in going_on]
         if begun:
             self._release(tile.kept, {*working})
-        for job in begun:
-            seed = int(jobs.seeds[jobs.seed[job]])
-            episode = self._stepper.run(self.wiring.places, seed)  # a new one: BipedalWalker is worn by each run
-            self._open.add(episode)
-            episode.begin()
-            going_on[job] = episode
+            seeds = [int(jobs.seeds[jobs.seed[job]]) for job in begun]
+            runs = tile.kept.stepper.begin(self.wiring.places, seeds)  # new ones: BipedalWalker is worn by each run
+            going_on.update(zip(begun, runs, strict=True))
         return [going_on[job] for job in working]
 
     def _release(self, episodes: Episodes, working: set[int]) -> None:
         """The environments of runs that are over are of no use any more."""
-        for job in [job for job in episodes.going_on if job not in working]:
-            episode = episodes.going_on.pop(job)
-            self._open.discard(episode)  # another rollout may have begun it
-            episode.close()
-
-
-def _close(episodes: set[Run]) -> None:
-    for episode in episodes:
-        episode.close()
+        over = [job for job in episodes.going_on if job not in working]
+        if over:
+            episodes.stepper.close([episodes.going_on.pop(job) for job in over])
 
 
 def _percent(share: float) -> str:

@@ -2,14 +2,13 @@
 
 from collections.abc import Callable
 from pathlib import Path
-from weakref import finalize
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.graph.graph import Graph
 from mindrun.sim.outside.making import BrokenEnvironmentError
-from mindrun.sim.outside.steppers import stepper_for
+from mindrun.sim.outside.subprocess_stepper import stepper_for
 from mindrun.sim.outside.wiring import wiring_of
 
 WITHOUT_PICTURES = "mindc run --trace and --record need no pictures of it."
@@ -30,10 +29,9 @@ class SeenEpisode:
         self._name, self._sent = environment, sent
         self._stepper = stepper_for(environment, folder)
         self._wiring = wiring_of(graph, self._stepper.spaces)
-        self._episode = self._stepper.run(self._wiring.places, seed, is_seen=True)
-        self._tick = -1  # it has not begun
+        [self._run] = self._stepper.begin(self._wiring.places, [seed], is_seen=True)
+        self._tick = 0
         self._image: NDArray[np.uint8] | None = None  # after that tick
-        finalize(self, self._episode.close)
 
     def image(self, tick: int) -> NDArray[np.uint8]:
         """What is seen after a tick, 0 for the beginning [height, width, 3], red first; BrokenEnvironmentError where
@@ -41,14 +39,14 @@ class SeenEpisode:
         """
         if tick == self._tick and self._image is not None:
             return self._image
-        if not 0 <= self._tick <= tick:
-            self._episode.begin()
+        if tick < self._tick:
+            self._stepper.reset([self._run])
             self._tick = 0
         for number, action in enumerate(self._wiring.actions(self._sent(self._tick, tick).T), self._tick + 1):
-            if self._episode.is_over:
+            if self._run.is_over:
                 said = f"the environment {self._name} does not do the same again: there is no picture of this run"
                 raise BrokenEnvironmentError(said, f"It was over after tick {self._tick:,} now. {WITHOUT_PICTURES}")
-            self._stepper.step([self._episode], [action])
+            self._stepper.step([self._run], action[None])
             self._tick, self._image = number, None
             if tick - TICKS_DRAWN_BEFORE <= number < tick:
                 self._drawn()
@@ -57,7 +55,7 @@ class SeenEpisode:
 
     def _drawn(self) -> NDArray[np.uint8]:
         try:
-            found: NDArray[np.uint8] = np.asarray(self._episode.image())
+            found = self._stepper.image(self._run)
         except BrokenEnvironmentError as error:
             hint = f"{error.why or error} {WITHOUT_PICTURES}"
             raise BrokenEnvironmentError(f"the environment {self._name} cannot be drawn", hint) from error

@@ -1,36 +1,41 @@
-"""What steps environments of a name, in this process or in another one; and a run in one of them."""
+"""Steppers of environments: what each of them does, and that of environments in this process."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import cached_property
+from numbers import Real
+from pathlib import Path
 from typing import Any, Protocol
+from weakref import finalize
 
+import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.sim.outside.asking import Asked
-from mindrun.sim.outside.parts import Spaces
-from mindrun.sim.outside.taking import Place
-from mindrun.work.last_step import LastStep
+from mindrun.sim.outside import making
+from mindrun.sim.outside.making import BrokenEnvironmentError, first_line, foreign_code
+from mindrun.sim.outside.parts import Floats, Place, Source, Spaces, actions_of, sources_of, spaces_of
+
+SEED_LIMIT = 1 << 31  # some environments take no larger ones
+REWARD, TERMINATED, TRUNCATED = -3, -2, -1  # where they stand in a row, behind what is observed
 
 
-class Run(Protocol):
-    """An environment in the run of a seed. After each step: what is `observed` [slots], the reward, how it stands."""
+class Run:
+    """An environment in the run of a seed, after so many `steps`: the `row` of what it said last [slots + 3]."""
 
-    observed: NDArray[Any]
-    reward: float
-    is_terminated: bool
-    is_truncated: bool
+    def __init__(self, seed: int, slots: int) -> None:
+        self.seed, self.steps = seed, 0
+        self.row: Floats = np.zeros(slots + 3)
 
     @property
     def is_over(self) -> bool:
         """Whether it can be stepped no more."""
+        return bool(self.row[TERMINATED] or self.row[TRUNCATED])
 
-    def begin(self) -> None:
-        """Begin the run, or begin it again."""
-
-    def image(self) -> Any:
-        """What is seen of it now [height, width, 3], red first; None where it draws nothing."""
-
-    def close(self) -> None:
-        """Give back what it holds."""
+    @property
+    def where(self) -> str:
+        """How far it is, in words."""
+        return place_of(self.seed, self.steps)
 
 
 class Stepper(Protocol):
@@ -40,19 +45,170 @@ class Stepper(Protocol):
 
     @property
     def spaces(self) -> Spaces:
-        """What it observes and takes."""
+        """What they observe and take."""
 
-    def run(self, places: Sequence[Place], seed: int, is_seen: bool = False) -> Any:
-        """A new environment for the run of a seed, of which the numbers at these places are read: a `Run`."""
+    def begin(self, places: Sequence[Place], seeds: Sequence[int], is_seen: bool = False) -> list[Run]:
+        """A new environment for the run of each seed, of which the numbers at these places are read, one a slot."""
 
-    def step(self, runs: Sequence[Any], actions: Sequence[Mapping[str, Any]]) -> None:
-        """Step each of its runs: the values of the parts of its action."""
+    def reset(self, runs: Sequence[Run]) -> None:
+        """Begin runs again, each in its environment."""
 
-    def asked(self) -> Asked | None:
-        """What an environment in this process has been asked and has not answered, seen from another thread."""
+    def step(self, runs: Sequence[Run], actions: Floats) -> None:
+        """Step each run: the numbers of its action, part after part [runs, numbers]."""
 
-    def break_off(self) -> None:
-        """End what is asked of another process, from another thread: whoever waits for an answer is told."""
+    def image(self, run: Run) -> NDArray[Any]:
+        """What is seen of a run now [height, width, 3], red first; another array where it draws nothing."""
 
-    def write_steps(self, last_step: LastStep) -> None:
-        """Write each step there from now on, where this process makes them."""
+    def close(self, runs: Sequence[Run]) -> None:
+        """Give back what runs hold."""
+
+
+@dataclass(frozen=True, slots=True)
+class Made:
+    """An environment that is made, and where the numbers are that are read of it."""
+
+    environment: Any
+    sources: Sequence[Source]
+
+    def reset(self, run: Run) -> None:
+        """Begin a run in it."""
+        run.row[:], run.steps = 0.0, 0
+        observation, _ = self.environment.reset(seed=run.seed % SEED_LIMIT)
+        self._read(observation, run)
+
+    def step(self, run: Run, action: Any) -> None:
+        """Step it."""
+        observation, reward, terminated, truncated, _ = self.environment.step(action)
+        self._read(observation, run)
+        run.row[REWARD] = number_of("the reward", reward)
+        run.row[TERMINATED] = truth_of("terminated", terminated)
+        run.row[TRUNCATED] = truth_of("truncated", truncated)
+
+    def _read(self, observation: Any, run: Run) -> None:
+        for source in self.sources:
+            source.read(observation, run.row)
+
+
+class LocalStepper:
+    """Steps environments of a name in this process; a module before it is looked for in `folder` first.
+
+    `reached` is told before each environment of a question which of them is asked now.
+    """
+
+    def __init__(
+        self, environment: str, folder: Path | None = None, reached: Callable[[int], object] = lambda number: None
+    ) -> None:
+        self.environment, self._folder, self._reached = environment, folder, reached
+        self._open: dict[Run, Made] = {}
+        self._at = Run(0, 0)  # the run of which the environment is asked
+        finalize(self, _close, self._open)
+
+    @cached_property
+    def spaces(self) -> Spaces:
+        """What they observe and take."""
+        return spaces_of(*self._spaces)
+
+    @cached_property
+    def _spaces(self) -> tuple[Any, Any]:
+        """The spaces of Gymnasium of the first environment."""
+        environment = making.make(self.environment, self._folder)
+        try:
+            return making.spaces_in(self.environment, environment)
+        finally:
+            making.close(environment)
+
+    def begin(self, places: Sequence[Place], seeds: Sequence[int], is_seen: bool = False) -> list[Run]:
+        """A new environment for the run of each seed, of which the numbers at these places are read, one a slot."""
+        sources = sources_of(self.spaces.observed, places)
+        runs = [Run(seed, len(places)) for seed in seeds]
+        try:
+            for run in self._each(runs):
+                self._open[run] = made = Made(making.make(self.environment, self._folder, is_seen), sources)
+                with self._blaming():
+                    self._refuse_other_spaces(made.environment, run)
+                    made.reset(run)
+        except BaseException:
+            self.close(runs)
+            raise
+        return runs
+
+    def reset(self, runs: Sequence[Run]) -> None:
+        """Begin runs again, each in its environment."""
+        with self._blaming():
+            for run in self._each(runs):
+                self._open[run].reset(run)
+
+    def step(self, runs: Sequence[Run], actions: Floats) -> None:
+        """Step each run: the numbers of its action, part after part [runs, numbers]."""
+        _, acted = self._spaces
+        with self._blaming():
+            for run, action in zip(self._each(runs), actions_of(acted, self.spaces.acted, actions), strict=True):
+                run.steps += 1
+                self._open[run].step(run, action)
+
+    def image(self, run: Run) -> NDArray[Any]:
+        """What is seen of a run now [height, width, 3], red first; another array where it draws nothing."""
+        with self._blaming():
+            self._at = run
+            return np.asarray(self._open[run].environment.render())
+
+    def close(self, runs: Sequence[Run]) -> None:
+        """Give back what runs hold; those that have not begun hold nothing."""
+        for run in self._each(runs):
+            if (made := self._open.pop(run, None)) is not None:
+                making.close(made.environment)
+
+    def _each(self, runs: Sequence[Run]) -> Iterator[Run]:
+        for number, run in enumerate(runs):
+            self._reached(number)
+            self._at = run
+            yield run
+
+    def _refuse_other_spaces(self, environment: Any, run: Run) -> None:
+        """BrokenEnvironmentError where it has other spaces than the first of its name, to which a mind is wired."""
+        now = making.spaces_in(self.environment, environment)
+        for verb, first, other in zip(("observes", "takes"), self._spaces, now, strict=True):
+            if first != other:
+                why = f"it {verb} {other}, and the first {first}"
+                message = f"the environment {self.environment} has other spaces each time that it is made"
+                hint = f"In {run.where} {why}. Let it always have the same: a mind is wired to them once."
+                raise BrokenEnvironmentError(message, hint, why)
+
+    @contextmanager
+    def _blaming(self) -> Iterator[None]:
+        """Around what environments are asked: whatever one raises is its fault, and says where in which run."""
+        try:
+            with foreign_code():
+                yield
+        except BrokenEnvironmentError:
+            raise
+        except Exception as error:
+            why = first_line(error)
+            hint = f"It was in {self._at.where}, and the fault is the environment's: {why}.".replace("..", ".")
+            raise BrokenEnvironmentError(f"the environment {self.environment} failed", hint, why) from error
+
+
+def place_of(seed: int, steps: int) -> str:
+    """Where in a run something was, in words."""
+    return f"step {steps} of the run of seed {seed}" if steps else f"the beginning of the run of seed {seed}"
+
+
+def number_of(what: str, value: Any) -> float:
+    """A number, or an array of one; TypeError where it is a text, which Python would read as one."""
+    value = value.item() if isinstance(value, np.ndarray) else value
+    if isinstance(value, str | bytes | bytearray):
+        raise TypeError(f"{what} is the text {value!r:.40}, which is no number")
+    return float(value)
+
+
+def truth_of(what: str, value: Any) -> bool:
+    """A truth value, or a number that is 0 or 1, or an array of one; TypeError where it is anything else."""
+    value = value.item() if isinstance(value, np.ndarray | np.generic) else value
+    if isinstance(value, Real) and value in (0, 1):
+        return bool(value)
+    raise TypeError(f"{what} is {value!r:.40}, which is neither true nor false")
+
+
+def _close(opened: Mapping[Run, Made]) -> None:
+    for made in opened.values():
+        making.close(made.environment)

@@ -1,8 +1,9 @@
-"""Observations → readings, commands → actions: the mind's side of an environment, as arrays."""
+"""How a mind is wired to an environment: whether its sensors and actuators fit, and what its commands are there."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any
+from itertools import takewhile
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,51 +11,119 @@ from numpy.typing import NDArray
 from mindrun.errors import MindError
 from mindrun.graph.graph import Graph
 from mindrun.kinds.slot import Slot
-from mindrun.sim.outside.fitting import misfits
-from mindrun.sim.outside.parts import Part, Spaces, found
-from mindrun.sim.outside.taking import Place
+from mindrun.sim.outside.parts import Floats, Part, Place, Spaces, found
 
-Floats = NDArray[np.float64]
-Commands = NDArray[np.float32]  # [actuators, lanes]
-Action = Mapping[str, Any]  # the values of the parts of an action, by their names
+WRAP = "Wrap the environment in one that has numbers instead, registered in a module beside the mind."
+
+
+class Misfit(NamedTuple):
+    """A code, the name of a sensor or an actuator (empty: of the task), a sentence, and what to do."""
+
+    code: str
+    name: str
+    message: str
+    hint: str
+
+
+def misfits(spaces: Spaces, sensors: Mapping[str, Slot], actuators: Mapping[str, Slot]) -> Iterator[Misfit]:
+    """What does not fit the spaces of an environment."""
+    parts, sinks = spaces.observed, spaces.acted
+    for name, slot in sensors.items():
+        yield from _of_place(name, "observation", slot, parts)
+    wrong = [misfit for name, slot in actuators.items() for misfit in _of_actuator(name, slot, sinks)]
+    for other in () if wrong else spaces.others:
+        yield Misfit("unfit-action", "", f"The environment takes {other or 'something'}, which is no number.", WRAP)
+    yield from wrong or _of_all(actuators.values(), sinks)
+
+
+def _of_place(name: str, noun: str, slot: Slot, parts: Mapping[str, Part]) -> Iterator[Misfit]:
+    _, part, index = found(parts, slot)
+    if part is None:
+        known = [each for each in parts if each]
+        said = f"has no part called {slot.part}" if slot.part else "has several parts" if known else "is no number"
+        first = _written(known[0], (0,)) if known else "0"
+        hint = f"Its parts are {', '.join(known)}: write {noun} {first}." if known else f"Write {noun} 0."
+        hint = hint if parts else WRAP
+        yield Misfit("unknown-slot", name, f"The {noun} of the environment {said}.", hint)
+    elif part.place(index) is None:
+        several = "s" * (part.axes != (1,))
+        hint = f"It has {' times '.join(map(str, part.axes))} number{several}: {part.indices()}."
+        yield Misfit("unknown-slot", name, f"The environment has no {noun} {slot}.", hint)
+
+
+def _of_actuator(name: str, slot: Slot, parts: Mapping[str, Part]) -> Iterator[Misfit]:
+    _, part, index = found(parts, slot)
+    place = part.place(index) if part else None
+    if part is None or place is None:
+        yield from _of_place(name, "action", slot, parts)
+    elif slot.chosen is None:
+        yield from _of_number(name, slot, part, place)
+    elif part.choices is None:
+        hint = "Write one actuator for each of them: action 0."
+        yield Misfit("unfit-action", name, "The environment takes numbers, and no choices.", hint)
+    elif not part.low[place] <= slot.chosen <= part.high[place]:
+        hint = f"Its choices are {part.low[place]:.0f} to {part.high[place]:.0f}."
+        yield Misfit("unknown-slot", name, f"The environment has no choice {slot.chosen}.", hint)
+
+
+def _of_number(name: str, slot: Slot, part: Part, place: int) -> Iterator[Misfit]:
+    if part.choices is not None:
+        hint = f"Write one actuator for each that is to be chosen: choice {part.low[place]:.0f}."
+        yield Misfit("unfit-action", name, "The environment takes one of a few actions, and no numbers.", hint)
+    elif not slot.has_two_ends:
+        yield Misfit("open-range", name, "An action has a range with two ends.", "Write range -1 to 1.")
+    elif slot.range is None and not np.isfinite([part.low[place], part.high[place]]).all():
+        message = "The environment does not say how large this action may be."
+        yield Misfit("open-range", name, message, "Say it: range -1 to 1.")
+    elif slot.range and not part.low[place] <= slot.range.first < slot.range.last <= part.high[place]:
+        hint = f"Write a range within {part.low[place]:g} to {part.high[place]:g}."
+        yield Misfit("out-of-range", name, "The range goes beyond what the environment takes.", hint)
+
+
+def _of_all(slots: Collection[Slot], parts: Mapping[str, Part]) -> Iterator[Misfit]:
+    """Everything that an environment takes is given to it, and each number once."""
+    places = [(name, index) for name, _, index in (found(parts, slot) for slot in slots)]
+    for name, part in parts.items():
+        for place in range(len(part.low)):
+            index = tuple(map(int, np.unravel_index(place, part.axes)))
+            given = places.count((name, index))
+            there = _written(name, index)
+            if part.choices is None and given > 1:
+                yield Misfit("repeated-action", "", f"Two actuators are action {there}.", "Leave one of them out.")
+            elif part.choices is None and not given:
+                hint = f"Add it: actuator thrust is action {there} neutral 0.5."
+                yield Misfit("missing-action", "", f"No actuator is action {there} of the environment.", hint)
+            elif not given:
+                written = f"{_written(name, index if part.shape else ())} {part.low[place]:.0f}".strip()
+                hint = f"Add one for each: actuator wait is choice {written} neutral 0."
+                yield Misfit("missing-action", "", "No actuator is a choice of the environment.", hint)
+
+
+def _is_of_tuple(name: str) -> bool:
+    return name.rpartition(".")[2].isdigit()
+
+
+def _written(name: str, index: tuple[int, ...]) -> str:
+    """A place of a part as it is written: the numbers of a tuple's parts are indices."""
+    return " ".join([*name.split("."), *map(str, index)]) if _is_of_tuple(name) else f"{name} {Slot('', index)}".strip()
 
 
 @dataclass(frozen=True, slots=True)
-class Sink:
-    """What the commands `rows` make of one part of an action.
+class Choice:
+    """A choice at a `place` of an action: the one of `numbers` whose command, at the same of `rows`, is the largest."""
 
-    Of numbers: low + command · (high − low) at `places`. Of choices: at each of the `places` that of the `numbers` of
-    which the command is the largest.
-    """
-
-    name: str
-    part: Part
+    place: int
     rows: NDArray[np.int64]
-    places: NDArray[np.int64]
-    low: Floats
-    high: Floats
     numbers: NDArray[np.int64]
-
-    def of(self, commands: Commands) -> Sequence[Any]:
-        """That part of the actions, one for each lane: arrays of its shape; a choice of a single place is a number."""
-        given, lanes = commands[self.rows].astype(np.float64), commands.shape[1]
-        if self.part.choices is None:
-            found = np.zeros((lanes, len(self.part.low)))
-            found[:, self.places] = (self.low[:, None] + given * (self.high - self.low)[:, None]).T
-        else:
-            found = np.zeros((lanes, len(self.part.low)), np.int64)
-            for place in np.unique(self.places):
-                here = self.places == place
-                found[:, place] = self.numbers[here][given[here].argmax(axis=0)]
-        found = found.astype(self.part.dtype).reshape(lanes, *self.part.shape)
-        has_numbers = bool(self.part.shape) or self.part.choices is not None
-        return [*found] if has_numbers else [np.asarray(each) for each in found]
 
 
 @dataclass(frozen=True, slots=True)
 class Wiring:
-    """The slots that are observed, in the order of the sensors that read them: their rows among the readings, and the
-    `places` of their numbers in an observation.
+    """What a mind reads of an environment, and what its commands are there.
+
+    Its sensors, in order: their `rows` among the readings, their `names`, the ends of their ranges, and the `places` of
+    their numbers in an observation. An action is as many numbers as its parts have, one part after the other: of the
+    commands `driven` least + command · (most − least) at the places `to`, and at others a choice.
     """
 
     rows: NDArray[np.int64]
@@ -62,12 +131,22 @@ class Wiring:
     low: Floats
     high: Floats
     places: tuple[Place, ...]
-    sinks: tuple[Sink, ...]
+    action_numbers: int
+    driven: NDArray[np.int64]
+    to: NDArray[np.int64]
+    least: Floats
+    most: Floats
+    choices: tuple[Choice, ...]
 
-    def actions(self, commands: Commands) -> Sequence[Action]:
-        """One action for each lane."""
-        parts = {sink.name: sink.of(commands) for sink in self.sinks}
-        return [{name: values[lane] for name, values in parts.items()} for lane in range(commands.shape[1])]
+    def actions(self, commands: NDArray[np.float32]) -> Floats:
+        """The actions [lanes, action_numbers] that commands [actuators, lanes] are."""
+        given = commands.astype(np.float64)
+        actions = np.zeros((commands.shape[1], self.action_numbers))
+        numbers = self.least[:, None] + given[self.driven] * (self.most - self.least)[:, None]
+        actions[:, self.to] = numbers.T
+        for choice in self.choices:
+            actions[:, choice.place] = choice.numbers[given[choice.rows].argmax(axis=0)]
+        return actions
 
 
 def wiring_of(graph: Graph, spaces: Spaces) -> Wiring:
@@ -76,16 +155,22 @@ def wiring_of(graph: Graph, spaces: Spaces) -> Wiring:
     actuators = {actuator.name: slot for actuator in graph.actuators if (slot := actuator.kind.slot)}
     for misfit in misfits(spaces, sensors, actuators):
         raise MindError(f"{misfit.name}: {misfit.message}".removeprefix(": "), misfit.hint)
-    rows = [sensor.start for sensor in graph.sensors if sensor.name in sensors]
     ends = np.array([_ends(slot) for slot in sensors.values()], np.float64).reshape(-1, 2)
-    driven = [(row, actuators[each.name]) for row, each in enumerate(graph.actuators) if each.name in actuators]
+    driving = [(row, slot) for row, each in enumerate(graph.actuators) if (slot := each.kind.slot)]
+    numbers = [(row, slot) for row, slot in driving if slot.chosen is None]
+    given = np.array([_driven_ends(slot, spaces.acted) for _, slot in numbers], np.float64).reshape(-1, 2)
     return Wiring(
-        np.array(rows, np.int64),
+        np.array([sensor.start for sensor in graph.sensors if sensor.name in sensors], np.int64),
         tuple(sensors),
         ends[:, 0],
         ends[:, 1],
         tuple(_place(spaces.observed, slot) for slot in sensors.values()),
-        tuple(_sink(name, spaces.acted, driven) for name in spaces.acted),
+        sum(len(part.low) for part in spaces.acted.values()),
+        np.array([row for row, _ in numbers], np.int64),
+        np.array([_place_of_action(slot, spaces.acted) for _, slot in numbers], np.int64),
+        given[:, 0],
+        given[:, 1],
+        tuple(_choices([(row, slot) for row, slot in driving if slot.chosen is not None], spaces.acted)),
     )
 
 
@@ -96,15 +181,23 @@ def _place(parts: Mapping[str, Part], slot: Slot) -> Place:
     return name, place
 
 
-def _sink(name: str, parts: Mapping[str, Part], driven: Sequence[tuple[int, Slot]]) -> Sink:
-    part, there = parts[name], [(row, slot, *found(parts, slot)) for row, slot in driven]
-    mine = [(row, slot, index) for row, slot, of, _, index in there if of == name]
-    rows, slots = [row for row, _, _ in mine], [slot for _, slot, _ in mine]
-    places = np.array([part.place(index) for _, _, index in mine], np.int64)
-    said = [_ends(slot) if slot.range else (part.low[i], part.high[i]) for slot, i in zip(slots, places, strict=True)]
-    low, high = np.array(said, np.float64).reshape(-1, 2).T
-    numbers = np.array([slot.chosen or 0 for slot in slots], np.int64)
-    return Sink(name, part, np.array(rows, np.int64), places, low, high, numbers)
+def _place_of_action(slot: Slot, acted: Mapping[str, Part]) -> int:
+    """Where the number of a slot stands among those of an action."""
+    name, place = _place(acted, slot)
+    return place + sum(len(acted[each].low) for each in takewhile(lambda each: each != name, acted))
+
+
+def _choices(driving: Collection[tuple[int, Slot]], acted: Mapping[str, Part]) -> Iterator[Choice]:
+    places = [_place_of_action(slot, acted) for _, slot in driving]
+    for place in dict.fromkeys(places):
+        there = [each for each, own in zip(driving, places, strict=True) if own == place]
+        rows, numbers = ([row for row, _ in there], [slot.chosen for _, slot in there])
+        yield Choice(place, np.array(rows, np.int64), np.array(numbers, np.int64))
+
+
+def _driven_ends(slot: Slot, acted: Mapping[str, Part]) -> tuple[float, float]:
+    name, place = _place(acted, slot)
+    return _ends(slot) if slot.range else (acted[name].low[place], acted[name].high[place])
 
 
 def _ends(slot: Slot) -> tuple[float, float]:

@@ -5,6 +5,7 @@ import os
 import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -15,17 +16,16 @@ import numpy as np
 from mindrun.errors import MindError
 from mindrun.graph.policy import Policy
 from mindrun.sim.outside import repeating
-from mindrun.sim.outside.apart import Apart
-from mindrun.sim.outside.here import Here
 from mindrun.sim.outside.rollout import EnvironmentRollout
-from mindrun.sim.outside.steppers import is_own, stepper_for
+from mindrun.sim.outside.stepper import LocalStepper
+from mindrun.sim.outside.subprocess_stepper import VARIABLE, SubprocessStepper, is_own, stepper_for
 from mindrun.sim.takeover import take_over
 from mindrun.sim.trace import trace
 
 import mindlang
 from tests.outside import minds, worlds
 from tests.outside.test_commands import RULES
-from tests.outside.test_environment_workers import LESSON, mindc, workers_of
+from tests.outside.test_environment_workers import LESSON, ROOT, mindc, until, workers_of
 from tests.outside.test_outside_rollout import MINDS
 
 ENDS = {"Exit": "exit code 3", "Fault": "SIGSEGV", "Leave": "SystemExit"}
@@ -75,12 +75,12 @@ def test_what_it_does_to_its_process_it_does_to_no_other(capfd: pytest.CaptureFi
 
 
 def test_its_process_ends_with_it_whatever_thread_an_environment_has_left() -> None:
-    apart = Apart(deadly("Thread", "make"))
-    apart.run([("", 0)], 5).begin()
-    process = apart._process._child.process
+    stepper = SubprocessStepper(deadly("Thread", "make"))
+    stepper.begin([("", 0)], [5])
+    process = stepper._process._process
     assert process is not None
     assert process.poll() is None
-    del apart
+    del stepper
     gc.collect()
     assert process.poll() is not None
 
@@ -89,7 +89,7 @@ def test_its_process_ends_with_it_whatever_thread_an_environment_has_left() -> N
 def test_it_comes_to_the_same_bits_there_as_here(name: str) -> None:
     source = MINDS[name].replace("gymnasium ", "gymnasium tests.outside.kept:")
     policy, found = Policy(minds.graph_of(source), {}), []
-    for steppers in (Here, Apart):
+    for steppers in (LocalStepper, SubprocessStepper):
         rollout = EnvironmentRollout(policy, "Go", "Go", ["Go"], lanes=3, steppers=steppers)
         scores = rollout.score(minds.genomes(rollout, 4), [1, 2**64 - 1])
         found.append((scores.total.tobytes(), scores.ticks.tobytes(), rollout.tally().tobytes()))
@@ -99,26 +99,117 @@ def test_it_comes_to_the_same_bits_there_as_here(name: str) -> None:
 def test_a_run_that_another_mind_takes_over_is_stepped_where_it_was_begun() -> None:
     graph = minds.graph_of(MINDS["numbers"].replace("gymnasium ", "gymnasium tests.outside.kept:"))
     policy = Policy(graph, {"Go": minds.genomes(minds.rollout_of(MINDS["numbers"]), 1)[0]})
-    ours, theirs = (EnvironmentRollout(policy, "Go", "Go", steppers=Apart) for _ in range(2))
+    ours, theirs = (EnvironmentRollout(policy, "Go", "Go", steppers=SubprocessStepper) for _ in range(2))
     plain = [moment.readings.tolist() for moment in trace(ours, 7).moments]
     assert [moment.readings.tolist() for moment in take_over(ours, 7, 4, theirs).moments] == plain[3:]
 
 
-def test_a_check_of_what_hangs_ends_and_says_that_nothing_is_known(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(repeating, "CHECKED_SECONDS", 0.2)
-    name = "tests.outside.kept:tests/Hanging-v0"
-    rollout = minds.rollout_of(minds.text(scene=name), steppers=Apart)
+def test_a_check_of_what_is_slow_ends_and_says_that_nothing_is_known(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(repeating, "CHECKED_SECONDS", 0.0)
+    name = "tests.outside.kept:tests/Line-v0"
+    rollout = minds.rollout_of(minds.text(scene=name), steppers=SubprocessStepper)
     rollout.make_again(minds.genomes(rollout, 1)[0], 1)
     [note] = rollout.notes
     assert note.startswith(f"whether {name} does the same again is not known: ")
 
 
+HANGS = [
+    *((way, "step", "step 3 of the run of seed 5") for way in ("Hold", "Stop", "Sleep")),
+    *((way, "make", "the beginning of the run of seed 5") for way in ("Hold", "Stop")),
+    ("Hold", "reset", "the beginning of the run of seed 5"),
+    ("Stop", "render", "its image after step 3 of the run of seed 5"),
+    ("Hold", "close", "its close after step 3 of the run of seed 5"),
+    ("Sleep", "close", "its close after step 3 of the run of seed 5"),
+]
+
+
+def made_and_closed(stepper: SubprocessStepper) -> None:
+    """A run of three steps, and an image of it."""
+    runs = stepper.begin([("", 0)], [5])
+    for _ in range(3):
+        stepper.step(runs, np.zeros((1, 1)))
+    stepper.image(runs[0])
+    stepper.close(runs)
+
+
+def test_one_that_does_not_come_back_from_its_constructor(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv(VARIABLE, "3")
+    with pytest.raises(
+        MindError, match="deadly/Hold-make-v0 does not come back from being asked for its spaces, in 3 "
+    ):
+        minds.rollout_of(minds.text(scene=deadly("Hold", "make")))
+
+
+@pytest.mark.parametrize(("way", "place", "where"), HANGS)
+def test_an_environment_that_does_not_come_back_is_killed_and_told(
+    monkeypatch: pytest.MonkeyPatch, way: str, place: str, where: str
+) -> None:
+    """Code in C that holds the interpreter, a process that has stopped, a sleep: the watch is not in that process."""
+    monkeypatch.setenv(VARIABLE, "3")
+    stepper = SubprocessStepper(deadly(way, place))
+    with pytest.raises(MindError) as found:
+        made_and_closed(stepper)
+    assert str(found.value) == f"the environment {deadly(way, place)} does not come back from {where}, in 3 seconds"
+    assert not stepper._process.has_begun
+    assert VARIABLE in found.value.hint
+
+
+def test_of_many_environments_that_one_is_told_and_slow_ones_have_their_time_each(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setenv(VARIABLE, "3")
+    stepper = SubprocessStepper(deadly("Doze", "step"))
+    runs = stepper.begin([("", 0)], range(10))
+    for _ in range(3):
+        stepper.step(runs, np.zeros((10, 1)))
+    stepper = SubprocessStepper(deadly("Stop", "step"))
+    runs = stepper.begin([("", 0)], [1, 2, 3])
+    stepper.step(runs[1:2], np.zeros((1, 1)))
+    stepper.step(runs, np.zeros((3, 1)))
+    with pytest.raises(MindError, match="from step 3 of the run of seed 2, in 3 seconds"):
+        stepper.step(runs, np.zeros((3, 1)))
+
+
+@pytest.mark.parametrize("way", ["Hold", "Stop"])
+def test_a_process_that_hangs_ends_with_the_program_that_asked(tmp_path: Path, way: str) -> None:
+    """Killed, too, when it cannot end anything any more."""
+    rules(tmp_path, deadly(way, "step"))
+    words = [sys.executable, "-c", "from mindlang.cli import main; main()", "run", "go.mind", "--seed", "5"]
+    path = os.pathsep.join([str(ROOT), str(ROOT / "runtime")])
+    asking = subprocess.Popen(words, cwd=tmp_path, env={**os.environ, "PYTHONPATH": path}, stderr=subprocess.DEVNULL)
+    until(lambda: any("mindrun.sim.outside" in each for each in workers_of(tmp_path)))
+    time.sleep(1)  # mostly it hangs by then; before that it ends all the same
+    asking.kill()
+    asking.wait()
+    until(lambda: workers_of(tmp_path) == [])
+
+
+@pytest.mark.parametrize(
+    "words", [("run", "go.mind", "--seed", "5"), ("train", "go.mind", "--seed", "1", "--workers", "2")]
+)
+def test_a_command_ends_where_an_environment_hangs(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, words: tuple[str, ...]
+) -> None:
+    monkeypatch.setenv(VARIABLE, "5")
+    world = deadly("Hold", "step")
+    if words[0] == "run":
+        rules(tmp_path, world)
+    else:
+        (tmp_path / "go.mind").write_text(minds.text(scene=world) + LESSON)
+    done = mindc(tmp_path, *words)
+    said = " ".join(done.stderr.split())
+    assert (done.returncode, done.stdout) == (1, "")
+    assert f"the environment {world} does not come back from step 3 of the run of seed" in said
+    assert "in 5 seconds" in said
+    assert workers_of(tmp_path) == []
+
+
 def test_what_a_program_registers_itself_is_stepped_there() -> None:
     worlds.register()
     assert is_own(worlds.name(worlds.Line))
-    assert isinstance(stepper_for(worlds.name(worlds.Line)), Here)
+    assert isinstance(stepper_for(worlds.name(worlds.Line)), LocalStepper)
     assert not is_own("CartPole-v1")
-    assert isinstance(stepper_for("CartPole-v1"), Apart)
+    assert isinstance(stepper_for("CartPole-v1"), SubprocessStepper)
 
 
 def rules(folder: Path, world: str, lesson: str = "") -> Path:
@@ -163,8 +254,9 @@ def test_a_training_says_at_which_step_of_which_run_and_can_go_on(tmp_path: Path
     done = mindc(tmp_path, "train", "go.mind", "--seed", "1", "--workers", "1")
     said = " ".join(done.stderr.split())
     assert done.returncode == 1
-    assert "by exit code 3, in step 3 of the run of seed" in said
-    assert f"in {deadly('Exit', 'step')}" in said
+    assert f"the environment {deadly('Exit', 'step')} has ended its process" in said
+    assert "It was in step 3 of the run of seed" in said
+    assert "exit code 3" in said
     assert "to go on: mindc train --resume runs/" in said
     assert not (tmp_path / "go.lock").exists()
 

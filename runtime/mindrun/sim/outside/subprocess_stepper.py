@@ -1,0 +1,287 @@
+"""A stepper of environments in a process of their own, watched from this one: whatever one does there, this goes on.
+
+It may end its process, write on standard output, go to another folder or take signals. Where it does not answer in
+time, whether it sleeps, holds the interpreter or is stopped, its process is killed.
+"""
+
+import os
+import sys
+from collections.abc import Sequence
+from contextlib import suppress
+from functools import cache, cached_property
+from itertools import count
+from mmap import mmap
+from pathlib import Path
+from signal import Signals
+from socket import socketpair
+from subprocess import PIPE, Popen, TimeoutExpired
+from tempfile import TemporaryFile
+from threading import Lock
+from typing import Any
+from weakref import finalize
+
+from numpy.typing import NDArray
+
+from mindrun.errors import MindError
+from mindrun.sim.outside import making
+from mindrun.sim.outside.channel import REACHED, Channel
+from mindrun.sim.outside.making import BrokenEnvironmentError
+from mindrun.sim.outside.parts import Floats, Place, Spaces
+from mindrun.sim.outside.stepper import LocalStepper, Run, Stepper, place_of
+
+STEP_SECONDS, VARIABLE = 60, "MIND_STEP_SECONDS"  # that an environment has for an answer; what says another number
+START_SECONDS = 60  # until its process takes questions
+LOOK_SECONDS = 0.5  # between two looks at whether it comes any further
+SLOW = f"One that needs longer is given it by {VARIABLE}=600, before the command."
+STANDARD_ERROR = 2
+
+
+class LostError(Exception):
+    """A process that has ended, or does not answer: how, and which environment of the question was asked."""
+
+    def __init__(self, how: str, reached: int, is_silent: bool = False) -> None:
+        super().__init__(how)
+        self.how, self.reached, self.is_silent = how, reached, is_silent
+
+
+class SilentEnvironmentError(BrokenEnvironmentError):
+    """An environment that does not come back."""
+
+
+class EnvironmentProcess:
+    """A process that steps environments; it begins with the first question, and anew where it was lost."""
+
+    def __init__(self) -> None:
+        self.step_seconds = _step_seconds()
+        self._process: Popen[bytes] | None = None
+        self._lock = Lock()
+        self._before, self._silent, self._limit = -1, 0.0, 0.0
+
+    @property
+    def has_begun(self) -> bool:
+        """Whether it is there."""
+        return self._process is not None
+
+    def ask(self, *question: Any) -> Any:
+        """The answer to a question, or the error that it is; LostError where there is none."""
+        with self._lock:
+            try:
+                if self._process is None:
+                    self._begin()
+                is_done, answer = self._answer(question, self.step_seconds)
+            except BaseException:
+                self.end()  # its answer would be taken for another one's
+                raise
+        if not is_done:
+            raise answer
+        return answer
+
+    def end(self) -> None:
+        """Kill it, whatever it does."""
+        if self._process is not None:
+            with self._process as process:
+                process.kill()
+            self._channel.close()
+            self._process = None
+
+    def _begin(self) -> None:
+        # What is imported here is found there, and nothing else: -P. What is printed comes at once: -u. Ctrl-C is for
+        # this process alone: a session of its own. Its standard input ends with this process, and it with that.
+        path = os.pathsep.join(each or f"{Path.cwd()}" for each in sys.path)
+        ours, theirs = socketpair()
+        ours.settimeout(LOOK_SECONDS)
+        self._channel = Channel(ours, self._look)
+        with theirs, TemporaryFile() as file:
+            file.truncate(REACHED.size)
+            self._reached = mmap(file.fileno(), REACHED.size)
+            inherited = theirs.fileno(), file.fileno()
+            self._process = Popen(
+                [sys.executable, "-u", "-P", "-m", "mindrun.sim.outside", *map(str, inherited)],
+                stdin=PIPE,
+                stdout=STANDARD_ERROR,
+                pass_fds=inherited,
+                start_new_session=True,
+                env={**os.environ, "PYTHONPATH": path},
+            )
+        self._answer(None, START_SECONDS)
+
+    def _answer(self, question: Sequence[Any] | None, seconds: float) -> Any:
+        """The answer to a question, of which each environment has so many seconds."""
+        self._before, self._silent, self._limit = -1, 0.0, seconds
+        REACHED.pack_into(self._reached, 0, 0)
+        try:
+            if question is not None:
+                self._channel.send(question)
+            return self._channel.receive()
+        except LostError:
+            raise
+        except Exception as error:  # whatever an environment has written there
+            raise LostError(self._ending(), self._now()) from error
+
+    def _look(self) -> None:
+        """EOFError where it has ended, and a process that it has begun has its end; LostError where it is silent."""
+        assert self._process is not None
+        if self._process.poll() is not None:
+            raise EOFError
+        now = self._now()
+        self._silent = self._silent + LOOK_SECONDS if now == self._before else 0.0
+        self._before = now
+        if self._silent >= self._limit:
+            raise LostError(f"no answer in {self._limit:g} seconds", now, is_silent=True)
+
+    def _now(self) -> int:
+        """Which environment is asked."""
+        found: int = REACHED.unpack(self._reached)[0]
+        return found
+
+    def _ending(self) -> str:
+        """How it has ended, in words."""
+        assert self._process is not None
+        try:
+            code = self._process.wait(1)
+        except TimeoutExpired:
+            return "its answer is none"
+        if code >= 0:
+            return f"exit code {code}"
+        return Signals(-code).name if -code in {*Signals} else f"signal {-code}"
+
+
+class SubprocessStepper:
+    """Steps environments of a name in a process of their own; a module before it is looked for in `folder` first."""
+
+    def __init__(self, environment: str, folder: Path | None = None, process: EnvironmentProcess | None = None) -> None:
+        self.environment = environment
+        self._about = environment, None if folder is None else folder.absolute()
+        self._process = process or EnvironmentProcess()
+        self._open, self._numbers = dict[Run, int](), count(1)
+        if process is None:
+            finalize(self, _end, self._process, self._about, self._open)
+
+    @cached_property
+    def spaces(self) -> Spaces:
+        """What they observe and take."""
+        found: Spaces = self._ask("spaces", ())
+        return found
+
+    def begin(self, places: Sequence[Place], seeds: Sequence[int], is_seen: bool = False) -> list[Run]:
+        """A new environment for the run of each seed, of which the numbers at these places are read, one a slot."""
+        runs = [Run(seed, len(places)) for seed in seeds]
+        numbers = [next(self._numbers) for _ in runs]
+        rows = self._ask("begin", runs, numbers, [*places], [*seeds], is_seen)
+        self._open.update(zip(runs, numbers, strict=True))
+        _take(rows, runs, 0)
+        return runs
+
+    def reset(self, runs: Sequence[Run]) -> None:
+        """Begin runs again, each in its environment."""
+        _take(self._ask("reset", runs, self._numbers_of(runs)), runs, 0)
+
+    def step(self, runs: Sequence[Run], actions: Floats) -> None:
+        """Step each run: the numbers of its action, part after part [runs, numbers]."""
+        _take(self._ask("step", runs, self._numbers_of(runs), actions), runs, 1)
+
+    def image(self, run: Run) -> NDArray[Any]:
+        """What is seen of a run now [height, width, 3], red first; an empty array where it draws nothing."""
+        found: NDArray[Any] = self._ask("image", [run], self._open[run])
+        return found
+
+    def close(self, runs: Sequence[Run]) -> None:
+        """Give back what runs hold. One that ends the process by that is told where other runs end with it."""
+        closed = [run for run in runs if run in self._open]
+        numbers = [self._open.pop(run) for run in closed]
+        are_others = bool(self._open)
+        try:
+            if numbers:
+                self._ask("close", closed, numbers)
+        except BrokenEnvironmentError as error:
+            if are_others or isinstance(error, SilentEnvironmentError):
+                raise
+
+    def _numbers_of(self, runs: Sequence[Run]) -> list[int]:
+        return [self._open[run] for run in runs]
+
+    def _ask(self, method: str, runs: Sequence[Run], *arguments: Any) -> Any:
+        try:
+            return self._process.ask(*self._about, method, *arguments)
+        except LostError as lost:
+            self._open.clear()
+            raise self._blamed(method, runs, lost) from lost
+
+    def _blamed(self, method: str, runs: Sequence[Run], lost: LostError) -> BrokenEnvironmentError:
+        """What an environment has done, of which nothing came back."""
+        name, where = self.environment, "being asked for its spaces"
+        if runs:
+            run = runs[min(lost.reached, len(runs) - 1)]
+            where = {
+                "begin": place_of(run.seed, 0),
+                "reset": place_of(run.seed, 0),
+                "step": place_of(run.seed, run.steps + 1),
+            }.get(method, f"its {method} after {run.where}")
+        if lost.is_silent:
+            message = (
+                f"the environment {name} does not come back from {where}, in {self._process.step_seconds:g} seconds"
+            )
+            return SilentEnvironmentError(message, SLOW, message)
+        if not runs:
+            message = f"The environment {name} cannot be made."
+            return BrokenEnvironmentError(message, f"It has ended the process that asked it ({lost.how}).")
+        why = f"It was in {where}, and the fault is the environment's: {lost.how}."
+        return BrokenEnvironmentError(f"the environment {name} has ended its process", why, why)
+
+
+def stepper_for(environment: str, folder: Path | None = None) -> Stepper:
+    """A process of its own, but for what this program has registered itself: no other one knows that."""
+    if not making.is_there():
+        making.library()  # says what to install
+    return LocalStepper(environment, folder) if is_own(environment) else SubprocessStepper(environment, folder)
+
+
+@cache
+def known_spaces(environment: str) -> Spaces:
+    """What an environment without a module before its name observes and takes; BrokenEnvironmentError where none."""
+    if is_own(environment):
+        return LocalStepper(environment).spaces
+    return SubprocessStepper(environment, process=_process()).spaces
+
+
+def is_own(environment: str) -> bool:
+    """Whether this program alone may know an environment: it has registered that name, or others that are like it."""
+    gymnasium = sys.modules.get("gymnasium")
+    module, _, name = environment.rpartition(":")
+    return gymnasium is not None and (name in gymnasium.registry or not module) and name not in _registered()
+
+
+@cache
+def _registered() -> frozenset[str]:
+    """The names of all environments that Gymnasium, and what is installed beside it, have by themselves."""
+    try:
+        return frozenset(_process().ask("registered"))
+    except (MindError, LostError):  # one of the packages beside Gymnasium ends the process
+        return frozenset()
+
+
+@cache
+def _process() -> EnvironmentProcess:
+    """The one that is asked what environments are like, again and again while a mind is written."""
+    return EnvironmentProcess()
+
+
+def _step_seconds() -> float:
+    given = os.environ.get(VARIABLE, f"{STEP_SECONDS}")
+    if not given.isdecimal() or int(given) == 0:
+        raise MindError(f"{VARIABLE} is {given!r:.40}, which is no whole number of seconds")
+    return float(given)
+
+
+def _take(rows: Floats, runs: Sequence[Run], steps: int) -> None:
+    """Put what came of a question into runs: so many steps more, or the beginning."""
+    for run, row in zip(runs, rows, strict=True):
+        run.row, run.steps = row, run.steps + 1 if steps else 0
+
+
+def _end(process: EnvironmentProcess, about: Sequence[Any], opened: dict[Run, int]) -> None:
+    """Give back what the runs hold that are still open, and end the process."""
+    if process.has_begun and opened:
+        with suppress(Exception):
+            process.ask(*about, "close", [*opened.values()])
+    process.end()

@@ -1,1 +1,0 @@
-"""Frames, pipes and a process behind them: what `sim.outside` steps its environments with."""
