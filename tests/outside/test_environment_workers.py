@@ -64,8 +64,11 @@ def test_the_weights_are_those_of_any_number_of_processes(tmp_path: Path) -> Non
 
 
 @pytest.mark.slow
-def test_the_weights_are_those_of_a_cluster_which_tells_a_step_that_never_ends(tmp_path: Path) -> None:
+def test_the_weights_are_those_of_a_cluster_which_tells_a_step_that_never_ends(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     pytest.importorskip("distributed")
+    monkeypatch.setenv(VARIABLE, "5")
     expected = taught(tmp_path / "here", "--workers", "1")
     for address in cluster_on_this_machine(tmp_path):
         assert taught(tmp_path / "there", "--on", f"dask:{address}") == expected
