@@ -17,7 +17,7 @@ RUNGS ?= 0
 TO ?= runs/paper
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test test-slow bench bench-learning paper paper-train docs playground wheel clean
+.PHONY: help demo test test-slow test-extras bench bench-learning paper paper-train docs playground wheel clean
 
 help:  ## what there is to make
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-14s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -30,6 +30,18 @@ test: $(READY)  ## the whole test suite, with the same random cases each time
 
 test-slow: $(READY)  ## the longer checks, too, with new random cases
 	$(BIN)/pytest --numprocesses auto --hypothesis-profile explore -m "slow or not slow"
+
+# What is tested where PyTorch, Stable-Baselines3, pandas and a browser are, which together are some gigabytes.
+EXTRA_TESTS := tests/weights/test_torch.py tests/examples/test_ppo.py tests/environments/test_stable_baselines.py \
+	tests/api/test_notebook.py tests/view/test_page.py tests/site/test_site.py
+
+test-extras: .venv/.extras  ## what is skipped where large packages are missing, after installing these
+	$(BIN)/pytest --numprocesses auto -m "slow or not slow" $(EXTRA_TESTS)
+
+.venv/.extras: $(READY)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[torch,sb3,browser]" pandas
+	$(BIN)/playwright install chromium || echo "no Chromium was installed: tests of pages look for another one"
+	@touch $@
 
 bench: $(READY)  ## how fast it is, beside plain pymunk
 	@for name in check engine rollout; do echo "$$name"; $(BIN)/python benchmarks/$$name.py || exit; done
