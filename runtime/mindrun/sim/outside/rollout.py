@@ -16,7 +16,7 @@ from mindrun.sim.codes import BROKEN_OFF
 from mindrun.sim.lanes.stages import act, before, conclude, run_skills
 from mindrun.sim.outside.making import GAVE_NO_NUMBER
 from mindrun.sim.outside.repeating import CHECKED_TICKS, RecordingStepper, SlowError
-from mindrun.sim.outside.stepper import REWARD, TERMINATED, Run, Stepper
+from mindrun.sim.outside.stepper import REWARD_COLUMN, TERMINATED_COLUMN, Run, Stepper
 from mindrun.sim.outside.subprocess_stepper import SilentEnvironmentError, stepper_for
 from mindrun.sim.outside.wiring import Wiring, wiring_of
 from mindrun.sim.rollout import SLOW_SLICE_TICKS, Rollout, Tile
@@ -162,7 +162,7 @@ class EnvironmentRollout(Rollout):
         self.observed += lanes
         if len(wiring.rows) == 0:
             return
-        seen = np.stack([episode.row[:REWARD] for episode in episodes], axis=1)
+        seen = np.stack([episode.row[:REWARD_COLUMN] for episode in episodes], axis=1)
         share = (seen - wiring.low[:, None]) / (wiring.high - wiring.low)[:, None]
         self.clipped += ((share < 0) | (share > 1)).sum(axis=1)
         self.unreal[:-1] += np.isnan(seen).sum(axis=1)
@@ -175,12 +175,14 @@ class EnvironmentRollout(Rollout):
         episodes = self._episodes(tile, jobs)
         tile.kept.stepper.step(episodes, self.wiring.actions(self._commands(state, lanes)))
         judge, ended = state.judge, state.run.ended
-        rows = np.array([episode.row[REWARD:] for episode in episodes]).reshape(-1, -REWARD)
-        rewards = rows[:, REWARD]
+        rows = np.array([episode.row[REWARD_COLUMN:] for episode in episodes]).reshape(-1, -REWARD_COLUMN)
+        rewards = rows[:, REWARD_COLUMN]
         judge.measures[self._rewards, :lanes] = rewards
         self.unreal[-1] += np.count_nonzero(~np.isfinite(rewards)) if self._rewards else 0
-        judge.events[self._ends, :lanes] = rows[:, TERMINATED] != 0
-        ended[:lanes][(rows[:, TERMINATED:] != 0).any(axis=1)] = BROKEN_OFF  # unless one of the task's ends comes
+        judge.events[self._ends, :lanes] = rows[:, TERMINATED_COLUMN] != 0
+        ended[:lanes][(rows[:, TERMINATED_COLUMN:] != 0).any(axis=1)] = (
+            BROKEN_OFF  # unless one of the task's ends comes
+        )
         conclude(self.tables, state, jobs, self.interrupt)
 
     def _commands(self, state: State, lanes: int) -> NDArray[np.float32]:

@@ -17,7 +17,7 @@ from mindrun.sim.outside.making import BrokenEnvironmentError, first_line, forei
 from mindrun.sim.outside.parts import Floats, Place, Source, Spaces, actions_of, sources_of, spaces_of
 
 SEED_LIMIT = 1 << 31  # some environments take no larger ones
-REWARD, TERMINATED, TRUNCATED = -3, -2, -1  # where they stand in a row, behind what is observed
+REWARD_COLUMN, TERMINATED_COLUMN, TRUNCATED_COLUMN = -3, -2, -1  # where they stand in a row, behind what is observed
 
 
 class Run:
@@ -30,7 +30,7 @@ class Run:
     @property
     def is_over(self) -> bool:
         """Whether it can be stepped no more."""
-        return bool(self.row[TERMINATED] or self.row[TRUNCATED])
+        return bool(self.row[TERMINATED_COLUMN] or self.row[TRUNCATED_COLUMN])
 
     @property
     def where(self) -> str:
@@ -80,9 +80,9 @@ class Made:
         """Step it."""
         observation, reward, terminated, truncated, _ = self.environment.step(action)
         self._read(observation, run)
-        run.row[REWARD] = number_of("the reward", reward)
-        run.row[TERMINATED] = truth_of("terminated", terminated)
-        run.row[TRUNCATED] = truth_of("truncated", truncated)
+        run.row[REWARD_COLUMN] = number_of("the reward", reward)
+        run.row[TERMINATED_COLUMN] = truth_of("terminated", terminated)
+        run.row[TRUNCATED_COLUMN] = truth_of("truncated", truncated)
 
     def _read(self, observation: Any, run: Run) -> None:
         for source in self.sources:
