@@ -16,6 +16,7 @@ from mindrun.errors import MindError
 
 from tests.calling import Call, caller
 from tests.outside import worlds
+from tests.outside.test_environment_workers import mindc as program
 
 RULES = """\
 tick 1/50 s
@@ -282,15 +283,13 @@ def with_module(folder: Path, module: str) -> Path:
     return path
 
 
-def test_a_module_beside_the_mind_is_found_and_run_by_no_check(
-    mindc: Call, tmp_path: Path, capfd: pytest.CaptureFixture[str]
-) -> None:
+def test_a_module_beside_the_mind_is_found_and_run_by_no_check(tmp_path: Path) -> None:
     mind = with_module(tmp_path, "own_worlds")
-    checked = mindc("check", mind)
-    assert (checked.code, "hello" in checked.out + checked.err) == (0, False)
-    said = mindc("run", mind, "--seed", 1, "--json")
-    assert "hello from the module" in capfd.readouterr().err  # of its own process
-    assert json.loads(said.out)["score"] == 15.0
+    checked = program(tmp_path, "check", mind.name)
+    assert (checked.returncode, "hello" in checked.stdout + checked.stderr) == (0, False)
+    said = program(tmp_path, "run", mind.name, "--seed", "1", "--json")
+    assert "hello from the module" in said.stderr
+    assert json.loads(said.stdout)["score"] == 15.0
 
 
 @pytest.mark.parametrize(
