@@ -1,5 +1,6 @@
 """Jobs of SLURM, each a worker of Dask: `dask_jobqueue` submits them, and others in the place of those that end."""
 
+import signal
 from collections.abc import Callable
 from contextlib import suppress
 from importlib.util import find_spec
@@ -40,8 +41,10 @@ def begin(argument: str, assignment: Assignment, say: Callable[[str], object]) -
 
     What is not said of them is read in ~/.config/dask/jobqueue.yaml.
     """
+    handler = signal.getsignal(signal.SIGINT)
     from dask_jobqueue import SLURMCluster
 
+    signal.signal(signal.SIGINT, handler)  # which that import has taken, so that Ctrl-C would leave nothing saved
     from mindlang.executors.cluster_jobs import ClusterJobs
     from mindlang.executors.connection import client_of, silence
 

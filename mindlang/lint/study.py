@@ -11,8 +11,8 @@ from mindrun.kinds.sensors.sensor import SensorKind
 
 from mindlang.compiler.compile import Compiled
 from mindlang.compiler.diagnostic import Fix, Label
-from mindlang.compiler.hierarchy import below, ends_first, in_order, source_graph
-from mindlang.compiler.model import Mind, Skill, Task
+from mindlang.compiler.hierarchy import below, ends_first, in_order
+from mindlang.compiler.model import Mind, Skill, Task, source_graph
 from mindlang.compiler.references import Mention, mentions
 from mindlang.compiler.source import Source, Span
 from mindlang.lock import Lock, lock_sources, read_locks

@@ -24,7 +24,8 @@ from mindrun.kinds.sensors.sensor import SensorKind
 from mindrun.numbers.expression import leaves
 
 from mindlang.compiler.drawing import phrase
-from mindlang.compiler.hierarchy import below, source_graph
+from mindlang.compiler.hierarchy import below
+from mindlang.compiler.model import source_graph
 from mindlang.lock.training_world import LessonKey, TrainingWorld
 from mindlang.lock.wording import Leaf, infix, number
 

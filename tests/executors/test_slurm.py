@@ -3,11 +3,13 @@
 import os
 import signal
 import sys
+from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
 
-pytest.importorskip("dask_jobqueue", reason="dask-jobqueue is not installed: pip install 'mindlang[slurm]'")
+if find_spec("dask_jobqueue") is None:  # whose import takes Ctrl-C away from the tests
+    pytest.skip("dask-jobqueue is not installed: pip install 'mindlang[slurm]'", allow_module_level=True)
 pytest.importorskip("cryptography", reason="cryptography is not installed: pip install 'mindlang[slurm]'")
 
 from mindlang.executors import slurm

@@ -18,7 +18,7 @@ from mindlang.compiler.compile import Compiled, compile_source, load
 from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.parse import parse
 from mindlang.compiler.parse.build import build
-from mindlang.compiler.parse.shape import grammar, parse_line
+from mindlang.compiler.parse.shape import grammar, parse_line, read_grammar
 from mindlang.compiler.source import Source
 from tests.draws import cases
 from tests.language.examples import EXAMPLES, RIGHT, TOUR
@@ -118,7 +118,7 @@ def words() -> dict[str, st.SearchStrategy[str]]:
 def from_grammar(start: str) -> st.SearchStrategy[str]:
     """Sources, or single lines, as the grammar makes them, with spaces between its own words."""
     ends = {"_NL": st.just("\n")} if start == "start" else {}
-    made = from_lark(grammar(), start=start, explicit=words() | ends)
+    made = from_lark(read_grammar(table=False), start=start, explicit=words() | ends)
     return made.map(
         lambda text: text.replace("pertick", "per tick ").replace("foreach", "for each").replace("endson", "ends on")
     )

@@ -36,13 +36,11 @@ COMMANDS = {  # of the runtime, and why each may speak
     "cli/tools/report.py": "mindrun report",
 }
 PROGRAMS = {
-    "executors/processes.py": "a worker that ends with who asked it, whatever it is doing",
     "robot/driver_inspection.py": "a process that imports a driver of a user, whatever that does",
 }
 TIMED = {
     "api.py": "a lesson notes when it began, and counts its seconds",
     "executors/cluster_jobs.py": "a scheduler is asked for its workers once a second",
-    "executors/processes.py": "how long an environment has been at a step",
     "executors/worker.py": "a job says how long it took",
     "run/many_runs.py": "a bench counts the seconds of its runs",
 }

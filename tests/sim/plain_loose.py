@@ -3,7 +3,8 @@
 import math
 
 import pymunk
-from mindrun.kinds import things
+from mindrun.kinds.things.ball import Ball
+from mindrun.kinds.things.box import LooseBox
 
 from tests.sim.plain_strides import Mover
 
@@ -20,15 +21,15 @@ class PlainLoose:
 
     def __init__(self, space, kinds, places, dt):
         self.space, self.kinds, self.dt, self.there = space, kinds, dt, {}
-        self.are_any = any(isinstance(kind, things.LooseBox | things.Ball) for kind in kinds)
+        self.are_any = any(isinstance(kind, LooseBox | Ball) for kind in kinds)
         for i, kind in enumerate(kinds):
-            if isinstance(kind, things.LooseBox | things.Ball):
+            if isinstance(kind, LooseBox | Ball):
                 self.add(i, kind, places[i])
 
     def add(self, i, kind, place):
         """A loose thing at its place."""
         body = pymunk.Body(1.0, 1.0)
-        is_ball = isinstance(kind, things.Ball)
+        is_ball = isinstance(kind, Ball)
         shape = pymunk.Circle(body, 1.0) if is_ball else pymunk.Poly(body, corners(1.0))
         shape.friction = kind.friction
         self.space.add(body, shape)
@@ -38,7 +39,7 @@ class PlainLoose:
     def resize(self, i, place):
         """Loose thing i has another size, and stands at a new place."""
         (body, shape), kind, size = self.there[i], self.kinds[i], place[2]
-        if isinstance(kind, things.Ball):
+        if isinstance(kind, Ball):
             shape.unsafe_set_radius(size / 2)
             body.mass = kind.density * math.pi * (size / 2 * (size / 2))
             body.moment = body.mass * (size / 2 * (size / 2)) / 2
@@ -88,7 +89,7 @@ class PlainLoose:
         turned = angle - body.angle
         c, s = math.cos(turned), math.sin(turned)
         x, y = (body.position - (of.x, of.y)).rotated(-body.angle)
-        if isinstance(self.kinds[i], things.Ball):
+        if isinstance(self.kinds[i], Ball):
             ahead, room = x * c + y * s, half**2 - (x * s - y * c) ** 2
             return (ahead - math.sqrt(room), ahead + math.sqrt(room)) if room >= 0 else None
         spans = [sorted(((v - half) / d, (v + half) / d)) for v, d in ((x, c), (y, s)) if abs(d) > 1e-12]

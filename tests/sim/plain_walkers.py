@@ -2,7 +2,7 @@
 
 import math
 
-from mindrun.kinds import things
+from mindrun.kinds.things.walker import Walker
 from mindrun.numbers.trigonometry import cosine, sine
 
 
@@ -11,7 +11,7 @@ class PlainWalkers:
 
     def __init__(self, of, directions):
         self.of, self.directions = of, directions.copy()
-        self.kinds = {i: thing.kind for i, thing in enumerate(of.things) if isinstance(thing.kind, things.Walker)}
+        self.kinds = {i: thing.kind for i, thing in enumerate(of.things) if isinstance(thing.kind, Walker)}
         names = [thing.name for thing in of.things]
         self.goals = {i: i - names.index(names[i]) + 1 for i in self.kinds}
         self.turned = {}

@@ -5,11 +5,38 @@ from collections import deque
 
 import numpy as np
 import pymunk
-from mindrun.kinds import actuators, events, measures, scenes, sensors, things
+from mindrun.kinds.actuators.gripper import Gripper
+from mindrun.kinds.actuators.motor import Motor
+from mindrun.kinds.actuators.steering import Steering
+from mindrun.kinds.actuators.thruster import Thruster
+from mindrun.kinds.actuators.wheel import Wheel
 from mindrun.kinds.bodies.car import Car
 from mindrun.kinds.bodies.disc import Disc
 from mindrun.kinds.bodies.holonomic import Holonomic
+from mindrun.kinds.events.collision import Collision
+from mindrun.kinds.events.delivery import Delivery
+from mindrun.kinds.events.exhaustion import Exhaustion
+from mindrun.kinds.events.reach import Reach
+from mindrun.kinds.events.success import Success
+from mindrun.kinds.events.visit import Visit
+from mindrun.kinds.measures.change import Change
+from mindrun.kinds.measures.forward import Forward
+from mindrun.kinds.measures.progress import Advance, Progress, Retreat
+from mindrun.kinds.scenes.arena import Arena
+from mindrun.kinds.sensors.battery import Battery
+from mindrun.kinds.sensors.bearing import Bearing
 from mindrun.kinds.sensors.compass import Compass
+from mindrun.kinds.sensors.contact import Contact
+from mindrun.kinds.sensors.held import Held
+from mindrun.kinds.sensors.inertial import Inertial
+from mindrun.kinds.sensors.inside import Inside
+from mindrun.kinds.sensors.range_finder import RangeFinder
+from mindrun.kinds.things.ball import Ball
+from mindrun.kinds.things.box import LooseBox
+from mindrun.kinds.things.item import Item
+from mindrun.kinds.things.obstacle import Obstacle
+from mindrun.kinds.things.power import Power
+from mindrun.kinds.things.zone import Zone
 from mindrun.numbers.trigonometry import cosine, sine
 
 from tests.plain import f, postfix
@@ -21,7 +48,7 @@ from tests.sim.plain_strides import MOST, Mover, Solids, Watch, meets, stride
 from tests.sim.plain_walkers import PlainWalkers
 
 TRAIL = 20
-MOVABLE = things.Item | things.LooseBox | things.Ball
+MOVABLE = Item | LooseBox | Ball
 
 
 class PlainWorld:
@@ -32,19 +59,19 @@ class PlainWorld:
         apart = [thing for thing in task.things if not thing.kind.is_obstacle]
         self.things = [thing for thing in apart for _ in range(thing.kind.copies)]
         self.places, self.boxes = run.things.copy(), run.boxes
-        size = task.scene.size if isinstance(task.scene, scenes.Arena) else math.inf
+        size = task.scene.size if isinstance(task.scene, Arena) else math.inf
         self.half = tuple(side / 2 for side in (size if isinstance(size, tuple) else (size, size)))
         self.radius = radius_of(graph.body)
         self.x, self.y, self.angle = (float(v) for v in run.begin)
         self.held, self.t, self.touched = -1, 0, False
         self.reached, self.delivered, self.changed = set(), set(), set()
         self.arrivals = {}
-        self.cell = next((s.kind for s in graph.sensors if isinstance(s.kind, sensors.Battery)), sensors.Battery())
+        self.cell = next((s.kind for s in graph.sensors if isinstance(s.kind, Battery)), Battery())
         self.charge = self.cell.start
         self.trail = deque([(self.x, self.y)] * TRAIL, TRAIL)
         self.commands = [a.kind.neutral for a in graph.actuators]
         self.late = [deque([f(a.kind.neutral)] * a.kind.delay) for a in graph.actuators]
-        self.turns = {i: deque() for i, m in enumerate(task.measures) if isinstance(m, measures.Change)}
+        self.turns = {i: deque() for i, m in enumerate(task.measures) if isinstance(m, Change)}
         self.counts = [0] * len(task.events)
         self.visited = [{self.patch(event)} for event in task.events]
         self.lines = [np.float64(0)] * len(task.rewards)
@@ -54,7 +81,7 @@ class PlainWorld:
 
     def patch(self, event):
         """Where the robot is on an event's board, if it has one."""
-        if not isinstance(event, events.Visit):
+        if not isinstance(event, Visit):
             return None
         patches = [math.ceil(2 * half / event.size) for half in self.half]
         places = zip((self.x, self.y), self.half, patches, strict=True)
@@ -66,21 +93,21 @@ class PlainWorld:
         all_of = [i for i, thing in enumerate(self.things) if thing.name == getattr(kind, "of", None)]
         boxes = self.boxes_of(getattr(kind, "of", None))
         match kind:
-            case sensors.RangeFinder():
+            case RangeFinder():
                 return [self.ray(self.angle + at, kind) for at in kind.at], 1.0
-            case sensors.Battery():
+            case Battery():
                 return [(float(f(self.charge)),) * 2], None
-            case sensors.Bearing():
+            case Bearing():
                 return [self.bearing(self.nearest(all_of, boxes), kind)], 0.5
             case Compass():
                 return [pointed(math.sin(self.angle), math.cos(self.angle), kind.dead_zone)], 0.5
-            case sensors.Contact():
+            case Contact():
                 value = any(self.in_claw(i, self.reach()) for i in all_of)
-            case sensors.Held():
+            case Held():
                 value = self.held in all_of
-            case sensors.Inside():
+            case Inside():
                 value = any(self.inside(i, self.x, self.y) for i in all_of)
-            case sensors.Inertial():
+            case Inertial():
                 moved = math.dist((self.x, self.y), self.trail[0]) / (TRAIL * self.graph.tick * kind.range)
                 return [zoned(min(1.0, moved), kind.dead_zone, 0.0)], 0.0
             case _:
@@ -90,7 +117,7 @@ class PlainWorld:
     def boxes_of(self, name):
         """The boxes of obstacles of a name: what always stands there comes first, what is anywhere last."""
         solid = [thing for thing in self.task.things if thing.kind.is_obstacle]
-        fixed = [thing for thing in solid if not isinstance(thing.kind, things.Obstacle)]
+        fixed = [thing for thing in solid if not isinstance(thing.kind, Obstacle)]
         anywhere = [thing for thing in solid if thing not in fixed and not thing.kind.at and not thing.kind.grid]
         placed = [thing for thing in solid if thing not in fixed and thing not in anywhere]
         owners = [
@@ -147,7 +174,7 @@ class PlainWorld:
 
     def reach(self):
         """How far the claw reaches."""
-        return next((a.kind.reach for a in self.graph.actuators if isinstance(a.kind, actuators.Gripper)), 1.5)
+        return next((a.kind.reach for a in self.graph.actuators if isinstance(a.kind, Gripper)), 1.5)
 
     def in_claw(self, i, reach):
         """Whether a thing is ahead of the claw's place on the rim, and near enough."""
@@ -176,7 +203,7 @@ class PlainWorld:
         found = []
         for k in range(sensor.width):
             spans = [(ticks[k][0] - kind.noise, ticks[k][1] + kind.noise) for ticks in known]
-            if isinstance(kind, sensors.Bearing | Compass):
+            if isinstance(kind, Bearing | Compass):
                 spans = [(low + turn, high + turn) for low, high in spans for turn in (-1, 0, 1)]
             else:
                 spans = [(max(0.0, low), min(1.0, high)) for low, high in spans]
@@ -195,11 +222,11 @@ class PlainWorld:
     def grip(self, acting):
         """What the claw holds under the commands as they act."""
         for actuator, command in zip(self.graph.actuators, acting, strict=True):
-            if isinstance(actuator.kind, actuators.Gripper):
+            if isinstance(actuator.kind, Gripper):
                 if command <= 0.5:
                     self.held = -1
                 elif self.held < 0:
-                    items = [i for i, thing in enumerate(self.things) if isinstance(thing.kind, things.Item)]
+                    items = [i for i, thing in enumerate(self.things) if isinstance(thing.kind, Item)]
                     near = (i for i in items if self.in_claw(i, actuator.kind.reach))
                     self.held = next((i for i in near if self.has_room(i)), -1)
 
@@ -231,7 +258,7 @@ class PlainWorld:
         if self.held >= 0:
             hold = front_of(self.graph.body) + self.body.largest[self.held] / 2
             self.places[self.held][:2] = self.x + cosine(self.angle) * hold, self.y + sine(self.angle) * hold
-        powered = [i for i, thing in enumerate(self.things) if isinstance(thing.kind, things.Power)]
+        powered = [i for i, thing in enumerate(self.things) if isinstance(thing.kind, Power)]
         if self.runs_down:
             charged = any(self.inside(i, self.x, self.y) for i in powered)
             self.charge += self.cell.charge if charged else -self.cell.drain
@@ -246,20 +273,20 @@ class PlainWorld:
         for event, visited in zip(self.task.events, self.visited, strict=True):
             about = {i for i, thing in enumerate(self.things) if thing.name == getattr(event, "of", None)}
             match event:
-                case events.Reach():
+                case Reach():
                     found.append(len(about & reached))
-                case events.Delivery(to=""):
+                case Delivery(to=""):
                     found.append(len(about & delivered))
-                case events.Delivery():
+                case Delivery():
                     found.append(self.arrived(event, about))
-                case events.Visit():
+                case Visit():
                     found.append(int(self.patch(event) not in visited))
                     visited.add(self.patch(event))
-                case events.Collision():
+                case Collision():
                     found.append(int(began))
-                case events.Exhaustion():
+                case Exhaustion():
                     found.append(int(self.charge == 0))
-                case events.Success():
+                case Success():
                     found.append(0)  # `ends` knows
         return found
 
@@ -273,8 +300,8 @@ class PlainWorld:
     def begin(self):
         """What begins to be in reach, and what to be delivered; `changed` is what moves or vanishes by it."""
         kinds = [thing.kind for thing in self.things]
-        zones = [i for i, kind in enumerate(kinds) if isinstance(kind, things.Zone)]
-        areas = {i for i, kind in enumerate(kinds) if isinstance(kind, things.Zone | things.Power)}
+        zones = [i for i, kind in enumerate(kinds) if isinstance(kind, Zone)]
+        areas = {i for i, kind in enumerate(kinds) if isinstance(kind, Zone | Power)}
         reached = {i for i in areas if self.inside(i, self.x, self.y)}
         reached |= {i for i in range(len(kinds)) if i not in areas and self.in_claw(i, self.reach())}
         carried = {self.held, *self.delivered, *self.body.loose.there} - {-1}
@@ -293,16 +320,16 @@ class PlainWorld:
         found = []
         for i, measure in enumerate(self.task.measures):
             match measure:
-                case measures.Forward():
+                case Forward():
                     dx, dy = self.x - self.was[0], self.y - self.was[1]
                     found.append(float(dx * cosine(self.angle) + dy * sine(self.angle) > 1e-6))
-                case measures.Progress(toward=of):
+                case Progress(toward=of):
                     found.append(closed[of])
-                case measures.Advance(toward=of):
+                case Advance(toward=of):
                     found.append(max(0.0, closed[of]))
-                case measures.Retreat(from_=of):
+                case Retreat(from_=of):
                     found.append(max(0.0, -closed[of]))
-                case measures.Change(beyond=beyond, over=over):
+                case Change(beyond=beyond, over=over):
                     found.append(self.thrust_changed(self.turns[i], beyond, over))
         return found
 
@@ -316,11 +343,11 @@ class PlainWorld:
         sides = dict.fromkeys(("left", "right"), 0.0)
         for actuator, now, before in zip(self.graph.actuators, self.commands, self.last, strict=True):
             match actuator.kind:
-                case actuators.Wheel(side=side):
+                case Wheel(side=side):
                     sides[side] += abs(now - float(f(before)))
-                case actuators.Thruster(at=(_, y)):
+                case Thruster(at=(_, y)):
                     sides["right" if y < 0 else "left"] += abs(now - float(f(before)))
-                case actuators.Motor():
+                case Motor():
                     sides["left"] += abs(now - float(f(before)))
         ticks.append(sides)
         while len(ticks) > over:
@@ -338,7 +365,7 @@ class PlainWorld:
                 met = self.value(end.when, readings, self.found, 0) > 0
             if met:
                 for i, event in enumerate(self.task.events):
-                    happened[i] += int(end.succeeds and isinstance(event, events.Success))
+                    happened[i] += int(end.succeeds and isinstance(event, Success))
                 return number
         return -1
 
@@ -402,7 +429,7 @@ class PlainBody:
         self.items = {
             i: self.add(pymunk.Circle(self.body, 1.0, (front_of(kind) + self.largest[i] / 2, 0.0)), CATCH)
             for i, thing in enumerate(of.things)
-            if isinstance(thing.kind, things.Item)
+            if isinstance(thing.kind, Item)
         }
         self.loose = PlainLoose(self.space, [thing.kind for thing in of.things], of.places, self.dt)
         self.touches = False
@@ -526,16 +553,16 @@ class PlainBody:
         for kind, command, share in zip(self.actuators, commands, kept, strict=True):
             way = 1.0 - 2.0 * float(command)
             match kind:
-                case actuators.Steering():
+                case Steering():
                     turned = way * kind.range
-                case actuators.Wheel():
+                case Wheel():
                     half = side_of(self.kind)
                     push = -way * kind.thrust * share
                     ahead += push
                     torque += (-half if kind.side == "left" else half) * push
-                case actuators.Motor():
+                case Motor():
                     ahead += -way * kind.thrust * share
-                case actuators.Thruster(at=(x, y), facing=facing):
+                case Thruster(at=(x, y), facing=facing):
                     push, forward, left = -way * kind.thrust * share, cosine(facing), sine(facing)
                     ahead += forward * push
                     aside += left * push

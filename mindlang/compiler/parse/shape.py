@@ -42,6 +42,11 @@ Start = Literal["line", "stop"]  # a rule of the grammar: a line of a mind or of
 @cache
 def grammar() -> "Lark":
     """The grammar, with `start` for a whole file, `line` for one line and `stop` for one of a .break file."""
+    return read_grammar(_table_file())
+
+
+def read_grammar(table: str | bool) -> "Lark":
+    """The grammar as Lark reads it, or from the file of its table, which has no rules but those that are parsed by."""
     from lark import Lark
 
     here = Path(__file__).parents[2]
@@ -53,7 +58,7 @@ def grammar() -> "Lark":
         start=starts,
         propagate_positions=True,
         maybe_placeholders=False,
-        cache=_table_file(),
+        cache=table,
     )
 
 

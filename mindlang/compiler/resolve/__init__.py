@@ -9,7 +9,7 @@ from msgspec.structs import replace
 from mindlang.compiler import model
 from mindlang.compiler.diagnostic import Findings, Label
 from mindlang.compiler.expand import expand, numbers
-from mindlang.compiler.hierarchy import check_cycles, influence_graph
+from mindlang.compiler.hierarchy import check_cycles
 from mindlang.compiler.names import Names, gather
 from mindlang.compiler.resolve.curricula import lessons
 from mindlang.compiler.resolve.drives import check_drives
@@ -36,7 +36,7 @@ def resolve(files: Sequence[File], findings: Findings) -> model.Mind | None:
     width = dict.fromkeys(names.of("sensor", "memory"), 1) | {each.name: each.width for each in known_sensors}
     memories, actuators = parts("memory", names, findings), parts("actuator", names, findings)
     known_skills = skills(names, width, findings)
-    influences = influence_graph(known_skills)
+    influences = model.influence_graph(known_skills)
     check_cycles(influences, findings)
     body = body_outside(names, findings) if (outside := is_outside(names)) else _body(names, findings)
     robot = RobotFacts(names, width, tick, files[0].source.folder, body, actuators, known_sensors)

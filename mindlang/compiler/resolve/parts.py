@@ -8,8 +8,8 @@ from mindrun.numbers.expression import Formula
 from msgspec.structs import replace
 
 from mindlang.compiler.diagnostic import Findings, Label, a, listed
-from mindlang.compiler.hierarchy import circles, source_graph
-from mindlang.compiler.model import Expression, Number, Part, Reading, Term
+from mindlang.compiler.hierarchy import circles
+from mindlang.compiler.model import Expression, Number, Part, Reading, Term, source_graph
 from mindlang.compiler.names import Names
 from mindlang.compiler.resolve.expressions import Visible, resolve
 from mindlang.compiler.resolve.kinds import Scope, make

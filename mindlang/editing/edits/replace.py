@@ -1,7 +1,8 @@
 """`mindc edit replace`."""
 
 from mindlang.compiler.diagnostic import listed
-from mindlang.compiler.hierarchy import Node, below
+from mindlang.compiler.hierarchy import below
+from mindlang.compiler.model import Node
 from mindlang.compiler.syntax import Influences
 from mindlang.editing.insertion import instead
 from mindlang.editing.project import EditError, MindChange, Project, Replaced

@@ -7,8 +7,7 @@ is always influenced (`at 1`, without a condition) is never the cause.
 
 from networkx import immediate_dominators
 
-from mindlang.compiler.hierarchy import Node
-from mindlang.compiler.model import Edge, Number
+from mindlang.compiler.model import Edge, Node, Number
 from mindlang.lint.study import Finding, Found, Study
 
 PARTS = """
