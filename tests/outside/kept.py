@@ -16,6 +16,22 @@ class Hanging(worlds.Line):
         return super().observed()
 
 
+class Crowded(worlds.Line):
+    """The same, whose third step takes for ever where many were made in the process, as in that of a worker."""
+
+    made = 0
+
+    def __init__(self, render_mode: str | None = None) -> None:
+        super().__init__(render_mode)
+        Crowded.made += 1
+
+    def observed(self) -> Any:
+        """Nothing, later on."""
+        while self.steps == 3 and Crowded.made > 5:
+            time.sleep(0.01)
+        return super().observed()
+
+
 class Dying(worlds.Line):
     """The same, whose third step ends the process, as a fault of machine code would."""
 
@@ -53,5 +69,5 @@ class Threaded(worlds.Line):
         return super().reset(seed=seed)
 
 
-worlds.ALL = (*worlds.ALL, Hanging, Dying, Talking, Threaded)  # type: ignore[assignment]
+worlds.ALL = (*worlds.ALL, Hanging, Crowded, Dying, Talking, Threaded)  # type: ignore[assignment]
 worlds.register()

@@ -133,7 +133,7 @@ def test_what_an_environment_does_wrong_in_a_process_is_one_message(
 
 @pytest.mark.slow
 def test_workers_end_with_who_asked_them_even_in_a_step_that_hangs(tmp_path: Path) -> None:
-    folder = project(tmp_path, "tests/Hanging")
+    folder = project(tmp_path, "tests/Crowded")
     path = os.pathsep.join([str(ROOT), str(ROOT / "runtime")])
     words = [sys.executable, "-c", "from mindlang.cli import main; main()", "train", "go.mind", "--workers", "2"]
     asking = subprocess.Popen(words, cwd=folder, env={**os.environ, "PYTHONPATH": path}, stderr=subprocess.DEVNULL)
