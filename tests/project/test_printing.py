@@ -36,6 +36,7 @@ COMMANDS = {  # of the runtime, and why each may speak
     "cli/tools/report.py": "mindrun report",
 }
 PROGRAMS = {
+    "executors/processes.py": "a process of a pool ends with the one that began it",
     "robot/driver_inspection.py": "a process that imports a driver of a user, whatever that does",
 }
 TIMED = {
