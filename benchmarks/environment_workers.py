@@ -15,9 +15,9 @@ import gymnasium
 import numpy as np
 from mindrun.graph.bundle import Bundle, pack
 from mindrun.graph.policy import Policy
+from mindrun.sim.outside.rollout import EnvironmentRollout
 from mindrun.sim.outside.stepper import LocalStepper
 from mindrun.sim.outside.subprocess_stepper import SubprocessStepper
-from mindrun.sim.rollouts import rollout_for
 
 import mindlang
 from mindlang.executors.job_scorer import JobScorer
@@ -77,7 +77,7 @@ def measured(name: str, generations: int) -> None:
     """Score the same generations in this process and in others."""
     graph = mindlang.loads(source(name)).graph
     here, apart = (
-        rollout_for(Policy(graph, {}), "Go", "Go", ["Go"], steppers=steppers)
+        EnvironmentRollout(Policy(graph, {}), "Go", "Go", ["Go"], steppers=steppers)
         for steppers in (LocalStepper, SubprocessStepper)
     )
     here.compile()

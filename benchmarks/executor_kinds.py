@@ -51,7 +51,7 @@ def pids(jobs: ProcessJobs) -> list[int]:
 
 @contextmanager
 def dask(count: int, assignment: Assignment) -> Iterator[tuple[Begin, Pids]]:
-    """So many workers of one thread."""
+    """A cluster of Dask on this machine, with so many workers of one thread."""
     with LocalCluster(count, threads_per_worker=1, dashboard_address=":0", silence_logs="CRITICAL") as cluster:
         jobs = ClusterJobs(connect(Destination(cluster.scheduler_address)), assignment, print)
         try:

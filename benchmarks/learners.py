@@ -177,7 +177,7 @@ def compare(options: argparse.Namespace, trials: Callable[[Trial], Iterator[Outc
 
 
 def standard_error(numbers: np.ndarray[Any, Any]) -> float:
-    """Of the mean of numbers; 0 of a single one."""
+    """The standard error of the mean of numbers; 0 for a single one."""
     return float(numbers.std(ddof=1)) / len(numbers) ** 0.5 if len(numbers) > 1 else 0.0
 
 

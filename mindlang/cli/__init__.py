@@ -26,7 +26,7 @@ class Suggesting(click.Group):
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
-        """As click does it, with a suggestion for a name that is nearly right."""
+        """Find the command that is asked for; a name that is nearly right gets a suggestion."""
         if args and not args[0].startswith("-") and args[0] not in self.list_commands(ctx):
             from mindlang.compiler.diagnostic import did_you_mean
 
@@ -39,7 +39,7 @@ class Commands(Suggesting):
     """The modules of this package as commands; each defines a click command called `command`."""
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """As click does it; ClickException where a word is empty, which is no name, no number and no file."""
+        """Parse the words of a command line; ClickException where one is empty, which is no name, number or file."""
         if not ctx.resilient_parsing and (flaw := emptiness(args)):
             raise click.ClickException(f"{flaw[0].upper()}{flaw[1:]}.\n  Write something there, or leave it out.")
         return super().parse_args(ctx, args)

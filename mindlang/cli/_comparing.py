@@ -91,7 +91,7 @@ def _say_where_recordings_end(
 
 
 def _another(session: RunSession, file: str, ours: RunSetup, played: Played) -> Cast:
-    """The same task under another mind."""
+    """Set up another mind on the task of a first one; it is said where the two differ in what that task is."""
     setup, rollout = session.prepare(file, ours.task.name, played.master, played.interrupt)
     if setup.task != ours.task:
         session.say(f"note: task {setup.task.name} is another in {file}; one seed need not give one world")

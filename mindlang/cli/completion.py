@@ -41,7 +41,7 @@ class Files(ShellComplete):
     """Names of files where an argument or an option takes any word."""
 
     def get_completions(self, args: list[str], incomplete: str) -> list[CompletionItem]:
-        """As click finds them, or that the shell knows better."""
+        """Complete a word as click does, and by names of files where click knows nothing."""
         found = super().get_completions(args, incomplete)
         return found if found or incomplete.startswith("-") else [CompletionItem(incomplete, type="file")]
 

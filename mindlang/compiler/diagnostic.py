@@ -67,7 +67,7 @@ class Findings:
 
     @contextmanager
     def each_once(self) -> Iterator[None]:
-        """Of what is found within, keep what was not found before on the same words: several use the same lines."""
+        """Drop what is found within and was found before on the same words: several tasks can share lines."""
         before = len(self.diagnostics)
         yield
         if len(self.diagnostics) > before:

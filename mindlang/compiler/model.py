@@ -181,7 +181,7 @@ class Reward(Struct, frozen=True):
 
     @property
     def expressions(self) -> tuple[Expression, ...]:
-        """Its amount, and both sides of its comparisons."""
+        """All that a reward computes: its amount, and both sides of its comparisons."""
         return (self.amount, *(self.when.expressions if self.when else ()))
 
 

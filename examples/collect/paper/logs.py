@@ -29,7 +29,7 @@ class Log:
 
     @property
     def curve(self) -> Path:
-        """Its scores, a line per generation."""
+        """The file of the scores of a run, a line per generation."""
         return self.folder / CURVE
 
     @property

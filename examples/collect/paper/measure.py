@@ -30,7 +30,7 @@ class Measured:
     runtime: float
 
     def text(self, interrupt: bool) -> str:
-        """As in a table; without interruption every run lasts its time."""
+        """The cell of a table: objects, their error and, where runs are interrupted, the share of time they last."""
         return f"{self.objects:.2f} ± {self.error:.2f}" + (f" ({self.runtime:.1%})" if interrupt else "")
 
 

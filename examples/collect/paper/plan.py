@@ -38,7 +38,7 @@ class Plan:
         return self.options(file).applied(lesson)
 
     def __str__(self) -> str:
-        """As `make paper-train` takes it; it leaves the population as the files say."""
+        """The words for `make paper-train`, which leaves the population as the files say."""
         return f"ATTEMPTS={self.attempts} OTHERS={self.others} SCALE={self.scale:g} SEED={self.seed} RUNGS={self.rungs}"
 
     @property

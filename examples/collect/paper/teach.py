@@ -136,7 +136,7 @@ def ticks(lesson: Lesson, log: Log) -> float:
 
 
 def share(rungs: int) -> float:
-    """Of its generations an attempt has before it ends, where it falls behind at any rung as often as not."""
+    """The share of its generations that an attempt makes, if it falls behind at each rung as often as not."""
     return sum(height * 0.5 ** (n + 1) for n, height in enumerate(heights(rungs))) + 0.5**rungs
 
 

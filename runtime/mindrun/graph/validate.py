@@ -1,7 +1,7 @@
 """Whether a graph holds together: the promises that the types of `mindrun.graph.graph` cannot make."""
 
 import re
-from collections.abc import Container, Iterator, Mapping, Sequence
+from collections.abc import Container, Iterator
 
 from mindrun.graph.graph import Graph, Lesson, Program, Skill, Task
 from mindrun.graph.varied import varied_kind
@@ -82,11 +82,7 @@ def _sense_flaws(graph: Graph) -> Iterator[str]:
 
 def depths(graph: Graph) -> dict[str, int]:
     """How many virtual sensors stand between a sensor or memory and what is measured; without those that never end."""
-    return depths_of({sensor.name: sensor.kind.sources for sensor in graph.sensors})
-
-
-def depths_of(sources: Mapping[str, Sequence[str]]) -> dict[str, int]:
-    """The same of sensors with all that they are computed from."""
+    sources = {sensor.name: sensor.kind.sources for sensor in graph.sensors}
     above: dict[str, list[str]] = {}
     for name, of in sources.items():
         for source in of:

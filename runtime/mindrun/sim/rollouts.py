@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from mindrun.graph.policy import Policy
 from mindrun.sim.rollout import Rollout
-
-if TYPE_CHECKING:
-    from mindrun.sim.outside.stepper import Stepper
 
 
 def rollout_for(
@@ -22,17 +18,13 @@ def rollout_for(
     procedures: Path | None = None,
     interrupt: bool = True,
     workers: int = 1,
-    steppers: Callable[[str, Path | None], Stepper] | None = None,
 ) -> Rollout:
     """A rollout in the lanes' own worlds, or in environments where the scene of the task is one.
 
-    Environments are stepped in one thread, however many `workers` there may be, by what `steppers` makes for a name and
-    a folder (default: a process of their own).
+    Environments are stepped in one thread, however many `workers` there may be, in a process of their own.
     """
     if not next(each for each in policy.graph.tasks if each.name == task).scene.environment:
         return Rollout(policy, task, master, learners, procedures=procedures, interrupt=interrupt, workers=workers)
     from mindrun.sim.outside.rollout import EnvironmentRollout
 
-    return EnvironmentRollout(
-        policy, task, master, learners, procedures=procedures, interrupt=interrupt, steppers=steppers
-    )
+    return EnvironmentRollout(policy, task, master, learners, procedures=procedures, interrupt=interrupt)
