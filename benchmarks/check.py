@@ -1,4 +1,4 @@
-"""What commands that read text cost: python -m benchmarks.check [--against COMMIT] [--rounds N] [--json].
+"""What commands that read text cost: python -m benchmarks.check [--against COMMIT] [--rounds N] [--only NAME] [--json].
 
 CPU seconds and wall seconds of a process, the least of all rounds, and how many modules it has imported, of ours and in
 all. With --against, a commit's checkout takes turns with this one. The first round makes what is kept, such as Lark's
@@ -77,6 +77,7 @@ def main() -> None:
     )
     parser.add_argument("--against", metavar="COMMIT", help="another commit takes turns with this checkout")
     parser.add_argument("--rounds", type=int, default=10)
+    parser.add_argument("--only", choices=COMMANDS, action="append", help="this command alone, or these")
     parser.add_argument("--json", action="store_true")
     options = parser.parse_args()
     found: dict[str, dict[str, list[float]]] = {}
@@ -84,9 +85,9 @@ def main() -> None:
         roots = {"here": ROOT} | ({options.against[:9]: other} if options.against else {})
         with tempfile.TemporaryDirectory() as folder:
             Path(folder, "many.mind").write_text(many())
-            for name, words in COMMANDS.items():
+            for name in options.only or COMMANDS:
                 rounds = [
-                    {side: measured(root, words, Path(folder)) for side, root in roots.items()}
+                    {side: measured(root, COMMANDS[name], Path(folder)) for side, root in roots.items()}
                     for _ in range(options.rounds + 1)
                 ][1:]
                 found[name] = {
