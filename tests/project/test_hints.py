@@ -19,7 +19,7 @@ from tests.project.sources import COMPILER, ROOT, RUNTIME, modules, tree
 NO_FILES = {
     "mindlang/cli/new.py", "mindlang/explaining/collection.py",
     "mindlang/explaining/words.py", "mindlang/run/summary.py", "mindlang/server/commands.py",
-    "mindlang/server/server.py", "mindlang/diagnosis/checks.py",
+    "mindlang/server/server.py", "mindlang/diagnosis.py",
     "runtime/mindrun/graph/bundle.py", "runtime/mindrun/robot/view_breakpoints.py",
 }  # fmt: skip
 REFUSED = (

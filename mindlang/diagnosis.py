@@ -1,4 +1,7 @@
-"""One function for each check, and the order in which they are told; packages are imported where they are checked."""
+"""What `mindc doctor` looks at: one function a check, in the order in which they are told.
+
+Packages are imported where they are checked, so that one that is broken hides no other check.
+"""
 
 import os
 import platform
@@ -6,11 +9,14 @@ import sys
 import webbrowser
 from collections.abc import Iterator
 from dataclasses import dataclass
-from enum import Enum
-from importlib.metadata import PackageNotFoundError, version
+from importlib.metadata import PackageNotFoundError, metadata, requires, version
 from pathlib import Path
+from typing import Literal
 
 import mindrun
+from mindrun.processors import cores
+from packaging.requirements import Requirement
+from packaging.specifiers import SpecifierSet
 
 import mindlang
 from mindlang import limits
@@ -20,20 +26,15 @@ SEVERAL_BYTES = 200 << 20  # of older versions' machine code, from which on they
 LISTED_PACKAGES = 3  # of an extra; of more only their number is told
 
 
-class State(Enum):
-    """How something is; what is absent is no fault, and needed only for what is said of it."""
-
-    FINE = "ok"
-    ABSENT = "absent"
-    WRONG = "wrong"
-
-
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """What was looked at, how it is, what was seen, and the line that mends it, where it is not fine."""
+    """What was looked at, how it is, what was seen, and the line that mends it, where it is not ok.
+
+    Nothing is wrong with what is absent: it is needed only for what is said of it.
+    """
 
     what: str
-    state: State
+    state: Literal["ok", "absent", "wrong"]
     seen: str
     mend: str = ""
 
@@ -45,7 +46,7 @@ def findings() -> Iterator[Finding]:
             yield from check()
         except Exception as error:
             name = check.__name__.replace("_", " ")
-            yield Finding(name, State.WRONG, f"{type(error).__name__}: {error}".split("\n")[0])
+            yield Finding(name, "wrong", f"{type(error).__name__}: {error}".split("\n")[0])
 
 
 def programs() -> Iterator[Finding]:
@@ -53,17 +54,17 @@ def programs() -> Iterator[Finding]:
     place = Path(mindlang.__file__).parent
     known = _version("mindlang")
     if known is None:
-        yield Finding("mindc", State.WRONG, f"in {place}, not installed as a package", "pip install .")
+        yield Finding("mindc", "wrong", f"in {place}, not installed as a package", "pip install .")
     else:
-        yield Finding("mindc", State.FINE, f"{known}, in {place}")
+        yield Finding("mindc", "ok", f"{known}, in {place}")
     runtime = f"{mindrun.VERSION}, in {Path(mindrun.__file__).parent}"
     if known and known != mindrun.VERSION:
         mend = "pip uninstall mindrun mindlang, then pip install mindlang, which brings mindrun along"
-        yield Finding("mindrun", State.WRONG, f"{runtime}; mindc is {known}", mend)
+        yield Finding("mindrun", "wrong", f"{runtime}; mindc is {known}", mend)
     elif _version("mindrun") is not None:
-        yield Finding("mindrun", State.WRONG, f"{runtime}, and installed by itself as well", "pip uninstall mindrun")
+        yield Finding("mindrun", "wrong", f"{runtime}, and installed by itself as well", "pip uninstall mindrun")
     else:
-        yield Finding("mindrun", State.FINE, runtime)
+        yield Finding("mindrun", "ok", runtime)
 
 
 def _version(package: str) -> str | None:
@@ -75,44 +76,53 @@ def _version(package: str) -> str | None:
 
 def python() -> Iterator[Finding]:
     """A version of Python for which mind is made."""
-    from mindlang.diagnosis.requirements import python_bounds
-
-    bounds, found = python_bounds(), platform.python_version()
+    bounds, found = SpecifierSet(metadata("mindlang")["Requires-Python"] or ""), platform.python_version()
     if bounds.contains(found, prereleases=True):
-        yield Finding("Python", State.FINE, f"{found}, {sys.executable}")
+        yield Finding("Python", "ok", f"{found}, {sys.executable}")
     else:
         mend = f"python3 -m venv .venv with a Python {bounds}, and install mind there"
-        yield Finding("Python", State.WRONG, f"{found}, and mind is made for {bounds}", mend)
+        yield Finding("Python", "wrong", f"{found}, and mind is made for {bounds}", mend)
 
 
 def machine() -> Iterator[Finding]:
     """The processor, how many cores this process may use, and how much memory is free."""
-    from mindrun.processors import cores
-
     all_cores, usable = os.cpu_count() or 1, cores()
     words = f"{usable} cores" if usable == all_cores else f"{usable} of {all_cores} cores"
-    yield Finding("machine", State.FINE, f"{platform.machine()}, {platform.system()}, {words} to use")
+    yield Finding("machine", "ok", f"{platform.machine()}, {platform.system()}, {words} to use")
     free = limits.available()
     if free is None:
-        yield Finding("memory", State.ABSENT, "nobody knows how much is free", "nothing to do: it is not limited")
+        yield Finding("memory", "absent", "nobody knows how much is free", "nothing to do: it is not limited")
     elif free < SMALL_MEMORY_BYTES:
         mend = "end other programs: compiling the simulator takes about 500 MiB"
-        yield Finding("memory", State.WRONG, f"{free >> 20} MiB free", mend)
+        yield Finding("memory", "wrong", f"{free >> 20} MiB free", mend)
     else:
-        yield Finding("memory", State.FINE, f"{free / 2**30:.1f} GiB free")
+        yield Finding("memory", "ok", f"{free / 2**30:.1f} GiB free")
 
 
 def packages() -> Iterator[Finding]:
     """The packages without which nothing runs, each in a version that is known."""
-    from mindlang.diagnosis.requirements import installed, is_met, requirements
-
     for each in requirements():
-        found = installed(each)
-        if is_met(each):
-            yield Finding(each.name, State.FINE, f"{found}")
+        found = _version(each.name)
+        if _is_met(each):
+            yield Finding(each.name, "ok", f"{found}")
         else:
             seen = f"{found}, and {each.specifier} is needed" if found else "not installed"
-            yield Finding(each.name, State.WRONG, seen, f"pip install '{each.name}{each.specifier}'")
+            yield Finding(each.name, "wrong", seen, f"pip install '{each.name}{each.specifier}'")
+
+
+def requirements(extra: str = "") -> list[Requirement]:
+    """What an extra needs beyond what is always needed, or the latter; PackageNotFoundError where no mindlang is."""
+
+    def is_for(package: Requirement, extra: str) -> bool:
+        return package.marker is None or package.marker.evaluate({"extra": extra})
+
+    found = map(Requirement, requires("mindlang") or ())
+    return [each for each in found if is_for(each, extra) and not (extra and is_for(each, ""))]
+
+
+def _is_met(package: Requirement) -> bool:
+    found = _version(package.name)
+    return found is not None and package.specifier.contains(found, prereleases=True)
 
 
 def machine_code() -> Iterator[Finding]:
@@ -123,22 +133,22 @@ def machine_code() -> Iterator[Finding]:
     folder = cache.folder()
     is_kept = folder.name == f"compiled-{cache.stamp()}"
     if is_kept:
-        yield Finding("compiler cache", State.FINE, f"{_mebibytes(folder)} MiB in {folder}")
+        yield Finding("compiler cache", "ok", f"{_mebibytes(folder)} MiB in {folder}")
     else:
         mend = "let XDG_CACHE_HOME name a folder that can be written"
-        yield Finding("compiler cache", State.WRONG, "no folder can be written: every start compiles anew", mend)
+        yield Finding("compiler cache", "wrong", "no folder can be written: every start compiles anew", mend)
     if warmup.is_native():
-        yield Finding("simulator", State.FINE, f"compiled for {cache.processor()}")
+        yield Finding("simulator", "ok", f"compiled for {cache.processor()}")
     elif warmup.is_there((advance,)):
         seen = "shipped for any processor of this kind; made for this one while the first lesson runs"
-        yield Finding("simulator", State.FINE, seen)
+        yield Finding("simulator", "ok", seen)
     else:
         seen = "not compiled yet: the first lesson, run or bench does it, in about a minute"
-        yield Finding("simulator", State.ABSENT, seen, "mindc warmup")
+        yield Finding("simulator", "absent", seen, "mindc warmup")
     older = sum(_mebibytes(each) for each in folder.parent.glob("compiled-*") if each != folder) if is_kept else 0
     if older << 20 > SEVERAL_BYTES:
         mend = f"if you use no older version any more: rm -r {folder.parent}/compiled-*, then mindc warmup"
-        yield Finding("older caches", State.ABSENT, f"{older} MiB of other versions in {folder.parent}", mend)
+        yield Finding("older caches", "absent", f"{older} MiB of other versions in {folder.parent}", mend)
 
 
 def _mebibytes(folder: Path) -> int:
@@ -149,9 +159,9 @@ def viewer() -> Iterator[Finding]:
     """The page of `mindc view`, which is built before a package is made."""
     page = Path(mindlang.__file__).parent / "view" / "page" / "index.html"
     if page.is_file():
-        yield Finding("viewer", State.FINE, "its page is there")
+        yield Finding("viewer", "ok", "its page is there")
     else:
-        yield Finding("viewer", State.WRONG, f"{page} is missing", "cd viewer && npm ci && npm run build")
+        yield Finding("viewer", "wrong", f"{page} is missing", "cd viewer && npm ci && npm run build")
 
 
 def browser() -> Iterator[Finding]:
@@ -160,25 +170,30 @@ def browser() -> Iterator[Finding]:
         found = webbrowser.get()
     except webbrowser.Error:
         mend = "open the address that mindc view prints, from any machine that reaches it"
-        yield Finding("browser", State.ABSENT, "none found", mend)
+        yield Finding("browser", "absent", "none found", mend)
     else:
-        yield Finding("browser", State.FINE, str(getattr(found, "name", "found")))
+        yield Finding("browser", "ok", str(getattr(found, "name", "found")))
 
 
 def extra_packages() -> Iterator[Finding]:
     """The extras, which not everybody needs."""
-    from mindlang.diagnosis.requirements import extras, installed, is_met, requirements
-
     for extra in extras():
         needed = requirements(extra)
-        missing = [f"{each.name}{each.specifier if installed(each) else ''}" for each in needed if not is_met(each)]
+        missing = [
+            f"{each.name}{each.specifier if _version(each.name) else ''}" for each in needed if not _is_met(each)
+        ]
         if missing:
             seen = f"without {', '.join(missing)}"
-            yield Finding(f"[{extra}]", State.ABSENT, seen, f"pip install 'mindlang[{extra}]'")
+            yield Finding(f"[{extra}]", "absent", seen, f"pip install 'mindlang[{extra}]'")
         elif len(needed) > LISTED_PACKAGES:
-            yield Finding(f"[{extra}]", State.FINE, f"all {len(needed)} packages")
+            yield Finding(f"[{extra}]", "ok", f"all {len(needed)} packages")
         else:
-            yield Finding(f"[{extra}]", State.FINE, ", ".join(f"{each.name} {installed(each)}" for each in needed))
+            yield Finding(f"[{extra}]", "ok", ", ".join(f"{each.name} {_version(each.name)}" for each in needed))
+
+
+def extras() -> list[str]:
+    """The extras of the installed mindlang by name."""
+    return metadata("mindlang").get_all("Provides-Extra") or []
 
 
 CHECKS = (programs, python, machine, packages, machine_code, viewer, browser, extra_packages)
