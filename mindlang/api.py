@@ -34,12 +34,12 @@ from mindlang.editing.summary import broken_sentences, diff, summarise
 from mindlang.editing.writing import write
 from mindlang.limits import as_layout, as_workers, refuse_too_large, refuse_too_many
 from mindlang.lock.ready import ReadyMind, make_ready
-from mindlang.run.columns import Column
+from mindlang.run.chosen_task import master_of, skill_of, task_of, unknown
 from mindlang.run.many_runs import run_timed
 from mindlang.run.outcome import bench_data, over_at_once
 from mindlang.run.recorded_run import record_run
-from mindlang.run.setup import RunSetup, master_of, set_up, skill_of, task_of, train_command, unknown, untaught_skills
-from mindlang.run.trace_file import trace_table
+from mindlang.run.setup import RunSetup, set_up, train_command, untaught_skills
+from mindlang.run.tables import Column, trace_table
 from mindlang.training.lesson_choice import TrainOptions, chosen_lessons
 from mindlang.training.results import Result
 from mindlang.training.subject import begin_run, open_subject, refuse_frozen

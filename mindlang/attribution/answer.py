@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 from mindlang.attribution.course import Course
 from mindlang.attribution.shares import Contribution, shares
 from mindlang.compiler.diagnostic import did_you_mean, listed
+from mindlang.run.chosen_task import SetupError
 from mindlang.run.edge_flow import Sink, sink_named
 from mindlang.run.outcome import events, rewards_data
 from mindlang.run.recorded_run import RecordedRun
-from mindlang.run.setup import SetupError
 
 REWARD = "reward"  # asks for the score, where nothing has that name
 PATH_COUNT = 10  # that are named, where nobody says how many
@@ -101,7 +101,7 @@ def _reads(course: Course, of: Contribution, rows: range) -> dict[str, list[floa
     graph = course.flows.graph
     name = of.path[-2] if len(of.path) > 1 else of.path[0]  # before what was asked about, unless that is the master
     inputs = next(skill.inputs for skill in graph.skills if skill.name == name)
-    read = course.flows.walker.rows(np.array(rows))[0][:, list(inputs)].astype(float)
+    read = course.flows.rows(np.array(rows))[0][:, list(inputs)].astype(float)
     around = directions({each.name: each.kind for each in graph.sensors})
     owners = {place: each.name for each in graph.sensors for place in range(each.start, each.start + each.width)}
     owners |= {each.start: each.name for each in graph.memories}

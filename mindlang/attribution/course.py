@@ -12,11 +12,9 @@ from mindrun.robot.recording import RecordingError, read
 from mindrun.robot.replay import computed_again
 from numpy.typing import NDArray
 
-from mindlang.run.edge_flow import EdgeFlows, edge_flows
+from mindlang.run.edge_flow import EdgeFlows, Singles, edge_flows
 from mindlang.run.recorded_run import RecordedRun
-from mindlang.run.run_recording import run_of
-from mindlang.run.running_bundle import running_bundle
-from mindlang.run.sent_values import Singles
+from mindlang.run.recording import run_of, running_bundle
 
 
 @dataclass(frozen=True, slots=True)

@@ -29,10 +29,9 @@ from mindlang.breakpoints.breakpoint import (
     robot_events,
 )
 from mindlang.breakpoints.subject import Subject
-from mindlang.run.edge_flow import EdgeFlow, EdgeFlows, FlowWalker, accumulated
+from mindlang.run.edge_flow import EdgeFlow, EdgeFlows, Places, Singles, accumulated
 from mindlang.run.recorded_run import RecordedRun
-from mindlang.run.running_bundle import task_of
-from mindlang.run.sent_values import Places, Singles
+from mindlang.run.recording import recorded_task
 from mindlang.run.setup import RunSetup
 
 Leaf = Callable[[str, Any], Any]
@@ -185,7 +184,7 @@ class Transmissions:
         """The hierarchy is of the graph, and nothing else makes its skills compute."""
         self._asked = asked
         self._begins: set[int] = set()
-        self._flows = EdgeFlows(graph, FlowWalker(mind, self._rows, self._begins)) if asked else None
+        self._flows = EdgeFlows(graph, mind, self._rows, self._begins) if asked else None
         self._fed = 0  # rows, before those of now
         self._now: tuple[Singles, Singles]  # those rows
 
@@ -201,9 +200,9 @@ class Transmissions:
         found = np.zeros((len(self._asked), len(readings)))
         end = self._fed + len(readings)
         if self._flows:
-            for part, flow in self._flows.walker.parts(np.arange(self._fed, end)):
+            for part, flow in self._flows.parts(np.arange(self._fed, end)):
                 found[:, part] = [_weights(self._flows, flow, each) for each in self._asked]
-            self._flows.walker.go_on(end)
+            self._flows.go_on(end)
         self._fed = end
         return found
 
@@ -224,7 +223,7 @@ def _weights(flows: EdgeFlows, flow: EdgeFlow, asked: Transmission) -> NDArray[n
 
 def recording_subject(of: About, mind: Bundle) -> Subject:
     """What the breakpoints of a recording are about, made with the mind of this bundle."""
-    return Subject.of_recording(mind.graph, of.master, of.sensors, task_of(of, mind))
+    return Subject.of_recording(mind.graph, of.master, of.sensors, recorded_task(of, mind))
 
 
 class RecordingWatcher:
@@ -232,7 +231,7 @@ class RecordingWatcher:
 
     def __init__(self, breakpoints: Sequence[Breakpoint], of: About, mind: Bundle) -> None:
         """WeightsError or ProcedureError where a skill of the bundle cannot be made ready."""
-        ready, task = hierarchy(mind.policy, mind.procedures, of.master), task_of(of, mind)
+        ready, task = hierarchy(mind.policy, mind.procedures, of.master), recorded_task(of, mind)
         events = (*robot_events(of.sensors), *(task.events if task else ()))
         self._watcher = Watcher(breakpoints, events, mind.graph, ready)
         self._before = np.zeros((1, 1 + len(of.sensors)), bool)  # whether it had to stop, and the faults

@@ -12,11 +12,10 @@ from mindrun.sim.rollout import Rollout
 from mindlang.cli._run_session import BenchChoice, RunSession
 from mindlang.cli._terminal import MISUSE, console, fail, print_json, write_file
 from mindlang.run import outcome
-from mindlang.run.bench_comparison import Benched, compare, differing_tasks
-from mindlang.run.columns import csv_parts
-from mindlang.run.comparison_summary import comparison_summary
-from mindlang.run.runs_table import joined, runs_table
+from mindlang.run.comparison import Benched, compare, differing_tasks
 from mindlang.run.setup import RunSetup
+from mindlang.run.summary import comparison_summary
+from mindlang.run.tables import csv_parts, joined, runs_table
 
 MAX_COMPARED = 2  # minds, or masters
 

@@ -69,7 +69,8 @@ def _under(compiled: Compiled, master: str | None) -> Compiled:
 def _run(file: str, compiled: Compiled, options: ProofOptions) -> Recorded:
     from mindlang.cli._simulator_compilation import prepare
     from mindlang.proofs.recorded import record
-    from mindlang.run.setup import SetupError, set_up
+    from mindlang.run.chosen_task import SetupError
+    from mindlang.run.setup import set_up
 
     assert compiled.graph
     try:

@@ -84,7 +84,7 @@ def _film(session: RunSession, run: RecordedRun, found: dict[str, Any], path: Pa
 
 
 def _tabulate(session: RunSession, run: RecordedRun, path: Path) -> None:
-    from mindlang.run.trace_file import trace_bytes
+    from mindlang.run.tables import trace_bytes
 
     try:
         data = trace_bytes(run, path.suffix.lower())
@@ -95,7 +95,7 @@ def _tabulate(session: RunSession, run: RecordedRun, path: Path) -> None:
 
 
 def _record(session: RunSession, run: RecordedRun, setup: RunSetup, seed: int, path: Path) -> None:
-    from mindlang.run.run_recording import run_bytes
+    from mindlang.run.recording import run_bytes
 
     try:
         data = run_bytes(run, setup, seed)

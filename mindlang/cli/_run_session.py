@@ -18,12 +18,12 @@ from mindlang.compiler.compile import Compiled
 from mindlang.executors import Where, scorer_on
 from mindlang.executors.job_scorer import JobScorer
 from mindlang.limits import refuse_too_large, refuse_too_many
-from mindlang.run.layouts import NO_GENOME
-from mindlang.run.many_runs import run_timed
-from mindlang.run.setup import RunSetup, SetupError, set_up
+from mindlang.run.chosen_task import SetupError
+from mindlang.run.many_runs import NO_GENOME, run_timed
+from mindlang.run.setup import RunSetup, set_up
 
 if TYPE_CHECKING:
-    from mindlang.run.course import Course
+    from mindlang.run.recorded_run import RunResult
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,12 +117,12 @@ class RunSession:
         return found
 
     @procedures_talk()
-    def record(self, setup: RunSetup, rollout: Rollout, seed: int) -> Course:
+    def record(self, setup: RunSetup, rollout: Rollout, seed: int) -> RunResult:
         """A run written down tick by tick, and what came of it."""
-        from mindlang.run.course import course
+        from mindlang.run.recorded_run import run_result
 
         rollout.make_again(NO_GENOME[0], seed)
-        made = course(setup, rollout, seed)
+        made = run_result(setup, rollout, seed)
         self.say(*(f"note: {note}" for note in rollout.notes))
         return made
 

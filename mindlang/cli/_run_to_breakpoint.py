@@ -16,7 +16,7 @@ from mindlang.cli._run_files import RunFiles
 from mindlang.cli._run_session import RunChoice, RunSession
 from mindlang.cli._terminal import FINDINGS, OK, console, load_compiled, print_json, procedures_talk
 from mindlang.run import outcome
-from mindlang.run.course import course
+from mindlang.run.recorded_run import run_result
 from mindlang.run.summary import run_summary
 
 
@@ -30,12 +30,12 @@ def run_to_breakpoint(
     setup = noticing(cast, breakpoints)
     rollout = session.simulator(setup, chosen.interrupt)
     with procedures_talk():
-        made = course(setup, rollout, chosen.seed)
+        made = run_result(setup, rollout, chosen.seed)
         stops = watcher(breakpoints, setup).feed(made.run)
     run, came, stopped = made.run, made.found, stopped_data(stops, str(path), made.run.graph.tick)
     if stopped and stopped["tick"] < run.ticks:
         run = run.until(stopped["tick"])
-        came = outcome.data_so_far(run) | {"ended_by": "a breakpoint"}
+        came = outcome.data_so_far(run.task, run.lines[-1], run.events[-1], run.ticks, "a breakpoint")
     found = {"task": setup.task.name, "master": setup.master, "seed": chosen.seed, "notes": [*setup.ready.notes]}
     found = found | came | {"stopped": stopped}
     if as_json:

@@ -96,9 +96,8 @@ def _bench(who: Contender, chosen: BenchChoice, table: Path | None, as_json: boo
     from mindlang.cli._run_session import RunSession
     from mindlang.cli._terminal import console, print_json, write_file
     from mindlang.run import outcome
-    from mindlang.run.columns import csv_parts
-    from mindlang.run.runs_table import runs_table
     from mindlang.run.summary import bench_summary
+    from mindlang.run.tables import csv_parts, runs_table
 
     session = RunSession(quiet)
     cast = chosen.task, who.master, chosen.interrupt, chosen.workers, chosen.runs

@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 
 from mindlang.api import Mind, load
 from mindlang.lock.ready import ReadyMind, make_ready
-from mindlang.run.setup import RunSetup, master_of, task_of, unknown, untaught_skills
+from mindlang.run.chosen_task import master_of, task_of, unknown
+from mindlang.run.setup import RunSetup, untaught_skills
 
 
 @dataclass(frozen=True, slots=True)

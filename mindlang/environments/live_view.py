@@ -18,7 +18,7 @@ from mindrun.robot.rate import Rate
 from numpy.typing import NDArray
 
 from mindlang.environments.agent import Agent
-from mindlang.run.run_recording import world_of
+from mindlang.run.recording import world_of
 from mindlang.view.server import BackgroundView, open_browser
 from mindlang.view.viewed import Viewed
 from mindlang.view.viewed_recording import viewed_mind

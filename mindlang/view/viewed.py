@@ -19,7 +19,7 @@ from mindrun.graph.weights import reachable
 from mindrun.sim.outside.seen import UNKNOWN_FAILURES, SeenEpisode, Sent
 from numpy.typing import NDArray
 
-from mindlang.run.edge_flow import EdgeFlows, FlowWalker
+from mindlang.run.edge_flow import EdgeFlows
 from mindlang.view.messages import AskColumns, AskRows, Change, RefusedError
 from mindlang.view.rows import (
     DOUBLE_BLOCK,
@@ -120,7 +120,7 @@ class Viewed:
         def rows(ticks: TickNumbers) -> tuple[Singles, Singles]:
             return self.group("readings", ticks), self.group("influence", ticks)
 
-        self.flows = EdgeFlows(self.mind.policy.graph, FlowWalker(self.mind.hierarchy, rows, self.mind.begins))
+        self.flows = EdgeFlows(self.mind.policy.graph, self.mind.hierarchy, rows, self.mind.begins)
 
     @property
     def known(self) -> int:
@@ -130,7 +130,7 @@ class Viewed:
     @property
     def kept_bytes(self) -> int:
         """Of its rows, and of what flowed in them."""
-        return self.blocks.kept_bytes + self.flows.walker.kept_bytes
+        return self.blocks.kept_bytes + self.flows.kept_bytes
 
     def grow(self, bytes_elsewhere: int = 0) -> None:
         """One chunk more; where a procedure fails, or memory ends, the run is over and `failed` says why.
@@ -200,7 +200,7 @@ class Viewed:
         return np.concatenate([kept, self._flow(ticks)], axis=1) if FLOW in self.columns.groups else kept
 
     def _flow(self, ticks: TickNumbers) -> Singles:
-        return self.flows.walker.transmitted(ticks)
+        return self.flows.transmitted(ticks)
 
     def image(self, tick: int) -> Image:
         """What its environment draws after a tick [height, width, 3], red first.

@@ -19,7 +19,7 @@ from mindrun.robot.replay import computed_again
 from numpy.typing import NDArray
 
 from mindlang.run import outcome
-from mindlang.run.running_bundle import measured_in, running_bundle, task_of
+from mindlang.run.recording import measured_in, recorded_task, running_bundle
 from mindlang.view.about import HierarchyData, WorldEvents, run_data
 from mindlang.view.growing_bytes import growing_bytes
 from mindlang.view.rows import FLOW, Chunk, Columns, Singles, beginning, blocks, world_columns
@@ -79,7 +79,7 @@ def viewed_mind(
     watching: Watching | None = None,
 ) -> Viewed:
     """The same of rows that have all readings; `folder` is that of the mind."""
-    task = task_of(of, found)
+    task = recorded_task(of, found)
     begins: set[int] = set()  # filled while the rows come
     mind = SeenMind.of(found.policy, found.procedures, of.master, begins)
     columns = recording_columns(found, of, mind.edges)

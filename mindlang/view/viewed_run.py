@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from mindlang.breakpoints.breakpoint import Breakpoint
 from mindlang.breakpoints.watch import Part, Stop, Watcher, watcher
 from mindlang.run import outcome
-from mindlang.run.run_recording import recorded_rows, world_of
+from mindlang.run.recording import recorded_rows, world_of
 from mindlang.run.setup import RunSetup
 from mindlang.view import messages
 from mindlang.view.about import HierarchyData, Texts, WorldEvents, run_data

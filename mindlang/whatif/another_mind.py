@@ -10,8 +10,7 @@ from mindrun.sim.rollout import Rollout
 from mindrun.sim.takeover import take_over
 from numpy.typing import NDArray
 
-from mindlang.run.course import Course, course, course_of
-from mindlang.run.recorded_run import RecordedRun
+from mindlang.run.recorded_run import RecordedRun, RunResult, result_of, run_result
 from mindlang.run.setup import RunSetup
 from mindlang.whatif.changed_run import Compared, compared, refuse_late
 
@@ -22,13 +21,13 @@ def compare_minds(
     ours: tuple[RunSetup, Rollout], theirs: tuple[RunSetup, Rollout], seed: int, tick: int, changes: Sequence[Change]
 ) -> Compared:
     """The run of a seed as it is, and with another mind from a tick on; ChangeError where that one does not fit."""
-    was = course(*ours, seed)
+    was = run_result(*ours, seed)
     refuse_late(was, tick)
     if tick == 1:
-        return compared(was, course(*theirs, seed, changes))
+        return compared(was, run_result(*theirs, seed, changes))
     setup, rollout = theirs
-    rest = course_of(setup, take_over(ours[1], seed, tick, rollout, changes), seed)
-    return compared(was, Course(continued(was.run, rest.run, tick - 1), rest.found))
+    rest = result_of(setup, take_over(ours[1], seed, tick, rollout, changes), seed)
+    return compared(was, RunResult(continued(was.run, rest.run, tick - 1), rest.found))
 
 
 def continued(was: RecordedRun, rest: RecordedRun, ticks: int) -> RecordedRun:

@@ -8,8 +8,7 @@ from mindrun.engine.changes import Change, ChangeError
 from mindrun.graph.reward_sums import paid_by_text
 from mindrun.sim.rollout import Rollout
 
-from mindlang.run.course import Course, course
-from mindlang.run.recorded_run import RecordedRun
+from mindlang.run.recorded_run import RecordedRun, RunResult, run_result
 from mindlang.run.setup import RunSetup
 from mindlang.whatif.difference import Columns, Difference, first_differences, mind_columns
 
@@ -20,20 +19,20 @@ POSE = ("x", "y", "angle")
 class Compared:
     """A run as it `was` and as it is `now` with changes, and where they differ first, in the order of time."""
 
-    was: Course
-    now: Course
+    was: RunResult
+    now: RunResult
     differences: list[Difference]
 
 
 def compare(setup: RunSetup, rollout: Rollout, seed: int, changes: Sequence[Change]) -> Compared:
     """Run a seed as it is and with changes; ChangeError where the run is over before the first of them."""
-    was = course(setup, rollout, seed)
+    was = run_result(setup, rollout, seed)
     first = min((change.first for change in changes), default=1)
     refuse_late(was, first)
-    return compared(was, course(setup, rollout, seed, changes))
+    return compared(was, run_result(setup, rollout, seed, changes))
 
 
-def refuse_late(was: Course, tick: int) -> None:
+def refuse_late(was: RunResult, tick: int) -> None:
     """ChangeError where a run is over before a tick."""
     if tick > was.run.ticks:
         raise ChangeError(
@@ -41,7 +40,7 @@ def refuse_late(was: Course, tick: int) -> None:
         )
 
 
-def compared(was: Course, now: Course) -> Compared:
+def compared(was: RunResult, now: RunResult) -> Compared:
     """Two runs held against each other."""
     return Compared(was, now, first_differences(_columns(was.run), _columns(now.run)))
 

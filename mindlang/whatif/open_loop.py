@@ -22,7 +22,7 @@ from mindrun.terminal.tick_count import ticks as in_words
 from numpy.typing import NDArray
 
 from mindlang.compiler.diagnostic import listed
-from mindlang.run.running_bundle import running_bundle
+from mindlang.run.recording import running_bundle
 from mindlang.whatif.difference import Columns, Difference, first_differences, mind_columns
 from mindlang.whatif.mind_version import MindVersion
 

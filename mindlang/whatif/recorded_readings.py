@@ -14,7 +14,7 @@ from mindrun.robot.recording import read
 from mindrun.terminal.command_line import command_line
 from mindrun.terminal.tick_count import ticks as in_words
 
-from mindlang.run.running_bundle import measured_in, running_bundle
+from mindlang.run.recording import measured_in, running_bundle
 
 RECORDING_SUFFIX = ".rec"
 

@@ -21,7 +21,7 @@ from mindlang.breakpoints.watch import RecordingWatcher, recording_subject, watc
 from mindlang.compiler.source import Source
 from mindlang.lock.ready import ReadyMind
 from mindlang.run.recorded_run import record_run
-from mindlang.run.run_recording import run_bytes
+from mindlang.run.recording import run_bytes
 from mindlang.run.setup import RunSetup
 from tests.breakpoints.subjects import subject
 from tests.calling import Call
@@ -101,7 +101,7 @@ def test_what_happens_to_a_robot_is_found_where_it_begins(facts: list[tuple[int,
 def test_events_of_its_task_are_found_in_a_recording_with_a_world(mindc: Call, rules: Path, tmp_path: Path) -> None:
     from mindrun.robot.recording import read
 
-    from mindlang.run.running_bundle import running_bundle
+    from mindlang.run.recording import running_bundle
 
     rec = tmp_path / "run.rec"
     assert mindc("run", rules, "--task", "Roam", "--seed", 3, "--record", rec).code == 0

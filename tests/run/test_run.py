@@ -14,7 +14,7 @@ import pytest
 from mindrun.sim import cache
 
 from mindlang.cli._simulator_compilation import is_compiled
-from mindlang.run.layouts import layouts
+from mindlang.run.many_runs import layouts
 from tests.calling import RULES, Call
 
 RUN_KEYS = {"score", "by_line", "counts", "ticks", "ended_by", "seed", "task", "master"}

@@ -15,8 +15,7 @@ from mindlang.compiler.compile import load
 from mindlang.pictures.picture import view_of
 from mindlang.pictures.theme import PAPER
 from mindlang.pictures.two_paths import outcome_words
-from mindlang.run.course import course
-from mindlang.run.recorded_run import RecordedRun
+from mindlang.run.recorded_run import RecordedRun, run_result
 from mindlang.run.setup import RunSetup, set_up
 from mindlang.whatif.another_mind import compare_minds
 from mindlang.whatif.changed_run import compare
@@ -91,7 +90,7 @@ def test_a_setting_is_for_one_tick_and_a_sensor_for_all_that_follow(rules: Path)
     assert [(each.first, each.values) for each in made[0]] == [(10, (value,)) for value in (0.0, 0.5, 1.0, 0.0, 1.0)]
     place = next(sensor for sensor in graph.sensors if sensor.name == "ball_bearing").start
     read = [
-        course(setup, setup.rollout(), 3, changes_of(request, graph, setup.master)).run.readings[:, place] == 0.25
+        run_result(setup, setup.rollout(), 3, changes_of(request, graph, setup.master)).run.readings[:, place] == 0.25
         for request in (Request(10, settings=("ball_bearing=0.25",)), Request(10, sensors=("ball_bearing=0.25",)))
     ]
     assert read[0].nonzero()[0].tolist() == [9]
@@ -126,7 +125,7 @@ def test_a_sensor_reads_what_was_recorded_tick_by_tick_and_then_its_own(
     for ticks, last in ((5, 34), (11, 40), (12, 40)):
         shorter = changes_of(Request(30, ticks, sensors=(f"feeler={short}",)), graph, setup.master, rules)
         assert [(each.last, len(each.values)) for each in shorter] == [(last, last - 29)] * 3
-    now, own = (course(setup, setup.rollout(), 3, made).run.readings[:, columns] for made in (changes, ()))
+    now, own = (run_result(setup, setup.rollout(), 3, made).run.readings[:, columns] for made in (changes, ()))
     assert np.array_equal(now[:29], own[:29])
     assert np.array_equal(now[29:40], recorded[29:40])
     assert not np.array_equal(now[40:60], recorded[40:60])
@@ -211,7 +210,7 @@ def test_what_another_mind_makes_of_a_run_follows_what_was(rules: Path) -> None:
     ours, other = setup_of(rules, "Chase"), rules.with_name("other.mind")
     other.write_text(rules.read_text().replace("Turn", "Spin"))
     theirs = setup_of(other, "Chase")
-    was = course(ours, ours.rollout(), 3).run
+    was = run_result(ours, ours.rollout(), 3).run
     tick = int(np.flatnonzero(was.events[:, 0])[0]) + 2
     same, renamed = (
         compare_minds((ours, ours.rollout()), (setup, setup.rollout()), 3, tick, ()) for setup in (ours, theirs)

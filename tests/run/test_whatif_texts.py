@@ -5,8 +5,7 @@ from typing import Any, cast
 import numpy as np
 from rich.console import Group, RenderableType
 
-from mindlang.run.course import Course
-from mindlang.run.recorded_run import RecordedRun
+from mindlang.run.recorded_run import RecordedRun, RunResult
 from mindlang.whatif.changed_run import Compared
 from mindlang.whatif.difference import Difference, first_differences
 from mindlang.whatif.open_loop import OpenLoop, Sent
@@ -84,7 +83,7 @@ def text(said: RenderableType) -> str:
 
 def test_two_runs() -> None:
     found = [Difference(20, "influence", "Avoid", 1.0, 0.0), Difference(1200, "reward", "score", 20.0, np.nan)]
-    was, now = (Course(cast(RecordedRun, None), each) for each in (WAS, NOW))
+    was, now = (RunResult(cast(RecordedRun, None), each) for each in (WAS, NOW))
     request = Request(20, without=("Avoid",))
     assert text(comparison_summary(request, Compared(was, now, found))) == RUNS
     assert text(comparison_summary(request, Compared(now, was, []))).endswith(

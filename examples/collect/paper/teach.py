@@ -24,7 +24,7 @@ from protocol import FILES, FOLDER
 from mindlang.cli import _simulator_compilation as simulator_compilation
 from mindlang.cli._trainer import Trainer
 from mindlang.number_format import duration
-from mindlang.run.layouts import layouts
+from mindlang.run.many_runs import layouts
 
 RUN_COUNT = 128  # of shipped champions, to see how fast this machine is; fewer would leave lanes empty
 

@@ -1,53 +1,93 @@
-"""A simulated run as a recording, and a recording that has a world as such a run."""
+"""Recordings and runs: a simulated run as a recording, a recording as such a run, and the mind that was running."""
 
 from __future__ import annotations
 
 from dataclasses import replace
+from hashlib import sha256
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
-from mindrun.engine.engine import Engine
-from mindrun.graph.bundle import Bundle
+from mindrun.engine.engine import Engine, procedure_sources
+from mindrun.graph.bundle import Bundle, digest, pack, read_bundle
 from mindrun.graph.graph import Task
+from mindrun.graph.measured import measured_in_world, measured_on_robot, rows_of
 from mindrun.graph.named_readings import physical
-from mindrun.graph.recording_header import GOES_ON, POSE_COLUMNS, THING_COLUMNS, About, RecordedWorld
+from mindrun.graph.recording_header import (
+    GOES_ON,
+    POSE_COLUMNS,
+    THING_COLUMNS,
+    About,
+    RecordedWorld,
+    RecordingError,
+)
 from mindrun.graph.skill_sets import reachable
 from mindrun.graph.wiring import read_by
 from mindrun.robot.recording import recording_bytes
+from mindrun.sim.ticks import Ticks
+from mindrun.terminal.command_line import command_line
 from numpy.typing import NDArray
 
-from mindlang.lock.ready import ReadyMind
+from mindlang.compiler.compile import load
+from mindlang.lock.ready import ReadyMind, make_ready
 from mindlang.run.recorded_run import Floats, RecordedRun
-from mindlang.run.running_bundle import bundle_digest, measured_in, task_of
 from mindlang.run.setup import RunSetup
 
+SOURCE_SUFFIX = ".mind"
 Rows = NDArray[Any]
 
 
-class Written(Protocol):
-    """What the lanes have written down, with a row for each tick: `mindrun.sim.ticks.Ticks`, or most of it."""
+def running_bundle(path: Path, of: About) -> Bundle:
+    """The bundle of a recording, which `path` names, or the source that it is built from.
 
-    @property
-    def body(self) -> Floats: ...
-    @property
-    def things(self) -> Floats: ...
-    @property
-    def turned(self) -> Floats: ...
-    @property
-    def held(self) -> NDArray[np.int64]: ...
-    @property
-    def battery(self) -> Floats: ...
-    @property
-    def touching(self) -> NDArray[np.bool_]: ...
-    @property
-    def readings(self) -> NDArray[np.float32]: ...
-    @property
-    def influence(self) -> NDArray[np.float32]: ...
-    @property
-    def commands(self) -> NDArray[np.float32]: ...
-    @property
-    def lines(self) -> Floats: ...
+    MindError where it cannot be read or built, or the recording was made with another.
+    """
+    is_source = path.suffix == SOURCE_SUFFIX
+    found, sha = _built(path, of) if is_source else (read_bundle(path), digest(path))
+    if is_source and sha != of.bundle:
+        raise RecordingError(
+            f"{path} is not what was recorded: its bundle would be {sha[:8]}…, not {of.bundle[:8]}…",
+            "take the bundle that was running (one with --robot is another), or the source and the lock as they were",
+        )
+    of.refuse_another(sha, found.graph)
+    return found
+
+
+def recorded_task(of: About, mind: Bundle) -> Task | None:
+    """The task in whose world a recording was made, with the mind of this bundle; None of a robot's."""
+    return next((task for task in mind.graph.tasks if of.world and task.name == of.world.task), None)
+
+
+def measured_in(of: About, mind: Bundle) -> NDArray[np.bool_]:
+    """The readings [graph.width] that a recording made with this bundle has measured: 0.1.0 wrote 0 for all others."""
+    task = recorded_task(of, mind)
+    simulated = measured_in_world(mind.graph, of.master, task) if task else []
+    return rows_of(mind.graph, [*measured_on_robot(mind.graph, of.sensors), *simulated])
+
+
+def _built(path: Path, of: About) -> tuple[Bundle, str]:
+    """The bundle of a source, under the master of the recording or, where that is not the one, under its own."""
+    compiled = load(path)
+    if compiled.graph is None:
+        hint = f"{command_line('mindc', 'check', path)} says them"
+        raise RecordingError(f"{path} has mistakes, or cannot be read", hint)
+    names = {skill.name for skill in compiled.graph.skills}
+    found, sha = None, ""
+    for master in dict.fromkeys([compiled.graph.master, *({of.master} & names)]):
+        ready = make_ready(compiled.graph, compiled.sources, master)
+        if ready.refusals and found:
+            continue
+        found = bundle_without_robot(ready, compiled.sources[0].folder)
+        sha = sha256(pack(found)).hexdigest()
+        if sha == of.bundle:
+            break
+    assert found is not None
+    return found, sha
+
+
+def bundle_without_robot(ready: ReadyMind, folder: Path) -> Bundle:
+    """What `mindc build` writes of a mind, which is wired to nothing; `folder` has its procedures."""
+    return Bundle(ready.policy, procedure_sources(ready.policy.graph, folder))
 
 
 def run_bytes(run: RecordedRun, setup: RunSetup, seed: int) -> bytes:
@@ -59,7 +99,8 @@ def run_bytes(run: RecordedRun, setup: RunSetup, seed: int) -> bytes:
     graph = setup.ready.policy.graph
     read = read_by(graph, setup.master)
     sensors = tuple(name for name in physical(graph) if name in read)
-    about = About.of(graph, bundle_digest(setup.ready, setup.folder), setup.master, sensors)
+    sha = sha256(pack(bundle_without_robot(setup.ready, setup.folder))).hexdigest()
+    about = About.of(graph, sha, setup.master, sensors)
     about = replace(about, world=world_of(setup.task, seed, run.boxes, run.body[0], run.things[0], run.turned[0]))
     after = replace(run, body=run.body[1:], things=run.things[1:], turned=run.turned[1:], held=run.held[1:])
     rows = recorded_rows(about, 1, after, run.events)
@@ -81,7 +122,7 @@ def world_of(task: Task, seed: int, boxes: Floats, pose: Floats, things: Floats,
     return RecordedWorld.of(task, seed, boxes, [*pose, *np.column_stack([things, turned]).ravel()])
 
 
-def recorded_rows(about: About, first: int, written: Written, events: NDArray[np.int64]) -> Rows:
+def recorded_rows(about: About, first: int, written: Ticks | RecordedRun, events: NDArray[np.int64]) -> Rows:
     """The rows of a recording for some ticks, of which `first` is the number, counted from 1.
 
     `events` [ticks, events] says how often each had happened by then. `commands` are those of `sent`, which reached the
@@ -106,7 +147,7 @@ def recorded_rows(about: About, first: int, written: Written, events: NDArray[np
 
 def run_of(about: About, rows: Rows, mind: Bundle, folder: Path) -> RecordedRun:
     """The run whose recording this is; of a dry run, as its world was seen tick by tick."""
-    task, world, said = task_of(about, mind), rows["world"], about.world
+    task, world, said = recorded_task(about, mind), rows["world"], about.world
     assert said
     assert task
     begin = np.array(said.begin, np.float64)
