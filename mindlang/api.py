@@ -41,9 +41,8 @@ from mindlang.run.recorded_run import record_run
 from mindlang.run.setup import RunSetup, set_up, train_command, untaught_skills
 from mindlang.run.tables import Column, trace_table
 from mindlang.training.lesson_choice import TrainOptions, chosen_lessons
-from mindlang.training.results import Result
 from mindlang.training.subject import begin_run, open_subject, refuse_frozen
-from mindlang.training.teaching import teach
+from mindlang.training.teaching import Result, teach
 
 
 @dataclass(frozen=True, slots=True, repr=False)

@@ -6,7 +6,7 @@ from dataclasses import asdict
 import click
 from mindrun.files.printable import visible
 
-from mindlang.cli._terminal import FINDINGS, OK, console, print_json
+from mindlang.cli._terminal import FINDINGS, OK, console, print_json, text_columns
 
 EXAMPLES = """\b
 Examples:
@@ -26,7 +26,6 @@ def command(as_json: bool) -> None:
     """
     from rich.text import Text
 
-    from mindlang.cli._text_columns import columns
     from mindlang.diagnosis import findings
 
     found = list(findings())
@@ -41,6 +40,6 @@ def command(as_json: bool) -> None:
             )
             for each in found
         ]
-        console().print(columns(console(), rows), end="")
+        console().print(text_columns(console(), rows), end="")
         click.echo(f"{wrong} to be mended" if wrong else "all that is needed is there", err=True)
     sys.exit(FINDINGS if wrong else OK)

@@ -4,15 +4,25 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
-from mindlang.cli._declared_names import SKILLS
+from mindlang.cli._options import SKILLS
+from mindlang.cli._terminal import (
+    FINDINGS,
+    MISUSE,
+    OK,
+    console,
+    fail,
+    load_compiled,
+    print_result,
+    refusing,
+    text_columns,
+)
+from mindlang.compiler.diagnostic import did_you_mean
 
 if TYPE_CHECKING:
-    from mindrun.graph.graph import Graph
     from rich.console import Console
     from rich.text import Text
 
@@ -50,21 +60,24 @@ def command(file: str, skills: tuple[str, ...], accept: bool, as_json: bool) -> 
 
     Ends with 0 when every skill that is shown, of those below the master, can act, else with 1.
     """
-    from mindlang.cli._terminal import FINDINGS, OK, console, load_compiled, print_json
     from mindlang.lock import lock_sources
+    from mindlang.lock.accept import accept as accept_weights
     from mindlang.lock.report import as_data, rows
 
     compiled = load_compiled(file)
     assert compiled.graph is not None
-    sources = lock_sources(compiled.sources)
-    _refuse_unknown(compiled.graph, skills)
+    sources, known = lock_sources(compiled.sources), [skill.name for skill in compiled.graph.skills]
+    for skill in skills:
+        if skill not in known:
+            fail(f"There is no skill {skill}.", did_you_mean(skill, known), MISUSE)
+    if accept and not skills:
+        fail("--accept needs the skills whose weights will do.", "Name them: --accept Avoid Collect", MISUSE)
     if accept:
-        _accept(compiled.graph, sources, skills)
+        with refusing(end="."):
+            accept_weights(compiled.graph, sources, skills)
     found = [row for row in rows(compiled.graph, sources) if not skills or row.skill in skills]
-    if as_json:
-        print_json({"skills": [as_data(row) for row in found]})
-    else:
-        console().print(report(found, console()), end="")
+    data = {"skills": [as_data(row) for row in found]}
+    print_result(as_json, data, lambda: report(found, console()), end="")
     sys.exit(OK if all(row.is_fine for row in found if row.is_needed) else FINDINGS)
 
 
@@ -72,7 +85,6 @@ def report(found: Sequence[Row], console: Console) -> Text:
     """The rows as lines that a console has room for."""
     from rich.text import Text
 
-    from mindlang.cli._text_columns import columns
     from mindlang.lock.report import made
 
     lines = []
@@ -80,27 +92,4 @@ def report(found: Sequence[Row], console: Console) -> Text:
         word = f"{row.word}, frozen" if row.is_frozen else row.word
         about = Text("\n".join(filter(None, (made(row), *row.remarks))))
         lines.append(((Text(row.skill), Text(word, COLOURS[row.word])), about))
-    return columns(console, lines)
-
-
-def _refuse_unknown(graph: Graph, skills: Sequence[str]) -> None:
-    from mindlang.cli._terminal import MISUSE, fail
-    from mindlang.compiler.diagnostic import did_you_mean
-
-    known = [skill.name for skill in graph.skills]
-    for skill in skills:
-        if skill not in known:
-            fail(f"There is no skill {skill}.", did_you_mean(skill, known), MISUSE)
-
-
-def _accept(graph: Graph, sources: Sequence[Path], skills: Sequence[str]) -> None:
-    from mindlang.cli._terminal import MISUSE, fail
-    from mindlang.lock import LockError
-    from mindlang.lock.accept import accept
-
-    if not skills:
-        fail("--accept needs the skills whose weights will do.", "Name them: --accept Avoid Collect", MISUSE)
-    try:
-        accept(graph, sources, skills)
-    except LockError as error:
-        fail(f"{error}.", error.hint)
+    return text_columns(console, lines)

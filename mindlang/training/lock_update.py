@@ -22,8 +22,7 @@ from mindlang.lock.lessons import key_of
 from mindlang.lock.status import Trained, trained_weights
 from mindlang.lock.world_facts import Worlds
 from mindlang.number_format import number
-from mindlang.training.origin import origin_of
-from mindlang.training.subject import Subject
+from mindlang.training.subject import Subject, origin_of
 
 COMPARED_LAYOUTS = 50  # common to the weights that a lock has and to the new ones, and to nothing else
 

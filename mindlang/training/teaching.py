@@ -1,12 +1,15 @@
-"""The beginning and the end of a run of a lesson: what scores its genomes, and what becomes of what was learnt."""
+"""A run of a lesson from beginning to end: what scores its genomes, and what came of it, as data and in words."""
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from math import isfinite
+from typing import Any
 
 from mindrun.engine.engine import procedure_sources
 from mindrun.graph.bundle import Bundle, pack
 from mindrun.graph.policy import Policy
+from mindrun.graph.weights import parts
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.rollouts import rollout_for
 from mindrun.terminal.command_line import command_line
@@ -14,7 +17,7 @@ from mindrun.train.kept_segments import KeptSegments, RememberingExecutor
 from mindrun.train.lesson import Clock
 from mindrun.train.lesson_state import Course, LessonState, is_over
 from mindrun.train.population import founder_count
-from mindrun.train.run_folder import RunFolder, keep_result, read_result
+from mindrun.train.run_folder import WEIGHTS, RunFolder, keep_result, read_result
 from mindrun.train.scoring import Scorer
 from mindrun.train.seeds import breeding_generator, layouts
 from mindrun.train.stretch_threads import StretchThreads
@@ -24,9 +27,12 @@ from mindlang.executors import Where, scorer_on
 from mindlang.executors.job_scorer import JobScorer
 from mindlang.executors.jobs import Assignment, StretchExecutor, WorkError
 from mindlang.limits import refuse_too_large, refuse_too_long
+from mindlang.lock.blobs import digest
+from mindlang.number_format import duration, number, rate
 from mindlang.training.lock_update import Kept, keep
-from mindlang.training.results import Result, result_of
 from mindlang.training.subject import Subject
+
+Result = dict[str, Any]
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,9 +72,8 @@ def make_again(run: RunFolder, rollout: Rollout) -> None:
 def assignment_of(run: RunFolder, subject: Subject) -> Assignment:
     """What a worker has to know to do the jobs of a run; MindError where it is too large for a bundle."""
     lesson = run.manifest.lesson
-    policy = Policy(subject.graph, run.weights)
     procedures = procedure_sources(subject.graph, subject.folder, lesson.master)
-    bundle = pack(Bundle(policy, procedures))
+    bundle = pack(Bundle(Policy(subject.graph, run.weights), procedures))
     return Assignment(bundle, lesson.task, lesson.master, run.manifest.learners, folder=subject.folder)
 
 
@@ -162,3 +167,71 @@ def finish(
 def has_ended(run: RunFolder, state: LessonState) -> bool:
     """Whether a run has come to its end; it was stopped otherwise."""
     return is_over(run.manifest.lesson, state)
+
+
+def opening(run: RunFolder) -> str:
+    """What is about to be taught, in a sentence."""
+    lesson = run.manifest.lesson
+    known = set(run.manifest.learners) <= set(run.weights)
+    origin = f"the weights of {lesson.starts_from}" if lesson.starts_from else "its weights"
+    start = "from scratch" if lesson.from_scratch or not known else f"from {origin}"
+    where = f"on {lesson.task}" + (f" under {lesson.master}" if lesson.master != lesson.skill else "")
+    who = f"{lesson.skill} with its subskills" if lesson.with_subskills else lesson.skill
+    return f"{who} {where} {start}, seed {run.manifest.seed}, in {run.folder}"
+
+
+def result_of(run: RunFolder, subject: Subject, state: LessonState, kept: Kept) -> Result:
+    """A finished run as plain data; `weights` has the SHA-256 of what was learnt of each skill.
+
+    `kept` says whether that is in the lock now. Where this had weights before, `compared` are their score and that of
+    the new ones on common fresh layouts.
+    """
+    lesson = run.manifest.lesson
+    learnt = parts(subject.graph, run.manifest.learners, state.kept[0])
+    return {
+        "lesson": run.manifest.name,
+        "curriculum": lesson.curriculum,
+        "skill": lesson.skill,
+        "task": lesson.task,
+        "master": lesson.master,
+        "generations": lesson.generations,
+        "bred": state.generations,
+        "population": lesson.learner.population,
+        "attempts": state.attempt,
+        "seed": run.manifest.seed,
+        "best": state.best,
+        "reevaluated": state.reevaluated,
+        "ticks": state.ticks,
+        "seconds": round(state.seconds, 3),
+        "ticks_per_second": round(state.ticks / max(state.seconds, 1e-9)),
+        "faults": state.faults,
+        "verdicts": [_finite(verdict) for verdict in state.verdicts[:, 1]],
+        "weights": {skill: digest(weights) for skill, weights in learnt.items()},
+        "kept": kept.is_new,
+        "compared": [_finite(score) for score in (kept.comparison.old, kept.comparison.new)]
+        if kept.comparison
+        else None,
+        "run": str(run.folder),
+    }
+
+
+def _finite(score: float) -> float | None:
+    return float(score) if isfinite(score) else None
+
+
+def outcome(run: RunFolder, result: Result, kept: Kept, lock: str) -> list[str]:
+    """What was learnt, what is in the lock now, and where the new weights are if they are not there."""
+    generations = "1 generation" if result["bred"] == 1 else f"{result['bred']} generations"
+    if result["attempts"] > 1:
+        generations += f" in {result['attempts']} attempts"
+    cpu = result.get("ticks_per_cpu_second")
+    speed = rate(result["ticks_per_second"]) if cpu is None else rate(cpu, "CPU second")
+    learnt = (
+        f"{result['skill']} has learnt: {number(result['reevaluated'])} on fresh layouts after "
+        f"{generations}, in {duration(result['seconds'])} at {speed}"
+    )
+    if kept.is_new:
+        worse = kept.comparison is not None and kept.comparison.is_worse
+        return [f"{learnt}; weights in {lock}", *[f"but {kept.comparison}"] * worse]
+    stay = f"{kept.comparison}, and stay in {lock}"
+    return [learnt, stay, f"the new ones: {run.folder / WEIGHTS}; --force puts them there"]

@@ -22,7 +22,7 @@ from mindlang.lock.status import trained_weights
 from mindlang.training.lock_update import COMPARED_LAYOUTS, Comparison, needed_success
 from mindlang.training.subject import Subject
 from mindlang.weights.network import Network
-from mindlang.whatif.recorded_readings import recorded_readings
+from mindlang.whatif.request import recorded_readings
 
 READINGS_SEED = 1  # of the run whose readings are taken
 LAYOUTS_SEED = 0  # of the layouts on which weights are tried

@@ -7,7 +7,7 @@ import pytest
 from mindrun.cli.driving_arguments import driving_parser
 from mindrun.cli.tools import tool_parser, tools
 
-from mindlang.cli._mindrun_articles import mindrun_articles
+from mindlang.cli._articles import mindrun_articles
 from tests.calling import Call
 from tests.project.sources import ROOT
 

@@ -5,7 +5,7 @@ from xml.etree import ElementTree
 
 import pytest
 
-from mindlang.cli._command_articles import command_reference
+from mindlang.cli._articles import command_reference
 from mindlang.explaining.collection import articles
 from mindlang.explaining.pages import PAGES, all_pictures
 from tests.project.sources import ROOT

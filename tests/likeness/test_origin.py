@@ -16,7 +16,7 @@ from mindlang.compiler.counterparts import counterparts
 from mindlang.lock import read_lock
 from mindlang.lock.arrange import arrange
 from mindlang.training.lesson_choice import TrainOptions, chosen_lessons
-from mindlang.training.origin import origin_weights
+from mindlang.training.subject import origin_weights
 from tests.draws import cases
 from tests.likeness.test_lock import teach
 from tests.likeness.test_meaning import ALIKE, GO, SCHOOL, TOP, compiled, graph, named

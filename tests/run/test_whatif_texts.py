@@ -6,8 +6,7 @@ import numpy as np
 from rich.console import Group, RenderableType
 
 from mindlang.run.recorded_run import RecordedRun, RunResult
-from mindlang.whatif.changed_run import Compared
-from mindlang.whatif.difference import Difference, first_differences
+from mindlang.whatif.comparison import Compared, Difference, first_differences
 from mindlang.whatif.open_loop import OpenLoop, Sent
 from mindlang.whatif.report import comparison_summary, differences_text, recording_data, recording_summary
 from mindlang.whatif.request import Request
@@ -92,7 +91,7 @@ def test_two_runs() -> None:
 
 
 def test_a_recording() -> None:
-    sent = [Sent("left_wheel", 1100, 0.123, 1.0, 1200), Sent("right_wheel", 0, 0.0, 0.0, 20)]
+    sent = {"left_wheel": Sent(1100, 0.123, 1.0, 1200), "right_wheel": Sent(0, 0.0, 0.0, None)}
     request, found = Request(20, without=("Avoid",)), OpenLoop("Go", 1200, [], sent)
     assert text(recording_summary(request, "day.rec", found)) == RECORDING
     commands = recording_data(request, found)["commands"]
