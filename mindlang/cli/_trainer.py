@@ -18,7 +18,7 @@ from mindrun.sim.rollout import Rollout
 from mindrun.terminal.command_line import command_line
 from mindrun.train import RunError
 from mindrun.train.attempts import AttemptExecutor
-from mindrun.train.lesson_state import LessonState, Record
+from mindrun.train.lesson_state import LessonState, Record, is_over
 from mindrun.train.run_folder import RunFolder, open_run, read_result
 from mindrun.train.scoring import Scorer
 from mindrun.train.training import Watch, train
@@ -31,12 +31,11 @@ from mindlang.executors.job_scorer import JobScorer
 from mindlang.lock import LockError
 from mindlang.training.event_files import EventFiles
 from mindlang.training.lesson_choice import TrainOptions, chosen_lessons
+from mindlang.training.lock_update import Kept
 from mindlang.training.subject import Subject, begin_run, open_subject, refuse_changed, refuse_frozen
 from mindlang.training.teaching import (
     Result,
-    TeachingResult,
     finish,
-    has_ended,
     make_again,
     opening,
     outcome,
@@ -123,24 +122,24 @@ class Trainer:
                 state = self._watched(run, scorer, executor, pace)
             except StoppedError:
                 state = None
-            if state is None or not has_ended(run, state):
+            if state is None or not is_over(run.manifest.lesson, state):
                 tell(f"saved; to go on: {self._command(run)}")
                 return False
             self._say(*(f"note: {note}" for note in rollout.notes if note not in said))
-            taught = self._finished(run, subject, state, scorer, force, rollout.notes)
+            result, kept = self._finished(run, subject, state, scorer, force, rollout.notes)
         spent = None if self.where else cpu_seconds() - cpu_begin  # nobody knows what others have
-        result = taught.result | {
+        result |= {
             "cpu_seconds": None if spent is None else round(spent, 3),
             "ticks_per_cpu_second": None if spent is None else round(pace.ticks / max(spent, 1e-3)),
         }
-        self._say(*outcome(run, result, taught.kept, subject.keep_path(run.manifest.lesson).name))
+        self._say(*outcome(run, result, kept, subject.keep_path(run.manifest.lesson).name))
         self._print(result)
         return True
 
     @procedures_talk()
     def _finished(
         self, run: RunFolder, subject: Subject, state: LessonState, scorer: Scorer, force: bool, notes: Sequence[str]
-    ) -> TeachingResult:
+    ) -> tuple[Result, Kept]:
         try:
             return finish(run, subject, state, scorer, force, notes)
         except LockError as error:

@@ -108,8 +108,17 @@ def begin_run(
     It notes the time, and the `command` that asked for it. RunError where it cannot begin, and what to train first
     where that is why.
     """
-    weights = _needed(subject, lesson) | (_known(subject, lesson) if not lesson.from_scratch else {})
-    weights |= origin_weights(subject.graph, subject.lock, lesson, subject.shown)
+    needed = subskills(subject.graph, lesson)
+    weights, refusals = trained_weights(subject.graph, subject.lock, needed)
+    if refusals:
+        first = [skill for skill in reversed(needed) if skill not in weights]
+        raise RunError(
+            f"{lesson.skill} cannot be taught yet: {listed(refusals, 'and')}",
+            f"first: {command_line('mindc', 'train', subject.shown, *first)}",
+        )
+    if not lesson.from_scratch:
+        weights = weights | trained_weights(subject.graph, subject.lock, learners(subject.graph, lesson))[0]
+    weights = weights | origin_weights(subject.graph, subject.lock, lesson, subject.shown)
     manifest = Manifest(
         lesson=lesson,
         learners=learners(subject.graph, lesson),
@@ -150,39 +159,19 @@ def refuse_frozen(subject: Subject, chosen: Iterable[Lesson]) -> None:
 
 def refuse_changed(subject: Subject, run: RunFolder) -> None:
     """RunError where the run was begun with a mind that differs in something the lesson depends on."""
-    lesson = run.manifest.lesson
+    lesson, graph = run.manifest.lesson, subject.graph
+    skills, tasks = {skill.name for skill in graph.skills}, {task.name for task in graph.tasks}
     if (
-        not _is_named(subject.graph, lesson)
-        or learners(subject.graph, lesson) != run.manifest.learners  # one may have been frozen
-        or fingerprint(subject.graph, lesson, subject.folder) != run.manifest.mind
+        not {lesson.skill, lesson.master} <= skills
+        or lesson.task not in tasks
+        or learners(graph, lesson) != run.manifest.learners  # one may have been frozen
+        or fingerprint(graph, lesson, subject.folder) != run.manifest.mind
     ):
         raise RunError(
             f"{subject.shown} has changed since this run of {lesson.skill} began, so it cannot go on",
             f"undo the change ({run.folder / 'source'} has it as it was), or begin anew: "
             + command_line("mindc", "train", subject.shown, lesson.skill),
         )
-
-
-def _is_named(graph: Graph, lesson: Lesson) -> bool:
-    """Whether there still are the skills and the task of a lesson."""
-    skills, tasks = {skill.name for skill in graph.skills}, {task.name for task in graph.tasks}
-    return {lesson.skill, lesson.master} <= skills and lesson.task in tasks
-
-
-def _needed(subject: Subject, lesson: Lesson) -> dict[str, Weights]:
-    skills = subskills(subject.graph, lesson)
-    weights, refusals = trained_weights(subject.graph, subject.lock, skills)
-    if refusals:
-        first = [skill for skill in reversed(skills) if skill not in weights]
-        raise RunError(
-            f"{lesson.skill} cannot be taught yet: {listed(refusals, 'and')}",
-            f"first: {command_line('mindc', 'train', subject.shown, *first)}",
-        )
-    return weights
-
-
-def _known(subject: Subject, lesson: Lesson) -> dict[str, Weights]:
-    return trained_weights(subject.graph, subject.lock, learners(subject.graph, lesson))[0]
 
 
 def origin_weights(graph: Graph, lock: Lock, lesson: Lesson, shown: Path) -> dict[str, Weights]:

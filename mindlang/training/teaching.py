@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
 from math import isfinite
 from typing import Any
 
@@ -33,14 +32,6 @@ from mindlang.training.lock_update import Kept, keep
 from mindlang.training.subject import Subject
 
 Result = dict[str, Any]
-
-
-@dataclass(frozen=True, slots=True)
-class TeachingResult:
-    """What came of a run that has ended."""
-
-    result: Result
-    kept: Kept
 
 
 def rollout_of(run: RunFolder, subject: Subject, workers: int) -> Rollout:
@@ -92,21 +83,25 @@ def workers_of(
     They `say` what they wait for, and are sent away in the end, whatever they do. What they cannot do is a WorkError,
     whose hint says how the run goes on.
     """
-    course = run.course(rollout.genome_length)
-    with _resumable(run), scorer_on(where, rollout, lambda: assignment_of(run, subject), workers, say) as scorer:
-        if (stretches := stretches_of(course, rollout, scorer if where else rollout, clock)) is None:
-            yield scorer, None
-            return
-        kept = KeptSegments(run.folder, run.manifest.identity, course)
-        try:
-            yield rollout, RememberingExecutor(stretches, kept, clock)
-        finally:
-            if isinstance(stretches, StretchThreads):
-                stretches.close()
-            kept.save()
+    try:
+        with scorer_on(where, rollout, lambda: assignment_of(run, subject), workers, say) as scorer:
+            course = run.course(rollout.genome_length)
+            if (stretches := _stretches(course, rollout, scorer if where else rollout, clock)) is None:
+                yield scorer, None
+                return
+            kept = KeptSegments(run.folder, run.manifest.identity, course)
+            try:
+                yield rollout, RememberingExecutor(stretches, kept, clock)
+            finally:
+                if isinstance(stretches, StretchThreads):
+                    stretches.close()
+                kept.save()
+    except WorkError as error:
+        resume = f"what was saved is intact; to go on: {command_line('mindc', 'train', '--resume', run.folder)}"
+        raise WorkError(str(error), "; ".join(filter(None, (error.hint, resume)))) from error
 
 
-def stretches_of(
+def _stretches(
     course: Course, rollout: Rollout, scorer: Scorer, clock: Clock
 ) -> StretchExecutor | StretchThreads | None:
     """Who does several attempts side by side: the workers of a scorer, else threads; None where nobody does.
@@ -119,16 +114,6 @@ def stretches_of(
         return StretchExecutor(course, scorer.jobs, rollout)
     side_by_side = rollout.workers > 1 and not course.lesson.needs
     return StretchThreads(course, rollout.workers, rollout.on, clock) if side_by_side else None
-
-
-@contextmanager
-def _resumable(run: RunFolder) -> Iterator[None]:
-    """Say of work that nobody can do how to go on when somebody can."""
-    try:
-        yield
-    except WorkError as error:
-        resume = f"what was saved is intact; to go on: {command_line('mindc', 'train', '--resume', run.folder)}"
-        raise WorkError(str(error), "; ".join(filter(None, (error.hint, resume)))) from error
 
 
 def teach(run: RunFolder, subject: Subject, workers: int, watch: Watch, where: Where | None = None) -> Result | None:
@@ -146,27 +131,22 @@ def teach(run: RunFolder, subject: Subject, workers: int, watch: Watch, where: W
     processes = workers if workers > 1 else 0  # what was registered in this one is not known in others
     with workers_of(run, subject, rollout, where, processes, watch.warn, watch.clock) as (scorer, executor):
         state = train(run, scorer, watch, executor)
-        return finish(run, subject, state, scorer, False, rollout.notes).result if has_ended(run, state) else None
+        if not is_over(run.manifest.lesson, state):
+            return None
+        return finish(run, subject, state, scorer, False, rollout.notes)[0]
 
 
 def finish(
-    run: RunFolder, subject: Subject, state: LessonState, scorer: Scorer, force: bool, notes: Sequence[str] = ()
-) -> TeachingResult:
+    run: RunFolder, subject: Subject, state: LessonState, scorer: Scorer, force: bool, notes: Sequence[str]
+) -> tuple[Result, Kept]:
     """Put what a run has taught into the lock, unless what is there does better; with `force` even then.
 
-    The result has the `notes`.
-
-    MindError where nothing was learnt, or the lock is damaged.
+    The result has the `notes`. MindError where nothing was learnt, or the lock is damaged.
     """
     kept = keep(run, subject, state, scorer, force)
     result = result_of(run, subject, state, kept) | {"notes": [*notes]}
     keep_result(run.folder, result)
-    return TeachingResult(result, kept)
-
-
-def has_ended(run: RunFolder, state: LessonState) -> bool:
-    """Whether a run has come to its end; it was stopped otherwise."""
-    return is_over(run.manifest.lesson, state)
+    return result, kept
 
 
 def opening(run: RunFolder) -> str:
