@@ -40,8 +40,8 @@ from mindlang.run.outcome import bench_data, over_at_once
 from mindlang.run.recorded_run import record_run
 from mindlang.run.setup import RunSetup, set_up, train_command, untaught_skills
 from mindlang.run.tables import Column, trace_table
-from mindlang.training.lesson_choice import TrainOptions, chosen_lessons
-from mindlang.training.subject import begin_run, open_subject, refuse_frozen
+from mindlang.training.lesson_choice import TrainOptions, lessons_to_teach
+from mindlang.training.subject import begin_run
 from mindlang.training.teaching import Result, teach
 
 
@@ -160,17 +160,11 @@ class Mind(ShortRepr):
         """
         if self.graph and not self.path.is_file():  # a mind that does not compile says so first
             raise MindError(f"{self.path} is no file, and what is learnt is kept beside one", "save it, and load that")
-        subject = open_subject(self.path, self.compiled)
-        chosen = chosen_lessons(self.graph, curriculum, skills, subject.trained)
         results, threads, elsewhere = list[Result](), as_workers(workers), executors.where(on)
         watch = Watch(lambda state, record: on_generation(record), warn, cancelled, perf_counter)
-        refuse_frozen(subject, chosen if skills else ())
-        for lesson in chosen:
-            subject = open_subject(self.path, self.compiled)  # the lesson before has changed the lock
-            if not subject.takes(lesson, bool(skills)):
-                continue
-            by = "mindlang.Mind.train", *skills
-            run = begin_run(subject, options.applied(lesson), seed, Path(runs), datetime.now(UTC), by)
+        by = "mindlang.Mind.train", *skills
+        for subject, lesson in lessons_to_teach(self.path, self.compiled, curriculum, skills, options):
+            run = begin_run(subject, lesson, seed, Path(runs), datetime.now(UTC), by)
             if (result := teach(run, subject, threads, watch, elsewhere)) is None:
                 break
             results.append(result)

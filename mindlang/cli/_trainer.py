@@ -30,9 +30,9 @@ from mindlang.executors import Where
 from mindlang.executors.job_scorer import JobScorer
 from mindlang.lock import LockError
 from mindlang.training.event_files import EventFiles
-from mindlang.training.lesson_choice import TrainOptions, chosen_lessons
+from mindlang.training.lesson_choice import TrainOptions, lessons_to_teach
 from mindlang.training.lock_update import Kept
-from mindlang.training.subject import Subject, begin_run, open_subject, refuse_changed, refuse_frozen
+from mindlang.training.subject import Subject, begin_run, open_subject, refuse_changed
 from mindlang.training.teaching import (
     Result,
     finish,
@@ -70,30 +70,11 @@ class Trainer:
     ) -> bool:
         """Teach the lessons that are due, or those asked for; False if it was interrupted."""
         seed = secrets.randbits(31) if seed is None else seed
-        compiled = load_compiled(file)
-        subject = open_subject(file, compiled)
-        chosen = chosen_lessons(subject.graph, curriculum, skills, subject.trained)
-        if skills or force:
-            refuse_frozen(subject, chosen)
-        taught = frozen = 0
-        for lesson in chosen:
-            subject = open_subject(file, compiled)  # the lesson before has changed the lock
-            if not subject.standing(lesson):
-                frozen += 1
-                self._say(f"{lesson.skill} is frozen, and is not taught")
-            elif force or subject.takes(lesson, bool(skills)):
-                wished = options.applied(lesson)
-                if lesson.needs and not wished.needs:
-                    self._say(f"{lesson.skill} has fewer generations than its lesson says: nothing is needed of it")
-                run = begin_run(subject, wished, seed, runs, datetime.now(UTC), ("mindc", *sys.argv[1:]))
-                taught += 1
-                if not self._teach(run, subject, force):
-                    return False
-        if not taught and len(chosen) == 1 and not frozen:
-            self._say("nothing to do: its lesson has been taught (--force teaches it again)")
-        elif not taught:
-            which = "all other lessons" if frozen else f"all {len(chosen)} lessons"
-            self._say(f"nothing to do: {which} have been taught (--force teaches them again)")
+        due = lessons_to_teach(file, load_compiled(file), curriculum, skills, options, force, self._say)
+        for subject, lesson in due:
+            run = begin_run(subject, lesson, seed, runs, datetime.now(UTC), ("mindc", *sys.argv[1:]))
+            if not self._teach(run, subject, force):
+                return False
         return True
 
     def resume(self, folder: Path, force: bool) -> bool:
