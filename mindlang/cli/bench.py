@@ -178,7 +178,7 @@ class Bench:
             scores, data = self._score(cast, seeds, f"{each.name}: ")
             benched.append(Benched(each.name, cast[0].task, scores))
             minds.append({"name": each.name, "file": each.file, "master": cast[0].master, **data})
-        compared = compare(*benched, is_one_world)
+        compared = compare(benched[0], benched[1], is_one_world)
         found: dict[str, Any] = {"task": first[0].task.name, "seed": self.seed, "runs": len(seeds), **self._by()}
         found |= {"minds": minds, **compared.data(), "notes": notes}
         if self.table:
