@@ -29,6 +29,9 @@ class TrainOptions:
     """What the command line or a program says instead of the source; None leaves it as it stands there.
 
     `scale` multiplies the generations of a lesson.
+
+    >>> mindlang.TrainOptions(scale=0.1, attempts=3)
+    TrainOptions(generations=None, scale=0.1, population=None, attempts=3, rungs=None, from_scratch=False)
     """
 
     generations: int | None = None
