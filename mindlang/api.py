@@ -328,8 +328,8 @@ def load(path: Path | str) -> Mind:
 def loads(text: str, texts: Mapping[Path, str] | None = None, name: str = "text.mind") -> Mind:
     """The mind in a text, as if it stood in the working directory; `texts` are those of files that it uses, by path.
 
-    >>> mindlang.loads('use "collect.mind"').graph.master
-    'Collect'
+    >>> mindlang.loads("master Nobody").is_valid
+    False
     """
     path = Path.cwd() / name
     return Mind(path, compile_source(Source(name, text, path.parent), path, texts or {}))
