@@ -102,7 +102,10 @@ def test_a_project_learns_what_it_promises(mindc: Call, mind: Path) -> None:
     assert "skipped" not in done.stdout
 
 
-def test_a_test_waits_until_something_has_been_taught(mind: Path) -> None:
+def test_a_test_waits_until_something_has_been_taught(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """In the first project: that it waits is said in one file, whatever is to be learnt."""
+    make_folder(tmp_path / "rover", project("rover", *TOGETHER[0]))
+    monkeypatch.chdir(tmp_path / "rover")
     done = subprocess.run(PYTEST, capture_output=True, text=True)
     assert done.returncode == 0, done.stdout
     assert "1 passed, 1 skipped" in done.stdout
