@@ -56,12 +56,12 @@ def test_stopped_and_resumed_after_any_generation_it_ends_in_the_same_bits(tmp_p
 
 
 def test_what_an_attempt_has_been_waiting_for_is_not_forgotten(tmp_path: Path) -> None:
-    records = stops_after_any_generation(tmp_path, manifest(lesson(24, attempts=2, patience=3), every=3))
+    records = stops_after_any_generation(tmp_path, manifest(lesson(24, attempts=2, patience=3)), 3)
     assert len(records) < 48
 
 
 def test_how_high_attempts_have_climbed_is_not_forgotten(tmp_path: Path) -> None:
-    records = stops_after_any_generation(tmp_path, manifest(lesson(16, attempts=4, rungs=2), every=3))
+    records = stops_after_any_generation(tmp_path, manifest(lesson(16, attempts=4, rungs=2)), 3)
     assert len(records) < 64
 
 
