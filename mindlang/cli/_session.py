@@ -23,19 +23,9 @@ from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, T
 from mindlang.breakpoints.breakpoint import Breakpoint
 from mindlang.breakpoints.resolve import load_breakpoints
 from mindlang.breakpoints.subject import Subject
+from mindlang.cli import _terminal as terminal
 from mindlang.cli._diagnostic_printer import print_report
 from mindlang.cli._options import RunChoice
-from mindlang.cli._terminal import (
-    FINDINGS,
-    INTERRUPTED,
-    MISUSE,
-    complain,
-    console,
-    fail,
-    load_compiled,
-    procedures_talk,
-    tell,
-)
 from mindlang.compiler.compile import Compiled
 from mindlang.executors import Where, scorer_on
 from mindlang.executors.job_scorer import JobScorer
@@ -57,7 +47,7 @@ def is_compiled(entries: Iterable[Any] = (advance,)) -> bool:
 
 def prepare(rollout: Rollout) -> None:
     """Compile the simulator for a rollout, on standard error, before what needs it begins."""
-    ensure_compiled(rollout, complain)
+    ensure_compiled(rollout, terminal.complain)
 
 
 def ensure_compiled(rollout: Rollout, say: Callable[[str], None]) -> None:
@@ -82,7 +72,7 @@ def ensure_stages_compiled(rollout: Rollout, say: Callable[[str], None]) -> None
 @contextmanager
 def _ended_by_ctrl_c() -> Iterator[None]:
     """Let Ctrl-C end the program at once, because numba may swallow it while it compiles."""
-    before = signal.signal(signal.SIGINT, lambda number, frame: os._exit(INTERRUPTED))
+    before = signal.signal(signal.SIGINT, lambda number, frame: os._exit(terminal.INTERRUPTED))
     try:
         yield
     finally:
@@ -97,10 +87,10 @@ class RunSession:
 
     def prepare(self, file: str, chosen: RunChoice, workers: int = 1, runs: int = 1) -> Cast:
         """The cast of a run, in the simulator."""
-        found = self.cast(file, load_compiled(file), chosen)
+        found = self.cast(file, terminal.load_compiled(file), chosen)
         return found, self.simulator(found, chosen.interrupt, workers, runs)
 
-    @procedures_talk()
+    @terminal.procedures_talk()
     def cast(self, file: str, compiled: Compiled, chosen: RunChoice) -> RunSetup:
         """Who plays what."""
         with refusing_setups():
@@ -108,7 +98,7 @@ class RunSession:
         self.say(*(f"note: {note}" for note in (*found.ready.notes, found.note) if note))
         return found
 
-    @procedures_talk()
+    @terminal.procedures_talk()
     def simulator(self, setup: RunSetup, interrupt: bool, workers: int = 1, runs: int = 1) -> Rollout:
         """A cast in the simulator, which is compiled for it."""
         with refusing_setups():
@@ -127,7 +117,7 @@ class RunSession:
         setup, rollout = cast
         return scorer_on(where, rollout, lambda: setup.assignment(interrupt), workers, self.say)
 
-    @procedures_talk()
+    @terminal.procedures_talk()
     def score(self, scorer: Rollout | JobScorer, seeds: Sequence[int], whose: str = "") -> tuple[Scores, float, float]:
         """All runs, the seconds that they took, and those of processors here; notes say `whose` they are."""
         with self.progress() as progress:
@@ -136,7 +126,7 @@ class RunSession:
         self.say(*(f"note: {whose}{note}" for note in scorer.notes))
         return found
 
-    @procedures_talk()
+    @terminal.procedures_talk()
     def record(self, setup: RunSetup, rollout: Rollout, seed: int) -> RunResult:
         """A run written down tick by tick, and what came of it."""
         rollout.make_again(NO_GENOME[0], seed)
@@ -146,12 +136,12 @@ class RunSession:
 
     def say(self, *lines: str) -> None:
         """Print lines on stderr."""
-        tell(*lines, quiet=self.quiet)
+        terminal.tell(*lines, quiet=self.quiet)
 
     def progress(self) -> Progress:
         """A bar on stderr, where somebody looks at it."""
         columns = (TextColumn("{task.description}", markup=False), BarColumn(30), TaskProgressColumn())
-        talk = console(stderr=True)
+        talk = terminal.console(stderr=True)
         hidden = self.quiet or not talk.is_terminal
         return Progress(*columns, TimeRemainingColumn(), console=talk, transient=True, disable=hidden)
 
@@ -164,21 +154,21 @@ def refusing_setups(prefix: str = "") -> Iterator[None]:
     except SetupError as error:
         *first, last = f"{prefix}{error}".split("\n")
         for line in first:
-            complain(line)
-        fail(last, error.hint, MISUSE if error.misuse else FINDINGS)
+            terminal.complain(line)
+        terminal.fail(last, error.hint, terminal.MISUSE if error.misuse else terminal.FINDINGS)
     except MindError as error:
-        fail(f"{prefix}{error}", error.hint, MISUSE)
+        terminal.fail(f"{prefix}{error}", error.hint, terminal.MISUSE)
 
 
 @contextmanager
 def refusing_recordings() -> Iterator[None]:
     """End the program with one message: where a recording is not what its bundle computes with 1, else with 2."""
     try:
-        with procedures_talk():
+        with terminal.procedures_talk():
             yield
     except MindError as error:
         is_found = isinstance(error, (DifferenceError, ProcedureError))
-        fail(str(error), error.hint, FINDINGS if is_found else MISUSE)
+        terminal.fail(str(error), error.hint, terminal.FINDINGS if is_found else terminal.MISUSE)
 
 
 def breakpoints_of_run(path: Path, compiled: Compiled, setup: RunSetup) -> tuple[Breakpoint, ...]:
@@ -190,7 +180,7 @@ def breakpoints_of_run(path: Path, compiled: Compiled, setup: RunSetup) -> tuple
 def read_breakpoints(path: Path, subject: Subject) -> tuple[Breakpoint, ...]:
     """The breakpoints of a .break file; a mistake in it is reported, and ends the program before anything runs."""
     found = load_breakpoints(path, subject)
-    print_report(found.diagnostics, console(stderr=True))
+    print_report(found.diagnostics, terminal.console(stderr=True))
     if found.diagnostics:
-        sys.exit(FINDINGS if all(each.span for each in found.diagnostics) else MISUSE)
+        sys.exit(terminal.FINDINGS if all(each.span for each in found.diagnostics) else terminal.MISUSE)
     return found.breakpoints

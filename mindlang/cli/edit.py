@@ -11,20 +11,9 @@ from typing import TYPE_CHECKING, Any, NoReturn
 import click
 
 from mindlang.cli import Suggesting
+from mindlang.cli import _terminal as terminal
 from mindlang.cli._diagnostic_printer import as_data, print_report
 from mindlang.cli._options import SKILLS, declared
-from mindlang.cli._terminal import (
-    FINDINGS,
-    MISUSE,
-    console,
-    fail,
-    load_compiled,
-    print_diff,
-    print_json,
-    procedures_talk,
-    refusing,
-    tell,
-)
 from mindlang.compiler.diagnostic import Diagnostic, listed
 
 if TYPE_CHECKING:
@@ -160,8 +149,8 @@ def _perform(
     from mindlang.editing.writing import write as write_edited
 
     if write and file == "-":
-        fail("Standard input cannot be written.", "Leave --write out: the diff is printed.", MISUSE)
-    project = open_project(load_compiled(file))
+        terminal.fail("Standard input cannot be written.", "Leave --write out: the diff is printed.", terminal.MISUSE)
+    project = open_project(terminal.load_compiled(file))
     try:
         edited = apply_edit(project, of.function(project, **said), keep_weights)
         broken = broken_sentences(edited)
@@ -175,19 +164,19 @@ def _perform(
     except EditError as error:
         _refuse(error.diagnostic, as_json)
     if as_json:
-        print_json({"diff": diff(edited), "written": write, "weights": sentences})
+        terminal.print_json({"diff": diff(edited), "written": write, "weights": sentences})
         return
     if not write:
-        print_diff(diff(edited))
-    tell(*sentences, _ending(edited, write))
+        terminal.print_diff(diff(edited))
+    terminal.tell(*sentences, _ending(edited, write))
 
 
 def _refuse(diagnostic: Diagnostic, as_json: bool) -> NoReturn:
     if as_json:
-        print_json({"diagnostics": [as_data(diagnostic)]})
+        terminal.print_json({"diagnostics": [as_data(diagnostic)]})
     else:
-        print_report([diagnostic], console(stderr=True))
-    sys.exit(FINDINGS)
+        print_report([diagnostic], terminal.console(stderr=True))
+    sys.exit(terminal.FINDINGS)
 
 
 def _verified(edited: Edited) -> str:
@@ -195,7 +184,7 @@ def _verified(edited: Edited) -> str:
     from mindlang.cli._session import prepare
     from mindlang.editing.verify import verify_unchanged
 
-    with procedures_talk():
+    with terminal.procedures_talk():
         skills = verify_unchanged(edited, prepare)
     if not skills:
         return "verified: there is no trained skill that this edit leaves as it was"
@@ -227,19 +216,21 @@ def undo(place: str, as_json: bool) -> None:
 
     here = Path(place).absolute()
     if not here.exists():
-        fail(f"{place} is not there.", "Name a file or a folder in which an edit was written.", MISUSE)
+        terminal.fail(
+            f"{place} is not there.", "Name a file or a folder in which an edit was written.", terminal.MISUSE
+        )
     folder = noted_in(here)
     if folder is None:
         none = f"In {place} no edit has been written that could be taken back."
-        fail(none, "Name the file that was edited: mindc edit undo FILE")
-    with refusing(end=".", of=TransactionError):
+        terminal.fail(none, "Name the file that was edited: mindc edit undo FILE")
+    with terminal.refusing(end=".", of=TransactionError):
         were, are = take_back(folder)
     names = [path.relative_to(folder).as_posix() for end in (".mind", ".lock") for path in are if path.suffix == end]
     if as_json:
-        print_json({"diff": _undone(folder, were, are), "folder": str(folder), "written": names})
+        terminal.print_json({"diff": _undone(folder, were, are), "folder": str(folder), "written": names})
         return
-    print_diff(_undone(folder, were, are))
-    tell(f"taken back: {listed(names, 'and')}")
+    terminal.print_diff(_undone(folder, were, are))
+    terminal.tell(f"taken back: {listed(names, 'and')}")
 
 
 def _undone(folder: Path, were: Files, are: Files) -> str:

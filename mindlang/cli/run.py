@@ -11,19 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from mindlang.cli import _terminal as terminal
 from mindlang.cli._options import PATH, NewFile, NumberOption, RunChoice, refuse_ineffective, run_options
-from mindlang.cli._terminal import (
-    FINDINGS,
-    MISUSE,
-    OK,
-    fail,
-    load_compiled,
-    print_result,
-    procedures_talk,
-    refuse_unwritable,
-    refusing,
-    write_file,
-)
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -92,10 +81,10 @@ def command(
     With --break it ends in the first tick in which a line of that file holds, with 1, and says which; with 0 where none
     does.
     """
-    refuse_unwritable(picture, ".png")
-    refuse_unwritable(video, ".mp4", ".gif")
-    refuse_unwritable(trace, ".csv", ".parquet")
-    refuse_unwritable(record, ".rec")
+    terminal.refuse_unwritable(picture, ".png")
+    terminal.refuse_unwritable(video, ".mp4", ".gif")
+    terminal.refuse_unwritable(trace, ".csv", ".parquet")
+    terminal.refuse_unwritable(record, ".rec")
     if video is None:
         refuse_ineffective("of --video: say it, too", "speed")
     from mindlang.cli._session import RunSession
@@ -117,7 +106,7 @@ def _run_to_its_end(
     made = session.record(setup, rollout, seed) if files.any() else None
     came = made.found if made else run_data(setup.task, session.score(rollout, [seed])[0])
     found = _about(setup, seed, rollout.notes) | came
-    print_result(as_json, found, lambda: run_summary(found))
+    terminal.print_result(as_json, found, lambda: run_summary(found))
     if made:
         files.write(made.run, setup, found)
 
@@ -134,12 +123,12 @@ def _run_to_breakpoint(
     from mindlang.run.recorded_run import run_result
     from mindlang.run.summary import run_summary
 
-    compiled = load_compiled(file)
+    compiled = terminal.load_compiled(file)
     cast = session.cast(file, compiled, chosen)
     breakpoints = breakpoints_of_run(path, compiled, cast)
     setup = noticing(cast, breakpoints)
     rollout = session.simulator(setup, chosen.interrupt)
-    with procedures_talk():
+    with terminal.procedures_talk():
         made = run_result(setup, rollout, seed)
         stopped = stopped_data(watcher(breakpoints, setup).feed(made.run), str(path), made.run.graph.tick)
     run, came = made.run, made.found
@@ -147,9 +136,9 @@ def _run_to_breakpoint(
         run = run.until(stopped["tick"])
         came = data_so_far(run.task, run.lines[-1], run.events[-1], run.ticks, "a breakpoint")
     found = _about(setup, seed) | came | {"stopped": stopped}
-    print_result(as_json, found, lambda: Group(stop_summary(stopped), run_summary(found)))
+    terminal.print_result(as_json, found, lambda: Group(stop_summary(stopped), run_summary(found)))
     files.write(run, cast, found)
-    return FINDINGS if stopped else OK
+    return terminal.FINDINGS if stopped else terminal.OK
 
 
 def _about(setup: RunSetup, seed: int, notes: Sequence[str] = ()) -> dict[str, Any]:
@@ -206,7 +195,7 @@ class RunFiles:
         """Whether there is something to write."""
         return bool(self.picture or self.video or self.trace or self.record)
 
-    @procedures_talk()
+    @terminal.procedures_talk()
     def write(self, run: RecordedRun, setup: RunSetup, found: dict[str, Any]) -> None:
         """Write what was asked for of a run of the setup, and say so."""
         from mindrun.terminal.tick_count import ticks as in_words
@@ -218,16 +207,16 @@ class RunFiles:
         if self.trace:
             from mindlang.run.tables import trace_bytes
 
-            with refusing(MISUSE):
+            with terminal.refusing(terminal.MISUSE):
                 data = trace_bytes(run, self.trace.suffix.lower())
-            write_file(self.trace, data)
+            terminal.write_file(self.trace, data)
             self.session.say(f"{self.trace}: a row for each of {in_words(run.ticks)}")
         if self.record:
             from mindlang.run.recording import run_bytes
 
-            with refusing(MISUSE):
+            with terminal.refusing(terminal.MISUSE):
                 data = run_bytes(run, setup, found["seed"])
-            write_file(self.record, data)
+            terminal.write_file(self.record, data)
             seen = "to be seen with its source or a bundle of it that has no robot"
             self.session.say(f"{self.record}: {in_words(run.ticks)}, {seen}")
 
@@ -242,9 +231,9 @@ class RunFiles:
             from mindlang.pictures.picture import picture
 
             what = "the path of the robot"
-        with refusing(MISUSE):
+        with terminal.refusing(terminal.MISUSE):
             drawn = picture(run, found)
-        write_file(path, png(drawn))
+        terminal.write_file(path, png(drawn))
         self.session.say(f"{path}: {what}")
 
     def _film(self, path: Path, run: RecordedRun, found: dict[str, Any]) -> None:
@@ -252,9 +241,9 @@ class RunFiles:
 
         film = Film.of(run, found, self.speed, path.suffix.lower())
         try:
-            with refusing(MISUSE), self.session.progress() as progress:
+            with terminal.refusing(terminal.MISUSE), self.session.progress() as progress:
                 bar = progress.add_task(path.name, total=film.frames)
                 film.write(path, lambda: progress.advance(bar))
         except OSError as error:
-            fail(f"{path} cannot be written: {error.strerror}", code=MISUSE)
+            terminal.fail(f"{path} cannot be written: {error.strerror}", code=terminal.MISUSE)
         self.session.say(f"{path}: {film.seconds:.0f} s at {film.speed:g} times the robot's speed")

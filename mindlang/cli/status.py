@@ -8,18 +8,8 @@ from typing import TYPE_CHECKING
 
 import click
 
+from mindlang.cli import _terminal as terminal
 from mindlang.cli._options import SKILLS
-from mindlang.cli._terminal import (
-    FINDINGS,
-    MISUSE,
-    OK,
-    console,
-    fail,
-    load_compiled,
-    print_result,
-    refusing,
-    text_columns,
-)
 from mindlang.compiler.diagnostic import did_you_mean
 
 if TYPE_CHECKING:
@@ -64,21 +54,23 @@ def command(file: str, skills: tuple[str, ...], accept: bool, as_json: bool) -> 
     from mindlang.lock.accept import accept as accept_weights
     from mindlang.lock.report import as_data, rows
 
-    compiled = load_compiled(file)
+    compiled = terminal.load_compiled(file)
     assert compiled.graph is not None
     sources, known = lock_sources(compiled.sources), [skill.name for skill in compiled.graph.skills]
     for skill in skills:
         if skill not in known:
-            fail(f"There is no skill {skill}.", did_you_mean(skill, known), MISUSE)
+            terminal.fail(f"There is no skill {skill}.", did_you_mean(skill, known), terminal.MISUSE)
     if accept and not skills:
-        fail("--accept needs the skills whose weights will do.", "Name them: --accept Avoid Collect", MISUSE)
+        terminal.fail(
+            "--accept needs the skills whose weights will do.", "Name them: --accept Avoid Collect", terminal.MISUSE
+        )
     if accept:
-        with refusing(end="."):
+        with terminal.refusing(end="."):
             accept_weights(compiled.graph, sources, skills)
     found = [row for row in rows(compiled.graph, sources) if not skills or row.skill in skills]
     data = {"skills": [as_data(row) for row in found]}
-    print_result(as_json, data, lambda: report(found, console()), end="")
-    sys.exit(OK if all(row.is_fine for row in found if row.is_needed) else FINDINGS)
+    terminal.print_result(as_json, data, lambda: report(found, terminal.console()), end="")
+    sys.exit(terminal.OK if all(row.is_fine for row in found if row.is_needed) else terminal.FINDINGS)
 
 
 def report(found: Sequence[Row], console: Console) -> Text:
@@ -92,4 +84,4 @@ def report(found: Sequence[Row], console: Console) -> Text:
         word = f"{row.word}, frozen" if row.is_frozen else row.word
         about = Text("\n".join(filter(None, (made(row), *row.remarks))))
         lines.append(((Text(row.skill), Text(word, COLOURS[row.word])), about))
-    return text_columns(console, lines)
+    return terminal.text_columns(terminal.console, lines)

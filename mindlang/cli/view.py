@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import click
 from mindrun.terminal.command_line import command_line
 
+from mindlang.cli import _terminal as terminal
 from mindlang.cli._options import (
     OF_A_CAST,
     OF_A_RUN,
@@ -22,16 +23,6 @@ from mindlang.cli._options import (
     WholeOption,
     refuse_ineffective,
     run_options,
-)
-from mindlang.cli._terminal import (
-    MISUSE,
-    fail,
-    load_compiled,
-    procedures_talk,
-    refuse_unwritable,
-    refusing,
-    tell,
-    write_file,
 )
 
 if TYPE_CHECKING:
@@ -91,7 +82,7 @@ def command(
     """
     if export:
         refuse_ineffective("of a page that is served, not of --export", "port", "no_browser")
-        refuse_unwritable(export, ".html")
+        terminal.refuse_unwritable(export, ".html")
     output = ViewOutput(port, not no_browser, export, quiet)
     if follow and bundle is None:
         raise click.UsageError("--follow is for a recording and its bundle: mindc view day.rec NAME.bundle --follow")
@@ -117,7 +108,7 @@ def run_view(file: str, chosen: RunChoice, breaks: Path | None, quiet: bool) -> 
     from mindlang.compiler.drawing import text_after_name
     from mindlang.view.viewed_run import ViewedRun
 
-    compiled, session = load_compiled(file), RunSession(quiet)
+    compiled, session = terminal.load_compiled(file), RunSession(quiet)
     setup = session.cast(file, compiled, chosen)
     breakpoints = breakpoints_of_run(breaks, compiled, setup) if breaks else ()
     setup = noticing(setup, breakpoints)
@@ -128,7 +119,7 @@ def run_view(file: str, chosen: RunChoice, breaks: Path | None, quiet: bool) -> 
     return ViewedRun(setup, rollout, seed, texts, breakpoints).begun()
 
 
-@procedures_talk()
+@terminal.procedures_talk()
 def training_view(folder: Path, seed: int | None, quiet: bool) -> tuple[Viewed, Champions]:
     """The champion of a training's folder that was found last, at its beginning, and all others."""
     from mindrun.train import NotFoundError
@@ -138,15 +129,15 @@ def training_view(folder: Path, seed: int | None, quiet: bool) -> tuple[Viewed, 
     from mindlang.view.messages import RefusedError
     from mindlang.view.viewed_champion import Champions
 
-    with refusing(), refusing(MISUSE, of=NotFoundError):
+    with terminal.refusing(), terminal.refusing(terminal.MISUSE, of=NotFoundError):
         try:
             learning = open_learning(folder)
             champions = Champions(learning, secrets.randbits(31) if seed is None else seed)
             number, attempt, generation = learning.newest()
-            ensure_compiled(champions.rollout(learning.runs[number]), lambda line: tell(line, quiet=quiet))
+            ensure_compiled(champions.rollout(learning.runs[number]), lambda line: terminal.tell(line, quiet=quiet))
             return champions.begin(number, attempt, generation), champions
         except RefusedError as error:
-            fail(str(error))
+            terminal.fail(str(error))
 
 
 def _show_recording(file: str, bundle: Path, follow: bool, breaks: Path | None, output: ViewOutput) -> None:
@@ -190,7 +181,7 @@ class ViewOutput:
 
         def ready(address: str) -> None:
             click.echo(address, file=out)
-            tell("Ctrl-C ends this; a browser that is closed does not.", quiet=self.quiet)
+            terminal.tell("Ctrl-C ends this; a browser that is closed does not.", quiet=self.quiet)
             if self.opens_browser:
                 open_browser(address)
 
@@ -200,7 +191,7 @@ class ViewOutput:
         if not viewed.is_live:
             viewed.grow()  # what the page shows first
         out = sys.stdout  # procedures print elsewhere
-        with refusing(MISUSE, of=PortError), procedures_talk():
+        with terminal.refusing(terminal.MISUSE, of=PortError), terminal.procedures_talk():
             asyncio.run(ViewServer(Session(viewed, champions), self.port or 0).serve(ready))
 
     def _write(self, viewed: Viewed, path: Path) -> None:
@@ -211,21 +202,21 @@ class ViewOutput:
         from mindlang.view.session import Session
 
         session = RunSession(self.quiet)
-        with session.progress() as progress, procedures_talk():
+        with session.progress() as progress, terminal.procedures_talk():
             bar = progress.add_task(path.name, total=viewed.about["of_ticks"])
             while not viewed.over:
                 viewed.grow()
                 progress.update(bar, completed=viewed.known)
             if viewed.failed:
-                fail(f"{viewed.failed}: nothing is written")
-            with refusing(MISUSE):
+                terminal.fail(f"{viewed.failed}: nothing is written")
+            with terminal.refusing(terminal.MISUSE):
                 refuse_too_long(viewed)
             progress.reset(bar, description="images", total=viewed.known)
             images = exported_images(viewed, lambda tick: progress.update(bar, completed=tick))
         seen = Session(viewed)
         everything = seen.ticks(0) | {"happened": viewed.happened, "stops": viewed.stops}
         page = exported(seen.about(edits=False), everything, viewed, images)
-        write_file(path, page.encode())
+        terminal.write_file(path, page.encode())
         session.say(f"{path}: {in_words(viewed.known)}, {len(page) / 1e6:.1f} MB, opens in any browser")
         if images and images.note:
             session.say(f"note: {images.note}")

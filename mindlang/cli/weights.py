@@ -10,20 +10,8 @@ from typing import TYPE_CHECKING
 import click
 
 from mindlang.cli import Suggesting
+from mindlang.cli import _terminal as terminal
 from mindlang.cli._options import PATH, SKILLS
-from mindlang.cli._terminal import (
-    FINDINGS,
-    MISUSE,
-    OK,
-    fail,
-    load_compiled,
-    print_json,
-    procedures_talk,
-    refuse_unwritable,
-    refusing,
-    tell,
-    write_file,
-)
 from mindlang.number_format import number
 
 if TYPE_CHECKING:
@@ -84,15 +72,19 @@ def import_weights(
     from mindlang.weights.trial import open_trial
 
     subject = _subject(file)
-    with refusing(end="."), refusing(MISUSE, ".", of=NotFoundError), procedures_talk():
+    with (
+        terminal.refusing(end="."),
+        terminal.refusing(terminal.MISUSE, ".", of=NotFoundError),
+        terminal.procedures_talk(),
+    ):
         incoming = importing.read_incoming(subject, skill, weights)
         trial = open_trial(subject, incoming.lesson, incoming.network, subject.shown)
-        ensure_compiled(trial.rollout, lambda line: tell(line, quiet=quiet))
+        ensure_compiled(trial.rollout, lambda line: terminal.tell(line, quiet=quiet))
         found = importing.import_weights(trial, incoming, recording, force)
-    tell(*_lines(found, subject.keep_path(incoming.lesson).name, recording), quiet=quiet)
+    terminal.tell(*_lines(found, subject.keep_path(incoming.lesson).name, recording), quiet=quiet)
     if as_json:
-        print_json(found.data())
-    sys.exit(OK if found.is_kept else FINDINGS)
+        terminal.print_json(found.data())
+    sys.exit(terminal.OK if found.is_kept else terminal.FINDINGS)
 
 
 def _lines(found: Imported, lock: str, recording: str | None) -> Iterator[str]:
@@ -133,11 +125,11 @@ def export_weights(file: str, skill: str, weights: Path) -> None:
     """
     from mindlang.weights.files import to_bytes, trained_network
 
-    refuse_unwritable(weights, ".safetensors")
-    with refusing(end="."):
+    terminal.refuse_unwritable(weights, ".safetensors")
+    with terminal.refusing(end="."):
         network, genome = trained_network(_subject(file), skill)
-    write_file(weights, to_bytes(network, genome))
-    tell(f"{weights}: {len(genome):,} weights of {skill}")
+    terminal.write_file(weights, to_bytes(network, genome))
+    terminal.tell(f"{weights}: {len(genome):,} weights of {skill}")
 
 
 def _subject(file: str) -> Subject:
@@ -145,6 +137,8 @@ def _subject(file: str) -> Subject:
     from mindlang.training.subject import open_subject
 
     if file == "-":
-        fail("Weights are kept beside a file, and standard input is none.", "Save it as a file.", MISUSE)
-    with refusing(end="."):
-        return open_subject(Path(file), load_compiled(file))
+        terminal.fail(
+            "Weights are kept beside a file, and standard input is none.", "Save it as a file.", terminal.MISUSE
+        )
+    with terminal.refusing(end="."):
+        return open_subject(Path(file), terminal.load_compiled(file))

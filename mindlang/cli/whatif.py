@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from mindlang.cli import _terminal as terminal
 from mindlang.cli._options import (
     OF_A_RUN,
     OF_RUNS_ALONE,
@@ -18,16 +19,6 @@ from mindlang.cli._options import (
     declared,
     refuse_ineffective,
     run_options,
-)
-from mindlang.cli._terminal import (
-    MISUSE,
-    fail,
-    load_compiled,
-    print_result,
-    procedures_talk,
-    refuse_unwritable,
-    refusing,
-    write_file,
 )
 
 if TYPE_CHECKING:
@@ -102,9 +93,9 @@ def command(
         refuse_ineffective(OF_RUNS_ALONE, *OF_A_RUN, "picture")
     if not request.parts:
         words = "--without SKILL, --sensor NAME=0.5, --set NAME=0.5 or --with OTHER.mind"
-        fail("nothing is changed", f"Say what: {words}", MISUSE)
+        terminal.fail("nothing is changed", f"Say what: {words}", terminal.MISUSE)
     if bundle is None:
-        refuse_unwritable(picture, ".png")
+        terminal.refuse_unwritable(picture, ".png")
         _compare_runs(file, chosen, request, picture, as_json, quiet)
     else:
         _compare_recorded(Path(file), bundle, request, as_json)
@@ -134,7 +125,7 @@ def _compare_runs(
     setup = (theirs or ours)[0]
     with refusing_recordings():
         changes = changes_of(request, setup.ready.policy.graph, setup.master, Path(file))
-    with refusing(MISUSE, of=ChangeError), procedures_talk():
+    with terminal.refusing(terminal.MISUSE, of=ChangeError), terminal.procedures_talk():
         compared = compare(ours, seed, request.tick, changes, theirs)
     # A sensor that was replaced for as long as a recording lasts reads what it measures after that.
     ends = {change.last for change in changes if request.ticks is None and change.last and len(change.values) > 1}
@@ -142,7 +133,7 @@ def _compare_runs(
         if end < compared.now.run.ticks:
             session.say(f"note: a recording ends with tick {end:,}: from then on its sensor reads what it measures")
     data = comparison_data(request, compared)
-    print_result(as_json, data, lambda: comparison_summary(request, compared))
+    terminal.print_result(as_json, data, lambda: comparison_summary(request, compared))
     if picture:
         session.say(f"{picture}: {_draw(compared, request, picture)}")
 
@@ -160,9 +151,9 @@ def _draw(compared: Compared, request: Request, path: Path) -> str:
 
         shown = "both paths of the robot"
     both = [(each.run, each.found) for each in (compared.was, compared.now)]
-    with refusing(MISUSE):
+    with terminal.refusing(terminal.MISUSE):
         drawn = two_runs(both, request.words, request.tick)
-    write_file(path, png(drawn))
+    terminal.write_file(path, png(drawn))
     return shown
 
 
@@ -181,7 +172,7 @@ def _compare_recorded(path: Path, bundle: Path, request: Request, as_json: bool)
         if request.other and request.other.endswith(".bundle"):
             other = read_bundle(Path(request.other))
         elif request.other:
-            compiled = load_compiled(request.other)
+            compiled = terminal.load_compiled(request.other)
             other = bundle_without_robot(ready_to_act(request.other, compiled), compiled.sources[0].folder)
         found = compare_recording(path, bundle, request, other)
-    print_result(as_json, recording_data(request, found), lambda: recording_summary(request, path.name, found))
+    terminal.print_result(as_json, recording_data(request, found), lambda: recording_summary(request, path.name, found))
