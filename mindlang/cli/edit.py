@@ -216,9 +216,8 @@ def undo(place: str, as_json: bool) -> None:
 
     here = Path(place).absolute()
     if not here.exists():
-        terminal.fail(
-            f"{place} is not there.", "Name a file or a folder in which an edit was written.", terminal.MISUSE
-        )
+        hint = "Name a file or a folder in which an edit was written."
+        terminal.fail(f"{place} is not there.", hint, terminal.MISUSE)
     folder = noted_in(here)
     if folder is None:
         none = f"In {place} no edit has been written that could be taken back."

@@ -61,9 +61,8 @@ def command(file: str, skills: tuple[str, ...], accept: bool, as_json: bool) -> 
         if skill not in known:
             terminal.fail(f"There is no skill {skill}.", did_you_mean(skill, known), terminal.MISUSE)
     if accept and not skills:
-        terminal.fail(
-            "--accept needs the skills whose weights will do.", "Name them: --accept Avoid Collect", terminal.MISUSE
-        )
+        needed = "--accept needs the skills whose weights will do."
+        terminal.fail(needed, "Name them: --accept Avoid Collect", terminal.MISUSE)
     if accept:
         with terminal.refusing(end="."):
             accept_weights(compiled.graph, sources, skills)
@@ -84,4 +83,4 @@ def report(found: Sequence[Row], console: Console) -> Text:
         word = f"{row.word}, frozen" if row.is_frozen else row.word
         about = Text("\n".join(filter(None, (made(row), *row.remarks))))
         lines.append(((Text(row.skill), Text(word, COLOURS[row.word])), about))
-    return terminal.text_columns(terminal.console, lines)
+    return terminal.text_columns(console, lines)

@@ -137,8 +137,7 @@ def _subject(file: str) -> Subject:
     from mindlang.training.subject import open_subject
 
     if file == "-":
-        terminal.fail(
-            "Weights are kept beside a file, and standard input is none.", "Save it as a file.", terminal.MISUSE
-        )
+        why = "Weights are kept beside a file, and standard input is none."
+        terminal.fail(why, "Save it as a file.", terminal.MISUSE)
     with terminal.refusing(end="."):
         return open_subject(Path(file), terminal.load_compiled(file))
