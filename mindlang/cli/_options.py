@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import wraps
 from math import isfinite, nan
@@ -101,7 +101,7 @@ class WhereOption(click.ParamType[Any]):
         from mindlang.executors import THREADS, kinds_by_usage
 
         known = {THREADS: "of this process", **{f"{name}:": usage for name, usage in kinds_by_usage().items()}}
-        return [CompletionItem(name, help=usage) for name, usage in known.items() if name.startswith(incomplete)]
+        return one_of(lambda: known)(ctx, param, incomplete)
 
 
 class NewFile(click.Path):
@@ -148,6 +148,15 @@ def in_files(words: Sequence[str], files: Sequence[str]) -> str:
     from mindlang.files import is_folder
 
     return f" in {len(files)} file{'s' * (len(files) != 1)}" if any(map(is_folder, words)) else ""
+
+
+def one_of(known: Callable[[], Mapping[str, str]]) -> Completion:
+    """Complete a parameter with names, each with what a shell says of it."""
+
+    def found(context: click.Context, parameter: click.Parameter, begun: str) -> list[CompletionItem]:
+        return [CompletionItem(name, help=about) for name, about in known().items() if name.startswith(begun)]
+
+    return found
 
 
 def declared(*nouns: str) -> Completion:
