@@ -62,7 +62,7 @@ class Mind(ShortRepr):
 
     @property
     def diagnostics(self) -> tuple[Diagnostic, ...]:
-        """What is wrong, in the order of the text: each with a code, a message, a hint and where it is.
+        """All that is wrong, in the order of the text: each with a code, a message, a hint and where it is.
 
         >>> [each.code for each in mindlang.loads("master Nobody").diagnostics]
         ['no-tick', 'no-body', 'unknown-skill']
@@ -71,7 +71,7 @@ class Mind(ShortRepr):
 
     @property
     def is_valid(self) -> bool:
-        """Whether it compiles, and its procedures can be called.
+        """True where it compiles, and its procedures can be called.
 
         >>> mind.is_valid
         True

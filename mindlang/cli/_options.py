@@ -86,7 +86,7 @@ class WhereOption(click.ParamType[Any]):
     name = "where"
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        """What it says, None for threads; a sentence where it says nothing that is known."""
+        """The executor that it says, None for threads; a sentence where it says none that is known."""
         from mindrun.errors import MindError
 
         from mindlang.executors import where

@@ -41,7 +41,7 @@ Cast = tuple[RunSetup, Rollout]  # who plays what, in the simulator
 
 
 def is_compiled(entries: Iterable[Any] = (advance,)) -> bool:
-    """Whether there is compiled code of these functions that numba would take: of these very files, kept or shipped."""
+    """True where numba would take compiled code of these functions: of these very files, kept or shipped."""
     return warmup.is_there(entries)
 
 

@@ -179,7 +179,7 @@ class RunFiles:
     record: Path | None
 
     def any(self) -> bool:
-        """Whether there is something to write."""
+        """True where there is something to write."""
         return bool(self.picture or self.video or self.trace or self.record)
 
     @terminal.procedures_talk()

@@ -86,7 +86,7 @@ def _built(path: Path, of: About) -> tuple[Bundle, str]:
 
 
 def bundle_without_robot(ready: ReadyMind, folder: Path) -> Bundle:
-    """What `mindc build` writes of a mind, which is wired to nothing; `folder` has its procedures."""
+    """The bundle that `mindc build` writes of a mind that is wired to nothing; `folder` has its procedures."""
     return Bundle(ready.policy, procedure_sources(ready.policy.graph, folder))
 
 

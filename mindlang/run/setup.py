@@ -35,7 +35,7 @@ class RunSetup:
 
     @property
     def is_one_world(self) -> bool:
-        """Whether nothing of the task is drawn, so that all of its runs are one."""
+        """True where nothing of the task is drawn, so that all of its runs are one."""
         return is_one_world(self.ready.policy.graph, self.task, self.master)
 
     @property
@@ -49,7 +49,7 @@ class RunSetup:
         return layouts(seed, runs)[: 1 if self.is_one_world else None]
 
     def notes(self, rollout: Rollout, *more: str) -> list[str]:
-        """What somebody should know of runs that have been made."""
+        """Sentences that somebody should know of runs that have been made."""
         return [*self.ready.notes, *self.world_notes, *rollout.notes, *more]
 
     def rollout(self, interrupt: bool = True, workers: int = 1) -> Rollout:
@@ -60,7 +60,7 @@ class RunSetup:
         return rollout_for(of, task, self.master, procedures=self.folder, interrupt=interrupt, workers=workers)
 
     def assignment(self, interrupt: bool = True) -> Assignment:
-        """What a worker has to know to make such runs; MindError where it is too large for a bundle."""
+        """All that a worker has to know to make such runs; MindError where it is too large for a bundle."""
         procedures = procedure_sources(self.ready.policy.graph, self.folder, self.master)
         bundle = pack(Bundle(self.ready.policy, procedures))
         return Assignment(bundle, self.task.name, self.master, (), interrupt, self.folder)

@@ -84,7 +84,7 @@ def _templates(folder: str, first: str, of: type[Kind]) -> dict[str, Kind]:
 
 
 def missing(robot: Robot, task: Task) -> list[str]:
-    """What a task needs and a robot has not."""
+    """The parts that a task needs and a robot has not."""
     return [need for need in task.needs if need not in robot.sense and need not in robot.act]
 
 

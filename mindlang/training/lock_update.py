@@ -35,7 +35,7 @@ class Comparison:
 
     @property
     def is_worse(self) -> bool:
-        """Whether the new weights do worse."""
+        """True where the new weights do worse."""
         return self.new < self.old
 
     def __str__(self) -> str:
@@ -48,7 +48,7 @@ class Comparison:
 
 @dataclass(frozen=True, slots=True)
 class Kept:
-    """Whether the new weights are in the lock, and how those that were there compare, where there were any."""
+    """The end of a lesson: whether the new weights are in the lock, and how those that were there compare, if any."""
 
     is_new: bool
     comparison: Comparison | None

@@ -41,7 +41,7 @@ class Sent:
 
 @dataclass(frozen=True, slots=True)
 class OpenLoop:
-    """What of a recording differs, `sent` by actuator; ticks are counted from 1 over the whole recording."""
+    """The differences from a recording, `sent` by actuator; ticks are counted from 1 over the whole recording."""
 
     master: str
     ticks: int
@@ -63,7 +63,7 @@ def compare_recording(path: Path, bundle: Path, request: Request, other: Bundle 
     changes = changes_of(request, theirs.graph, master, bundle)
 
     def changed(number: int, row: Any) -> tuple[Any, ...]:
-        """What the other reads, thinks and sends for what was measured."""
+        """The readings, influence and commands of the changed mind for what was measured."""
         if row["tick"] == 0:  # begun anew
             engine.reset()
         given = np.append(row["readings"], np.float32(np.nan))[places]
