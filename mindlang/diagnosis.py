@@ -111,7 +111,7 @@ def packages() -> Iterator[Finding]:
 
 
 def requirements(extra: str = "") -> list[Requirement]:
-    """The packages that an extra needs beyond those always needed, or the latter; PackageNotFoundError where no mindlang is."""
+    """The packages that an extra needs beyond those always needed, or the latter."""
 
     def is_for(package: Requirement, extra: str) -> bool:
         return package.marker is None or package.marker.evaluate({"extra": extra})

@@ -52,7 +52,7 @@ class Subject:
 
     @classmethod
     def of_recording(cls, graph: Graph, master: str, sensors: tuple[str, ...], task: Task | None = None) -> Subject:
-        """The recording of a robot with these wired sensors and the graph of a bundle, in the world of a task if any."""
+        """The recording of a robot with these wired sensors and the graph of a bundle, in a world if any."""
         return cls(names_in(graph), graph, master, task, sensors, is_recorded=True)
 
     @cached_property

@@ -68,7 +68,7 @@ def run_data(task: Task, scores: Scores) -> dict[str, Any]:
 def data_so_far(
     task: Task, paid: NDArray[np.float64], times: NDArray[np.integer], ticks: int, ended: str | None
 ) -> dict[str, Any]:
-    """The outcome of a run by a tick, from what each line has paid [rewards] and how often each event happened [events].
+    """The outcome of a run by a tick, by what each line has paid [rewards] and how often each event happened [events].
 
     A sum that is not a finite number is None, `counts` the sum of `by_event` if any.
     """

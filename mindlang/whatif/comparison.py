@@ -90,7 +90,7 @@ def _columns(run: RecordedRun) -> dict[str, Columns]:
 
 
 def mind_columns(graph: Graph, readings: Array, influence: Array, commands: Array) -> dict[str, Columns]:
-    """The numbers that a mind reads, thinks and sends in each tick, by name: not those that nobody has measured in any."""
+    """The numbers that a mind reads, thinks and sends in each tick, by name, without those that nobody measured."""
     named = {
         "reading": zip(reading_names(graph), readings.T, strict=True),
         "influence": zip((skill.name for skill in graph.skills), influence.T, strict=True),
