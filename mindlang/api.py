@@ -175,15 +175,15 @@ class Mind(ShortRepr):
         >>> found["runs"], found["count_mean"]
         (20, 11.45)
         """
-        cast = self._set_up(task, master)
-        seeds = cast.layouts(seed, runs)
-        refuse_too_many(cast.task, runs)
-        rollout = cast.rollout(workers=as_workers(workers))
+        setup = self._set_up(task, master)
+        seeds = setup.layouts(seed, runs)
+        refuse_too_many(setup.task, runs)
+        rollout = setup.rollout(workers=as_workers(workers))
         refuse_too_large(rollout, 1, runs)
         scores, *took = run_timed(rollout, seeds)
-        notes = cast.notes(rollout, *over_at_once(cast.task, scores))
-        data = bench_data(cast.task, scores, seeds, *took) | {"notes": notes}
-        return {"task": cast.task.name, "master": cast.master, "seed": int(seed)} | data
+        notes = setup.notes(rollout, *over_at_once(setup.task, scores))
+        data = bench_data(setup.task, scores, seeds, *took) | {"notes": notes}
+        return {"task": setup.task.name, "master": setup.master, "seed": int(seed)} | data
 
     def train(
         self,

@@ -37,7 +37,7 @@ from mindlang.run.setup import RunSetup, set_up
 
 COMPILING_STAGES = "compiling the stages of a tick once (about a minute)…"
 COMPILING = "compiling the simulator once (about half a minute)…"
-Cast = tuple[RunSetup, Rollout]  # who plays what, in the simulator
+Prepared = tuple[RunSetup, Rollout]  # a run that is set up, in the simulator
 
 
 def is_compiled(entries: Iterable[Any] = (advance,)) -> bool:
@@ -85,14 +85,14 @@ class RunSession:
 
     quiet: bool
 
-    def prepare(self, file: str, chosen: RunChoice, workers: int = 1, runs: int = 1) -> Cast:
-        """The cast of a run, in the simulator."""
-        found = self.cast(file, terminal.load_compiled(file), chosen)
+    def prepare(self, file: str, chosen: RunChoice, workers: int = 1, runs: int = 1) -> Prepared:
+        """A run that is set up, in the simulator."""
+        found = self.set_up(file, terminal.load_compiled(file), chosen)
         return found, self.simulator(found, chosen.interrupt, workers, runs)
 
     @terminal.procedures_talk()
-    def cast(self, file: str, compiled: Compiled, chosen: RunChoice) -> RunSetup:
-        """Who plays what."""
+    def set_up(self, file: str, compiled: Compiled, chosen: RunChoice) -> RunSetup:
+        """Who plays what in a run of a file that is compiled."""
         with refusing_setups():
             found = set_up(file, compiled, chosen.task, chosen.master)
         self.say(*(f"note: {note}" for note in (*found.ready.notes, found.note) if note))
@@ -100,7 +100,7 @@ class RunSession:
 
     @terminal.procedures_talk()
     def simulator(self, setup: RunSetup, interrupt: bool, workers: int = 1, runs: int = 1) -> Rollout:
-        """A cast in the simulator, which is compiled for it."""
+        """The simulator of a run that is set up, compiled for it."""
         with refusing_setups():
             refuse_too_many(setup.task, runs)
             rollout = setup.rollout(interrupt, workers)
@@ -111,10 +111,10 @@ class RunSession:
         return rollout
 
     def scorer(
-        self, cast: Cast, interrupt: bool, where: Where | None, workers: int
+        self, prepared: Prepared, interrupt: bool, where: Where | None, workers: int
     ) -> AbstractContextManager[Rollout | JobScorer]:
         """Who makes many runs: so many `workers` of this machine, or as --on says."""
-        setup, rollout = cast
+        setup, rollout = prepared
         return scorer_on(where, rollout, lambda: setup.assignment(interrupt), workers, self.say)
 
     @terminal.procedures_talk()

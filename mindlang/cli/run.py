@@ -105,9 +105,9 @@ def _run(file: str, chosen: RunChoice, seed: int, breaks: Path | None, files: Ru
     from mindlang.run.summary import run_summary
 
     session, compiled, run, stop = files.session, terminal.load_compiled(file), None, None
-    cast = session.cast(file, compiled, chosen)
-    breakpoints = breakpoints_of_run(breaks, compiled, cast) if breaks else ()
-    setup = noticing(cast, breakpoints)
+    plain = session.set_up(file, compiled, chosen)
+    breakpoints = breakpoints_of_run(breaks, compiled, plain) if breaks else ()
+    setup = noticing(plain, breakpoints)
     rollout = session.simulator(setup, chosen.interrupt)
     if breaks:
         with terminal.procedures_talk():
@@ -128,7 +128,7 @@ def _run(file: str, chosen: RunChoice, seed: int, breaks: Path | None, files: Ru
     where = [stop_summary(stop)] if breaks else []
     terminal.print_result(as_json, found, lambda: Group(*where, run_summary(found)))
     if run:
-        files.write(run, cast, found)
+        files.write(run, plain, found)
     return terminal.FINDINGS if stop else terminal.OK
 
 

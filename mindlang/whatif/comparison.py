@@ -18,7 +18,7 @@ from mindlang.run.setup import RunSetup
 
 Array = NDArray[Any]
 Columns = Mapping[str, Array]  # by name, a row for each tick
-Cast = tuple[RunSetup, Rollout]  # who plays what, in the simulator
+Prepared = tuple[RunSetup, Rollout]  # a run that is set up, in the simulator
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +45,9 @@ class Compared:
     differences: list[Difference]
 
 
-def compare(ours: Cast, seed: int, tick: int, changes: Sequence[Change], theirs: Cast | None = None) -> Compared:
+def compare(
+    ours: Prepared, seed: int, tick: int, changes: Sequence[Change], theirs: Prepared | None = None
+) -> Compared:
     """Run a seed as it is, and with changes or with another mind from a tick on.
 
     ChangeError where the run is over before the tick, or the other mind does not fit.
