@@ -92,11 +92,11 @@ def names_in(graph: Graph) -> Names:
         "skill": graph.skills,
         "task": graph.tasks,
     }
-    return Names({noun: {each.name: _declared(noun, each.name) for each in found} for noun, found in nouns.items()})
 
+    def declared(noun: str, name: str) -> Declaration:
+        return Declaration(Header(Name(noun, NOWHERE), Name(name, NOWHERE), None, NOWHERE), ())
 
-def _declared(noun: str, name: str) -> Declaration:
-    return Declaration(Header(Name(noun, NOWHERE), Name(name, NOWHERE), None, NOWHERE), ())
+    return Names({noun: {each.name: declared(noun, each.name) for each in found} for noun, found in nouns.items()})
 
 
 def mind_of(path: str, given: Mapping[str, Compiled]) -> Compiled | None:

@@ -27,7 +27,7 @@ from mindlang.executors.job_scorer import JobScorer
 from mindlang.executors.jobs import Assignment, StretchExecutor, WorkError
 from mindlang.limits import refuse_too_large, refuse_too_long
 from mindlang.lock.blobs import digest
-from mindlang.number_format import duration, number, rate
+from mindlang.number_format import duration, number, speed
 from mindlang.training.lock_update import Kept, keep
 from mindlang.training.subject import Subject
 
@@ -204,11 +204,9 @@ def outcome(run: RunFolder, result: Result, kept: Kept, lock: str) -> list[str]:
     generations = "1 generation" if result["bred"] == 1 else f"{result['bred']} generations"
     if result["attempts"] > 1:
         generations += f" in {result['attempts']} attempts"
-    cpu = result.get("ticks_per_cpu_second")
-    speed = rate(result["ticks_per_second"]) if cpu is None else rate(cpu, "CPU second")
     learnt = (
         f"{result['skill']} has learnt: {number(result['reevaluated'])} on fresh layouts after "
-        f"{generations}, in {duration(result['seconds'])} at {speed}"
+        f"{generations}, in {duration(result['seconds'])} at {speed(result)}"
     )
     if kept.is_new:
         worse = kept.comparison is not None and kept.comparison.is_worse

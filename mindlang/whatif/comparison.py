@@ -111,7 +111,8 @@ def first_differences(was: Mapping[str, Columns], now: Mapping[str, Columns]) ->
     for kind in was:
         pairs = {name: (was[kind][name], now[kind][name]) for name in was[kind] if name in now.get(kind, {})}
         ticks = min((min(len(a), len(b)) for a, b in pairs.values()), default=0)
-        unlike = {name: _unlike(a[:ticks], b[:ticks]) for name, (a, b) in pairs.items()}
+        cut = {name: (a[:ticks], b[:ticks]) for name, (a, b) in pairs.items()}
+        unlike = {name: ~((a == b) | (np.isnan(a) & np.isnan(b))) for name, (a, b) in cut.items()}
         first = min((int(each.argmax()) for each in unlike.values() if each.any()), default=None)
         if first is not None:
             found += [
@@ -120,8 +121,3 @@ def first_differences(was: Mapping[str, Columns], now: Mapping[str, Columns]) ->
                 if unlike[name][first]
             ]
     return sorted(found, key=lambda difference: difference.tick)
-
-
-def _unlike(a: Array, b: Array) -> NDArray[np.bool_]:
-    different: NDArray[np.bool_] = ~((a == b) | (np.isnan(a) & np.isnan(b)))
-    return different
