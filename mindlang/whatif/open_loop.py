@@ -59,7 +59,7 @@ def compare_recording(path: Path, bundle: Path, request: Request, other: Bundle 
     mind = running_bundle(bundle, about)
     theirs, master = (other, other.graph.master) if other else (mind, about.master)
     engine = ChangedEngine(theirs.policy, theirs.procedures, master)
-    places = _places(about, mind.graph, theirs.graph, master, request.other or "")
+    places = _places(about, mind.graph, theirs.graph, master, request.other or bundle.name)
     changes = changes_of(request, theirs.graph, master, bundle)
 
     def changed(number: int, row: Any) -> tuple[Any, ...]:
