@@ -5,18 +5,16 @@ from __future__ import annotations
 import os
 import signal
 import sys
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from mindrun.errors import MindError, ProcedureError
 from mindrun.graph.run_scores import Scores
 from mindrun.robot.replay import DifferenceError
 from mindrun.sim import warmup
 from mindrun.sim.changed_ticks import compile_stages
-from mindrun.sim.lanes.advance import advance
 from mindrun.sim.rollout import Rollout
 from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
 
@@ -40,19 +38,9 @@ COMPILING = "compiling the simulator once (about half a minute)…"
 Prepared = tuple[RunSetup, Rollout]  # a run that is set up, in the simulator
 
 
-def is_compiled(entries: Iterable[Any] = (advance,)) -> bool:
-    """True where numba would take compiled code of these functions: of these very files, kept or shipped."""
-    return warmup.is_there(entries)
-
-
-def prepare(rollout: Rollout) -> None:
-    """Compile the simulator for a rollout, on standard error, before what needs it begins."""
-    ensure_compiled(rollout, terminal.complain)
-
-
-def ensure_compiled(rollout: Rollout, say: Callable[[str], None]) -> None:
+def ensure_compiled(rollout: Rollout, say: Callable[[str], None] = terminal.complain) -> None:
     """Compile the simulator if need be, and say so."""
-    had = is_compiled(rollout.entries)
+    had = warmup.is_there(rollout.entries)  # compiled of these very files, kept or shipped
     if not had:
         say(COMPILING)
     with _ended_by_ctrl_c():
