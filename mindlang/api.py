@@ -35,10 +35,9 @@ from mindlang.editing.writing import write
 from mindlang.limits import as_layout, as_workers, refuse_too_large, refuse_too_many
 from mindlang.lock.ready import ReadyMind, make_ready
 from mindlang.run.chosen_task import master_of, skill_of, task_of, unknown
-from mindlang.run.many_runs import run_timed
 from mindlang.run.outcome import bench_data, over_at_once
 from mindlang.run.recorded_run import record_run
-from mindlang.run.setup import RunSetup, set_up, train_command, untaught_skills
+from mindlang.run.setup import RunSetup, run_timed, set_up, train_command, untaught_skills
 from mindlang.run.tables import Column, trace_table
 from mindlang.training.lesson_choice import TrainOptions, lessons_to_teach
 from mindlang.training.subject import begin_run

@@ -42,7 +42,7 @@ class LayoutOption(WholeOption):
             return super().convert(value, param, ctx)
         first = SEED.convert(seed, param, ctx)
         run = WholeOption(*limits.RUN_BOUNDS).convert(number, param, ctx)
-        from mindlang.run.many_runs import layouts
+        from mindlang.run.setup import layouts
 
         return layouts(first, run)[-1]
 

@@ -29,9 +29,8 @@ from mindlang.executors import Where, scorer_on
 from mindlang.executors.job_scorer import JobScorer
 from mindlang.limits import refuse_too_large, refuse_too_many
 from mindlang.run.chosen_task import SetupError
-from mindlang.run.many_runs import NO_GENOME, run_timed
 from mindlang.run.recorded_run import RunResult, run_result
-from mindlang.run.setup import RunSetup, set_up
+from mindlang.run.setup import NO_GENOME, RunSetup, run_timed, set_up
 
 COMPILING_STAGES = "compiling the stages of a tick once (about a minute)…"
 COMPILING = "compiling the simulator once (about half a minute)…"

@@ -14,7 +14,7 @@ import pytest
 from mindrun.sim import cache, warmup
 from mindrun.sim.lanes.advance import advance
 
-from mindlang.run.many_runs import layouts
+from mindlang.run.setup import layouts
 from tests.calling import RULES, Call
 
 RUN_KEYS = {"score", "by_line", "counts", "ticks", "ended_by", "seed", "task", "master"}

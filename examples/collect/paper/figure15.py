@@ -14,9 +14,8 @@ from mindlang.pictures.film_images import FilmImages
 from mindlang.pictures.film_layout import FILM_HEIGHT
 from mindlang.run import outcome
 from mindlang.run.chosen_task import SetupError
-from mindlang.run.many_runs import NO_GENOME
 from mindlang.run.recorded_run import RecordedRun, record_run
-from mindlang.run.setup import set_up
+from mindlang.run.setup import NO_GENOME, set_up
 
 FILE, TASK, MASTER = "constant_skills.mind", "Collect", "Gather"
 SEEKER, DODGER = "SeekObject", "Dodge"
