@@ -1,7 +1,5 @@
 """Where breakpoints stop a run or a robot's recording, found in its rows, which may come in parts of any size."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import chain

@@ -1,7 +1,5 @@
 """What options and arguments may be: numbers that say both of their bounds, files, names that a shell completes."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import wraps

@@ -1,7 +1,5 @@
 """What commands that simulate share: a run set up, the simulator compiled, progress shown, recordings refused."""
 
-from __future__ import annotations
-
 import os
 import signal
 import sys

@@ -1,7 +1,5 @@
 """What flows over each edge of a hierarchy, tick by tick, computed by the engine's own functions."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Container, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property

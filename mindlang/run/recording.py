@@ -1,7 +1,5 @@
 """Recordings and runs: a simulated run as a recording, a recording as such a run, and the mind that was running."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from hashlib import sha256
 from pathlib import Path
