@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 from mindrun.errors import MindError, ProcedureError
 from mindrun.graph.run_scores import Scores
@@ -32,7 +33,6 @@ from mindlang.run.setup import NO_GENOME, RunSetup, run_timed, set_up
 
 COMPILING_STAGES = "compiling the stages of a tick once (about a minute)…"
 COMPILING = "compiling the simulator once (about half a minute)…"
-Prepared = tuple[RunSetup, Rollout]  # a run that is set up, in the simulator
 
 
 def ensure_compiled(rollout: Rollout, say: Callable[[str], None] = terminal.complain) -> None:
@@ -64,6 +64,13 @@ def _ended_by_ctrl_c() -> Iterator[None]:
         signal.signal(signal.SIGINT, before)
 
 
+class Prepared(NamedTuple):
+    """A run that is set up, and the simulator that makes it."""
+
+    setup: RunSetup
+    rollout: Rollout
+
+
 @dataclass(frozen=True, slots=True)
 class RunSession:
     """Talks on stderr, unless it is to be quiet; what is wrong ends the program with one message."""
@@ -72,8 +79,8 @@ class RunSession:
 
     def prepare(self, file: str, chosen: RunChoice, workers: int = 1, runs: int = 1) -> Prepared:
         """A run that is set up, in the simulator."""
-        found = self.set_up(file, terminal.load_compiled(file), chosen)
-        return found, self.simulator(found, chosen.interrupt, workers, runs)
+        setup = self.set_up(file, terminal.load_compiled(file), chosen)
+        return Prepared(setup, self.simulator(setup, chosen.interrupt, workers, runs))
 
     @terminal.procedures_talk()
     def set_up(self, file: str, compiled: Compiled, chosen: RunChoice) -> RunSetup:

@@ -152,11 +152,12 @@ class Bench:
         from mindlang.run.tables import runs_table
 
         prepared = self._prepared(who, self.chosen.task)
-        task, seeds = prepared[0].task, prepared[0].layouts(self.seed, self.runs)
-        self.session.say(*(f"note: {note}" for note in prepared[0].world_notes))
+        setup = prepared.setup
+        task, seeds = setup.task, setup.layouts(self.seed, self.runs)
+        self.session.say(*(f"note: {note}" for note in setup.world_notes))
         scores, data = self._score(prepared, seeds)
         self.session.say(*(f"note: {note}" for note in over_at_once(task, scores)))
-        found = {"task": task.name, "master": prepared[0].master, "seed": self.seed, **self._by(), **data}
+        found = {"task": task.name, "master": setup.master, "seed": self.seed, **self._by(), **data}
         if self.table:
             self._write(self.table, runs_table(task, scores, seeds), f"{len(seeds):,} runs")
         print_result(self.as_json, found, lambda: bench_summary(found))
@@ -168,18 +169,18 @@ class Bench:
         from mindlang.run.tables import joined, runs_table
 
         first = self._prepared(who[0], self.chosen.task)
-        second = self._prepared(who[1], first[0].task.name)
-        is_one_world = first[0].is_one_world and second[0].is_one_world
-        seeds = max((setup.layouts(self.seed, self.runs) for setup, _ in (first, second)), key=len)
-        notes = differing_tasks(who[1].file, first[0].task, second[0].task)
+        second = self._prepared(who[1], first.setup.task.name)
+        is_one_world = first.setup.is_one_world and second.setup.is_one_world
+        seeds = max((each.setup.layouts(self.seed, self.runs) for each in (first, second)), key=len)
+        notes = differing_tasks(who[1].file, first.setup.task, second.setup.task)
         self.session.say(*(f"note: {note}" for note in notes))
         benched, minds = [], []
         for each, prepared in zip(who, (first, second), strict=True):
             scores, data = self._score(prepared, seeds, f"{each.name}: ")
-            benched.append(Benched(each.name, prepared[0].task, scores))
-            minds.append({"name": each.name, "file": each.file, "master": prepared[0].master, **data})
+            benched.append(Benched(each.name, prepared.setup.task, scores))
+            minds.append({"name": each.name, "file": each.file, "master": prepared.setup.master, **data})
         compared = compare(benched[0], benched[1], is_one_world)
-        found: dict[str, Any] = {"task": first[0].task.name, "seed": self.seed, "runs": len(seeds), **self._by()}
+        found: dict[str, Any] = {"task": first.setup.task.name, "seed": self.seed, "runs": len(seeds), **self._by()}
         found |= {"minds": minds, **compared.data(), "notes": notes}
         if self.table:
             rows = joined({each.name: runs_table(each.task, each.scores, seeds) for each in benched})

@@ -115,7 +115,7 @@ def _refuse_procedures(graph: Graph, mind: Mind, folder: Path) -> None:
         sys.exit(FINDINGS)
 
 
-def _wiring(path: Path, graph: Graph, unit_metres: float) -> Wiring:
+def _wiring(path: Path, graph: Graph, unit_metres: float | None) -> Wiring:
     """What the mind is wired to; its report goes to stderr, and one with errors ends the program."""
     from mindlang.robot.wire import load_wiring
 
