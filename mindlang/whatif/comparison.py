@@ -13,7 +13,7 @@ from mindrun.sim.rollout import Rollout
 from mindrun.sim.takeover import take_over
 from numpy.typing import NDArray
 
-from mindlang.run.recorded_run import ROWS, WITH_BEGINNING, RecordedRun, RunResult, result_of, run_result
+from mindlang.run.recorded_run import ROWS, WITH_BEGINNING, RecordedRun, RunResult, result_of_trace, run_result
 from mindlang.run.setup import RunSetup
 
 Array = NDArray[Any]
@@ -60,7 +60,7 @@ def compare(
         now = run_result(*(theirs or ours), seed, changes)
     else:
         setup, rollout = theirs
-        rest = result_of(setup, take_over(ours[1], seed, tick, rollout, changes), seed)
+        rest = result_of_trace(setup, take_over(ours[1], seed, tick, rollout, changes), seed)
         now = RunResult(_continued(was.run, rest.run, tick - 1), rest.found)
     return Compared(was, now, first_differences(_columns(was.run), _columns(now.run)))
 
