@@ -1,4 +1,4 @@
-"""The commands of mindc as articles, from what click knows of them; with those of mindrun a page."""
+"""The commands of mindc as articles, from what click knows of them, and those of mindrun."""
 
 import re
 from collections.abc import Iterator
@@ -6,18 +6,7 @@ from collections.abc import Iterator
 import click
 
 from mindlang.explaining.article import Article, Parameter
-from mindlang.explaining.markdown import reference
 from mindlang.explaining.sections import in_lines
-
-ABOUT = """\
-The commands of `mindc`, and what `mindrun` does on a robot, each with its options and examples, as `--help` has them.
-`mindc explain train` and `mindc explain mindrun replay` print one of them.
-"""
-
-
-def command_reference() -> str:
-    """All of them as a page of reference, Markdown."""
-    return reference("Commands", ABOUT, command_articles())
 
 
 def command_articles() -> Iterator[Article]:

@@ -41,8 +41,7 @@ def command(name: tuple[str, ...], as_json: bool) -> None:
 
     from mindlang.cli._command_articles import command_articles
     from mindlang.cli._terminal import MISUSE, console, fail, print_json
-    from mindlang.explaining.codes import codes
-    from mindlang.explaining.collection import articles, found, hint
+    from mindlang.explaining.collection import articles, codes, found, hint
     from mindlang.explaining.terminal import article_text, as_data, contents
 
     if not name:
