@@ -102,7 +102,7 @@ def _draw(compared: Compared, request: Request, path: Path) -> None:
     from mindlang.pictures.picture import png
 
     if compared.was.run.task.scene.environment:
-        from mindlang.pictures.environment_picture import environment_pictures as two_runs
+        from mindlang.pictures.environments import environment_pictures as two_runs
     else:
         from mindlang.pictures.two_paths import two_paths as two_runs
     both = [(each.run, each.found) for each in (compared.was, compared.now)]

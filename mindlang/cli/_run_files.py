@@ -53,7 +53,7 @@ def _draw(session: RunSession, run: RecordedRun, found: dict[str, Any], path: Pa
     from mindlang.pictures.picture import png
 
     if run.task.scene.environment:
-        from mindlang.pictures.environment_picture import environment_picture as picture
+        from mindlang.pictures.environments import environment_picture as picture
 
         what = "the run as its environment draws it"
     else:
@@ -71,10 +71,10 @@ def _draw(session: RunSession, run: RecordedRun, found: dict[str, Any], path: Pa
 def _film(session: RunSession, run: RecordedRun, found: dict[str, Any], path: Path, speed: float | None) -> None:
     from mindlang.pictures.film import Film
 
-    film = Film.of(run, found, speed, path.suffix.lower())
+    film = Film(run, found, speed, path.suffix.lower())
     try:
         with session.progress() as progress:
-            bar = progress.add_task(path.name, total=film.frames)
+            bar = progress.add_task(path.name, total=len(film))
             film.write(path, lambda: progress.advance(bar))
     except MindError as error:
         fail(str(error), error.hint, MISUSE)

@@ -45,7 +45,7 @@ def command(runs: tuple[Path, ...], output: Path, mean: bool, as_json: bool, qui
     from mindrun.train import NotFoundError
 
     from mindlang.cli._terminal import MISUSE, fail, print_json, refuse_unwritable, write_file
-    from mindlang.pictures.learning_log import load_curves
+    from mindlang.pictures.learning_log import by_lesson, load_curves
 
     _refuse_without_matplotlib()
     refuse_unwritable(output, ".svg", ".png")
@@ -56,9 +56,7 @@ def command(runs: tuple[Path, ...], output: Path, mean: bool, as_json: bool, qui
     except MindError as error:
         fail(str(error), error.hint)
 
-    from mindlang.pictures.curves import figure, image
-    from mindlang.pictures.mean_curves import by_lesson
-    from mindlang.pictures.mean_figure import mean_figure
+    from mindlang.pictures.curves import figure, image, mean_figure
 
     lessons = by_lesson(curves) if mean else []
     write_file(output, image(mean_figure(lessons) if mean else figure(curves), output.suffix))
