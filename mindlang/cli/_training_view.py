@@ -9,10 +9,9 @@ from mindrun.train import NotFoundError
 from mindlang.cli._run_session import RunSession
 from mindlang.cli._simulator_compilation import ensure_compiled
 from mindlang.cli._terminal import FINDINGS, MISUSE, fail, procedures_talk
-from mindlang.view.learning import open_learning
+from mindlang.view.learning import Champions, open_learning
 from mindlang.view.messages import RefusedError
 from mindlang.view.viewed import Viewed
-from mindlang.view.viewed_champion import Champions
 
 
 @procedures_talk()

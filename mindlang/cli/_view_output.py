@@ -21,7 +21,7 @@ from mindlang.view.session import Session
 from mindlang.view.viewed import Viewed
 
 if TYPE_CHECKING:
-    from mindlang.view.viewed_champion import Champions
+    from mindlang.view.learning import Champions
 
 
 @dataclass(frozen=True, slots=True)
