@@ -20,9 +20,8 @@ from mindlang.compiler.compile import Compiled
 from mindlang.compiler.diagnostic import did_you_mean
 from mindlang.lock import lock_sources, read_locks
 from mindlang.lock.ready import make_ready
-from mindlang.proofs.data import as_data
 from mindlang.proofs.proof import prove
-from mindlang.proofs.report import report
+from mindlang.proofs.report import as_data, report
 
 if TYPE_CHECKING:
     from mindlang.proofs.recorded import Recorded

@@ -10,9 +10,8 @@ from pathlib import Path
 import pytest
 
 from mindlang.cli._terminal import console
-from mindlang.proofs.data import as_data
 from mindlang.proofs.proof import Proof, prove
-from mindlang.proofs.report import report
+from mindlang.proofs.report import as_data, report
 from tests.hierarchies import doubling
 from tests.minds import always, mind
 from tests.proofs.samples import SAMPLES, Sample
