@@ -66,13 +66,13 @@ def ranges(skill: Skill, weights: Weights | None, most: int) -> tuple[EdgeRange,
     skill = by_itself(skill)
     low, high = _seen(skill, weights)
     found = reduce(joined, (pool.sent for pool in _cut(skill, weights, low, high, most)))
-    bounds = found.low.min(axis=0).tolist(), found.high.max(axis=0).tolist(), found.sure.all(axis=0).tolist()
+    bounds = [found.low.min(axis=0), found.high.max(axis=0), found.sure.all(axis=0)]
     known = is_known(skill, weights)
     seen = [
         (least, most_) if least <= most_ and (known or edge.output is None) else None
         for edge, least, most_ in zip(skill.edges, low.tolist(), high.tolist(), strict=True)
     ]
-    return tuple(EdgeRange(*each) for each in zip(*bounds, seen, strict=True))
+    return tuple(EdgeRange(*each) for each in zip(*(bound.tolist() for bound in bounds), seen, strict=True))
 
 
 def by_itself(skill: Skill) -> Skill:

@@ -8,7 +8,7 @@ computes, rounding included. Only the sigmoid, a quotient, needs a margin: `SIGM
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from mindrun.graph.graph import Gate, Program, Skill
@@ -56,7 +56,8 @@ def part(of: Bounds, boxes: slice | NDArray[np.intp] | NDArray[np.bool_]) -> Bou
 
 def joined(first: Bounds, second: Bounds) -> Bounds:
     """The boxes of both."""
-    return type(first)(*map(np.concatenate, zip(first, second, strict=True)))
+    both: list[Any] = [np.concatenate(pair) for pair in zip(first, second, strict=True)]
+    return type(first)(*both)
 
 
 def is_known(skill: Skill, weights: Weights | None) -> bool:

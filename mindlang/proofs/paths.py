@@ -55,9 +55,7 @@ def ways(graph: Graph) -> Ways:
     place = graph.skill_numbers
     everything = whole(graph.width)
     onward = [
-        tuple(
-            way for edge in skill.edges if edge.to == "skill" for way in [_way(skill, edge, everything)] if way.most > 0
-        )
+        tuple(way for edge in skill.edges if edge.to == "skill" and (way := _way(skill, edge, everything)).most > 0)
         for skill in graph.skills
     ]
     drives = [tuple(edge.target for edge in skill.edges if edge.to == "actuator") for skill in graph.skills]

@@ -1,4 +1,4 @@
-"""What is sent for readings that are tried, many at once: the engine's operations in its order, row by row the same bits.
+"""What is sent for readings that are tried, many at once: by the engine's operations in its order, to the bit.
 
 Readings for which nothing influences an actuator are looked for by trying, so that one that is found is a proof.
 """
