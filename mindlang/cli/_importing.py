@@ -15,8 +15,7 @@ from mindlang.cli._terminal import FINDINGS, MISUSE, OK, fail, print_json, proce
 from mindlang.number_format import number
 from mindlang.training.lock_update import COMPARED_LAYOUTS
 from mindlang.training.subject import Subject
-from mindlang.weights.importing import Imported, import_weights, read_incoming
-from mindlang.weights.trial import open_trial
+from mindlang.weights.importing import Imported, import_weights, open_trial
 
 
 def import_file(
@@ -30,15 +29,14 @@ def import_file(
 
     try:
         with procedures_talk():
-            incoming = read_incoming(subject, skill, path)
-            trial = open_trial(subject, incoming.lesson, incoming.network, subject.shown)
+            trial = open_trial(subject, skill, path)
             ensure_compiled(trial.rollout, say)
-            found = import_weights(trial, incoming, recording, force)
+            found = import_weights(trial, recording, force)
     except NotFoundError as error:
         fail(f"{error}.", error.hint, MISUSE)
     except MindError as error:
         fail(f"{error}.", error.hint)
-    for line in _lines(found, subject.keep_path(incoming.lesson).name, recording):
+    for line in _lines(found, subject.keep_path(trial.lesson).name, recording):
         say(line)
     if as_json:
         print_json(found.data())
@@ -46,10 +44,11 @@ def import_file(
 
 
 def _lines(found: Imported, lock: str, recording: str | None) -> Iterator[str]:
-    skill, lesson, compared = found.incoming.network.skill.name, found.incoming.lesson, found.deviation
+    trial, compared = found.trial, found.deviation
+    skill, lesson = trial.network.skill.name, trial.lesson
     where = recording or f"a run of {lesson.task}"
     yield (
-        f"{found.incoming.path}: {len(found.incoming.genome):,} weights of {skill}; "
+        f"{trial.path}: {len(trial.genome):,} weights of {skill}; "
         f"{compared.reference} and the engine differ by at most {compared.difference:.3g} "
         f"in {in_words(compared.ticks)} of {where}"
     )

@@ -77,7 +77,7 @@ def export_weights(file: str, skill: str, weights: Path) -> None:
     from mindrun.errors import MindError
 
     from mindlang.cli._terminal import console, fail, refuse_unwritable, write_file
-    from mindlang.weights.files import to_bytes, trained_network
+    from mindlang.weights.network import to_bytes, trained_network
 
     refuse_unwritable(weights, ".safetensors")
     try:

@@ -51,7 +51,8 @@ def whole(width: int) -> Boxes:
 
 def part(of: Bounds, boxes: slice | NDArray[np.intp] | NDArray[np.bool_]) -> Bounds:
     """Some of the boxes."""
-    return type(of)(*(each[boxes] for each in of))
+    some: list[Any] = [each[boxes] for each in of]
+    return type(of)(*some)
 
 
 def joined(first: Bounds, second: Bounds) -> Bounds:
