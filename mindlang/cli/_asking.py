@@ -5,8 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from mindlang.attribution.answer import QuestionError, answer
-from mindlang.attribution.course import Course, course_of_recording, course_of_run
+from mindlang.attribution.answer import Course, QuestionError, answer, course_of_recording, course_of_run
 from mindlang.attribution.report import answer_text
 from mindlang.cli._recordings import refusing_recordings
 from mindlang.cli._run_session import RunSession

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mindlang.environments.agent import Agent
+from mindlang.environments.episodes import Agent
 from mindlang.pictures.canvas import Image
 from mindlang.pictures.film_images import empty_window, half_window, window
 from mindlang.pictures.labels import draw_names

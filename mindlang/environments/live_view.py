@@ -17,7 +17,7 @@ from mindrun.kinds.functions.rule import Rule
 from mindrun.robot.rate import Rate
 from numpy.typing import NDArray
 
-from mindlang.environments.agent import Agent
+from mindlang.environments.episodes import Agent
 from mindlang.run.run_recording import world_of
 from mindlang.run.running_bundle import task_of
 from mindlang.view.server import BackgroundView, open_browser
