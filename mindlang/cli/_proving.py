@@ -48,10 +48,11 @@ def perform(file: str, options: ProofOptions) -> None:
     hashes = {skill: lock[skill].weights for skill in ready.policy.weights if skill in lock}
     run = _run(file, compiled, options) if options.run else None
     proof = prove(ready.policy.graph, ready.policy.weights, options.leak)
+    data = as_data(proof, hashes, run)
     if options.as_json:
-        print_json(as_data(proof, hashes, run))
+        print_json(data)
     else:
-        print_table(report(proof, hashes, run))
+        print_table(report(data))
 
 
 def _under(compiled: Compiled, master: str | None) -> Compiled:

@@ -34,7 +34,7 @@ def is_said(text: str, path: Path) -> None:
 
 def printed(sample: Sample, capsys: pytest.CaptureFixture[str]) -> list[str]:
     """The lines that are printed."""
-    console().print(report(proved(sample), sample.hashes, sample.run))
+    console().print(report(as_data(proved(sample), sample.hashes, sample.run)))
     return capsys.readouterr().out.splitlines()
 
 
