@@ -224,7 +224,7 @@ class RunFiles:
         from mindlang.pictures.picture import png
 
         if run.task.scene.environment:
-            from mindlang.pictures.environment_picture import environment_picture as picture
+            from mindlang.pictures.environments import environment_picture as picture
 
             what = "the run as its environment draws it"
         else:
@@ -239,10 +239,10 @@ class RunFiles:
     def _film(self, path: Path, run: RecordedRun, found: dict[str, Any]) -> None:
         from mindlang.pictures.film import Film
 
-        film = Film.of(run, found, self.speed, path.suffix.lower())
+        film = Film(run, found, self.speed, path.suffix.lower())
         try:
             with terminal.refusing(terminal.MISUSE), self.session.progress() as progress:
-                bar = progress.add_task(path.name, total=film.frames)
+                bar = progress.add_task(path.name, total=len(film))
                 film.write(path, lambda: progress.advance(bar))
         except OSError as error:
             terminal.fail(f"{path} cannot be written: {error.strerror}", code=terminal.MISUSE)

@@ -3,8 +3,8 @@
 from collections.abc import Iterator
 from math import cos, pi, sin
 
-from mindlang.explaining.pictures import svg
-from mindlang.explaining.pictures.around import robot
+from docs.reference import svg
+from docs.reference.around import robot
 
 WIDTH_PIXELS, HEIGHT_PIXELS = 300, 220
 MIDDLE_PIXELS = (130.0, 104.0)

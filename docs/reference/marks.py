@@ -5,9 +5,9 @@ from functools import partial
 from math import cos, pi, sin
 from textwrap import wrap
 
+from docs.reference import svg
+from docs.reference.around import robot
 from mindlang.explaining.article import Article
-from mindlang.explaining.pictures import svg
-from mindlang.explaining.pictures.around import robot
 
 PANEL_PIXELS, HEIGHT_PIXELS = 170, 190
 CAPTION_CHARACTERS = 27

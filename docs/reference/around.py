@@ -5,7 +5,7 @@ from math import cos, hypot, inf, pi, sin, sqrt
 
 from mindrun.numbers.arithmetic import F, bearing
 
-from mindlang.explaining.pictures import svg
+from docs.reference import svg
 
 WIDTH_PIXELS, HEIGHT_PIXELS = 420, 280
 MIDDLE_PIXELS = (210.0, 170.0)

@@ -7,9 +7,9 @@ from typing import Any
 
 from mindrun.kinds.registry import kinds
 
+from docs.reference import around, bodies, marks, svg
+from docs.reference.over_time import over_time
 from mindlang.explaining.article import Article
-from mindlang.explaining.pictures import around, bodies, marks, svg
-from mindlang.explaining.pictures.over_time import over_time
 
 ROCK_PLACES = ((6.0, 5.6, 2.2), (0.4, -7.0, 2.0))
 GEM_PLACES = ((8.0, 4.0, 2.2), (2.5, -7.0, 2.0))

@@ -7,7 +7,7 @@ import numpy as np
 from mindrun.kinds.sensors.sensor import Scene, SensorKind
 from mindrun.numbers.arrays import Readings
 
-from mindlang.explaining.pictures import svg
+from docs.reference import svg
 
 WIDTH_PIXELS, HEIGHT_PIXELS = 520, 170
 LEFT_PIXELS, RIGHT_PIXELS, TOP_PIXELS, FLOOR_PIXELS = 44, 500, 28, 136

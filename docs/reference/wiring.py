@@ -3,9 +3,9 @@
 from collections.abc import Iterator, Sequence
 from itertools import cycle
 
+from docs.reference import svg
 from mindlang.explaining.article import Wire, Wiring
-from mindlang.explaining.pictures import svg
-from mindlang.explaining.wiring import HEADER_PINS
+from mindlang.explaining.drivers import HEADER_PINS
 
 WIDTH_PIXELS, TOP_PIXELS, ROW_PIXELS = 640, 46, 14
 ODD_X, EVEN_X = 60, 74  # the two columns of the header
