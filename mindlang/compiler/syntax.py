@@ -1,9 +1,12 @@
 """The tree of a file: one small struct per fact, each with its span. Nothing in it is checked yet."""
 
-from msgspec import Struct
+from collections.abc import Callable, Iterator
+from typing import Any
 
-from mindlang.compiler.comments import comment_of
-from mindlang.compiler.source import Source, Span
+from msgspec import Struct
+from msgspec.structs import astuple
+
+from mindlang.compiler.source import Source, Span, comment_of
 
 # The words with which a line begins; the names of parts begin with a small letter, all others with a capital one.
 PARTS = ("sensor", "actuator", "memory")
@@ -164,33 +167,28 @@ class Reads(Struct, frozen=True):
     span: Span
 
 
-class Drives(Struct, frozen=True):
+class Sends(Struct, frozen=True):
+    """What a skill sends, and when."""
+
+    name: Name
+    at: Expression | None
+    gate: Gate | None
+    span: Span
+
+    @property
+    def expressions(self) -> tuple[Expression, ...]:
+        """All that it computes: its value, its condition and what it sends otherwise."""
+        return (*((self.at,) if self.at else ()), *(self.gate.expressions if self.gate else ()))
+
+
+class Drives(Sends, frozen=True):
     """`drives NAME [at EXPRESSION] [when CONDITION …]`"""
 
-    name: Name
-    at: Expression | None
-    gate: Gate | None
-    span: Span
 
-    @property
-    def expressions(self) -> tuple[Expression, ...]:
-        """All that it computes: its value, its condition and what it sends otherwise."""
-        return (*((self.at,) if self.at else ()), *(self.gate.expressions if self.gate else ()))
-
-
-class Influences(Struct, frozen=True):
+class Influences(Sends, frozen=True):
     """`influences NAME [at EXPRESSION] [when CONDITION …] [cuts below AMOUNT]`"""
 
-    name: Name
-    at: Expression | None
-    gate: Gate | None
-    cuts: Amount | None
-    span: Span
-
-    @property
-    def expressions(self) -> tuple[Expression, ...]:
-        """All that it computes: its value, its condition and what it sends otherwise."""
-        return (*((self.at,) if self.at else ()), *(self.gate.expressions if self.gate else ()))
+    cuts: Amount | None = None
 
 
 class Stays(Struct, frozen=True):
@@ -241,8 +239,8 @@ class Lasts(Struct, frozen=True):
     span: Span
 
 
-class Ends(Struct, frozen=True):
-    """`ends on [TIMES] EVENT` or `ends when CONDITION`"""
+class Outcome(Struct, frozen=True):
+    """What something is for: `on [TIMES] EVENT` or `when CONDITION`"""
 
     times: Amount | None
     event: Phrase | None
@@ -250,13 +248,12 @@ class Ends(Struct, frozen=True):
     span: Span
 
 
-class Succeeds(Struct, frozen=True):
-    """`succeeds on [TIMES] EVENT` or `succeeds when CONDITION`"""
+class Ends(Outcome, frozen=True):
+    """`ends OUTCOME`"""
 
-    times: Amount | None
-    event: Phrase | None
-    when: When | None
-    span: Span
+
+class Succeeds(Outcome, frozen=True):
+    """`succeeds OUTCOME`"""
 
 
 class Each(Struct, frozen=True):
@@ -305,14 +302,10 @@ class Teaches(Struct, frozen=True):
     span: Span
 
 
-class Stop(Struct, frozen=True):
-    """A line of a .break file: `stop on [TIMES] EVENT`, `stop when CONDITION` or `stop in tick TICK`."""
+class Stop(Outcome, frozen=True):
+    """A line of a .break file: `stop OUTCOME` or `stop in tick TICK`."""
 
-    times: Amount | None
-    event: Phrase | None
-    when: When | None
-    tick: Amount | None
-    span: Span
+    tick: Amount | None = None
 
 
 Fact = (
@@ -409,3 +402,26 @@ class File(Struct, frozen=True):
     source: Source
     settings: tuple[Setting, ...]
     declarations: tuple[Declaration, ...]
+
+
+def walk(node: Any) -> Iterator[Any]:
+    """A node of a tree and all that it is made of, down to words and spans."""
+    yield node
+    if isinstance(node, Struct):
+        node = astuple(node)
+    if isinstance(node, tuple):
+        for part in node:
+            yield from walk(part)
+
+
+def rebuilt(node: Any, change: Callable[[Any], Any]) -> Any:
+    """A node with what `change` makes of its parts; what that returns as it was is looked into."""
+    new = change(node)
+    if new is not node:
+        return new
+    match node:
+        case tuple():
+            return tuple(rebuilt(part, change) for part in node)
+        case Struct():
+            return type(node)(*(rebuilt(part, change) for part in astuple(node)))
+    return node
