@@ -1,6 +1,6 @@
 """A mind: names resolved, units converted, every part with the place where it was written."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, Generic, NamedTuple, TypeVar
@@ -280,13 +280,10 @@ def influence_graph(skills: Sequence[Skill]) -> DiGraph:
     return graph
 
 
-def source_graph(sensors: Sequence[Part[Any] | Sensor]) -> DiGraph:
+def source_graph(sensors: Iterable[Part[Any] | Sensor]) -> DiGraph:
     """The sensors by name in the order of the text, an edge to each sensor or memory that one is computed from."""
-    graph = DiGraph()
-    graph.add_nodes_from(sensor.name for sensor in sensors)
-    for sensor in sensors:
-        graph.add_edges_from((sensor.name, source) for source in sensor.kind.sources)
-    return graph
+    sources = {sensor.name: sensor.kind.sources for sensor in sensors}
+    return DiGraph(sources)
 
 
 def hierarchy_graph(mind: Mind) -> DiGraph:

@@ -3,15 +3,18 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Any
 
 from mindrun.errors import reason
 from mindrun.files.regular_files import read_regular
+from msgspec import structs
 
 from mindlang.compiler.diagnostic import Findings
-from mindlang.compiler.expand.aliases import under_alias
+from mindlang.compiler.names import gather
 from mindlang.compiler.parse import parse
+from mindlang.compiler.references import mentions
 from mindlang.compiler.source import MAX_SOURCE_BYTES, Source, decode, within
-from mindlang.compiler.syntax import File, Use
+from mindlang.compiler.syntax import Amount, File, Name, Use, rebuilt
 
 MAX_USE_DEPTH = 64
 
@@ -125,3 +128,22 @@ def _read(target: Path, use: Use, project: _Project) -> None:
         project.refuse("unreadable-use", use, f"{use.path} {error}.", "Use a .mind file.")
     else:
         _add(target, source, project)
+
+
+def under_alias(file: File) -> File:
+    """The file with the names that it declares as other files say them, `walls.Grab`; itself where it has no alias."""
+    if not file.source.alias:
+        return file
+    names = gather([file], Findings())
+    own = {mention.name.span for mention in mentions([file], names) if mention.noun != "thing"}
+
+    def renamed(node: Any) -> Any:
+        match node:
+            case Name(text, span) if span in own:
+                return Name(f"{file.source.alias}.{text}", span)
+            case Amount(name=name) if name and node.constant.span in own:
+                return structs.replace(node, name=f"{file.source.alias}.{name}")
+        return node
+
+    found: File = rebuilt(file, renamed)
+    return found

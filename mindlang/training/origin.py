@@ -8,7 +8,7 @@ from mindrun.graph.weights import Weights, learners, owner_of
 from mindrun.terminal.command_line import command_line
 from mindrun.train import RunError
 
-from mindlang.compiler.counterparts import counterparts
+from mindlang.compiler.resolve.curricula import counterparts
 from mindlang.lock import Lock
 from mindlang.lock.blobs import Origin
 from mindlang.lock.signature import places, signature, width

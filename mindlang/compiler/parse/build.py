@@ -40,7 +40,7 @@ def build(tree: Tree[Token], source: Source, offset: int) -> syntax.Line | synta
 
 @v_args(meta=True)
 class Builder(Transformer_NonRecursive[Token, Any]):
-    """A method for each rule of the grammar that no table has; it takes where the rule stands and what its parts became.
+    """A method for each rule that no table has; it takes where the rule stands and what its parts became.
 
     Names have become `Name` before; signs, units and numbers are still tokens.
     """

@@ -12,9 +12,8 @@ from math import pi
 
 from mindrun.kinds.events.event import EventKind
 
-from mindlang.compiler.beginning import Beginning, beginning
+from mindlang.compiler.beginning import Beginning, beginning, hint_apart
 from mindlang.compiler.model import Task
-from mindlang.compiler.resolve.decided import happens_at_once, hint_apart
 from mindlang.compiler.source import Span
 from mindlang.lint.conditions import why_always
 from mindlang.lint.intervals import UNIT_INTERVAL, Interval, formula_interval, interval
@@ -96,9 +95,9 @@ class _FirstTick:
     def _often(self, event: EventKind, times: int) -> str:
         """In how many runs an event happens so many times in the first tick, where the robot's place is said."""
         sensors = [*self.study.sensors.values()]
-        if happens_at_once(event, self.begun, sensors) >= times:
+        if self.begun.happenings(event, sensors) >= times:
             return "every run"
-        return "some runs" if happens_at_once(event, replace(self.begun, may=True), sensors) >= times else ""
+        return "some runs" if replace(self.begun, may=True).happenings(event, sensors) >= times else ""
 
     def _often_drawn(self, event: EventKind) -> str:
         """The share of runs in which the robot's place, which is drawn, is in what is rewarded, and no goal."""

@@ -9,9 +9,9 @@ from collections.abc import Iterator
 from mindrun.kinds.things.thing import ThingKind
 from mindrun.numbers.quantity import Place
 
+from mindlang.compiler.beginning import Outline, meet, rectangle
 from mindlang.compiler.diagnostic import Label
 from mindlang.compiler.model import Part
-from mindlang.compiler.outline import Outline, meet, rectangle
 from mindlang.compiler.source import Span
 from mindlang.lint.study import Finding, Found, Study
 
