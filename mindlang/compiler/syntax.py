@@ -1,7 +1,7 @@
 """The tree of a file: one small struct per fact, each with its span. Nothing in it is checked yet."""
 
-from collections.abc import Callable, Iterator
-from typing import Any
+from collections.abc import Callable, Iterable, Iterator
+from typing import Any, TypeVar
 
 from msgspec import Struct
 from msgspec.structs import astuple
@@ -17,6 +17,8 @@ VERBS = (
     "rewards", "counts", "teaches",
 )  # fmt: skip
 SETTINGS = ("use", "master", "tick", "mind", "unit", "number")
+
+L = TypeVar("L", bound=Struct)
 
 
 class Name(Struct, frozen=True):
@@ -402,6 +404,11 @@ class File(Struct, frozen=True):
     source: Source
     settings: tuple[Setting, ...]
     declarations: tuple[Declaration, ...]
+
+
+def of_form(lines: Iterable[Any], form: type[L]) -> list[L]:
+    """Those of some facts or settings that are of a form."""
+    return [line for line in lines if isinstance(line, form)]
 
 
 def walk(node: Any) -> Iterator[Any]:

@@ -21,7 +21,7 @@ from mindlang.compiler.resolve.skills import skills
 from mindlang.compiler.resolve.tasks import tasks
 from mindlang.compiler.resolve.worlds import RobotFacts
 from mindlang.compiler.source import Span
-from mindlang.compiler.syntax import Amount, File, Master, Setting, Tick, Unit, Version
+from mindlang.compiler.syntax import Amount, File, Master, Setting, Tick, Unit, Version, of_form
 
 LANGUAGE_VERSION = 1
 
@@ -81,7 +81,7 @@ def _as_written(declared: Iterable[D], noun: str, names: Names) -> Iterator[D]:
 
 def _settings(files: Iterable[File], form: type[S]) -> list[S]:
     """The settings of one word in some files."""
-    return [setting for file in files for setting in file.settings if isinstance(setting, form)]
+    return [setting for file in files for setting in of_form(file.settings, form)]
 
 
 def _agreed(

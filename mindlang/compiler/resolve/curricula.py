@@ -19,7 +19,7 @@ from mindlang.compiler.names import Names
 from mindlang.compiler.resolve.kinds import Scope, a_name, make, once, overrides
 from mindlang.compiler.resolve.parts import refuse_facts
 from mindlang.compiler.resolve.quantities import convert
-from mindlang.compiler.syntax import Argument, Name, Needs, Phrase, Teaches
+from mindlang.compiler.syntax import Argument, Name, Needs, Phrase, Teaches, of_form
 
 if TYPE_CHECKING:
     from mindrun.numbers.arrays import Layers
@@ -46,10 +46,10 @@ def lessons(
     hopeless = {each.name for each in tasks if each.declaration.whole and not any(end.succeeds for end in each.ends)}
     school = _School(names, {skill.name: skill for skill in skills}, influences, hopeless, widths, findings)
     for name, declaration in names.declarations("curriculum"):
-        refuse_facts(declaration, (Teaches,), findings)
+        refuse_facts(declaration, ("teaches",), findings)
         phrase = declaration.header.phrase
         learner = make("curriculum", phrase, Scope(names, None), findings) if phrase else None
-        taught = [fact for fact in declaration.facts if isinstance(fact, Teaches)]
+        taught = of_form(declaration.facts, Teaches)
         heirs = {fact.skill.text: origin.text for fact in taught if (origin := _origin(fact.arguments))}
         for number, fact in enumerate(taught, 1):
             if lesson := school.lesson(name, number, fact, learner, heirs):

@@ -17,7 +17,7 @@ from mindlang.compiler.model import Expression, Number, Part, Reading, Term, sou
 from mindlang.compiler.names import Names
 from mindlang.compiler.resolve.expressions import Visible, resolve
 from mindlang.compiler.resolve.kinds import Scope, make
-from mindlang.compiler.syntax import Declaration, Fact, Operator
+from mindlang.compiler.syntax import Declaration, Operator
 
 MOST_READINGS = 20_000
 ONE_LINE = "All that there is to say of it stands in its one line; set the fact below the skill or task it belongs to."
@@ -37,16 +37,14 @@ def parts(noun: str, names: Names, findings: Findings) -> Parts:
     return tuple(found)
 
 
-def refuse_facts(declaration: Declaration, allowed: tuple[type[Fact], ...], findings: Findings) -> None:
-    """Report the facts that a declaration of this noun cannot have.
+def refuse_facts(declaration: Declaration, verbs: Sequence[str], findings: Findings) -> None:
+    """Report the facts of a declaration of this noun that begin with other verbs than these.
 
     A line above them that could not be read may have been the header to which they belong.
     """
     noun = declaration.header.noun.text
     for fact in declaration.facts if declaration.whole else ():
-        if not isinstance(fact, allowed):
-            verb = type(fact).__name__.lower()
-            verbs = [form.__name__.lower() for form in allowed]
+        if (verb := type(fact).__name__.lower()) not in verbs:
             hint = f"Below {noun} {declaration.header.name.text} can stand {listed(verbs)}." if verbs else ONE_LINE
             findings.error("foreign-fact", fact.span, f"{verb} does not belong to {a(noun)}.", hint)
 
@@ -71,7 +69,8 @@ def sensors(names: Names, findings: Findings) -> Parts:
     for sensor in found:
         if sensor.name not in formulas and (flaw := sensor.kind.flaw(widths)):
             header = names.table["sensor"][sensor.name].header
-            said = (each.value.span for each in header.phrase.arguments if each.key.text == flaw.field)
+            arguments = header.phrase.arguments if header.phrase else ()
+            said = (each.value.span for each in arguments if each.key.text == flaw.field)
             findings.error(flaw.code, next(said, header.span), flaw.message, flaw.hint)
     return found
 

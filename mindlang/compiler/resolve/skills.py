@@ -18,7 +18,7 @@ from mindlang.compiler.resolve.kinds import Scope, make
 from mindlang.compiler.resolve.parts import refuse_facts
 from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.source import Span
-from mindlang.compiler.syntax import Declaration, Drives, Influences, Reads, Sends, Stays, rebuilt
+from mindlang.compiler.syntax import Declaration, Drives, Influences, Reads, Sends, Stays, of_form, rebuilt
 
 F = TypeVar("F", bound=Reads | Sends)
 
@@ -54,12 +54,12 @@ def _unsaid(declaration: Declaration) -> model.Skill:
 def _skill(
     name: str, declaration: Declaration, names: Names, widths: Mapping[str, int], findings: Findings
 ) -> model.Skill:
-    refuse_facts(declaration, (Reads, Drives, Influences, Stays), findings)
+    refuse_facts(declaration, ("reads", "drives", "influences", "stays"), findings)
     phrase = declaration.header.phrase
     function: Any = make("skill", phrase, Scope(names, None), findings) if phrase else None
     reads = _reads(declaration, names, findings)
     # A line that could not be read may have been an input.
-    all_read = declaration.whole and len(reads) == sum(isinstance(fact, Reads) for fact in declaration.facts)
+    all_read = declaration.whole and len(reads) == len(of_form(declaration.facts, Reads))
     visible = Visible(
         {read: widths[read] for read in reads} if all_read else widths, elsewhere=widths, unread=names.unread
     )
@@ -71,7 +71,7 @@ def _skill(
 
 def _reads(declaration: Declaration, names: Names, findings: Findings) -> tuple[str, ...]:
     known = []
-    for fact in (fact for fact in declaration.facts if isinstance(fact, Reads)):
+    for fact in of_form(declaration.facts, Reads):
         if fact.stands_for:
             message = f"{declaration.header.name.text} is like no other skill, so nothing stands for an input of it."
             findings.error("for-without-like", fact.stands_for.span, message, f"Write reads {fact.name.text}.")
@@ -116,7 +116,7 @@ def _refuse_again(spans: Sequence[Span], message: str, findings: Findings) -> No
 
 
 def _is_frozen(declaration: Declaration, findings: Findings) -> bool:
-    stays = [fact for fact in declaration.facts if isinstance(fact, Stays)]
+    stays = of_form(declaration.facts, Stays)
     for how in (fact.how for fact in stays if fact.how.text != "frozen"):
         hint = "Write stays frozen, or leave the line out."
         findings.error("unknown-state", how.span, f"A skill cannot stay {how.text}.", hint)
@@ -128,7 +128,7 @@ def _is_frozen(declaration: Declaration, findings: Findings) -> bool:
 def _check_works(declaration: Declaration, function: Function, edges: Sequence[model.Edge], findings: Findings) -> None:
     """Report a function that has nothing to work on; lines that are missing because they are wrong count as there."""
     name = declaration.header.name
-    sent = [fact for fact in declaration.facts if isinstance(fact, Sends)]
+    sent = of_form(declaration.facts, Sends)
     if not sent:
         hint = "Add drives and an actuator, or influences and a skill."
         findings.error("idle-skill", name.span, f"{name.text} drives nothing and influences nothing.", hint)
@@ -140,7 +140,7 @@ def _check_works(declaration: Declaration, function: Function, edges: Sequence[m
         hint = f"Write skill {name.text} is rule, or leave at out of a line."
         message = f"Every line of {name.text} says its value, so its function has none."
         findings.error("no-outputs", name.span, message, hint)
-    if function.learns and not any(isinstance(fact, Reads) for fact in declaration.facts):
+    if function.learns and not of_form(declaration.facts, Reads):
         hint = "Add reads and a sensor, or make it a rule with at on every line."
         findings.error("no-inputs", name.span, f"{name.text} reads nothing, so it has nothing to learn from.", hint)
 
@@ -159,11 +159,11 @@ def _alike(
         hint = f"Say what {name} is, and repeat the lines of {other.name}."
         findings.error("like-no-learner", like.span, message, hint)
         return _unsaid(own)
-    for fact in (fact for fact in own.facts if not isinstance(fact, Reads)):
+    for more in (fact for fact in own.facts if not isinstance(fact, Reads)):
         message = f"{name} is like {other.name}, so it only says what it reads in place of that."
         hint = f"Take this line out, or say it of {other.name}: it holds for both."
-        findings.error("like-says-more", fact.span, message, hint)
-    lines = [fact for fact in own.facts if isinstance(fact, Reads)]
+        findings.error("like-says-more", more.span, message, hint)
+    lines = of_form(own.facts, Reads)
     instead: dict[str, list[Reads]] = {}
     for fact in lines:
         if names.find(fact.name, ("sensor", "memory"), findings) and _stands(fact, other, names, widths, findings):

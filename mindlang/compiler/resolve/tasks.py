@@ -13,29 +13,15 @@ from mindlang.compiler.resolve.expressions import Visible, condition, resolve
 from mindlang.compiler.resolve.kinds import make
 from mindlang.compiler.resolve.parts import refuse_facts
 from mindlang.compiler.resolve.quantities import convert
-from mindlang.compiler.resolve.worlds import RobotFacts, World, facts_of, refuse_repeated, world_of
-from mindlang.compiler.syntax import (
-    Contains,
-    Counts,
-    Declaration,
-    Ends,
-    Fact,
-    Fails,
-    Lasts,
-    Outcome,
-    Phrase,
-    Rewards,
-    Starts,
-    Succeeds,
-    Varies,
-)  # fmt: skip
+from mindlang.compiler.resolve.worlds import RobotFacts, World, refuse_repeated, world_of
+from mindlang.compiler.syntax import Counts, Declaration, Lasts, Outcome, Phrase, Rewards, Succeeds, of_form
 
 MAX_RUN_TICKS = 10_000_000  # of a run
 TIMES = Quantity("how many times", {"": 1.0}, low=1, high=MAX_RUN_TICKS, whole=True)
 LASTS = replace(TICKS, low=1.0, high=MAX_RUN_TICKS)
 
-SCENE_FACTS: tuple[type[Fact], ...] = (Contains, Starts, Varies, Fails)  # what the world is, not what is done in it
-TASK_FACTS: tuple[type[Fact], ...] = (*SCENE_FACTS, Lasts, Ends, Succeeds, Rewards, Counts)
+SCENE_FACTS = ("contains", "starts", "varies", "fails")  # what the world is, not what is to be done in it
+TASK_FACTS = (*SCENE_FACTS, "lasts", "ends", "succeeds", "rewards", "counts")
 
 
 def tasks(robot: RobotFacts, findings: Findings) -> tuple[model.Task, ...]:
@@ -67,8 +53,8 @@ def _task(declaration: Declaration, robot: RobotFacts, findings: Findings) -> mo
         world.fails,
         _ticks(declaration, robot.tick, findings),
         ends,
-        tuple(_reward(fact, world, visible, robot, findings) for fact in facts_of(declaration, Rewards)),
-        tuple(event_in(fact.event, world, findings) for fact in facts_of(declaration, Counts)),
+        tuple(_reward(fact, world, visible, robot, findings) for fact in of_form(declaration.facts, Rewards)),
+        tuple(event_in(fact.event, world, findings) for fact in of_form(declaration.facts, Counts)),
         declaration.facts,
         declaration,
     )
@@ -76,7 +62,7 @@ def _task(declaration: Declaration, robot: RobotFacts, findings: Findings) -> mo
 
 def _ticks(declaration: Declaration, tick: float, findings: Findings) -> int:
     """How many ticks a task lasts; 1 where that is wrong."""
-    lasts = facts_of(declaration, Lasts)
+    lasts = of_form(declaration.facts, Lasts)
     name = declaration.header.name
     if not lasts:
         if declaration.whole:
@@ -103,7 +89,7 @@ def event_in(written: Phrase, world: World, findings: Findings) -> Any:
 def _ends(declaration: Declaration, world: World, visible: Visible, findings: Findings) -> tuple[model.End, ...]:
     """What ends a run, in the order of the source; of two that come in one tick the first one counts."""
     ends = []
-    for fact in (fact for fact in declaration.facts if isinstance(fact, Outcome)):
+    for fact in of_form(declaration.facts, Outcome):
         times = convert(fact.times, TIMES, findings) if fact.times else 1
         event = event_in(fact.event, world, findings) if fact.event else None
         when = condition(fact.when, visible, findings) if fact.when else None

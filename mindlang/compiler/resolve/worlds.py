@@ -23,7 +23,7 @@ from mindlang.compiler.resolve.kinds import Scope, make
 from mindlang.compiler.resolve.maps import with_places
 from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.source import Span
-from mindlang.compiler.syntax import Contains, Declaration, Fact, Fails, Name, Phrase, Starts, Succeeds, Varies
+from mindlang.compiler.syntax import Contains, Declaration, Fact, Fails, Name, Phrase, Starts, Succeeds, Varies, of_form
 
 NAMES = "Name the body, an actuator, a sensor or a thing of the task."
 
@@ -72,11 +72,6 @@ class World:
         return [thing.kind for thing in self.things if thing.kind]
 
 
-def facts_of(declaration: Declaration, form: type[F]) -> list[F]:
-    """The facts of a form in a declaration."""
-    return [fact for fact in declaration.facts if isinstance(fact, form)]
-
-
 def refuse_repeated(facts: Sequence[Fact], message: str, hint: str, findings: Findings) -> None:
     """Report all but the first of facts that say the same."""
     findings.refuse_again("repeated-fact", [fact.span for fact in facts], message, hint)
@@ -96,7 +91,7 @@ def world_of(declaration: Declaration, robot: RobotFacts, findings: Findings) ->
         things,
         scope,
         any(sensor.kind.battery for sensor in robot.sensors),
-        not declaration.whole or bool(facts_of(declaration, Succeeds)),
+        not declaration.whole or bool(of_form(declaration.facts, Succeeds)),
         _start(declaration, scene, things, robot.body_kind, findings),
         tuple(variable.variations(declaration)),
         tuple(variable.failures(declaration)),
@@ -106,7 +101,7 @@ def world_of(declaration: Declaration, robot: RobotFacts, findings: Findings) ->
 def _things(declaration: Declaration, scene: Any, scope: Scope, findings: Findings) -> tuple[Part[Any], ...]:
     found: dict[str, Part[Any]] = {}
     obstacles = 0
-    for fact in facts_of(declaration, Contains):
+    for fact in of_form(declaration.facts, Contains):
         name = fact.name.text
         kind = make("content", fact.phrase, scope, findings)
         if name in found:
@@ -161,7 +156,7 @@ def _start(
     declaration: Declaration, scene: SceneKind | None, things: Sequence[Part[Any]], body: Any, findings: Findings
 ) -> Start:
     """Where the robot starts, as the last line of a task or scene that says so has it; `body` is None if not known."""
-    start, said = Start(), facts_of(declaration, Starts)
+    start, said = Start(), of_form(declaration.facts, Starts)
     for fact in said:
         facing = convert(fact.facing, ANGLE, findings) if fact.facing else None
         start = Start(_place(fact, findings), facing)
@@ -217,12 +212,14 @@ class _Variable:
 
     def variations(self, declaration: Declaration) -> Iterator[Variation]:
         """What a task or a scene says that varies."""
-        facts = {fact: f"how {fact.argument.text} of {fact.of.text} varies" for fact in facts_of(declaration, Varies)}
+        facts = {
+            fact: f"how {fact.argument.text} of {fact.of.text} varies" for fact in of_form(declaration.facts, Varies)
+        }
         return filter(None, map(self._variation, self._once(facts)))
 
     def failures(self, declaration: Declaration) -> Iterator[Failure]:
         """What a task or a scene says that fails."""
-        for fact in self._once({fact: f"how {fact.name.text} fails" for fact in facts_of(declaration, Fails)}):
+        for fact in self._once({fact: f"how {fact.name.text} fails" for fact in of_form(declaration.facts, Fails)}):
             actuator = self.names.find(fact.name, ("actuator",), self.findings)
             rate = convert(fact.rate, RATE, self.findings)
             if actuator and rate is not None:
