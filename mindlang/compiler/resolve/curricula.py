@@ -128,7 +128,7 @@ class _School:
             learner = make("curriculum", phrase, Scope(self.names, None), self.findings)
         if learner is None:
             return None
-        own = (argument for argument in fact.arguments if argument.key.text not in {*SWITCHES, USING})
+        own = [argument for argument in fact.arguments if argument.key.text not in {*SWITCHES, USING}]
         return replace(learner, **overrides(type(learner), said_by, own, self.findings))
 
     def _needs(self, fact: Teaches) -> tuple[Need, ...]:

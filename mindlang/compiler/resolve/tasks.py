@@ -14,7 +14,7 @@ from mindlang.compiler.resolve.kinds import make
 from mindlang.compiler.resolve.parts import refuse_facts
 from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.resolve.worlds import RobotFacts, World, refuse_repeated, world_of
-from mindlang.compiler.syntax import Counts, Declaration, Lasts, Outcome, Phrase, Rewards, Succeeds, of_form
+from mindlang.compiler.syntax import Counts, Declaration, Ends, Lasts, Phrase, Rewards, Succeeds, of_form
 
 MAX_RUN_TICKS = 10_000_000  # of a run
 TIMES = Quantity("how many times", {"": 1.0}, low=1, high=MAX_RUN_TICKS, whole=True)
@@ -89,7 +89,7 @@ def event_in(written: Phrase, world: World, findings: Findings) -> Any:
 def _ends(declaration: Declaration, world: World, visible: Visible, findings: Findings) -> tuple[model.End, ...]:
     """What ends a run, in the order of the source; of two that come in one tick the first one counts."""
     ends = []
-    for fact in of_form(declaration.facts, Outcome):
+    for fact in (fact for fact in declaration.facts if isinstance(fact, Ends | Succeeds)):
         times = convert(fact.times, TIMES, findings) if fact.times else 1
         event = event_in(fact.event, world, findings) if fact.event else None
         when = condition(fact.when, visible, findings) if fact.when else None
