@@ -161,6 +161,11 @@ class Skill(Struct, frozen=True):
     like: str = ""
 
     @property
+    def span(self) -> Span:
+        """Where its name is declared."""
+        return self.declaration.header.name.span
+
+    @property
     def owner(self) -> str:
         """The skill under whose name its weights stand: itself, or the one that it is like."""
         return self.like or self.name
@@ -214,6 +219,11 @@ class Task(Struct, frozen=True):
     counts: tuple[EventKind, ...]
     facts: tuple[Fact, ...]
     declaration: Declaration
+
+    @property
+    def span(self) -> Span:
+        """Where its name is declared."""
+        return self.declaration.header.name.span
 
 
 class Lesson(Struct, frozen=True):

@@ -21,7 +21,7 @@ def test_twice_the_lines_are_twice_the_work(shape: str, monkeypatch: pytest.Monk
         "mindlang.compiler.diagnostic.MAX_DIAGNOSTICS", 4
     )  # what is done for the first few lines only is done here, too
     monkeypatch.setattr("mindlang.editing.unified_diff.MAX_COMPARED_LINES", 10)
-    monkeypatch.setattr("mindlang.lint.fixing.MAX_FIX_ROUNDS", 2)
+    monkeypatch.setattr("mindlang.lint.lint.MAX_FIX_ROUNDS", 2)
     first = WORDS if shape.startswith("one long") else LINES
     slow = {}
     for command in COMMANDS:

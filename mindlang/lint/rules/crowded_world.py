@@ -9,10 +9,9 @@ from collections import Counter
 from random import Random
 
 from mindlang.compiler.model import Task
-from mindlang.compiler.source import Span
-from mindlang.compiler.syntax import Contains
+from mindlang.compiler.syntax import Contains, of_form
 from mindlang.lint.drawn_world import ROBOT, DrawnWorld
-from mindlang.lint.study import Finding, Found, Study
+from mindlang.lint.study import Finding, Found, Study, first_of_each
 
 MAX_WORLDS, MAX_LOOKS = 100, 200_000  # as many worlds as cost no more than that
 
@@ -24,26 +23,27 @@ task Sort in arena size {}
   lasts 9 s
   rewards 10 on reach of bin
 """
-GOOD = (BINS.format(60, 10),)
+GOOD = BINS.format(60, 10)
 BAD = (BINS.format(30, 10), BINS.format(60, 100))
+
+
+HINT = "Make the arena larger, or what is in it smaller or fewer, or say where it stands: at 10 -5."
 
 
 def check(study: Study) -> Found:
     """Tasks of which some worlds that are drawn lack a place for something."""
-    told: set[Span] = set()
+    return first_of_each(_found(study))
+
+
+def _found(study: Study) -> Found:
     for task in study.mind.tasks:
         lacking, worlds = _lacking(study, task)
-        if not lacking:
-            continue
-        name = lacking.most_common(1)[0][0]
-        span = _span(task, name)
-        if span not in told:  # several tasks have it from one line
-            told.add(span)
-            message = f"{name} finds no place in {lacking[name]} of {worlds} worlds of {task.name} that were drawn."
-            yield Finding(span, message[0].upper() + message[1:] if name == ROBOT else message, HINT)
-
-
-HINT = "Make the arena larger, or what is in it smaller or fewer, or say where it stands: at 10 -5."
+        if lacking:
+            name = lacking.most_common(1)[0][0]
+            said = f"{name[0].upper()}{name[1:]}" if name == ROBOT else name
+            message = f"{said} finds no place in {lacking[name]} of {worlds} worlds of {task.name} that were drawn."
+            things = (fact.name.span for fact in of_form(task.facts, Contains) if fact.name.text == name)
+            yield Finding(next(things, task.span), message, HINT)
 
 
 def _lacking(study: Study, task: Task) -> tuple[Counter[str], int]:
@@ -58,9 +58,3 @@ def _lacking(study: Study, task: Task) -> tuple[Counter[str], int]:
         if looks > MAX_LOOKS:
             return found, number + 1
     return found, MAX_WORLDS
-
-
-def _span(task: Task, name: str) -> Span:
-    """Where a thing of a task is declared; of the robot, the task."""
-    facts = (fact.name for fact in task.facts if isinstance(fact, Contains) and fact.name.text == name)
-    return next(facts, task.declaration.header.name).span

@@ -11,11 +11,10 @@ from math import inf
 from mindrun.kinds.things.rectangle import Rectangle
 from mindrun.kinds.things.thing import ThingKind
 
-from mindlang.compiler.beginning import PLAIN_START, beginning
+from mindlang.compiler.beginning import PLAIN_START
 from mindlang.compiler.model import Task
-from mindlang.compiler.source import Span
 from mindlang.lint.floor import Floor, floor
-from mindlang.lint.study import Finding, Found, Study
+from mindlang.lint.study import Finding, Found, Study, first_of_each
 
 LEAST_SHARE = 0.01  # of the floor that is worth a word
 
@@ -76,12 +75,7 @@ HINT = "Open a wall or widen a passage, or fill with wall what nobody is to ente
 
 def check(study: Study) -> Found:
     """Tasks in which no way leads from where the robot starts to all of the floor, or to a thing with a place."""
-    told: set[Span] = set()
-    for task in study.mind.tasks:
-        for finding in _of_task(study, task):
-            if finding.span not in told:
-                told.add(finding.span)
-                yield finding
+    return first_of_each(finding for task in study.mind.tasks for finding in _of_task(study, task))
 
 
 def _of_task(study: Study, task: Task) -> Iterator[Finding]:
@@ -115,8 +109,7 @@ def _sides(task: Task, walls: Sequence[Rectangle], beyond: float) -> tuple[float
 
 def _findings(study: Study, task: Task, whole: Floor, no_way: str) -> Iterator[Finding]:
     """What is said of a floor in parts: of a thing that is out of reach, of a part that something may be drawn in."""
-    begun = beginning(task.scene, task.things, task.start, study.mind.body.kind, study.graph.claw_reach)
-    at = begun.at or (None if task.scene.is_bounded else PLAIN_START)
+    at = study.beginning(task).at or (None if task.scene.is_bounded else PLAIN_START)
     there = whole.parts_near(at, 0.0) if at else {*range(len(whole.areas))}
     origin = " from where the robot starts" if at else ""
     reach = study.mind.body.kind.front + study.graph.claw_reach
@@ -127,7 +120,7 @@ def _findings(study: Study, task: Task, whole: Floor, no_way: str) -> Iterator[F
     is_drawn = at is None or any(not each.kind.places for each in task.things if not each.kind.is_obstacle)
     if is_drawn and (part := _part_without_way(task, whole, there if at else None)):
         message = f"{no_way} leads{origin or ' from the rest'} to {part}, where something may be drawn."
-        yield Finding(task.declaration.header.name.span, message, HINT)
+        yield Finding(task.span, message, HINT)
 
 
 def _part_without_way(task: Task, whole: Floor, there: set[int] | None) -> str:
