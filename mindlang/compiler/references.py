@@ -118,7 +118,7 @@ class _Reader:
                 own = each.name.text if each else ""
                 yield from self.expressions(amount, *(when.expressions if when else ()), own=own)
                 yield from self.phrase("event", on)
-                yield from self.first_declared(each and each.sensor, *READABLE_NOUNS)
+                yield from self.first_declared(each.sensor if each else None, *READABLE_NOUNS)
             case syntax.Teaches(skill, task, master):
                 yield from self.first_declared(skill, "skill")
                 yield from self.first_declared(task, "task")

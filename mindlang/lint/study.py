@@ -170,10 +170,10 @@ class Study:
     @cached_property
     def is_exhausted(self) -> bool:
         """Whether a task asks for exhaustion, which is of the battery without naming it."""
-        happening = (each for task in self.mind.tasks for each in (*task.ends, *task.rewards))
-        events = (each.event if isinstance(each, End) else each.on for each in happening)
+        ending = (end.event for task in self.mind.tasks for end in task.ends)
+        paid = (reward.on for task in self.mind.tasks for reward in task.rewards)
         counted = (event for task in self.mind.tasks for event in task.counts)
-        return any(event.is_of_battery for event in (*events, *counted) if event)
+        return any(event.is_of_battery for event in (*ending, *paid, *counted) if event)
 
     @cached_property
     def used(self) -> set[tuple[str, str]]:
@@ -211,7 +211,8 @@ class Study:
             if edge.gate:
                 yield Condition(edge.gate.when, edge, self.any_world)
         for task in self.mind.tasks:
-            for each in (*task.rewards, *task.ends):
+            judging: tuple[Reward | End, ...] = (*task.rewards, *task.ends)
+            for each in judging:
                 if each.when:
                     yield Condition(each.when, each, self.worlds[task.name])
 

@@ -52,8 +52,9 @@ def _readers(study: Study) -> dict[str, Readers]:
     """Who senses which things, for each skill with all that stand below it."""
     found: dict[str, Readers] = {}
     for skill in study.children_first:
-        found[skill.name] = own = {}
+        own: Readers = {}
         for name in skill.subskills:
             own |= found[name]
         own |= {study.senses[sensor]: (skill.name, sensor) for sensor in skill.reads if sensor in study.senses}
+        found[skill.name] = own
     return found

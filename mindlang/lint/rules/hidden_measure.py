@@ -20,7 +20,7 @@ BAD = GOOD.replace("ahead", "forward")
 def check(study: Study) -> Found:
     """Sensors and memories called as a measure that is said in a single word."""
     measures = {name for name, kind in kinds("measure").items() if not any(a.required for a in arguments(kind))}
-    for part in (*study.mind.sensors, *study.mind.memories):
-        if part.name in measures:
-            hint = f"Give it another name: {study.main.edit('rename', part.name, 'NAME')}"
-            yield Finding(part.span, f"{part.name} hides the measure of that name in rewards.", hint)
+    parts = [*study.mind.names.declarations("sensor"), *study.mind.names.declarations("memory")]
+    for name in (declaration.header.name for name, declaration in parts if name in measures):
+        hint = f"Give it another name: {study.main.edit('rename', name.text, 'NAME')}"
+        yield Finding(name.span, f"{name.text} hides the measure of that name in rewards.", hint)

@@ -80,5 +80,6 @@ def _read(study: Study) -> set[str]:
         *(name for skill in study.mind.skills for name in skill.reads),
         *(name for kind in study.sensors.values() for name in kind.sources),
         *(reward.each for reward in rewards if reward.each),
-        *readings(expression for each in (*rewards, *ends) for expression in each.expressions),
+        *readings(expression for reward in rewards for expression in reward.expressions),
+        *readings(expression for when in ends for expression in when.expressions),
     }
