@@ -20,22 +20,9 @@ from mindrun.kinds.things.thing import ThingKind
 from msgspec import Struct
 from networkx import DiGraph
 
+from mindlang.compiler import syntax
 from mindlang.compiler.names import Names
 from mindlang.compiler.source import Span
-from mindlang.compiler.syntax import (
-    Declaration,
-    Drives,
-    Ends,
-    Fact,
-    File,
-    Influences,
-    Operator,
-    Reads,
-    Rewards,
-    Succeeds,
-    Teaches,
-    of_form,
-)  # fmt: skip
 
 K = TypeVar("K")
 
@@ -86,7 +73,7 @@ class Measured(Struct, frozen=True):
     span: Span
 
 
-Term = Number | Reading | EachReading | Command | Measured | Operator
+Term = Number | Reading | EachReading | Command | Measured | syntax.Operator
 
 
 class Expression(Struct, frozen=True):
@@ -129,7 +116,7 @@ class Edge(Struct, frozen=True):
     to: Receiver
     target: str
     at: Expression | None
-    fact: Drives | Influences
+    fact: syntax.Drives | syntax.Influences
     gate: Gate | None = None
     cuts: float = 0.0
 
@@ -157,7 +144,7 @@ class Skill(Struct, frozen=True):
     reads: tuple[str, ...]
     edges: tuple[Edge, ...]
     frozen: bool
-    declaration: Declaration
+    declaration: syntax.Declaration
     like: str = ""
 
     @property
@@ -183,7 +170,7 @@ class Reward(Struct, frozen=True):
     on: EventKind | None
     each: str | None
     when: When | None
-    fact: Rewards
+    fact: syntax.Rewards
 
     @property
     def expressions(self) -> tuple[Expression, ...]:
@@ -198,7 +185,7 @@ class End(Struct, frozen=True):
     times: int
     when: When | None
     succeeds: bool
-    fact: Ends | Succeeds
+    fact: syntax.Ends | syntax.Succeeds
 
 
 class Task(Struct, frozen=True):
@@ -217,8 +204,8 @@ class Task(Struct, frozen=True):
     ends: tuple[End, ...]
     rewards: tuple[Reward, ...]
     counts: tuple[EventKind, ...]
-    facts: tuple[Fact, ...]
-    declaration: Declaration
+    facts: tuple[syntax.Fact, ...]
+    declaration: syntax.Declaration
 
     @property
     def span(self) -> Span:
@@ -240,7 +227,7 @@ class Lesson(Struct, frozen=True):
     number: int
     starts_from: str
     needs: tuple[Need, ...]
-    fact: Teaches
+    fact: syntax.Teaches
 
 
 @dataclass(frozen=True)
@@ -260,7 +247,7 @@ class Mind:
     skills: tuple[Skill, ...]
     tasks: tuple[Task, ...]
     lessons: tuple[Lesson, ...]
-    files: tuple[File, ...]
+    files: tuple[syntax.File, ...]
     names: Names
     influences: DiGraph = field(repr=False, compare=False)
     numbers: Mapping[str, tuple[float, str, str]] = field(default_factory=dict)
@@ -322,7 +309,7 @@ def hierarchy_graph(mind: Mind) -> DiGraph:
     for skill in mind.skills:
         here = Node("skill", skill.name)
         written = (*skills[skill.owner].declaration.facts, *skill.declaration.facts)
-        lines = {fact.name.text: fact.span for fact in of_form(written, Reads)}
+        lines = {fact.name.text: fact.span for fact in syntax.of_form(written, syntax.Reads)}
         for name in skill.reads:
             connect(read[name], here, "reads", lines[name])
         for edge in skill.edges:

@@ -406,6 +406,11 @@ class File(Struct, frozen=True):
     declarations: tuple[Declaration, ...]
 
 
+def verb_of(fact: Fact) -> str:
+    """The word with which the line of a fact begins."""
+    return type(fact).__name__.lower()
+
+
 def of_form(lines: Iterable[Any], form: type[L]) -> list[L]:
     """Those of some facts or settings that are of a form."""
     return [line for line in lines if isinstance(line, form)]

@@ -17,7 +17,7 @@ from mindlang.compiler.model import Expression, Number, Part, Reading, Term, sou
 from mindlang.compiler.names import Names
 from mindlang.compiler.resolve.expressions import Visible, resolve
 from mindlang.compiler.resolve.kinds import Scope, make
-from mindlang.compiler.syntax import Declaration, Operator
+from mindlang.compiler.syntax import Declaration, Operator, verb_of
 
 MOST_READINGS = 20_000
 ONE_LINE = "All that there is to say of it stands in its one line; set the fact below the skill or task it belongs to."
@@ -44,7 +44,7 @@ def refuse_facts(declaration: Declaration, verbs: Sequence[str], findings: Findi
     """
     noun = declaration.header.noun.text
     for fact in declaration.facts if declaration.whole else ():
-        if (verb := type(fact).__name__.lower()) not in verbs:
+        if (verb := verb_of(fact)) not in verbs:
             hint = f"Below {noun} {declaration.header.name.text} can stand {listed(verbs)}." if verbs else ONE_LINE
             findings.error("foreign-fact", fact.span, f"{verb} does not belong to {a(noun)}.", hint)
 
