@@ -82,7 +82,7 @@ class _Resolver:
         """The breakpoints of the lines with which nothing is wrong."""
         names = self.subject.names
         self.findings.numbers = names.numbers.keys()
-        for line in map(writer(numbers(names, Findings()), self.subject.graph.tick), lines):
+        for line in map(writer(names, numbers(names, Findings()), self.subject.graph.tick), lines):
             before = len(self.findings.diagnostics)
             cause = self._cause(line)
             if cause and len(self.findings.diagnostics) == before:

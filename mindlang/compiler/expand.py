@@ -7,29 +7,20 @@ same event or of the same readings and measures under the same condition.
 """
 
 import re
-from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence, Set
-from dataclasses import dataclass
-from dataclasses import replace as changed
+from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
+from dataclasses import replace as with_fields
 from typing import Any
 
-from mindrun.kinds.registry import arguments, find_kind, kinds
-from mindrun.numbers.quantity import Quantity
-from msgspec import Struct
-from msgspec.structs import astuple, replace
+from msgspec.structs import replace
 from networkx import DiGraph
 
 from mindlang.compiler import syntax
 from mindlang.compiler.diagnostic import Findings, a
 from mindlang.compiler.hierarchy import ends_first, refuse_circles
 from mindlang.compiler.names import Names
-from mindlang.compiler.source import Span
-from mindlang.compiler.syntax import Amount, Argument, Declaration, Expression, Fact, Name, Numbers, Phrase
+from mindlang.compiler.references import names_in
+from mindlang.compiler.syntax import Amount, Declaration, Expression, Fact, Name, Numbers, Phrase, rebuilt
 
-# Of which noun the kind is that a phrase names, by what the phrase stands in.
-NOUNS: Mapping[type, str] = {
-    syntax.Contains: "content", syntax.Ends: "event", syntax.Succeeds: "event", syntax.Counts: "event",
-    syntax.Stop: "event", syntax.Rewards: "event", Expression: "measure", syntax.Teaches: "curriculum",
-}  # fmt: skip
 UNLIKE_NOUNS = ("body", "curriculum")  # whose declarations are like nothing
 _WORD = re.compile(r"[a-z]\w*")
 
@@ -65,7 +56,7 @@ def expand(names: Names, values: Mapping[str, Amount], tick_seconds: float, find
 
     `values` are what the names of numbers stand for.
     """
-    line = writer(values, tick_seconds)
+    line = writer(names, values, tick_seconds)
     table = {
         noun: {
             name: replace(each, header=line(each.header), facts=tuple(map(line, each.facts)))
@@ -73,7 +64,7 @@ def expand(names: Names, values: Mapping[str, Amount], tick_seconds: float, find
         }
         for noun, declarations in names.table.items()
     }
-    written = changed(names, table=table)
+    written = with_fields(names, table=table)
     for noun in UNLIKE_NOUNS:
         for like in (each.header.like for _, each in written.declarations(noun)):
             if like:
@@ -89,77 +80,35 @@ def expand(names: Names, values: Mapping[str, Amount], tick_seconds: float, find
         return _like(task, scenes[scene.text]) if known else replace(task, whole=False)
 
     whole = {"scene": scenes, "task": _followed("task", written, in_scene, findings)}
-    return changed(names, table=table | {noun: each for noun, each in whole.items() if each})
+    return with_fields(names, table=table | {noun: each for noun, each in whole.items() if each})
 
 
-def writer(numbers: Mapping[str, Amount], tick_seconds: float) -> Callable[[Any], Any]:
-    """What writes the numbers into a line, in the place of their names."""
-    return _Writer(numbers, tick_seconds, frozenset(name.rpartition(".")[2] for name in numbers)).line
+def writer(names: Names, values: Mapping[str, Amount], tick_seconds: float) -> Callable[[Any], Any]:
+    """What writes the numbers into a line, in the place of their names, and how long a tick is into its rates."""
+    words = frozenset(name.rpartition(".")[2] for name in values)  # all that stands of a name in a file with an alias
 
-
-@dataclass(frozen=True, slots=True)
-class _Writer:
-    """`words` are the last ones of the names: all that stands of them in a file that has an alias."""
-
-    numbers: Mapping[str, Amount]
-    tick_seconds: float
-    words: Set[str]
-
-    def line(self, line: Any) -> Any:
-        """A line with its numbers; most have none, which their text says at once."""
+    def written(line: Any) -> Any:
         text = line.span.text
-        has_names = self.words and not self.words.isdisjoint(_WORD.findall(text))
-        if not has_names and "per" not in text:
+        has_names = words and not words.isdisjoint(_WORD.findall(text))
+        if not has_names and "per" not in text:  # as most lines
             return line
-        if isinstance(line, syntax.Rewards) and line.each and line.each.name.text in self.numbers:
-            own = line.each.name.text  # as it would hide a reading
-            others = {name: amount for name, amount in self.numbers.items() if name != own}
-            return _Writer(others, self.tick_seconds, self.words).node(line, "")
-        return self.node(line, "")
+        numbers = (each.name for each in names_in(line, names, None) if each.noun == "number")
+        places = {name.span for name in numbers if name.text in values}
 
-    def node(self, node: Any, noun: str) -> Any:
-        """A part of a line; `noun` is that of the kinds which its phrases name."""
-        match node:
-            case Name() | Span() | None:
-                return node
-            case Amount():
-                amount = in_place(node, self.numbers)
-                return replace(amount, tick_seconds=self.tick_seconds) if amount.per == "s" else amount
-            case Expression(terms, span):
-                return Expression(tuple(self._term(term) for term in terms), span)
-            case Phrase(kind, written, span):
-                cls = find_kind(noun, kind.text) if written else None
-                return Phrase(kind, tuple(self._argument(each, [cls] if cls else []) for each in written), span)
-            case Argument():
-                return self._argument(node, kinds(noun).values())
-            case tuple():
-                return tuple(self.node(part, noun) for part in node)
-            case Struct():
-                of = node.noun.text if isinstance(node, syntax.Header) else NOUNS.get(type(node), noun)
-                return type(node)(*[self.node(part, of) for part in astuple(node)])
-        return node
+        def changed(node: Any) -> Any:
+            match node:
+                case Amount():
+                    amount = in_place(node, values)
+                    return replace(amount, tick_seconds=tick_seconds) if amount.per == "s" else amount
+                case Phrase(kind, ()) if kind.span in places:
+                    return changed(Amount(1.0, "", kind.span, name=kind.text))
+                case Name(name, span) if span in places:
+                    return Numbers((changed(Amount(1.0, "", span, name=name)),), span)
+            return node
 
-    def _term(self, term: syntax.Term) -> Any:
-        """A name alone in an expression is that of a number where there is one: no reading has it, too."""
-        match term:
-            case Phrase(kind, ()) if kind.text in self.numbers:
-                return self._named(kind)
-        return self.node(term, "measure")
+        return rebuilt(line, changed)
 
-    def _argument(self, argument: Argument, classes: Iterable[type[Any]]) -> Argument:
-        match argument.value:
-            case Name() as name if name.text in self.numbers and _takes_number(classes, argument.key.text):
-                return replace(argument, value=Numbers((self._named(name),), name.span))
-        return replace(argument, value=self.node(argument.value, ""))
-
-    def _named(self, name: Name) -> Any:
-        return self.node(Amount(1.0, "", name.span, name=name.text), "")
-
-
-def _takes_number(classes: Iterable[type[Any]], key: str) -> bool:
-    """Whether a number stands after a key; the argument of a kind that there is not takes anything."""
-    meanings = [each.type for cls in classes for each in arguments(cls) if each.key == key]
-    return all(isinstance(meaning, Quantity) for meaning in meanings)
+    return written
 
 
 def _followed(noun: str, names: Names, begun: Callable[[Declaration], Declaration], findings: Findings) -> Declarations:

@@ -11,7 +11,19 @@ from mindrun.numbers.quantity import Reference as Noun
 
 from mindlang.compiler import syntax
 from mindlang.compiler.names import Names
-from mindlang.compiler.syntax import Amount, Declaration, Expression, Fact, File, Name, Phrase, of_form, walk
+from mindlang.compiler.syntax import (
+    Amount,
+    Argument,
+    Declaration,
+    Expression,
+    Fact,
+    File,
+    Header,
+    Name,
+    Phrase,
+    of_form,
+    walk,
+)
 
 READABLE_NOUNS = ("sensor", "memory")
 VALUE_NOUNS = (*READABLE_NOUNS, "number", "actuator")  # an actuator is its command, in a task
@@ -42,12 +54,15 @@ def mentions(files: Iterable[File], names: Names) -> Iterator[Mention]:
                 yield Mention("number", setting.name, None, is_own=True)
             yield from reader.amounts(setting)
         for declaration in file.declarations:
-            yield from _Reader(names, declaration).declaration(declaration)
+            reader = _Reader(names, declaration)
+            for line in (declaration.header, *declaration.facts):
+                yield from reader.line(line)
+                yield from reader.amounts(line)
 
 
-def names_in(fact: Fact, names: Names, by: Declaration | None) -> Iterator[Mention]:
-    """The names in a fact, of a declaration where that is known."""
-    return _Reader(names, by).fact(fact)
+def names_in(line: Header | Fact, names: Names, by: Declaration | None) -> Iterator[Mention]:
+    """The names in a line, of a declaration where that is known, without those that stand in the place of amounts."""
+    return _Reader(names, by).line(line)
 
 
 def introductions(files: Collection[File]) -> Iterator[Mention]:
@@ -67,41 +82,35 @@ class _Reader:
     names: Names
     by: Declaration | None
 
-    def declaration(self, declaration: Declaration) -> Iterator[Mention]:
-        """The names in a declaration, its own included."""
-        header = declaration.header
-        yield Mention(header.noun.text, header.name, declaration, is_own=True)
-        yield from self.first_declared(header.like, header.noun.text)
-        yield from self.first_declared(header.inside, "scene")
-        yield from self.phrase(header.noun.text, header.phrase)
-        yield from self.expressions(header.at)
-        for fact in declaration.facts:
-            yield from self.fact(fact)
-        yield from self.amounts((header, *declaration.facts))
-
     def first_declared(self, name: Name | None, *nouns: str) -> Iterator[Mention]:
         """A name with the first of the nouns that it is declared with."""
         if name and (noun := self.names.noun_of(name.text, nouns)):
             yield Mention(noun, name, self.by)
 
-    def amounts(self, lines: Any) -> Iterator[Mention]:
-        """The numbers that are named in lines in the place of an amount."""
-        for node in walk(lines) if self.names.numbers else ():
+    def amounts(self, line: Any) -> Iterator[Mention]:
+        """The numbers that are named in a line in the place of an amount."""
+        for node in walk(line) if self.names.numbers else ():
             if isinstance(node, Amount) and node.name:
                 yield from self.first_declared(node.constant, "number")
 
-    def fact(self, fact: Fact) -> Iterator[Mention]:
-        """The names in a fact; that of `for each` is its own."""
-        match fact:
+    def line(self, line: Header | Fact) -> Iterator[Mention]:
+        """The names in a line; that of `for each` is its own."""
+        match line:
+            case Header(noun, name, phrase, like=like, inside=inside, at=at):
+                yield Mention(noun.text, name, self.by, is_own=True)
+                yield from self.first_declared(like, noun.text)
+                yield from self.first_declared(inside, "scene")
+                yield from self.phrase(noun.text, phrase)
+                yield from self.expressions(at)
             case syntax.Reads(name, stands_for):
                 yield from self.first_declared(name, *READABLE_NOUNS)
                 yield from self.first_declared(stands_for, *READABLE_NOUNS)
             case syntax.Drives(name):
                 yield from self.first_declared(name, *DRIVABLE_NOUNS)
-                yield from self.expressions(*fact.expressions)
+                yield from self.expressions(*line.expressions)
             case syntax.Influences(name):
                 yield from self.first_declared(name, "skill")
-                yield from self.expressions(*fact.expressions)
+                yield from self.expressions(*line.expressions)
             case syntax.Contains(name, phrase):
                 yield Mention("thing", name, self.by)
                 yield from self.phrase("content", phrase)
@@ -123,8 +132,7 @@ class _Reader:
                 yield from self.first_declared(skill, "skill")
                 yield from self.first_declared(task, "task")
                 yield from self.first_declared(master, "skill")
-                for value in (each.value for each in fact.arguments if each.key.text == "from"):
-                    yield from self.first_declared(value if isinstance(value, Name) else None, "skill")
+                yield from self.arguments(line.arguments, kinds("curriculum").values())
 
     def expressions(self, *expressions: Expression | None, own: str = "") -> Iterator[Mention]:
         """The readings and commands in expressions, and the things that their measures are about."""
@@ -138,15 +146,19 @@ class _Reader:
 
     def phrase(self, noun: str, phrase: Phrase | None) -> Iterator[Mention]:
         """The names among the arguments of a kind."""
-        cls = kinds(noun).get(phrase.kind.text) if phrase else None
-        if phrase is None or cls is None:
-            return
-        wanted = {parameter.key: parameter.type for parameter in arguments(cls)}
-        for argument in phrase.arguments:
-            match argument.value, wanted.get(argument.key.text):
-                case Name() as name, Noun(noun="thing"):
-                    yield Mention("thing", name, self.by)
-                case Name() as name, Noun(noun="sensor"):
-                    yield from self.first_declared(name, *READABLE_NOUNS)
-                case Name() as name, Quantity():
-                    yield from self.first_declared(name, "number")
+        if phrase and (cls := kinds(noun).get(phrase.kind.text)):
+            yield from self.arguments(phrase.arguments, [cls])
+
+    def arguments(self, written: Iterable[Argument], classes: Iterable[type[Any]]) -> Iterator[Mention]:
+        """The names among arguments of some kinds; a lesson begins `from` a skill."""
+        wanted = {each.key: each.type for cls in classes for each in arguments(cls)}
+        for key, value in ((each.key.text, each.value) for each in written):
+            match value, wanted.get(key):
+                case Name(), Noun(noun="thing"):
+                    yield Mention("thing", value, self.by)
+                case Name(), Noun(noun="sensor"):
+                    yield from self.first_declared(value, *READABLE_NOUNS)
+                case Name(), Quantity():
+                    yield from self.first_declared(value, "number")
+                case Name(), None if key == "from":
+                    yield from self.first_declared(value, "skill")

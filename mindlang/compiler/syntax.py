@@ -145,7 +145,8 @@ class When(Struct, frozen=True):
     @property
     def expressions(self) -> tuple[Expression, ...]:
         """Both sides of every comparison."""
-        return tuple(side for all_ in self.alternatives for each in all_ for side in (each.left, each.right))
+        compared = of_form((each for all_ in self.alternatives for each in all_), Comparison)
+        return tuple(side for each in compared for side in (each.left, each.right))
 
 
 class Gate(Struct, frozen=True):
