@@ -4,7 +4,7 @@ from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from mindrun.kinds.registry import arguments, kinds
+from mindrun.kinds.registry import arguments, find_kind, kinds
 from mindrun.kinds.variation import VARIED_NOUNS
 from mindrun.numbers.quantity import Quantity
 from mindrun.numbers.quantity import Reference as Noun
@@ -146,7 +146,7 @@ class _Reader:
 
     def phrase(self, noun: str, phrase: Phrase | None) -> Iterator[Mention]:
         """The names among the arguments of a kind."""
-        if phrase and (cls := kinds(noun).get(phrase.kind.text)):
+        if phrase and phrase.arguments and (cls := find_kind(noun, phrase.kind.text)):
             yield from self.arguments(phrase.arguments, [cls])
 
     def arguments(self, written: Iterable[Argument], classes: Iterable[type[Any]]) -> Iterator[Mention]:
