@@ -7,7 +7,7 @@ from benchmarks.shapes import SHAPES
 
 LINES, WORDS = 40, 160  # a line of a few words is explained otherwise than a long one
 FEW_CALLS = 1000
-FEW = ("skills that nobody reaches", "one sensor again", "things not there")
+FEW = ("skills that nobody reaches", "things not there")
 ALL = [pytest.param(shape, marks=() if shape in FEW else pytest.mark.slow) for shape in SHAPES]
 ALLOWED = {
     ("actuators", "prove"),  # bounds are proved of each actuator through each skill
