@@ -205,10 +205,9 @@ ROOMS = {
     ),
     "beginnings": Room(
         (
-            *(f"mindlang/compiler/{name}.py" for name in ("beginning", "resolve/places", "resolve/decided")),
-            *(f"mindlang/lint/{name}.py" for name in ("drawn_world", "floor")),
-            *(f"mindlang/lint/rules/{name}.py" for name in ("chance_meeting", "nothing_drawn", "paid_at_once")),
-            *(f"mindlang/lint/rules/{name}.py" for name in ("walled_off", "wall_on_the_way", "standing_learner")),
+            *(f"mindlang/compiler/{name}.py" for name in ("beginning", "resolve/worlds")),
+            *(f"mindlang/lint/rules/{name}.py" for name in ("chance_meeting", "crowded_world", "nothing_drawn")),
+            *(f"mindlang/lint/rules/{name}.py" for name in ("paid_at_once", "walled_off", "wall_on_the_way", "standing_learner")),
         ),
         (
             "tests/lint/test_floor.py",

@@ -12,7 +12,7 @@ from mindrun.kinds.functions.function import Function
 from mindrun.kinds.functions.mlp import Mlp
 from mindrun.train import RunError
 
-from mindlang.compiler.counterparts import counterparts
+from mindlang.compiler.resolve.curricula import counterparts
 from mindlang.lock import read_lock
 from mindlang.lock.arrange import arrange
 from mindlang.training.lesson_choice import TrainOptions, chosen_lessons
