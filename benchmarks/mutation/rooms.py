@@ -248,7 +248,7 @@ ROOMS = {
                     "numbers/short_repr",
                 )
             ),
-            *(f"mindlang/{name}.py" for name in ("lint/intervals", "run/paired_difference", "robot/speed")),
+            *(f"mindlang/{name}.py" for name in ("lint/intervals", "run/paired_difference", "robot/claims")),
             *(f"mindlang/lint/rules/{name}.py" for name in ("zero_division", "direction_as_number", "coarse_tick")),
         ),
         (

@@ -11,9 +11,8 @@ import click
 if TYPE_CHECKING:
     from mindrun.graph.bundle import Bundle
 
-    from mindlang.robot.deployment import DeployResult, Settings
+    from mindlang.robot.deployment import DeployResult, ReleaseState, Settings
     from mindlang.robot.remote import RemoteRobot
-    from mindlang.robot.remote_state import ReleaseState
 
 EXAMPLES = """\b
 Examples:
@@ -62,9 +61,8 @@ def command(
     from mindrun.errors import MindError
 
     from mindlang.cli._terminal import INTERRUPTED, fail
-    from mindlang.robot.checks import check_host, check_tools
     from mindlang.robot.deployment import Settings
-    from mindlang.robot.remote import connected
+    from mindlang.robot.remote import check_host, check_tools, connected
 
     path, host = _path_and_host(words, rollback or as_list)
     if (rollback and as_list) or (arm_service and no_service):
@@ -105,37 +103,36 @@ def _checked(path: Path, settings: Settings) -> Bundle:
     from mindrun.graph.bundle import read_bundle
 
     from mindlang.cli._terminal import MISUSE, fail
-    from mindlang.robot.checks import check_procedures, check_wired
+    from mindlang.robot.release import check_deployable
 
     try:
         bundle = read_bundle(path)
     except BundleError as error:
         fail(str(error), error.hint or "mindc build writes one.", MISUSE)
-    check_procedures(bundle)
-    if settings.service:
-        check_wired(bundle)
+    check_deployable(bundle, settings.service)
     return bundle
 
 
 def _do(
     robot: RemoteRobot, path: Path | None, bundle: Bundle | None, settings: Settings, dry_run: bool, quiet: bool
 ) -> DeployResult:
-    from mindlang.robot.deployment import deploy, roll_back
+    from mindlang.robot.deployment import Deployment
 
     def report(message: str) -> None:
         if not quiet:
             click.echo(message, err=True)
 
+    deployment = Deployment(robot, settings, report, dry_run)
     if path is None or bundle is None:
-        return roll_back(robot, settings, report, dry_run)
-    return deploy(robot, path, bundle, settings, datetime.now(UTC), report, dry_run)
+        return deployment.roll_back()
+    return deployment.deploy(path, bundle, datetime.now(UTC))
 
 
 def _list(robot: RemoteRobot, as_json: bool) -> None:
     from mindrun.files.printable import visible
 
     from mindlang.cli._terminal import print_json
-    from mindlang.robot.remote_state import read_state
+    from mindlang.robot.deployment import read_state
 
     state = read_state(robot)
     if as_json:

@@ -17,6 +17,6 @@ def command() -> None:
     With every driver that is installed, and its options.
     """
     from mindlang.cli._terminal import print_json
-    from mindlang.robot.schema import schema
+    from mindlang.robot.options import schema
 
     print_json(schema())
