@@ -95,17 +95,14 @@ def wired(noun: str, name: Scalar, table: Table, findings: Findings) -> Wired | 
     try:
         made, timing = cls.make(**values)
     except BrokenDriverError as error:
-        return _broken(driver, error, findings)
+        findings.error("broken-driver", driver.span, f"{error}.", error.hint)
+        return None
     except (MindError, ValueError) as error:
         hint = getattr(error, "hint", "") or f"Look at the options of {driver.text} in docs/drivers.md."
         findings.error("impossible-driver", driver.span, f"{driver.text} cannot be wired so: {error}.", hint)
         return None
     every = {option.field: values.get(option.field, option.default) for option in cls.options}
     return Wired(name, table, noun, made, timing, own_values, cls.options, every)
-
-
-def _broken(name: Scalar, error: BrokenDriverError, findings: Findings) -> None:
-    findings.error("broken-driver", name.span, f"{error}.", error.hint)
 
 
 def _check_keys(
@@ -183,7 +180,8 @@ def _own_class(noun: str, name: Scalar, findings: Findings) -> DriverClass | Non
             return None
         answer = _ask(code, noun, None)
     except BrokenDriverError as error:
-        return _broken(name, error, findings)
+        findings.error("broken-driver", name.span, f"{error}.", error.hint)
+        return None
     if "absent" in answer:
         hint = f"Write it there: a frozen dataclass {cls} with a method open."
         if known := [f"{file}.{each}" for each in answer["absent"]]:
