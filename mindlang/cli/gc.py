@@ -25,7 +25,7 @@ def command(folder: Path, write: bool, as_json: bool) -> None:
     """
     from mindlang.cli._terminal import MISUSE, OK, console, fail, print_json
     from mindlang.lock import LockError
-    from mindlang.lock.garbage import remove, unnamed
+    from mindlang.lock.blobs import remove, unnamed
 
     if not folder.is_dir():
         fail(f"{folder} is not a folder.", code=MISUSE)

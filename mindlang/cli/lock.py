@@ -37,8 +37,7 @@ def merge(base: Path, ours: Path, theirs: Path, name: str) -> None:
 
     from mindlang.cli._terminal import MISUSE, fail, write_file
     from mindlang.compiler.diagnostic import listed
-    from mindlang.lock import LockError, read_lock
-    from mindlang.lock.merging import merge
+    from mindlang.lock import LockError, merge, read_lock
 
     try:
         # git has an empty file where the branches have no lock in common

@@ -96,7 +96,7 @@ def _refuse_unknown(graph: Graph, skills: Sequence[str]) -> None:
 def _accept(graph: Graph, sources: Sequence[Path], skills: Sequence[str]) -> None:
     from mindlang.cli._terminal import MISUSE, fail
     from mindlang.lock import LockError
-    from mindlang.lock.accept import accept
+    from mindlang.lock.report import accept
 
     if not skills:
         fail("--accept needs the skills whose weights will do.", "Name them: --accept Avoid Collect", MISUSE)

@@ -24,8 +24,8 @@ from mindlang.editing.project import EditError, MindChange, Project, Renamed, Re
 from mindlang.editing.summary import broken_sentences, summarise
 from mindlang.editing.writing import changed_locks
 from mindlang.lock import Lock, lock_sources, lock_text
-from mindlang.lock.arrange import arrange
 from mindlang.lock.blobs import FOLDER, exclusive_folder
+from mindlang.lock.signature import arrange
 from mindlang.lock.status import Trained, status
 from mindlang.server.navigating import sharing
 from mindlang.server.workspace import MindView, Workspace

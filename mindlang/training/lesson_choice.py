@@ -10,7 +10,7 @@ from mindrun.train import NotFoundError, RunError
 
 from mindlang import limits
 from mindlang.compiler.diagnostic import did_you_mean, listed
-from mindlang.lock.lessons import needed_skills
+from mindlang.lock.status import needed_skills
 
 BOUNDS = {
     "generations": limits.GENERATION_BOUNDS,

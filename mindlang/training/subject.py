@@ -17,10 +17,8 @@ from mindlang.compiler.compile import Compiled
 from mindlang.compiler.diagnostic import listed
 from mindlang.limits import as_seed
 from mindlang.lock import Lock, lock_path, lock_sources, read_lock, read_locks
-from mindlang.lock.arrange import arrange
-from mindlang.lock.due import is_due
-from mindlang.lock.lessons import needed_skills, subskills
-from mindlang.lock.status import Status, Trained, status, trained_weights
+from mindlang.lock.signature import arrange
+from mindlang.lock.status import Status, Trained, is_due, needed_skills, status, subskills, trained_weights
 from mindlang.training.origin import origin_weights
 
 

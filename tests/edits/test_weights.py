@@ -24,9 +24,9 @@ from mindlang.editing.project import EditError, MindChange, open_project
 from mindlang.editing.summary import summarise
 from mindlang.editing.writing import write
 from mindlang.lock import lock_path, read_lock, write_lock
-from mindlang.lock.arrange import arrange
 from mindlang.lock.blobs import FOLDER, blob
 from mindlang.lock.ready import make_ready
+from mindlang.lock.signature import arrange
 from mindlang.lock.status import NotLearning, Stale, Trained, Untaught
 from tests.draws import cases
 from tests.edits.taught import MIND, statuses, teach, write_mind

@@ -24,7 +24,7 @@ from mindlang.editing.insertion import (
 )
 from mindlang.editing.owners import owners
 from mindlang.editing.project import EditError, MindChange, Project, facts
-from mindlang.lock.lessons import needed_skills
+from mindlang.lock.status import needed_skills
 
 
 def add(
