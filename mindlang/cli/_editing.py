@@ -18,11 +18,10 @@ from mindlang.cli._terminal import (
     talk,
 )
 from mindlang.compiler.diagnostic import Diagnostic, listed
-from mindlang.editing.apply import Edited, apply_edit
+from mindlang.editing.apply import Edited, apply_edit, write
 from mindlang.editing.edits import Edit
 from mindlang.editing.project import EditError, open_project
 from mindlang.editing.summary import broken_sentences, diff, not_followed, summarise
-from mindlang.editing.writing import changed_locks, write
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,7 +85,7 @@ def _show(edited: Edited, sentences: list[str], options: EditOptions) -> None:
 
 def _ending(edited: Edited, is_written: bool) -> str:
     """Which files are written, or would be."""
-    locks = [path.name for path in changed_locks(edited)]
+    locks = [path.name for path in edited.changed_locks]
     if is_written:
         return f"written: {listed([*(path.name for path in edited.texts), *locks], 'and')}"
     also = f", and changes {listed(locks, 'and')} as well" if locks else ""

@@ -6,7 +6,6 @@ and saved again takes the lock back, too.
 """
 
 from collections.abc import Mapping, Sequence
-from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -20,11 +19,9 @@ from mindlang.editing import transaction
 from mindlang.editing.apply import apply_edit
 from mindlang.editing.edits import Edit, edit, names
 from mindlang.editing.lock_update import Locks, locks_of, merged, update_locks
-from mindlang.editing.project import EditError, MindChange, Project, Renamed, Replaced
+from mindlang.editing.project import EditError, MindChange, Project, Renamed, Replaced, project_alone
 from mindlang.editing.summary import broken_sentences, summarise
-from mindlang.editing.writing import changed_locks
 from mindlang.lock import Lock, lock_sources, lock_text
-from mindlang.lock.blobs import FOLDER, exclusive_folder
 from mindlang.lock.signature import arrange
 from mindlang.lock.status import Trained, status
 from mindlang.server.navigating import sharing
@@ -62,8 +59,8 @@ def project(workspace: Workspace, view: MindView) -> Project:
     if view.compiled.graph is None:
         first = next(each for each in view.compiled.diagnostics if each.severity == "error")
         raise EditError(f"{view.main.name} has to compile first. {first.message}", first.hint, first.span)
-    shared = (_project(other) for other in sharing(workspace, view) if other.compiled.graph)
-    return replace(_project(view), neighbours=tuple(shared))
+    shared = (project_alone(other.compiled) for other in sharing(workspace, view) if other.compiled.graph)
+    return replace(project_alone(view.compiled), neighbours=tuple(shared))
 
 
 def proposed(project: Project, name: str, arguments: Mapping[str, Any]) -> MindChange:
@@ -83,20 +80,13 @@ def perform(workspace: Workspace, path: Path, name: str, arguments: Mapping[str,
     if broken := broken_sentences(edited):
         raise EditError(f"After this edit {broken[0]}", "mindc edit --anyway makes it nevertheless.")
     sentences = summarise(edited)
-    locks = [lock.name for lock in changed_locks(edited)]
+    locks = [lock.name for lock in edited.changed_locks]
     if not locks or not (change.renamed or change.replaced):
         return EditOutcome(change, tuple(sentences), None)
     sentences.append(f"{listed(locks, 'and')} will follow when the files are saved")
-    minds = (on, *on.neighbours)
-    files = dict.fromkeys(path for mind in minds for path in mind.paths)
-    mains = tuple(mind.main.source.path for mind in minds)
+    files = dict.fromkeys(path for mind in on.minds for path in mind.paths)
+    mains = tuple(mind.main.source.path for mind in on.minds)
     return EditOutcome(change, tuple(sentences), PendingRename(mains, tuple(files), change.renamed, change.replaced))
-
-
-def _project(view: MindView) -> Project:
-    assert view.compiled.mind is not None
-    assert view.compiled.graph is not None
-    return Project(view.compiled.mind, view.compiled.graph)
 
 
 def _checked_arguments(of: Edit, arguments: Mapping[str, Any]) -> dict[str, Any]:
@@ -121,8 +111,12 @@ def _value(value: Any, is_many: bool, is_flag: bool) -> Any:
 def _as_open(project: Project, change: MindChange, workspace: Workspace) -> MindChange:
     """The change with an empty splice for each open file that it leaves alone, so that this is held against, too."""
     touched = {splice.source.path for splice in change.splices}
-    minds = (*project.neighbours, project)
-    open_ = {path: file.source for mind in minds for path, file in mind.paths.items() if path in workspace.texts}
+    open_ = {
+        path: file.source
+        for mind in reversed(project.minds)
+        for path, file in mind.paths.items()
+        if path in workspace.texts
+    }
     idle = (Splice(source, 0, 0, "") for path, source in open_.items() if path not in touched)
     return replace(change, splices=(*change.splices, *idle))
 
@@ -183,9 +177,6 @@ def _write(before: Locks, now: Locks) -> None:
             if locks_of([path])[path] != before[path]:
                 raise EditError(f"{path.name} has been changed meanwhile.", "Save once more.")
 
-    with ExitStack() as stack:
-        for folder in sorted({path.parent / FOLDER for path in now}):
-            stack.enter_context(exclusive_folder(folder))
-        for folder in sorted({path.parent for path in now}):
-            files = {path: lock_text(lock).encode() for path, lock in now.items() if path.parent == folder}
-            transaction.change(folder, files, refuse_changed)
+    with transaction.no_training(now):
+        files = {path: lock_text(lock).encode() for path, lock in now.items()}
+        transaction.change(transaction.common_folder(files), files, refuse_changed)

@@ -9,7 +9,7 @@ from pathlib import Path
 from mindrun.sim.outside import making
 
 from mindlang.compiler.syntax import NOUNS, SETTINGS
-from mindlang.editing.owners import OWNERS
+from mindlang.editing.insertion import OWNERS
 from mindlang.explaining.words import language_words
 from mindlang.files import files_below
 from mindlang.server.facts import FACTS, CursorLine

@@ -20,9 +20,9 @@ from mindlang.editing.insertion import (
     commented,
     declare,
     number_lines,
+    owners,
     text_of,
 )
-from mindlang.editing.owners import owners
 from mindlang.editing.project import EditError, MindChange, Project, facts
 from mindlang.lock.status import needed_skills
 

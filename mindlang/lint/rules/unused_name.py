@@ -5,8 +5,7 @@ use may be there for them.
 """
 
 from mindlang.compiler.diagnostic import Fix
-from mindlang.editing.insertion import without_declarations
-from mindlang.editing.lines import first_line, remove_lines
+from mindlang.editing.insertion import first_line, remove_lines, without_declarations
 from mindlang.lint.study import Finding, Found, Study
 
 ELSEWHERE = True
