@@ -12,10 +12,12 @@ from mindrun.errors import MindError
 from pygls.exceptions import JsonRpcException
 from pygls.lsp.server import LanguageServer
 
+from mindlang.breakpoints.resolve import breakpoints_of
+from mindlang.breakpoints.subject import subject_of_mind
 from mindlang.compiler.diagnostic import Diagnostic, listed
+from mindlang.compiler.source import Source
 from mindlang.server.changing import EditOutcome, PendingRename, keep_up, perform
 from mindlang.server.lsp_types import LspConverter
-from mindlang.server.stops import stop_findings
 from mindlang.server.workspace import MindView, Workspace, are_breakpoints
 
 Report = tuple[int | None, list[types.Diagnostic]]
@@ -72,7 +74,10 @@ class Session:
         return {path: _first(path, mistakes.get(path, [*each.values()])) for path, each in found.items()}
 
     def _stop_findings(self, path: Path) -> list[Diagnostic]:
-        return [*stop_findings(path, self.workspace.text(path), self.workspace.view(path))]
+        """What is wrong with a file of breakpoints; no names are looked for in a mind that does not compile."""
+        mind = self.workspace.view(path).compiled
+        subject = subject_of_mind(mind) if mind.graph else None
+        return [*breakpoints_of(Source(str(path), self.workspace.text(path), path.parent), subject).diagnostics]
 
     def follow(self, following: PendingRename | None) -> None:
         """Let locks follow an edit once its files are saved."""
