@@ -189,13 +189,17 @@ def units_of(parameter: Argument) -> list[Offer]:
 
 def varying_parts(view: MindView, task: Declaration | None) -> Iterator[tuple[Offer, list[Argument]]]:
     """What has arguments that can differ from run to run, and which: parts of the robot, things of a task."""
-    parts = [(noun, offer) for noun in VARIED_NOUNS for offer in names(view, noun)]
-    parts += [("content", thing) for thing in things(view, task, kinds("content"))]
-    for noun, offer in parts:
-        phrase = view.names.table[noun][offer.label].header.phrase if noun != "content" else None
-        of = {phrase.kind.text} if phrase else set(offer.detail.split()) if noun == "content" else set()
-        classes = [cls for name, cls in kinds(noun).items() if name in of]
-        yield offer, [each for cls in classes for each in arguments(cls) if each.field in cls.varying]
+    for noun in VARIED_NOUNS:
+        for part in names(view, noun):
+            phrase = view.names.table[noun][part.label].header.phrase
+            yield part, _varying(noun, phrase.kind.text if phrase else "")
+    for thing in things(view, task, kinds("content")):
+        yield thing, _varying("content", *thing.detail.split())
+
+
+def _varying(noun: str, *of: str) -> list[Argument]:
+    classes = [cls for name, cls in kinds(noun).items() if name in of]
+    return [each for cls in classes for each in arguments(cls) if each.field in cls.varying]
 
 
 def values(view: MindView, rest: Sequence[str], readings: Sequence[Offer]) -> list[Offer]:
