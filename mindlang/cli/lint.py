@@ -80,7 +80,6 @@ def command(files: tuple[str, ...], fix: bool, select: tuple[str, ...], ignore: 
 
 def _settings(file: str) -> LintSettings:
     """The settings that count for a file; what is wrong in them ends the program."""
-    from mindlang.lint.settings_file import settings_of
     from mindlang.cli._diagnostic_printer import print_report
     from mindlang.cli._terminal import MISUSE, console
     from mindlang.lint.settings import settings_of
@@ -94,7 +93,6 @@ def _settings(file: str) -> LintSettings:
 
 def _codes(said: Sequence[str]) -> list[str]:
     """The codes of an option; one that is none ends the program."""
-    from mindlang.lint.settings_file import why_no_rule
     from mindlang.cli._terminal import MISUSE, fail
     from mindlang.lint.settings import why_no_rule
 

@@ -17,8 +17,7 @@ from mindrun.train.seeds import Purpose, Seeds, layouts
 from mindlang.compiler.diagnostic import listed
 from mindlang.lock import LockError, Taught, read_lock
 from mindlang.lock.blobs import record
-from mindlang.lock.lessons import key_of
-from mindlang.lock.status import Trained, trained_weights
+from mindlang.lock.status import Trained, key_of, trained_weights
 from mindlang.lock.world_facts import Worlds
 from mindlang.number_format import number
 from mindlang.training.subject import Subject, origin_of

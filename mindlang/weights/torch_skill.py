@@ -18,7 +18,7 @@ from torch import Tensor, nn
 from torch.autograd import Function
 
 from mindlang.lock import lock_sources, read_locks
-from mindlang.lock.arrange import arrange
+from mindlang.lock.signature import arrange
 from mindlang.lock.status import trained_weights
 from mindlang.weights.network import Network, load_genome, network_of, save_genome
 

@@ -14,7 +14,7 @@ from mindrun.train import RunError
 
 from mindlang.compiler.resolve.curricula import counterparts
 from mindlang.lock import read_lock
-from mindlang.lock.arrange import arrange
+from mindlang.lock.signature import arrange
 from mindlang.training.lesson_choice import TrainOptions, chosen_lessons
 from mindlang.training.subject import origin_weights
 from tests.draws import cases

@@ -5,8 +5,8 @@ from pathlib import Path
 import pytest
 from mindrun.errors import MindError
 
+from mindlang.executors.dask import Destination, destination, flaw_of
 from mindlang.executors.jobs import WorkError
-from mindlang.executors.scheduler import Destination, address_of, destination, flaw_of
 
 FILES = {
     "open.json": b'{"address": "tcp://10.1.2.3:8786"}',
@@ -43,7 +43,7 @@ def files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 )
 def test_an_address_to_which_there_is_a_safe_way(argument: str, address: str) -> None:
     assert flaw_of(argument) == ""
-    assert address_of(destination(argument)) == address
+    assert destination(argument).address() == address
 
 
 def test_behind_the_comma_stands_how_it_is_reached() -> None:
@@ -89,7 +89,7 @@ def test_what_is_no_address_is_refused(argument: str, words: str) -> None:
 def test_where_there_is_no_safe_way_it_is_said(argument: str, words: str) -> None:
     assert flaw_of(argument) == ""
     with pytest.raises(WorkError) as error:
-        address_of(destination(argument))
+        destination(argument).address()
     assert words in str(error.value)
     assert isinstance(error.value, MindError)
     assert error.value.hint
