@@ -32,7 +32,7 @@ SHORT_CONSTANTS = {  # that are numbers of one word
     "runtime/mindrun/robot/drivers/grove_motor.py": "commands, as the data sheet calls them",
     "runtime/mindrun/robot/drivers/mpu6050.py": "registers and bits, as the data sheet calls them",
     "runtime/mindrun/robot/drivers/pca9685.py": "registers and bits, as the data sheet calls them",
-    "runtime/mindrun/robot/vl53l0x.py": "registers and bits, as the data sheet calls them",
+    "runtime/mindrun/robot/drivers/vl53l0x.py": "registers and bits, as the data sheet calls them",
     "runtime/mindrun/numbers/trigonometry.py": "the coefficients of Cody and Waite, in their order",
     "runtime/mindrun/numbers/arithmetic.py": "rows of a thing and lanes of a vector, which kinds name in every loop",
     "runtime/mindrun/sim/codes.py": "the codes of the tables, in the words of the language",

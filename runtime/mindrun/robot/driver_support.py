@@ -1,16 +1,20 @@
-"""What drivers share: quantities of their options, packages imported when needed, and I2C transfers that always end."""
+"""What drivers share: quantities of their options, packages imported when needed, GPIO pins, and chips on I2C buses.
+
+Every I2C transfer ends, in an answer or an error.
+"""
 
 import os
 import warnings
-from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass, field
 from importlib import import_module
+from struct import calcsize, unpack
 from threading import RLock
 from time import monotonic, sleep
-from typing import Any, Protocol
+from typing import Any, Literal, Protocol, TypeVar, get_args
 
-from mindrun.driver import DeviceError
+from mindrun.driver import ActuatorDevice, DeviceError, SensorDevice
 from mindrun.numbers.quantity import Quantity, Reference
 
 PIN = Quantity("a GPIO number", {"": 1.0}, low=0, high=27, whole=True)  # as Broadcom counts, not as the header does
@@ -24,14 +28,19 @@ PWM_HERTZ = Quantity("a rate of pulses", {"Hz": 1.0, "kHz": 1000.0}, low=10.0, h
 DEGREES = Quantity("an angle", {"deg": 1.0}, low=-360.0, high=360.0)
 PATH = Reference("path")
 SWITCH = Reference("switch", ("true", "false"))
+Face = Literal["up", "down"]
+FACE = Reference("face", get_args(Face))
+Pull = Literal["up", "down"]
+PULL = Reference("pull", get_args(Pull))
 
 INSTALL = "pip install 'mindrun[robot]'"
 INSTALL_PINS = "sudo apt install python3-lgpio, or in a virtual environment: pip install lgpio"
 MAX_TRIES = 3
-RETRY_SECONDS = 0.002  # between two tries
+RETRY_SECONDS = 0.002  # between two tries, and between two questions to a chip whether it is done
 TRANSFER_SECONDS = 0.1  # seconds after which a transfer that failed is not tried again
 I2C_BYTE_SECONDS = 9 / 100_000  # seconds of a byte with its acknowledgement, at the usual 100 kHz
 I2C_TIMEOUT, KERNEL_TICKS = 0x0702, 5  # <linux/i2c-dev.h>; in units of 10 ms: for how long a part may hold the clock
+Open = TypeVar("Open", bound=SensorDevice | ActuatorDevice)
 
 
 def library(module: str, install: str = INSTALL) -> Any:
@@ -52,6 +61,30 @@ def share(value: float) -> float:
     return float(value)
 
 
+def answering(device: Open, ask: Callable[[], object]) -> Open:
+    """A device that was just opened, once it has answered; where it does not, it is closed again."""
+    try:
+        ask()
+    except Exception:
+        device.close()
+        raise
+    return device
+
+
+class Ranging:
+    """What the drivers of range finders have in common: metres, from touching to clear within the `range`."""
+
+    __slots__ = ()
+    range: float
+    unit = "m"
+
+    @property
+    def usual(self) -> tuple[float, float]:
+        return 0.0, self.range
+
+    possible = usual
+
+
 @contextmanager
 def pins(what: str) -> Iterator[None]:
     """A context in which every error of GPIO pins becomes a DeviceError."""
@@ -61,6 +94,58 @@ def pins(what: str) -> Iterator[None]:
         raise
     except Exception as error:  # gpiozero's, lgpio's and RPi.GPIO's errors have nothing else in common
         raise DeviceError(f"{what}: {error}", INSTALL_PINS) from error
+
+
+def open_pins(*parts: tuple[str, str, Mapping[str, Any]]) -> list[Any]:
+    """For each part, which is what messages call it, a class of gpiozero, and its arguments, the object; or no pin."""
+    gpiozero = library("gpiozero")
+    with ExitStack() as opened:
+        made = []
+        for what, name, arguments in parts:
+            with pins(f"{what} cannot be opened"):
+                made.append(opened.enter_context(getattr(gpiozero, name)(**arguments)))
+        opened.pop_all()
+    return made
+
+
+@dataclass(frozen=True, slots=True)
+class InputPins:
+    """A sensor of inputs of gpiozero, a reading of each; `what` is wired to them."""
+
+    what: str
+    inputs: list[Any]
+
+    def read(self) -> tuple[float, ...]:
+        """The value of each: 1 for one that is active, else 0; of analogue ones a share of the reference."""
+        with pins(f"{self.what} cannot be read"):
+            return tuple(float(each.value) for each in self.inputs)
+
+    def close(self) -> None:
+        for each in self.inputs:
+            each.close()
+
+
+def digital_inputs(what: str, numbers: tuple[int, ...], **options: Any) -> InputPins:
+    """The pins of these numbers as inputs, all with these `options` of gpiozero's DigitalInputDevice."""
+    parts = ((f"{what} on GPIO {number}", "DigitalInputDevice", {"pin": number, **options}) for number in numbers)
+    return InputPins(what, open_pins(*parts))
+
+
+@dataclass(frozen=True, slots=True)
+class OutputPin:
+    """An actuator that is one output of gpiozero, whose value for a command 0 is `low`, and 1 for 1."""
+
+    what: str
+    output: Any
+    low: float = 0.0
+
+    def write(self, value: float) -> None:
+        command = share(value)
+        with pins(f"{self.what} cannot be driven"):
+            self.output.value = self.low + command * (1 - self.low)
+
+    def close(self) -> None:
+        self.output.close()
 
 
 class Bus(Protocol):
@@ -144,6 +229,10 @@ class I2cDevice:
         """Read from a register on."""
         return self.transfer(bytes((register,)), count)
 
+    def byte(self, register: int) -> int:
+        """What one register holds."""
+        return self.read(register, 1)[0]
+
     def transfer(self, out: bytes, count: int = 0) -> bytes:
         """Write, then read."""
         if self.closed:
@@ -162,6 +251,15 @@ class I2cDevice:
             sleep(RETRY_SECONDS)
         raise self.error(f"does not answer: {failure}")
 
+    def wait(self, register: int, bits: int, seconds: float, problem: str, count: int = 1) -> int:
+        """What a register of `count` bytes holds once one of these bits is set; DeviceError of the problem if late."""
+        begin = monotonic()
+        while not (found := int.from_bytes(self.read(register, count), "big")) & bits:
+            if monotonic() - begin > seconds:
+                raise self.error(problem)
+            sleep(RETRY_SECONDS)
+        return found
+
     def error(self, what: str) -> DeviceError:
         """An error that says which part it is about, and how to look for it."""
         return DeviceError(
@@ -175,3 +273,77 @@ class I2cDevice:
             self.closed = True
             with suppress(OSError):
                 self.bus.close()
+
+
+@dataclass(slots=True)
+class MeasuringChip:
+    """A chip that measures again and again: the registers that say who it is, set it up, and have what it measured."""
+
+    wire: I2cDevice
+    model: str
+    identity: tuple[int, int]  # a register, and what it holds in this model
+    settings: tuple[tuple[int, int], ...]  # registers, and what makes it measure
+    status: tuple[int, int, int]  # a register, its bit for a new value, and those that are never set
+    out: int
+    layout: str  # of what is at `out`, as struct has it
+    seconds: float  # until a new value must be there
+    limit: int = 32767  # counts from which on it measures more than it can
+    ready: bool = False
+
+    def measure(self) -> tuple[int, ...]:
+        """The next value that was not read before, in counts."""
+        try:
+            self.identify()
+            if not self.ready:
+                self.prepare()
+                self.ready = True
+            self.wait()
+            counts = self.taken()
+        except Exception:
+            self.ready = False  # after a brown-out it has to be set up again
+            raise
+        if max(map(abs, counts)) >= self.limit:
+            raise self.wire.error("measures more than it can")
+        return counts
+
+    def identify(self) -> None:
+        """DeviceError where something else answers, or a line is stuck: any counts could be a measurement."""
+        register, expected = self.identity
+        if (found := self.wire.byte(register)) != expected:
+            raise self.wire.error(f"is no {self.model} (it says 0x{found:02x}, not 0x{expected:02x})")
+
+    def prepare(self) -> None:
+        """Write the registers that make it measure."""
+        for register, value in self.settings:
+            self.wire.write(register, value)
+
+    def wait(self) -> None:
+        """Return when there is a new value: a chip that has stopped must not look like a robot that has."""
+        register, fresh, never = self.status
+        found = self.wire.wait(register, fresh, self.seconds, "does not measure anything new")
+        if found & never:
+            raise self.wire.error(f"has an impossible status (0x{found:02x})")
+
+    def taken(self) -> tuple[int, ...]:
+        """Read what has been measured."""
+        return unpack(self.layout, self.wire.read(self.out, calcsize(self.layout)))
+
+
+@dataclass(frozen=True, slots=True)
+class ChipDevice:
+    """A measuring chip as a sensor of one reading: `value` converts its counts."""
+
+    chip: MeasuringChip
+    value: Callable[[tuple[int, ...]], float]
+
+    def read(self) -> tuple[float]:
+        return (self.value(self.chip.measure()),)
+
+    def close(self) -> None:
+        self.chip.wire.close()
+
+
+def open_chip(chip: MeasuringChip, value: Callable[[tuple[int, ...]], float]) -> ChipDevice:
+    """A chip as a device, once it has measured."""
+    device = ChipDevice(chip, value)
+    return answering(device, device.read)

@@ -44,7 +44,7 @@ def test_pins_that_nobody_can_drive_say_what_to_install(monkeypatch: pytest.Monk
     def nothing(pin: int, pull_up: bool) -> None:
         raise gpiozero.BadPinFactory("Unable to load any default pin factory!")
 
-    monkeypatch.setattr(gpiozero, "Button", nothing)
+    monkeypatch.setattr(gpiozero, "DigitalInputDevice", nothing)
     with pytest.raises(DeviceError, match="GPIO 17 cannot be opened") as caught:
         Switch(17).open()
     assert "python3-lgpio" in caught.value.hint

@@ -9,7 +9,7 @@ from typing import Annotated
 from mindrun.driver import DeviceError
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import Quantity
-from mindrun.robot.driver_support import ADDRESS, BUS, I2C_BYTE_SECONDS, I2cDevice, on_bus, share
+from mindrun.robot.driver_support import ADDRESS, BUS, I2C_BYTE_SECONDS, I2cDevice, answering, on_bus, share
 
 MOTOR = Quantity("a motor of the board", {"": 1.0}, low=1, high=2, whole=True)
 SPEED, FREQUENCY, DIRECTION = 0x82, 0x84, 0xAA
@@ -57,6 +57,9 @@ class Board:
             self.send(SPEED, *(abs(value) for value in wanted))
             self.speeds = wanted
 
+    def close(self) -> None:
+        self.wire.close()
+
     def send(self, *command: int) -> None:
         """Send a command when the board is done with the one before."""
         sleep(max(0.0, self.free_at - monotonic()))
@@ -91,7 +94,7 @@ class MotorDevice:
         with _opening:
             self.board.users -= 1
             if not self.board.users:
-                self.board.wire.close()
+                self.board.close()
                 _boards.pop((self.board.wire.number, self.board.wire.address), None)
 
 
@@ -114,20 +117,14 @@ class GroveMotor:
 
     @property
     def device(self) -> str:
-        """What only one process may drive."""
         return on_bus(self.bus, self.address)
 
     def open(self) -> MotorDevice:
         """The motor; the first that is opened stops both."""
         key = (self.bus, self.address)
         with _opening:
-            board = _boards.get(key) or Board(I2cDevice("the motor board", self.bus, self.address))
-            if not board.users:
-                try:
-                    board.start()
-                except Exception:
-                    board.wire.close()
-                    raise
-            board.users += 1
-            _boards[key] = board
-        return MotorDevice(board, self.motor - 1)
+            if key not in _boards:
+                board = Board(I2cDevice("the motor board", self.bus, self.address))
+                _boards[key] = answering(board, board.start)
+            _boards[key].users += 1
+        return MotorDevice(_boards[key], self.motor - 1)
