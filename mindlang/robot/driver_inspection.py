@@ -15,8 +15,7 @@ from typing import Any
 
 from mindrun.errors import MindError
 from mindrun.numbers.quantity import NUMBER, Quantity
-from mindrun.robot.driver_code import DriverCode, load_class
-from mindrun.robot.drivers.own import decoded
+from mindrun.robot.drivers.own import DriverCode, decoded, load_class
 
 from mindlang.robot.direction import near_value
 from mindlang.robot.options import DriverOption, driver_options

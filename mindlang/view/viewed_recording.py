@@ -13,8 +13,7 @@ from mindrun.engine.virtual_sensors import virtual_sensors
 from mindrun.graph.bundle import Bundle
 from mindrun.graph.graph import Graph, Task
 from mindrun.graph.recording_header import BOX_COLUMNS, MAX_HEADER_BYTES, About, RecordedWorld
-from mindrun.robot.growing_recording import read_growing
-from mindrun.robot.recording import read
+from mindrun.robot.recording import read, read_growing
 from mindrun.robot.replay import computed_again
 from numpy.typing import NDArray
 

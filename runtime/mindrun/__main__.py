@@ -12,8 +12,7 @@ from contextlib import redirect_stdout
 from math import isnan
 from typing import Any
 
-from mindrun.cli.driving_arguments import driving_parser
-from mindrun.cli.tools import run_tool, tools
+from mindrun.cli import driving_parser, run_tool, tools
 from mindrun.engine.engine import Engine
 from mindrun.errors import MindError, ProcedureError, ReadingsError, surroundings
 from mindrun.files.printable import visible

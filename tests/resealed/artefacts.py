@@ -13,6 +13,7 @@ from time import perf_counter
 from typing import Any
 
 import numpy as np
+from mindrun.cli.report import report
 from mindrun.engine.engine import Engine
 from mindrun.files.archive import write_archive
 from mindrun.files.npy import to_npy
@@ -25,7 +26,6 @@ from mindrun.graph.weights import genes
 from mindrun.robot.guardian import plan
 from mindrun.robot.recording import CHECKSUM_FIELD, About, Recorder
 from mindrun.robot.replay import replay
-from mindrun.robot.timing_report import report
 from mindrun.sim.commanded_world import World
 from mindrun.train import checkpoint
 from mindrun.train.manifest import hashes

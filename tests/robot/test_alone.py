@@ -10,12 +10,12 @@ from pathlib import Path
 
 import pytest
 from mindrun.graph.wiring import ActuatorWire, SensorWire, Wiring, still
-from mindrun.robot.device_locks import DrivenError, claims, hold_devices
 from mindrun.robot.drivers.ball_tracker import BallTracker
 from mindrun.robot.drivers.grove_motor import GroveMotor
 from mindrun.robot.drivers.mock import MockActuator
 from mindrun.robot.drivers.pca9685 import Pca9685
 from mindrun.robot.drivers.simulated import SimulatedActuator
+from mindrun.robot.ownership import DrivenError, claims, hold_devices
 from mindrun.robot.recording import read
 
 from tests.robot.driving import MINDRUN, NAME, begun, children, mindrun, recorded, until, write_procedure

@@ -9,7 +9,7 @@ from pathlib import Path
 from time import sleep
 
 import pytest
-from mindrun.cli.tools.doctor import machine
+from mindrun.cli.doctor import machine
 from mindrun.graph.bundle import Bundle, write_bundle
 from mindrun.graph.policy import Policy
 from mindrun.robot.recording import read
@@ -189,7 +189,7 @@ def test_doctor_says_what_answers(bundle: Path) -> None:
 
 
 def test_what_is_not_there_is_neither_fine_nor_a_fault(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("mindrun.cli.tools.doctor.find_spec", lambda package: None)
+    monkeypatch.setattr("mindrun.cli.doctor.find_spec", lambda package: None)
     marks = {finding.what: (finding.mark.strip(), finding.words) for finding in machine()}
     assert marks["machine"][0] == "ok"
     assert marks["lgpio"] == ("-", "not installed: sudo apt install python3-lgpio")

@@ -15,14 +15,12 @@ from mindrun.engine.engine import Engine
 from mindrun.graph.bundle import Bundle, write_bundle
 from mindrun.graph.policy import Policy
 from mindrun.robot.command import _goes_on
-from mindrun.robot.dry_run import DryRun
+from mindrun.robot.dry_run import DryRun, SeenWorld
 from mindrun.robot.recording import read
 from mindrun.robot.replay import replay_recording
-from mindrun.robot.seen_world import SeenWorld
-from mindrun.robot.simulated_world.scene import SimulatedScene
-from mindrun.robot.simulated_world.server import Server, listening
+from mindrun.robot.world_server import Server, SimulatedScene, listening
 from mindrun.sim.commanded_world import World
-from mindrun.terminal.status_line import StatusLine
+from mindrun.terminal.standard_streams import StatusLine
 
 from mindlang.compiler.compile import load
 from mindlang.view.viewed_recording import viewed_recording
@@ -118,7 +116,7 @@ def test_a_run_whose_recording_never_gets_the_end_ends(rules: Path) -> None:
 
 def test_a_recorder_waits_for_no_world(rules: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """What was answered last is recorded, however long the world is silent, and what it answers then a row later."""
-    monkeypatch.setattr("mindrun.robot.drivers.simulated.EXCHANGE_SECONDS", PATIENCE)
+    monkeypatch.setattr("mindrun.robot.simulated_world.EXCHANGE_SECONDS", PATIENCE)
     graph = load(rules).graph
     assert graph
     world = World(graph, "Roam", 3)

@@ -17,9 +17,9 @@ from mindrun.graph.bundle import Bundle, digest, read_bundle, write_bundle
 from mindrun.graph.policy import Policy
 from mindrun.robot import live_view as live
 from mindrun.robot.drive import DriveOptions, drive
+from mindrun.robot.live_view import mistakes
 from mindrun.robot.loop import Loop
 from mindrun.robot.recording import read
-from mindrun.robot.view_breakpoints import mistakes
 
 from mindlang.view.growing_bytes import remote
 from tests.robot.driving import MINDRUN, PATIENCE, begun, children, mindrun, until, wiring

@@ -28,10 +28,8 @@ from mindrun.graph.policy import Policy
 from mindrun.graph.wiring import flaws
 from mindrun.kinds.registry import kinds
 from mindrun.robot.drivers.simulated import SimulatedActuator, SimulatedSensor, WorldConnection, dry, status
-from mindrun.robot.simulated_world.process import simulated
-from mindrun.robot.simulated_world.protocol import READ, REQUEST, STATUS, WRITE, requests
-from mindrun.robot.simulated_world.scene import SimulatedScene
-from mindrun.robot.simulated_world.server import Server, listening
+from mindrun.robot.simulated_world import READ, REQUEST, STATUS, WRITE, requests, simulated
+from mindrun.robot.world_server import Server, SimulatedScene, listening
 from mindrun.sim.commanded_world import World
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
@@ -53,7 +51,7 @@ STILL = """task Still in plain
 @pytest.fixture(autouse=True)
 def patient(monkeypatch: pytest.MonkeyPatch) -> None:
     """A shared machine takes its time."""
-    monkeypatch.setattr("mindrun.robot.drivers.simulated.EXCHANGE_SECONDS", PATIENCE)
+    monkeypatch.setattr("mindrun.robot.simulated_world.EXCHANGE_SECONDS", PATIENCE)
 
 
 def graph_of(path: Path) -> Graph:
@@ -326,7 +324,7 @@ def test_runs_follow_one_another(roam: Graph) -> None:
 def test_the_guardian_can_still_stop_the_wheels_of_a_world_that_ends(
     roam: Graph, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("mindrun.robot.simulated_world.server.NEUTRAL_SECONDS", PATIENCE)
+    monkeypatch.setattr("mindrun.robot.world_server.NEUTRAL_SECONDS", PATIENCE)
     world = Counting(roam)
     with served(world) as (path, server):
         wheel = SimulatedActuator(path, "left_wheel").open()
@@ -345,7 +343,7 @@ def test_a_world_that_does_not_answer_is_an_error_and_can_come_back(
     with pytest.raises(DeviceError, match="does not answer: No such file"):
         link.ask(STATUS)
     with listening(path), monkeypatch.context() as soon:
-        soon.setattr("mindrun.robot.drivers.simulated.EXCHANGE_SECONDS", 0.05)
+        soon.setattr("mindrun.robot.simulated_world.EXCHANGE_SECONDS", 0.05)
         with pytest.raises(DeviceError, match="timed out"):
             link.ask(STATUS)
     with served(Counting(roam), path=path):
@@ -424,7 +422,7 @@ def test_a_world_that_cannot_be_says_why(bundle: Path, tmp_path: Path) -> None:
 PARENT = """
 import sys, time
 from pathlib import Path
-from mindrun.robot.simulated_world.process import simulated
+from mindrun.robot.simulated_world import simulated
 with simulated(Path(sys.argv[1]), "Chase", 1) as path:
     print(path, flush=True)
     time.sleep(600)

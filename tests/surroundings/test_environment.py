@@ -8,7 +8,7 @@ from itertools import product
 from pathlib import Path
 
 import pytest
-from mindrun.robot.identity import IdentityError, adopt, identity_file
+from mindrun.robot.ownership import IdentityError, adopt, identity_file
 from mindrun.sim import cache
 from mindrun.terminal import standard_streams
 

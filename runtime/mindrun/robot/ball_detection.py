@@ -49,23 +49,21 @@ class Ball:
 
 @dataclass(frozen=True, slots=True)
 class Blob:
-    """Something of the right colour: its centre and diameter in pixels, how round it is, and its area."""
+    """Something of the right colour: its centre and diameter in pixels, and how round it is."""
 
     x: float
     y: float
     diameter: float
     roundness: float
-    area: float
 
 
 def blindness(frame: Frame) -> str:
     """Why nothing could be seen in a frame, "" where something could."""
-    import numpy as np
-
-    brightest = library("cv2").cvtColor(frame, library("cv2").COLOR_BGR2GRAY)
-    if np.count_nonzero(brightest > BLACK_BRIGHTNESS) < BLIND_SHARES[0] * brightest.size:
+    cv2, (least, most) = library("cv2"), BLIND_SHARES
+    brightness = cv2.cvtColor(frame, cv2.COLOR_BGR2GRAY)
+    if (brightness > BLACK_BRIGHTNESS).sum() < least * brightness.size:
         return "black"
-    return "all white" if np.count_nonzero(brightest >= WHITE_BRIGHTNESS) > BLIND_SHARES[1] * brightest.size else ""
+    return "all white" if (brightness >= WHITE_BRIGHTNESS).sum() > most * brightness.size else ""
 
 
 def find_ball(frame: Frame, target: BallTarget) -> Ball | None:
@@ -73,10 +71,10 @@ def find_ball(frame: Frame, target: BallTarget) -> Ball | None:
     height, width = frame.shape[:2]
     if blindness(frame):
         return None
-    candidates = [blob for blob in blobs(frame, target) if blob.diameter >= target.diameter and blob.roundness > 0]
-    if not candidates:
+    candidates = (blob for blob in blobs(frame, target) if blob.diameter >= target.diameter and blob.roundness > 0)
+    best = max(candidates, key=lambda blob: blob.diameter, default=None)
+    if best is None:
         return None
-    best = max(candidates, key=lambda blob: blob.diameter)
     focus = focal_length(width, target.view)
     aside, up = (width - 1) / 2 - best.x, (height - 1) / 2 - best.y
     bearing, elevation = degrees(atan2(aside, focus)), degrees(atan2(up, hypot(focus, aside)))
@@ -95,52 +93,46 @@ def focal_length(width: int, view: float) -> float:
 
 def blobs(frame: Frame, target: BallTarget) -> list[Blob]:
     """Everything bright that has the colour, or is overexposed and has it around its rim."""
-    import numpy as np
-
     cv2 = library("cv2")
     hsv = cv2.cvtColor(cv2.GaussianBlur(frame, (5, 5), 0), cv2.COLOR_BGR2HSV)
-    coloured = in_colour(cv2, hsv, target)
+    coloured = in_colour(hsv, target)
     glare = cv2.inRange(hsv, (0, 0, OVEREXPOSED_BRIGHTNESS), (180, round(target.colour * 255), 255))
-    mask = cv2.morphologyEx(coloured | glare, cv2.MORPH_OPEN, np.ones((3, 3), np.uint8))
+    mask = cv2.morphologyEx(coloured | glare, cv2.MORPH_OPEN, cv2.getStructuringElement(cv2.MORPH_RECT, (3, 3)))
     contours, _ = cv2.findContours(mask, cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE)
     large = [contour for contour in contours if len(contour) >= 2 * target.diameter]
-    return [blob(cv2, contour, mask.shape) for contour in large if is_coloured(cv2, contour, coloured)]
+    return [blob(contour, mask.shape) for contour in large if is_coloured(contour, coloured)]
 
 
-def in_colour(cv2: Any, hsv: Frame, target: BallTarget) -> Frame:
+def in_colour(hsv: Frame, target: BallTarget) -> Frame:
     """Which pixels are bright and of the colour; hues go round, and OpenCV counts them in steps of two degrees."""
-    import numpy as np
-
-    floor = round(target.colour * 255), round(target.brightness * 255)
+    cv2, floor = library("cv2"), (round(target.colour * 255), round(target.brightness * 255))
     first, last = round((target.hue - target.tolerance) / 2) % 180, round((target.hue + target.tolerance) / 2) % 180
     if first <= last:
         mask: Frame = cv2.inRange(hsv, (first, *floor), (last, 255, 255))
-        return mask
-    low: Frame = cv2.inRange(hsv, (0, *floor), (last, 255, 255))
-    high: Frame = cv2.inRange(hsv, (first, *floor), (180, 255, 255))
-    return np.bitwise_or(low, high)
+    else:
+        mask = cv2.inRange(hsv, (0, *floor), (last, 255, 255)) | cv2.inRange(hsv, (first, *floor), (180, 255, 255))
+    return mask
 
 
-def is_coloured(cv2: Any, contour: Any, coloured: Frame) -> bool:
+def is_coloured(contour: Any, coloured: Frame) -> bool:
     """Whether most of a contour has the colour: a white lamp has it nowhere, an overexposed ball around its rim."""
-    import numpy as np
-
-    points = contour[:, 0]
-    return float(np.count_nonzero(coloured[points[:, 1], points[:, 0]])) > 0.6 * len(points)
+    x, y = contour[:, 0].T
+    return bool((coloured[y, x] > 0).mean() > 0.6)
 
 
-def blob(cv2: Any, contour: Any, shape: tuple[int, int]) -> Blob:
+def blob(contour: Any, shape: tuple[int, int]) -> Blob:
     """The measures of a contour; one that moved while the shutter was open is a streak with round ends."""
+    cv2 = library("cv2")
     (x, y), (one, other), _ = cv2.minAreaRect(contour)
     short, long = min(one, other) + 1, max(one, other) + 1
     area = cv2.contourArea(contour) + len(contour) / 2 + 1  # the contour runs through the middles of its pixels
     left, top, width, height = cv2.boundingRect(contour)
     if left == 0 or top == 0 or left + width == shape[1] or top + height == shape[0]:  # partly out of the frame
         convex = cv2.contourArea(cv2.convexHull(contour)) + len(contour) / 2 + 1
-        return Blob(x, y, long, 0.5 if area / convex > 0.85 and long <= MAX_STREAK_RATIO * short else 0.0, area)
+        return Blob(x, y, long, 0.5 if area / convex > 0.85 and long <= MAX_STREAK_RATIO * short else 0.0)
     stretch = long / short
     off = abs(area / (short * long) - (stretch - 1 + pi / 4) / stretch) / (ROUNDNESS_TOLERANCE + 1 / short)
-    return Blob(x, y, short, max(0.0, 1 - off) if stretch <= MAX_STREAK_RATIO else 0.0, area)
+    return Blob(x, y, short, max(0.0, 1 - off) if stretch <= MAX_STREAK_RATIO else 0.0)
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -118,20 +117,16 @@ class TrackingCamera:
                     self.stop.wait(RETRY_SECONDS)
                     continue  # who waits for a frame notices that none comes
                 self.publish(self.see(frame))
-            except DeviceError as error:
-                self.publish(BallSighting(aim=self.aim, error=error))
             except Exception as error:  # whatever OpenCV raises must reach who waits, not end the thread
-                self.publish(BallSighting(aim=self.aim, error=DeviceError(f"the camera failed: {error}")))
+                known = error if isinstance(error, DeviceError) else DeviceError(f"the camera failed: {error}")
+                self.publish(BallSighting(aim=self.aim, error=known))
         self.let_go()
 
     def see(self, frame: Frame) -> BallSighting:
         """What is in a frame; turns the camera after it."""
-        import numpy as np
-
-        now = monotonic()
-        sample = frame[::STILL_IMAGE_STRIDE, ::STILL_IMAGE_STRIDE]
-        if self.sample is None or not np.array_equal(sample, self.sample):
-            self.sample, self.changed = sample.copy(), now
+        now, sample = monotonic(), frame[::STILL_IMAGE_STRIDE, ::STILL_IMAGE_STRIDE].copy()
+        if self.sample is None or sample.tobytes() != self.sample.tobytes():
+            self.sample, self.changed = sample, now
         if now - self.changed > STALE_SECONDS:
             raise DeviceError("the camera repeats the same frame")
         if reason := blindness(frame):
@@ -143,13 +138,12 @@ class TrackingCamera:
 
     def point(self) -> None:
         """Turn the camera to where it should point."""
-        if self.pan:
-            self.pan.point(self.aim.pan)
-        if self.tilt:
-            self.tilt.point(self.aim.tilt)
+        for joint, angle in ((self.pan, self.aim.pan), (self.tilt, self.aim.tilt)):
+            if joint:
+                joint.point(angle)
 
     def publish(self, sighting: BallSighting) -> None:
-        """Publish a sighting to everybody who waits for a frame."""
+        """Tell everybody who waits for a frame."""
         with self.news:
             self.sighting = replace(sighting, number=self.sighting.number + 1)
             self.news.notify_all()
@@ -166,8 +160,8 @@ class TrackingCamera:
 
     def let_go(self) -> None:
         """Let go of the camera and of the servos, which stay where they are."""
-        release: list[Callable[[], None]] = [self.camera.release]
-        release += [joint.servo.close for joint in (self.pan, self.tilt) if joint]
-        for close in release:
-            with suppress(Exception):  # closing never raises
-                close()
+        with suppress(Exception):  # closing never raises
+            self.camera.release()
+        for joint in (self.pan, self.tilt):
+            if joint:
+                joint.servo.close()

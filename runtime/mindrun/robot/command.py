@@ -5,7 +5,6 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 
 from mindrun.driver import DeviceError
@@ -14,20 +13,16 @@ from mindrun.graph.bundle import Bundle, digest, read_bundle
 from mindrun.graph.default_task import default_task
 from mindrun.graph.graph import Graph, Task
 from mindrun.graph.wiring import still
-from mindrun.robot.device_locks import hold_devices
 from mindrun.robot.drive import DriveOptions, drive
 from mindrun.robot.drivers.mock import MockActuator
-from mindrun.robot.dry_run import DryRun, beginning, outcome, refuse_environment
-from mindrun.robot.identity import IdentityError, is_adopted
-from mindrun.robot.live_view import live_view
+from mindrun.robot.dry_run import DryRun, SeenWorld, beginning, dry, outcome, refuse_environment
+from mindrun.robot.live_view import breakpoint_mistakes, live_view
 from mindrun.robot.loop import Loop
-from mindrun.robot.seen_world import SeenWorld
-from mindrun.robot.temporary_recording import temporary_recording
-from mindrun.robot.view_breakpoints import mistakes
+from mindrun.robot.ownership import IdentityError, hold_devices, is_adopted
+from mindrun.robot.recording import temporary_recording
+from mindrun.robot.simulated_world import simulated, status
 from mindrun.terminal.command_line import command_line
-from mindrun.terminal.status_line import StatusLine
-
-MAX_END_TICKS = 20  # in which a recording gets the end of its run; one that cannot be written gets none
+from mindrun.terminal.standard_streams import StatusLine
 
 
 def run(options: argparse.Namespace) -> int:
@@ -51,7 +46,7 @@ def _refuse_wrong_breakpoints(options: argparse.Namespace, graph: Graph) -> None
     if options.breaks is None:
         return
     task = _task(graph, options.task)[0].name if options.dry else None
-    if found := mistakes(options.breaks, options.bundle, task, options.master):
+    if found := breakpoint_mistakes(options.breaks, options.bundle, task, options.master):
         for sentence in found:
             _print_error(sentence)
         raise MindError("nothing moves: the page cannot pause where that file says", "mend it, or leave --break out")
@@ -91,42 +86,21 @@ def _wired(options: argparse.Namespace, bundle: Bundle, drive_options: DriveOpti
 
 
 def _dry(options: argparse.Namespace, bundle: Bundle, drive_options: DriveOptions, line: StatusLine) -> Loop:
-    from mindrun.robot.drivers.simulated import dry, status
-    from mindrun.robot.simulated_world.process import simulated
-
     task, why = _task(bundle.graph, options.task)
     refuse_environment(task)
-    if why:
-        line.tell(why)
     master = options.master or bundle.graph.master
-    for sentence in beginning(bundle.graph, task, master, options.seed):
+    for sentence in (*filter(None, [why]), *beginning(bundle.graph, task, master, options.seed)):
         line.tell(sentence)
-    with simulated(options.bundle, task.name, options.seed, master=options.master or "") as socket:
-        wiring = dry(bundle.graph, socket, master)
-        run = DryRun(bundle.graph, task, master, socket, line)
-        with run.shown(), _watched(task, options.seed, socket, drive_options) as watched:
-            watch = partial(_goes_on, run, watched.world, iter(range(MAX_END_TICKS)))
-            loop = drive(bundle, digest(options.bundle), wiring, watched, line.tell, watch=watch)
+    with simulated(options.bundle, task.name, options.seed, options.master or "") as socket:
+        seen = SeenWorld(task, options.seed, socket) if drive_options.record else None
+        run = DryRun(bundle.graph, task, master, socket, line, seen)
+        wiring, watched = dry(bundle.graph, socket, master), replace(drive_options, world=seen)
+        with run.shown(), seen.watched() if seen else nullcontext():
+            loop = drive(bundle, digest(options.bundle), wiring, watched, line.tell, watch=run.watch)
         with suppress(DeviceError):  # the run was as good without it
             for sentence in outcome(task, master, status(socket)):
                 line.tell(sentence)
         return loop
-
-
-def _goes_on(run: DryRun, world: SeenWorld | None, more: Iterator[int], loop: Loop) -> bool:
-    """After each tick: until the run is over, and a recording has its end, or after so many ticks `more` could not."""
-    return run.watch(loop) or (world is not None and not world.has_ended and next(more, None) is not None)
-
-
-@contextmanager
-def _watched(task: Task, seed: int, socket: str, options: DriveOptions) -> Iterator[DriveOptions]:
-    """The options of a drive; one that is recorded has the simulated world at a socket recorded, too."""
-    if options.record is None:
-        yield options
-        return
-    world = SeenWorld(task, seed, socket)
-    with world.watched():
-        yield replace(options, world=world)
 
 
 def _task(graph: Graph, name: str | None) -> tuple[Task, str]:

@@ -14,17 +14,14 @@ from mindrun.errors import MindError
 from mindrun.graph.bundle import Bundle
 from mindrun.graph.graph import Graph
 from mindrun.graph.wiring import Wiring, read_by
+from mindrun.robot.dry_run import SeenWorld
 from mindrun.robot.guardian.client import Guardian
 from mindrun.robot.guardian.plan import plan_of
 from mindrun.robot.loop import Loop, TickResult
+from mindrun.robot.processes import Stop, refuse_success, stopping
 from mindrun.robot.rate import Rate
-from mindrun.robot.reading_filter import ReadingFilter
-from mindrun.robot.recording import About, Recorder
-from mindrun.robot.sampling import Sampler
-from mindrun.robot.seen_world import SeenWorld
-from mindrun.robot.stop_signals import Stop, stopping
-from mindrun.robot.sudden_end import refuse_success
-from mindrun.robot.temporary_recording import TemporaryRecorder
+from mindrun.robot.recording import About, Recorder, TemporaryRecorder
+from mindrun.robot.sensing import ReadingFilter, Sampler
 
 FIRST_READING_SECONDS = 10.0  # for every sensor to have been measured once
 STOP_SECONDS = 2.0  # or ticks where these are longer, in which a tick has to end once a signal has come
@@ -101,8 +98,8 @@ def _recorder(
         about, latest = replace(about, world=world.about), world.latest
     try:
         if not options.is_kept:
-            return TemporaryRecorder(path, about, tell, at_once=True, world=latest)
-        return Recorder(path, about, at_once=options.view is not None, world=latest)
+            return TemporaryRecorder(path, about, tell, world=latest)
+        return Recorder(path, about, world=latest)
     except FileExistsError:
         raise DriveError(f"{path} exists already", "record to another file, or delete it") from None
     except OSError as error:

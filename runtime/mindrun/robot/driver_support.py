@@ -14,7 +14,7 @@ from threading import RLock
 from time import monotonic, sleep
 from typing import Any, Literal, Protocol, TypeVar, get_args
 
-from mindrun.driver import ActuatorDevice, DeviceError, SensorDevice
+from mindrun.driver import DeviceError
 from mindrun.numbers.quantity import Quantity, Reference
 
 PIN = Quantity("a GPIO number", {"": 1.0}, low=0, high=27, whole=True)  # as Broadcom counts, not as the header does
@@ -40,7 +40,6 @@ RETRY_SECONDS = 0.002  # between two tries, and between two questions to a chip 
 TRANSFER_SECONDS = 0.1  # seconds after which a transfer that failed is not tried again
 I2C_BYTE_SECONDS = 9 / 100_000  # seconds of a byte with its acknowledgement, at the usual 100 kHz
 I2C_TIMEOUT, KERNEL_TICKS = 0x0702, 5  # <linux/i2c-dev.h>; in units of 10 ms: for how long a part may hold the clock
-Open = TypeVar("Open", bound=SensorDevice | ActuatorDevice)
 
 
 def library(module: str, install: str = INSTALL) -> Any:
@@ -61,7 +60,16 @@ def share(value: float) -> float:
     return float(value)
 
 
-def answering(device: Open, ask: Callable[[], object]) -> Open:
+class Closes(Protocol):
+    """What was opened."""
+
+    def close(self) -> None: ...
+
+
+Opened = TypeVar("Opened", bound=Closes)
+
+
+def answering(device: Opened, ask: Callable[[], object]) -> Opened:
     """A device that was just opened, once it has answered; where it does not, it is closed again."""
     try:
         ask()

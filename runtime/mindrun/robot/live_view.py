@@ -16,7 +16,7 @@ from threading import Event, Thread
 
 from mindrun.errors import reason
 from mindrun.files.printable import visible
-from mindrun.robot.device_locks import DrivenError, bound_address
+from mindrun.robot.ownership import DrivenError, bound_address
 from mindrun.terminal.command_line import command_line
 
 PAGE_PORT = 8123  # tried first, so that the tunnel to a robot is the same each time
@@ -25,7 +25,7 @@ SERVER_ADDRESS = 2  # of the words of SSH_CONNECTION: client, its port, server, 
 VIEWER_NICENESS = 10
 END_SECONDS = 1.0  # for a viewer that was killed: one that waits for a disk ends later, by itself
 PROGRAM = (
-    "import signal, sys; from mindrun.robot.parent_process import end_with_parent; "
+    "import signal, sys; from mindrun.robot.processes import end_with_parent; "
     "from mindrun.processors import give_way; "
     f"end_with_parent(int(sys.argv.pop(1)), signal.SIGKILL); give_way({VIEWER_NICENESS}); "
     "from mindlang.cli import main; main()"
@@ -141,3 +141,30 @@ def _is_free(port: int) -> bool:
         except OSError:
             return False
         return True
+
+
+def breakpoint_mistakes(breaks: Path, bundle: Path, task: str | None, master: str | None) -> list[str]:
+    """The lines that mindc has to say of a file of breakpoints where something is wrong in it, before a robot starts.
+
+    `task` is that of a dry run. Nothing where mindlang is not installed: then the page is served elsewhere, and the
+    file is looked at there.
+    """
+    if not find_spec("mindlang"):
+        return []
+    for path, suffix in ((breaks, ".break"), (bundle, ".bundle")):
+        if path.suffix != suffix:
+            return [f"{path} must end in {suffix}: mindc knows by that what it is"]
+    options = [*(("--task", task) if task else ()), *(("--master", master) if master else ())]
+    # -P: a file of the user's folder that is named like a module must not be imported.
+    command = [sys.executable, "-P", "-c", "from mindlang.cli import main; main()", "check", *options]
+    done = subprocess.run(
+        [*command, "--", str(breaks), str(bundle)],
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
+        errors="replace",
+        check=False,
+    )
+    if not done.returncode:
+        return []
+    return (done.stderr.rstrip() or f"{breaks} cannot be looked at: mindc ended with {done.returncode}").split("\n")

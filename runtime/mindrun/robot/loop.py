@@ -12,8 +12,8 @@ from mindrun.engine.engine import Engine
 from mindrun.graph.recording_header import BY_LOOP, NOT_STOPPED, by_guardian
 from mindrun.robot.guardian.guard import failing
 from mindrun.robot.rate import Rate
-from mindrun.robot.reading_filter import FilteredReadings, ReadingFilter
 from mindrun.robot.recording import Recorder
+from mindrun.robot.sensing import FilteredReadings, ReadingFilter
 
 MISSED_TICKS_LIMIT = 3  # ticks in a row that were missed, after which every actuator is neutral until one is not
 MAX_THINKING_TICKS = 2  # that thinking may take

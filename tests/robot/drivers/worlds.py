@@ -8,7 +8,6 @@ from typing import Any
 import pytest
 from mindrun.robot import camera, driver_support
 from mindrun.robot.ball_detection import focal_length
-from mindrun.robot.driver_code import of_file
 from mindrun.robot.drivers import ball_tracker as tracking
 from mindrun.robot.drivers import grove_motor as motors
 from mindrun.robot.drivers.ads1115 import Ads1115
@@ -28,7 +27,7 @@ from mindrun.robot.drivers.mcp3008 import Mcp3008
 from mindrun.robot.drivers.mock import MockActuator, MockSensor
 from mindrun.robot.drivers.mpu6050 import Mpu6050
 from mindrun.robot.drivers.own import KIND as OWN_KIND
-from mindrun.robot.drivers.own import OwnActuator, OwnSensor
+from mindrun.robot.drivers.own import OwnActuator, OwnSensor, of_file
 from mindrun.robot.drivers.pca9685 import Pca9685
 from mindrun.robot.drivers.servo import PinServo
 from mindrun.robot.drivers.switch import Switch

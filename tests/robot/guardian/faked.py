@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 from unittest.mock import patch
 
 from mindrun.driver import DeviceError
-from mindrun.robot.guardian.frames import pack
+from mindrun.robot.guardian.messages import pack
 from mindrun.robot.guardian.plan import Channel, Plan
 from mindrun.robot.guardian.process import Process
 

@@ -8,7 +8,7 @@ from select import select
 
 import pytest
 from mindrun.driver import DeviceError
-from mindrun.robot.guardian.frames import pack
+from mindrun.robot.guardian.messages import pack
 from mindrun.robot.guardian.plan import Channel, Plan
 from mindrun.robot.guardian.process import Process
 

@@ -12,7 +12,7 @@ from mindrun.numbers.quantity import COUNT, RATIO, Quantity, Reference
 from mindrun.robot import camera
 from mindrun.robot.ball_detection import BallTarget, PanTiltLimits, distance
 from mindrun.robot.camera import FRAME_SECONDS, BallSighting, Joint, TrackingCamera
-from mindrun.robot.driver_support import ADDRESS, BUS, CHANNEL, DEGREES, METRES, MICROSECONDS, PATH, on_bus
+from mindrun.robot.driver_support import ADDRESS, BUS, CHANNEL, DEGREES, METRES, MICROSECONDS, PATH, answering, on_bus
 from mindrun.robot.drivers.pca9685 import Pca9685
 
 Measure = Literal["bearing", "elevation", "distance"]
@@ -124,7 +124,6 @@ class BallTracker:
 
     @property
     def unit(self) -> str:
-        """Of what is measured."""
         return "m" if self.measure == "distance" else "deg"
 
     @property
@@ -134,7 +133,6 @@ class BallTracker:
 
     @property
     def possible(self) -> tuple[float, float]:
-        """What is not nonsense."""
         return (0.0, 100.0) if self.measure == "distance" else (-180.0, 180.0)
 
     def camera_alone(self) -> "BallTracker":
@@ -162,13 +160,7 @@ class BallTracker:
                 thread.start()
             tracking, thread, users = _cameras[key]
             _cameras[key] = tracking, thread, users + 1
-        device = BallTrackerDevice(self, tracking)
-        try:
-            tracking.after(0, FIRST_FRAME_SECONDS)
-        except Exception:
-            device.close()
-            raise
-        return device
+        return answering(BallTrackerDevice(self, tracking), lambda: tracking.after(0, FIRST_FRAME_SECONDS))
 
     def open_tracking(self) -> TrackingCamera:
         """The camera, and its servos, in the middle."""

@@ -89,5 +89,5 @@ class Encoder:
     def open(self) -> EncoderDevice:
         """The encoder, which counts from now on."""
         options = {"a": self.a, "b": self.b, "max_steps": 0}
-        rotary = open_pins((f"the encoder on GPIO {self.a} and {self.b}", "RotaryEncoder", options))
-        return EncoderDevice(self, *rotary, 0, monotonic())
+        [rotary] = open_pins((f"the encoder on GPIO {self.a} and {self.b}", "RotaryEncoder", options))
+        return EncoderDevice(self, rotary, 0, monotonic())

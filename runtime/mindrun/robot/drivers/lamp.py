@@ -24,5 +24,5 @@ class Lamp:
 
     def open(self) -> OutputPin:
         """The lamp, off."""
-        part = (f"the lamp on GPIO {self.pin}", "PWMLED", {"pin": self.pin, "frequency": self.frequency})
-        return OutputPin("the lamp", *open_pins(part))
+        [led] = open_pins((f"the lamp on GPIO {self.pin}", "PWMLED", {"pin": self.pin, "frequency": self.frequency}))
+        return OutputPin("the lamp", led)

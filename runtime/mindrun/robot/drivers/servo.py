@@ -33,5 +33,5 @@ class PinServo:
             "initial_value": None, "frame_width": FRAME_SECONDS,
             "min_pulse_width": self.shortest * 1e-6, "max_pulse_width": self.longest * 1e-6,
         }  # fmt: skip
-        part = (f"the servo on GPIO {self.pin}", "Servo", {"pin": self.pin, **pulses})
-        return OutputPin("the servo", *open_pins(part), low=-1.0)
+        [servo] = open_pins((f"the servo on GPIO {self.pin}", "Servo", {"pin": self.pin, **pulses}))
+        return OutputPin("the servo", servo, low=-1.0)

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from math import inf
 
-from mindrun.robot.guardian.frames import Frame
+from mindrun.robot.guardian.messages import Frame
 from mindrun.robot.guardian.plan import Channel, Plan
 
 NEUTRAL, FOLLOWING, LATCHED = "neutral", "following", "latched"

@@ -12,16 +12,10 @@ from threading import Condition, Thread
 from time import monotonic
 
 from mindrun.driver import ActuatorDevice, failure
+from mindrun.robot.processes import end_in_child
 
-FORKED_EXIT_CODE = 70  # exit code of a process that a driver has forked and that has come back from it
 MIN_RETRY_SECONDS, MAX_RETRY_SECONDS = 0.002, 0.05  # seconds between two tries: at first, and in the end
 BOOT_SECONDS = 5.0  # for a device that was opened anew to acknowledge its first command
-
-
-def end_in_child(process: int) -> None:
-    """End a process that a driver has forked and that has come back from it: only `process` drives."""
-    if os.getpid() != process:
-        os._exit(FORKED_EXIT_CODE)
 
 
 @dataclass(frozen=True, slots=True)

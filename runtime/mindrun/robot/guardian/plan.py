@@ -16,7 +16,7 @@ from mindrun.errors import MindError
 from mindrun.files.regular_files import read_regular
 from mindrun.graph.codec import Options, decode, encode
 from mindrun.numbers.quantity import RATIO, SECONDS, Quantity
-from mindrun.robot.guardian.frames import MAX_COMMANDS
+from mindrun.robot.guardian.messages import MAX_COMMANDS
 
 if TYPE_CHECKING:
     from mindrun.graph.wiring import Wiring  # which needs numpy

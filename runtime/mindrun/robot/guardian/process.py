@@ -10,7 +10,6 @@ from time import monotonic
 
 from mindrun.driver import ActuatorDevice
 from mindrun.errors import text_of
-from mindrun.robot.guardian.frames import FrameError, Reader
 from mindrun.robot.guardian.guard import (
     FAILED,
     FOLLOWING,
@@ -23,8 +22,10 @@ from mindrun.robot.guardian.guard import (
     Order,
     Rest,
 )
-from mindrun.robot.guardian.output import ActuatorOutput, end_in_child
+from mindrun.robot.guardian.messages import FrameError, Reader
+from mindrun.robot.guardian.output import ActuatorOutput
 from mindrun.robot.guardian.plan import Channel, Plan
+from mindrun.robot.processes import end_in_child
 
 REPORT_SECONDS = 1.0  # between two reports on an actuator that is not at neutral
 CLOSE_SECONDS = 0.5  # that a device may take to close

@@ -21,8 +21,8 @@ from mindrun.files.printable import visible
 from mindrun.graph.bundle import read_bundle
 from mindrun.graph.wiring import SensorWire, reading, still
 from mindrun.kinds.sensors.sensor import SensorKind
-from mindrun.robot.sampling import Sample, Sampler
-from mindrun.robot.sudden_end import refuse_success
+from mindrun.robot.processes import refuse_success
+from mindrun.robot.sensing import Sample, Sampler
 from mindrun.terminal.arguments import real
 from mindrun.terminal.standard_streams import draw
 
