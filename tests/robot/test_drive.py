@@ -258,7 +258,7 @@ def test_a_dry_run_ends_when_its_world_does(bundle: Path, tmp_path: Path) -> Non
     words = [*MINDRUN, bundle, "--dry", "--arm", "--task", "Play", "--record", day]
     process = subprocess.Popen(words, stderr=subprocess.PIPE, text=True, start_new_session=True)
     until(lambda: recorded(day), process)
-    (world,) = children(process.pid, "mindrun.robot.simulated_world")
+    (world,) = children(process.pid, "mindrun.robot.world_server")
     os.kill(world, signal.SIGKILL)
     _, err = process.communicate(timeout=600)
     assert process.returncode == 2

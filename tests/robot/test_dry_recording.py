@@ -14,8 +14,7 @@ import pytest
 from mindrun.engine.engine import Engine
 from mindrun.graph.bundle import Bundle, write_bundle
 from mindrun.graph.policy import Policy
-from mindrun.robot.command import _goes_on
-from mindrun.robot.dry_run import DryRun, SeenWorld
+from mindrun.robot.dry_run import MAX_END_TICKS, DryRun, SeenWorld
 from mindrun.robot.recording import read
 from mindrun.robot.replay import replay_recording
 from mindrun.robot.world_server import Server, SimulatedScene, listening
@@ -105,11 +104,14 @@ def test_a_run_whose_recording_never_gets_the_end_ends(rules: Path) -> None:
     world = World(graph, "Roam", 3)
     with served(SimulatedScene(world)) as path:
         seen = SeenWorld(world.task, 3, path)
-        run = DryRun(graph, world.task, "Roam", path, StatusLine(lambda sentence: None))
-        run._is_over = True
-        loop, more = SimpleNamespace(engine=Engine(Policy(graph, {}))), iter(range(3))
-        assert [_goes_on(run, seen, more, loop) for _ in range(5)] == [True, True, True, False, False]  # type: ignore[arg-type]
-        assert not _goes_on(run, None, iter(range(3)), loop)  # type: ignore[arg-type]
+        loop, line = SimpleNamespace(engine=Engine(Policy(graph, {}))), StatusLine(lambda sentence: None)
+        recorded, plain = (
+            DryRun(graph, world.task, "Roam", path, line, seen),
+            DryRun(graph, world.task, "Roam", path, line),
+        )
+        recorded._is_over = plain._is_over = True
+        assert [recorded.watch(loop) for _ in range(MAX_END_TICKS + 2)] == [True] * MAX_END_TICKS + [False] * 2  # type: ignore[arg-type]
+        assert not plain.watch(loop)  # type: ignore[arg-type]
         with seen.watched():
             pass
 
