@@ -5,7 +5,7 @@ from __future__ import annotations
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from threading import Condition, Event
+from threading import Condition, Event, Thread
 from time import monotonic, sleep
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 FRAME_SECONDS = 1 / 30  # of most cameras
 STALE_SECONDS = 0.2  # for which the same frame may come
 RETRY_SECONDS = 0.02  # between two questions to a camera that has no frame
+LETTING_GO = 1.0  # seconds that the thread may need to end
 AHEAD = Aim()
 STILL_IMAGE_STRIDE = 8  # every so many pixels are compared with the frame before
 
@@ -107,6 +108,15 @@ class TrackingCamera:
     changed: float = field(default_factory=monotonic)
     news: Condition = field(default_factory=Condition)
     stop: Event = field(default_factory=Event)
+    thread: Thread = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.thread = Thread(target=self.watch, name="camera", daemon=True)
+
+    def close(self) -> None:
+        """Tell the thread to end; it lets go of the camera, at the latest when that answers."""
+        self.stop.set()
+        self.thread.join(LETTING_GO)
 
     def watch(self) -> None:
         """Look at one frame after another until told to stop, then let go of everything."""

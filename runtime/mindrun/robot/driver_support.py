@@ -10,9 +10,9 @@ from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass, field
 from importlib import import_module
 from struct import calcsize, unpack
-from threading import RLock
+from threading import Lock, RLock
 from time import monotonic, sleep
-from typing import Any, Literal, Protocol, TypeVar, get_args
+from typing import Any, Generic, Literal, Protocol, TypeVar, get_args
 
 from mindrun.driver import DeviceError
 from mindrun.numbers.quantity import Quantity, Reference
@@ -67,6 +67,7 @@ class Closes(Protocol):
 
 
 Opened = TypeVar("Opened", bound=Closes)
+Key = TypeVar("Key")
 
 
 def answering(device: Opened, ask: Callable[[], object]) -> Opened:
@@ -77,6 +78,35 @@ def answering(device: Opened, ask: Callable[[], object]) -> Opened:
         device.close()
         raise
     return device
+
+
+class SharedParts(Generic[Key, Opened]):
+    """Parts that several devices use together: opened for the first of them, closed with the last."""
+
+    def __init__(self) -> None:
+        self._lock = Lock()
+        self._parts: dict[Key, tuple[Opened, int]] = {}  # and how many use it
+
+    def take(self, key: Key, opened: Callable[[], Opened]) -> Opened:
+        """The part of this key, which was `opened` when it was taken first."""
+        with self._lock:
+            part, users = self._parts.get(key) or (opened(), 0)
+            self._parts[key] = part, users + 1
+            return part
+
+    def give_back(self, key: Key) -> None:
+        """Use it no longer."""
+        with self._lock:
+            part, users = self._parts.pop(key)
+            if users > 1:
+                self._parts[key] = part, users - 1
+            else:
+                part.close()
+
+    def close(self) -> None:
+        """Close all that there are."""
+        for part, _ in self._parts.values():
+            part.close()
 
 
 class Ranging:

@@ -29,7 +29,7 @@ Install = Callable[[Draw], FakeCamera]
 @pytest.fixture
 def camera(monkeypatch: pytest.MonkeyPatch) -> Iterator[Install]:
     """Puts a camera there that draws its frames."""
-    monkeypatch.setattr(ball_tracker, "_cameras", {})
+    monkeypatch.setattr(ball_tracker, "cameras", driver_support.SharedParts())
 
     def install(draw: Draw) -> FakeCamera:
         made = FakeCamera(draw)
@@ -37,7 +37,7 @@ def camera(monkeypatch: pytest.MonkeyPatch) -> Iterator[Install]:
         return made
 
     yield install
-    ball_tracker._end_all()
+    ball_tracker.cameras.close()
 
 
 def at(angle: float, diameter: float = 24.0, up: float = 0.0) -> Draw:

@@ -24,7 +24,7 @@ def bus(monkeypatch: pytest.MonkeyPatch) -> FakeBus:
         return found
 
     monkeypatch.setattr(driver_support, "open_bus", open_bus)
-    monkeypatch.setattr(grove_motor, "_boards", {})
+    monkeypatch.setattr(grove_motor, "boards", driver_support.SharedParts())
     return found
 
 

@@ -167,7 +167,7 @@ def filmed(patch: pytest.MonkeyPatch, driver: Any, expected: tuple[float | None,
     x = frames.column(12.0)
     fake = frames.FakeCamera(lambda count: frames.taken(frames.ball(frames.room(), x, 100, 25), seed=count))
     patch.setattr(camera, "open_camera", lambda path, width, height: fake)
-    patch.setattr(tracking, "_cameras", {})
+    patch.setattr(tracking, "cameras", driver_support.SharedParts())
     return World(driver, expected, within, parts=[fake], fail=fake.stopped.set)
 
 
@@ -252,7 +252,7 @@ def pca9685(patch: pytest.MonkeyPatch) -> World:
 
 def grove_motor(patch: pytest.MonkeyPatch) -> World:
     part = FakeGroveMotor()
-    patch.setattr(motors, "_boards", {})
+    patch.setattr(motors, "boards", driver_support.SharedParts())
     return on_bus(
         patch,
         0x0F,

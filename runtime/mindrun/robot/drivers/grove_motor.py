@@ -9,7 +9,16 @@ from typing import Annotated
 from mindrun.driver import DeviceError
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import Quantity
-from mindrun.robot.driver_support import ADDRESS, BUS, I2C_BYTE_SECONDS, I2cDevice, answering, on_bus, share
+from mindrun.robot.driver_support import (
+    ADDRESS,
+    BUS,
+    I2C_BYTE_SECONDS,
+    I2cDevice,
+    SharedParts,
+    answering,
+    on_bus,
+    share,
+)
 
 MOTOR = Quantity("a motor of the board", {"": 1.0}, low=1, high=2, whole=True)
 SPEED, FREQUENCY, DIRECTION = 0x82, 0x84, 0xAA
@@ -19,16 +28,12 @@ COMMAND_GAP_SECONDS = 0.004  # seconds that the board needs for a command; what 
 DIRECTION_REFRESH_SECONDS = 1.0  # seconds after which directions are sent again: a board that lost power forgets them
 FULL_SPEED = 255
 
-_boards: dict[tuple[int, int], "Board"] = {}
-_opening = Lock()
-
 
 @dataclass(slots=True, eq=False)
 class Board:
     """Both motors of a board: their speeds travel in one command, their directions in another."""
 
     wire: I2cDevice
-    users: int = 0
     speeds: list[int] = field(default_factory=lambda: [0, 0])  # signed, −255..255
     sent: int = -1  # the directions
     sent_at: float = 0.0
@@ -69,6 +74,9 @@ class Board:
             self.free_at = monotonic() + COMMAND_GAP_SECONDS
 
 
+boards = SharedParts[tuple[int, int], Board]()  # by bus and address
+
+
 @dataclass(slots=True)
 class MotorDevice:
     """One motor of a board."""
@@ -91,11 +99,7 @@ class MotorDevice:
         self.closed = True
         with suppress(DeviceError):  # closing never raises; neutral was sent before by who commands the motors
             self.board.drive(self.motor, 0)
-        with _opening:
-            self.board.users -= 1
-            if not self.board.users:
-                self.board.close()
-                _boards.pop((self.board.wire.number, self.board.wire.address), None)
+        boards.give_back((self.board.wire.number, self.board.wire.address))
 
 
 @kind("actuator driver", "grove_motor")
@@ -121,10 +125,9 @@ class GroveMotor:
 
     def open(self) -> MotorDevice:
         """The motor; the first that is opened stops both."""
-        key = (self.bus, self.address)
-        with _opening:
-            if key not in _boards:
-                board = Board(I2cDevice("the motor board", self.bus, self.address))
-                _boards[key] = answering(board, board.start)
-            _boards[key].users += 1
-        return MotorDevice(_boards[key], self.motor - 1)
+
+        def opened() -> Board:
+            board = Board(I2cDevice("the motor board", self.bus, self.address))
+            return answering(board, board.start)
+
+        return MotorDevice(boards.take((self.bus, self.address), opened), self.motor - 1)
