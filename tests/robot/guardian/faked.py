@@ -1,5 +1,6 @@
 """A guardian without threads, devices or time: a test is all three."""
 
+import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
@@ -102,4 +103,5 @@ def faked(*channels: Channel, devices: tuple[Device, ...] = ()) -> Iterator[Fake
             found.write()
             yield found
         finally:
-            process.hang_up()
+            for each in (process._woken, process.wake):
+                os.close(each)

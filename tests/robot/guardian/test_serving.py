@@ -117,7 +117,8 @@ def closed(monkeypatch: pytest.MonkeyPatch) -> Iterator[Robot]:
     robot = Robot()
     monkeypatch.setattr("mindrun.robot.guardian.process.select", robot.select)
     yield robot
-    robot.process.hang_up()
+    for each in (robot.process._woken, robot.process.wake):
+        os.close(each)
     os.close(robot.reading)
 
 

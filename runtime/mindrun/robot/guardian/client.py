@@ -266,18 +266,15 @@ class Guardian:
         try:
             os.write(self._frames, pack(self._number, monotonic_ns(), False, self._rest))
             self._read_at = monotonic()
-            while self._unread() and not self._is_gone():
+            while self._unread() and not (self._heard.is_lost or self._heard.has_ended):
                 sleep(POLL_SECONDS)
                 self._see_it_read()
+                self._heard.listen()
         except BlockingIOError:
             return False
         except OSError:
             return True
         return True
-
-    def _is_gone(self) -> bool:
-        self._heard.listen()
-        return self._heard.is_lost or self._heard.has_ended
 
     def _unread(self) -> int:
         """How many bytes wait in the pipe."""

@@ -171,7 +171,7 @@ def _begun(plan: Plan, number: int, seconds: float) -> Attempt:
 
 def _bring(plan: Plan, words: int, seconds: float) -> int:
     errors = LineWriter(ERROR_DESCRIPTOR, "guardian: ")
-    process = Process(plan, -1, errors)
+    process = Process(plan, -1, errors, lambda line: None)
     wake_on_signals(process.wake)
     for name in bring(process, errors, seconds):
         say(words, name)
