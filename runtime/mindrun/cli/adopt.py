@@ -13,7 +13,6 @@ from mindrun.robot.ownership import adopt
 
 
 def options(parser: argparse.ArgumentParser) -> None:
-    """The arguments."""
     parser.add_argument("bundle", type=Path, help="what `mindc build --robot` wrote")
 
 

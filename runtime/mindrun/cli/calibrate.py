@@ -31,7 +31,6 @@ NOISE_VALUES = 10  # that follow one another, over which noise is measured
 
 
 def options(parser: argparse.ArgumentParser) -> None:
-    """The arguments."""
     parser.add_argument("bundle", type=Path, help="what `mindc build --robot` wrote")
     parser.add_argument("sensor", help="one that is wired")
     parser.add_argument(

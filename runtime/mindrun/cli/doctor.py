@@ -51,7 +51,6 @@ class CheckResult:
 
 
 def options(parser: argparse.ArgumentParser) -> None:
-    """The arguments."""
     parser.add_argument("bundle", type=Path, nargs="?", help="look at what this bundle is wired to, as well")
     parser.add_argument("--json", action="store_true", help="one JSON document instead")
 

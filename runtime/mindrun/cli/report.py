@@ -26,7 +26,6 @@ from mindrun.terminal.tick_count import ticks
 
 
 def options(parser: argparse.ArgumentParser) -> None:
-    """The arguments."""
     parser.add_argument("recording", type=Path, help="what mindrun --record wrote")
     parser.add_argument("bundle", type=Path, help="the bundle that was running")
     parser.add_argument("--json", action="store_true", help="one JSON document instead")

@@ -48,7 +48,6 @@ class RecordedFilm:
         return found
 
     def release(self) -> None:
-        """Close the file."""
         self.capture.release()
 
 

@@ -12,7 +12,6 @@ import mindrun.robot.drivers  # noqa: F401  every driver is known once this is i
 from mindrun.engine.engine import Engine
 from mindrun.errors import MindError
 from mindrun.graph.bundle import Bundle
-from mindrun.graph.graph import Graph
 from mindrun.graph.wiring import Wiring, read_by
 from mindrun.robot.dry_run import SeenWorld
 from mindrun.robot.guardian.client import Guardian
@@ -64,13 +63,14 @@ def drive(
     `tell` gets sentences for people; the guardian inherits the descriptors `held`; `watch` sees the loop after each
     tick, and says whether it goes on. MindError where something fails; then every actuator is at neutral, too.
     """
-    graph = bundle.graph
+    graph, master = bundle.graph, options.master or bundle.graph.master
     engine = Engine(bundle.policy, bundle.procedures, options.master)
-    _refuse_blind(graph, options.master or graph.master, wiring)
+    if missing := read_by(graph, master) - {wire.sensor for wire in wiring.sensors}:
+        raise DriveError(f"{master} reads {', '.join(sorted(missing))}, which is not wired", "add it to robot.yaml")
     neutrals = {actuator.name: actuator.kind.neutral for actuator in graph.actuators}
     with ExitStack() as stack:
         stop = stack.enter_context(stopping(STOP_SECONDS * max(1.0, graph.tick)))
-        about = About.of(graph, digest, options.master or graph.master, tuple(wire.sensor for wire in wiring.sensors))
+        about = About.of(graph, digest, master, tuple(wire.sensor for wire in wiring.sensors))
         recorder = stack.enter_context(_recorder(options, about, tell))
         stack.enter_context(options.view or nullcontext())
         stack.enter_context(refuse_success("; every actuator comes to neutral"))
@@ -104,12 +104,6 @@ def _recorder(
         raise DriveError(f"{path} exists already", "record to another file, or delete it") from None
     except OSError as error:
         raise DriveError(f"{path} cannot be written: {error.strerror}") from error
-
-
-def _refuse_blind(graph: Graph, master: str, wiring: Wiring) -> None:
-    """DriveError where a skill below the master reads what is not wired."""
-    if missing := read_by(graph, master) - {wire.sensor for wire in wiring.sensors}:
-        raise DriveError(f"{master} reads {', '.join(sorted(missing))}, which is not wired", "add it to robot.yaml")
 
 
 def _goes_on(tick: TickResult, ticks: int, stop: Stop) -> bool:

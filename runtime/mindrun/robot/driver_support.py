@@ -104,7 +104,6 @@ class SharedParts(Generic[Key, Opened]):
                 part.close()
 
     def close(self) -> None:
-        """Close all that there are."""
         for part, _ in self._parts.values():
             part.close()
 
@@ -211,7 +210,6 @@ class LinuxBus:
         return b"".join(bytes(message) for message in reading)
 
     def close(self) -> None:
-        """Let go of it."""
         self.smbus.close()
 
 

@@ -60,7 +60,6 @@ class BackgroundFile:
         self._raise_failure()
 
     def fileno(self) -> int:
-        """The descriptor of the file."""
         return self._file.fileno()
 
     def close(self) -> None:

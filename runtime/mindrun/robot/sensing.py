@@ -10,7 +10,6 @@ from dataclasses import dataclass, field
 from math import inf, isfinite, nan
 from statistics import median
 from time import monotonic
-from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -122,13 +121,6 @@ def _close(device: SensorDevice | None) -> None:
             return
 
 
-class SampleSource(Protocol):
-    """Where samples come from."""
-
-    wire: SensorWire
-    latest: Sample | None
-
-
 @dataclass(frozen=True, slots=True)
 class FilteredReadings:
     """What the mind gets in a tick: `readings` [graph.width], NaN where one is missing; the rest is per wired sensor.
@@ -148,7 +140,7 @@ class FilteredReadings:
 class _State:
     """A sensor: its last samples for the median, and its last good readings with their time."""
 
-    source: SampleSource
+    source: Sampler
     sensor: Sensor
     window: deque[Sample]
     good: tuple[float, ...] = ()
@@ -159,7 +151,7 @@ class _State:
 class ReadingFilter:
     """The wired sensors of a mind; `measured` [graph.width] says which readings come of them, or of time alone."""
 
-    def __init__(self, graph: Graph, sources: Sequence[SampleSource]) -> None:
+    def __init__(self, graph: Graph, sources: Sequence[Sampler]) -> None:
         sensors = {sensor.name: sensor for sensor in graph.sensors}
         self._width = graph.width
         self.measured = rows_of(graph, measured_on_robot(graph, {source.wire.sensor for source in sources}))

@@ -3,17 +3,18 @@
 It says `ready` on its standard output, or in one line what is wrong; `simulated_world` begins it and talks to it.
 """
 
+import asyncio
 import json
 import os
 import signal
 import sys
 from argparse import Namespace
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from importlib import import_module
 from math import inf
 from pathlib import Path
-from selectors import EVENT_READ, SelectSelector
+from selectors import SelectSelector
 from socket import AF_UNIX, SOCK_STREAM, socket
 from time import monotonic
 from typing import Any
@@ -27,8 +28,7 @@ from mindrun.robot.processes import end_with_parent
 from mindrun.robot.simulated_world import ANSWER, BOXES, NEUTRAL_SECONDS, READ, REQUEST, STATUS, WORLD, WRITE
 from mindrun.terminal.arguments import MAX_SEED, parser, whole
 
-MAX_CLIENTS = 64
-CHUNK_BYTES = 4096  # of requests that one client may have answered before the others
+DEAF_SECONDS = 1.0  # in which a client has to take an answer
 
 
 def main() -> None:
@@ -124,27 +124,12 @@ class SimulatedScene:
         return row.tobytes()
 
 
-def requests(buffer: bytearray) -> Iterator[tuple[bytes, str, float]]:
-    """The requests that are whole, taken out of the buffer; ValueError for what is none."""
-    while len(buffer) >= REQUEST.size:
-        what, length, value = REQUEST.unpack_from(buffer)
-        end = REQUEST.size + length
-        if what not in (READ, WRITE, STATUS, WORLD, BOXES):
-            raise ValueError(f"{what!r} is no request")
-        if len(buffer) < end:
-            return
-        name = buffer[REQUEST.size : end].decode()
-        del buffer[:end]
-        yield what, name, value
-
-
 class Server:
     """Ticks on time, and answers all clients in between. One that sends nonsense, or does not listen, is cut off."""
 
     def __init__(self, scene: SimulatedScene) -> None:
         self.scene = scene
-        self._clients: dict[socket, bytearray] = {}  # what of each has not been answered
-        self._selector = SelectSelector()  # epoll would wait in whole milliseconds
+        self.clients = 0
         self._until = inf
 
     def end(self, *_signal: object) -> None:
@@ -153,42 +138,41 @@ class Server:
 
     def serve(self, listener: socket, period: float) -> None:
         """Tick every so many seconds, until the end; a tick that is past is missed, not made up for."""
-        listener.setblocking(False)
-        self._selector.register(listener, EVENT_READ, self._welcome)
+        with asyncio.Runner(loop_factory=_loop) as runner:
+            runner.run(self._tick(listener, period))
+
+    async def _tick(self, listener: socket, period: float) -> None:
         due = monotonic() + period
-        while self._until == inf or (self._clients and monotonic() < self._until):
-            for key, _ in self._selector.select(min(max(due - monotonic(), 0.0), 0.1)):
-                key.data(key.fileobj)
+        await asyncio.start_unix_server(self._answer, sock=listener)
+        while self._until == inf or (self.clients and monotonic() < self._until):
+            await asyncio.sleep(min(max(due - monotonic(), 0.0), 0.1))
             late = monotonic() - due
             if late >= 0:
                 self.scene.tick()
                 due += (int(late / period) + 1) * period
-        for client in list(self._clients):
-            self._part(client)
 
-    def _welcome(self, listener: socket) -> None:
-        with suppress(OSError):  # it has gone already
-            client, _ = listener.accept()
-            client.setblocking(False)
-            self._clients[client] = bytearray()
-            self._selector.register(client, EVENT_READ, self._hear)
-            if len(self._clients) > MAX_CLIENTS:
-                self._part(client)
-
-    def _hear(self, client: socket) -> None:
+    async def _answer(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        """Answer what a client asks, until it goes away or is cut off."""
+        self.clients += 1
         try:
-            said = client.recv(CHUNK_BYTES)
-            self._clients[client] += said
-            answers = b"".join(self.scene.answer(*request) for request in requests(self._clients[client]))
-            if not said or client.send(answers) < len(answers):
-                self._part(client)
-        except (OSError, ValueError):
-            self._part(client)
+            while True:
+                what, length, value = REQUEST.unpack(await reader.readexactly(REQUEST.size))
+                if what not in (READ, WRITE, STATUS, WORLD, BOXES):
+                    break
+                name = (await reader.readexactly(length)).decode()
+                writer.write(self.scene.answer(what, name, value))
+                async with asyncio.timeout(DEAF_SECONDS):
+                    await writer.drain()
+        except (OSError, EOFError, UnicodeDecodeError):
+            pass
+        finally:
+            self.clients -= 1
+            writer.transport.abort()
 
-    def _part(self, client: socket) -> None:
-        self._selector.unregister(client)
-        del self._clients[client]
-        client.close()
+
+def _loop() -> asyncio.AbstractEventLoop:
+    """A loop that waits for a tick to the microsecond: epoll would wait in whole milliseconds."""
+    return asyncio.SelectorEventLoop(SelectSelector())
 
 
 @contextmanager

@@ -66,7 +66,6 @@ class BallEye(Ranging):
 
     @property
     def readings(self) -> int:
-        """One of each ray."""
         return len(self.angles)
 
     def open(self) -> BallEyeDevice:

@@ -137,7 +137,6 @@ class BallTracker:
         return replace(self, pan=None, tilt=None)
 
     def open(self) -> BallTrackerDevice:
-        """The camera, which gives frames."""
         tracking = cameras.take(self.camera_alone(), self.open_tracking)
         return answering(BallTrackerDevice(self, tracking), lambda: tracking.after(0, FIRST_FRAME_SECONDS))
 
