@@ -103,7 +103,7 @@ def _refuse_view_of_nothing(options: argparse.Namespace) -> None:
 
 def drive(options: argparse.Namespace) -> int:
     """Drive the robot, or a simulated one."""
-    from mindrun.robot.command import run as run_robot
+    from mindrun.robot.drive import run as run_robot
 
     standard_streams.detach_standard_error()
     with redirect_stdout(sys.stderr):  # a procedure may print

@@ -27,7 +27,7 @@ SHORT_CONSTANTS = {  # that are numbers of one word
     "mindlang/cli/_terminal.py": "exit codes, as they are called",
     "runtime/mindrun/__main__.py": "exit codes, as they are called",
     "runtime/mindrun/robot/guardian/__main__.py": "exit codes, as in sysexits.h",
-    "runtime/mindrun/robot/stop_signals.py": "an exit code",
+    "runtime/mindrun/robot/processes.py": "an exit code",
     "runtime/mindrun/robot/drivers/ads1115.py": "registers and bits, as the data sheet calls them",
     "runtime/mindrun/robot/drivers/grove_motor.py": "commands, as the data sheet calls them",
     "runtime/mindrun/robot/drivers/mpu6050.py": "registers and bits, as the data sheet calls them",

@@ -13,7 +13,7 @@ from mindrun.graph.wiring import SensorWire, reading
 from mindrun.numbers.arrays import Frame
 from mindrun.robot import camera as watched
 from mindrun.robot import driver_support
-from mindrun.robot.ball_detection import Aim, focal_length
+from mindrun.robot.camera import Aim, focal_length
 from mindrun.robot.drivers import ball_tracker
 from mindrun.robot.drivers.ball_tracker import BallTracker
 

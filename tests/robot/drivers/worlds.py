@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 from mindrun.robot import camera, driver_support
-from mindrun.robot.ball_detection import focal_length
+from mindrun.robot.camera import focal_length
 from mindrun.robot.drivers import ball_tracker as tracking
 from mindrun.robot.drivers import grove_motor as motors
 from mindrun.robot.drivers.ads1115 import Ads1115

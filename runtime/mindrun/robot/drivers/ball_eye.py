@@ -6,8 +6,7 @@ from typing import Annotated
 
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import COUNT, RATIO
-from mindrun.robot.ball_detection import distance
-from mindrun.robot.camera import FRAME_SECONDS
+from mindrun.robot.camera import FRAME_SECONDS, distance
 from mindrun.robot.driver_support import DEGREES, METRES, PATH, Ranging
 from mindrun.robot.drivers.ball_tracker import HUE, TOLERANCE, VIEW, BallTracker, BallTrackerDevice
 

@@ -9,8 +9,7 @@ from mindrun.driver import DeviceError
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import COUNT, RATIO, Quantity, Reference
 from mindrun.robot import camera
-from mindrun.robot.ball_detection import BallTarget, PanTiltLimits, distance
-from mindrun.robot.camera import FRAME_SECONDS, BallSighting, Joint, TrackingCamera
+from mindrun.robot.camera import FRAME_SECONDS, BallSighting, BallTarget, Joint, PanTiltLimits, TrackingCamera, distance
 from mindrun.robot.driver_support import (
     ADDRESS,
     BUS,
