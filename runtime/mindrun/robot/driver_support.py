@@ -61,8 +61,6 @@ def share(value: float) -> float:
 
 
 class Closes(Protocol):
-    """What was opened."""
-
     def close(self) -> None: ...
 
 
@@ -185,25 +183,15 @@ class OutputPin:
         self.output.close()
 
 
-class Bus(Protocol):
-    """An I2C bus that is open."""
-
-    def transfer(self, address: int, out: bytes, count: int) -> bytes:
-        """Write `out`, then read `count` bytes, as one transfer; OSError where the part does not acknowledge."""
-        ...
-
-    def close(self) -> None: ...
-
-
 @dataclass(frozen=True, slots=True)
-class LinuxBus:
-    """The I2C bus of a Raspberry Pi."""
+class Bus:
+    """An I2C bus of Linux that is open."""
 
     smbus: Any
     message: Any
 
     def transfer(self, address: int, out: bytes, count: int) -> bytes:
-        """One transfer, with a repeated start between writing and reading."""
+        """Write `out`, then read `count` bytes, with a repeated start; OSError where the part does not acknowledge."""
         writing = [self.message.write(address, out)] if out else []
         reading = [self.message.read(address, count)] if count else []
         self.smbus.i2c_rdwr(*writing, *reading)
@@ -223,7 +211,7 @@ def open_bus(number: int) -> Bus:
         raise DeviceError(f"I2C bus {number} cannot be opened: {error}", hint) from error
     with suppress(OSError):  # not every adapter can be told how long to wait
         fcntl.ioctl(smbus.fd, I2C_TIMEOUT, KERNEL_TICKS)
-    return LinuxBus(smbus, smbus2.i2c_msg)
+    return Bus(smbus, smbus2.i2c_msg)
 
 
 def on_bus(number: int, address: int) -> str:

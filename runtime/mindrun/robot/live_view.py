@@ -63,10 +63,13 @@ def _usual_port() -> Iterator[int | None]:
     with ExitStack() as stack:
         try:
             stack.enter_context(bound_address(f"port {PAGE_PORT}"))
+            with socket.socket() as listener:
+                listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+                listener.bind(("127.0.0.1", PAGE_PORT))
         except (DrivenError, OSError):
             yield None
         else:
-            yield PAGE_PORT if _is_free(PAGE_PORT) else None
+            yield PAGE_PORT
 
 
 @contextmanager
@@ -110,19 +113,15 @@ def _listen(viewer: "subprocess.Popen[str]", ending: Event, tell: Callable[[str]
     with viewer.stdout as lines:
         while line := lines.readline(MAX_LINE_CHARACTERS):
             if line.startswith("http://"):
-                _tell_address(line.strip(), tell)
+                tell(f"seen live at {line.strip()}")
+                if "SSH_CONNECTION" in os.environ:
+                    port = line.removeprefix("http://127.0.0.1:").partition("/")[0].strip()
+                    tell(f"your browser gets there through: ssh -N -L {port}:127.0.0.1:{port} {_host()}")
             elif line.strip() and not line.startswith(" "):  # but hints, and where an exception came from
                 why = line.strip()
     code = viewer.wait()
     if not ending.is_set():
         tell(f"the view has ended, and the robot drives on: {visible(why) or f'exit {code}'}")
-
-
-def _tell_address(address: str, tell: Callable[[str], None]) -> None:
-    tell(f"seen live at {address}")
-    if "SSH_CONNECTION" in os.environ:
-        port = address.removeprefix("http://127.0.0.1:").partition("/")[0]
-        tell(f"your browser gets there through: ssh -N -L {port}:127.0.0.1:{port} {_host()}")
 
 
 def _host() -> str:
@@ -131,16 +130,6 @@ def _host() -> str:
     is_reached = len(words) > SERVER_ADDRESS and ":" not in words[SERVER_ADDRESS]  # HOST:FILE has no place for IPv6
     user = os.environ.get("USER", "")
     return f"{user}@" * bool(user) + (words[SERVER_ADDRESS] if is_reached else socket.gethostname())
-
-
-def _is_free(port: int) -> bool:
-    with socket.socket() as listener:
-        listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        try:
-            listener.bind(("127.0.0.1", port))
-        except OSError:
-            return False
-        return True
 
 
 def breakpoint_mistakes(breaks: Path, bundle: Path, task: str | None, master: str | None) -> list[str]:

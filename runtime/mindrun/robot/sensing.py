@@ -6,7 +6,7 @@ For a tick what was measured last is filtered, and answered as declared where so
 import threading
 from collections import deque
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from math import inf, isfinite, nan
 from statistics import median
 from time import monotonic
@@ -145,7 +145,6 @@ class _State:
     window: deque[Sample]
     good: tuple[float, ...] = ()
     good_at: float = -inf
-    held: list[float] = field(default_factory=list)
 
 
 class ReadingFilter:

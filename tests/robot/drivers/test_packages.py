@@ -80,7 +80,7 @@ def test_a_transfer_is_one_message_each_way(monkeypatch: pytest.MonkeyPatch) -> 
 def test_smbus2_is_used_as_it_is() -> None:
     import smbus2
 
-    bus = driver_support.LinuxBus(SimpleNamespace(i2c_rdwr=lambda *messages: None), smbus2.i2c_msg)
+    bus = driver_support.Bus(SimpleNamespace(i2c_rdwr=lambda *messages: None), smbus2.i2c_msg)
     assert bus.transfer(0x40, b"\x05", 3) == b"\0\0\0"
     assert bus.transfer(0x40, b"\x05\x01", 0) == b""
 

@@ -39,10 +39,10 @@ class DriverCode:
     installed package, and `digest` that of all of its modules.
     """
 
-    name: str
-    digest: str
-    lines: tuple[str, ...] = ()
-    package: str = ""
+    name: Annotated[str, TEXT]
+    digest: Annotated[str, TEXT]
+    lines: Annotated[tuple[str, ...], TEXT]
+    package: Annotated[str, TEXT]
 
     @property
     def origin(self) -> str:
@@ -62,7 +62,7 @@ class DriverCode:
 
 def of_file(name: str, text: str) -> DriverCode:
     """The code of a class in a file with this text."""
-    return DriverCode(name, sha256(text.encode()).hexdigest(), tuple(text.split("\n")))
+    return DriverCode(name, sha256(text.encode()).hexdigest(), tuple(text.split("\n")), "")
 
 
 def of_package(name: str) -> DriverCode | None:
@@ -71,7 +71,7 @@ def of_package(name: str) -> DriverCode | None:
     if found is None:
         return None
     package, entry = found
-    return DriverCode(name, _package_digest(entry), package=f"{package.name} {package.version}")
+    return DriverCode(name, _package_digest(entry), (), f"{package.name} {package.version}")
 
 
 def load_class(code: DriverCode) -> Any:
@@ -105,17 +105,14 @@ def module_of(code: DriverCode) -> ModuleType:
 def _package_class(code: DriverCode) -> Any:
     found = _offered(code.name)
     if found is None:
-        raise DeviceError(f"{code.package} is not installed, or has no driver {code.name}", _install(code))
+        install = f"pip install '{code.package.replace(' ', '==')}'"
+        raise DeviceError(f"{code.package} is not installed, or has no driver {code.name}", install)
     package, entry = found
     if _package_digest(entry) != code.digest:
         here = f"{package.name} {package.version}"
         raise DeviceError(f"{here} is installed, and its code is not that of {code.package} in the bundle", REBUILD)
     with _loading:
         return entry.load()
-
-
-def _install(code: DriverCode) -> str:
-    return f"pip install '{code.package.replace(' ', '==')}'"
 
 
 def _offered(name: str) -> tuple[Distribution, EntryPoint] | None:
@@ -171,34 +168,24 @@ class CheckedActuatorDevice:
             raise DeviceError("its write is async, or yields, and has done nothing yet", "write a plain method")
 
     def close(self) -> None:
-        """Let go."""
         with suppress(Exception):
             self.device.close()
 
 
 @dataclass(frozen=True, slots=True)
-class OwnDriver:
+class OwnDriver(DriverCode):
     """A driver of a user: its code by the hash, and its options as JSON."""
 
-    name: Annotated[str, TEXT]
-    digest: Annotated[str, TEXT]
-    lines: Annotated[tuple[str, ...], TEXT]
-    package: Annotated[str, TEXT]
     options: Annotated[str, TEXT]
 
     def __post_init__(self) -> None:
-        if not self.code.is_whole:
+        if not self.is_whole:
             raise ValueError("its text is not the one that its hash names")
-
-    @property
-    def code(self) -> DriverCode:
-        """What the bundle has of its class."""
-        return DriverCode(self.name, self.digest, self.lines, self.package)
 
     def made(self) -> Any:
         """The user's driver itself; DeviceError where its code does not run."""
         try:
-            return load_class(self.code)(**decoded(self.options))
+            return load_class(self)(**decoded(self.options))
         except DeviceError:
             raise
         except Exception as error:  # a user's code may raise anything, and the robot has to know

@@ -44,7 +44,11 @@ class Pair:
 
     def measure(self, reach: float) -> float | None:
         """Metres to what echoed, None where nothing did within `reach`."""
-        self.wait_for_silence()
+        begin = monotonic()
+        while self.echo.pin.state:
+            if monotonic() - begin > ECHO_END_SECONDS:
+                raise DeviceError(f"{self} holds its echo line high", "is it broken, or wired to another pin?")
+            sleep(0.001)
         self.risen.clear()
         self.fallen.clear()
         self.trigger.on()
@@ -60,14 +64,6 @@ class Pair:
                 raise DeviceError(f"{self} answered, but when is not known")
         metres = float(self.echo.pin_factory.ticks_diff(self.fell, self.rose)) * SOUND_METRES_PER_SECOND / 2
         return metres if metres <= reach else None
-
-    def wait_for_silence(self) -> None:
-        """Return when the echo line is low."""
-        begin = monotonic()
-        while self.echo.pin.state:
-            if monotonic() - begin > ECHO_END_SECONDS:
-                raise DeviceError(f"{self} holds its echo line high", "is it broken, or wired to another pin?")
-            sleep(0.001)
 
     def __str__(self) -> str:
         return f"the range finder on {self.trigger.pin} and {self.echo.pin}"

@@ -24,7 +24,6 @@ class Wanted:
 
     value: float
     neutral: bool
-    given: float
 
 
 class ActuatorOutput:
@@ -50,7 +49,7 @@ class ActuatorOutput:
         self._opened = opened
         self._patience = patience
         self._clock = clock
-        self._wanted = Wanted(rest, True, clock())
+        self._wanted = Wanted(rest, True)
         self._waiting: float | None = clock()  # since when nothing has been acknowledged that should have been
         self._closing = False
         self._process = os.getpid()
@@ -141,9 +140,9 @@ class ActuatorOutput:
 
     def _want(self, value: float, neutral: bool) -> None:
         with self._change:
-            self._wanted = Wanted(value, neutral, self._clock())
+            self._wanted = Wanted(value, neutral)
             if self._waiting is None:
-                self._waiting = self._wanted.given
+                self._waiting = self._clock()
             self._change.notify()
 
     def _run(self) -> None:

@@ -5,7 +5,7 @@ Then each device is brought to neutral from a process of its own: a driver that 
 
 import os
 import signal
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from select import select
@@ -36,8 +36,13 @@ def watch(plan: Plan, frames: int, status: int, work: Callable[[int], int]) -> i
     os.close(frames)
     os.close(word)
     say(status, WORKER, worker)
+
+    def pass_on(number: int, _frame: object) -> None:
+        with suppress(ProcessLookupError):
+            os.kill(worker, number)
+
     for name in ENDING_SIGNALS:
-        signal.signal(signal.Signals[name], lambda number, frame: _pass_on(worker, number))
+        signal.signal(signal.Signals[name], pass_on)
     os.waitid(os.P_PID, worker, os.WEXITED | os.WSTOPPED | os.WNOWAIT)
     ignore(*ENDING_SIGNALS)
     os.kill(worker, signal.SIGKILL)  # where it was stopped
@@ -83,11 +88,6 @@ def forked(work: Callable[[], int], by: signal.Signals) -> int:
         os._exit(code)
 
 
-def _pass_on(worker: int, number: int) -> None:
-    with suppress(ProcessLookupError):
-        os.kill(worker, number)
-
-
 def _said(words: int) -> list[str]:
     """The words on a pipe that have come since; who was forked may hold its other end, so nobody waits for that."""
     os.set_blocking(words, False)
@@ -121,10 +121,17 @@ def rescue(plan: Plan, told: Callable[[str], None], seconds: float) -> set[str]:
     """
     until, at_rest = monotonic() + seconds, set[str]()
 
-    def begun(channels: Iterable[Channel], number: int) -> Attempt:
-        return _begun(replace(plan, channels=tuple(channels)), number, max(until - monotonic(), 0.0))
+    def begun(channels: list[Channel], number: int) -> Attempt:
+        some, left = replace(plan, channels=tuple(channels)), max(until - monotonic(), 0.0)
+        reading, writing = os.pipe()
+        child = forked(lambda: _bring(some, writing, left), signal.SIGKILL)
+        os.close(writing)
+        return Attempt(some.channels, number, child, os.pidfd_open(child), reading)
 
-    running = [begun(channels, 1) for channels in of_devices(plan)]
+    devices: dict[str, list[Channel]] = {}  # one process has to drive all actuators of a device together
+    for channel in plan.channels:
+        devices.setdefault(channel.driver.device or f"only {channel.actuator}", []).append(channel)
+    running = [begun(channels, 1) for channels in devices.values()]
     while running and (left := until + GRACE_SECONDS - monotonic()) > 0:
         ready = select([file for each in running for file in (each.handle, each.words)], [], [], left)[0]
         for attempt in [*running]:
@@ -142,14 +149,6 @@ def rescue(plan: Plan, told: Callable[[str], None], seconds: float) -> set[str]:
     return at_rest
 
 
-def of_devices(plan: Plan) -> list[list[Channel]]:
-    """The actuators that one process has to drive together, since they are of one device."""
-    found: dict[str, list[Channel]] = {}
-    for channel in plan.channels:
-        found.setdefault(channel.driver.device or f"only {channel.actuator}", []).append(channel)
-    return [*found.values()]
-
-
 def bring(process: Process, report: Callable[[str], None], seconds: float) -> list[str]:
     """Bring all that can be opened to neutral, in time; the names of those that are, and what is wrong reported."""
     until = monotonic() + seconds
@@ -160,13 +159,6 @@ def bring(process: Process, report: Callable[[str], None], seconds: float) -> li
     for line in wrong:
         report(line)
     return process.at_rest
-
-
-def _begun(plan: Plan, number: int, seconds: float) -> Attempt:
-    reading, writing = os.pipe()
-    child = forked(lambda: _bring(plan, writing, seconds), signal.SIGKILL)
-    os.close(writing)
-    return Attempt(plan.channels, number, child, os.pidfd_open(child), reading)
 
 
 def _bring(plan: Plan, words: int, seconds: float) -> int:
