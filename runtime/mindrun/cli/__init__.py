@@ -84,6 +84,7 @@ def tool_parser(name: str) -> ArgumentParser:
     summary, _, rest = (module.__doc__ or "").partition("\n\n")
     known = parser(f"mindrun {name}", _filled(summary), _filled(rest))
     module.options(known)
+    known.set_defaults(run=module.run)
     return known
 
 
@@ -95,6 +96,6 @@ def _filled(text: str) -> str:
 
 def run_tool(name: str, words: list[str]) -> int:
     """Run a tool with these words of the command line; its exit code."""
-    known = tool_parser(name)
-    code: int = import_module(f"{__name__}.{name}").run(known.parse_args(words))
+    options = tool_parser(name).parse_args(words)
+    code: int = options.run(options)
     return code
