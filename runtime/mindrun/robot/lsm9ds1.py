@@ -1,6 +1,6 @@
 """The two chips of an LSM9DS1, a 9-dof sensor (STMicroelectronics; data sheet DocID025715)."""
 
-from mindrun.robot.driver_support import I2C_BYTE_SECONDS, I2cDevice, MeasuringChip
+from mindrun.robot.i2c import I2C_BYTE_SECONDS, I2cDevice, MeasuringChip
 
 WHO_AM_I, INERTIAL_CHIP_ID, MAGNETIC_CHIP_ID = 0x0F, 0x68, 0x3D  # 7.11 and 8.4
 GYROSCOPE_ON = ((0x22, 0x44), (0x10, 0x60))  # CTRL_REG8: whole values only; CTRL_REG1_G: 119 Hz, ±245 °/s

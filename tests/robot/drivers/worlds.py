@@ -6,7 +6,7 @@ from math import inf
 from typing import Any
 
 import pytest
-from mindrun.robot import camera, driver_support
+from mindrun.robot import camera, driver_support, i2c
 from mindrun.robot.camera import focal_length
 from mindrun.robot.drivers import ball_tracker as tracking
 from mindrun.robot.drivers import grove_motor as motors
@@ -72,7 +72,7 @@ def on_bus(patch: pytest.MonkeyPatch, address: int, part: Any, **world: Any) -> 
         bus.open += 1
         return bus
 
-    patch.setattr(driver_support, "open_bus", open_bus)
+    patch.setattr(i2c, "open_bus", open_bus)
     return World(bus=bus, parts=[part], fail=lambda: setattr(bus, "failing", 1.0), **world)
 
 

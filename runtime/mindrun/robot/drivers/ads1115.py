@@ -5,7 +5,8 @@ from typing import Annotated
 
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import Quantity
-from mindrun.robot.driver_support import ADDRESS, BUS, I2C_BYTE_SECONDS, I2cDevice, answering, on_bus
+from mindrun.robot.driver_support import ADDRESS, BUS, answering
+from mindrun.robot.i2c import I2C_BYTE_SECONDS, I2cDevice, on_bus
 
 INPUT = Quantity("an input", {"": 1.0}, low=0, high=3, whole=True)
 RATIO_OF_DIVIDER = Quantity("how many times more than the input gets", {"": 1.0}, low=1.0, high=100.0)

@@ -20,9 +20,9 @@ from mindrun.robot.driver_support import (
     PATH,
     SharedParts,
     answering,
-    on_bus,
 )
 from mindrun.robot.drivers.pca9685 import Pca9685
+from mindrun.robot.i2c import on_bus
 
 Measure = Literal["bearing", "elevation", "distance"]
 MEASURE = Reference("measure", get_args(Measure))

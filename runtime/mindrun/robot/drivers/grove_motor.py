@@ -9,16 +9,8 @@ from typing import Annotated
 from mindrun.driver import DeviceError
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import Quantity
-from mindrun.robot.driver_support import (
-    ADDRESS,
-    BUS,
-    I2C_BYTE_SECONDS,
-    I2cDevice,
-    SharedParts,
-    answering,
-    on_bus,
-    share,
-)
+from mindrun.robot.driver_support import ADDRESS, BUS, SharedParts, answering, share
+from mindrun.robot.i2c import I2C_BYTE_SECONDS, I2cDevice, on_bus
 
 MOTOR = Quantity("a motor of the board", {"": 1.0}, low=1, high=2, whole=True)
 SPEED, FREQUENCY, DIRECTION = 0x82, 0x84, 0xAA

@@ -6,7 +6,8 @@ from typing import Annotated
 
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import Quantity
-from mindrun.robot.driver_support import ADDRESS, BUS, I2C_BYTE_SECONDS, METRES, I2cDevice, Ranging, answering, on_bus
+from mindrun.robot.driver_support import ADDRESS, BUS, METRES, Ranging, answering
+from mindrun.robot.i2c import I2C_BYTE_SECONDS, I2cDevice, on_bus
 
 PORT = Quantity("a digital port of the GrovePi", {"": 1.0}, low=2, high=8, whole=True)
 RANGER_COMMAND, VERSION_COMMAND = 7, 8  # commands

@@ -6,7 +6,8 @@ from typing import Annotated
 
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import Quantity
-from mindrun.robot.driver_support import ADDRESS, BUS, DEGREES, FACE, ChipDevice, Face, I2cDevice, open_chip
+from mindrun.robot.driver_support import ADDRESS, BUS, DEGREES, FACE, Face
+from mindrun.robot.i2c import ChipDevice, I2cDevice, open_chip
 from mindrun.robot.lsm9ds1 import BUS_SECONDS, MILLIGAUSS_PER_COUNT, magnetometer
 
 MILLIGAUSS_OFFSET = Quantity("a magnetic field in milligauss", {"": 1.0}, low=-4000.0, high=4000.0)

@@ -9,7 +9,8 @@ from typing import Annotated
 
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import Quantity
-from mindrun.robot.driver_support import ADDRESS, BUS, I2cDevice, MeasuringChip, answering
+from mindrun.robot.driver_support import ADDRESS, BUS, answering
+from mindrun.robot.i2c import I2cDevice, MeasuringChip
 from mindrun.robot.lsm9ds1 import ACCELERATION_PER_COUNT, BUS_SECONDS, STANDARD_GRAVITY, accelerometer
 
 WINDOW = Quantity("a time", {"s": 1.0}, low=0.2, high=10.0)

@@ -5,7 +5,8 @@ from typing import Annotated
 
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import NUMBER
-from mindrun.robot.driver_support import ADDRESS, BUS, FACE, ChipDevice, Face, I2cDevice, open_chip
+from mindrun.robot.driver_support import ADDRESS, BUS, FACE, Face
+from mindrun.robot.i2c import ChipDevice, I2cDevice, open_chip
 from mindrun.robot.lsm9ds1 import BUS_SECONDS, DEGREES_PER_SECOND_PER_COUNT, gyroscope
 
 

@@ -5,17 +5,8 @@ from typing import Annotated
 
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import NUMBER
-from mindrun.robot.driver_support import (
-    ADDRESS,
-    BUS,
-    FACE,
-    I2C_BYTE_SECONDS,
-    ChipDevice,
-    Face,
-    I2cDevice,
-    MeasuringChip,
-    open_chip,
-)
+from mindrun.robot.driver_support import ADDRESS, BUS, FACE, Face
+from mindrun.robot.i2c import I2C_BYTE_SECONDS, ChipDevice, I2cDevice, MeasuringChip, open_chip
 
 WHO_AM_I, CHIP_ID = 0x75, 0x68  # 4.32
 STATUS, DATA_READY, NEVER_SET = 0x3A, 0x01, 0xE6  # 4.16; free fall and the like, which are off

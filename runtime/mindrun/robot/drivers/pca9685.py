@@ -5,17 +5,8 @@ from time import sleep
 from typing import Annotated
 
 from mindrun.kinds.registry import kind
-from mindrun.robot.driver_support import (
-    ADDRESS,
-    BUS,
-    CHANNEL,
-    I2C_BYTE_SECONDS,
-    MICROSECONDS,
-    I2cDevice,
-    answering,
-    on_bus,
-    share,
-)
+from mindrun.robot.driver_support import ADDRESS, BUS, CHANNEL, MICROSECONDS, answering, share
+from mindrun.robot.i2c import I2C_BYTE_SECONDS, I2cDevice, on_bus
 
 MODE1, MODE2, LED0, ALL_OFF_HIGH, PRESCALE = 0x00, 0x01, 0x06, 0xFD, 0xFE  # table 4
 RESTART, AUTO_INCREMENT, SLEEP = 0x80, 0x20, 0x10  # bits of MODE1, table 5

@@ -9,16 +9,8 @@ from time import monotonic, sleep
 from typing import Annotated
 
 from mindrun.kinds.registry import kind
-from mindrun.robot.driver_support import (
-    ADDRESS,
-    BUS,
-    I2C_BYTE_SECONDS,
-    METRES,
-    I2cDevice,
-    MeasuringChip,
-    Ranging,
-    answering,
-)
+from mindrun.robot.driver_support import ADDRESS, BUS, METRES, Ranging, answering
+from mindrun.robot.i2c import I2C_BYTE_SECONDS, I2cDevice, MeasuringChip
 
 IDENTITY, CHIP_ID = 0xC0, 0xEE  # table 4 of the data sheet
 RESET = 0xBF  # 0 holds the chip in reset, 1 lets it go
