@@ -57,16 +57,6 @@ def watch(plan: Plan, frames: int, status: int, work: Callable[[int], int]) -> i
     return abs(code)
 
 
-def rescued(plan: Plan, status: int, seconds: float) -> list[str]:
-    """Bring all to neutral, saying which are; the names of those that are not known to be, which are reported."""
-    ignore(*IGNORED_SIGNALS, *ENDING_SIGNALS)  # whoever tells it to end is told that it does, when it is done
-    at_rest = rescue(plan, lambda name: say(status, REST, name), seconds)
-    missing = [channel.actuator for channel in plan.channels if channel.actuator not in at_rest]
-    if missing:
-        report(f"not known to be at neutral: {', '.join(missing)}; cut the actuators' power")
-    return missing
-
-
 def report(line: str) -> None:
     """Say a line on standard error, as far as it is read."""
     errors = LineWriter(ERROR_DESCRIPTOR, "guardian: ")
@@ -114,11 +104,12 @@ class Attempt:
         os.close(self.words)
 
 
-def rescue(plan: Plan, told: Callable[[str], None], seconds: float) -> set[str]:
-    """Bring all actuators to neutral; the names of those that have acknowledged it, each `told` at once.
+def rescued(plan: Plan, status: int, seconds: float) -> list[str]:
+    """Bring all to neutral, saying which are; the names of those that are not known to be, which are reported.
 
     What ends its process is tried again, then without the others of its device.
     """
+    ignore(*IGNORED_SIGNALS, *ENDING_SIGNALS)  # whoever tells it to end is told that it does, when it is done
     until, at_rest = monotonic() + seconds, set[str]()
 
     def begun(channels: list[Channel], number: int) -> Attempt:
@@ -137,7 +128,7 @@ def rescue(plan: Plan, told: Callable[[str], None], seconds: float) -> set[str]:
         for attempt in [*running]:
             for name in _said(attempt.words):
                 at_rest.add(name)
-                told(name)
+                say(status, REST, name)
             if attempt.handle in ready:
                 attempt.end()
                 running.remove(attempt)
@@ -146,7 +137,10 @@ def rescue(plan: Plan, told: Callable[[str], None], seconds: float) -> set[str]:
                     running += [begun([channel], attempt.number + 1) for channel in missing]
     for attempt in running:
         attempt.end()
-    return at_rest
+    lost = [channel.actuator for channel in plan.channels if channel.actuator not in at_rest]
+    if lost:
+        report(f"not known to be at neutral: {', '.join(lost)}; cut the actuators' power")
+    return lost
 
 
 def bring(process: Process, report: Callable[[str], None], seconds: float) -> list[str]:
