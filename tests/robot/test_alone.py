@@ -141,7 +141,10 @@ def f(sense, pulse):
     if not children:
         children.append(os.fork())
         if not children[0]:
-            os.closerange(0, 3)  # who reads what mindrun says does not wait for it
+            ends = {os.readlink(f"/proc/self/fd/{number}") for number in (1, 2)}
+            for number in range(64):  # who reads what mindrun says does not wait for it
+                if os.path.lexists(place := f"/proc/self/fd/{number}") and os.readlink(place) in ends:
+                    os.close(number)
             time.sleep(30)
             os._exit(0)
     return 0.9
