@@ -5,8 +5,7 @@ from argparse import SUPPRESS, Action, ArgumentParser
 from collections.abc import Iterable, Iterator, Sequence
 
 import click
-from mindrun.cli.driving_arguments import driving_parser
-from mindrun.cli.tools import EXAMPLES, tool_parser, tools
+from mindrun.cli import EXAMPLES, driving_parser, tool_parser, tools
 
 from mindlang.explaining.article import Article, Parameter
 from mindlang.explaining.sections import in_lines

@@ -21,7 +21,6 @@ from mindlang.lock import Lock, lock_path, lock_sources, read_lock, read_locks
 from mindlang.lock.blobs import Origin
 from mindlang.lock.signature import arrange, places, signature, width
 from mindlang.lock.status import Status, Trained, is_due, needed_skills, status, subskills, trained_weights
-from mindlang.training.subject import origin_weights
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,8 +12,7 @@ from mindrun.engine.engine import Engine
 from mindrun.engine.virtual_sensors import virtual_sensors
 from mindrun.graph.bundle import Bundle
 from mindrun.graph.recording_header import MAX_HEADER_BYTES, About
-from mindrun.robot.growing_recording import read_growing
-from mindrun.robot.recording import read
+from mindrun.robot.recording import read, read_growing
 from mindrun.robot.replay import computed_again
 
 from mindlang.run.recording import measured_in, recorded_task, running_bundle

@@ -9,11 +9,10 @@ from pathlib import Path
 
 from mindrun.errors import MindError
 from mindrun.graph.bundle import read_bundle
-from mindrun.robot.identity import adopt
+from mindrun.robot.ownership import adopt
 
 
 def options(parser: argparse.ArgumentParser) -> None:
-    """The arguments."""
     parser.add_argument("bundle", type=Path, help="what `mindc build --robot` wrote")
 
 

@@ -21,8 +21,8 @@ from mindrun.files.printable import visible
 from mindrun.graph.bundle import read_bundle
 from mindrun.graph.wiring import SensorWire, reading, still
 from mindrun.kinds.sensors.sensor import SensorKind
-from mindrun.robot.sampling import Sample, Sampler
-from mindrun.robot.sudden_end import refuse_success
+from mindrun.robot.processes import refuse_success
+from mindrun.robot.sensing import Sample, Sampler
 from mindrun.terminal.arguments import real
 from mindrun.terminal.standard_streams import draw
 
@@ -31,7 +31,6 @@ NOISE_VALUES = 10  # that follow one another, over which noise is measured
 
 
 def options(parser: argparse.ArgumentParser) -> None:
-    """The arguments."""
     parser.add_argument("bundle", type=Path, help="what `mindc build --robot` wrote")
     parser.add_argument("sensor", help="one that is wired")
     parser.add_argument(

@@ -1,14 +1,75 @@
-"""How a robot is told to stop: a signal, after whose tick the loop ends. A tick that does not end is interrupted."""
+"""How the processes of a robot end: with a parent, by a signal, or by a driver; and what one that was forked may do."""
 
+import ctypes
 import os
 import signal
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from types import FrameType
+from typing import NoReturn
 
+PARENT_DIED = 1  # PR_SET_PDEATHSIG
+FAILURE_EXIT_CODE = 1
+FORKED_EXIT_CODE = 70
 STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 INTERRUPTED = 130
 MAX_INTERRUPTIONS = 5  # to interrupt what hangs, or to end in order, before the process is ended as it is
+MESSAGE = "mindrun: a driver or a procedure has ended this process"
+
+_let_go: set[Callable[[], None]] = set()
+
+
+def end_with_parent(parent: int, by: signal.Signals) -> None:
+    """As far as the system can: get this signal when process `parent`, or the thread that began this one, has ended."""
+    with suppress(OSError, AttributeError):
+        ctypes.CDLL(None).prctl(PARENT_DIED, by)
+    if os.getppid() != parent:
+        os.kill(os.getpid(), by)
+
+
+def end_in_child(process: int) -> None:
+    """End a process that code of a user has forked, and that has come back from it: only `process` drives."""
+    if os.getpid() != process:
+        os._exit(FORKED_EXIT_CODE)
+
+
+def keep_from_children(let_go: Callable[[], None]) -> None:
+    """Call this in every process that is forked from now on, and do not in this one."""
+    _let_go.add(let_go)
+
+
+def keep_no_longer(let_go: Callable[[], None]) -> None:
+    """No longer call this in forked processes: the resource has been released."""
+    _let_go.discard(let_go)
+
+
+def _in_child() -> None:
+    while _let_go:
+        _let_go.pop()()
+
+
+os.register_at_fork(after_in_child=_in_child)
+
+
+@contextmanager
+def refuse_success(then: str = "") -> Iterator[None]:
+    """Meanwhile `os._exit(0)` of this process, in whatever thread, is a failure; what C code ends is not seen.
+
+    `then` says what comes of it.
+    """
+    leave, process = os._exit, os.getpid()
+
+    def _exit(status: int) -> NoReturn:
+        if os.getpid() == process:
+            os.write(2, f"{MESSAGE}{then}\n".encode())
+            status = status or FAILURE_EXIT_CODE
+        leave(status)
+
+    os._exit = _exit
+    try:
+        yield
+    finally:
+        os._exit = leave
 
 
 class Stop:

@@ -14,7 +14,6 @@ from mindrun.terminal.tick_count import ticks as in_words
 
 
 def options(parser: argparse.ArgumentParser) -> None:
-    """The arguments."""
     parser.add_argument("recording", type=Path, help="what mindrun --record wrote")
     parser.add_argument("bundle", type=Path, help="the bundle that was running")
 

@@ -23,8 +23,8 @@ import mindrun.robot.drivers  # noqa: F401  every driver is known once this is i
 from mindrun.driver import driver_name
 from mindrun.graph.bundle import read_bundle
 from mindrun.graph.wiring import SensorWire, Wiring, still
-from mindrun.robot.sampling import Sample, Sampler
-from mindrun.robot.sudden_end import refuse_success
+from mindrun.robot.processes import refuse_success
+from mindrun.robot.sensing import Sample, Sampler
 from mindrun.terminal.standard_streams import document
 
 SENSOR_SECONDS = 3.0  # for a sensor to answer
@@ -51,7 +51,6 @@ class CheckResult:
 
 
 def options(parser: argparse.ArgumentParser) -> None:
-    """The arguments."""
     parser.add_argument("bundle", type=Path, nargs="?", help="look at what this bundle is wired to, as well")
     parser.add_argument("--json", action="store_true", help="one JSON document instead")
 
