@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable
 from typing import Any
 
 from mindrun.sim import warmup
-from mindrun.sim.changed_ticks import compile_stages
+from mindrun.sim.changed_ticks import STAGES
 from mindrun.sim.lanes.advance import advance
 from mindrun.sim.rollout import Rollout
 
@@ -42,10 +42,10 @@ def ensure_compiled(rollout: Rollout, say: Callable[[str], None]) -> None:
 
 def ensure_stages_compiled(rollout: Rollout, say: Callable[[str], None]) -> None:
     """The same of the stages of a tick one by one, which runs with changes take."""
-    if not warmup.code_of_stages().is_there():
+    if not is_compiled(STAGES):
         say(COMPILING_STAGES)
     before = signal.signal(signal.SIGINT, lambda number, frame: os._exit(INTERRUPTED))
     try:
-        compile_stages(rollout)
+        rollout.compile(*STAGES)
     finally:
         signal.signal(signal.SIGINT, before)

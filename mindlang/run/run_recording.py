@@ -26,7 +26,7 @@ Rows = NDArray[Any]
 
 
 class Written(Protocol):
-    """What the lanes have written down, with a row for each tick: `mindrun.sim.ticks.Ticks`, or most of it."""
+    """What the lanes have written down, with a row for each tick: `mindrun.sim.trace.Ticks`, or most of it."""
 
     @property
     def body(self) -> Floats: ...

@@ -12,11 +12,11 @@ from mindrun.engine.engine import procedure_sources
 from mindrun.graph.graph import Graph, Task
 from mindrun.graph.named_readings import reading_names
 from mindrun.graph.recording_header import About
+from mindrun.sim.changed_ticks import STAGES
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.task_rows import things_of
-from mindrun.sim.ticks import Ticks
-from mindrun.sim.trace import Trace, trace
-from mindrun.sim.warmup import code_of_stages
+from mindrun.sim.trace import Ticks, Trace, trace
+from mindrun.sim.warmup import is_there
 from numpy.typing import NDArray
 
 from mindlang.breakpoints.breakpoint import Breakpoint
@@ -82,7 +82,7 @@ class ViewedRun:
 
 
 def _compilation() -> str | None:
-    return None if code_of_stages().is_there() else COMPILING
+    return None if is_there(STAGES) else COMPILING
 
 
 def run_columns(setup: RunSetup, edges: int) -> Columns:

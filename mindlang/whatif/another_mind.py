@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from mindrun.engine.changes import Change
 from mindrun.sim.rollout import Rollout
-from mindrun.sim.takeover import take_over
+from mindrun.sim.trace import take_over
 from numpy.typing import NDArray
 
 from mindlang.run.course import Course, course, course_of

@@ -19,8 +19,7 @@ from mindrun.sim.outside import repeating
 from mindrun.sim.outside.rollout import EnvironmentRollout
 from mindrun.sim.outside.stepper import LocalStepper
 from mindrun.sim.outside.subprocess_stepper import VARIABLE, SubprocessStepper, is_own, stepper_for
-from mindrun.sim.takeover import take_over
-from mindrun.sim.trace import trace
+from mindrun.sim.trace import take_over, trace
 
 import mindlang
 from tests.outside import minds, worlds

@@ -25,7 +25,8 @@ part_of_tick: Decorator = numba.njit(
 
 
 def entry(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Compiled too, and alone can be called from Python; its machine code is kept."""
+    """Compiled too, even what is a part of others, and alone can be called from Python; its machine code is kept."""
+    function = getattr(function, "py_func", function)
     dispatcher: Any = numba.njit(pipeline_class=Outer, **OPTIONS)(function)
     keep_code(dispatcher, _code_of(function))
     return dispatcher  # type: ignore[no-any-return]

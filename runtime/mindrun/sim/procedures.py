@@ -5,6 +5,7 @@ lane, the run stops, and Python is asked for the reason: the same call fails on 
 """
 
 from collections.abc import Callable
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -27,8 +28,7 @@ from mindrun.kinds.procedure_text import module_of
 from mindrun.sim.arithmetic import F
 from mindrun.sim.compiling import compiled
 from mindrun.sim.exact import exactly
-from mindrun.sim.formula_terms import NoFormulaError
-from mindrun.sim.formulas import formula
+from mindrun.sim.formulas import NoFormulaError, formula
 
 # the lane in which it fails or −1; inputs, outputs, lanes, the distance between rows in floats
 SIGNATURE = types.intp(types.CPointer(types.float32), types.CPointer(types.float32), types.intp, types.intp)
@@ -135,3 +135,33 @@ class Procedures:
         else:
             self._kept.append(found)
             self.addresses[skill.name] = found.address
+
+
+@dataclass(frozen=True, slots=True)
+class Memories:
+    """The procedures of every run that goes on: each has modules of its own, as on a robot that has just started.
+
+    What a procedure remembers is of its run alone, whatever runs beside it, before it or after it.
+    """
+
+    procedures: Procedures
+    functions: dict[tuple[str, int], Callable[..., Any]] = field(default_factory=dict)
+
+    def run(self, skill: str, row: Any, state: Any, count: int) -> None:
+        """Call a skill's function for what `count` lanes have gathered; its outputs are the first rows of `hidden`."""
+        mind, outputs = state.mind, int(row["outputs"])
+        for k in range(count):
+            inputs = mind.gathered[: row["inputs"], k]
+            if np.isfinite(inputs).all():
+                function = self._of(skill, int(state.run.job[mind.active[k]]))
+                mind.hidden[:outputs, k] = ask(self.procedures.calls[skill], function, outputs, inputs)
+
+    def forget(self, but: set[int]) -> None:
+        """Forget the runs that are over."""
+        for key in [key for key in self.functions if key[1] not in but]:
+            del self.functions[key]
+
+    def _of(self, skill: str, job: int) -> Callable[..., Any]:
+        if (skill, job) not in self.functions:
+            self.functions[skill, job] = self.procedures.function(skill)
+        return self.functions[skill, job]

@@ -5,10 +5,9 @@ from typing import Any
 
 from mindrun.kinds.registry import kinds
 from mindrun.numbers.arithmetic import NAN
-from mindrun.sim.arithmetic import ONE, ZERO, F, clamp, compiled_lane, finite
+from mindrun.sim.arithmetic import ONE, ZERO, F, clamp, compiled_lane, evaluate, finite
 from mindrun.sim.codes import function_codes
 from mindrun.sim.compiling import compiled, part_of_tick
-from mindrun.sim.lanes.evaluate import evaluate
 from mindrun.sim.procedures import call
 from mindrun.sim.state import FAILED_COLUMN, FAILED_SKILL
 
@@ -51,7 +50,7 @@ def think(tables, state, lanes, first, last):
     """
     mind, failed = state.mind, state.run.failed
     for row in range(first, last):
-        count = wake(tables, mind, lanes, row)
+        count = wake(tables, state, lanes, row)
         if count > 0:
             skill, out = tables.skills[row], 0
             if skill.address == 0:
@@ -65,9 +64,9 @@ def think(tables, state, lanes, first, last):
 
 
 @compiled
-def wake(tables, mind, lanes, row):
+def wake(tables, state, lanes, row):
     """Gather the inputs of a skill in the lanes where it has influence; how many those are."""
-    skill = tables.skills[row]
+    skill, mind = tables.skills[row], state.mind
     count = awake(mind.influence[skill.index], mind.active, lanes, skill.own)
     if count > 0:
         rows = tables.inputs[skill.input : skill.input + skill.inputs]

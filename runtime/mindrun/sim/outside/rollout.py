@@ -126,33 +126,15 @@ class EnvironmentRollout(Rollout):
         """The compiled stages of a tick that its runs call."""
         return before, run_skills, act, conclude
 
-    def compile(self) -> None:
-        """Compile the stages where no cache has them."""
-        jobs = self.jobs(np.zeros((0, self.genome_length), np.float32), np.zeros(0, np.uint64))
-        state, none = self.tile(1).state, np.int64(0)
-        before(self.tables, state, jobs)
-        run_skills(self.tables, state, none, 0, 0)
-        act(self.tables, state, none, none)
-        conclude(self.tables, state, jobs, self.interrupt)
-
     def tile(self, lanes: int) -> Tile:
         """Room for so many lanes, and for their environments."""
         tile = super().tile(lanes)
         return Tile(tile.state, tile.memories, Episodes(tile.kept, self._stepper))
 
-    def advance(self, tile: Tile, jobs: Jobs, ticks: int) -> int:
-        """Run so many ticks; how many lanes are still at work."""
-        for _ in range(ticks):
-            if jobs.lanes[0] == 0:
-                break
-            self.observe(tile, jobs)
-            before(self.tables, tile.state, jobs)
-            self.think(tile, jobs, 0, len(self.tables.skills))
-            self.conclude(tile, jobs)
-        working = tile.state.run.job[: jobs.lanes[0]].tolist()
-        tile.memories.forget({*working})
-        self._release(tile.kept, {*working})
-        return len(working)
+    def forget(self, tile: Tile, working: set[int]) -> None:
+        """Forget all jobs but those, and give back their environments."""
+        super().forget(tile, working)
+        self._release(tile.kept, working)
 
     def observe(self, tile: Tile, jobs: Jobs) -> None:
         """What the environments observe becomes readings; those of runs that begin are reset."""
@@ -171,7 +153,7 @@ class EnvironmentRollout(Rollout):
     def conclude(self, tile: Tile, jobs: Jobs) -> None:
         """The second half of a tick: commands, a step of every environment, and what it was worth."""
         state, lanes = tile.state, int(jobs.lanes[0])
-        act(self.tables, state, np.int64(lanes), jobs.clock[0])
+        act(self.tables, state, np.int64(lanes))
         episodes = self._episodes(tile, jobs)
         tile.kept.stepper.step(episodes, self.wiring.actions(self._commands(state, lanes)))
         judge, ended = state.judge, state.run.ended
