@@ -16,8 +16,8 @@ from mindrun.sim.codes import BROKEN_OFF
 from mindrun.sim.lanes.stages import act, before, conclude, run_skills
 from mindrun.sim.outside.making import GAVE_NO_NUMBER
 from mindrun.sim.outside.repeating import CHECKED_TICKS, RecordingStepper, SlowError
-from mindrun.sim.outside.stepper import REWARD_COLUMN, TERMINATED_COLUMN, Run, Stepper
-from mindrun.sim.outside.subprocess_stepper import SilentEnvironmentError, stepper_for
+from mindrun.sim.outside.stepper import REWARD_COLUMN, TERMINATED_COLUMN, Run
+from mindrun.sim.outside.subprocess_stepper import SilentEnvironmentError, Stepper, stepper_for
 from mindrun.sim.outside.wiring import Wiring, wiring_of
 from mindrun.sim.rollout import SLOW_SLICE_TICKS, Rollout, Tile
 from mindrun.sim.state import Jobs, State
@@ -41,10 +41,9 @@ class Episodes:
 class EnvironmentRollout(Rollout):
     """Runs a task in an environment, as `Rollout` does one in its own world: a run of a seed begins with `reset(seed)`.
 
-    Every run has an environment of its own, and this thread has all of them stepped, in the process that
-    `steppers` says. `clipped` counts for each observed
-    sensor how many of the `observed` numbers were beyond its range, and `unreal` how many were no number at all; behind
-    these stands how many rewards were not finite.
+    Every run has an environment of its own, and this thread has all of them stepped, in the process that `steppers`
+    says. `clipped` counts for each observed sensor how many of the `observed` numbers were beyond its range, and
+    `unreal` how many were no number at all; behind these stands how many rewards were not finite.
     """
 
     simulates = False
@@ -162,9 +161,8 @@ class EnvironmentRollout(Rollout):
         judge.measures[self._rewards, :lanes] = rewards
         self.unreal[-1] += np.count_nonzero(~np.isfinite(rewards)) if self._rewards else 0
         judge.events[self._ends, :lanes] = rows[:, TERMINATED_COLUMN] != 0
-        ended[:lanes][(rows[:, TERMINATED_COLUMN:] != 0).any(axis=1)] = (
-            BROKEN_OFF  # unless one of the task's ends comes
-        )
+        is_over = (rows[:, TERMINATED_COLUMN:] != 0).any(axis=1)
+        ended[:lanes][is_over] = BROKEN_OFF  # unless one of the task's ends comes
         conclude(self.tables, state, jobs, self.interrupt)
 
     def _commands(self, state: State, lanes: int) -> NDArray[np.float32]:

@@ -1,4 +1,4 @@
-"""Steppers of environments: what each of them does, and that of environments in this process."""
+"""Environments stepped in this process."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from numbers import Real
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 from weakref import finalize
 
 import numpy as np
@@ -38,31 +38,6 @@ class Run:
         return place_of(self.seed, self.steps)
 
 
-class Stepper(Protocol):
-    """Steps environments of one name; BrokenEnvironmentError where one does what none may do."""
-
-    environment: str
-
-    @property
-    def spaces(self) -> Spaces:
-        """What they observe and take."""
-
-    def begin(self, places: Sequence[Place], seeds: Sequence[int], is_seen: bool = False) -> list[Run]:
-        """A new environment for the run of each seed, of which the numbers at these places are read, one a slot."""
-
-    def reset(self, runs: Sequence[Run]) -> None:
-        """Begin runs again, each in its environment."""
-
-    def step(self, runs: Sequence[Run], actions: Floats) -> None:
-        """Step each run: the numbers of its action, part after part [runs, numbers]."""
-
-    def image(self, run: Run) -> NDArray[Any]:
-        """What is seen of a run now [height, width, 3], red first; another array where it draws nothing."""
-
-    def close(self, runs: Sequence[Run]) -> None:
-        """Give back what runs hold."""
-
-
 @dataclass(frozen=True, slots=True)
 class Made:
     """An environment that is made, and where the numbers are that are read of it."""
@@ -92,7 +67,8 @@ class Made:
 class LocalStepper:
     """Steps environments of a name in this process; a module before it is looked for in `folder` first.
 
-    `reached` is told before each environment of a question which of them is asked now.
+    BrokenEnvironmentError where one does what none may do. `reached` is told before each environment of a question
+    which of them is asked now.
     """
 
     def __init__(
