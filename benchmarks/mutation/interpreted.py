@@ -106,15 +106,9 @@ class Rows(list[Row]):
 def call(address: Any, *arguments: Any) -> int:
     """A C function called with whole numbers, pointers and doubles, as `chipmunk.call` does."""
     kinds = [ctypes.c_double if isinstance(a, float) else ctypes.c_uint64 for a in arguments]
-    function = ctypes.CFUNCTYPE(ctypes.c_uint64, *kinds)(int(address))
+    function = ctypes.CFUNCTYPE(ctypes.c_int64, *kinds)(int(address))
     given = [float(a) if kind is ctypes.c_double else int(a) for a, kind in zip(arguments, kinds, strict=True)]
     return int(function(*given))
-
-
-def call_procedure(address: Any, inputs: int, outputs: int, lanes: int, stride: int) -> int:
-    """A compiled procedure called over lanes, as `procedures.call_address` does."""
-    function = ctypes.CFUNCTYPE(ctypes.c_ssize_t, *[ctypes.c_void_p] * 2, *[ctypes.c_ssize_t] * 2)(int(address))
-    return int(function(inputs, outputs, lanes, stride))
 
 
 def _plain(*given: Any, **options: Any) -> Any:
@@ -140,13 +134,12 @@ def _install() -> None:
     from mindrun.sim import changed_ticks, procedures, rollout
     from mindrun.sim.lanes import advance, chipmunk, runs, stages
 
-    chipmunk.call = call
-    procedures.call_address = call_procedure
-    build, tables = rollout.build, rollout.Tables
+    chipmunk.call = procedures.call = call
+    build = rollout.build
 
     def build_rows(*given: Any) -> Any:
         found, sizes = build(*given)
-        return tables(*(Rows(Row(row) for row in part) if part.dtype.names else part for part in found)), sizes
+        return type(found)(*(Rows(Row(row) for row in part) if part.dtype.names else part for part in found)), sizes
 
     rollout.build = build_rows
     for module in (advance, runs, stages):

@@ -11,10 +11,7 @@ from typing import Any
 
 import numba
 import numpy as np
-from llvmlite import ir
 from numba import types
-from numba.core import cgutils
-from numba.extending import intrinsic
 from numba.np.unsafe.ndarray import to_fixed_tuple
 from numpy.typing import NDArray
 
@@ -22,11 +19,11 @@ from mindrun.engine.engine import procedure_sources
 from mindrun.errors import ProcedureError
 from mindrun.graph.graph import Graph, Skill
 from mindrun.graph.weights import reachable
-from mindrun.kinds.procedure_call import call as ask
+from mindrun.kinds import procedure_call
 from mindrun.kinds.procedure_call import load
 from mindrun.kinds.procedure_text import module_of
 from mindrun.sim.arithmetic import F
-from mindrun.sim.compiling import compiled
+from mindrun.sim.compiling import call, compiled
 from mindrun.sim.exact import exactly
 from mindrun.sim.formulas import NoFormulaError, formula
 
@@ -34,30 +31,13 @@ from mindrun.sim.formulas import NoFormulaError, formula
 SIGNATURE = types.intp(types.CPointer(types.float32), types.CPointer(types.float32), types.intp, types.intp)
 
 
-@intrinsic
-def call_address(typingctx, address, inputs, outputs, lanes, stride):
-    """Call a C function with the type of SIGNATURE that stands at an address."""
-    signature = types.intp(types.uint64, types.uintp, types.uintp, types.intp, types.intp)
-
-    def generate(context, builder, _signature, arguments):
-        address, inputs, outputs, lanes, stride = arguments
-        pointer = cgutils.voidptr_t
-        whole = context.get_value_type(types.intp)
-        function_type = ir.FunctionType(whole, [pointer, pointer, whole, whole])
-        function = builder.inttoptr(address, function_type.as_pointer())
-        given = [builder.inttoptr(inputs, pointer), builder.inttoptr(outputs, pointer), lanes, stride]
-        return builder.call(function, given)
-
-    return signature, generate
-
-
 @compiled
-def call(address, gathered, hidden, n):
+def call_procedure(address, gathered, hidden, n):
     """Run a compiled procedure over the gathered inputs; its outputs are the first rows of `hidden`.
 
     The first lane in which it fails, or −1.
     """
-    return call_address(address, gathered.ctypes.data, hidden.ctypes.data, n, gathered.shape[1])
+    return np.int64(call(address, gathered.ctypes.data, hidden.ctypes.data, n, gathered.shape[1]))
 
 
 def compile_formula(function: Callable[..., Any], inputs: int, outputs: int) -> Any:
@@ -116,7 +96,7 @@ class Procedures:
         """Why a compiled procedure failed: what Python says of the same inputs."""
         calls = self.calls[skill]
         try:
-            ask(calls, self.function(skill), self._outputs[skill], inputs)
+            procedure_call.call(calls, self.function(skill), self._outputs[skill], inputs)
         except ProcedureError as error:
             return error
         said = f"procedure {calls} fails for {inputs.tolist()} where it is compiled, and not in Python"
@@ -154,7 +134,7 @@ class Memories:
             inputs = mind.gathered[: row["inputs"], k]
             if np.isfinite(inputs).all():
                 function = self._of(skill, int(state.run.job[mind.active[k]]))
-                mind.hidden[:outputs, k] = ask(self.procedures.calls[skill], function, outputs, inputs)
+                mind.hidden[:outputs, k] = procedure_call.call(self.procedures.calls[skill], function, outputs, inputs)
 
     def forget(self, but: set[int]) -> None:
         """Forget the runs that are over."""

@@ -24,7 +24,7 @@ from mindrun.sim.lanes.runs import fill
 from mindrun.sim.lanes.stages import act, after, before, begin_again, conclude, run_skills, send, wake
 from mindrun.sim.procedures import Memories, Procedures
 from mindrun.sim.state import FAILED_COLUMN, FAILED_SKILL, Jobs, State, empty_state, unbegun, whole_vectors
-from mindrun.sim.tables import Sizes, Tables, build, genome_length
+from mindrun.sim.tables import build, genome_length
 
 Array = NDArray[Any]
 T = TypeVar("T")
@@ -73,8 +73,6 @@ class Rollout:
         named, learners = {skill.name: skill for skill in graph.skills}, [*dict.fromkeys(learners)]
         self.learners = tuple(named[name] for name in learners)
         self.genome_length = genome_length(graph, learners)
-        self.tables: Tables
-        self.sizes: Sizes
         self.slice_ticks = SLOW_SLICE_TICKS if self.procedures.slow else SLICE_TICKS
         addresses = self.procedures.addresses
         library = chipmunk.library()

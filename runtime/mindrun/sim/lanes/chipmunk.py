@@ -25,9 +25,8 @@ from mindrun.numbers.arithmetic import (
 )
 from mindrun.sim import chipmunk_internals as cp
 from mindrun.sim.arithmetic import box_of, place_of, put_thing, size_of
-from mindrun.sim.chipmunk_internals import call
 from mindrun.sim.codes import FORCE_X, FORCE_Y, TORQUE
-from mindrun.sim.compiling import compiled
+from mindrun.sim.compiling import call, compiled
 from mindrun.sim.lanes.loose import SETTLED_TICKS, is_at_rest, put_motion
 from mindrun.sim.lanes.placement import ENDLESS_UNITS
 from mindrun.sim.lanes.solid import MOST_STRIDES, hold_back, note_before, note_begin, stride, within

@@ -8,7 +8,7 @@ from mindrun.numbers.arithmetic import NAN
 from mindrun.sim.arithmetic import ONE, ZERO, F, clamp, compiled_lane, evaluate, finite
 from mindrun.sim.codes import function_codes
 from mindrun.sim.compiling import compiled, part_of_tick
-from mindrun.sim.procedures import call
+from mindrun.sim.procedures import call_procedure
 from mindrun.sim.state import FAILED_COLUMN, FAILED_SKILL
 
 NOT_SENT = F(-1)
@@ -56,7 +56,7 @@ def think(tables, state, lanes, first, last):
             if skill.address == 0:
                 out = compute(tables, mind, skill, count)
             else:
-                failed[FAILED_COLUMN] = call(skill.address, mind.gathered, mind.hidden, count)
+                failed[FAILED_COLUMN] = call_procedure(skill.address, mind.gathered, mind.hidden, count)
                 if failed[FAILED_COLUMN] >= 0:
                     failed[FAILED_SKILL] = row
                     return
