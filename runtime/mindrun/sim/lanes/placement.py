@@ -13,7 +13,7 @@ from mindrun.sim.arithmetic import place_of, put_thing, sine_cosine, size_of
 from mindrun.sim.codes import CONSTANT, DRAWN, DRAWN_WHOLE, FAILING, FAR
 from mindrun.sim.compiling import compiled
 from mindrun.sim.lanes.loose import stand
-from mindrun.sim.lanes.solid import is_clear
+from mindrun.sim.lanes.solid import is_clear, put_box
 
 meets, computed = compiled(meets_robot), compiled(parameter_rows.computed)
 GOLDEN, MIX_1, MIX_2 = np.uint64(0x9E3779B97F4A7C15), np.uint64(0xBF58476D1CE4E5B9), np.uint64(0x94D049BB133111EB)
@@ -40,60 +40,41 @@ def draw(tables, world, lane):
 
     Of each the first in the source come first.
     """
-    clear_away(world, lane)
-    box = draw_walls(world, tables.walls, lane)
+    boxes, walls, box = world.boxes[lane], tables.walls, len(tables.walls)
+    for b in range(len(boxes) // BOX_COLUMNS):
+        put_box(boxes, b, FAR, FAR, 0.0, 0.0)
+    for b in range(len(walls)):
+        put_box(boxes, b, walls[b, X], walls[b, Y], walls[b, HALF_X], walls[b, HALF_Y])
+    world.things[:, lane] = FAR
     for i in range(len(tables.obstacles)):
         box = draw_grid(world, tables.obstacles[i], box, lane)
     start(tables, world, lane)
     for i in range(len(tables.things)):
         if tables.things[i].is_fixed:
-            draw_size(tables, world, i, lane)
-            put_at(tables, world, i, tables.things[i].x, tables.things[i].y, lane)
+            appear(tables, world, i, lane)
     for i in range(len(tables.obstacles)):
         obstacle = tables.obstacles[i]
         for _ in range(obstacle.count):
             size = uniform(world.random, lane, obstacle.first, obstacle.last)
             room = size / 2 + 3 * tables.world[0].radius
             x, y = find(tables, world, obstacle.low, obstacle.high, room, size / 2, -1, lane)
-            put_box(world.boxes, box, x, y, size / 2, lane)
+            put_box(boxes, box, x, y, size / 2, size / 2)
             box += 1
     for i in range(len(tables.things)):
         if not tables.things[i].is_fixed:
-            draw_size(tables, world, i, lane)
-            put(tables, world, i, lane)
+            appear(tables, world, i, lane)
 
 
 @compiled
-def draw_size(tables, world, i, lane):
-    """The size that thing i begins with."""
+def appear(tables, world, i, lane):
+    """Thing i in the size that it begins with, in its place or somewhere."""
     thing = tables.things[i]
     size = uniform(world.random, lane, thing.first, thing.last) if thing.drawn else thing.first
     world.things[THING_ROWS * i + SIZE, lane] = size
-
-
-@compiled
-def clear_away(world, lane):
-    """No box and no thing is anywhere near."""
-    for b in range(world.boxes.shape[1] // BOX_COLUMNS):
-        put_box(world.boxes, b, FAR, FAR, 0.0, lane)
-    world.things[:, lane] = FAR
-
-
-@compiled
-def draw_walls(world, walls, lane):
-    """What stands in the same places in every run; the number of the next box."""
-    for b in range(walls.shape[0]):
-        for i in range(BOX_COLUMNS):
-            world.boxes[lane, BOX_COLUMNS * b + i] = walls[b, i]
-    return walls.shape[0]
-
-
-@compiled
-def put_box(boxes, b, x, y, half, lane):
-    """A square, box number b, stands at a place."""
-    box = BOX_COLUMNS * b
-    boxes[lane, box + X], boxes[lane, box + Y] = x, y
-    boxes[lane, box + HALF_X], boxes[lane, box + HALF_Y] = half, half
+    if thing.is_fixed:
+        put_at(tables, world, i, thing.x, thing.y, lane)
+    else:
+        put(tables, world, i, lane)
 
 
 @compiled
@@ -106,7 +87,7 @@ def draw_grid(world, obstacle, box, lane):
             x = obstacle.x + (column - middle_x) * obstacle.grid + uniform(random, lane, -jitter, jitter)
             y = obstacle.y + (row - middle_y) * obstacle.grid + uniform(random, lane, -jitter, jitter)
             size = uniform(random, lane, obstacle.first, obstacle.last)
-            put_box(world.boxes, box, x, y, size / 2, lane)
+            put_box(world.boxes[lane], box, x, y, size / 2, size / 2)
             box += 1
     return box
 

@@ -36,6 +36,7 @@ from mindrun.sim.arithmetic import (
 from mindrun.sim.codes import AWAY, sensor_codes
 from mindrun.sim.compiling import compiled, part_of_tick
 from mindrun.sim.lanes.placement import uniform
+from mindrun.sim.lanes.solid import put_box
 from mindrun.sim.state import FIRST_RAY, HIGH, LEFT, LOW, RIGHT, SIDES, SIGHT_COSINE, SIGHT_SINE, SIGHT_X, SIGHT_Y
 from mindrun.sim.vector import HIGHEST, LOWEST, VECTOR_LANES, load, splat, store, where_ordered
 
@@ -192,24 +193,16 @@ def choose(world, sight, reach, lanes):
 @compiled
 def choose_in(boxes, sight, reach, lane):
     """The boxes around the anchor of a lane."""
-    nearby, x, y = sight.nearby, sight.anchor[X, lane], sight.anchor[Y, lane]
+    nearby, x, y = sight.nearby[:, lane], sight.anchor[X, lane], sight.anchor[Y, lane]
     found = 0
     for b in range(boxes.shape[1] // BOX_COLUMNS):
         its_x, its_y, wide, high = box_of(boxes, b, lane)
         if abs(its_x - x) < wide + reach and abs(its_y - y) < high + reach:
-            put_nearby(nearby, found, its_x, its_y, wide, high, lane)
+            put_box(nearby, found, its_x, its_y, wide, high)
             found += 1
     for k in range(found, sight.nearby_count[lane]):
-        put_nearby(nearby, k, AWAY, AWAY, 0.0, 0.0, lane)
+        put_box(nearby, k, AWAY, AWAY, 0.0, 0.0)
     sight.nearby_count[lane] = found
-
-
-@compiled
-def put_nearby(nearby, k, x, y, wide, high, lane):
-    """Box k of those near to a lane."""
-    box = BOX_COLUMNS * k
-    nearby[box + X, lane], nearby[box + Y, lane] = x, y
-    nearby[box + HALF_X, lane], nearby[box + HALF_Y, lane] = wide, high
 
 
 @compiled

@@ -14,6 +14,8 @@ import numpy as np
 from mindrun.numbers.arithmetic import (
     ANGLE,
     BOX_COLUMNS,
+    HALF_X,
+    HALF_Y,
     LOOSE_ROWS,
     PUSHED_SPIN,
     PUSHED_X,
@@ -47,6 +49,13 @@ def within(x, y, angle):
 def is_lost(body, lane):
     """Whether a lane's robot is where no world is."""
     return not within(body[X, lane], body[Y, lane], body[ANGLE, lane])
+
+
+@compiled
+def put_box(boxes, b, x, y, wide, high):
+    """Box number b of a lane: its middle, and half of its sides."""
+    box = BOX_COLUMNS * b
+    boxes[box + X], boxes[box + Y], boxes[box + HALF_X], boxes[box + HALF_Y] = x, y, wide, high
 
 
 @compiled
@@ -136,16 +145,20 @@ def find_swift(tables, world, swift, lanes):
         speed = abs(body[SPEED_X, lane]) + abs(body[SPEED_Y, lane]) + spin
         count += speed * dt > SWIFT_SHARE * (own_least if held[lane] < 0 else least)
     for i in range(len(tables.loose)):
-        row, thing = LOOSE_ROWS * i, tables.loose[i].thing
-        of_size = 0.0 if tables.loose[i].is_round else HALF_DIAGONAL
         for lane in range(lanes):
-            size = size_of(world.things, thing, lane)
-            speed = abs(world.loose[row + PUSHED_X, lane]) + abs(world.loose[row + PUSHED_Y, lane])
-            speed += abs(world.loose[row + PUSHED_SPIN, lane]) * (size * of_size)
-            count += speed * dt > SWIFT_SHARE * size / 2
+            size = size_of(world.things, tables.loose[i].thing, lane)
+            count += speed_of_loose(tables, world, i, lane) * dt > SWIFT_SHARE * size / 2
     for lane in range(lanes if count > 0 else 0):
         swift[lane] = 1 if stride(tables, world, lane) < dt else 0
     return count
+
+
+@compiled
+def speed_of_loose(tables, world, i, lane):
+    """How far any point of loose thing i may come in a second."""
+    row, arm = LOOSE_ROWS * i, 0.0 if tables.loose[i].is_round else extent_of(tables, world, i, lane)
+    speed = abs(world.loose[row + PUSHED_X, lane]) + abs(world.loose[row + PUSHED_Y, lane])
+    return speed + abs(world.loose[row + PUSHED_SPIN, lane]) * arm
 
 
 @compiled
@@ -169,10 +182,8 @@ def stride(tables, world, lane):
 @compiled
 def stride_of(tables, world, i, x, y, reach, lane):
     """For how many seconds loose thing i may go on at once beside a robot that reaches so far around its middle."""
-    row, thing = LOOSE_ROWS * i, tables.loose[i].thing
+    thing, speed = tables.loose[i].thing, speed_of_loose(tables, world, i, lane)
     half, extent = size_of(world.things, thing, lane) / 2, extent_of(tables, world, i, lane)
-    speed = abs(world.loose[row + PUSHED_X, lane]) + abs(world.loose[row + PUSHED_Y, lane])
-    speed += 0.0 if tables.loose[i].is_round else abs(world.loose[row + PUSHED_SPIN, lane]) * extent
     if not speed * tables.world[0].dt > SWIFT_SHARE * half:
         return np.inf
     its_x, its_y = place_of(world.things, thing, lane)
