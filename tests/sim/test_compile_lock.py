@@ -157,7 +157,7 @@ def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def test_nothing_is_locked_where_it_is_found(place: Path) -> None:
     kept: Callable[..., Any] = entry(halved_and_more)
     assert kept(4.0) == 3
-    assert locks(place) == {"test_cache.halved", "test_cache.halved_and_more"}
+    assert locks(place) == {"test_compile_lock.halved", "test_compile_lock.halved_and_more"}
     for path in place.glob("*.lock"):
         path.unlink()
     assert entry(halved_and_more)(4.0) == 3

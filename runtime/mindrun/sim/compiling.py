@@ -41,12 +41,12 @@ def callback(signature: Any) -> Callable[[Callable[..., Any]], Any]:
 
 
 @intrinsic
-def call(typingctx, address, *arguments):
+def call(typingctx: Any, address: Any, *arguments: Any) -> Any:
     """Call the C function at an address with whole numbers, pointers and doubles; its result as a uint64."""
     given = tuple(types.float64 if isinstance(a, types.Float) else types.uint64 for a in arguments)
     signature = types.uint64(types.uint64, types.StarArgTuple(given))
 
-    def generate(context, builder, _signature, values):
+    def generate(context: Any, builder: Any, _signature: Any, values: Any) -> Any:
         double, whole = ir.DoubleType(), ir.IntType(64)
         kinds = [double if kind is types.float64 else whole for kind in given]
         function = builder.inttoptr(values[0], ir.FunctionType(whole, kinds).as_pointer())

@@ -1,9 +1,8 @@
 """Procedures that are formulas: arithmetic with floats, which compiled code can do as Python does, to the last bit.
 
 A formula is written anew for numba from its text; only the sign of a zero may differ, which nothing in it can tell.
-Nothing in it can raise or reach beyond its numbers: where Python
-would raise, the new one sets `wrong[0]` and goes on, and whoever sees that asks Python for the reason. Whatever is more
-than a formula is no formula here, and runs in Python.
+Nothing in it can raise or reach beyond its numbers: where Python would raise, the new one sets `wrong[0]` and goes on,
+and whoever sees that asks Python for the reason. What is more than a formula is none here, and runs in Python.
 """
 
 import ast
@@ -120,14 +119,9 @@ def binary(op: ast.operator, left: Term, right: Term, node: ast.expr) -> Term:
     return Term(text, Kind.NUMBER, size) if size <= EXACT_INTEGERS else refuse(node)
 
 
-def has_truth(*terms: Term) -> bool:
-    """Whether one of the terms is a truth."""
-    return any(term.kind is Kind.TRUTH for term in terms)
-
-
-def are_truths(terms: Sequence[Term]) -> bool:
-    """Whether all terms are truths."""
-    return all(term.kind is Kind.TRUTH for term in terms)
+def alike(terms: Sequence[Term]) -> list[str]:
+    """Terms any of which may be taken: as truths where all are, else as numbers."""
+    return [term.text if all(each.kind is Kind.TRUTH for each in terms) else term.number for term in terms]
 
 
 def either(text: str, *terms: Term) -> Term:
@@ -226,21 +220,18 @@ class Translation:
         if then is None or otherwise is None:
             return lines, then if otherwise is None else otherwise
         both = [(name, term, otherwise[name]) for name, term in then.items() if name in otherwise]
-        return lines, {name: either(a.text, a, b) for name, a, b in both if (a.kind is b.kind) or not has_truth(a, b)}
+        return lines, {
+            name: either(a.text, a, b) for name, a, b in both if a.kind is b.kind or Kind.TRUTH not in (a.kind, b.kind)
+        }
 
     def _assigned(self, target: ast.expr, value: ast.expr, known: Known) -> str:
-        match target, value:
-            case ast.Name(id=name), _:
-                term = self._term(value, known)
-                known[name] = replace(term, text=named(name), whole=None)
-                return f"{named(name)} = {term.text}"
-            case ast.Tuple(elts=targets), ast.Tuple(elts=values) if len(targets) == len(values):
-                names = [each.id if isinstance(each, ast.Name) else refuse(target) for each in targets]
-                terms = [self._term(each, known) for each in values]
-                for name, term in zip(names, terms, strict=True):
-                    known[name] = replace(term, text=named(name), whole=None)
-                return f"{', '.join(map(named, names))}, = {', '.join(term.text for term in terms)},"
-        return refuse(target)
+        targets, values = [target], [value]
+        if isinstance(target, ast.Tuple) and isinstance(value, ast.Tuple) and len(target.elts) == len(value.elts):
+            targets, values = target.elts, value.elts
+        names = [each.id if isinstance(each, ast.Name) else refuse(target) for each in targets]
+        terms = [self._term(each, known) for each in values]
+        known |= {name: replace(term, text=named(name), whole=None) for name, term in zip(names, terms, strict=True)}
+        return f"{', '.join(map(named, names))}, = {', '.join(term.text for term in terms)},"
 
     def _returned(self, value: ast.expr, known: Known) -> str:
         parts = value.elts if isinstance(value, ast.Tuple | ast.List) else [value]
@@ -266,16 +257,14 @@ class Translation:
             case ast.BoolOp(op=op, values=values):
                 word = " and " if isinstance(op, ast.And) else " or "
                 terms = [self._term(value, known) for value in values]
-                texts = [term.text if are_truths(terms) else term.number for term in terms]
-                return either(f"({word.join(texts)})", *terms)
+                return either(f"({word.join(alike(terms))})", *terms)
             case ast.Compare(left=left, ops=ops, comparators=others) if all(type(op) in COMPARISONS for op in ops):
                 first, *rest = (self._term(each, known).number for each in (left, *others))
                 compared = (f" {COMPARISONS[type(op)]} {text}" for op, text in zip(ops, rest, strict=True))
                 return Term(f"({first}{''.join(compared)})", Kind.TRUTH)
             case ast.IfExp(test=test, body=body, orelse=orelse):
                 condition, *both = (self._term(each, known) for each in (test, body, orelse))
-                texts = [term.text if are_truths(both) else term.number for term in both]
-                return either(f"({texts[0]} if {condition.truth} else {texts[1]})", *both)
+                return either(f"({f' if {condition.truth} else '.join(alike(both))})", *both)
             case ast.Call(func=func, args=args, keywords=[]):
                 return self._call(self._object(func), [self._term(each, known) for each in args], node)
         return refuse(node)

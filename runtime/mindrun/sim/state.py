@@ -237,7 +237,10 @@ class Jobs(NamedTuple):
 def empty_state(tables: Tables, sizes: Sizes, lanes: int) -> State:
     """Room for so many lanes, all idle."""
     n = _counts(tables, sizes)
-    state = State(*(_empty(part, n, lanes) for part in (World, Sight, Mind, Contact, Judge, Run)))
+    state = State(
+        _empty(World, n, lanes), _empty(Sight, n, lanes), _empty(Mind, n, lanes),
+        _empty(Contact, n, lanes), _empty(Judge, n, lanes), _empty(Run, n, lanes),
+    )  # fmt: skip
     nearby = state.sight.nearby
     nearby[X::BOX_COLUMNS] = nearby[Y::BOX_COLUMNS] = AWAY
     state.mind.readings[: len(sizes.measured)][~sizes.measured] = np.nan  # the lanes write none of these
@@ -248,8 +251,8 @@ def empty_state(tables: Tables, sizes: Sizes, lanes: int) -> State:
 def unbegun(genomes: Array, seeds: Array, genome: Array, seed: Array, lines: int, events: int) -> Jobs:
     """Jobs that have not begun: a genome and a seed of each, by their numbers."""
     n = {"jobs": len(genome), "lines": max(1, lines), "events": events}
-    pairs = {"genome": np.ascontiguousarray(genome, I8), "seed": np.ascontiguousarray(seed, I8)}
-    return _empty(Jobs, n, genomes=genomes, seeds=seeds, **pairs)
+    genome, seed = np.ascontiguousarray(genome, I8), np.ascontiguousarray(seed, I8)
+    return _empty(Jobs, n, 0, genomes=genomes, seeds=seeds, genome=genome, seed=seed)
 
 
 def recorded(state: State) -> tuple[tuple[Array, ...], tuple[Array, ...]]:
@@ -261,7 +264,7 @@ def recorded(state: State) -> tuple[tuple[Array, ...], tuple[Array, ...]]:
     )
 
 
-def _empty(part: type[Part], n: Mapping[str, int], lanes: int = 0, **known: Array) -> Part:
+def _empty(part: type[Part], n: Mapping[str, int], lanes: int, **known: Array) -> Part:
     """A part of the state, or jobs: zeros in all that is not known."""
     return part(**{
         name: known[name] if name in known else kind.__metadata__[0](n, lanes)

@@ -12,7 +12,7 @@ from mindrun.graph.graph import Graph, Sensor, Task, Thing
 from mindrun.kinds.registry import names
 from mindrun.kinds.sensors.battery import Battery
 from mindrun.kinds.things.thing import OUTCOMES, STAYS, ThingKind
-from mindrun.numbers.arithmetic import BOX_COLUMNS, NAN
+from mindrun.numbers.arithmetic import BOX_COLUMNS
 from mindrun.sim import codes
 from mindrun.sim.codes import DAMPING, HALF_DIAGONAL, INVERSE, OVER, TIMES, Row, records
 from mindrun.sim.mind_rows import Programs
@@ -212,7 +212,7 @@ def world_row(
         "side": body.side, **_solidity(graph, task), "is_round": not body.outline, "axles": body.axle_distance,
         "half_x": half_x, "half_y": half_y, "is_placed": begin.at is not None, "start_x": start_x, "start_y": start_y,
         "is_faced": begin.facing is not None, "facing": begin.facing or 0.0, "ticks": task.ticks,
-        "start": battery.start if powered else NAN, "drain": battery.drain, "charge": battery.charge, "rays": rays,
+        "start": battery.start if powered else np.nan, "drain": battery.drain, "charge": battery.charge, "rays": rays,
         "near": near, "master": graph.skill_numbers[master], "claw": graph.claw_reach, "battery": powered,
     }  # fmt: skip
     return records([row], codes.WORLD)
