@@ -40,7 +40,7 @@ def callback(signature: Any) -> Callable[[Callable[..., Any]], Any]:
     return lambda function: callback_of(function, signature, _code_of(function))
 
 
-@intrinsic
+@intrinsic  # type: ignore[untyped-decorator]
 def call(typingctx: Any, address: Any, *arguments: Any) -> Any:
     """Call the C function at an address with whole numbers, pointers and doubles; its result as a uint64."""
     given = tuple(types.float64 if isinstance(a, types.Float) else types.uint64 for a in arguments)
