@@ -22,7 +22,9 @@ def act(tables, state, lanes):
         if actuator.is_rough:
             disturb(world, actuator, commands, world.acting[i], lanes)
         if actuator.is_slipping:
-            slide(world.random, world.numbers[actuator.slip], world.grip[i], lanes)
+            for lane in range(lanes):
+                slip = world.numbers[actuator.slip, lane]
+                world.grip[i, lane] = 1.0 - slip * uniform(world.random, lane, 0.0, 1.0)
         if actuator.kind == GRIPPER:
             acting = world.acting[i] if actuator.is_rough else commands
             grip(acting, tables, world, actuator.reach, lanes)
@@ -30,11 +32,17 @@ def act(tables, state, lanes):
 
 @compiled
 def recall(tables, mind, run, lanes):
-    """The memory cells as they are read in the next tick: a reward of this one has them as its skills had."""
+    """The memory cells as they are read in the next tick: a reward of this one has them as its skills had.
+
+    decay·cell + (1 − decay)·command where a skill drives a cell, else decay·cell.
+    """
     for i in range(len(tables.memories)):
         memory, sink = tables.memories[i], len(tables.actuators) + i
         means(mind.command_sums[sink], mind.influence_sums[sink], UNDRIVEN, mind.sent, run.faults, lanes)
-        remember(mind.readings[memory.row], mind.sent, memory.decay, memory.rest, lanes)
+        cell, decay, rest = mind.readings[memory.row], memory.decay, memory.rest
+        for lane in range(lanes):
+            kept = decay * cell[lane]
+            cell[lane] = kept + rest * mind.sent[lane] if mind.sent[lane] >= ZERO else kept
 
 
 @compiled
@@ -71,21 +79,6 @@ def disturb(world, actuator, commands, acting, lanes):
             acting[lane] = clamp(commands[lane] + F(noise[lane]) * F(uniform(world.random, lane, -1.0, 1.0)))
         if actuator.fails >= 0 and world.tick[lane] >= stuck[lane]:
             acting[lane] = actuator.neutral
-
-
-@compiled
-def slide(random, slip, kept, lanes):
-    """The share of its force that an actuator keeps in this tick."""
-    for lane in range(lanes):
-        kept[lane] = 1.0 - slip[lane] * uniform(random, lane, 0.0, 1.0)
-
-
-@compiled
-def remember(cell, command, decay, rest, lanes):
-    """decay·cell + (1 − decay)·command where a skill drives the cell, else decay·cell."""
-    for lane in range(lanes):
-        kept = decay * cell[lane]
-        cell[lane] = kept + rest * command[lane] if command[lane] >= ZERO else kept
 
 
 @compiled

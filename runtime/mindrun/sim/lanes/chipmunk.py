@@ -146,7 +146,12 @@ def close_space(tables, contact, lane):
             else:
                 call(library[cp.SHAPE_FREE], handles[shape])
                 handles[shape] = 0
-    remove_loose(tables, space, contact, lane)
+    for i in range(len(tables.loose)):
+        loose = contact.loose[lane, cp.LOOSE_HANDLES * i : cp.LOOSE_HANDLES * (i + 1)]
+        call(library[cp.SPACE_REMOVE_SHAPE], space, loose[cp.LOOSE_SHAPE])
+        call(library[cp.SHAPE_FREE], loose[cp.LOOSE_SHAPE])
+        call(library[cp.SPACE_REMOVE_BODY], space, loose[cp.LOOSE_BODY])
+        call(library[cp.BODY_FREE], loose[cp.LOOSE_BODY])
     call(library[cp.SPACE_REMOVE_BODY], space, body)
     call(library[cp.BODY_FREE], body)
     call(library[cp.SPACE_FREE], space)
@@ -214,18 +219,6 @@ def put_corners(corners, left, low, right, high):
     """The corners of a rectangle, into room for eight floats."""
     corners[0], corners[1], corners[2], corners[3] = left, low, right, low
     corners[4], corners[5], corners[6], corners[7] = right, high, left, high
-
-
-@compiled
-def remove_loose(tables, space, contact, lane):
-    """The loose things out of a Space that is given up."""
-    library, handles = tables.library, contact.loose[lane]
-    for i in range(len(tables.loose)):
-        body, shape = handles[cp.LOOSE_HANDLES * i + cp.LOOSE_BODY], handles[cp.LOOSE_HANDLES * i + cp.LOOSE_SHAPE]
-        call(library[cp.SPACE_REMOVE_SHAPE], space, shape)
-        call(library[cp.SHAPE_FREE], shape)
-        call(library[cp.SPACE_REMOVE_BODY], space, body)
-        call(library[cp.BODY_FREE], body)
 
 
 @compiled

@@ -212,13 +212,9 @@ def forget(world, i, lane):
 
 @compiled
 def clear_of_all(tables, world, x, y, margin, lane):
-    """Whether nothing solid that stands already comes within `margin` of a point, along the axes."""
-    return is_clear(world.boxes, x, y, margin, lane) and clear_of_loose(tables, x, y, margin)
-
-
-@compiled
-def clear_of_loose(tables, x, y, margin):
-    """Whether no box or ball with a place of its own comes within `margin` of a point, along the axes."""
+    """Whether no obstacle, and no box or ball with a place of its own, comes within `margin` of a point."""
+    if not is_clear(world.boxes, x, y, margin, lane):
+        return False
     for i in range(len(tables.loose)):
         thing = tables.things[tables.loose[i].thing]
         gap = max(thing.first, thing.last) / 2 + margin

@@ -74,8 +74,9 @@ def thrust(tables, world, commands, lanes):
             is_aside |= actuator.aside != 0.0
     linear, angular = world.numbers[constants.linear], world.numbers[constants.angular]
     damp(world.body, world.heading, push, linear, angular, lanes)
-    if is_aside:
-        push_aside(world.heading, push, lanes)
+    for lane in range(lanes if is_aside else 0):
+        push[FORCE_X, lane] -= push[FORCE_ASIDE, lane] * world.heading[SINE, lane]
+        push[FORCE_Y, lane] += push[FORCE_ASIDE, lane] * world.heading[COSINE, lane]
     if constants.axles > 0.0:
         roll(tables, world, commands, lanes)
 
@@ -90,14 +91,6 @@ def drive(commands, actuator, strength, kept, push, lanes):
         push[FORCE, lane] += ahead * pushed
         push[FORCE_ASIDE, lane] += aside * pushed
         push[TORQUE, lane] += arm * pushed
-
-
-@compiled
-def push_aside(heading, push, lanes):
-    """The force to the left of the heading turned into the world."""
-    for lane in range(lanes):
-        push[FORCE_X, lane] -= push[FORCE_ASIDE, lane] * heading[SINE, lane]
-        push[FORCE_Y, lane] += push[FORCE_ASIDE, lane] * heading[COSINE, lane]
 
 
 @compiled
@@ -183,8 +176,10 @@ def find_near(tables, world, sight, contact, lanes):
         leap = away > CULLING_SLACK_UNITS * CULLING_SLACK_UNITS  # away from the boxes it knows
         near[lane] = CONTACT_TICKS if leap | (gap[lane] < reach) else max(0, near[lane] - 1)
     for lane in range(lanes):
-        if world.held[lane] >= 0 and gap[lane] < reach_of(tables, world, lane):
-            near[lane] = CONTACT_TICKS
+        held = world.held[lane]
+        if held >= 0:  # how far from the robot's centre that could touch something
+            reach = tables.things[held].hold + size_of(world.things, held, lane) / 2 + CONTACT_MARGIN_UNITS
+            near[lane] = CONTACT_TICKS if gap[lane] < reach else near[lane]
     for lane in range(lanes if len(tables.loose) > 0 else 0):
         if world.restless[lane] > 0 and could_touch(tables, world, lane):
             near[lane] = CONTACT_TICKS
@@ -195,13 +190,6 @@ def find_near(tables, world, sight, contact, lanes):
     if find_swift(tables, world, contact.swift, lanes) > 0:
         for lane in range(lanes):
             near[lane] = CONTACT_TICKS if contact.swift[lane] > 0 else near[lane]
-
-
-@compiled
-def reach_of(tables, world, lane):
-    """How far from a robot's centre what it holds could touch something."""
-    held = world.held[lane]
-    return tables.things[held].hold + size_of(world.things, held, lane) / 2 + CONTACT_MARGIN_UNITS
 
 
 @compiled

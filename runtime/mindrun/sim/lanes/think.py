@@ -109,7 +109,7 @@ def gather(rows, readings, gathered, active, sound, count, everywhere):
 def send(tables, state, row, out, count, lanes):
     """Every edge's value, times the skill's influence, to where it goes; a value that is not finite is not sent."""
     skill, mind, everywhere = tables.skills[row], state.mind, count == lanes
-    influence = mind.influence[skill.index]
+    influence, sent = mind.influence[skill.index], mind.sent
     for e in range(skill.edge, skill.edge + skill.edges):
         edge = tables.edges[e]
         if edge.output >= 0:
@@ -121,16 +121,18 @@ def send(tables, state, row, out, count, lanes):
         if edge.whens > 0:
             gate(tables, mind, state.judge.measures, edge, values, count, everywhere)
             values = mind.gated
-        check(values, mind.sound, mind.sent, mind.active, state.run.faults, influence, count)
+        check(values, mind.sound, sent, mind.active, state.run.faults, influence, count)
         if edge.whens > 0 and edge.others == 0:
-            close(mind.opened, mind.sound, mind.sent, count)
-        if edge.cuts > ZERO:
-            cut(mind.sent, influence, mind.active, edge.cuts, count)
+            for k in range(count):  # nothing is sent where a condition does not hold, and that is no fault
+                sent[k] = NOT_SENT if mind.opened[k] == ZERO and mind.sound[k] == ZERO else sent[k]
+        for k in range(count if edge.cuts > ZERO else 0):
+            if sent[k] >= ZERO:  # nothing is sent where the influence that arrives would be smaller than the least
+                sent[k] = NOT_SENT if sent[k] * influence[mind.active[k]] < edge.cuts else sent[k]
         if edge.to_skill:
-            spread(mind.sent, influence, mind.influence[edge.target], mind.active, count, everywhere)
+            spread(sent, influence, mind.influence[edge.target], mind.active, count, everywhere)
         else:
-            spread(mind.sent, influence, mind.command_sums[edge.target], mind.active, count, everywhere)
-            weigh(mind.sent, influence, mind.influence_sums[edge.target], mind.active, count, everywhere)
+            spread(sent, influence, mind.command_sums[edge.target], mind.active, count, everywhere)
+            weigh(sent, influence, mind.influence_sums[edge.target], mind.active, count, everywhere)
 
 
 @compiled
@@ -153,21 +155,6 @@ def gate(tables, mind, measures, edge, values, count, everywhere):
     for k in range(count):
         is_open, is_closed = mind.opened[k] > ZERO, mind.opened[k] == ZERO
         mind.gated[k] = values[k] if is_open else other[k] if is_closed else NAN
-
-
-@compiled
-def close(opened, sound, sent, count):
-    """Nothing is sent where a condition does not hold, and that is no fault."""
-    for k in range(count):
-        sent[k] = NOT_SENT if opened[k] == ZERO and sound[k] == ZERO else sent[k]
-
-
-@compiled
-def cut(sent, influence, active, least, count):
-    """Nothing is sent where the influence that arrives would be smaller than the least."""
-    for k in range(count):
-        if sent[k] >= ZERO:
-            sent[k] = NOT_SENT if sent[k] * influence[active[k]] < least else sent[k]
 
 
 @compiled
