@@ -15,7 +15,8 @@ from mindrun.graph.graph import Graph
 from mindrun.graph.policy import Policy
 from mindrun.graph.wiring import Wiring
 from mindrun.numbers.short_repr import ShortRepr
-from mindrun.sim.rollout import Rollout, rollout_for
+from mindrun.sim.rollout import Rollout
+from mindrun.sim.rollouts import rollout_for
 from mindrun.sim.trace import Trace, trace
 from mindrun.train.lesson_state import Record
 from mindrun.train.training import Watch

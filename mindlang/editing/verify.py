@@ -10,7 +10,8 @@ from mindrun.engine.engine import Engine
 from mindrun.graph.graph import Graph, Skill
 from mindrun.graph.policy import Policy
 from mindrun.graph.weights import Weights, genes, owner_of, reachable, weights_of
-from mindrun.sim.rollout import Rollout, rollout_for
+from mindrun.sim.rollout import Rollout
+from mindrun.sim.rollouts import rollout_for
 from mindrun.sim.trace import trace
 from numpy.typing import NDArray
 

@@ -39,7 +39,7 @@ def rollout_of(assignment: Assignment, threads: int) -> Rollout:
     WorkError where there is no simulator.
     """
     try:
-        rollout_for = import_module("mindrun.sim.rollout").rollout_for
+        rollout_for = import_module("mindrun.sim.rollouts").rollout_for
     except ImportError as error:
         raise WorkError(f"there is no simulator at the worker ({error})", "pip install mindlang there") from error
     bundle = unpack(assignment.bundle)

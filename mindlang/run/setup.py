@@ -60,7 +60,7 @@ class RunSetup:
 
     def rollout(self, interrupt: bool = True, workers: int = 1) -> Rollout:
         """The task under the master, in the simulator. Runs the text of the procedures' modules."""
-        from mindrun.sim.rollout import rollout_for
+        from mindrun.sim.rollouts import rollout_for
 
         return rollout_for(
             self.ready.policy,

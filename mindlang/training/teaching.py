@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from mindrun.engine.engine import procedure_sources
 from mindrun.graph.bundle import Bundle, pack
 from mindrun.graph.policy import Policy
-from mindrun.sim.rollout import Rollout, rollout_for
+from mindrun.sim.rollout import Rollout
+from mindrun.sim.rollouts import rollout_for
 from mindrun.terminal.command_line import command_line
 from mindrun.train.kept_segments import KeptSegments, RememberingExecutor
 from mindrun.train.lesson import Clock

@@ -8,7 +8,8 @@ import numpy as np
 from mindrun.graph.graph import Lesson
 from mindrun.graph.policy import Policy
 from mindrun.graph.weights import Weights, owners, reachable
-from mindrun.sim.rollout import Rollout, rollout_for
+from mindrun.sim.rollout import Rollout
+from mindrun.sim.rollouts import rollout_for
 from mindrun.sim.trace import trace
 from mindrun.terminal.command_line import command_line
 from mindrun.train import RunError

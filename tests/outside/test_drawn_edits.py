@@ -14,7 +14,7 @@ pytest.importorskip("gymnasium")
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from mindrun.sim.rollout import rollout_for
+from mindrun.sim.rollouts import rollout_for
 from mindrun.sim.trace import trace
 
 from mindlang.compiler.compile import load

@@ -75,12 +75,8 @@ def skill_rows(
         most_inputs = max(most_inputs, count + remembered)
         most_outputs = max(most_outputs, int(row.get("width", 0)), outputs, remembered)
         state += remembered
-    tables = {
-        "skills": records(rows, SKILL),
-        "edges": records(edges, EDGE),
-        "inputs": np.array(inputs, np.int64),
-        "weights": shared,
-    }
+    all_inputs = np.array(inputs, np.int64)
+    tables = {"skills": records(rows, SKILL), "edges": records(edges, EDGE), "inputs": all_inputs, "weights": shared}
     return tables, {"inputs": max(1, most_inputs), "width": max(1, most_outputs), "recurrent": state}
 
 

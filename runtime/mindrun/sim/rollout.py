@@ -45,7 +45,7 @@ class Tile:
 class Rollout:
     """Runs a task under a master of a policy; a genome has the weights of the `learners`, in the order given.
 
-    MindError where the task is in an environment: `rollout_for` chooses.
+    MindError where the task is in an environment: `sim.rollouts.rollout_for` chooses.
     """
 
     simulates = True  # whether the worlds are the lanes' own
@@ -221,27 +221,6 @@ class Rollout:
     def _skill(self, row: int) -> str:
         """The name of a skill in the tables."""
         return self.graph.skills[int(self.tables.skills[row]["index"])].name
-
-
-def rollout_for(
-    policy: Policy,
-    task: str,
-    master: str,
-    learners: Sequence[str] = (),
-    *,
-    procedures: Path | None = None,
-    interrupt: bool = True,
-    workers: int = 1,
-) -> Rollout:
-    """A rollout in the lanes' own worlds, or in environments where the scene of the task is one.
-
-    Environments are stepped in one thread, however many `workers` there may be, in a process of their own.
-    """
-    if not next(each for each in policy.graph.tasks if each.name == task).scene.environment:
-        return Rollout(policy, task, master, learners, procedures=procedures, interrupt=interrupt, workers=workers)
-    from mindrun.sim.outside.rollout import EnvironmentRollout
-
-    return EnvironmentRollout(policy, task, master, learners, procedures=procedures, interrupt=interrupt)
 
 
 def scores_of(jobs: Jobs, task: Task) -> Scores:

@@ -25,14 +25,12 @@ def sensor_rows(
     What is measured aside draws its noise from a generator of its own: a reward changes nothing in the world.
     """
     things, boxes, scene = rows_by_name(task), boxes_by_name(task), scene_of(graph)
-    rows: list[Row] = []
+    rows, before, rough, rings = list[Row](), 0, 0, 0
     rays, ray_row, passes, numbers = list[float](), list[int](), list[tuple[int, int]](), list[float]()
-    before = rough = rings = 0
     for is_aside, sensor in [(False, s) for s in used.skills] + [(True, s) for s in used.aside]:
         kind = sensor.kind
         about, solid = things.get(kind.thing, NOWHERE), boxes.get(kind.thing, NOWHERE)
-        code, length = programs.add(placed(kind.formula, scene.starts))
-        roughness = _roughness(sensor, parameters)
+        (code, length), roughness = programs.add(placed(kind.formula, scene.starts)), _roughness(sensor, parameters)
         rows.append({
             "kind": sensor_codes()[names()[type(kind)]], "start": sensor.start, "width": sensor.width,
             "thing": about.start, "things": len(about), "box": solid.start, "boxes": len(solid),
@@ -41,10 +39,10 @@ def sensor_rows(
             "ray": len(rays), "number": len(numbers), "before": before, "held": rough, "ring": rings,
             **roughness, **kind.row(scene),
         })  # fmt: skip
-        rays.extend(kind.rays)
-        ray_row.extend(range(sensor.start, sensor.start + len(kind.rays)))
-        passes.extend((about.start, about.stop) for _ in kind.rays)
-        numbers.extend(kind.numbers)
+        rays += kind.rays
+        ray_row += range(sensor.start, sensor.start + len(kind.rays))
+        passes += [(about.start, about.stop)] * len(kind.rays)
+        numbers += kind.numbers
         before += sensor.width * kind.remembered
         if isinstance(kind, Physical):
             rough += sensor.width

@@ -93,24 +93,14 @@ def build(
     measures, changes = task_rows.measure_rows(task)
     events, patches, arrivals = task_rows.event_rows(task)
     tables = Tables(
-        **sensors,
-        **skills,
-        **task_rows.walker_rows(task, graph.tick),
+        **sensors, **skills, **task_rows.walker_rows(task, graph.tick),
         world=task_rows.world_row(graph, task, parameters, len(sensors["ray_row"]), used.all, master),
-        codes=np.array(programs.rows, CODE),
-        actuators=driven,
-        memories=memory_rows(graph),
-        things=task_rows.thing_rows(graph, task),
-        loose=task_rows.loose_rows(task, graph.tick, parameters),
-        obstacles=task_rows.obstacle_rows(task),
-        walls=task_rows.wall_rows(task),
-        measures=measures,
-        events=events,
-        ends=ends,
-        rewards=rewards,
-        library=library,
-        parameters=parameters.table(),  # last: all others add to them
-    )
+        codes=np.array(programs.rows, CODE), actuators=driven, memories=memory_rows(graph),
+        things=task_rows.thing_rows(graph, task), loose=task_rows.loose_rows(task, graph.tick, parameters),
+        obstacles=task_rows.obstacle_rows(task), walls=task_rows.wall_rows(task),
+        measures=measures, events=events, ends=ends, rewards=rewards,
+        library=library, parameters=parameters.table(),  # last: all others add to them
+    )  # fmt: skip
     return tables, Sizes(
         **remembered, **most, readings=max(1, graph.width), measured=rows_of(graph, used.all),
         skills=len(graph.skills), genome=genome_length(graph, learners), depth=programs.depth, delays=delays,
