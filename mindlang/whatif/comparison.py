@@ -10,7 +10,7 @@ from mindrun.graph.graph import Graph
 from mindrun.graph.named_readings import reading_names
 from mindrun.graph.reward_sums import paid_by_text
 from mindrun.sim.rollout import Rollout
-from mindrun.sim.takeover import take_over
+from mindrun.sim.trace import take_over
 from numpy.typing import NDArray
 
 from mindlang.run.recorded_run import ROWS, WITH_BEGINNING, RecordedRun, RunResult, result_of, run_result
