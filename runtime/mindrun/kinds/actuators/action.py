@@ -1,6 +1,5 @@
 """One number of what is done in an environment."""
 
-from dataclasses import dataclass
 from typing import Annotated
 
 from mindrun.kinds.actuators.actuator import ActuatorKind
@@ -10,7 +9,6 @@ from mindrun.numbers.quantity import INDEX, NUMBER, RATIO, SLOT, TICKS, UNSAID, 
 
 
 @kind("actuator", "action")
-@dataclass(frozen=True, slots=True)
 class Action(ActuatorKind):
     """One number of a Gymnasium environment's action: a command of 0 is the low end of its range, 1 the high end.
 

@@ -1,6 +1,5 @@
 """What is rectangular, and drives on wheels."""
 
-from dataclasses import dataclass
 from typing import Annotated
 
 from mindrun.kinds.bodies.body import (
@@ -18,7 +17,6 @@ from mindrun.numbers.quantity import Extent
 
 
 @kind("body", "box")
-@dataclass(frozen=True, slots=True)
 class Box(Rectangle):
     """A rectangular body, `size` being its length and its width, or both, with wheels at its sides, or thrusters.
 

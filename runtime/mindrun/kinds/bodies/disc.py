@@ -1,6 +1,5 @@
 """What is round, and drives on wheels."""
 
-from dataclasses import dataclass
 from typing import Annotated
 
 from mindrun.kinds.bodies.body import (
@@ -17,7 +16,6 @@ from mindrun.kinds.registry import kind
 
 
 @kind("body", "disc")
-@dataclass(frozen=True, slots=True)
 class Disc(Round):
     """A round body of diameter `size` with wheels on its rim, or thrusters.
 

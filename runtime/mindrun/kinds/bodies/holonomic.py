@@ -1,6 +1,5 @@
 """What is round, and is pushed in any direction."""
 
-from dataclasses import dataclass
 from typing import Annotated
 
 from mindrun.kinds.bodies.body import (
@@ -17,7 +16,6 @@ from mindrun.kinds.registry import kind
 
 
 @kind("body", "holonomic")
-@dataclass(frozen=True, slots=True)
 class Holonomic(Round):
     """A round body of diameter `size` that three thrusters or more push in any direction, and turn.
 

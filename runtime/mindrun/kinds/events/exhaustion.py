@@ -1,13 +1,10 @@
 """The battery is empty."""
 
-from dataclasses import dataclass
-
 from mindrun.kinds.events.event import EventKind, Hindrance, TaskWorld, World
 from mindrun.kinds.registry import kind
 
 
 @kind("event", "exhaustion")
-@dataclass(frozen=True, slots=True)
 class Exhaustion(EventKind):
     """The battery is empty."""
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.functions.function import Function
@@ -19,7 +19,6 @@ if TYPE_CHECKING:  # a lane is given its terms when it is compiled
 
 
 @kind("skill", "elman")
-@dataclass(frozen=True, slots=True)
 class Elman(Function):
     """A recurrent network with one hidden layer of `width` neurons (0: Eq. 5, max(inputs, outputs) + 2), no biases.
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import pairwise
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -26,7 +26,6 @@ HIDDEN = Quantity("a whole number", {"": 1.0}, low=0, high=16, whole=True)
 
 
 @kind("skill", "mlp")
-@dataclass(frozen=True, slots=True)
 class Mlp(Function):
     """A perceptron with `hidden` layers of `width` neurons (0: Eq. 5, max(inputs, outputs) + 2)."""
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
@@ -18,7 +17,6 @@ if TYPE_CHECKING:  # a lane is given these when it is compiled
 
 
 @kind("sensor", "average")
-@dataclass(frozen=True, slots=True)
 class Average(SensorKind):
     """The mean of another sensor's readings over the last ticks; in the first ones, over as many as there were.
 

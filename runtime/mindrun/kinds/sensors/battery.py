@@ -1,6 +1,5 @@
 """How full the battery is."""
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
@@ -12,7 +11,6 @@ if TYPE_CHECKING:  # a lane is given these when it is compiled
 
 
 @kind("sensor", "battery")
-@dataclass(frozen=True, slots=True)
 class Battery(Physical):
     """Charge of the battery: `start`s there, loses `drain` every tick, gains `charge` every tick inside a `power`."""
 

@@ -1,6 +1,5 @@
 """In which direction a thing is."""
 
-from dataclasses import dataclass
 from math import inf
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -14,7 +13,6 @@ if TYPE_CHECKING:  # a lane is given these when it is compiled
 
 
 @kind("sensor", "bearing")
-@dataclass(frozen=True, slots=True)
 class Bearing(Physical):
     """Direction of a thing: 0.5 straight ahead, less on the left, more on the right; 0.5 without it.
 

@@ -1,6 +1,5 @@
 """Where the body touches something solid."""
 
-from dataclasses import dataclass
 from math import pi
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -33,7 +32,6 @@ WIDTH = Quantity("an angle", {"deg": pi / 180}, low=pi / 180, high=2 * pi)
 
 
 @kind("sensor", "bumper")
-@dataclass(frozen=True, slots=True)
 class Bumper(Physical):
     """Switches around the body, one reading per angle: 1 while something solid touches it there, else 0.
 

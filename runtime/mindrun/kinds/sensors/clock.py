@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import floor
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -18,7 +17,6 @@ if TYPE_CHECKING:  # a lane is given these when it is compiled
 
 
 @kind("sensor", "clock")
-@dataclass(frozen=True, slots=True)
 class Clock(SensorKind):
     """A saw tooth: from 0 to 1 in every period, then 0 again; t/period without its whole part."""
 

@@ -1,6 +1,5 @@
 """In which direction north is."""
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
@@ -12,7 +11,6 @@ if TYPE_CHECKING:  # a lane is given these when it is compiled
 
 
 @kind("sensor", "compass")
-@dataclass(frozen=True, slots=True)
 class Compass(Physical):
     """Direction of north, where the world's y axis points: 0.5 straight ahead, less on the left, more on the right.
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass
 from math import isfinite
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -21,7 +20,6 @@ if TYPE_CHECKING:  # a lane is given these when it is compiled
 
 
 @kind("sensor", "computed")
-@dataclass(frozen=True, slots=True)
 class Computed(SensorKind):
     """The value of an expression over sensors and memories of one reading, clamped to 0..1. 0/0 is no reading.
 

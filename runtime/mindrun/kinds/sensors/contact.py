@@ -1,6 +1,5 @@
 """Whether the claw can take a thing."""
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
@@ -13,7 +12,6 @@ if TYPE_CHECKING:  # a lane is given these when it is compiled
 
 
 @kind("sensor", "contact")
-@dataclass(frozen=True, slots=True)
 class Contact(Physical):
     """1 while the thing, or one of its name, is in the claw's reach, else 0."""
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
@@ -17,7 +16,6 @@ if TYPE_CHECKING:  # a lane is given these when it is compiled
 
 
 @kind("sensor", "derivative")
-@dataclass(frozen=True, slots=True)
 class Derivative(SensorKind):
     """Change of another sensor's readings: 0.5 none, 1 rising by `range` a second. A direction turns the short way."""
 

@@ -1,6 +1,5 @@
 """How far away a thing is."""
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
@@ -15,7 +14,6 @@ if TYPE_CHECKING:  # a lane is given these when it is compiled
 
 
 @kind("sensor", "distance")
-@dataclass(frozen=True, slots=True)
 class Distance(Physical):
     """Distance from the body's rim to that of a thing, of several the nearest: 0 touching, 1 from `range` on or none.
 

@@ -1,6 +1,5 @@
 """How far a thing is in some directions: one line of a camera that sees its colour alone."""
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
@@ -30,7 +29,6 @@ if TYPE_CHECKING:  # a lane is given these when it is compiled
 
 
 @kind("sensor", "eye")
-@dataclass(frozen=True, slots=True)
 class Eye(Physical):
     """Distance from the body's rim to a thing, one reading per angle: 0 touching or inside, 1 where the ray meets none.
 

@@ -1,6 +1,5 @@
 """What lies under some points of the robot."""
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
@@ -15,7 +14,6 @@ OFFSET = Quantity("a length in world units", {"": 1.0}, low=-1000.0, high=1000.0
 
 
 @kind("sensor", "floor")
-@dataclass(frozen=True, slots=True)
 class Floor(Physical):
     """Light sensors that look down, one reading each: 1 where it is over a thing or one of its name, else 0.
 

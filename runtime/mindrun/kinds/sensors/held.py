@@ -1,6 +1,5 @@
 """Whether the claw holds a thing."""
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
@@ -13,7 +12,6 @@ if TYPE_CHECKING:  # a lane is given these when it is compiled
 
 
 @kind("sensor", "held")
-@dataclass(frozen=True, slots=True)
 class Held(Physical):
     """1 while the claw holds the thing, or one of its name, else 0."""
 

@@ -1,6 +1,5 @@
 """Whether the robot is inside of a thing."""
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
@@ -13,7 +12,6 @@ if TYPE_CHECKING:  # a lane is given these when it is compiled
 
 
 @kind("sensor", "inside")
-@dataclass(frozen=True, slots=True)
 class Inside(Physical):
     """1 while the robot's centre is inside the thing, or one of its name, else 0."""
 

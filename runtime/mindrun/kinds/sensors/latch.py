@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
@@ -16,7 +15,6 @@ if TYPE_CHECKING:  # a lane is given these when it is compiled
 
 
 @kind("sensor", "latch")
-@dataclass(frozen=True, slots=True)
 class Latch(SensorKind):
     """1 from when another sensor reads less than `below` until it reads more than `above`, else 0: hysteresis.
 

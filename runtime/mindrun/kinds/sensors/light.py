@@ -1,6 +1,5 @@
 """How bright a thing is from where the robot is."""
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
@@ -29,7 +28,6 @@ if TYPE_CHECKING:  # a lane is given these when it is compiled
 
 
 @kind("sensor", "light")
-@dataclass(frozen=True, slots=True)
 class Light(Physical):
     """Light of a thing, of several the nearest: 1 at its middle, 0.5 at `range`, far away falling with the square.
 

@@ -1,6 +1,5 @@
 """How fast a wheel rolls."""
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.actuators.actuator import Side
@@ -14,7 +13,6 @@ if TYPE_CHECKING:  # a lane is given these when it is compiled
 
 
 @kind("sensor", "odometer")
-@dataclass(frozen=True, slots=True)
 class Odometer(Physical):
     """Speed of a wheel on the body's rim, as its encoder counts it: 0.5 standing, 1 forward with `range` units/s.
 

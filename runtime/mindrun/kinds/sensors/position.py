@@ -1,6 +1,5 @@
 """Where the robot is along an axis of its world."""
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any, Literal, get_args
 
 from mindrun.kinds.registry import kind
@@ -14,7 +13,6 @@ Axis = Literal["x", "y"]
 
 
 @kind("sensor", "position")
-@dataclass(frozen=True, slots=True)
 class Position(Physical):
     """Place of the robot's middle along an axis, as beacons tell it: 0.5 the origin, 1 from `range` units on.
 

@@ -1,6 +1,5 @@
 """How far it is to what stands in the way, in some directions."""
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
@@ -12,7 +11,6 @@ if TYPE_CHECKING:  # a lane is given these when it is compiled
 
 
 @kind("sensor", "range_finder")
-@dataclass(frozen=True, slots=True)
 class RangeFinder(Physical):
     """Distance from the body's rim to what is solid, one reading per angle: 0 touching, 1 clear within `range`.
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import floor, isclose, pi
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -19,7 +18,6 @@ if TYPE_CHECKING:  # a lane is given these when it is compiled
 
 
 @kind("sensor", "sine")
-@dataclass(frozen=True, slots=True)
 class Sine(SensorKind):
     """A wave: 0.5 + 0.5 sin(2πt/period)."""
 

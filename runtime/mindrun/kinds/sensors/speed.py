@@ -1,6 +1,5 @@
 """How fast the robot drives."""
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
@@ -12,7 +11,6 @@ if TYPE_CHECKING:  # a lane is given these when it is compiled
 
 
 @kind("sensor", "speed")
-@dataclass(frozen=True, slots=True)
 class Speed(Physical):
     """Speed along the heading: 0.5 standing, 1 forward with `range` units a second or more, 0 backward.
 

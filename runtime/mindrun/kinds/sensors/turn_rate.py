@@ -1,6 +1,5 @@
 """How fast the robot turns."""
 
-from dataclasses import dataclass
 from math import pi
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -15,7 +14,6 @@ TURNING = Quantity("an angle a second", {"deg": pi / 180}, low=pi / 1800, high=2
 
 
 @kind("sensor", "turn_rate")
-@dataclass(frozen=True, slots=True)
 class TurnRate(Physical):
     """How fast the robot turns, as a gyroscope says it: 0.5 not at all, 1 to the right with `range` deg/s, 0 left.
 

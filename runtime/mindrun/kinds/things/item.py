@@ -1,7 +1,6 @@
 """What a claw can take."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Annotated
 
 from mindrun.kinds.registry import kind
@@ -10,7 +9,6 @@ from mindrun.numbers.quantity import COORDINATE, COUNT, LENGTH, Place, Span
 
 
 @kind("content", "item")
-@dataclass(frozen=True, slots=True)
 class Item(ThingKind):
     """A disc of diameter `size` that the claw can take, or `count` of them, `away` from the robot or `at` a place.
 

@@ -1,7 +1,7 @@
 """Walls drawn in characters."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import lru_cache
 from typing import Annotated
 
@@ -20,7 +20,6 @@ Lines = tuple[str, ...]
 
 
 @kind("content", "map")
-@dataclass(frozen=True, slots=True)
 class Map(ThingKind):
     """Walls drawn in a text file: `#` is wall, `.` is floor, each a square of side `cell`; its middle is the world's.
 

@@ -1,7 +1,7 @@
 """What stands in the way."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import product
 from typing import Annotated
 
@@ -17,7 +17,6 @@ MAX_GRID_LINES = 1e9  # lines of a grid, far more than can be
 
 
 @kind("content", "obstacle")
-@dataclass(frozen=True, slots=True)
 class Obstacle(ThingKind):
     """Solid squares of side `size`: `count` of them anywhere, one `at` a place, or one at each point of a `grid`.
 

@@ -1,7 +1,6 @@
 """Where the battery charges."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Annotated
 
 from mindrun.kinds.registry import kind
@@ -10,7 +9,6 @@ from mindrun.numbers.quantity import COORDINATE, COUNT, LENGTH, Place, Span
 
 
 @kind("content", "power")
-@dataclass(frozen=True, slots=True)
 class Power(ThingKind):
     """A square of side `size` on the floor, or `count` of them, in which the battery charges.
 

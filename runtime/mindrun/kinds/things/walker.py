@@ -1,7 +1,7 @@
 """What moves by itself."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import pairwise
 from math import pi
 from typing import Annotated
@@ -16,7 +16,6 @@ TURNING = replace(ANGLE, low=0.0)
 
 
 @kind("content", "walker")
-@dataclass(frozen=True, slots=True)
 class Walker(ThingKind):
     """A disc of diameter `size` on the floor that moves at `speed`, in units per second, and touches nothing.
 

@@ -1,7 +1,7 @@
 """A wall from place to place."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import pairwise
 from typing import Annotated
 
@@ -15,7 +15,6 @@ THICKNESS = replace(LENGTH, low=0.01, high=1000.0)
 
 
 @kind("content", "wall")
-@dataclass(frozen=True, slots=True)
 class Wall(ThingKind):
     """A solid wall along the places that `from` names, one after the other; each stretch lies along an axis."""
 

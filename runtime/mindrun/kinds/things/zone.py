@@ -1,7 +1,6 @@
 """Where items are delivered."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Annotated
 
 from mindrun.kinds.registry import kind
@@ -10,7 +9,6 @@ from mindrun.numbers.quantity import COORDINATE, COUNT, LENGTH, Place, Span
 
 
 @kind("content", "zone")
-@dataclass(frozen=True, slots=True)
 class Zone(ThingKind):
     """A square of side `size` on the floor, or `count` of them; items are delivered into it.
 
