@@ -27,7 +27,6 @@ from mindrun.kinds.sensors.compass import Compass
 from mindrun.kinds.sensors.computed import Computed
 from mindrun.kinds.sensors.contact import Contact
 from mindrun.kinds.sensors.derivative import Derivative
-from mindrun.kinds.sensors.directions import directions
 from mindrun.kinds.sensors.distance import Distance
 from mindrun.kinds.sensors.eye import Eye
 from mindrun.kinds.sensors.floor import Floor
@@ -40,7 +39,7 @@ from mindrun.kinds.sensors.odometer import Odometer
 from mindrun.kinds.sensors.position import Position
 from mindrun.kinds.sensors.range_finder import RangeFinder
 from mindrun.kinds.sensors.reading import Reading
-from mindrun.kinds.sensors.sensor import Physical, SensorKind
+from mindrun.kinds.sensors.sensor import Physical, SensorKind, directions
 from mindrun.kinds.sensors.sine import Sine
 from mindrun.kinds.sensors.speed import Speed
 from mindrun.kinds.sensors.turn_rate import TurnRate

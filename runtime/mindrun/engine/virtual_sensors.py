@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING
 
 from mindrun.graph.graph import Graph
 from mindrun.graph.validate import depths
-from mindrun.kinds.sensors.directions import directions
-from mindrun.kinds.sensors.sensor import Scene
+from mindrun.kinds.sensors.sensor import Scene, directions
 
 if TYPE_CHECKING:
     from mindrun.numbers.arrays import Reader

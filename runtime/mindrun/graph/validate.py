@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Container, Iterator
+from math import prod
 
 from mindrun.graph.graph import Graph, Lesson, Program, Skill, Task
 from mindrun.graph.varied import varied_kind
@@ -68,7 +69,8 @@ def _sense_flaws(graph: Graph) -> Iterator[str]:
     start = 0
     widths = {memory.name: 1 for memory in graph.memories} | {sensor.name: sensor.width for sensor in graph.sensors}
     for sensor in graph.sensors:
-        width = widths.get(sensor.kind.source) if sensor.kind.width is None else sensor.kind.width
+        shape = sensor.kind.shape
+        width = widths.get(sensor.kind.source) if shape is None else prod(shape)
         if sensor.width != width or sensor.start != start or sensor.width < 1:
             yield f"sensor {sensor.name} has not the readings of its kind"
         elif not set(sensor.kind.sources) <= widths.keys() or sensor.kind.flaw(widths):

@@ -18,7 +18,7 @@ from mindrun.graph.encoding import decode_part
 from mindrun.graph.graph import Graph, Lesson
 from mindrun.graph.validate import lesson_flaws
 from mindrun.graph.weights import Weights, reachable
-from mindrun.kinds.environment_module import module_beside
+from mindrun.kinds.environment import module_beside
 from mindrun.kinds.functions.procedure import module_source
 from mindrun.numbers.short_repr import full_repr
 from mindrun.train import RunError

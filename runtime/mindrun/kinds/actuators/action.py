@@ -3,8 +3,8 @@
 from typing import Annotated
 
 from mindrun.kinds.actuators.actuator import ActuatorKind
+from mindrun.kinds.environment import Slot
 from mindrun.kinds.registry import kind
-from mindrun.kinds.slot import Slot
 from mindrun.numbers.quantity import INDEX, NUMBER, RATIO, SLOT, TICKS, UNSAID, Span
 
 

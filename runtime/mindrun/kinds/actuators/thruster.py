@@ -2,8 +2,7 @@
 
 from typing import Annotated
 
-from mindrun.kinds.actuators.actuator import THRUST
-from mindrun.kinds.actuators.pushing import Pushing
+from mindrun.kinds.actuators.actuator import THRUST, Pushing
 from mindrun.kinds.bodies.body import BodyKind, Point
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import ANGLE, RATIO, TICKS, Place, Quantity

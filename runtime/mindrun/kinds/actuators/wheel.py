@@ -2,8 +2,7 @@
 
 from typing import Annotated, get_args
 
-from mindrun.kinds.actuators.actuator import THRUST, Side
-from mindrun.kinds.actuators.pushing import Pushing
+from mindrun.kinds.actuators.actuator import THRUST, Pushing, Side
 from mindrun.kinds.bodies.body import BodyKind, Point
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import RATIO, TICKS, Reference

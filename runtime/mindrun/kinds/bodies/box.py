@@ -10,8 +10,8 @@ from mindrun.kinds.bodies.body import (
     FRICTION,
     FRICTION_COEFFICIENT,
     LINEAR_DAMPING,
+    Rectangle,
 )
-from mindrun.kinds.bodies.rectangle import Rectangle
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import Extent
 

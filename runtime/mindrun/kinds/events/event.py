@@ -5,8 +5,7 @@ from typing import NamedTuple, Protocol
 
 from mindrun.kinds.registry import base
 from mindrun.kinds.scenes.scene import SceneKind
-from mindrun.kinds.things.about import AboutThing
-from mindrun.kinds.things.thing import ThingKind
+from mindrun.kinds.things.thing import AboutThing, ThingKind
 
 Row = Mapping[str, float]  # columns of the lanes' table of events
 

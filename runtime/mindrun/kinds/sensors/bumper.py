@@ -46,16 +46,6 @@ class Bumper(Physical):
     remedy = "Let a task contain something solid"
 
     @property
-    def width(self) -> int:
-        """One reading per angle."""
-        return len(self.at)
-
-    @property
-    def directions(self) -> tuple[float, ...]:
-        """Its angles."""
-        return self.at
-
-    @property
     def sector(self) -> float:
         """The width of each switch."""
         return self.width_

@@ -23,7 +23,9 @@ class Derivative(SensorKind):
     range: Annotated[float, POSITIVE] = 1.0
     dead_zone: Annotated[float, RATIO] = 0.0
 
+    shape = None
     remembered = 1
+    rest = 0.5
 
     @property
     def remedy(self) -> str:  # type: ignore[override]
@@ -32,19 +34,9 @@ class Derivative(SensorKind):
             return SensorKind.remedy
         return f"Derive it from another sensor than {self.of}, which never changes"
 
-    @property
-    def width(self) -> None:
-        """None: it has as many readings as its source."""
-        return
-
-    @property
-    def source(self) -> str:
-        """The sensor whose change it is."""
-        return self.of
-
     def constant(self, world: World) -> float | None:
         """0.5 where the sensor never changes, and where every change is in the dead zone."""
-        return 0.5 if self.dead_zone > 0.5 or world.is_constant(self.of) else None
+        return 0.5 if world.is_constant(self.of) else SensorKind.constant(self, world)
 
     def first(self, begin: Begin) -> Bounds:
         """0.5: nothing has changed yet."""
@@ -73,10 +65,8 @@ class Derivative(SensorKind):
         return read
 
     def row(self, scene: Scene) -> Row:
-        """The change that reads 1 as a gain, and where its source stands."""
-        return {
-            "source": scene.starts[self.of], "gain": 0.5 / (scene.tick * self.range), "dead_zone": self.dead_zone,
-        }  # fmt: skip
+        """The change that reads 1, as a gain."""
+        return {**SensorKind.row(self, scene), "gain": 0.5 / (scene.tick * self.range)}
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:

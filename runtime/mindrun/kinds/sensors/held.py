@@ -4,7 +4,6 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
 from mindrun.kinds.sensors.sensor import Begin, Bounds, Physical, World
-from mindrun.kinds.things.thing import ThingKind
 from mindrun.numbers.quantity import THING
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
@@ -19,15 +18,11 @@ class Held(Physical):
 
     near = 1
     remedy = "Let a skill that acts drive a gripper"
-
-    @staticmethod
-    def is_about(kind: type[ThingKind]) -> bool:
-        """What a claw can take."""
-        return kind.can_be_held
+    is_about = staticmethod(lambda kind: kind.can_be_held)  # what a claw can take
 
     def constant(self, world: World) -> float | None:
         """0 without the thing, and where no claw ever closes."""
-        return None if self.of in world.things and world.can_hold else 0.0
+        return Physical.constant(self, world) if world.can_hold else 0.0
 
     def first(self, begin: Begin) -> Bounds | None:
         """0, since a claw begins empty; None where noise hides that."""

@@ -25,7 +25,7 @@ class Inertial(Physical):
 
     def row(self, scene: Scene) -> Row:
         """The speed that reads 1 as a gain of the displacement."""
-        return {"gain": 1.0 / (TRAIL_TICKS * scene.tick * self.range), "dead_zone": self.dead_zone}
+        return {**Physical.row(self, scene), "gain": 1.0 / (TRAIL_TICKS * scene.tick * self.range)}
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:

@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
-from mindrun.kinds.sensors.sensor import Physical, Row, Scene, World
+from mindrun.kinds.sensors.sensor import Physical
 from mindrun.numbers.quantity import POSITIVE, THING
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
@@ -40,14 +40,6 @@ class Light(Physical):
 
     near = 1
     remedy = "Let a task contain what it is about"
-
-    def constant(self, world: World) -> float | None:
-        """0 without the thing."""
-        return None if self.of in world.things else 0.0
-
-    def row(self, scene: Scene) -> Row:
-        """Where it reads half."""
-        return {"range": self.range}
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:

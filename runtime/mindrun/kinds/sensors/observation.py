@@ -3,9 +3,9 @@
 from collections.abc import Mapping
 from typing import Annotated, Any
 
+from mindrun.kinds.environment import Slot
 from mindrun.kinds.registry import kind
 from mindrun.kinds.sensors.sensor import Flaw, Physical
-from mindrun.kinds.slot import Slot
 from mindrun.numbers.quantity import INDEX, NUMBER, SLOT, Span
 
 

@@ -27,11 +27,6 @@ class Odometer(Physical):
     unit = "m/s"
     blank = rest = still = 0.5
 
-    @property
-    def ends(self) -> tuple[float, float]:
-        """Backward and forward with `range`."""
-        return -self.range, self.range
-
     def row(self, scene: Scene) -> Row:
         """What a unit a second adds, and the side: −1 left, 1 right."""
         return {"gain": 0.5 / self.range, "part": 1 if self.side == "right" else -1}

@@ -26,11 +26,6 @@ class Position(Physical):
     unit = "m"
     blank = 0.5
 
-    @property
-    def ends(self) -> tuple[float, float]:
-        """`range` on either side of the origin."""
-        return -self.range, self.range
-
     def row(self, scene: Scene) -> Row:
         """What a unit adds, and the axis as a row of the body."""
         from mindrun.numbers.arithmetic import X, Y

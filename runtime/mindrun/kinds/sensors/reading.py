@@ -22,11 +22,6 @@ class Reading(SensorKind):
 
     circular = None
 
-    @property
-    def source(self) -> str:
-        """The wide sensor."""
-        return self.of
-
     def flaw(self, widths: Mapping[str, int]) -> Flaw | None:
         """There are so many readings."""
         if self.reading <= (width := widths.get(self.of, 0)):

@@ -7,8 +7,7 @@ from typing import Annotated
 
 from mindrun.kinds.registry import kind
 from mindrun.kinds.scenes.scene import SceneKind
-from mindrun.kinds.things.rectangle import Rectangle
-from mindrun.kinds.things.thing import DEFAULT_DISTANCE, DEFAULT_SIZE, MAX_OBSTACLES, Mistake, Row, ThingKind
+from mindrun.kinds.things.thing import DEFAULT_DISTANCE, DEFAULT_SIZE, MAX_OBSTACLES, Mistake, Rectangle, Row, ThingKind
 from mindrun.numbers.quantity import COORDINATE, LENGTH, Place, Quantity, Span
 
 COUNT = Quantity("a whole number", {"": 1.0}, low=0, high=1000, whole=True)

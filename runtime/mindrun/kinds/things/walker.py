@@ -1,6 +1,5 @@
 """What moves by itself."""
 
-from collections.abc import Mapping
 from dataclasses import replace
 from itertools import pairwise
 from math import pi
@@ -45,11 +44,6 @@ class Walker(ThingKind):
     def wanders(self) -> bool:  # type: ignore[override]
         """Where it has no way."""
         return not self.along
-
-    @property
-    def outcomes(self) -> Mapping[str, Outcome]:
-        """When it is caught."""
-        return {"reached": self.reached}
 
     def mistake(self, scene: SceneKind | None) -> Mistake | None:
         """A way goes somewhere, inside the arena, and has a place for each to begin at."""

@@ -7,8 +7,7 @@ from typing import Annotated
 
 from mindrun.kinds.registry import kind
 from mindrun.kinds.scenes.scene import SceneKind
-from mindrun.kinds.things.rectangle import Rectangle
-from mindrun.kinds.things.thing import DEFAULT_DISTANCE, DEFAULT_SIZE, Mistake, ThingKind
+from mindrun.kinds.things.thing import DEFAULT_DISTANCE, DEFAULT_SIZE, Mistake, Rectangle, ThingKind
 from mindrun.numbers.quantity import COORDINATE, LENGTH, Place
 
 THICKNESS = replace(LENGTH, low=0.01, high=1000.0)
