@@ -1,7 +1,8 @@
 """The robot meets something."""
 
-from mindrun.kinds.events.event import EventKind, Hindrance, World
+from mindrun.kinds.events.event import EventKind, Hindrance
 from mindrun.kinds.registry import kind
+from mindrun.kinds.things.thing import World
 
 
 @kind("event", "collision")

@@ -2,9 +2,9 @@
 
 from typing import Annotated
 
-from mindrun.kinds.events.event import EventKind, Hindrance, TaskWorld, World
+from mindrun.kinds.events.event import EventKind, Hindrance, TaskWorld
 from mindrun.kinds.registry import kind
-from mindrun.kinds.things.thing import ThingKind
+from mindrun.kinds.things.thing import ThingKind, World
 from mindrun.numbers.quantity import THING
 
 

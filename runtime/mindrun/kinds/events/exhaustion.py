@@ -1,7 +1,8 @@
 """The battery is empty."""
 
-from mindrun.kinds.events.event import EventKind, Hindrance, TaskWorld, World
+from mindrun.kinds.events.event import EventKind, Hindrance, TaskWorld
 from mindrun.kinds.registry import kind
+from mindrun.kinds.things.thing import World
 
 
 @kind("event", "exhaustion")

@@ -4,7 +4,8 @@ from math import pi
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
-from mindrun.kinds.sensors.sensor import Physical, World
+from mindrun.kinds.sensors.sensor import Physical
+from mindrun.kinds.things.thing import World
 from mindrun.numbers.quantity import ANGLE, Quantity
 from mindrun.numbers.trigonometry import cosine, sine
 

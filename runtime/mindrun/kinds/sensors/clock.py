@@ -6,7 +6,8 @@ from math import floor
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
-from mindrun.kinds.sensors.sensor import Begin, Bounds, Row, Scene, SensorKind, World
+from mindrun.kinds.sensors.sensor import Begin, Bounds, Row, Scene, SensorKind
+from mindrun.kinds.things.thing import World
 from mindrun.numbers.quantity import SECONDS
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled

@@ -7,7 +7,8 @@ from math import isfinite
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
-from mindrun.kinds.sensors.sensor import Flaw, Scene, SensorKind, World
+from mindrun.kinds.sensors.sensor import Flaw, Scene, SensorKind
+from mindrun.kinds.things.thing import World
 from mindrun.numbers.expression import Formula, constant_value, fold, is_valid_program, named, placed, single
 from mindrun.numbers.quantity import EXPRESSION
 from mindrun.numbers.stack_machine import evaluate as run_program

@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
-from mindrun.kinds.sensors.sensor import Begin, Bounds, Row, Scene, SensorKind, World
+from mindrun.kinds.sensors.sensor import Begin, Bounds, Row, Scene, SensorKind
+from mindrun.kinds.things.thing import World
 from mindrun.numbers.quantity import POSITIVE, RATIO, SENSOR
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled

@@ -3,7 +3,8 @@
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
-from mindrun.kinds.sensors.sensor import Begin, Bounds, Physical, World
+from mindrun.kinds.sensors.sensor import Begin, Bounds, Physical
+from mindrun.kinds.things.thing import World
 from mindrun.numbers.quantity import THING
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, Protocol
 
 from mindrun.kinds.environment import Slot
 from mindrun.kinds.registry import arguments, base, named_arguments
-from mindrun.kinds.things.thing import AboutThing
+from mindrun.kinds.things.thing import AboutThing, World
 from mindrun.numbers.expression import Formula
 from mindrun.numbers.quantity import ANGLE, RATIO, SENSOR, TICKS
 
@@ -24,13 +24,8 @@ Bounds = tuple[float, float]  # the least and the greatest
 class Begin(Protocol):
     """What is known of how a run begins."""
 
-    def is_within(self, thing: str) -> bool | None:
-        """Whether the robot begins inside of a thing; None where that is drawn."""
-        ...
-
-    def first(self, name: str) -> Bounds:
-        """The least and greatest that a sensor or a memory reads in the first tick."""
-        ...
+    def is_within(self, thing: str) -> bool | None: ...  # whether the robot is in a thing; None where that is drawn
+    def first(self, name: str) -> Bounds: ...  # what a sensor or a memory reads in the first tick
 
 
 class Flaw(NamedTuple):
@@ -65,39 +60,6 @@ class Scene:
     def starts(self) -> Mapping[str, int]:
         """Where the readings of each sensor and memory begin."""
         return {name: place.start for name, place in self.places.items()}
-
-
-class World(Protocol):
-    """What is known of the worlds of a mind's tasks before anything runs in them."""
-
-    @property
-    def things(self) -> Set[str]:
-        """The things that a sensor can be about."""
-        ...
-
-    @property
-    def is_solid(self) -> bool:
-        """Whether anything stands in the way, fixed or loose."""
-        ...
-
-    @property
-    def charges(self) -> bool:
-        """Whether a battery can charge."""
-        ...
-
-    @property
-    def can_hold(self) -> bool:
-        """Whether a claw may ever close."""
-        ...
-
-    @property
-    def tick(self) -> float:
-        """The length of a tick in seconds."""
-        ...
-
-    def is_constant(self, reading: str) -> bool:
-        """Whether a sensor or memory always reads the same."""
-        ...
 
 
 @base("sensor")

@@ -1,9 +1,9 @@
 """What every kind of thing says of itself: the rest of the program asks, and knows no kind by name."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Set
 from dataclasses import dataclass, replace
 from math import hypot
-from typing import Annotated, Literal, NamedTuple, get_args
+from typing import Annotated, Literal, NamedTuple, Protocol, get_args
 
 from mindrun.kinds.registry import arguments, base
 from mindrun.kinds.scenes.scene import SceneKind
@@ -44,6 +44,30 @@ class Mistake(NamedTuple):
     code: str
     message: str
     hint: str
+
+
+class World(Protocol):
+    """What is known of the worlds of a mind's tasks before anything runs in them."""
+
+    @property
+    def things(self) -> Set[str]: ...  # that a sensor can be about
+    @property
+    def loose(self) -> Set[str]: ...  # things that can be pushed
+    @property
+    def fleeting(self) -> Set[str]: ...  # items that are gone as soon as they are reached
+    @property
+    def is_solid(self) -> bool: ...  # whether anything stands in the way, fixed or loose
+    @property
+    def has_fixed(self) -> bool: ...  # whether anything does that does not give way
+    @property
+    def can_hold(self) -> bool: ...  # whether a claw may ever close
+    @property
+    def charges(self) -> bool: ...  # whether a battery can charge
+    @property
+    def drains(self) -> bool: ...  # whether the battery can become empty
+    @property
+    def tick(self) -> float: ...  # the length of a tick in seconds
+    def is_constant(self, reading: str) -> bool: ...  # whether a sensor or memory always reads the same
 
 
 @base("content")
