@@ -2,6 +2,7 @@
 
 from collections.abc import Collection
 from dataclasses import dataclass, replace
+from math import prod
 from pathlib import Path
 
 import numpy as np
@@ -224,7 +225,7 @@ def _senses(draw: st.DrawFn) -> tuple[tuple[Sensor, ...], tuple[Memory, ...]]:
     sensors: list[Sensor] = []
     start = 0
     for number, kind in enumerate(kinds):
-        width = getattr(kind, "width", 1)
+        width = prod(getattr(kind, "shape", ()))
         if isinstance(kind, str):
             around = directions({sensor.name: sensor.kind for sensor in sensors})
             width, kind = draw(virtual_kinds(kind, widths, around))

@@ -70,7 +70,6 @@ ROOMS = {
             f"{R}{name}.py"
             for name in (
                 "engine/engine",
-                "engine/virtual_sensors",
                 "numbers/expression",
                 "numbers/sigmoid",
                 "numbers/arithmetic",

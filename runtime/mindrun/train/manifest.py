@@ -13,8 +13,7 @@ import numpy as np
 
 from mindrun.errors import BundleError
 from mindrun.files.strict_json import is_whole, parsed
-from mindrun.graph.codec import encode
-from mindrun.graph.encoding import decode_part
+from mindrun.graph.codec import decode_part, encode
 from mindrun.graph.graph import Graph, Lesson
 from mindrun.graph.validate import lesson_flaws
 from mindrun.graph.weights import Weights, reachable
