@@ -19,14 +19,11 @@ from numpy.typing import NDArray
 
 from mindrun.files.atomic_write import write
 from mindrun.files.regular_files import read_whole
-from mindrun.train.attempt import Verdict
+from mindrun.train.attempt import Clock, Joined, Segment, Stretch
 from mindrun.train.attempts import AttemptExecutor
 from mindrun.train.build import own_build
-from mindrun.train.lesson import Clock
-from mindrun.train.lesson_state import AttemptState, Course, Record, begin_attempt
+from mindrun.train.lesson_state import AttemptState, Course, Record, Verdict, begin_attempt, rung_at
 from mindrun.train.population import Population
-from mindrun.train.rungs import rung_at
-from mindrun.train.segment import Joined, Segment, Stretch
 
 NAME = "ahead"
 DIGEST_BYTES = 32
