@@ -9,11 +9,10 @@ from mindrun.train import RunError, checkpoint
 from mindrun.train.attempt import Clock
 from mindrun.train.attempts import Ahead, AttemptExecutor, InThisThread, Step, side_by_side
 from mindrun.train.champion_log import ChampionLog
-from mindrun.train.folder_lock import claim
 from mindrun.train.lesson_state import Course, LessonState, Record, begin, could_be
 from mindrun.train.population import Genomes
 from mindrun.train.progress import ProgressLog
-from mindrun.train.run_folder import RunFolder, keep_champions, keep_weights
+from mindrun.train.run_folder import RunFolder, claim, keep_champions, keep_weights
 from mindrun.train.scoring import Scorer
 
 CHECKPOINT_SECONDS = 2.0  # between two checkpoints
