@@ -127,7 +127,7 @@ def _mind(tables: Tables, sizes: Sizes, room: _Room) -> Mind:
         active=room.each(np.uint64),
         gathered=room.rows(sizes.inputs, np.float32),
         sound=room.each(np.float32),
-        hidden=room.rows(2 * sizes.width, np.float32),
+        hidden=room.rows(sizes.scratch, np.float32),
         stack=room.rows(sizes.depth),
         values=room.each(np.float32),
         opened=room.each(np.float32),

@@ -24,7 +24,7 @@ VARYING_COLUMNS = {"thrust": "thrust", "noise": "noise", "slip": "slip", "turn":
 class Skills:
     """Rows of SKILL and EDGE, the inputs of all skills one after the other, the weights of those that do not learn.
 
-    `state` is how many numbers all of them remember.
+    `state` is how many numbers all of them remember, `scratch` how many rows one of them computes in at most.
     """
 
     rows: Array
@@ -32,23 +32,12 @@ class Skills:
     inputs: NDArray[np.int64]
     weights: Floats
     state: int
+    scratch: int
 
     @property
     def most_inputs(self) -> int:
         """How many numbers go into a skill at most: its inputs, and what it remembers."""
-        return _most(self.rows["inputs"] + self._states())
-
-    @property
-    def most_outputs(self) -> int:
-        """How many numbers a layer of any skill says at most, or a skill remembers."""
-        return _most(self.rows["width"], self.rows["outputs"], self._states())
-
-    def _states(self) -> NDArray[np.int64]:
-        return np.diff(self.rows["state"], append=self.state)
-
-
-def _most(*columns: NDArray[np.int64]) -> int:
-    return max(1, int(np.max(columns)))
+        return max(1, int(np.max(self.rows["inputs"] + np.diff(self.rows["state"], append=self.state))))
 
 
 def skill_rows(
@@ -86,7 +75,8 @@ def skill_rows(
         edges.extend(_edge(graph, edge, codes) for edge in skill.edges)
         state += function.state_length(count, outputs)
     all_inputs = np.array(inputs, np.int64)
-    return Skills(rows=records(rows, SKILL), edges=records(edges, EDGE), inputs=all_inputs, weights=shared, state=state)
+    scratch = max(skill.function.scratch(len(skill.inputs), skill.outputs) for skill in reached)
+    return Skills(records(rows, SKILL), records(edges, EDGE), all_inputs, shared, state, max(1, scratch))
 
 
 def _shared_weights(skills: Sequence[Skill], weights: Mapping[str, Floats]) -> tuple[Floats, dict[str, int]]:

@@ -79,7 +79,7 @@ class Mind(NamedTuple):
     active: Array  # uint64: which lanes these are
     gathered: Array  # [inputs] float32
     sound: Array  # float32: 0 where all inputs are finite, else NaN
-    hidden: Array  # [2·width] float32
+    hidden: Array  # [scratch] float32
     stack: Array  # [depth] float64, of expressions
     values: Array  # float32: of an edge with `at`
     opened: Array  # float32: of an edge with `when`, 1 where that holds

@@ -82,7 +82,7 @@ class Sizes:
     rough: int
     rings: int
     inputs: int
-    width: int
+    scratch: int
     genome: int
     recurrent: int
     delays: int
@@ -129,7 +129,7 @@ def build(
     )  # fmt: skip
     return tables, Sizes(
         readings=max(1, graph.width), before=sensed.derived, rough=sensed.rough, rings=sensed.rings,
-        skills=len(graph.skills), inputs=skills.most_inputs, width=skills.most_outputs, recurrent=skills.state,
+        skills=len(graph.skills), inputs=skills.most_inputs, scratch=skills.scratch, recurrent=skills.state,
         genome=genome_length(graph, learners), depth=codes.depth, delays=delays,
         changes=changes, patches=patches, arrivals=arrivals, boxes=box_count(task), measured=rows_of(graph, used.all),
     )  # fmt: skip
