@@ -190,9 +190,9 @@ def _typed(plain: dict[str, Any]) -> About:
 
 def _world(plain: object) -> RecordedWorld:
     """A world from plain data; ValueError where that is none."""
-    if not isinstance(plain, dict) or not is_whole(seed := plain.get("seed"), high=MAX_SEED):
+    if not isinstance(plain, dict) or not is_whole(plain.get("seed"), high=MAX_SEED):
         raise ValueError("it does not say what its world is, or which seed it is of")
     world: RecordedWorld = decode(RecordedWorld, plain | {"seed": 0}, "its world")  # a seed may have 64 bits
     if len(world.begin) != POSE_COLUMNS + THING_COLUMNS * world.things:
         raise ValueError("its world does not say how it began")
-    return replace(world, seed=seed)
+    return replace(world, seed=plain["seed"])

@@ -72,7 +72,7 @@ def running(forward: Forward, matrices: tuple[Matrix, ...], state_length: int) -
     """
     if state_length:
         return Remembering(forward, matrices, state_length)
-    return lambda inputs: forward(FLOAT32, matrices, inputs, NOTHING)[0]  # type: ignore[no-any-return]
+    return lambda inputs: forward(FLOAT32, matrices, inputs, NOTHING)[0]
 
 
 @dataclass(slots=True)

@@ -86,8 +86,8 @@ class KeptSegments:
             number, place, name = key.split()
             segments.setdefault((int(number), int(place)), {})[name] = array
         chains = dict[int, Chain]()
-        for number, place in sorted(segments):
-            chains.setdefault(number, []).append(Joined(_segment(segments[number, place], self.course)))
+        for (attempt, _), found in sorted(segments.items(), key=lambda each: each[0]):
+            chains.setdefault(attempt, []).append(Joined(_segment(found, self.course)))
         return chains
 
 

@@ -49,9 +49,9 @@ class Elman(Network):
     @staticmethod
     def lane(t: Any, s: Any, skill: Any, n: int) -> int:
         """What is not sound is not remembered."""
-        inputs, width = skill.inputs, skill.width
+        width: int = skill.width
         recall(s, skill, n)
-        last = layer(t, s, skill, skill.weights, s.gathered, inputs + width, s.hidden, width, False, n)
+        last = layer(t, s, skill, skill.weights, s.gathered, skill.inputs + width, s.hidden, width, False, n)
         layer(t, s, skill, last, s.hidden, width, s.hidden[width:], skill.outputs, True, n)
         remember(s, skill, s.hidden, n)
         return width

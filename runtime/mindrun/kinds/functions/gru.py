@@ -56,7 +56,8 @@ class Gru(Network):
     @staticmethod
     def lane(t: Any, s: Any, skill: Any, n: int) -> int:
         """The same sums and products, sixteen lanes at a time."""
-        inputs, width = skill.inputs, skill.width
+        inputs: int = skill.inputs
+        width: int = skill.width
         reset, kept, new = s.hidden[:width], s.hidden[width : 2 * width], s.hidden[2 * width : 3 * width]
         recall(s, skill, n)
         place = layer(t, s, skill, skill.weights, s.gathered, inputs + width, reset, width, False, n)
