@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from mindrun.engine.engine import Engine, procedure_sources
 from mindrun.graph.weights import reachable
-from mindrun.kinds.sensors.directions import directions
+from mindrun.kinds.sensors.sensor import directions
 from mindrun.robot.recording import RecordingError, read
 from mindrun.robot.replay import computed_again
 from numpy.typing import NDArray

@@ -20,8 +20,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from mindrun.errors import MindError
 from mindrun.graph.bundle import unpack
+from mindrun.train.attempt import Segment, Stretch, advance
 from mindrun.train.lesson_state import Course
-from mindrun.train.segment import Segment, Stretch, advance
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:

@@ -8,8 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
-from mindrun.engine.engine import Engine
-from mindrun.engine.virtual_sensors import virtual_sensors
+from mindrun.engine.engine import Engine, virtual_sensors
 from mindrun.graph.bundle import Bundle
 from mindrun.graph.recording_header import MAX_HEADER_BYTES, About
 from mindrun.robot.recording import read, read_growing

@@ -8,7 +8,7 @@ import numpy as np
 from mindrun.engine.changes import Change, ChangeError
 from mindrun.graph.graph import Graph
 from mindrun.graph.named_readings import reading_names
-from mindrun.graph.reward_sums import paid_by_text
+from mindrun.graph.run_scores import paid_by_text
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import take_over
 from numpy.typing import NDArray

@@ -58,7 +58,8 @@ def skill_rows(
     edges: list[Row] = []
     inputs: list[int] = []
     shared, places = _shared_weights([skill for skill in reached if skill.owner not in starts], weights)
-    most_inputs = most_outputs = state = 0
+    most_inputs = scratch = 1
+    state = 0
     for skill in reached:
         function, count, outputs = skill.function, len(skill.inputs), skill.outputs
         own, remembered = skill.owner in starts, function.state_length(count, outputs)
@@ -73,11 +74,11 @@ def skill_rows(
         inputs.extend(skill.inputs)
         edges.extend(_edge(graph, edge, codes) for edge in skill.edges)
         most_inputs = max(most_inputs, count + remembered)
-        most_outputs = max(most_outputs, int(row.get("width", 0)), outputs, remembered)
+        scratch = max(scratch, function.scratch(count, outputs))
         state += remembered
     all_inputs = np.array(inputs, np.int64)
     tables = {"skills": records(rows, SKILL), "edges": records(edges, EDGE), "inputs": all_inputs, "weights": shared}
-    return tables, {"inputs": max(1, most_inputs), "width": max(1, most_outputs), "recurrent": state}
+    return tables, {"inputs": most_inputs, "scratch": scratch, "recurrent": state}
 
 
 def _shared_weights(skills: Sequence[Skill], weights: Mapping[str, Floats]) -> tuple[Floats, dict[str, int]]:
