@@ -24,8 +24,8 @@ from numpy.typing import ArrayLike, NDArray
 from mindlang.api import Mind, load
 from mindlang.compiler.diagnostic import listed
 from mindlang.lock.ready import ReadyMind, make_ready
-from mindlang.run.chosen_task import unknown
-from mindlang.run.setup import RunSetup, master_of, task_of, untaught_skills
+from mindlang.run.chosen_task import master_of, task_of, unknown
+from mindlang.run.setup import RunSetup, untaught_skills
 
 Floats = NDArray[np.float32]
 Mask = NDArray[np.bool_]

@@ -16,7 +16,7 @@ from mindrun.graph.named_readings import physical
 from mindrun.graph.recording_header import BOX_COLUMNS, GOES_ON, RecordedWorld, world_row_of
 from mindrun.graph.skill_sets import driving, movers
 from mindrun.graph.wiring import ActuatorWire, SensorWire, Wiring, read_by
-from mindrun.robot.drivers.simulated import SimulatedActuator, SimulatedSensor, status
+from mindrun.robot.drivers.simulated import SimulatedActuator, SimulatedSensor
 from mindrun.robot.loop import Loop
 from mindrun.robot.simulated_world import BOXES, WORLD, WorldConnection, status
 from mindrun.terminal.standard_streams import StatusLine
