@@ -28,10 +28,9 @@ from mindlang.compiler.compile import load as load_file
 from mindlang.compiler.diagnostic import Diagnostic
 from mindlang.compiler.source import Source
 from mindlang.editing import edits
-from mindlang.editing.apply import Edited, apply_edit
+from mindlang.editing.apply import Edited, apply_edit, write
 from mindlang.editing.project import EditError, open_project
 from mindlang.editing.summary import broken_sentences, diff, summarise
-from mindlang.editing.writing import write
 from mindlang.limits import as_layout, as_workers, refuse_too_large, refuse_too_many
 from mindlang.lock.ready import ReadyMind, make_ready
 from mindlang.run.chosen_task import master_of, skill_of, task_of, unknown

@@ -5,24 +5,13 @@ from argparse import SUPPRESS, Action, ArgumentParser
 from collections.abc import Iterable, Iterator, Sequence
 
 import click
-from mindrun.cli.driving_arguments import driving_parser
-from mindrun.cli.tools import EXAMPLES, tool_parser, tools
+from mindrun.cli import EXAMPLES, driving_parser, tool_parser, tools
 
 from mindlang.explaining.article import Article, Parameter
-from mindlang.explaining.markdown import reference
 from mindlang.explaining.sections import in_lines
 
 PROGRAM = "mindrun"
 TOOLS = "tools:"  # the part of mindrun's epilog that is not its own
-ABOUT = """\
-The commands of `mindc`, and what `mindrun` does on a robot, each with its options and examples, as `--help` has them.
-`mindc explain train` and `mindc explain mindrun replay` print one of them.
-"""
-
-
-def command_reference() -> str:
-    """All commands as a page of reference, Markdown."""
-    return reference("Commands", ABOUT, command_articles())
 
 
 def command_articles() -> Iterator[Article]:

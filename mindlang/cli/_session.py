@@ -13,7 +13,7 @@ from mindrun.errors import MindError, ProcedureError
 from mindrun.graph.run_scores import Scores
 from mindrun.robot.replay import DifferenceError
 from mindrun.sim import warmup
-from mindrun.sim.changed_ticks import compile_stages
+from mindrun.sim.changed_ticks import STAGES
 from mindrun.sim.rollout import Rollout
 from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
 
@@ -48,10 +48,10 @@ def ensure_compiled(rollout: Rollout, say: Callable[[str], None] = terminal.comp
 
 def ensure_stages_compiled(rollout: Rollout, say: Callable[[str], None]) -> None:
     """Compile the stages of a tick one by one if need be, which runs with changes take, and say so."""
-    if not warmup.code_of_stages().is_there():
+    if not warmup.is_there(STAGES):
         say(COMPILING_STAGES)
     with _ended_by_ctrl_c():
-        compile_stages(rollout)
+        rollout.compile(*STAGES)
 
 
 @contextmanager

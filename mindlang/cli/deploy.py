@@ -15,9 +15,8 @@ from mindlang.cli._terminal import INTERRUPTED, MISUSE, fail, print_json, refusi
 if TYPE_CHECKING:
     from mindrun.graph.bundle import Bundle
 
-    from mindlang.robot.deployment import Settings
+    from mindlang.robot.deployment import ReleaseState, Settings
     from mindlang.robot.remote import RemoteRobot
-    from mindlang.robot.remote_state import ReleaseState
 
 EXAMPLES = """\b
 Examples:
@@ -63,9 +62,8 @@ def command(
     one before. Interrupted at any moment, the robot has the old release or the new one, whole; the same command goes
     on.
     """
-    from mindlang.robot.checks import check_host, check_tools
-    from mindlang.robot.deployment import Settings, deploy, roll_back
-    from mindlang.robot.remote import connected
+    from mindlang.robot.deployment import Deployment, Settings
+    from mindlang.robot.remote import check_host, check_tools, connected
 
     def report(message: str) -> None:
         if not quiet:
@@ -84,21 +82,19 @@ def command(
                 if as_list:
                     _list(robot, as_json)
                     return
-                if path and bundle:
-                    outcome = deploy(robot, path, bundle, settings, datetime.now(UTC), report, dry_run)
-                else:
-                    outcome = roll_back(robot, settings, report, dry_run)
+                deployment = Deployment(robot, settings, report, dry_run)
+                done = deployment.deploy(path, bundle, datetime.now(UTC)) if path and bundle else deployment.roll_back()
     except KeyboardInterrupt:
         whole = "Interrupted: the robot has the old release or the new one, whole."
         fail(whole, "The same command goes on.", INTERRUPTED)
-    for note in outcome.notes:
+    for note in done.notes:
         click.echo(f"note: {note}", err=True)
     if as_json:
         service = {"unit": "mind.service", "armed": settings.armed} if settings.service else None
-        done = {"host": host, "dry_run": dry_run, "release": outcome.release or None, "before": outcome.before or None}
-        print_json({**done, "service": service, "notes": list(outcome.notes)})
+        said = {"host": host, "dry_run": dry_run, "release": done.release or None, "before": done.before or None}
+        print_json({**said, "service": service, "notes": list(done.notes)})
     elif not dry_run:
-        report(f"{host} has {outcome.release}")
+        report(f"{host} has {done.release}")
 
 
 def _path_and_host(words: tuple[str, ...], without: bool) -> tuple[Path | None, str]:
@@ -114,20 +110,18 @@ def _checked(path: Path, settings: Settings) -> Bundle:
     """The bundle; one that cannot be read ends the program."""
     from mindrun.graph.bundle import read_bundle
 
-    from mindlang.robot.checks import check_procedures, check_wired
+    from mindlang.robot.release import check_deployable
 
     try:
         bundle = read_bundle(path)
     except BundleError as error:
         fail(str(error), error.hint or "mindc build writes one.", MISUSE)
-    check_procedures(bundle)
-    if settings.service:
-        check_wired(bundle)
+    check_deployable(bundle, settings.service)
     return bundle
 
 
 def _list(robot: RemoteRobot, as_json: bool) -> None:
-    from mindlang.robot.remote_state import read_state
+    from mindlang.robot.deployment import read_state
 
     state = read_state(robot)
     if as_json:

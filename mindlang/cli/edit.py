@@ -144,9 +144,9 @@ def _perform(
 ) -> None:
     """Make an edit of a file, or only show it; an impossible one ends the program with its reason."""
     from mindlang.editing.apply import apply_edit
+    from mindlang.editing.apply import write as write_edited
     from mindlang.editing.project import EditError, open_project
     from mindlang.editing.summary import broken_sentences, diff, not_followed, summarise
-    from mindlang.editing.writing import write as write_edited
 
     if write and file == "-":
         terminal.fail("Standard input cannot be written.", "Leave --write out: the diff is printed.", terminal.MISUSE)
@@ -193,9 +193,7 @@ def _verified(edited: Edited) -> str:
 
 def _ending(edited: Edited, is_written: bool) -> str:
     """Which files are written, or would be."""
-    from mindlang.editing.writing import changed_locks
-
-    locks = [path.name for path in changed_locks(edited)]
+    locks = [path.name for path in edited.changed_locks]
     if is_written:
         return f"written: {listed([*(path.name for path in edited.texts), *locks], 'and')}"
     also = f", and changes {listed(locks, 'and')} as well" if locks else ""

@@ -41,8 +41,7 @@ def command(name: tuple[str, ...], as_json: bool) -> None:
     from rich.text import Text
 
     from mindlang.cli._articles import command_articles
-    from mindlang.explaining.codes import codes
-    from mindlang.explaining.collection import articles, found, hint
+    from mindlang.explaining.collection import articles, codes, found, hint
     from mindlang.explaining.terminal import article_text, as_data, contents
 
     if not name:

@@ -25,7 +25,7 @@ def command(folder: Path, write: bool, as_json: bool) -> None:
     And in the folders below; --write removes them. `mindc train` and `mindc edit` never remove weights, so those that
     were replaced lie here until then. What a lock of another branch or of a copy elsewhere names is not known here.
     """
-    from mindlang.lock.garbage import remove, unnamed
+    from mindlang.lock.blobs import remove, unnamed
 
     if not folder.is_dir():
         fail(f"{folder} is not a folder.", code=MISUSE)

@@ -60,7 +60,7 @@ def command(files: tuple[str, ...], fix: bool, select: tuple[str, ...], ignore: 
     when something was, with 2 when a file cannot be read.
     """
     from mindlang.editing.neighbours import minds
-    from mindlang.lint.lint_file import linted
+    from mindlang.lint.lint import linted
 
     if fix and "-" in files:
         fail("Standard input cannot be mended.", "Leave --fix out, or save it as a file.", MISUSE)
@@ -80,7 +80,9 @@ def command(files: tuple[str, ...], fix: bool, select: tuple[str, ...], ignore: 
 
 def _settings(file: str) -> LintSettings:
     """The settings that count for a file; what is wrong in them ends the program."""
-    from mindlang.lint.settings_file import settings_of
+    from mindlang.cli._diagnostic_printer import print_report
+    from mindlang.cli._terminal import MISUSE, console
+    from mindlang.lint.settings import settings_of
 
     found = settings_of(Path(realpath(file)))
     if found.wrong:
@@ -91,7 +93,8 @@ def _settings(file: str) -> LintSettings:
 
 def _codes(said: Sequence[str]) -> list[str]:
     """The codes of an option; one that is none ends the program."""
-    from mindlang.lint.settings_file import why_no_rule
+    from mindlang.cli._terminal import MISUSE, fail
+    from mindlang.lint.settings import why_no_rule
 
     codes = [code for text in said for code in text.replace(",", " ").split()]
     if said and not codes:

@@ -35,8 +35,7 @@ def merge(base: Path, ours: Path, theirs: Path, name: str) -> None:
     Ends with 1 where both have changed the line of a skill: then what each says stands between marks, and one of these
     is to be deleted; where one branch has taken the line out, it says nothing there.
     """
-    from mindlang.lock import LockError, read_lock
-    from mindlang.lock.merging import merge
+    from mindlang.lock import LockError, merge, read_lock
 
     try:
         # git has an empty file where the branches have no lock in common

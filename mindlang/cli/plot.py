@@ -42,7 +42,7 @@ def command(runs: tuple[Path, ...], output: Path, mean: bool, as_json: bool, qui
     """
     from mindrun.train import NotFoundError
 
-    from mindlang.pictures.learning_log import load_curves
+    from mindlang.pictures.learning_log import by_lesson, load_curves
 
     if find_spec("matplotlib") is None:
         fail("Curves are drawn with matplotlib, which is not installed.", "pip install 'mindlang[plot]'", MISUSE)
@@ -50,9 +50,7 @@ def command(runs: tuple[Path, ...], output: Path, mean: bool, as_json: bool, qui
     with refusing(), refusing(MISUSE, of=NotFoundError):
         curves = load_curves(runs)
 
-    from mindlang.pictures.curves import figure, image
-    from mindlang.pictures.mean_curves import by_lesson
-    from mindlang.pictures.mean_figure import mean_figure
+    from mindlang.pictures.curves import figure, image, mean_figure
 
     lessons = by_lesson(curves) if mean else []
     write_file(output, image(mean_figure(lessons) if mean else figure(curves), output.suffix))

@@ -56,9 +56,8 @@ def command(
         raise click.UsageError("--task is of the run: say --run, too.")
     from mindlang.lock import lock_sources, read_locks
     from mindlang.lock.ready import make_ready
-    from mindlang.proofs.data import as_data
     from mindlang.proofs.proof import prove
-    from mindlang.proofs.report import report
+    from mindlang.proofs.report import as_data, report
 
     compiled = load_compiled(file)
     assert compiled.graph
@@ -73,10 +72,11 @@ def command(
     hashes = {skill: lock[skill].weights for skill in ready.policy.weights if skill in lock}
     run = _run(file, compiled, task, seed) if with_run else None
     proof = prove(ready.policy.graph, ready.policy.weights, leak)
+    data = as_data(proof, hashes, run)
     if as_json:
-        print_json(as_data(proof, hashes, run))
+        print_json(data)
     else:
-        print_table(report(proof, hashes, run))
+        print_table(report(data))
 
 
 def _run(file: str, compiled: Compiled, task: str | None, seed: int) -> Recorded:

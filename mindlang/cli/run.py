@@ -208,7 +208,7 @@ class RunFiles:
         self.session.say(f"{path}: {what}")
 
     def _draw(self, path: Path, run: RecordedRun, found: dict[str, Any]) -> None:
-        from mindlang.pictures.environment_picture import environment_picture
+        from mindlang.pictures.environments import environment_picture
         from mindlang.pictures.picture import picture, png
 
         if run.task.scene.environment:
@@ -219,10 +219,10 @@ class RunFiles:
     def _film(self, path: Path, run: RecordedRun, found: dict[str, Any]) -> None:
         from mindlang.pictures.film import Film
 
-        film = Film.of(run, found, self.speed, path.suffix.lower())
+        film = Film(run, found, self.speed, path.suffix.lower())
         try:
             with terminal.refusing(terminal.MISUSE), self.session.progress() as progress:
-                bar = progress.add_task(path.name, total=film.frames)
+                bar = progress.add_task(path.name, total=len(film))
                 film.write(path, lambda: progress.advance(bar))
         except OSError as error:
             terminal.fail(f"{path} cannot be written: {error.strerror}", code=terminal.MISUSE)

@@ -18,6 +18,6 @@ def command() -> None:
 
     With every driver that is installed, and its options.
     """
-    from mindlang.robot.schema import schema
+    from mindlang.robot.options import schema
 
     print_json(schema())

@@ -51,7 +51,7 @@ def command(file: str, skills: tuple[str, ...], accept: bool, as_json: bool) -> 
     Ends with 0 when every skill that is shown, of those below the master, can act, else with 1.
     """
     from mindlang.lock import lock_sources
-    from mindlang.lock.accept import accept as accept_weights
+    from mindlang.lock.report import accept as accept_weights
     from mindlang.lock.report import as_data, rows
 
     compiled = terminal.load_compiled(file)

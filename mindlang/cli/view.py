@@ -26,8 +26,8 @@ from mindlang.cli._options import (
 )
 
 if TYPE_CHECKING:
+    from mindlang.view.learning import Champions
     from mindlang.view.viewed import Viewed
-    from mindlang.view.viewed_champion import Champions
     from mindlang.view.viewed_recording import Watching
 
 EXAMPLES = """\b
@@ -125,9 +125,8 @@ def training_view(folder: Path, seed: int | None, quiet: bool) -> tuple[Viewed, 
     from mindrun.train import NotFoundError
 
     from mindlang.cli._session import ensure_compiled
-    from mindlang.view.learning import open_learning
+    from mindlang.view.learning import Champions, open_learning
     from mindlang.view.messages import RefusedError
-    from mindlang.view.viewed_champion import Champions
 
     with terminal.refusing(), terminal.refusing(terminal.MISUSE, of=NotFoundError):
         try:

@@ -69,7 +69,6 @@ def import_weights(
 
     from mindlang.cli._session import ensure_compiled
     from mindlang.weights import importing
-    from mindlang.weights.trial import open_trial
 
     subject = _subject(file)
     with (
@@ -77,11 +76,10 @@ def import_weights(
         terminal.refusing(terminal.MISUSE, ".", of=NotFoundError),
         terminal.procedures_talk(),
     ):
-        incoming = importing.read_incoming(subject, skill, weights)
-        trial = open_trial(subject, incoming.lesson, incoming.network, subject.shown)
+        trial = importing.open_trial(subject, skill, weights)
         ensure_compiled(trial.rollout, lambda line: terminal.tell(line, quiet=quiet))
-        found = importing.import_weights(trial, incoming, recording, force)
-    terminal.tell(*_lines(found, subject.keep_path(incoming.lesson).name, recording), quiet=quiet)
+        found = importing.import_weights(trial, recording, force)
+    terminal.tell(*_lines(found, subject.keep_path(trial.lesson).name, recording), quiet=quiet)
     if as_json:
         terminal.print_json(found.data())
     sys.exit(terminal.OK if found.is_kept else terminal.FINDINGS)
@@ -92,10 +90,11 @@ def _lines(found: Imported, lock: str, recording: str | None) -> Iterator[str]:
 
     from mindlang.training.lock_update import COMPARED_LAYOUTS
 
-    skill, lesson, compared = found.incoming.network.skill.name, found.incoming.lesson, found.deviation
+    trial, compared = found.trial, found.deviation
+    skill, lesson = trial.network.skill.name, trial.lesson
     where = recording or f"a run of {lesson.task}"
     yield (
-        f"{found.incoming.path}: {len(found.incoming.genome):,} weights of {skill}; "
+        f"{trial.path}: {len(trial.genome):,} weights of {skill}; "
         f"{compared.reference} and the engine differ by at most {compared.difference:.3g} "
         f"in {in_words(compared.ticks)} of {where}"
     )
@@ -123,7 +122,8 @@ def export_weights(file: str, skill: str, weights: Path) -> None:
 
     With what they read and send, in their order. Brought back by import they are the same to the bit.
     """
-    from mindlang.weights.files import to_bytes, trained_network
+
+    from mindlang.weights.network import to_bytes, trained_network
 
     terminal.refuse_unwritable(weights, ".safetensors")
     with terminal.refusing(end="."):

@@ -143,7 +143,7 @@ def _draw(compared: Compared, request: Request, path: Path) -> str:
     from mindlang.pictures.picture import png
 
     if compared.was.run.task.scene.environment:
-        from mindlang.pictures.environment_picture import environment_pictures as two_runs
+        from mindlang.pictures.environments import environment_pictures as two_runs
 
         shown = "both runs"
     else:

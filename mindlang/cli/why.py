@@ -57,8 +57,7 @@ def command(
     Where FILE is a recording, BUNDLE is the one that was running, or the .mind file that it is built from, and ticks
     are the rows of the recording.
     """
-    from mindlang.attribution.answer import QuestionError, answer
-    from mindlang.attribution.course import course_of_recording, course_of_run
+    from mindlang.attribution.answer import QuestionError, answer, course_of_recording, course_of_run
     from mindlang.attribution.report import answer_text
     from mindlang.cli._session import RunSession, refusing_recordings
 

@@ -14,10 +14,8 @@ from gymnasium.vector.utils import batch_space
 from mindrun.errors import MindError
 from numpy.typing import NDArray
 
-from mindlang.environments.episodes import Episodes, Floats, Mask, layouts
+from mindlang.environments.episodes import Episodes, Floats, Mask, layouts, refuse_unknown_mode, unit_box
 from mindlang.environments.image import image_of
-from mindlang.environments.render_modes import refuse_unknown_mode
-from mindlang.environments.task_env import unit_box
 from mindlang.pictures.canvas import Image
 from mindlang.run.setup import layouts as children
 

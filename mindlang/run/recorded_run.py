@@ -8,12 +8,11 @@ import numpy as np
 from mindrun.engine.changes import Change
 from mindrun.engine.engine import procedure_sources
 from mindrun.graph.graph import Graph, Task, Thing
-from mindrun.graph.movers import movers
 from mindrun.graph.recording_header import GOES_ON
+from mindrun.graph.skill_sets import movers
 from mindrun.sim.rollout import Rollout, scores_of
 from mindrun.sim.task_rows import things_of
-from mindrun.sim.ticks import joined
-from mindrun.sim.trace import Trace, trace
+from mindrun.sim.trace import Trace, joined, trace
 from numpy.typing import NDArray
 
 from mindlang.run.edge_flow import edge_flows

@@ -22,7 +22,7 @@ from mindrun.graph.recording_header import (
 from mindrun.graph.skill_sets import reachable
 from mindrun.graph.wiring import read_by
 from mindrun.robot.recording import recording_bytes
-from mindrun.sim.ticks import Ticks
+from mindrun.sim.trace import Ticks
 from mindrun.terminal.command_line import command_line
 from numpy.typing import NDArray
 

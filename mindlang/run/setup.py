@@ -12,9 +12,9 @@ import numpy as np
 from mindrun.engine.engine import procedure_sources
 from mindrun.graph.bundle import Bundle, pack
 from mindrun.graph.graph import Task
-from mindrun.graph.one_world import is_one_world
 from mindrun.graph.run_scores import Scores
 from mindrun.graph.skill_sets import owners, reachable
+from mindrun.graph.tasks import is_one_world
 from mindrun.processors import cpu_seconds
 from mindrun.terminal.command_line import command_line
 

@@ -11,7 +11,7 @@ import numpy as np
 from mindrun.errors import MindError
 from mindrun.graph.graph import Task
 from mindrun.graph.named_readings import reading_names
-from mindrun.graph.reward_sums import score_of
+from mindrun.graph.run_scores import score_of
 from mindrun.train.scoring import succeeded
 from numpy.typing import NDArray
 

@@ -12,7 +12,7 @@ from mindrun.train import NotFoundError, RunError
 from mindlang import limits
 from mindlang.compiler.compile import Compiled
 from mindlang.compiler.diagnostic import did_you_mean, listed
-from mindlang.lock.lessons import needed_skills
+from mindlang.lock.status import needed_skills
 from mindlang.training.subject import Subject, open_subject, refuse_frozen
 
 BOUNDS = {

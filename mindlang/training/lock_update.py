@@ -11,14 +11,12 @@ from mindrun.train.attempt import VERDICT_LAYOUTS, has_needed, of_halves, verdic
 from mindrun.train.lesson_state import LessonState
 from mindrun.train.population import Genomes
 from mindrun.train.run_folder import WEIGHTS, RunFolder, keep_failure
-from mindrun.train.scoring import Scorer, is_one_world, mark, succeeded
-from mindrun.train.seeds import Purpose, Seeds, layouts
+from mindrun.train.scoring import Purpose, Scorer, Seeds, is_one_world, layouts, mark, succeeded
 
 from mindlang.compiler.diagnostic import listed
 from mindlang.lock import LockError, Taught, read_lock
 from mindlang.lock.blobs import record
-from mindlang.lock.lessons import key_of
-from mindlang.lock.status import Trained, trained_weights
+from mindlang.lock.status import Trained, key_of, trained_weights
 from mindlang.lock.world_facts import Worlds
 from mindlang.number_format import number
 from mindlang.training.subject import Subject, origin_of

@@ -14,16 +14,13 @@ from mindrun.train.manifest import Manifest, fingerprint, hashes, processor, ver
 from mindrun.train.run_folder import RunFolder, create, unfinished
 
 from mindlang.compiler.compile import Compiled
-from mindlang.compiler.counterparts import counterparts
 from mindlang.compiler.diagnostic import listed
+from mindlang.compiler.resolve.curricula import counterparts
 from mindlang.limits import as_seed
 from mindlang.lock import Lock, lock_path, lock_sources, read_lock, read_locks
-from mindlang.lock.arrange import arrange
 from mindlang.lock.blobs import Origin
-from mindlang.lock.due import is_due
-from mindlang.lock.lessons import needed_skills, subskills
-from mindlang.lock.signature import places, signature, width
-from mindlang.lock.status import Status, Trained, status, trained_weights
+from mindlang.lock.signature import arrange, places, signature, width
+from mindlang.lock.status import Status, Trained, is_due, needed_skills, status, subskills, trained_weights
 
 
 @dataclass(frozen=True, slots=True)

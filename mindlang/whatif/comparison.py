@@ -8,9 +8,9 @@ import numpy as np
 from mindrun.engine.changes import Change, ChangeError
 from mindrun.graph.graph import Graph
 from mindrun.graph.named_readings import reading_names
-from mindrun.graph.reward_sums import paid_by_text
+from mindrun.graph.run_scores import paid_by_text
 from mindrun.sim.rollout import Rollout
-from mindrun.sim.takeover import take_over
+from mindrun.sim.trace import take_over
 from numpy.typing import NDArray
 
 from mindlang.run.recorded_run import ROWS, WITH_BEGINNING, RecordedRun, RunResult, result_of_trace, run_result

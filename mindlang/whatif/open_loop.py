@@ -9,8 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from mindrun.engine.changed_engine import ChangedEngine
-from mindrun.engine.changes import ChangeError, in_tick
+from mindrun.engine.changes import ChangedEngine, ChangeError, in_tick
 from mindrun.engine.engine import Engine
 from mindrun.graph.bundle import Bundle
 from mindrun.graph.graph import Graph

@@ -5,7 +5,7 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 import pytest
-from mindrun.cli.tools import doctor, run_tool
+from mindrun.cli import doctor, run_tool
 from mindrun.sim import cache, warmup
 
 from mindlang import diagnosis

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from mindrun.graph.graph import Graph
 from mindrun.graph.policy import Policy
-from mindrun.sim.allocation import empty_state
 from mindrun.sim.rollout import Rollout
+from mindrun.sim.state import empty_state
 
 from mindlang import limits
 from mindlang.compiler.compile import load

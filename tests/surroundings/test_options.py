@@ -12,7 +12,7 @@ from pathlib import Path
 import click
 import pytest
 from mindrun import __main__ as mindrun
-from mindrun.cli.tools import tools
+from mindrun.cli import tools
 from mindrun.graph.bundle import Bundle, write_bundle
 from mindrun.graph.policy import Policy
 from mindrun.terminal.arguments import parser
@@ -102,7 +102,7 @@ def test_the_message_says_the_bounds(mindc: Call) -> None:
 def _tools() -> Iterator[tuple[str, ArgumentParser]]:
     for name in tools():
         known = parser(name, None)
-        import_module(f"mindrun.cli.tools.{name}").options(known)
+        import_module(f"mindrun.cli.{name}").options(known)
         yield name, known
 
 

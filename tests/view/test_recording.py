@@ -11,14 +11,13 @@ from mindrun.robot.recording import About, Recorder, RecordingError, read
 
 from mindlang.run.edge_flow import BLOCK_ROWS
 from mindlang.view.messages import Why
-from mindlang.view.rows import unpacked
 from mindlang.view.session import command_shares
 from mindlang.view.viewed import Viewed
 from mindlang.view.viewed_recording import viewed_recording
 from tests.calling import Call
 from tests.robot.older import older
 from tests.sim.minds import compile_text
-from tests.view.serving import served
+from tests.view.serving import served, unpacked
 
 MIND = """
 tick 1/20 s

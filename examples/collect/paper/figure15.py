@@ -10,8 +10,7 @@ from measure import compiled
 
 from mindlang.pictures.canvas import Image, Viewport
 from mindlang.pictures.film import TRAIL_SECONDS
-from mindlang.pictures.film_images import FilmImages
-from mindlang.pictures.film_layout import FILM_HEIGHT
+from mindlang.pictures.film_images import FILM_HEIGHT, FilmImages
 from mindlang.run import outcome
 from mindlang.run.chosen_task import SetupError
 from mindlang.run.recorded_run import RecordedRun, record_run
