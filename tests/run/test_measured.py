@@ -90,7 +90,7 @@ def test_every_number_is_that_of_a_mind_that_reads_all_or_there_is_none(graph: G
         else:
             assert np.isnan(run.influence[:, number]).all()
     assert np.array_equal(run.commands, twin.commands)
-    assert np.array_equal(run.lines, twin.lines)
+    assert np.array_equal(run.lines, twin.lines, equal_nan=True)
     assert np.array_equal(run.body, twin.body, equal_nan=True)
     assert np.array_equal(run.battery, twin.battery) or np.isnan(run.battery).all()
 
