@@ -29,8 +29,8 @@ def declared(*nouns: str) -> Completion:
 
 def _declarations(minds: Iterable[Path]) -> Iterator[tuple[str, str]]:
     """The noun and the name of each declaration in these files, and in those that they use."""
+    from mindlang.compiler.compile import files, read
     from mindlang.compiler.diagnostic import Findings
-    from mindlang.compiler.use import files, read
 
     for mind in minds:
         try:

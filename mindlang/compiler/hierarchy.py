@@ -44,8 +44,9 @@ def circles(graph: DiGraph) -> list[list[Any]]:
     if is_directed_acyclic_graph(graph):
         return []
     nodes, numbered = list(graph), convert_node_labels_to_integers(graph)  # a set of names has no order
-    found = (_turned(circle) for circle in islice(simple_cycles(numbered), MAX_CIRCLES))
-    return [[nodes[number] for number in circle] for circle in sorted(found)]
+    starts = ((circle, circle.index(min(circle))) for circle in islice(simple_cycles(numbered), MAX_CIRCLES))
+    found = sorted(circle[start:] + circle[:start] for circle, start in starts)
+    return [[nodes[number] for number in circle] for circle in found]
 
 
 def ends_first(graph: DiGraph) -> list[Any]:
@@ -54,11 +55,6 @@ def ends_first(graph: DiGraph) -> list[Any]:
     ending = graph.copy()
     ending.remove_nodes_from(above(graph, [*circular, *nodes_with_selfloops(graph)]))
     return in_order(ending)[::-1]
-
-
-def _turned(circle: list[int]) -> list[int]:
-    first = circle.index(min(circle))
-    return circle[first:] + circle[:first]
 
 
 def refuse_circles(code: str, graph: DiGraph, findings: Findings, says: str, hint: str, label: str) -> None:

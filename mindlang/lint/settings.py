@@ -93,21 +93,17 @@ class _Reading:
         except (tomllib.TOMLDecodeError, RecursionError) as error:
             self._no_toml(error)
             said = {}
-        lint = self._tables(said).get(SECTION, {})
-        found = self._keys(lint)
+        for name in (name for name in said if name != SECTION):
+            self._unknown(name, (SECTION,), "section")
+        found = self._keys(said.get(SECTION, {}))
         in_order = sorted(self.wrong, key=lambda each: each.span.start if each.span else 0)
         return LintSettings(self.source.folder, **found, wrong=tuple(in_order))
 
-    def _tables(self, said: dict[str, Any]) -> dict[str, Any]:
-        for name, table in said.items():
-            if name != SECTION:
-                self._unknown(name, (SECTION,), "section")
-            elif not isinstance(table, dict):
-                self._refuse("wrong-setting", name, f"{SECTION} is a section.", f"Write [{SECTION}].")
-        return {name: table for name, table in said.items() if isinstance(table, dict)}
-
-    def _keys(self, lint: dict[str, Any]) -> dict[str, Any]:
+    def _keys(self, lint: Any) -> dict[str, Any]:
         found: dict[str, Any] = {}
+        if not isinstance(lint, dict):
+            self._refuse("wrong-setting", SECTION, f"{SECTION} is a section.", f"Write [{SECTION}].")
+            return found
         for key, value in lint.items():
             match key:
                 case "select" | "ignore":
