@@ -7,7 +7,8 @@ from functools import cached_property
 from operator import attrgetter
 from typing import NamedTuple
 
-from mindrun.graph.graph import Graph, Lesson
+from mindrun.graph.goals import goals
+from mindrun.graph.graph import Graph
 from mindrun.kinds.sensors.sensor import Physical, SensorKind
 from mindrun.kinds.things.thing import STAYS
 
@@ -222,15 +223,7 @@ class Study:
 
     def goals(self, task: Task) -> frozenset[str]:
         """The things on which no run of a task begins."""
-        from mindrun.graph.goals import goals
-
         return goals(self.graph, next(each for each in self.graph.tasks if each.name == task.name))
-
-    def learners(self, lesson: Lesson) -> tuple[str, ...]:
-        """The skills that a lesson of the graph teaches."""
-        from mindrun.graph.skill_sets import learners
-
-        return learners(self.graph, lesson)
 
 
 @dataclass(frozen=True, slots=True)
