@@ -21,7 +21,7 @@ from mindlang.compiler.references import Mention, mentions
 from mindlang.compiler.source import Source, Span
 from mindlang.compiler.syntax import Declaration, Fact
 from mindlang.editing.insertion import without_declarations, without_fact
-from mindlang.lint.intervals import UNIT_INTERVAL, Interval, Range, interval
+from mindlang.lint.intervals import UNIT_INTERVAL, Interval, Range, interval, why_never
 from mindlang.lock import Lock, lock_sources, read_locks
 
 _WORD = re.compile(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])")
@@ -72,6 +72,17 @@ class AnalysedWorld:
     def range_in(self, of: "Conditional") -> Range:
         """The ranges of the expressions of an edge, an end or a reward."""
         return lambda expression: interval(expression, self.reading, self.each(of))
+
+    def why_never_paid(self, reward: Reward) -> tuple[Span, str, str] | None:
+        """Where and why a reward is never paid, and what to do; None of one that may be."""
+        fact, value = reward.fact, self.range_in(reward)
+        if reward.on and fact.on and (why := reward.on.prevented(self)):
+            return fact.on.span, *why
+        if reward.when and (never := why_never(reward.when, value)):
+            return reward.when.span, never, "Compare with something that is reached, or take the reward out."
+        if value(reward.amount) == (0, 0):
+            return fact.amount.span, "its amount is always 0", "Give it another amount, or take it out."
+        return None
 
     @property
     def drains(self) -> bool:
@@ -272,6 +283,11 @@ def removal(what: Declaration | Fact, title: str = "", is_safe: bool = False) ->
     if isinstance(what, Declaration):
         return Fix(title or f"Remove {what.header.name.text}", without_declarations([what]), is_safe)
     return Fix(title or "Remove the line", (without_fact(what),), is_safe)
+
+
+def is_zero_influence(edge: Edge) -> bool:
+    """Whether it is an influence that is 0, whatever is read."""
+    return edge.to == "skill" and bool(edge.at) and all(interval(value)[1] <= 0 for value in edge.values)
 
 
 def words(name: str) -> list[str]:
