@@ -16,8 +16,7 @@ from mindrun.kinds.bodies.body import BodyKind
 from mindrun.kinds.events.event import EventKind
 from mindrun.kinds.scenes.scene import TOUCHING_UNITS, SceneKind
 from mindrun.kinds.sensors.sensor import SensorKind
-from mindrun.kinds.things.rectangle import Rectangle
-from mindrun.kinds.things.thing import ThingKind
+from mindrun.kinds.things.thing import Rectangle, ThingKind
 from mindrun.numbers.quantity import Place
 
 from mindlang.compiler.model import Part

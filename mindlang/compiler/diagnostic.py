@@ -42,6 +42,10 @@ class Diagnostic(ShortRepr):
     """One finding. `code` is stable, `message` says what is wrong, `hint` what to do.
 
     Without a span it is about a file that could not be read.
+
+    >>> [diagnostic] = mindlang.load("nowhere.mind").diagnostics
+    >>> diagnostic.code, diagnostic.severity
+    ('unreadable', 'error')
     """
 
     code: str

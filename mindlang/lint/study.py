@@ -7,8 +7,8 @@ from functools import cached_property
 from operator import attrgetter
 from typing import NamedTuple
 
-from mindrun.graph.goals import goals
 from mindrun.graph.graph import Graph
+from mindrun.graph.tasks import goals
 from mindrun.kinds.sensors.sensor import Physical, SensorKind
 from mindrun.kinds.things.thing import STAYS
 

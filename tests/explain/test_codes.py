@@ -11,8 +11,8 @@ from mindlang.compiler.diagnostic import Diagnostic
 from mindlang.compiler.resolve.curricula import SWITCHES
 from mindlang.compiler.source import Source
 from mindlang.explaining.article import Article
-from mindlang.explaining.codes import ERROR, errors
-from mindlang.explaining.codes import codes as all_codes
+from mindlang.explaining.collection import ERROR, errors
+from mindlang.explaining.collection import codes as all_codes
 from tests.breakpoints.subjects import subject
 from tests.explain.examples import ENVIRONMENTS, write
 from tests.project.sources import COMPILER, RUNTIME, modules, tree

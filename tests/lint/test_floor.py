@@ -6,7 +6,7 @@ from itertools import product
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from mindrun.kinds.things.rectangle import Rectangle
+from mindrun.kinds.things.thing import Rectangle
 
 from mindlang.lint.rules import walled_off as module
 from mindlang.lint.rules.walled_off import floor

@@ -1,6 +1,7 @@
 """Sensors, memories, actuators and the body: how many readings each sensor has, whether the actuators can move it."""
 
 from collections.abc import Iterable, Mapping, Sequence
+from math import prod
 from typing import Any
 
 from mindrun.kinds.actuators.actuator import ActuatorKind
@@ -76,7 +77,8 @@ def sensors(names: Names, findings: Findings) -> Parts:
 
 def _widths(sensors: Mapping[str, Part[Any]], of_one: Iterable[str]) -> dict[str, int]:
     """How many readings each sensor and memory has: one that does not say has as many as its source."""
-    widths = dict.fromkeys(of_one, 1) | {name: each.kind.width for name, each in sensors.items() if each.kind.width}
+    shapes = {name: each.kind.shape for name, each in sensors.items()}
+    widths = dict.fromkeys(of_one, 1) | {name: prod(shape) for name, shape in shapes.items() if shape is not None}
     sources_first = (name for name in ends_first(source_graph(sensors.values())) if name in sensors)
     for name in (*sources_first, *sensors):
         widths.setdefault(name, widths.get(sensors[name].kind.source, 1))

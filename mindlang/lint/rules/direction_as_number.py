@@ -10,7 +10,7 @@ from collections import Counter
 from collections.abc import Iterator, Sequence, Set
 from typing import Any
 
-from mindrun.kinds.sensors.directions import directions
+from mindrun.kinds.sensors.sensor import directions
 from mindrun.numbers.expression import fold
 
 from mindlang.compiler.model import Comparison, Expression, Reading, When

@@ -5,7 +5,7 @@ use may be there for them.
 """
 
 from mindlang.compiler.diagnostic import Fix
-from mindlang.editing.lines import first_line, remove_lines
+from mindlang.editing.insertion import first_line, remove_lines
 from mindlang.lint.study import Finding, Found, Study, removal
 
 ELSEWHERE = True

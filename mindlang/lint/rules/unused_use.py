@@ -12,7 +12,7 @@ from networkx import DiGraph
 from mindlang.compiler.diagnostic import Fix
 from mindlang.compiler.hierarchy import below
 from mindlang.compiler.syntax import File, Tick, Use, of_form
-from mindlang.editing.lines import first_line, remove_lines
+from mindlang.editing.insertion import first_line, remove_lines
 from mindlang.lint.study import Finding, Found, Study
 from mindlang.lock import lock_path
 

@@ -11,8 +11,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 from math import inf
 
-from mindrun.kinds.things.rectangle import Rectangle
-from mindrun.kinds.things.thing import ThingKind
+from mindrun.kinds.things.thing import Rectangle, ThingKind
 from mindrun.numbers.quantity import Place
 
 from mindlang.compiler.beginning import PLAIN_START
