@@ -3,7 +3,7 @@
 import re
 from collections.abc import Callable, Hashable, Iterable, Iterator
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, wraps
 from operator import attrgetter
 from typing import NamedTuple
 
@@ -276,6 +276,16 @@ def first_of_each(found: Iterable[Finding], key: Callable[[Finding], Hashable] =
         if key(finding) not in told:
             told.add(key(finding))
             yield finding
+
+
+def once_a_line(check: Callable[[Study], Found]) -> Callable[[Study], Found]:
+    """A rule that tells once of a line which several tasks have."""
+
+    @wraps(check)
+    def checked(study: Study) -> Found:
+        return first_of_each(check(study))
+
+    return checked
 
 
 def removal(what: Declaration | Fact, title: str = "", is_safe: bool = False) -> Fix:
