@@ -23,7 +23,6 @@ EMITTERS = {"error", "refuse", "Diagnostic", "Flaw", "Mistake", "Misfit", "_refu
 MADE = {
     "f'unknown-{nouns[0]}'": {f"unknown-{noun}" for noun in ("sensor", "actuator", "skill", "task", "scene", "number")},
     "f'unknown-{noun_}'": {"unknown-axis", "unknown-side", "unknown-outcome"},
-    "f'unknown-{noun}'": {"unknown-sensor", "unknown-actuator"},
     "f'{word}-differs'": {"tick-differs", "unit-differs"},
     "said.replace(' ', '-')": {f"{key}-{word}" for key, (word, _) in SWITCHES.items()},
 }
