@@ -109,7 +109,7 @@ def run_view(file: str, chosen: RunChoice, breaks: Path | None, quiet: bool) -> 
     from mindlang.view.viewed_run import ViewedRun
 
     compiled, session = terminal.load_compiled(file), RunSession(quiet)
-    setup = session.cast(file, compiled, chosen)
+    setup = session.set_up(file, compiled, chosen)
     breakpoints = breakpoints_of_run(breaks, compiled, setup) if breaks else ()
     setup = noticing(setup, breakpoints)
     rollout = session.simulator(setup, chosen.interrupt)

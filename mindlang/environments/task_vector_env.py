@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from mindlang.environments.episodes import Episodes, Floats, Mask, layouts, refuse_unknown_mode, unit_box
 from mindlang.environments.image import image_of
 from mindlang.pictures.canvas import Image
-from mindlang.run.many_runs import layouts as children
+from mindlang.run.setup import layouts as children
 
 Seeds = SupportsIndex | Sequence[SupportsIndex | None] | NDArray[np.integer] | None
 Step = tuple[Floats, NDArray[np.float64], Mask, Mask, dict[str, Any]]

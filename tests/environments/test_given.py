@@ -15,7 +15,7 @@ pytest.importorskip("gymnasium")
 
 from mindlang.environments import TaskEnv, TaskVectorEnv
 from mindlang.environments.episodes import numbers
-from mindlang.run.many_runs import layouts
+from mindlang.run.setup import layouts
 
 
 @pytest.fixture(scope="module")
