@@ -6,7 +6,7 @@ from typing import Any
 from rich.console import Group, RenderableType
 from rich.text import Text
 
-from mindlang.attribution.largest_paths import MAX_COUNTED_PATHS
+from mindlang.attribution.shares import MAX_COUNTED_PATHS
 from mindlang.compiler.diagnostic import listed
 from mindlang.number_format import score
 

@@ -5,8 +5,7 @@ from collections.abc import Iterator
 
 import click
 
-from mindlang.explaining.article import Article, Parameter
-from mindlang.explaining.sections import in_lines
+from mindlang.explaining.article import Article, Parameter, in_lines
 
 
 def command_articles() -> Iterator[Article]:

@@ -6,8 +6,7 @@ from collections.abc import Iterator
 from mindrun.cli.driving_arguments import driving_parser
 from mindrun.cli.tools import EXAMPLES, tool_parser, tools
 
-from mindlang.explaining.article import Article, Parameter
-from mindlang.explaining.sections import in_lines
+from mindlang.explaining.article import Article, Parameter, in_lines
 
 PROGRAM = "mindrun"
 TOOLS = "tools:"  # the part of mindrun's epilog that is not its own

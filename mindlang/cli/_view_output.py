@@ -21,7 +21,7 @@ from mindlang.view.session import Session
 from mindlang.view.viewed import Viewed
 
 if TYPE_CHECKING:
-    from mindlang.view.learning import Champions
+    from mindlang.view.learning import Learning
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,7 +33,7 @@ class ViewOutput:
     export: Path | None
     quiet: bool
 
-    def show(self, viewed: Viewed, champions: Champions | None = None) -> None:
+    def show(self, viewed: Viewed, learning: Learning | None = None) -> None:
         """Write the file, or serve until Ctrl-C."""
         if self.export:
             self._write(viewed, self.export)
@@ -43,7 +43,7 @@ class ViewOutput:
         ready = partial(self._ready, sys.stdout)
         try:
             with procedures_talk():
-                asyncio.run(ViewServer(Session(viewed, champions), self.port or 0).serve(ready))
+                asyncio.run(ViewServer(Session(viewed, learning), self.port or 0).serve(ready))
         except PortError as error:
             fail(str(error), error.hint, MISUSE)
 

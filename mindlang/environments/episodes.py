@@ -24,6 +24,12 @@ from numpy.typing import ArrayLike, NDArray
 from mindlang.api import Mind, load
 from mindlang.compiler.diagnostic import listed
 from mindlang.lock.ready import ReadyMind, make_ready
+from mindlang.pictures.canvas import Image
+from mindlang.pictures.film_images import empty_window, half_window, window
+from mindlang.pictures.robot import draw_robot
+from mindlang.pictures.scene import draw_items, draw_names, draw_zones
+from mindlang.pictures.theme import NIGHT
+from mindlang.run.recorded_run import RecordedRun
 from mindlang.run.setup import RunSetup, master_of, task_of, unknown, untaught_skills
 
 Floats = NDArray[np.float32]
@@ -31,6 +37,8 @@ Mask = NDArray[np.bool_]
 SEED_COUNT = 1 << 64  # layouts
 REAL_NUMBERS = "biuf"  # kinds of arrays: truth values, whole numbers, others
 MAX_DRAWN_SEED = 1 << 63  # so many that no two episodes are drawn the same
+IMAGE_PIXELS = 480  # of the longer side
+SHOWN_TICK = 1  # of a run that has one
 
 
 @dataclass(frozen=True, slots=True)
@@ -190,3 +198,36 @@ def refuse_unknown_mode(mode: str | None, metadata: Mapping[str, Any]) -> None:
 def unit_box(length: int) -> Box:
     """So many numbers in 0..1."""
     return Box(0.0, 1.0, (length,), np.float32)
+
+
+def image_of(agent: Agent, lane: int) -> Image:
+    """What the robot of a lane is in, [height, width, 3] as red, green, blue."""
+    run = _as_run(agent, lane)
+    half = half_window(run)
+    size = [max(1, round(IMAGE_PIXELS * side / max(half))) for side in half]
+    canvas = empty_window(run, window(run, SHOWN_TICK, *size), *size)
+    for draw in (draw_zones, draw_items, draw_robot, draw_names):
+        draw(canvas, run, NIGHT, SHOWN_TICK)
+    return np.ascontiguousarray(canvas.image[:, :, ::-1])
+
+
+def _as_run(agent: Agent, lane: int) -> RecordedRun:
+    """The present of a lane as a run of one tick, in which nothing has moved."""
+    lanes, here = agent.lanes, slice(lane, lane + 1)
+    world, mind, graph = lanes.world_columns(lane), lanes.state.mind, agent.setup.ready.policy.graph
+    return RecordedRun(
+        setup=agent.setup,
+        boxes=lanes.boxes(lane),
+        body=np.repeat([world["pose"]], 2, axis=0),
+        things=np.repeat([world["things"][:, :-1]], 2, axis=0),
+        turned=np.repeat([world["things"][:, -1]], 2, axis=0),
+        held=np.repeat([world["held"]], 2),
+        readings=mind.readings[: graph.width, here].T,
+        influence=mind.influence[:, here].T,
+        commands=mind.commands[: len(graph.actuators), here].T,
+        lines=world["rewards"][None],
+        touching=np.array([world["touching"]], np.bool_),
+        battery=np.array([world["battery"]]),
+        events=world["events"][None],
+        ended=world["ended"],
+    )

@@ -13,12 +13,12 @@ from gymnasium.utils import EzPickle
 from mindlang.environments.episodes import (
     Episodes,
     Floats,
+    image_of,
     layouts,
     numbers,
     refuse_unknown_mode,
     unit_box,
 )
-from mindlang.environments.image import image_of
 from mindlang.pictures.canvas import Image
 
 if TYPE_CHECKING:

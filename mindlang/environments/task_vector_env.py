@@ -14,8 +14,7 @@ from gymnasium.vector.utils import batch_space
 from mindrun.errors import MindError
 from numpy.typing import NDArray
 
-from mindlang.environments.episodes import Episodes, Floats, Mask, layouts, refuse_unknown_mode, unit_box
-from mindlang.environments.image import image_of
+from mindlang.environments.episodes import Episodes, Floats, Mask, image_of, layouts, refuse_unknown_mode, unit_box
 from mindlang.pictures.canvas import Image
 from mindlang.run.layouts import layouts as children
 

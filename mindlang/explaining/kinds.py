@@ -9,9 +9,8 @@ from typing import Any
 import mindrun.graph.graph  # noqa: F401  (it knows all kinds)
 from mindrun.kinds.registry import arguments, kinds, names
 
-from mindlang.explaining.article import Article
+from mindlang.explaining.article import Article, Section, in_lines, sections
 from mindlang.explaining.parameters import parameter
-from mindlang.explaining.sections import Section, in_lines, sections
 
 # The nouns of kinds as people say them, in the order in which a mind is written, and how the registry calls them.
 NOUNS = {

@@ -8,8 +8,16 @@ from mindrun.errors import MindError
 from mindrun.sim.outside.seen import UNKNOWN_FAILURES, SeenEpisode
 
 from mindlang.pictures.canvas import Image, fitted, pasted
-from mindlang.pictures.caption import SMALL_PIXELS, draw_title
-from mindlang.pictures.picture import PICTURE_PIXELS, SCALE_FACTOR, SIDE_PIXELS, TOP_PIXELS, empty_page, reduced
+from mindlang.pictures.picture import (
+    PICTURE_PIXELS,
+    SCALE_FACTOR,
+    SIDE_PIXELS,
+    SMALL_PIXELS,
+    TOP_PIXELS,
+    draw_title,
+    empty_page,
+    reduced,
+)
 from mindlang.pictures.theme import PAPER
 from mindlang.run.recorded_run import RecordedRun
 

@@ -7,13 +7,18 @@ from mindrun.terminal.tick_count import ticks as in_words
 
 from mindlang.number_format import score
 from mindlang.pictures.canvas import Canvas, Image
-from mindlang.pictures.caption import SMALL_PIXELS
-from mindlang.pictures.ending import ending_words
-from mindlang.pictures.labels import draw_names
-from mindlang.pictures.path import draw_collisions, draw_start
-from mindlang.pictures.picture import PICTURE_PIXELS, SIDE_PIXELS, empty_world, height_of, page_around, reduced
+from mindlang.pictures.path import draw_collisions, draw_start, ending_words
+from mindlang.pictures.picture import (
+    PICTURE_PIXELS,
+    SIDE_PIXELS,
+    SMALL_PIXELS,
+    empty_world,
+    height_of,
+    page_around,
+    reduced,
+)
 from mindlang.pictures.robot import draw_robot
-from mindlang.pictures.scene import draw_items, draw_zones
+from mindlang.pictures.scene import draw_items, draw_names, draw_zones
 from mindlang.pictures.theme import PAPER
 from mindlang.run.recorded_run import RecordedRun
 

@@ -12,11 +12,10 @@ from PIL import Image as Pillow
 
 from mindlang.compiler.compile import load
 from mindlang.pictures.canvas import Canvas, Rectangle, text_width
-from mindlang.pictures.ending import ending_words
 from mindlang.pictures.film import Film
 from mindlang.pictures.film_images import BELOW_SHARE, BESIDE_SHARE, FILM_HEIGHT, FILM_WIDTH, FilmLayout
-from mindlang.pictures.hierarchy_panel import MAX_TEXT_PIXELS, broken, fitting
-from mindlang.pictures.layout import Layout, Place
+from mindlang.pictures.hierarchy_panel import MAX_TEXT_PIXELS, Layout, Place, broken, fitting
+from mindlang.pictures.path import ending_words
 from mindlang.pictures.readings_panel import TEXT_PIXELS, fitted, sensors_read, shortened
 from mindlang.pictures.scene import WALL_UNITS
 from mindlang.pictures.theme import NIGHT
