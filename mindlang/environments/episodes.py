@@ -4,7 +4,7 @@ A program commands every actuator, or plays a skill of the hierarchy.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -41,9 +41,9 @@ IMAGE_PIXELS = 480  # of the longer side
 SHOWN_TICK = 1  # of a run that has one
 
 
-@dataclass(frozen=True, slots=True)
-class Agent:
-    """It sees the readings with these numbers, and acts by so many numbers in 0..1.
+@dataclass(eq=False, slots=True)
+class Episodes:
+    """So many runs of a task, each with an agent: it sees the readings with these numbers, acts by so many in 0..1.
 
     `played` is the skill that it plays, and `row` that one's in the tables; None where it commands the actuators.
     """
@@ -54,18 +54,59 @@ class Agent:
     actions: int
     row: int | None = None
     played: str | None = None
+    seeds: NDArray[np.uint64] = field(init=False)
+    _scores: NDArray[np.float64] = field(init=False)
 
-    def act(self, actions: Floats) -> None:
-        """One tick under its actions [lanes, actions]; one that is not finite is not sent."""
+    def __post_init__(self) -> None:
+        """All begin with the seed 0."""
+        self.seeds, self._scores = np.zeros(self.lanes.count, np.uint64), np.zeros(self.lanes.count)
+
+    def begin(self, lanes: Mask, seeds: ArrayLike) -> None:
+        """Begin the runs of these layouts in the marked lanes; to be followed by `sense`."""
+        self.seeds[lanes] = seeds
+        self.lanes.begin(lanes, seeds)
+        self._scores[lanes] = 0.0
+
+    def sense(self) -> Floats:
+        """What every agent sees [lanes, readings]; once in each tick."""
+        self.lanes.sense()
+        return self._seen(self.lanes.state, self.lanes.count)
+
+    def last_seen(self, lanes: Mask) -> Floats:
+        """What the agents of the marked lanes see, where another run is about to begin; `sense` is not disturbed."""
+        return self._seen(self.lanes.sensed_aside(lanes), int(lanes.sum()))
+
+    def step(self, actions: ArrayLike) -> tuple[NDArray[np.float64], Mask, Mask]:
+        """One tick under actions [lanes, actions]: rewards, what has ended, and where time is up instead.
+
+        An action that is not finite is not sent."""
+        given = numbers(actions, (self.lanes.count, self.actions))
         if self.row is None:
-            self.lanes.command(actions)
+            self.lanes.command(given)
         else:
-            self.lanes.play(self.row, actions)
+            self.lanes.play(self.row, given)
         self.lanes.act()
+        scores = self.lanes.scores
+        rewards, self._scores = scores - self._scores, scores
+        terminated = self.lanes.terminated
+        return rewards, terminated, self.lanes.timed_out & ~terminated
+
+    def outcome(self, lane: int) -> dict[str, Any]:
+        """What is said of a run that has ended: as numbers what `mindc run` says; a `count` where one is kept."""
+        task, lanes = self.setup.task, self.lanes
+        return {
+            "layout": int(self.seeds[lane]),
+            "score": float(lanes.scores[lane]),
+            **({"count": int(lanes.counts[lane, list(task.counts)].sum())} if task.counts else {}),
+            "ended_by": ended_by(task, int(lanes.ended_by[lane])),
+        }
+
+    def _seen(self, state: State, lanes: int) -> Floats:
+        return np.ascontiguousarray(state.mind.readings[self.readings, :lanes].T)
 
 
-def agent_of(file: Path, task: str | None, master: str | None, skill: str | None, lanes: int) -> Agent:
-    """The agent in so many lanes; MindError where the mind, the task or a skill cannot be so."""
+def episodes_of(file: Path, task: str | None, master: str | None, skill: str | None, lanes: int) -> Episodes:
+    """Episodes in so many lanes; MindError where the mind, the task or a skill cannot be so."""
     mind = load(file)
     if skill is not None:
         return _of_skill(mind, task, master, skill, lanes)
@@ -76,10 +117,10 @@ def agent_of(file: Path, task: str | None, master: str | None, skill: str | None
     seen = {row for each in reachable(mind.graph, leader) for row in each.inputs}
     sensed = sum(sensor.width for sensor in mind.graph.sensors)  # behind these are the memories of skills
     rows = np.array(sorted(row for row in seen if row < sensed), np.int64)
-    return Agent(_setup(mind, chosen, leader, ready), several, rows, len(mind.graph.actuators))
+    return Episodes(_setup(mind, chosen, leader, ready), several, rows, len(mind.graph.actuators))
 
 
-def _of_skill(mind: Mind, task: str | None, master: str | None, skill: str, lanes: int) -> Agent:
+def _of_skill(mind: Mind, task: str | None, master: str | None, skill: str, lanes: int) -> Episodes:
     graph = mind.graph
     if skill not in (names := [each.name for each in graph.skills]):
         unknown("skill", skill, names)
@@ -97,7 +138,7 @@ def _of_skill(mind: Mind, task: str | None, master: str | None, skill: str, lane
     row = int(np.flatnonzero(rollout.tables.skills["index"] == number)[0])
     inputs = np.array(ready.policy.graph.skills[number].inputs, np.int64)
     several = CommandedLanes(rollout, lanes)
-    return Agent(_setup(mind, chosen, leader, ready), several, inputs, played.outputs, row, skill)
+    return Episodes(_setup(mind, chosen, leader, ready), several, inputs, played.outputs, row, skill)
 
 
 def _played(graph: Graph, master: str, name: str) -> Skill:
@@ -115,53 +156,6 @@ def _played(graph: Graph, master: str, name: str) -> Skill:
 
 def _setup(mind: Mind, task: Task, master: str, ready: ReadyMind) -> RunSetup:
     return RunSetup(task, master, ready, mind.path.absolute().parent)
-
-
-class Episodes:
-    """So many runs of a task, each with an agent (`agent_of`) of its own."""
-
-    def __init__(self, file: Path, task: str | None, master: str | None, skill: str | None, lanes: int) -> None:
-        self.agent = agent_of(file, task, master, skill, lanes)
-        self._lanes = self.agent.lanes
-        self._shape = (lanes, self.agent.actions)
-        self.seeds = np.zeros(lanes, np.uint64)
-        self._scores = np.zeros(lanes)
-
-    def begin(self, lanes: Mask, seeds: ArrayLike) -> None:
-        """Begin the runs of these layouts in the marked lanes; to be followed by `sense`."""
-        self.seeds[lanes] = seeds
-        self._lanes.begin(lanes, seeds)
-        self._scores[lanes] = 0.0
-
-    def sense(self) -> Floats:
-        """What every agent sees [lanes, readings]; once in each tick."""
-        self._lanes.sense()
-        return self._seen(self._lanes.state, self._shape[0])
-
-    def last_seen(self, lanes: Mask) -> Floats:
-        """What the agents of the marked lanes see, where another run is about to begin; `sense` is not disturbed."""
-        return self._seen(self._lanes.sensed_aside(lanes), int(lanes.sum()))
-
-    def step(self, actions: ArrayLike) -> tuple[NDArray[np.float64], Mask, Mask]:
-        """One tick under actions [lanes, actions]: rewards, what has come to an end, and where time is up instead."""
-        self.agent.act(numbers(actions, self._shape))
-        scores = self._lanes.scores
-        rewards, self._scores = scores - self._scores, scores
-        terminated = self._lanes.terminated
-        return rewards, terminated, self._lanes.timed_out & ~terminated
-
-    def outcome(self, lane: int) -> dict[str, Any]:
-        """What is said of a run that has ended: as numbers what `mindc run` says; a `count` where one is kept."""
-        task, lanes = self.agent.setup.task, self._lanes
-        return {
-            "layout": int(self.seeds[lane]),
-            "score": float(lanes.scores[lane]),
-            **({"count": int(lanes.counts[lane, list(task.counts)].sum())} if task.counts else {}),
-            "ended_by": ended_by(task, int(lanes.ended_by[lane])),
-        }
-
-    def _seen(self, state: State, lanes: int) -> Floats:
-        return np.ascontiguousarray(state.mind.readings[self.agent.readings, :lanes].T)
 
 
 def numbers(actions: ArrayLike, shape: tuple[int, ...]) -> Floats:
@@ -200,9 +194,9 @@ def unit_box(length: int) -> Box:
     return Box(0.0, 1.0, (length,), np.float32)
 
 
-def image_of(agent: Agent, lane: int) -> Image:
+def image_of(episodes: Episodes, lane: int) -> Image:
     """What the robot of a lane is in, [height, width, 3] as red, green, blue."""
-    run = _as_run(agent, lane)
+    run = _as_run(episodes, lane)
     half = half_window(run)
     size = [max(1, round(IMAGE_PIXELS * side / max(half))) for side in half]
     canvas = empty_window(run, window(run, SHOWN_TICK, *size), *size)
@@ -211,12 +205,12 @@ def image_of(agent: Agent, lane: int) -> Image:
     return np.ascontiguousarray(canvas.image[:, :, ::-1])
 
 
-def _as_run(agent: Agent, lane: int) -> RecordedRun:
+def _as_run(episodes: Episodes, lane: int) -> RecordedRun:
     """The present of a lane as a run of one tick, in which nothing has moved."""
-    lanes, here = agent.lanes, slice(lane, lane + 1)
-    world, mind, graph = lanes.world_columns(lane), lanes.state.mind, agent.setup.ready.policy.graph
+    lanes, here = episodes.lanes, slice(lane, lane + 1)
+    world, mind, graph = lanes.world_columns(lane), lanes.state.mind, episodes.setup.ready.policy.graph
     return RecordedRun(
-        setup=agent.setup,
+        setup=episodes.setup,
         boxes=lanes.boxes(lane),
         body=np.repeat([world["pose"]], 2, axis=0),
         things=np.repeat([world["things"][:, :-1]], 2, axis=0),
