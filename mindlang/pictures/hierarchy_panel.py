@@ -26,7 +26,6 @@ MAX_TEXT_PIXELS, MIN_TEXT_PIXELS = 11.0, 5.0  # capitals of names, in pixels
 LINE_GAP_PIXELS = 5.0  # between two lines of a box
 RIM_PIXELS, CORE_PIXELS = 7.0, 2.0
 Stop = Sink | tuple[Literal["link"], int]  # a box, or where a link passes a row
-
 CROSSING_SWEEPS = 8
 MAX_BOX_WIDTH, MAX_BOX_HEIGHT = 210.0, 50.0  # pixels of a box
 BOX_SHARE = 0.58  # of the height of a row: that of its boxes, where rows are low
@@ -40,17 +39,17 @@ class HierarchyPanel:
         self._run = run
         sources = procedure_sources(run.graph, run.setup.folder, run.setup.master)
         self._flows = edge_flows(run.setup.ready.policy, sources, run.setup.master, run)
-        self._layout = Layout.of(self._flows.links, self._flows.skills, room)
-        self._lines = {sink: self._lines_of(sink, place) for sink, place in self._layout.boxes.items()}
-        self._size = min(fitting(self._lines[sink], place) for sink, place in self._layout.boxes.items())
+        self._boxes, self._stops = laid_out(self._flows.links, self._flows.skills, room)
+        self._lines = {sink: self._lines_of(sink, place) for sink, place in self._boxes.items()}
+        self._size = min(fitting(self._lines[sink], place) for sink, place in self._boxes.items())
 
     def draw(self, canvas: Canvas, tick: int) -> None:
         """The hierarchy in a tick, the first of which is 1."""
         flow = self._flows.over(range(tick - 1, tick))
-        links = zip(self._layout.stops, flow.value[0].tolist(), flow.transmitted[0].tolist(), strict=True)
+        links = zip(self._stops, flow.value[0].tolist(), flow.transmitted[0].tolist(), strict=True)
         for stops, command, transmitted in sorted(links, key=itemgetter(2)):  # what is bright lies on top
             self._link(canvas, stops, command, transmitted)
-        for sink, place in self._layout.boxes.items():
+        for sink, place in self._boxes.items():
             match sink:
                 case "skill", index:
                     self._skill(canvas, self._lines[sink], place, float(self._run.influence[tick - 1, index]))
@@ -134,14 +133,11 @@ def _curve(stops: Sequence[Place]) -> NDArray[np.float64]:
 def _rounded(place: Place, radius: float) -> NDArray[np.float64]:
     """The outline of a box with round corners."""
     radius = min(radius, place.width / 3, place.height / 3)
-    turn = np.linspace(0.0, np.pi / 2, 6)
-    corners = []
-    for quarter, (side, up) in enumerate(((1, 1), (-1, 1), (-1, -1), (1, -1))):
-        x = place.x + side * (place.width / 2 - radius)
-        y = place.y + up * (place.height / 2 - radius)
-        angle = turn + quarter * np.pi / 2
-        corners.append(np.column_stack([x + radius * np.cos(angle), y + radius * np.sin(angle)]))
-    return np.concatenate(corners)
+    sides = np.array([(1, 1), (-1, 1), (-1, -1), (1, -1)])
+    middles = [place.x, place.y] + sides * [place.width / 2 - radius, place.height / 2 - radius]
+    angles = np.linspace(0.0, np.pi / 2, 6) + np.arange(4)[:, None] * np.pi / 2
+    around = middles[:, None] + radius * np.stack([np.cos(angles), np.sin(angles)], axis=2)
+    return np.reshape(around, (-1, 2))
 
 
 @dataclass(frozen=True, slots=True)
@@ -154,22 +150,19 @@ class Place:
     height: float
 
 
-@dataclass(frozen=True, slots=True)
-class Layout:
-    """The boxes, and for each link the places that it goes through: from box to box, between the others of a row."""
+def laid_out(
+    links: Sequence[Link], skills: Sequence[int], room: Rectangle
+) -> tuple[dict[Sink, Place], list[list[Place]]]:
+    """The boxes, and for each link the places that it goes through: from box to box, between the others of a row.
 
-    boxes: dict[Sink, Place]
-    stops: list[list[Place]]
-
-    @classmethod
-    def of(cls, links: Sequence[Link], skills: Sequence[int], room: Rectangle) -> Layout:
-        """The layout of what is linked; `skills` stand parents first."""
-        level = _levels(links, skills)
-        routes = [_route(number, link, level) for number, link in enumerate(links)]
-        rows = _ordered(_rows(level, routes), routes)
-        places = {sink: place for i, row in enumerate(rows) for sink, place in _spread(row, i, len(rows), room)}
-        boxes = {(to, index): place for (to, index), place in places.items() if to != "link"}
-        return cls(boxes, [[places[stop] for stop in route] for route in routes])
+    `skills` stand parents first.
+    """
+    level = _levels(links, skills)
+    routes = [_route(number, link, level) for number, link in enumerate(links)]
+    rows = _ordered(_rows(level, routes), routes)
+    places = {sink: place for i, row in enumerate(rows) for sink, place in _spread(row, i, len(rows), room)}
+    boxes = {(to, index): place for (to, index), place in places.items() if to != "link"}
+    return boxes, [[places[stop] for stop in route] for route in routes]
 
 
 def _levels(links: Sequence[Link], skills: Sequence[int]) -> dict[Stop, int]:

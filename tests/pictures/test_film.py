@@ -14,7 +14,7 @@ from mindlang.compiler.compile import load
 from mindlang.pictures.canvas import Canvas, Rectangle, text_width
 from mindlang.pictures.film import Film
 from mindlang.pictures.film_images import BELOW_SHARE, BESIDE_SHARE, FILM_HEIGHT, FILM_WIDTH, FilmLayout
-from mindlang.pictures.hierarchy_panel import MAX_TEXT_PIXELS, Layout, Place, broken, fitting
+from mindlang.pictures.hierarchy_panel import MAX_TEXT_PIXELS, Place, broken, fitting, laid_out
 from mindlang.pictures.path import ending_words
 from mindlang.pictures.readings_panel import TEXT_PIXELS, fitted, sensors_read, shortened
 from mindlang.pictures.scene import WALL_UNITS
@@ -256,11 +256,11 @@ def test_what_flows_adds_up_to_the_influence(rules: Path) -> None:
 def test_a_link_that_passes_a_row_goes_between_its_boxes() -> None:
     links = [Link(0, ("skill", 1)), Link(0, ("skill", 2)), Link(1, ("skill", 3)), Link(2, ("actuator", 0))]
     links += [Link(3, ("actuator", 0)), Link(0, ("actuator", 1))]
-    layout = Layout.of(links, [0, 1, 2, 3], Rectangle(0.0, 0.0, 400.0, 400.0))
-    assert [len(stops) for stops in layout.stops] == [2, 2, 2, 3, 2, 4]
-    heights = {sink: place.y for sink, place in layout.boxes.items()}
+    boxes, stops = laid_out(links, [0, 1, 2, 3], Rectangle(0.0, 0.0, 400.0, 400.0))
+    assert [len(each) for each in stops] == [2, 2, 2, 3, 2, 4]
+    heights = {sink: place.y for sink, place in boxes.items()}
     assert heights["skill", 0] < heights["skill", 1] == heights["skill", 2] < heights["skill", 3]
     assert heights["actuator", 0] == heights["actuator", 1] == max(heights.values())
-    for stop in layout.stops[3][1:-1] + layout.stops[5][1:-1]:
-        for box in layout.boxes.values():
+    for stop in stops[3][1:-1] + stops[5][1:-1]:
+        for box in boxes.values():
             assert abs(stop.x - box.x) > box.width / 2 or abs(stop.y - box.y) > 1
