@@ -11,6 +11,7 @@ from mindrun.graph.weights import reachable
 from mindrun.kinds.sensors.directions import directions
 from mindrun.robot.recording import RecordingError, read
 from mindrun.robot.replay import computed_again
+from mindrun.terminal.tick_count import ticks as in_words
 from numpy.typing import NDArray
 
 from mindlang.attribution.shares import Contribution, shares
@@ -111,7 +112,7 @@ def answer(course: Course, what: str, span: tuple[int, int] | None, paths: int |
 def _within(course: Course, span: tuple[int, int] | None) -> tuple[int, int]:
     first, last = span or (1, course.ticks)
     if last > course.ticks:
-        many = "1 tick" if course.ticks == 1 else f"{course.ticks:,} ticks"
+        many = in_words(course.ticks)
         raise QuestionError(
             f"there is no tick {last:,}: it was over after {many}", f"Say one from 1 to {course.ticks}."
         )
