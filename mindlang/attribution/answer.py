@@ -14,7 +14,7 @@ from mindrun.robot.replay import computed_again
 from mindrun.terminal.tick_count import ticks as in_words
 from numpy.typing import NDArray
 
-from mindlang.attribution.shares import Contribution, shares
+from mindlang.attribution.shares import NAMED_PATHS, Contribution, shares
 from mindlang.compiler.diagnostic import did_you_mean, listed
 from mindlang.run.edge_flow import EdgeFlows, Sink, edge_flows, sink_named
 from mindlang.run.outcome import events, rewards_data
@@ -25,7 +25,6 @@ from mindlang.run.sent_values import Singles
 from mindlang.run.setup import SetupError
 
 REWARD = "reward"  # asks for the score, where nothing has that name
-PATH_COUNT = 10  # that are named, where nobody says how many
 DIRECTION_TOLERANCE = 1e-6  # of a unit vector: directions that lead no farther together have no mean
 MAX_EDGE_TICKS = 10_000_000  # edges times ticks of one answer
 
@@ -99,7 +98,7 @@ def answer(course: Course, what: str, span: tuple[int, int] | None, paths: int |
     about = course.about | {"ticks": [first, last], "seconds_per_tick": course.flows.graph.tick}
     target = sink_named(course.flows, what)
     if target is not None:
-        return about | _shares(course, target, range(first - 1, last), paths or PATH_COUNT)
+        return about | _shares(course, target, range(first - 1, last), paths or NAMED_PATHS)
     if what != REWARD:
         raise _unknown(course, what)
     if course.run is None:

@@ -29,6 +29,13 @@ def pasted(page: Image, part: Image, x: int, y: int) -> None:
     page[y : y + part.shape[0], x : x + part.shape[1]] = part
 
 
+def reduced(image: Image, scale: float) -> Image:
+    """The image so much smaller: pixels are means."""
+    height, width, _ = image.shape
+    size = max(1, round(scale * width)), max(1, round(scale * height))
+    return cv2.resize(image, size, interpolation=cv2.INTER_AREA).astype(np.uint8)
+
+
 def fitted(seen: Image, width: int, height: int, around: Colour) -> Image:
     """An image, red first, as one of that size: as large as fits, in the middle."""
     high, wide, _ = seen.shape

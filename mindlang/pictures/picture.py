@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindlang.number_format import score
-from mindlang.pictures.canvas import Canvas, Image, Viewport, blank, in_lines, pasted, square
+from mindlang.pictures.canvas import Canvas, Image, Viewport, blank, in_lines, pasted, reduced, square
 from mindlang.pictures.path import (
     MIN_CONTROL_SHARE,
     Path,
@@ -63,7 +63,7 @@ def picture(run: RecordedRun, found: dict[str, Any]) -> Image:
     page = page_around(world, height)
     draw_title(page, run, found, SIDE_PIXELS, 34, right)
     draw_legend(page, run, found, path, SIDE_PIXELS, height - 46, right - SCALE_BAR_PIXELS)
-    return reduced(page)
+    return reduced(page.image, 1 / SCALE_FACTOR)
 
 
 def empty_world(run: RecordedRun, *others: RecordedRun) -> Canvas:
@@ -111,13 +111,6 @@ def page_around(world: Canvas, height: int) -> Canvas:
     pasted(page.image, world.image, SCALE_FACTOR * SIDE_PIXELS, SCALE_FACTOR * TOP_PIXELS)
     draw_scale(page, world.pixel, PICTURE_PIXELS - SIDE_PIXELS, height - 44)
     return page
-
-
-def reduced(page: Canvas) -> Image:
-    """The image of a page."""
-    height, width, _ = page.image.shape
-    size = width // SCALE_FACTOR, height // SCALE_FACTOR
-    return cv2.resize(page.image, size, interpolation=cv2.INTER_AREA).astype(np.uint8)
 
 
 def png(image: Image) -> bytes:
