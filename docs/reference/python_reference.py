@@ -59,8 +59,12 @@ def _signature(name: str, arguments: str, result: str) -> Iterator[str]:
 
 
 def _documented(node: Function | ast.ClassDef) -> Iterator[str]:
-    if text := ast.get_docstring(node):
-        yield from (cleandoc(text), "")
+    """What it says; an example as one types it into Python stands between fences."""
+    for paragraph in cleandoc(ast.get_docstring(node) or "").split("\n\n"):
+        if paragraph.startswith(">>> "):
+            yield from ("```pycon", paragraph, "```", "")
+        elif paragraph:
+            yield from (paragraph, "")
 
 
 def _code(*lines: str) -> Iterator[str]:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from mindrun.engine.engine import Engine, procedure_sources
 from mindrun.graph.weights import reachable
-from mindrun.kinds.sensors.directions import directions
+from mindrun.kinds.sensors.sensor import directions
 from mindrun.robot.recording import RecordingError, read
 from mindrun.robot.replay import computed_again
 from mindrun.terminal.tick_count import ticks as in_words
@@ -16,13 +16,11 @@ from numpy.typing import NDArray
 
 from mindlang.attribution.shares import NAMED_PATHS, Contribution, shares
 from mindlang.compiler.diagnostic import did_you_mean, listed
-from mindlang.run.edge_flow import EdgeFlows, Sink, edge_flows, sink_named
+from mindlang.run.chosen_task import SetupError
+from mindlang.run.edge_flow import EdgeFlows, Singles, Sink, edge_flows, sink_named
 from mindlang.run.outcome import events, rewards_data
 from mindlang.run.recorded_run import RecordedRun
-from mindlang.run.run_recording import run_of
-from mindlang.run.running_bundle import running_bundle
-from mindlang.run.sent_values import Singles
-from mindlang.run.setup import SetupError
+from mindlang.run.recording import run_of, running_bundle
 
 REWARD = "reward"  # asks for the score, where nothing has that name
 DIRECTION_TOLERANCE = 1e-6  # of a unit vector: directions that lead no farther together have no mean
@@ -163,7 +161,7 @@ def _reads(course: Course, of: Contribution, rows: range) -> dict[str, list[floa
     graph = course.flows.graph
     name = of.path[-2] if len(of.path) > 1 else of.path[0]  # before what was asked about, unless that is the master
     inputs = next(skill.inputs for skill in graph.skills if skill.name == name)
-    read = course.flows.walker.rows(np.array(rows))[0][:, list(inputs)].astype(float)
+    read = course.flows.rows(np.array(rows))[0][:, list(inputs)].astype(float)
     around = directions({each.name: each.kind for each in graph.sensors})
     owners = {place: each.name for each in graph.sensors for place in range(each.start, each.start + each.width)}
     owners |= {each.start: each.name for each in graph.memories}

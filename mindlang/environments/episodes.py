@@ -29,8 +29,9 @@ from mindlang.pictures.film_images import empty_window, half_window, window
 from mindlang.pictures.robot import draw_robot
 from mindlang.pictures.scene import draw_items, draw_names, draw_zones
 from mindlang.pictures.theme import NIGHT
+from mindlang.run.chosen_task import master_of, task_of, unknown
 from mindlang.run.recorded_run import RecordedRun
-from mindlang.run.setup import RunSetup, master_of, task_of, unknown, untaught_skills
+from mindlang.run.setup import RunSetup, untaught_skills
 
 Floats = NDArray[np.float32]
 Mask = NDArray[np.bool_]

@@ -18,8 +18,7 @@ from mindrun.robot.rate import Rate
 from numpy.typing import NDArray
 
 from mindlang.environments.episodes import Episodes
-from mindlang.run.run_recording import world_of
-from mindlang.run.running_bundle import task_of
+from mindlang.run.recording import recorded_task, world_of
 from mindlang.view.server import BackgroundView, open_browser
 from mindlang.view.viewed import Viewed
 from mindlang.view.viewed_rows import viewed_rows
@@ -104,7 +103,7 @@ def _viewed(episodes: Episodes, about: About, coming: "SimpleQueue[Rows | None]"
     played = f"{episodes.played} played" if episodes.played else "commanded"
     title = f"{setup.task.name} with {setup.master} in charge, {played} by a program"
     rows = ((row, row["readings"]) for row in _rows(coming, np.zeros(0, about.row)))
-    task = task_of(about, bundle)
+    task = recorded_task(about, bundle)
     return viewed_rows(title, "environment", about, bundle, task, setup.folder, rows, None)
 
 

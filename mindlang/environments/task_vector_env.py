@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from mindlang.environments.episodes import Floats, Mask, episodes_of, image_of, layouts, refuse_unknown_mode, unit_box
 from mindlang.pictures.canvas import Image
-from mindlang.run.layouts import layouts as children
+from mindlang.run.many_runs import layouts as children
 
 Seeds = SupportsIndex | Sequence[SupportsIndex | None] | NDArray[np.integer] | None
 Step = tuple[Floats, NDArray[np.float64], Mask, Mask, dict[str, Any]]

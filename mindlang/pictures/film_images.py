@@ -8,7 +8,7 @@ from math import ceil
 from typing import Any
 
 import numpy as np
-from mindrun.graph.reward_sums import score_of
+from mindrun.graph.run_scores import score_of
 
 from mindlang.pictures.canvas import Canvas, Image, Rectangle, Viewport, blank, fitted, in_lines, pasted, text_width
 from mindlang.pictures.environments import seen_run

@@ -19,6 +19,9 @@ def plot_training(*runs: Path | str, mean: bool = False) -> Figure:
 
     Each is the folder of a run (a result of `train` has its own as `run`), a folder with runs beneath it, or a table of
     a log. With `mean`, runs of one lesson become one panel with their mean. MindError where there is nothing to draw.
+
+    >>> [result] = mind.train("GoToObject", options=mindlang.TrainOptions(generations=1, attempts=1))
+    >>> mindlang.plot_training(result["run"]).savefig("curves.svg")
     """
     if find_spec("matplotlib") is None:
         raise MindError("curves are drawn with matplotlib, which is not installed", "pip install 'mindlang[plot]'")

@@ -7,8 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from mindrun.sim.rollout import Rollout
-from mindrun.sim.ticks import joined
-from mindrun.sim.trace import trace
+from mindrun.sim.trace import joined, trace
 from numpy.typing import NDArray
 
 from mindlang.run.setup import RunSetup

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
-from mindrun.engine.virtual_sensors import scene_of
+from mindrun.engine.engine import scene_of
 from mindrun.graph.graph import Graph, Skill, Task
 from mindrun.graph.named_readings import reading_names
 from mindrun.graph.recording_header import About, RecordedWorld

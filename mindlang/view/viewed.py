@@ -17,7 +17,7 @@ from mindrun.graph.graph import Graph, Task
 from mindrun.sim.outside.seen import UNKNOWN_FAILURES, SeenEpisode, Sent
 from numpy.typing import NDArray
 
-from mindlang.run.edge_flow import EdgeFlows, FlowWalker
+from mindlang.run.edge_flow import EdgeFlows
 from mindlang.view.messages import AskColumns, AskRows, Change, RefusedError, error_text, shown
 from mindlang.view.rows import (
     DOUBLE_BLOCK,
@@ -79,7 +79,7 @@ class Viewed:
         is_live: bool = False,
     ) -> None:
         self.about, self.columns, self.is_live, self.drawing = about, columns, is_live, drawing
-        self.flows = EdgeFlows(graph, FlowWalker(mind, self._thought, begins))
+        self.flows = EdgeFlows(graph, mind, self._thought, begins)
         self.forked: Callable[[Change], Fork] | None = None
         self.delay: Callable[[], str | None] = lambda: None
         self.blocks = RowBlocks()
@@ -103,7 +103,7 @@ class Viewed:
     @property
     def kept_bytes(self) -> int:
         """Of its rows, and of what flowed in them."""
-        return self.blocks.kept_bytes + self.flows.walker.kept_bytes
+        return self.blocks.kept_bytes + self.flows.kept_bytes
 
     def grow(self, bytes_elsewhere: int = 0) -> None:
         """One chunk more; where a procedure fails, or memory ends, the run is over and `failed` says why.
@@ -150,7 +150,7 @@ class Viewed:
             chosen = (blocks == kept_block) & ~is_flow
             values[:, chosen] = self.blocks.kept(kept_block, ticks, indices[chosen])
         if is_flow.any():
-            values[:, is_flow] = self.flows.walker.transmitted(ticks)[:, indices[is_flow] - kept]
+            values[:, is_flow] = self.flows.transmitted(ticks)[:, indices[is_flow] - kept]
         return columns_frame(asked, values)
 
     def doubles(self, ticks: TickNumbers) -> Doubles:
@@ -159,7 +159,7 @@ class Viewed:
 
     def singles(self, ticks: TickNumbers) -> Singles:
         """The singles [ticks, columns] with what each edge transmits."""
-        return np.concatenate([self.blocks.kept(SINGLE_BLOCK, ticks), self.flows.walker.transmitted(ticks)], axis=1)
+        return np.concatenate([self.blocks.kept(SINGLE_BLOCK, ticks), self.flows.transmitted(ticks)], axis=1)
 
     def image(self, tick: int) -> Image:
         """What its environment draws after a tick [height, width, 3], red first.

@@ -17,16 +17,14 @@ from time import sleep
 from typing import TYPE_CHECKING
 
 import numpy as np
-from mindrun.engine.engine import Engine
-from mindrun.engine.virtual_sensors import virtual_sensors
+from mindrun.engine.engine import Engine, virtual_sensors
 from mindrun.files.regular_files import open_regular
 from mindrun.graph.bundle import Bundle
 from mindrun.graph.recording_header import MAX_HEADER_BYTES, About
-from mindrun.robot.growing_recording import read_growing
-from mindrun.robot.recording import RecordingError, read
+from mindrun.robot.recording import RecordingError, read, read_growing
 from mindrun.robot.replay import computed_again
 
-from mindlang.run.running_bundle import measured_in, running_bundle, task_of
+from mindlang.run.recording import measured_in, recorded_task, running_bundle
 from mindlang.view.viewed import Viewed
 from mindlang.view.viewed_rows import Filled, Rows, viewed_rows
 
@@ -68,7 +66,9 @@ def _viewed(
     found = running_bundle(bundle, of)
     title, source = f"{path.name} with {of.master} in charge", "robot" if of_ticks is None else "recording"
     rows, watch = _filled(path, of, parts, found), watching(of, found).feed if watching else None
-    return viewed_rows(title, source, of, found, task_of(of, found), bundle.absolute().parent, rows, of_ticks, watch)
+    return viewed_rows(
+        title, source, of, found, recorded_task(of, found), bundle.absolute().parent, rows, of_ticks, watch
+    )
 
 
 def _filled(path: Path, of: About, parts: Iterator[Rows], mind: Bundle) -> Iterator[Filled]:

@@ -14,13 +14,14 @@ from mindrun.graph.bundle import Bundle
 from mindrun.graph.graph import Graph, Task
 from mindrun.graph.named_readings import reading_names
 from mindrun.graph.recording_header import About
+from mindrun.sim.changed_ticks import STAGES
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import Trace, trace
-from mindrun.sim.warmup import code_of_stages
+from mindrun.sim.warmup import is_there
 
 from mindlang.breakpoints.breakpoint import Breakpoint
 from mindlang.breakpoints.watch import Part, watcher
-from mindlang.run.run_recording import recorded_rows, world_of
+from mindlang.run.recording import recorded_rows, world_of
 from mindlang.run.setup import RunSetup
 from mindlang.view import messages
 from mindlang.view.about import Texts
@@ -75,7 +76,7 @@ class ViewedRun:
 
 
 def _compilation() -> str | None:
-    return None if code_of_stages().is_there() else COMPILING
+    return None if is_there(STAGES) else COMPILING
 
 
 def _rows(run: Trace, of: About, events: int) -> Iterator[Filled]:

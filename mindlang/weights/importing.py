@@ -13,14 +13,13 @@ import numpy as np
 from mindrun.graph.graph import Lesson
 from mindrun.graph.policy import Policy
 from mindrun.graph.weights import Weights, learners, owners, reachable
-from mindrun.numbers.network import matrices
+from mindrun.numbers.network import Terms, matrices
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.rollouts import rollout_for
 from mindrun.sim.trace import trace
 from mindrun.terminal.command_line import command_line
 from mindrun.train import RunError
-from mindrun.train.scoring import mark
-from mindrun.train.seeds import Purpose, Seeds, layouts
+from mindrun.train.scoring import Purpose, Seeds, layouts, mark
 from numpy.typing import NDArray
 
 from mindlang.compiler.diagnostic import listed
@@ -33,7 +32,7 @@ from mindlang.training.lesson_choice import chosen_lessons
 from mindlang.training.lock_update import COMPARED_LAYOUTS, Comparison, needed_success
 from mindlang.training.subject import Subject
 from mindlang.weights.network import Network, genome_in, network_of, read_bytes
-from mindlang.whatif.recorded_readings import recorded_readings
+from mindlang.whatif.request import recorded_readings
 
 READINGS_SEED = 1  # of the run whose readings are taken
 LAYOUTS_SEED = 0  # of the layouts on which weights are tried
@@ -103,22 +102,19 @@ def _in_torch(network: Network, genome: Weights, inputs: Rows) -> Rows:
 
 def _in_float64(network: Network, genome: Weights, inputs: Rows) -> Rows:
     """Products of matrices and 1/(1 + e^−x), in float64."""
-    *hidden, last = (matrix.astype(np.float64) for matrix in matrices(genome, network.shapes))
-    values: NDArray[np.floating] = inputs.astype(np.float64)
-    if network.state:
-        state, rows = np.zeros(network.state), []
-        for row in values:
-            state = _sigmoid(hidden[0] @ np.concatenate([row, state]))
-            rows.append(state)
-        values = np.array(rows).reshape(len(inputs), network.state)
-    else:
-        for matrix in hidden:
-            values = _sigmoid(values @ matrix.T)
-    return _clamped(values @ last.T)
+    found = [matrix.astype(np.float64) for matrix in matrices(genome, network.shapes)]
+    state, rows = np.zeros(network.state), []
+    for row in inputs.astype(np.float64):
+        outputs, state = network.skill.function.forward(FLOAT64, found, row, state)
+        rows.append(outputs)
+    return _clamped(np.array(rows, np.float64).reshape(len(inputs), network.outputs))
 
 
-def _sigmoid(values: NDArray[np.float64]) -> NDArray[np.float64]:
-    return 1 / (1 + np.exp(-values))
+FLOAT64 = Terms(
+    product=lambda values, matrix: matrix @ values,
+    sigmoid=lambda values: 1 / (1 + np.exp(-values)),
+    joined=lambda one, other: np.concatenate([one, other]),
+)
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,9 +14,8 @@ from mindlang.explaining.drivers import GPIO_PINS, HEADER_PINS, NAMED_PINS, NOUN
 from mindlang.explaining.markdown import card
 from mindlang.explaining.terminal import LINE_COLUMNS, article_text
 from mindlang.robot.driver import wired
-from mindlang.robot.nodes import Table
 from mindlang.robot.options import driver_options, drivers
-from mindlang.robot.read import read
+from mindlang.robot.read import Table, read
 
 every_driver = pytest.mark.parametrize("article", driver_articles(), ids=lambda each: f"{each.sort}-{each.name}")
 
@@ -59,7 +58,7 @@ def test_an_example_is_a_wire(article: Article) -> None:
     for text in article.right:
         table = read(Source("robot.yaml", text, Path()), findings)
         assert isinstance(table, Table), [each.message for each in findings.diagnostics]
-        (entry,) = table.entries
+        (entry,) = table.entries.values()
         assert isinstance(entry.value, Table)
         found = wired(noun_of(article), entry.key, entry.value, findings)
         assert [each.message for each in findings.diagnostics] == []

@@ -20,7 +20,7 @@ from mindlang.pictures.readings_panel import TEXT_PIXELS, fitted, sensors_read, 
 from mindlang.pictures.scene import WALL_UNITS
 from mindlang.pictures.theme import NIGHT
 from mindlang.run.edge_flow import Link, edge_flows
-from mindlang.run.layouts import NO_GENOME
+from mindlang.run.many_runs import NO_GENOME
 from mindlang.run.outcome import run_data
 from mindlang.run.recorded_run import record_run
 from mindlang.run.setup import set_up

@@ -30,7 +30,7 @@ from mindlang.pictures.picture import (
 )
 from mindlang.pictures.scene import thing_colours
 from mindlang.pictures.theme import NIGHT, PAPER, Theme, mixed
-from mindlang.run.layouts import NO_GENOME
+from mindlang.run.many_runs import NO_GENOME
 from mindlang.run.outcome import run_data
 from mindlang.run.recorded_run import RecordedRun, record_run
 from mindlang.run.setup import set_up

@@ -15,7 +15,7 @@ from mindlang.pictures.picture import height_of, picture
 from mindlang.pictures.robot import draw_robot, steering_angle
 from mindlang.pictures.scene import NAME_PIXELS, draw_names, free, placed
 from mindlang.pictures.theme import PAPER
-from mindlang.run.layouts import NO_GENOME
+from mindlang.run.many_runs import NO_GENOME
 from mindlang.run.outcome import run_data
 from mindlang.run.recorded_run import RecordedRun, record_run
 from mindlang.run.setup import set_up

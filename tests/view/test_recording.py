@@ -9,7 +9,7 @@ from mindrun.graph.bundle import Bundle, digest, write_bundle
 from mindrun.graph.policy import Policy
 from mindrun.robot.recording import About, Recorder, RecordingError, read
 
-from mindlang.run.sent_values import BLOCK_ROWS
+from mindlang.run.edge_flow import BLOCK_ROWS
 from mindlang.view.messages import Why
 from mindlang.view.session import command_shares
 from mindlang.view.viewed import Viewed
