@@ -21,7 +21,7 @@ from mindrun.robot.live_view import breakpoint_mistakes
 from mindrun.robot.loop import Loop
 from mindrun.robot.recording import read
 
-from mindlang.view.growing_bytes import remote
+from mindlang.view.viewed_recording import remote
 from tests.robot.driving import MINDRUN, PATIENCE, begun, children, mindrun, until, wiring
 from tests.robot.faults import graph
 
