@@ -12,8 +12,6 @@ from mindlang.editing.project import (
     facts,
     influence,
     kind_of,
-    refuse_lines,
-    refuse_misnamed,
 )
 
 
@@ -32,13 +30,8 @@ def extract(
 
     Example: mindc edit extract collect.mind Collect Fetch GoToObject+Avoid Grab
     """
-    declaration = project.find(parent, "skill")
-    project.refuse_like(declaration)
-    refuse_misnamed("skill", new)
-    refuse_lines(is_)
-    project.refuse_taken("skill", new)
-    for reading in reads:
-        project.find(reading, "sensor", "memory")
+    declaration = project.own_skill(parent)
+    project.refuse_new_skill(new, is_, reads)
     first, *others = _edges(declaration, subskills)
     inputs = reads or [fact.name.text for fact in facts(declaration, Reads)]
     indent = indentation(declaration)

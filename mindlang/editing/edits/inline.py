@@ -25,8 +25,7 @@ def inline(project: Project, skill: str) -> MindChange:
 
     Example: mindc edit inline collect.mind Fetch
     """
-    declaration = project.find(skill, "skill")
-    project.refuse_like(declaration)
+    declaration = project.own_skill(skill)
     if not facts(declaration, Influences):
         message = f"{skill} is a base skill: there is nothing below it to take its place."
         raise EditError(message, "", declaration.header.span)
