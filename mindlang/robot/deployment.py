@@ -90,24 +90,19 @@ def read_state(robot: RemoteRobot) -> ReleaseState:
 def parse_state(told: Sequence[RobotEvent]) -> ReleaseState:
     """The state of a robot from the events of `robot.sh look`."""
     found = (RELEASE_LINE.fullmatch(detail) for event, detail in told if event == "release")
-    releases = [
-        Deployed(each["name"], each["state"], _made_of(each["made_of"]))
-        for each in found
-        if each and moment_of(each["name"])
-    ]
+    releases = []
+    for each in (each for each in found if each and moment_of(each["name"])):
+        try:
+            said = parsed(each["made_of"])
+        except ValueError:  # it does not say what it is as that was written
+            said = None
+        told_of = said.items() if isinstance(said, dict) else ()
+        made_of = {word: value for word, value in told_of if word in MADE_OF and isinstance(value, str)}
+        releases.append(Deployed(each["name"], each["state"], made_of))
     named = "".join(detail for event, detail in told if event == "current")
     current = named if moment_of(named) else ""
     lacks = tuple(detail for event, detail in told if event == "lacks")
     return ReleaseState(current, tuple(sorted(releases, key=lambda each: each.name)), lacks)
-
-
-def _made_of(text: str) -> dict[str, str]:
-    """What a release says of itself; nothing where it does not say it as it was written."""
-    try:
-        said = parsed(text)
-    except ValueError:
-        return {}
-    return {word: said[word] for word in MADE_OF if isinstance(said, dict) and isinstance(said.get(word), str)}
 
 
 @dataclass(frozen=True, slots=True)
