@@ -16,7 +16,7 @@ from mindlang.cli._simulator_compilation import ensure_compiled
 from mindlang.cli._terminal import FINDINGS, MISUSE, fail, load_compiled, procedures_talk, say, talk
 from mindlang.compiler.compile import Compiled
 from mindlang.executors import Where, scorer_on
-from mindlang.executors.job_scorer import JobScorer
+from mindlang.executors.jobs import JobScorer
 from mindlang.limits import refuse_too_large, refuse_too_many
 from mindlang.run.layouts import NO_GENOME
 from mindlang.run.many_runs import run_timed

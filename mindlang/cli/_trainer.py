@@ -26,7 +26,7 @@ from mindlang.cli._simulator_compilation import ensure_compiled
 from mindlang.cli._terminal import load_compiled, procedures_talk, talk
 from mindlang.cli._training_progress import PrintedLines, ProgressBarLine, Silent, TimeLeft, Watcher
 from mindlang.executors import Where
-from mindlang.executors.job_scorer import JobScorer
+from mindlang.executors.jobs import JobScorer
 from mindlang.lock import LockError
 from mindlang.training.event_files import EventFiles
 from mindlang.training.lesson_choice import TrainOptions, chosen_lessons

@@ -103,7 +103,7 @@ def _checked(path: Path, settings: Settings) -> Bundle:
     from mindrun.graph.bundle import read_bundle
 
     from mindlang.cli._terminal import MISUSE, fail
-    from mindlang.robot.release import check_deployable
+    from mindlang.robot.deployment import check_deployable
 
     try:
         bundle = read_bundle(path)

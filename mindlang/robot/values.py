@@ -10,9 +10,8 @@ from mindlang.compiler.diagnostic import Findings, listed
 from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.source import Span
 from mindlang.compiler.syntax import Amount
-from mindlang.robot.misread import shortened
 from mindlang.robot.options import DriverOption
-from mindlang.robot.read import Items, Lost, Node, Scalar, Table, TableEntry, first_line
+from mindlang.robot.read import Items, Lost, Node, Scalar, Table, TableEntry, first_line, shortened
 
 AMOUNT = re.compile(r"(0x[0-9a-fA-F]{1,8}|-?[0-9]+(?:\.[0-9]+)?(?:/[0-9]+)?) *((?![0-9.,]).*)?")
 MAX_TEXT_CHARACTERS = 200

@@ -19,8 +19,7 @@ from mindlang.compiler.diagnostic import Diagnostic, Findings, a, errors, listed
 from mindlang.compiler.source import Source, decode
 from mindlang.robot.claims import check_claims, check_shared
 from mindlang.robot.driver import Wired, wired
-from mindlang.robot.misread import shortened
-from mindlang.robot.read import Node, Scalar, Table, TableEntry, read
+from mindlang.robot.read import Node, Scalar, Table, TableEntry, read, shortened
 from mindlang.robot.sensor import sensor_wire
 from mindlang.robot.values import is_empty, missing_key, table, text, unknown_key
 

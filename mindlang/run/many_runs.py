@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from mindrun.graph.run_scores import Scores
 from mindrun.processors import cpu_seconds
 
-from mindlang.executors.job_scorer import Block, JobScorer, empty_scores, place
+from mindlang.executors.jobs import Block, JobScorer, empty_scores, place
 from mindlang.run.layouts import NO_GENOME
 
 if TYPE_CHECKING:
