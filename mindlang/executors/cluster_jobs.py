@@ -24,7 +24,7 @@ from weakref import finalize
 
 from distributed import Client, Future, KilledWorker, get_worker
 from distributed.security import Security
-from mindrun.train.build import Build, difference, own_build, sources_hash
+from mindrun.train.manifest import Build, difference, own_build, sources_hash
 
 from mindlang.executors.jobs import (
     FATAL,

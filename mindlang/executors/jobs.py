@@ -23,10 +23,10 @@ from mindrun.errors import MindError
 from mindrun.graph.bundle import unpack
 from mindrun.graph.graph import Task
 from mindrun.graph.run_scores import Scores
+from mindrun.train.attempt import Segment, Stretch, advance
 from mindrun.train.lesson_state import Course
 from mindrun.train.population import Genomes
 from mindrun.train.scoring import is_one_world
-from mindrun.train.segment import Segment, Stretch, advance
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:

@@ -18,8 +18,7 @@ from typing import Any
 from mindrun.errors import MindError, nearest, reason
 from mindrun.files.regular_files import read_regular
 from mindrun.numbers.quantity import Quantity, Reference
-from mindrun.robot.driver_code import ENTRY_POINTS, DriverCode, of_file, of_package
-from mindrun.robot.drivers.own import OwnActuator, OwnSensor, encoded
+from mindrun.robot.drivers.own import ENTRY_POINTS, DriverCode, OwnActuator, OwnSensor, encoded, of_file, of_package
 
 from mindlang.compiler.diagnostic import Findings, errors, listed
 from mindlang.compiler.source import Span

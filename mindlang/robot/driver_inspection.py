@@ -18,9 +18,8 @@ from typing import Any
 from mindrun.errors import MindError
 from mindrun.numbers.given_numbers import is_truth, number
 from mindrun.numbers.quantity import NUMBER, Quantity, fits
-from mindrun.robot.driver_code import DriverCode, load_class
 from mindrun.robot.driver_support import BUS
-from mindrun.robot.drivers.own import decoded
+from mindrun.robot.drivers.own import DriverCode, decoded, load_class
 
 from mindlang.robot.options import DriverOption, driver_options
 

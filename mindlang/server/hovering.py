@@ -9,10 +9,9 @@ from mindrun.kinds.registry import arguments, kinds
 from mindrun.kinds.variation import VARIED_NOUNS
 from networkx import DiGraph, single_target_shortest_path
 
-from mindlang.compiler.comments import comment_of
 from mindlang.compiler.drawing import text_after_name
 from mindlang.compiler.resolve.curricula import USING
-from mindlang.compiler.source import Span
+from mindlang.compiler.source import Span, comment_of
 from mindlang.compiler.syntax import (
     NOUNS,
     Argument,

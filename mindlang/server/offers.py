@@ -10,10 +10,10 @@ from mindrun.kinds.registry import Argument, arguments, kinds, named_arguments
 from mindrun.kinds.variation import VARIED_NOUNS
 from mindrun.numbers.quantity import Quantity, Reference
 
-from mindlang.compiler.comments import comment_of
 from mindlang.compiler.names import things_of
 from mindlang.compiler.references import READABLE_NOUNS
 from mindlang.compiler.resolve.kinds import about
+from mindlang.compiler.source import comment_of
 from mindlang.compiler.syntax import Declaration, Reads
 from mindlang.explaining import markdown
 from mindlang.explaining.kinds import kind_article

@@ -16,7 +16,7 @@ from mindlang.compiler.source import Source
 from mindlang.compiler.splice import Splice
 from mindlang.compiler.syntax import Declaration, Drives, Fact, Influences, Reads, Stays
 from mindlang.editing.project import EditError, Project, facts, has_outputs, kind_of
-from mindlang.lint.fixing import fixed
+from mindlang.lint.lint import fixed
 from mindlang.server.changing import proposed
 from mindlang.server.workspace import MindView, fact_at, on_line
 

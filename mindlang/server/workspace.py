@@ -73,7 +73,7 @@ class MindView:
     def findings(self) -> tuple[Diagnostic, ...]:
         """What is wrong, and where nothing is, what is hardly meant; a damaged lock is a finding, too."""
         from mindlang.lint.lint import lint
-        from mindlang.lint.settings_file import settings_of
+        from mindlang.lint.settings import settings_of
 
         settings = settings_of(self.main)
         try:

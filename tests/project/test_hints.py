@@ -19,8 +19,8 @@ from tests.project.sources import COMPILER, ROOT, RUNTIME, modules, tree
 NO_FILES = {
     "mindlang/cli/new.py", "mindlang/explaining/collection.py",
     "mindlang/explaining/words.py", "mindlang/run/summary.py", "mindlang/server/serve.py",
-    "mindlang/server/server.py", "mindlang/diagnosis/checks.py",
-    "runtime/mindrun/graph/bundle.py", "runtime/mindrun/robot/view_breakpoints.py",
+    "mindlang/server/server.py", "mindlang/diagnosis.py",
+    "runtime/mindrun/graph/bundle.py", "runtime/mindrun/robot/live_view.py",
 }  # fmt: skip
 REFUSED = (
     "run FILE", "bench FILE", "build FILE -o x.bundle", "train FILE Drive", "train FILE Avoid",

@@ -9,14 +9,14 @@ from pathlib import Path
 from textwrap import dedent
 
 import pytest
-from mindrun.cli.tools.doctor import wired
+from mindrun.cli.doctor import wired
 from mindrun.driver import DeviceError
 from mindrun.errors import BundleError
 from mindrun.graph.bundle import Bundle, fingerprint, pack, read_bundle, unpack
 from mindrun.graph.describe import describe
 from mindrun.robot.drivers.own import OwnActuator, OwnSensor
 from mindrun.robot.guardian.plan import plan_of, to_json
-from mindrun.robot.sampling import Sampler
+from mindrun.robot.sensing import Sampler
 
 from mindlang.robot import driver
 from mindlang.robot.deployment import make_release
