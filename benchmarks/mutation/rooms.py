@@ -224,7 +224,7 @@ ROOMS = {
     ),
     "names": Room(
         (
-            *(f"mindlang/editing/{name}.py" for name in ("world_names", "graph_names", "lock_update")),
+            *(f"mindlang/editing/{name}.py" for name in ("world_names", "lock_update")),
             *(f"mindlang/lock/{name}.py" for name in ("__init__", "status")),
         ),
         (

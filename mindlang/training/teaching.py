@@ -22,8 +22,7 @@ from mindrun.train.stretch_threads import StretchThreads
 from mindrun.train.training import Watch, train
 
 from mindlang.executors import Where, scorer_on
-from mindlang.executors.job_scorer import JobScorer
-from mindlang.executors.jobs import Assignment, StretchExecutor, WorkError
+from mindlang.executors.jobs import Assignment, JobScorer, StretchExecutor, WorkError
 from mindlang.limits import refuse_too_large, refuse_too_long
 from mindlang.lock.blobs import digest
 from mindlang.number_format import duration, number, speed
