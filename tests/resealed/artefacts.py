@@ -21,10 +21,10 @@ from mindrun.graph.bundle import pack, unpack
 from mindrun.graph.describe import contents, describe
 from mindrun.graph.graph import Graph
 from mindrun.graph.policy import Policy
-from mindrun.graph.recording_header import RecordedWorld, world_row_of
+from mindrun.graph.recording_header import CHECKSUM_FIELD, RecordedWorld, world_row_of
 from mindrun.graph.weights import genes
 from mindrun.robot.guardian import plan
-from mindrun.robot.recording import CHECKSUM_FIELD, About, Recorder
+from mindrun.robot.recording import About, Recorder
 from mindrun.robot.replay import replay
 from mindrun.sim.commanded_world import World
 from mindrun.train import checkpoint
