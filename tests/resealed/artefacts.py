@@ -41,7 +41,7 @@ from mindlang.lock.blobs import load_weights, record
 from mindlang.lock.report import rows
 from mindlang.lock.world_facts import Worlds
 from mindlang.pictures.learning_log import load_curves
-from mindlang.robot.remote_state import parse_state
+from mindlang.robot.deployment import parse_state
 from tests.engine.bundles import wired
 from tests.engine.resealed import members_of, resealed
 from tests.lock.test_worlds import MIND

@@ -65,7 +65,9 @@ def test_no_value_is_a_fault_of_ours() -> None:
 
 def test_no_name_of_a_file_is_a_fault_of_ours(mindc: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    for words, value in product(("check", "show", "status", "build -o x"), ("/", "..", "caf\udce9", "\x1b[2J", "a\nb")):
+    names = ("caf\udce9", "\x1b[2J", "a\nb")
+    folders = product(("show", "status", "build -o x"), ("/", ".."))  # check would look for files in all of them
+    for words, value in (*product(("check", "show", "status", "build -o x"), names), *folders):
         said = mindc(*words.split(), "--", value)
         assert said.code in (1, 2)
         assert "failed" not in said.err

@@ -131,7 +131,7 @@ def test_ticks_come_as_they_are_written(tmp_path: Path) -> None:
     grown(whole, TICKS)
     ticks = np.arange(TICKS + 1)
     assert viewed.singles(ticks).tobytes() == whole.singles(ticks).tobytes()
-    assert viewed.blocks.doubles(ticks).tobytes() == whole.blocks.doubles(ticks).tobytes()
+    assert viewed.doubles(ticks).tobytes() == whole.doubles(ticks).tobytes()
 
 
 def test_a_writer_that_is_killed_leaves_what_it_has_written(tmp_path: Path) -> None:

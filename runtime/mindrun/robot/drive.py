@@ -18,8 +18,8 @@ from mindrun.driver import DeviceError
 from mindrun.engine.engine import Engine
 from mindrun.errors import MindError
 from mindrun.graph.bundle import Bundle, digest, read_bundle
-from mindrun.graph.default_task import default_task
 from mindrun.graph.graph import Graph, Task
+from mindrun.graph.tasks import default_task
 from mindrun.graph.wiring import Wiring, read_by, still
 from mindrun.robot.drivers.mock import MockActuator
 from mindrun.robot.dry_run import DryRun, SeenWorld, beginning, dry, outcome, refuse_environment

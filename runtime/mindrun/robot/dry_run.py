@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from mindrun.driver import DeviceError
 from mindrun.errors import MindError
 from mindrun.graph.graph import Graph, Task
-from mindrun.graph.movers import driving, movers
 from mindrun.graph.named_readings import physical
 from mindrun.graph.recording_header import BOX_COLUMNS, GOES_ON, RecordedWorld, world_row_of
+from mindrun.graph.skill_sets import driving, movers
 from mindrun.graph.wiring import ActuatorWire, SensorWire, Wiring, read_by
 from mindrun.robot.drivers.simulated import SimulatedActuator, SimulatedSensor
 from mindrun.robot.loop import Loop

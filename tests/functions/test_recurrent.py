@@ -1,0 +1,171 @@
+"""Recurrent networks: the same bits in the engine and in the lanes, whoever learns and whenever they wake."""
+
+from dataclasses import replace
+from math import exp
+from pathlib import Path
+
+import numpy as np
+import pytest
+from mindrun.engine.engine import Engine
+from mindrun.graph.graph import Graph
+from mindrun.graph.policy import Policy
+from mindrun.graph.weights import genes
+from mindrun.kinds.functions.elman import Elman
+from mindrun.kinds.functions.gru import Gru
+from mindrun.sim.rollout import Rollout
+from mindrun.sim.trace import trace
+
+from mindlang.compiler.compile import Compiled, compile_source
+from mindlang.compiler.source import Source
+from mindlang.proofs.proof import prove
+
+MIND = """
+tick 1/60 s
+master Top
+body Robot is disc
+actuator left_wheel is wheel side left neutral 0.5
+actuator right_wheel is wheel side right neutral 0.5
+sensor feelers is range_finder at 0 60 -60 deg
+sensor pulse is sine period 1/3 s
+skill Top is rule
+  reads pulse
+  influences Roam at 4 * pulse - 2
+  influences Turn at 1/2
+skill Turn is rule
+  drives left_wheel at 1
+  drives right_wheel at 0.4
+skill Roam is elman width 5
+  reads feelers
+  reads pulse
+  drives left_wheel
+  drives right_wheel
+task World in arena size 30
+  lasts 300 ticks
+  ends on collision
+  rewards 1 per tick when pulse > 0.5
+curriculum All is genetic population 10
+  teaches Roam on World under Top for 3 generations
+"""
+
+
+def mind(text: str = MIND) -> Graph:
+    found: Compiled = compile_source(Source("roam.mind", text), Path("roam.mind"))
+    assert found.graph, found.diagnostics
+    return found.graph
+
+
+RECURRENT = {"elman": MIND, "gru": MIND.replace("is elman", "is gru")}
+both = pytest.mark.parametrize("text", RECURRENT.values(), ids=RECURRENT)
+
+
+def drawn(graph: Graph, seed: int, count: int = 1) -> np.ndarray:
+    skill = next(skill for skill in graph.skills if skill.name == "Roam")
+    return skill.function.draw(len(skill.inputs), skill.outputs, count, np.random.default_rng(seed))
+
+
+def follow(rollout: Rollout, engine: Engine, seed: int, genome: np.ndarray | None = None) -> int:
+    """Hold a run against the engine, tick by tick; how many ticks it was."""
+    ticks = 0
+    for moment in trace(rollout, seed, genome).moments:
+        assert np.array_equal(engine.tick(moment.readings), moment.commands)
+        assert np.array_equal(engine.influence, moment.influence)
+        ticks += 1
+    return ticks
+
+
+@both
+@pytest.mark.parametrize("seed", range(4))
+def test_the_lanes_remember_as_the_engine_does(text: str, seed: int) -> None:
+    graph = mind(text)
+    weights = {"Roam": drawn(graph, seed)[0]}
+    assert follow(Rollout(Policy(graph, weights), "World", "Top"), Engine(Policy(graph, weights)), seed) > 20
+    learning = Rollout(Policy(graph, {}), "World", "Top", ["Roam"])
+    assert follow(learning, Engine(Policy(graph, weights)), seed, weights["Roam"]) > 20
+
+
+@both
+def test_one_that_reads_nothing_sends_nothing(text: str) -> None:
+    """In the lanes, too, whatever the skill before it has left in the rows of its outputs."""
+    graph = mind(text)
+    skills = tuple(replace(skill, inputs=()) if skill.name == "Roam" else skill for skill in graph.skills)
+    graph = replace(graph, skills=skills)
+    policy = Policy(graph, {})
+    assert follow(Rollout(policy, "World", "Top"), Engine(policy), 1) > 20
+
+
+def test_it_is_what_plain_python_says() -> None:
+    graph, rng = mind(), np.random.default_rng(1)
+    genome = drawn(graph, 1)[0]
+    top = replace(graph, master="Roam")
+    engine = Engine(Policy(top, {"Roam": genome}))
+    said = [0.0] * 5
+    into, out = genome[:45].reshape(5, 9), genome[45:].reshape(2, 5)
+    for tick in range(50):
+        readings = np.append(rng.random(3), 0).astype(np.float32)
+        commands = engine.tick(readings)
+        inputs = [*map(float, engine.readings), *said]
+        said = [1 / (1 + exp(-sum(w * x for w, x in zip(row, inputs, strict=True)))) for row in into]
+        values = [min(1.0, max(0.0, sum(w * x for w, x in zip(row, said, strict=True)))) for row in out]
+        assert commands == pytest.approx(values, abs=1e-4), tick
+
+
+def test_gates_are_what_plain_python_says() -> None:
+    graph, rng = mind(RECURRENT["gru"]), np.random.default_rng(1)
+    genome = drawn(graph, 1)[0]
+    engine = Engine(Policy(replace(graph, master="Roam"), {"Roam": genome}))
+    *gates, out = *genome[:135].reshape(3, 5, 9).tolist(), genome[135:].reshape(2, 5).tolist()
+    said = [0.0] * 5
+    for tick in range(50):
+        commands = engine.tick(np.append(rng.random(3), 0).astype(np.float32))
+        inputs = [*map(float, engine.readings)]
+        reset, kept = (sigmoids(gate, inputs + said) for gate in gates[:2])
+        new = sigmoids(gates[2], inputs + [r * s for r, s in zip(reset, said, strict=True)])
+        said = [u * s + (1 - u) * c for u, s, c in zip(kept, said, new, strict=True)]
+        values = [min(1.0, max(0.0, sum(w * x for w, x in zip(row, said, strict=True)))) for row in out]
+        assert commands == pytest.approx(values, abs=1e-4), tick
+
+
+def sigmoids(matrix: list[list[float]], values: list[float]) -> list[float]:
+    return [1 / (1 + exp(-sum(w * x for w, x in zip(row, values, strict=True)))) for row in matrix]
+
+
+@both
+def test_a_new_run_begins_with_nothing_said(text: str) -> None:
+    graph = mind(text)
+    engine = Engine(Policy(graph, {"Roam": drawn(graph, 2)[0]}), master="Roam")
+    readings = np.random.default_rng(1).random((20, 4)).astype(np.float32)
+    first = [engine.tick(row).tobytes() for row in readings]
+    assert [engine.tick(row).tobytes() for row in readings] != first
+    engine.reset()
+    assert [engine.tick(row).tobytes() for row in readings] == first
+
+
+@both
+def test_a_result_depends_on_genome_and_seed_alone(text: str) -> None:
+    graph = mind(text)
+    genomes = drawn(graph, 3, 30)
+    many = Rollout(Policy(graph, {}), "World", "Top", ["Roam"], lanes=16).score(genomes, [1, 2, 3])
+    one = [
+        Rollout(Policy(graph, {}), "World", "Top", ["Roam"], lanes=5).score(each[None], [1, 2, 3]) for each in genomes
+    ]
+    assert np.array_equal(many.total, np.concatenate([each.total for each in one]))
+    assert np.array_equal(many.ticks, np.concatenate([each.ticks for each in one]))
+    assert len(np.unique(many.ticks)) > 1
+
+
+def test_its_width_and_its_weights() -> None:
+    assert Elman().genome_length(4, 2) == (4 + 6) * 6 + 6 * 2
+    assert Elman(5).genome_length(4, 2) == (4 + 5) * 5 + 5 * 2
+    assert Elman().genome_length(0, 2) == Elman().genome_length(4, 0) == 0
+    assert Elman().explicit(4, 2) == Elman(6)
+    assert (Elman().derived, Elman(5).derived) == (("width",), ())
+    assert Gru(5).genome_length(4, 2) == 3 * (4 + 5) * 5 + 5 * 2
+    assert Gru().explicit(4, 2) == Gru(6)
+
+
+def test_nothing_is_proved_of_what_remembers() -> None:
+    graph = mind()
+    roam = next(skill for skill in graph.skills if skill.name == "Roam")
+    proof = prove(graph, {"Roam": drawn(graph, 1)[0]}, 0.01)
+    assert genes(roam) == 55
+    assert proof.unknown == {"Roam": "remembers what it computed"}
