@@ -14,7 +14,7 @@ from mindrun.graph.graph import Edge
 from mindrun.graph.policy import Policy
 from mindrun.graph.recording_header import About
 from mindrun.kinds.functions.rule import Rule
-from mindrun.robot.rate import Rate
+from mindrun.robot.loop import Rate
 from numpy.typing import NDArray
 
 from mindlang.environments.episodes import Episodes

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from mindrun.robot.rate import Rate
+from mindrun.robot.loop import Rate
 from mindrun.robot.recording import read
 from websockets.sync.client import connect
 from websockets.typing import Origin
