@@ -15,12 +15,11 @@ from typing import NamedTuple
 import numpy as np
 from mindrun.graph.graph import Lesson
 from mindrun.kinds.learners import Genetic
-from mindrun.train.attempt import Verdict
+from mindrun.train.attempt import Segment, Stretch
 from mindrun.train.attempts import side_by_side
 from mindrun.train.kept_segments import KeptSegments, RememberingExecutor
-from mindrun.train.lesson_state import Course, Record, begin
+from mindrun.train.lesson_state import Course, Record, Verdict, begin
 from mindrun.train.population import Population
-from mindrun.train.segment import Segment, Stretch
 
 ATTEMPT_COUNTS, GENERATION_COUNTS = (10, 100, 1000), (100, 1000, 10_000)
 GENOME_COUNT, WEIGHT_COUNT = 40, 200

@@ -19,8 +19,7 @@ from mindrun.graph.bundle import Bundle, pack, unpack
 from mindrun.graph.policy import Policy
 from mindrun.processors import cores
 from mindrun.sim.rollout import Rollout
-from mindrun.train.attempts import side_by_side
-from mindrun.train.lesson import teach
+from mindrun.train.attempts import InThisThread, side_by_side
 from mindrun.train.lesson_state import Course, begin
 
 from benchmarks.executor_kinds import Begin, dask, one_by_one, processes, threads
@@ -78,11 +77,9 @@ def rollout_of(assignment: Assignment, threads: int) -> Rollout:
 def taught(course: Course, rollout: Rollout, executor_of: Begin) -> Taught:
     """Teach a lesson, its attempts one by one or side by side."""
     began, executor = time.perf_counter(), executor_of(course, rollout)
-    if executor is None:
-        *_, (state, _) = teach(course, rollout, begin(course), time.perf_counter)
-    else:
-        *_, last = side_by_side(course, executor, begin(course), lambda: False)
-        state = last.state
+    executor = executor or InThisThread(course, rollout, time.perf_counter)
+    *_, last = side_by_side(course, executor, begin(course), lambda: False)
+    state = last.state
     digest = sha256(state.kept.tobytes() + state.champions.tobytes()).hexdigest()
     return Taught(digest, time.perf_counter() - began)
 

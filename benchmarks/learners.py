@@ -29,8 +29,8 @@ from mindrun.processors import cores
 from mindrun.sim.rollout import Rollout
 from mindrun.train.attempt import REEVALUATED_CANDIDATES, REEVALUATION_GENERATIONS, judge
 from mindrun.train.attempt import REEVALUATION_LAYOUTS as TRIES
-from mindrun.train.lesson import ended, generation
-from mindrun.train.lesson_state import Course, begin
+from mindrun.train.attempts import InThisThread, side_by_side
+from mindrun.train.lesson_state import Course, begin, ended
 from mindrun.train.population import MAX_WEIGHT, Genomes, order
 from mindrun.train.training import best
 
@@ -115,8 +115,10 @@ def by_lesson(trial: Trial, teaching: Teaching) -> tuple[Genomes, int]:
     lesson = replace(teaching.lesson, learner=learner, generations=generations)
     course, rollout = Course(lesson, trial.seed, teaching.start), teaching.rollout
     state = begin(course)
-    while state.ticks < trial.ticks:
-        state, _ = generation(course, rollout, state)
+    for step in side_by_side(course, InThisThread(course, rollout, time.perf_counter), state, lambda: False):
+        state = step.state
+        if state.ticks >= trial.ticks:
+            break
     if len(state.now.champion):
         verdict = judge(course, rollout, state.now)
         state = replace(ended(course, state, verdict), ticks=state.ticks + verdict.ticks)

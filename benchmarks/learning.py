@@ -16,7 +16,7 @@ from mindrun.graph.graph import Graph, Lesson
 from mindrun.graph.policy import Policy
 from mindrun.processors import cores
 from mindrun.sim.rollout import Rollout
-from mindrun.train.lesson import teach
+from mindrun.train.attempts import InThisThread, side_by_side
 from mindrun.train.lesson_state import Course, begin
 
 from benchmarks.workloads import collect
@@ -35,10 +35,9 @@ def learn(lesson: Lesson, rollout: Rollout, seed: int, seconds: float) -> dict[s
         replace(lesson, generations=ENDLESS_GENERATIONS), seed, np.zeros((0, rollout.genome_length), np.float32)
     )
     start = time.perf_counter()
-    for state, _ in teach(course, rollout, begin(course), time.perf_counter):  # noqa: B007 (the last one counts)
-        if time.perf_counter() - start >= seconds:
-            break
-    taken = time.perf_counter() - start
+    executor = InThisThread(course, rollout, time.perf_counter)
+    *_, last = side_by_side(course, executor, begin(course), lambda: time.perf_counter() - start >= seconds)
+    state, taken = last.state, time.perf_counter() - start
     scores = rollout.score(state.now.champion, [int(word) for word in FRESH_LAYOUTS])
     counts = scores.counts[0]
     return {

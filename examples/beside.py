@@ -27,8 +27,8 @@ from mindrun.kinds.registry import names
 from mindrun.sim.rollout import Rollout
 from mindrun.terminal.arguments import real, whole
 from mindrun.train.attempt import judge
-from mindrun.train.lesson import ended, teach
-from mindrun.train.lesson_state import Course, begin
+from mindrun.train.attempts import InThisThread, side_by_side
+from mindrun.train.lesson_state import Course, begin, ended
 from mindrun.train.population import Genomes, Scores
 from mindrun.train.training import best
 
@@ -190,7 +190,9 @@ def taught(lesson: Lesson, rollout: Rollout, start: Genomes, seed: int, limit: i
     """The champion [1, weights] of as many attempts as the steps allow, and the steps taken."""
     endless = replace(lesson.learner, attempts=ENDLESS_ATTEMPTS)
     course = Course(replace(lesson, learner=endless, generations=ENDLESS_GENERATIONS), seed, start)
-    for state, _ in teach(course, rollout, begin(course), time.perf_counter):
+    executor = InThisThread(course, rollout, time.perf_counter)
+    for step in side_by_side(course, executor, begin(course), lambda: False):
+        state = step.state
         if state.ticks >= limit:
             break
     if len(state.now.champion):

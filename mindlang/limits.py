@@ -106,7 +106,7 @@ def _parts(sizes: Sizes) -> dict[str, int]:
     """What takes the memory of a lane, in bytes."""
     return {
         "the weights": 4 * sizes.genome,
-        "the neurons of its widest layer": 8 * sizes.width,
+        "the neurons of its widest layer": 4 * sizes.scratch,
         "the readings": 4 * (sizes.readings + sizes.inputs + sizes.before + sizes.rough + sizes.rings),
         "the patches to visit": sizes.patches,
         "the obstacles": (24 + 24 + 16 + 8) * sizes.boxes,

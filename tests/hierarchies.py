@@ -2,6 +2,7 @@
 
 from collections.abc import Collection
 from dataclasses import dataclass, replace
+from math import prod
 from pathlib import Path
 
 import numpy as np
@@ -12,12 +13,11 @@ from mindrun.kinds.actuators.gripper import Gripper
 from mindrun.kinds.actuators.servo import Servo
 from mindrun.kinds.actuators.wheel import Wheel
 from mindrun.kinds.bodies.disc import Disc
-from mindrun.kinds.functions.elman import Elman
 from mindrun.kinds.functions.function import Function
-from mindrun.kinds.functions.mlp import Mlp
 from mindrun.kinds.functions.procedure import Procedure
 from mindrun.kinds.functions.rule import Rule
 from mindrun.kinds.memory import Cell
+from mindrun.kinds.registry import arguments, kinds
 from mindrun.kinds.sensors.average import Average
 from mindrun.kinds.sensors.battery import Battery
 from mindrun.kinds.sensors.bearing import Bearing
@@ -27,7 +27,6 @@ from mindrun.kinds.sensors.compass import Compass
 from mindrun.kinds.sensors.computed import Computed
 from mindrun.kinds.sensors.contact import Contact
 from mindrun.kinds.sensors.derivative import Derivative
-from mindrun.kinds.sensors.directions import directions
 from mindrun.kinds.sensors.distance import Distance
 from mindrun.kinds.sensors.eye import Eye
 from mindrun.kinds.sensors.floor import Floor
@@ -40,7 +39,7 @@ from mindrun.kinds.sensors.odometer import Odometer
 from mindrun.kinds.sensors.position import Position
 from mindrun.kinds.sensors.range_finder import RangeFinder
 from mindrun.kinds.sensors.reading import Reading
-from mindrun.kinds.sensors.sensor import Physical, SensorKind
+from mindrun.kinds.sensors.sensor import Physical, SensorKind, directions
 from mindrun.kinds.sensors.sine import Sine
 from mindrun.kinds.sensors.speed import Speed
 from mindrun.kinds.sensors.turn_rate import TurnRate
@@ -225,7 +224,7 @@ def _senses(draw: st.DrawFn) -> tuple[tuple[Sensor, ...], tuple[Memory, ...]]:
     sensors: list[Sensor] = []
     start = 0
     for number, kind in enumerate(kinds):
-        width = getattr(kind, "width", 1)
+        width = prod(getattr(kind, "shape", ()))
         if isinstance(kind, str):
             around = directions({sensor.name: sensor.kind for sensor in sensors})
             width, kind = draw(virtual_kinds(kind, widths, around))
@@ -276,12 +275,17 @@ def _placed(sensors: list[Sensor]) -> tuple[Sensor, ...]:
     return tuple(Sensor(s.name, s.kind, start, s.width) for s, start in zip(sensors, starts, strict=False))
 
 
+def networks(fewest: int) -> st.SearchStrategy[Function]:
+    """A function of any kind that learns, with so many hidden layers at least where it can have several."""
+    said = {"hidden": st.integers(fewest, 3), "width": st.sampled_from([0, 0, 1, 5, 17])}
+    learning = [cls for cls in kinds("skill").values() if cls.learns]
+    return st.one_of(st.builds(cls, **{each.field: said[each.field] for each in arguments(cls)}) for cls in learning)
+
+
 @st.composite
 def _skills(draw: st.DrawFn, name: str, width: int, targets: list[tuple[str, int]], fewest: int) -> Skill:
     """A skill over some of the readings that sends to some of the targets."""
-    width_of = st.sampled_from([0, 0, 1, 5, 17])
-    mlp = st.builds(Mlp, hidden=st.integers(fewest, 3), width=width_of)
-    function: Function = draw(st.one_of(mlp, mlp, st.builds(Elman, width_of), st.just(Rule()), st.just(CALLED)))
+    function: Function = draw(networks(fewest) | networks(fewest) | st.sampled_from([Rule(), CALLED]))
     inputs = tuple(draw(st.lists(st.integers(0, width - 1), unique=True, max_size=16)))
     chosen = draw(st.lists(st.sampled_from(targets), unique=True, min_size=1, max_size=5))
     edges: list[Edge] = []

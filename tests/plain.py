@@ -4,8 +4,6 @@ import math
 import operator
 
 import numpy as np
-from mindrun.kinds.functions.elman import Elman
-from mindrun.kinds.functions.mlp import Mlp
 from mindrun.kinds.functions.procedure import Procedure
 from mindrun.kinds.sensors.average import Average
 from mindrun.kinds.sensors.bearing import Bearing
@@ -15,6 +13,7 @@ from mindrun.kinds.sensors.computed import Computed
 from mindrun.kinds.sensors.derivative import Derivative
 from mindrun.kinds.sensors.reading import Reading
 from mindrun.kinds.sensors.sine import Sine
+from mindrun.numbers.network import Terms, matrices
 from mindrun.numbers.sigmoid import DENOMINATOR, LIMIT, NUMERATOR
 from mindrun.numbers.trigonometry import sine
 
@@ -32,7 +31,7 @@ class Plain:
         self.t, self.before, self.faults = 0, None, 0
         self.cells = [f(memory.kind.start) for memory in graph.memories]
         self.past = {}  # by virtual sensor and reading
-        self.said, self.modules = {}, {}  # by skill: of an Elman network, and of a procedure
+        self.said, self.modules = {}, {}  # by skill: of a network that remembers, and of a procedure
 
     def tick(self, readings):
         """The commands for the readings of one tick."""
@@ -179,19 +178,14 @@ class Plain:
         match skill.function:
             case Procedure(from_=name):
                 return self.called(skill, name.split("."), inputs)
-            case Mlp() | Elman() if not inputs:
+            case function if not inputs or not function.learns:
                 return [f(0)] * skill.outputs
-            case Mlp(hidden=hidden, width=width):
-                width = width or max(len(inputs), skill.outputs) + 2
-                weights, values = iter(self.weights[skill.owner]), inputs
-                for _ in range(hidden):
-                    values = [sigmoid(total) for total in layer(weights, values, width)]
-                return layer(weights, values, skill.outputs)
-            case Elman(width=width):
-                width = width or max(len(inputs), skill.outputs) + 2
-                weights, before = iter(self.weights[skill.owner]), self.said.get(skill.name, [f(0)] * width)
-                said = self.said[skill.name] = [sigmoid(total) for total in layer(weights, inputs + before, width)]
-                return layer(weights, said, skill.outputs)
+            case function:
+                shapes = function.matrix_shapes(len(inputs), skill.outputs)
+                state = self.said.get(skill.name, np.zeros(function.state_length(len(inputs), skill.outputs), f))
+                found = matrices(self.weights[skill.owner], shapes)
+                outputs, self.said[skill.name] = function.forward(PLAIN, found, np.array(inputs, f), state)
+                return [*outputs]
 
     def called(self, skill, name, inputs):
         """What a procedure returns, of a module that only this skill calls."""
@@ -229,11 +223,6 @@ def is_turned(formula, parts):
     return abs(stack[0]) == 1
 
 
-def layer(weights, values, count):
-    """The sums of so many neurons, which take their weights one after the other."""
-    return [dense([next(weights) for _ in values], values) for _ in range(count)]
-
-
 def dense(weights, values):
     """A neuron's sum, strictly from left to right."""
     total = weights[0] * values[0]
@@ -255,6 +244,13 @@ def sigmoid(x):
     for b in DENOMINATOR[-2::-1]:
         q = q * y + f(b)
     return h + h * (p * x / q)
+
+
+PLAIN = Terms(  # in which a function says what it computes
+    product=lambda values, matrix: np.array([dense(row, values) for row in matrix], f),
+    sigmoid=lambda values: np.array([sigmoid(value) for value in values], f),
+    joined=lambda one, other: np.array([*one, *other], f),
+)
 
 
 def clamp(v):

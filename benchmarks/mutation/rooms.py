@@ -70,7 +70,6 @@ ROOMS = {
             f"{R}{name}.py"
             for name in (
                 "engine/engine",
-                "engine/virtual_sensors",
                 "numbers/expression",
                 "numbers/sigmoid",
                 "numbers/arithmetic",
@@ -83,7 +82,7 @@ ROOMS = {
         (
             "tests/engine/test_procedure.py",
             "tests/language/test_procedures.py",
-            *(f"tests/functions/test_{name}.py" for name in ("recurrent_mind", "elman")),
+            *(f"tests/functions/test_{name}.py" for name in ("recurrent_mind", "recurrent")),
             "tests/engine/test_bits.py",
             "tests/edits/test_weights.py",
         ),

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 from mindrun.graph.weights import reachable
-from mindrun.kinds.sensors.directions import directions
+from mindrun.kinds.sensors.sensor import directions
 from numpy.typing import NDArray
 
 from mindlang.attribution.course import Course

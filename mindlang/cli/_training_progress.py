@@ -4,11 +4,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Protocol
 
+from mindrun.train.attempts import NOTHING_AHEAD, Ahead
 from mindrun.train.lesson_state import Record
 from mindrun.train.population import founder_count
 from mindrun.train.progress import read_progress
 from mindrun.train.run_folder import RunFolder
-from mindrun.train.step import NOTHING_AHEAD, Ahead
 from rich.console import Console, ConsoleOptions, RenderableType
 from rich.live import Live
 from rich.progress_bar import ProgressBar

@@ -14,8 +14,7 @@ from typing import Any, Literal
 from mindrun.graph.graph import Start
 from mindrun.kinds.bodies.body import BodyKind
 from mindrun.kinds.scenes.scene import TOUCHING_UNITS, SceneKind
-from mindrun.kinds.things.rectangle import Rectangle
-from mindrun.kinds.things.thing import ThingKind
+from mindrun.kinds.things.thing import Rectangle, ThingKind
 from mindrun.numbers.quantity import Place
 
 from mindlang.compiler.model import Part

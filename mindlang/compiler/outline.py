@@ -5,7 +5,7 @@ from math import cos, hypot, inf, sin
 from typing import NamedTuple
 
 from mindrun.kinds.scenes.scene import TOUCHING_UNITS
-from mindrun.kinds.things.rectangle import Rectangle
+from mindrun.kinds.things.thing import Rectangle
 from mindrun.numbers.quantity import Place
 
 

@@ -20,7 +20,7 @@ from typing import Any
 from weakref import finalize
 
 from distributed import Client, Future, KilledWorker, get_worker
-from mindrun.train.build import Build, difference, own_build, sources_hash
+from mindrun.train.manifest import Build, difference, own_build, sources_hash
 
 from mindlang.executors.job_scorer import JobScorer
 from mindlang.executors.jobs import FATAL, MAX_LOSSES, TAKE_SECONDS, Assignment, Done, Work, WorkError

@@ -11,9 +11,8 @@ from typing import Any, Protocol
 import numpy as np
 from mindrun.errors import MindError
 from mindrun.graph.run_scores import Scores
-from mindrun.train.lesson import Clock
+from mindrun.train.attempt import Clock, Segment, Stretch, advance
 from mindrun.train.lesson_state import Course
-from mindrun.train.segment import Segment, Stretch, advance
 from numpy.typing import NDArray
 
 TAKE_SECONDS = 0.2  # to wait for an answer before who asks may look at something else

@@ -9,8 +9,7 @@ from random import Random
 from mindrun.graph.beginning import meets_robot
 from mindrun.kinds.bodies.body import BodyKind
 from mindrun.kinds.scenes.scene import SceneKind
-from mindrun.kinds.things.rectangle import Rectangle
-from mindrun.kinds.things.thing import ThingKind
+from mindrun.kinds.things.thing import Rectangle, ThingKind
 from mindrun.numbers.quantity import Place, Span
 
 from mindlang.compiler.model import Task

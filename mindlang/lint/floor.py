@@ -10,7 +10,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
-from mindrun.kinds.things.rectangle import Rectangle
+from mindrun.kinds.things.thing import Rectangle
 from mindrun.numbers.quantity import Place
 
 MAX_CELLS = 250_000

@@ -119,7 +119,7 @@ class Study:
 
     def goals(self, task: Task) -> frozenset[str]:
         """The things on which no run of a task begins."""
-        from mindrun.graph.goals import goals
+        from mindrun.graph.tasks import goals
 
         return goals(self.graph, next(each for each in self.graph.tasks if each.name == task.name))
 

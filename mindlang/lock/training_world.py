@@ -142,7 +142,7 @@ def _is_lesson(value: dict[str, Any]) -> bool:
 
 
 def _is_kind(value: Any) -> bool:
-    """Whether it is a kind as `mindrun.graph.encoding` says it: its name and its arguments."""
+    """Whether it is a kind as `mindrun.graph.codec` says it: its name and its arguments."""
     return isinstance(value, dict) and isinstance(value.get("is"), str) and all(map(_is_argument, value.values()))
 
 

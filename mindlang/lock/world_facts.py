@@ -15,9 +15,9 @@ from typing import Any
 from mindrun.errors import ProcedureError
 from mindrun.graph.codec import encode
 from mindrun.graph.graph import Edge, Graph, Lesson, Reward, Skill, Start, Task
-from mindrun.graph.physics import physics
 from mindrun.graph.skill_sets import genes, reachable
-from mindrun.kinds.environment_module import module_beside
+from mindrun.graph.tasks import physics
+from mindrun.kinds.environment import module_beside
 from mindrun.kinds.functions.procedure import module_source
 from mindrun.kinds.registry import names
 from mindrun.kinds.sensors.sensor import SensorKind

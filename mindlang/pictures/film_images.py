@@ -3,7 +3,7 @@
 from typing import Any
 
 import numpy as np
-from mindrun.graph.reward_sums import score_of
+from mindrun.graph.run_scores import score_of
 
 from mindlang.pictures.canvas import Canvas, Image, Viewport, blank, pasted, text_width
 from mindlang.pictures.ending import LEAST_WORLD_PIXELS, draw_banner, draw_end_mark, ending_colour, ending_words

@@ -10,7 +10,7 @@ from mindrun.graph.graph import Gate, Graph, Program, Skill
 from mindrun.graph.weights import Weights, reachable
 from mindrun.numbers.evaluation import OPERATORS
 from mindrun.numbers.expression import fold
-from mindrun.numbers.network import perceive
+from mindrun.numbers.network import running
 
 from mindlang.proofs.interval import Doubles, Singles, perceptron
 
@@ -68,7 +68,7 @@ def _outputs(skill: Skill, weights: Weights | None, readings: Singles) -> Single
     if not layers:
         return np.zeros((len(readings), skill.outputs), np.float32)
     with np.errstate(all="ignore"):
-        return perceive(layers, readings[:, list(skill.inputs)])
+        return running(skill.function.forward, layers, 0)(readings[:, list(skill.inputs)])
 
 
 def _evaluate(program: Program, readings: Singles) -> Singles:

@@ -4,8 +4,8 @@ from collections.abc import Sequence
 from typing import Never
 
 from mindrun.errors import MindError
-from mindrun.graph.default_task import default_task
 from mindrun.graph.graph import Graph, Task
+from mindrun.graph.tasks import default_task
 
 from mindlang.compiler.diagnostic import did_you_mean, listed
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from mindrun.graph.graph import Task
-from mindrun.graph.reward_sums import paid_by_text, score_of
+from mindrun.graph.run_scores import paid_by_text, score_of
 from mindrun.sim.codes import BROKEN_OFF, GOING_ON, LOST
 from mindrun.train.scoring import succeeded
 from numpy.typing import NDArray

@@ -5,8 +5,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from mindrun.engine.engine import procedure_sources
 from mindrun.graph.graph import Graph, Task, Thing
-from mindrun.graph.movers import movers
 from mindrun.graph.recording_header import GOES_ON
+from mindrun.graph.skill_sets import movers
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.task_rows import things_of
 from mindrun.sim.trace import Trace, joined, trace

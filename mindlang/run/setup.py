@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 from mindrun.engine.engine import procedure_sources
 from mindrun.graph.bundle import Bundle, pack
 from mindrun.graph.graph import Task
-from mindrun.graph.one_world import is_one_world
 from mindrun.graph.skill_sets import owners, reachable
+from mindrun.graph.tasks import is_one_world
 from mindrun.terminal.command_line import command_line
 
 from mindlang.compiler.compile import Compiled

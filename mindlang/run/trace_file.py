@@ -8,7 +8,7 @@ from io import BytesIO
 import numpy as np
 from mindrun.errors import MindError
 from mindrun.graph.named_readings import reading_names
-from mindrun.graph.reward_sums import score_of
+from mindrun.graph.run_scores import score_of
 
 from mindlang.run.columns import Column, columns, csv_bytes
 from mindlang.run.outcome import events

@@ -12,8 +12,7 @@ from mindrun.train.attempt import VERDICT_LAYOUTS, has_needed, of_halves, verdic
 from mindrun.train.lesson_state import LessonState
 from mindrun.train.population import Genomes
 from mindrun.train.run_folder import WEIGHTS, RunFolder, keep_failure
-from mindrun.train.scoring import Scorer, is_one_world, mark, succeeded
-from mindrun.train.seeds import Purpose, Seeds, layouts
+from mindrun.train.scoring import Purpose, Scorer, Seeds, is_one_world, layouts, mark, succeeded
 
 from mindlang.compiler.diagnostic import listed
 from mindlang.lock import Entry, LockError, Taught, read_lock

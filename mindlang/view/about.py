@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from mindrun.engine.virtual_sensors import scene_of
+from mindrun.engine.engine import scene_of
 from mindrun.graph.graph import Graph, Skill, Task
 from mindrun.graph.named_readings import reading_names
 from mindrun.kinds.registry import names

@@ -8,8 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from mindrun.engine.engine import Engine
-from mindrun.engine.virtual_sensors import virtual_sensors
+from mindrun.engine.engine import Engine, virtual_sensors
 from mindrun.graph.bundle import Bundle
 from mindrun.graph.graph import Graph, Task
 from mindrun.graph.recording_header import BOX_COLUMNS, MAX_HEADER_BYTES, About, RecordedWorld

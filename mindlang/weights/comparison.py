@@ -6,7 +6,7 @@ from functools import partial
 
 import numpy as np
 from mindrun.graph.weights import Weights
-from mindrun.numbers.network import matrices
+from mindrun.numbers.network import Terms, matrices
 from numpy.typing import NDArray
 
 from mindlang.weights.network import Network
@@ -77,19 +77,16 @@ def _in_torch(network: Network, genome: Weights, inputs: Rows) -> Rows:
 
 def _in_float64(network: Network, genome: Weights, inputs: Rows) -> Rows:
     """Products of matrices and 1/(1 + e^−x), in float64."""
-    *hidden, last = (matrix.astype(np.float64) for matrix in matrices(genome, network.shapes))
-    values: NDArray[np.floating] = inputs.astype(np.float64)
-    if network.state:
-        state, rows = np.zeros(network.state), []
-        for row in values:
-            state = _sigmoid(hidden[0] @ np.concatenate([row, state]))
-            rows.append(state)
-        values = np.array(rows).reshape(len(inputs), network.state)
-    else:
-        for matrix in hidden:
-            values = _sigmoid(values @ matrix.T)
-    return _clamped(values @ last.T)
+    found = [matrix.astype(np.float64) for matrix in matrices(genome, network.shapes)]
+    state, rows = np.zeros(network.state), []
+    for row in inputs.astype(np.float64):
+        outputs, state = network.skill.function.forward(FLOAT64, found, row, state)
+        rows.append(outputs)
+    return _clamped(np.array(rows, np.float64).reshape(len(inputs), network.outputs))
 
 
-def _sigmoid(values: NDArray[np.float64]) -> NDArray[np.float64]:
-    return 1 / (1 + np.exp(-values))
+FLOAT64 = Terms(
+    product=lambda values, matrix: matrix @ values,
+    sigmoid=lambda values: 1 / (1 + np.exp(-values)),
+    joined=lambda one, other: np.concatenate([one, other]),
+)

@@ -8,6 +8,7 @@ from mindrun.errors import WeightsError
 from mindrun.files.printable import visible
 from mindrun.graph.graph import Graph, Skill
 from mindrun.graph.weights import Weights, genes
+from mindrun.kinds.registry import kinds
 from mindrun.numbers.arrays import Layers
 from mindrun.numbers.network import matrices
 from numpy.typing import NDArray
@@ -31,10 +32,9 @@ class Tensors:
 
 @dataclass(frozen=True, slots=True)
 class Network:
-    """What a skill computes: its matrices are [values out, values in], sigmoid but for the last, clamped to 0..1.
+    """What a skill computes with matrices [values out, values in]: its function says how, and what it remembers.
 
-    `shapes` are (values in, values out) of each. The first reads the inputs and, where there is a `state`, what its
-    neurons said in the tick before. What it reads and sends stands in the order of `signature`.
+    `shapes` are (values in, values out) of each. What it reads and sends stands in the order of `signature`.
     """
 
     skill: Skill
@@ -66,7 +66,8 @@ def network_of(graph: Graph, name: str) -> Network:
         raise WeightsError(f"{name} is like {skill.like}: it has no weights of its own", f"take {skill.like}")
     shapes = skill.function.matrix_shapes(len(skill.inputs), skill.outputs)
     if not genes(skill) or not shapes:
-        raise WeightsError(f"{name} has no weights: it learns nothing", "take a skill that is mlp or elman")
+        learning = " or ".join(kind for kind, cls in kinds("skill").items() if cls.learns)
+        raise WeightsError(f"{name} has no weights: it learns nothing", f"take a skill that is {learning}")
     return Network(skill, signature(graph, skill), shapes)
 
 

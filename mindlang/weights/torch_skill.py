@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import torch
 from mindrun.graph.weights import Weights
-from mindrun.numbers.network import matrices
+from mindrun.numbers.network import Terms, matrices
 from mindrun.numbers.sigmoid import DENOMINATOR, LIMIT, NUMERATOR
 from torch import Tensor, nn
 from torch.autograd import Function
@@ -111,16 +111,19 @@ class ReturningClamp(Function):
         return torch.where(leads_on, torch.zeros_like(grad), grad)
 
 
+def _joined(one: Tensor, other: Tensor) -> Tensor:
+    return torch.cat([one, other], -1)
+
+
+TERMS = Terms(OrderedProduct.apply, RationalSigmoid.apply, _joined)  # in which a function says what it computes
+
+
 class Layer(nn.Module):
-    """`weight` [values out, values in] without biases, as the engine sums."""
+    """`weight` [values out, values in] without biases."""
 
     def __init__(self, inputs: int, outputs: int) -> None:
         super().__init__()
         self.weight = nn.Parameter(torch.zeros(outputs, inputs))
-
-    def forward(self, x: Tensor) -> Tensor:
-        """[..., values in] to [..., values out]."""
-        return OrderedProduct.apply(x, self.weight)
 
 
 class NetworkModule(nn.Module):
@@ -139,19 +142,18 @@ class NetworkModule(nn.Module):
 
     def forward(self, readings: Tensor, state: Tensor | None = None) -> Tensor | tuple[Tensor, Tensor]:
         """What it sends; with what it remembers, where it does."""
-        if not self.network.state:
-            return ReturningClamp.apply(self.before_clamp(readings))
-        before = self.start(*readings.shape[:-1]) if state is None else state
-        neurons = RationalSigmoid.apply(self.layers[0](torch.cat([readings, before], -1)))
-        return ReturningClamp.apply(self.layers[1](neurons)), neurons
+        values, after = self._computed(readings, state)
+        sent = ReturningClamp.apply(values)
+        return (sent, after) if self.network.state else sent
 
     def before_clamp(self, readings: Tensor) -> Tensor:
         """What its last layer adds up to, of a network that remembers nothing: the mean of a policy that explores."""
-        *hidden, last = self.layers
-        values = readings
-        for layer in hidden:
-            values = RationalSigmoid.apply(layer(values))
-        return last(values)
+        return self._computed(readings, None)[0]
+
+    def _computed(self, readings: Tensor, state: Tensor | None) -> tuple[Tensor, Tensor]:
+        before = self.start(*readings.shape[:-1]) if state is None else state
+        weights = [layer.weight for layer in self.layers]
+        return self.network.skill.function.forward(TERMS, weights, readings, before)
 
     def start(self, *batch: int) -> Tensor:
         """What it remembers before the first tick of a run: zeros [..., state]."""

@@ -13,8 +13,7 @@ from mindrun.sim.rollouts import rollout_for
 from mindrun.sim.trace import trace
 from mindrun.terminal.command_line import command_line
 from mindrun.train import RunError
-from mindrun.train.scoring import mark
-from mindrun.train.seeds import Purpose, Seeds, layouts
+from mindrun.train.scoring import Purpose, Seeds, layouts, mark
 from numpy.typing import NDArray
 
 from mindlang.compiler.diagnostic import listed

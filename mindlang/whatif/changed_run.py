@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from mindrun.engine.changes import Change, ChangeError
-from mindrun.graph.reward_sums import paid_by_text
+from mindrun.graph.run_scores import paid_by_text
 from mindrun.sim.rollout import Rollout
 
 from mindlang.run.course import Course, course

@@ -10,8 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from mindrun.engine.changed_engine import ChangedEngine
-from mindrun.engine.changes import Change, ChangeError, in_tick
+from mindrun.engine.changes import Change, ChangedEngine, ChangeError, in_tick
 from mindrun.engine.engine import Engine
 from mindrun.graph.graph import Graph
 from mindrun.graph.named_readings import physical

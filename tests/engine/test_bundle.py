@@ -17,10 +17,9 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from mindrun.engine.engine import Engine, procedure_sources
 from mindrun.errors import BundleError
-from mindrun.graph.bundle import Bundle, fingerprint, pack, read_bundle, unpack, write_bundle
+from mindrun.graph.bundle import Bundle, decode, decode_wiring, fingerprint, pack, read_bundle, unpack, write_bundle
 from mindrun.graph.codec import encode
 from mindrun.graph.describe import contents, describe
-from mindrun.graph.encoding import decode, decode_wiring
 from mindrun.graph.graph import Graph
 from mindrun.graph.policy import Policy
 from mindrun.graph.weights import genes

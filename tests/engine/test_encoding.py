@@ -12,8 +12,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mindrun.errors import BundleError
-from mindrun.graph.codec import encode
-from mindrun.graph.encoding import decode, decode_part, decode_wiring
+from mindrun.graph.bundle import decode, decode_wiring
+from mindrun.graph.codec import decode_part, encode
 from mindrun.graph.graph import Graph
 from mindrun.graph.wiring import Wiring
 from mindrun.kinds.registry import arguments, kinds, names

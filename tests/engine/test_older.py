@@ -5,10 +5,8 @@ from typing import Any
 
 import pytest
 from mindrun.errors import BundleError
-from mindrun.graph.bundle import Bundle, pack, unpack
-from mindrun.graph.bundle_migration import with_whole_lessons
+from mindrun.graph.bundle import Bundle, decode, migrated, pack, unpack
 from mindrun.graph.codec import encode
-from mindrun.graph.encoding import decode
 from mindrun.graph.graph import Task
 from mindrun.graph.policy import Policy
 from mindrun.kinds.learners import Restarting
@@ -124,12 +122,12 @@ def test_what_lessons_did_not_say_is_as_it_is_where_nothing_is_said() -> None:
     data = encode(graph)
     (lesson,) = data["lessons"]
     del lesson["number"], lesson["learner"]["founders"], lesson["learner"]["rungs"]
-    assert decode(with_whole_lessons(data)) == graph
+    assert decode(migrated(data, "")) == graph
     lesson["learner"]["founders"] = 12
-    assert decode(with_whole_lessons(data)).lessons[0].learner == Restarting(founders=12)
+    assert decode(migrated(data, "")).lessons[0].learner == Restarting(founders=12)
 
 
 def test_a_learner_that_this_version_does_not_know_stays_as_it_is() -> None:
     data = encode(example().graph)
     data["lessons"][0]["learner"]["is"] = "gradient"
-    assert with_whole_lessons(data) == data
+    assert migrated(data, "") == data

@@ -5,8 +5,10 @@ from dataclasses import replace
 from math import inf, nextafter
 
 import pytest
+from mindrun.engine.engine import virtual_sensors
 from mindrun.graph.graph import Edge, End, Gate, Graph, Lesson, Memory, Reward, Sensor, Task, Thing
-from mindrun.graph.validate import depths, graph_flaw
+from mindrun.graph.measured import with_sources
+from mindrun.graph.validate import graph_flaw
 from mindrun.kinds.events.delivery import Delivery
 from mindrun.kinds.events.reach import Reach
 from mindrun.kinds.events.success import Success
@@ -230,12 +232,13 @@ def test_what_may_be_is_let_be(changed: Callable[[Graph], Graph]) -> None:
     assert graph_flaw(changed(whole())) is None
 
 
-def test_a_derivative_is_one_deeper_than_what_it_is_of() -> None:
-    of = {"a": "b", "b": "beat", "c": "a", "m": "m0", "x": "y", "y": "x", "z": "y"}
-    kinds = {"beat": Sine(1.0), "lone": Battery()} | {name: Derivative(source) for name, source in of.items()}
+def test_sources_are_computed_before_what_derives_from_them() -> None:
+    of = {"a": "b", "b": "beat", "c": "a"}
+    kinds = {name: Derivative(source) for name, source in of.items()} | {"beat": Sine(1.0)}
     sensors = tuple(Sensor(name, kind, start, 1) for start, (name, kind) in enumerate(kinds.items()))
-    found = depths(replace(whole(), sensors=sensors))
-    assert found == {"beat": 0, "lone": 0, "m0": 0, "b": 1, "m": 1, "a": 2, "c": 3}
+    graph = replace(whole(), sensors=sensors, memories=())
+    assert [sensor.name for sensor in with_sources(graph, {0, 1, 2, 3})] == ["beat", "b", "a", "c"]
+    assert [place.start for place, _ in virtual_sensors(graph)] == [3, 1, 0, 2]
 
 
 @pytest.mark.parametrize(

@@ -8,14 +8,14 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from mindrun.train.lesson import teach
+from mindrun.train.attempt import Segment
 from mindrun.train.lesson_state import begin
-from mindrun.train.segment import Segment
 
 from mindlang.executors.jobs import StretchExecutor, WorkError
 from tests.executors.spheres import ASSIGNMENT
 from tests.executors.test_processes import COURSE, taught, timeless
 from tests.train.climbing import Sphere
+from tests.train.sequential import teach
 
 pytest.importorskip("distributed", reason="distributed is not installed: pip install 'mindlang[cluster]'")
 

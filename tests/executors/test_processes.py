@@ -13,12 +13,11 @@ from typing import Any
 
 import numpy as np
 import pytest
+from mindrun.train.attempt import Segment
 from mindrun.train.attempts import side_by_side
 from mindrun.train.checkpoint import pack as state_bytes
-from mindrun.train.lesson import teach
 from mindrun.train.lesson_state import Course, LessonState, begin
 from mindrun.train.run_folder import create
-from mindrun.train.segment import Segment
 from mindrun.train.training import train
 
 from mindlang.executors.jobs import MAX_LOSSES, StretchExecutor, WorkError
@@ -26,6 +25,7 @@ from mindlang.executors.processes import ProcessJobs
 from tests.executors import spheres
 from tests.executors.spheres import ASSIGNMENT
 from tests.train.climbing import LENGTH, Sphere, lesson, manifest, unwatched
+from tests.train.sequential import teach
 
 COURSE = Course(lesson(250, attempts=5, rungs=2), 1, np.empty((0, LENGTH), np.float32))
 ROOT = Path(__file__).parents[2]

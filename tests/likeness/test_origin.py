@@ -7,9 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from mindrun.kinds.functions.elman import Elman
 from mindrun.kinds.functions.function import Function
-from mindrun.kinds.functions.mlp import Mlp
 from mindrun.train import RunError
 
 from mindlang.compiler.counterparts import counterparts
@@ -18,6 +16,7 @@ from mindlang.lock.arrange import arrange
 from mindlang.training.lesson_choice import TrainOptions, chosen_lessons
 from mindlang.training.origin import origin_weights
 from tests.draws import cases
+from tests.hierarchies import networks
 from tests.likeness.test_lock import teach
 from tests.likeness.test_meaning import ALIKE, GO, SCHOOL, TOP, compiled, graph, named
 
@@ -52,7 +51,7 @@ def test_a_skill_stands_for_the_one_that_it_began_as() -> None:
 
 
 @given(
-    st.sampled_from([Mlp(0), Mlp(1), Mlp(2), Mlp(3, 7), Elman(), Elman(5)]),
+    networks(0),
     st.permutations(range(4)),
     st.permutations(range(3)),
     st.integers(0, 2**32 - 1),
@@ -83,7 +82,18 @@ def test_weights_are_copied_into_the_order_of_the_learner(tmp_path: Path) -> Non
 
 
 @given(
-    st.sampled_from(["mlp hidden 0", "mlp hidden 1", "mlp hidden 2", "mlp hidden 3 width 6", "elman", "elman width 5"]),
+    st.sampled_from(
+        [
+            "mlp hidden 0",
+            "mlp hidden 1",
+            "mlp hidden 2",
+            "mlp hidden 3 width 6",
+            "elman",
+            "elman width 5",
+            "gru",
+            "gru width 5",
+        ]
+    ),
     st.permutations(["near", "eyes", "ears", "charge"]),
     st.permutations(["influences Back", "influences Own", "drives left_wheel"]),
     st.integers(0, 2**32 - 1),

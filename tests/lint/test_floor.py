@@ -6,7 +6,7 @@ from itertools import product
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from mindrun.kinds.things.rectangle import Rectangle
+from mindrun.kinds.things.thing import Rectangle
 
 from mindlang.lint import floor as module
 from mindlang.lint.floor import floor

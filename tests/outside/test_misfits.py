@@ -108,7 +108,7 @@ def test_an_environment_may_be_that_of_a_scene() -> None:
 
 def test_what_is_of_two_values_has_two_choices() -> None:
     from gymnasium.spaces import MultiBinary
-    from mindrun.kinds.slot import Slot
+    from mindrun.kinds.environment import Slot
     from mindrun.sim.outside.parts import spaces_of
     from mindrun.sim.outside.wiring import misfits
 

@@ -84,7 +84,7 @@ def test_every_sensor_has_a_lane_function(noun: str, name: str) -> None:
 def test_every_function_is_the_same_in_both_executors(noun: str, name: str) -> None:
     """One that says what it computes for the engine says it for the lanes; a procedure is called by its address."""
     cls = kinds(noun)[name]
-    is_one = (cls.ready is not Function.ready) == (cls.lane is not Function.lane)
+    is_one = (cls.forward is not Function.forward) == (cls.lane is not Function.lane)
     assert is_one or name == "procedure", f"{name} says what it computes for the engine or for the lanes alone"
 
 

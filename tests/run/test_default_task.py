@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from mindrun.graph.default_task import default_task
+from mindrun.graph.tasks import default_task
 
 from mindlang.compiler.compile import load
 from mindlang.run.setup import master_of

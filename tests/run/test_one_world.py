@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import pytest
 from mindrun.graph.graph import Graph
-from mindrun.graph.one_world import is_one_world
 from mindrun.graph.policy import Policy
+from mindrun.graph.tasks import is_one_world
 from mindrun.kinds.scenes.gymnasium import Gymnasium
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace

@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from mindrun.graph.graph import Reward
-from mindrun.graph.reward_sums import paid_by_text, score_of
+from mindrun.graph.run_scores import paid_by_text, score_of
 from numpy.typing import NDArray
 
 NUMBERS = st.floats(-1e20, 1e20)

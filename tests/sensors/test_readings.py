@@ -1,7 +1,7 @@
 """What sensors of places, speeds, light and touch read: by hand, and in compiled lanes the bits of plain Python."""
 
 from dataclasses import dataclass, replace
-from math import pi
+from math import pi, prod
 from types import SimpleNamespace
 from typing import Any
 
@@ -89,11 +89,11 @@ class Place:
             things=np.array([*self.at, self.size, way, *others])[:, None], nearest=np.zeros((THING_ROWS, 1)),
             nearest_of=np.array([-1]), frame=np.zeros((FRAME_ROWS, 1), F),
             loose=np.repeat([*turns, 0.0], LOOSE_ROWS)[:, None],
-            readings=np.zeros((kind.width, 1), F), boxes=boxes[None], nearby=boxes[:, None],
+            readings=np.zeros((prod(kind.shape), 1), F), boxes=boxes[None], nearby=boxes[:, None],
             nearby_count=[len(self.boxes)], sight=sight, tick=np.array([90]),
         )  # fmt: skip
         things, seen = int(self.there and not self.of_boxes), len(self.boxes) if self.of_boxes else 0
-        row = {"start": 0, "width": kind.width, "thing": 0, "things": things, "box": 0, "boxes": seen}
+        row = {"start": 0, "width": prod(kind.shape), "thing": 0, "things": things, "box": 0, "boxes": seen}
         row |= {"ray": 0, "number": 0}
         scene = SimpleNamespace(tick=TICK, starts={})
         with np.errstate(divide="ignore"):
@@ -207,8 +207,8 @@ PURE += [Clock(0.3), Clock(TICK), Clock(2.0)]
 
 def robot(world: Graph, chosen: list[Any], drive: tuple[float, float]) -> Graph:
     """A robot that has these sensors and drives in circles in a world."""
-    starts = np.cumsum([0, *(kind.width for kind in chosen)]).tolist()
-    sensors = tuple(Sensor(f"s{i}", kind, starts[i], kind.width) for i, kind in enumerate(chosen))
+    starts = np.cumsum([0, *(prod(kind.shape) for kind in chosen)]).tolist()
+    sensors = tuple(Sensor(f"s{i}", kind, starts[i], prod(kind.shape)) for i, kind in enumerate(chosen))
     top = rule("Top", *(always("actuator", i, v) for i, v in enumerate(drive)), reads=tuple(range(starts[-1])))
     task = replace(world.tasks[0], ticks=60, rewards=(Reward("", (("number", 1.0),), None),), ends=(), fails=())
     task = replace(task, varies=tuple(each for each in task.varies if each.noun in ("body", "thing")))

@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, event, given, settings
 from hypothesis import strategies as st
-from mindrun.engine.changed_engine import ChangedEngine
-from mindrun.engine.changes import Change, ChangeError, change_of, in_tick, silenced
+from mindrun.engine.changes import Change, ChangedEngine, ChangeError, change_of, in_tick, silenced
 from mindrun.graph.graph import Graph
 from mindrun.graph.policy import Policy
 from mindrun.sim.rollout import Rollout

@@ -95,5 +95,5 @@ def forget(*_: object) -> None:
 
 def unwatched(save_every: float = 0.0, stop_after: int = 10**9) -> Watch:
     """Save after every generation; stop after so many."""
-    left = iter(range(1, 10**9))
+    left = iter(range(10**9))
     return Watch(forget, forget, lambda: next(left) >= stop_after, perf_counter, save_every=save_every)

@@ -8,15 +8,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mindrun.graph.graph import Need
-from mindrun.train.attempts import Attempts, side_by_side
+from mindrun.train.attempt import Segment, Stretch, advance
+from mindrun.train.attempts import Ahead, Attempts, Step, side_by_side
 from mindrun.train.checkpoint import pack
-from mindrun.train.lesson import teach
 from mindrun.train.lesson_state import Course, LessonState, Record, begin
-from mindrun.train.segment import Segment, Stretch, advance
-from mindrun.train.step import Ahead, Step
 
 from tests.draws import cases
 from tests.train.climbing import LENGTH, Faulty, Flat, Sphere, lesson
+from tests.train.sequential import teach
 
 UNKNOWN = np.empty((0, LENGTH), np.float32)
 SCORERS = (Sphere(), Sphere(noise=20.0), Faulty(), Flat())

@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 from mindrun.train import champion_log
 from mindrun.train.champion_log import CHAMPION_ROWS, read_champions
-from mindrun.train.lesson import teach
 from mindrun.train.lesson_state import begin
 from mindrun.train.run_folder import RunFolder, create
 from mindrun.train.training import train
@@ -15,6 +14,7 @@ from mindrun.train.training import train
 from mindlang.view.learning import LearntRun
 from mindlang.view.messages import RefusedError
 from tests.train.climbing import LENGTH, Sphere, lesson, manifest, unwatched
+from tests.train.sequential import teach
 
 START = {"Climb": np.zeros(LENGTH, np.float32)}
 

@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 from mindrun.train import RunError, checkpoint
 from mindrun.train.checkpoint import load, pack, save, unpack
-from mindrun.train.lesson import teach
 from mindrun.train.lesson_state import Course, LessonState, begin
 
 from tests.train.climbing import LENGTH, Sphere, lesson
+from tests.train.sequential import teach
 
 RUN = "a run"
 

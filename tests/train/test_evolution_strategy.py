@@ -8,9 +8,10 @@ import pytest
 from mindrun.kinds.learners import EvolutionStrategy, Genetic
 from mindrun.train.ask_and_tell import ask, kept_count, tell
 from mindrun.train.attempt import REEVALUATION_LAYOUTS, fresh_count
-from mindrun.train.lesson import teach
 from mindrun.train.lesson_state import Course, begin, could_be
 from mindrun.train.population import Genomes, Population, nobody
+
+from tests.train.sequential import teach
 
 from .climbing import LENGTH, Sphere, lesson
 

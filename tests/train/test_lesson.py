@@ -14,12 +14,20 @@ from mindrun.train.attempt import (
     judge,
     try_again,
 )
-from mindrun.train.lesson import generation, teach
-from mindrun.train.lesson_state import AttemptState, Course, LessonState, Record, begin, begin_attempt, is_over
+from mindrun.train.attempts import InThisThread, Step, side_by_side
+from mindrun.train.lesson_state import (
+    AttemptState,
+    Course,
+    LessonState,
+    Record,
+    begin,
+    begin_attempt,
+    is_behind,
+    is_over,
+    rung_at,
+)
 from mindrun.train.population import Population
-from mindrun.train.rungs import is_behind, rung_at
-from mindrun.train.scoring import mark
-from mindrun.train.seeds import Purpose, layouts
+from mindrun.train.scoring import Purpose, layouts, mark
 
 from tests.train.climbing import LENGTH, Faulty, Flat, Results, Sphere, lesson
 
@@ -27,9 +35,15 @@ UNKNOWN = np.empty((0, LENGTH), np.float32)
 
 
 def taught(course: Course, scorer: Sphere) -> tuple[LessonState, list[Record]]:
+    steps = stepped(course, scorer)
+    assert all(len(step.records) == len(step.champions) == 1 for step in steps)
+    return steps[-1].state, [record for step in steps for record in step.records]
+
+
+def stepped(course: Course, scorer: Sphere) -> list[Step]:
     ticking = iter(range(10**6))
-    passed = list(teach(course, scorer, begin(course), lambda: float(next(ticking))))
-    return passed[-1][0], [record for _, record in passed]
+    executor = InThisThread(course, scorer, lambda: float(next(ticking)))
+    return list(side_by_side(course, executor, begin(course), lambda: False))
 
 
 def test_a_lesson_teaches() -> None:
@@ -326,12 +340,12 @@ def test_only_the_best_of_a_generation_are_tried_again() -> None:
 
 def test_a_record_tells_of_its_generation_alone() -> None:
     course = Course(lesson(30), 1, UNKNOWN)
-    state, first = generation(course, Sphere(noise=0.0), begin(course))
+    one, two, *_ = stepped(course, Sphere(noise=0.0))
+    (state, first), (after, second) = ((step.state, step.records[0]) for step in (one, two))
     scores = state.now.population.scores
     assert (first.best, first.mean) == (scores.max(), scores.mean())
     assert first.ticks == 100 * (20 * course.lesson.learner.layouts + REEVALUATED_CANDIDATES * REEVALUATION_LAYOUTS)
     assert first.generation == state.generations == state.now.population.generation == 1
-    after, second = generation(course, Sphere(noise=0.0), state)
     assert second.reevaluated is None
     assert second.ticks == 100 * 20 * course.lesson.learner.layouts
     assert after.best == max(first.best, second.best)

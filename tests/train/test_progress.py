@@ -134,7 +134,7 @@ def test_both_files_are_brought_to_the_disk_and_closed(tmp_path: Path, monkeypat
         )
         progress.sync()
         monkeypatch.undo()
-        opened = progress._lines, progress._table
+        opened = progress._files
     assert synced == [LINES, TABLE]
     for descriptor in opened:
         with pytest.raises(OSError, match="Bad file descriptor"):
@@ -147,12 +147,3 @@ def test_the_log_is_on_the_disk_before_the_checkpoint_that_counts_on_it(monkeypa
     run = SimpleNamespace(folder=Path(), manifest=SimpleNamespace(identity="one"))
     training._save(run, at(0, 0), SimpleNamespace(sync=lambda: order.append("log")))  # type: ignore[arg-type]
     assert order == ["log", "checkpoint"]
-
-
-def test_both_files_of_the_log_are_brought_to_the_disk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    synced: list[int] = []
-    with ProgressLog(tmp_path, at(0, 0)) as progress:
-        monkeypatch.setattr("os.fsync", synced.append)
-        progress.sync()
-        names = {Path(f"/proc/self/fd/{descriptor}").readlink().name for descriptor in synced}
-    assert names == {LINES, TABLE}

@@ -9,10 +9,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 from mindrun.train import RunError, checkpoint
-from mindrun.train.folder_lock import claim
 from mindrun.train.lesson_state import LessonState, Record
 from mindrun.train.progress import read_progress
-from mindrun.train.run_folder import RunFolder, create, open_run
+from mindrun.train.run_folder import RunFolder, claim, create, open_run
 from mindrun.train.training import Watch, train
 
 from tests.train.climbing import Sphere, lesson, manifest, unwatched
@@ -99,9 +98,7 @@ def test_lines_after_the_checkpoint_are_dropped_and_written_again(tmp_path: Path
 def test_two_processes_cannot_use_one_folder(tmp_path: Path) -> None:
     run = made(tmp_path)
     with claim(run.folder):
-        code = (
-            f"from pathlib import Path; from mindrun.train.folder_lock import claim; claim(Path({str(run.folder)!r}))"
-        )
+        code = f"from pathlib import Path; from mindrun.train.run_folder import claim; claim(Path({str(run.folder)!r}))"
         other = subprocess.run(
             [sys.executable, "-c", f"{code}.__enter__()"], capture_output=True, text=True, check=False
         )

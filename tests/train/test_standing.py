@@ -5,8 +5,7 @@ from math import inf
 
 import numpy as np
 import pytest
-from mindrun.train.attempt import are_different
-from mindrun.train.lesson import has_ended
+from mindrun.train.attempt import are_different, ends_by_itself
 from mindrun.train.lesson_state import Course, LessonState, begin, could_be
 from mindrun.train.population import Population
 
@@ -64,7 +63,7 @@ def test_an_attempt_ends_after_its_generations_or_its_patience(
     generation: int, since: int, patience: int, ended: bool
 ) -> None:
     of = replace(COURSE.lesson, learner=replace(COURSE.lesson.learner, patience=patience))
-    assert has_ended(of, state(generation=generation, since=since)) is ended
+    assert ends_by_itself(of, state(generation=generation, since=since).now) is ended
 
 
 def test_nothing_is_kept_before_an_attempt_has_ended() -> None:

@@ -5,8 +5,8 @@ from io import StringIO
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from mindrun.train.attempts import Ahead
 from mindrun.train.lesson_state import Record
-from mindrun.train.step import Ahead
 from rich.console import Console
 
 from mindlang.cli._training_progress import (

@@ -15,7 +15,9 @@ from mindlang.weights.comparison import Deviation, compare
 from mindlang.weights.network import Network, Tensors, network_of, to_genome, to_tensors
 from tests.edits.taught import MIND, write_mind
 
-KINDS = {"mlp": MIND, "elman": MIND.replace("skill Avoid is mlp hidden 2", "skill Avoid is elman")}
+KINDS = {
+    kind: MIND.replace("skill Avoid is mlp hidden 2", f"skill Avoid is {kind}") for kind in ("mlp", "elman", "gru")
+}
 
 
 def network(folder: Path, text: str = MIND, skill: str = "Avoid") -> Network:

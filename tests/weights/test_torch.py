@@ -27,7 +27,7 @@ from mindlang.weights.torch_skill import (  # noqa: E402
     Skill,
 )
 
-SHAPES = ("mlp hidden 0", "mlp hidden 1", "mlp hidden 2", "mlp hidden 3 width 9", "elman", "elman width 3")
+SHAPES = ("mlp hidden 0", "mlp hidden 1", "mlp hidden 2", "mlp hidden 3 width 9", "elman", "elman width 3", "gru")
 
 
 def network(folder: Path, function: str) -> Network:
@@ -97,7 +97,7 @@ def test_what_leads_back_comes_through_the_clamp(value: float, leads_up: bool, c
     assert bool(x.grad) == comes_through
 
 
-@pytest.mark.parametrize("function", ["mlp hidden 1", "elman"])
+@pytest.mark.parametrize("function", ["mlp hidden 1", "elman", "gru"])
 def test_it_learns_what_it_is_shown(tmp_path: Path, function: str) -> None:
     torch.manual_seed(2)
     own = network(tmp_path, function)

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from mindrun.files.atomic_write import write
 from mindrun.graph.graph import Lesson
-from mindrun.train.rungs import heights
+from mindrun.train.lesson_state import heights
 from protocol import FILES
 
 from mindlang.training.lesson_choice import TrainOptions

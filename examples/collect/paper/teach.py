@@ -17,7 +17,7 @@ from mindrun.errors import MindError
 from mindrun.graph.graph import Lesson
 from mindrun.processors import cores
 from mindrun.terminal.arguments import MAX_SEED, real, whole
-from mindrun.train.rungs import heights
+from mindrun.train.lesson_state import heights
 from plan import Plan, keep_plan, read_plan
 from protocol import FILES, FOLDER
 

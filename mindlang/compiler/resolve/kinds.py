@@ -7,7 +7,7 @@ from typing import Any
 
 from mindrun.kinds.registry import Argument as Parameter
 from mindrun.kinds.registry import arguments, find_kind, kinds
-from mindrun.kinds.things.about import AboutThing
+from mindrun.kinds.things.thing import AboutThing
 from mindrun.numbers.quantity import SLOT, Quantity, Reference
 
 from mindlang.compiler.diagnostic import Findings, Label, a, did_you_mean, listed

@@ -1,6 +1,7 @@
 """Sensors, memories, actuators and the body; how many readings each sensor has."""
 
 from collections.abc import Iterable, Mapping, Sequence
+from math import prod
 from typing import Any
 
 from mindrun.kinds.sensors.computed import Computed
@@ -100,7 +101,8 @@ def _argument_span(declaration: Declaration, field: str) -> Span:
 
 def _widths(sensors: Mapping[str, Part[Any]], of_one: Iterable[str]) -> dict[str, int]:
     """How many readings each sensor and memory has: one that does not say has as many as its source."""
-    widths = dict.fromkeys(of_one, 1) | {name: each.kind.width for name, each in sensors.items() if each.kind.width}
+    shapes = {name: each.kind.shape for name, each in sensors.items()}
+    widths = dict.fromkeys(of_one, 1) | {name: prod(shape) for name, shape in shapes.items() if shape is not None}
     for name in sensors:
         chain, last = {name: None}, name
         while last in sensors and last not in widths:

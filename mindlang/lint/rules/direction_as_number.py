@@ -10,7 +10,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass
 
-from mindrun.kinds.sensors.directions import directions
+from mindrun.kinds.sensors.sensor import directions
 from mindrun.numbers.expression import fold
 
 from mindlang.compiler.model import Comparison, Expression, Number, Reading, Term, When

@@ -5,7 +5,7 @@ command has noise. `bench` makes one run of it, and a skill that is taught there
 be meant: of a track, or of an examination.
 """
 
-from mindrun.graph.one_world import is_one_world
+from mindrun.graph.tasks import is_one_world
 
 from mindlang.lint.study import Finding, Found, Study
 

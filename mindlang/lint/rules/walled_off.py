@@ -8,8 +8,7 @@ nobody can succeed. Open the wall, widen the passage, or fill with `#` what nobo
 from collections.abc import Iterator, Sequence
 from math import inf
 
-from mindrun.kinds.things.rectangle import Rectangle
-from mindrun.kinds.things.thing import ThingKind
+from mindrun.kinds.things.thing import Rectangle, ThingKind
 
 from mindlang.compiler.beginning import PLAIN_START, beginning
 from mindlang.compiler.model import Task

@@ -1,12 +1,21 @@
-"""What is changed in a run that goes on otherwise than it did: readings, influence, memory cells, tick by tick."""
+"""What is changed in a run that goes on otherwise than it did: readings, influence, memory cells, tick by tick.
+
+And the engine that runs with such changes, bit for bit as `mindrun.sim.changed_ticks` makes them in the lanes.
+"""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from math import isfinite
 from typing import Literal
 
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mindrun.engine.engine import Engine
+from mindrun.engine.think import Thought, think
 from mindrun.errors import MindError, nearest
 from mindrun.graph.graph import Graph
+from mindrun.numbers.arrays import Reader, Readings
 
 What = Literal["reading", "influence", "memory"]
 
@@ -45,6 +54,9 @@ class Changed:
     reading: Mapping[int, float] = field(default_factory=dict)
     influence: Mapping[int, float] = field(default_factory=dict)
     memory: Mapping[int, float] = field(default_factory=dict)
+
+
+UNCHANGED = Changed()
 
 
 def in_tick(changes: Sequence[Change], tick: int) -> Changed | None:
@@ -114,3 +126,41 @@ def _place(graph: Graph, what: What, name: str) -> tuple[str, int, int]:
 
 def _allowed(what: What) -> str:
     return "influence is a number from 0 on" if what == "influence" else "it is a number from 0 to 1"
+
+
+class ChangedEngine(Engine):
+    """As Engine; `tick_with` makes changes as `mindrun.sim.changed_ticks` makes them in the lanes, bit for bit."""
+
+    def reset(self) -> None:
+        """Back to the state before the first tick."""
+        super().reset()
+        self._made = UNCHANGED
+        self._virtual = tuple((place, self._replacing(place, read)) for place, read in self._virtual)
+
+    def tick_with(self, readings: ArrayLike, made: Changed | None) -> NDArray[np.float32]:
+        """Commands [actuators] for readings [graph.width] in a tick in which so much is changed."""
+        self._made = made or UNCHANGED
+        for number, memory in enumerate(self.graph.memories):
+            if memory.start in self._made.memory:
+                self._cells[number] = self._made.memory[memory.start]
+        return self.tick(readings)
+
+    def _filled(self, now: NDArray[np.float32]) -> NDArray[np.float32]:
+        for row, value in self._made.reading.items():
+            now[row] = value
+        return super()._filled(now)
+
+    def _replacing(self, place: slice, read: Reader) -> Reader:
+        """What a virtual sensor says, or what it is made to say."""
+
+        def replacing(number: int, now: Readings, before: Readings | None) -> Readings:
+            now[place] = read(number, now, before)
+            for row in range(place.start, place.stop):
+                if row in self._made.reading:
+                    now[row] = self._made.reading[row]
+            return now[place]
+
+        return replacing
+
+    def _thought(self) -> Thought:
+        return think(self._hierarchy, self.readings, self._made.influence)

@@ -7,14 +7,16 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mindrun.engine.think import Thought, hierarchy, think
-from mindrun.engine.virtual_sensors import virtual_sensors
 from mindrun.errors import MindError, ReadingsError
 from mindrun.graph.graph import Graph
+from mindrun.graph.measured import with_sources
 from mindrun.graph.policy import Policy
 from mindrun.graph.procedure_source import source_of
 from mindrun.graph.weights import reachable
 from mindrun.kinds.functions.function import Stateful
 from mindrun.kinds.procedure_text import module_of
+from mindrun.kinds.sensors.sensor import Scene, directions
+from mindrun.numbers.arrays import Reader
 
 
 def procedure_sources(graph: Graph, folder: Path, master: str | None = None) -> dict[str, str]:
@@ -24,6 +26,20 @@ def procedure_sources(graph: Graph, folder: Path, master: str | None = None) -> 
     """
     skills = reachable(graph, master or graph.master)
     return {module_of(calls): source_of(s, folder) for s in skills if (calls := s.function.calls) is not None}
+
+
+def scene_of(graph: Graph) -> Scene:
+    """What the sensors of a graph depend on beside their own arguments."""
+    places = {memory.name: slice(memory.start, memory.start + 1) for memory in graph.memories}
+    places |= {sensor.name: slice(sensor.start, sensor.start + sensor.width) for sensor in graph.sensors}
+    return Scene(graph.tick, places, directions({sensor.name: sensor.kind for sensor in graph.sensors}))
+
+
+def virtual_sensors(graph: Graph) -> tuple[tuple[slice, Reader], ...]:
+    """Where the readings of each virtual sensor stand, and how they are computed; sources before what they are of."""
+    scene, every = scene_of(graph), with_sources(graph, set(range(graph.width)))
+    readers = ((scene.places[sensor.name], sensor.kind.reader(scene)) for sensor in every)
+    return tuple((place, reader) for place, reader in readers if reader)
 
 
 class Engine:

@@ -5,8 +5,9 @@ It ends in the SHA-256 of all bytes before; the manifest has those of its member
 
 import json
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from hashlib import sha256
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -16,13 +17,14 @@ from mindrun.files.atomic_write import write_out
 from mindrun.files.npy import to_npy
 from mindrun.files.regular_files import read_whole
 from mindrun.files.strict_json import parsed
-from mindrun.graph.bundle_migration import migrate_graph, with_programs, with_whole_lessons
-from mindrun.graph.codec import encode
-from mindrun.graph.encoding import decode, decode_wiring
+from mindrun.graph.codec import decode_part, encode
 from mindrun.graph.graph import Graph
 from mindrun.graph.policy import Policy
+from mindrun.graph.validate import graph_flaw
 from mindrun.graph.weights import genes, read_weights
-from mindrun.graph.wiring import Wiring
+from mindrun.graph.wiring import Wiring, flaws
+from mindrun.kinds.registry import kinds
+from mindrun.kinds.things.thing import MOVES, STAYS
 from mindrun.numbers.short_repr import ShortRepr
 
 # A mindrun that knows nothing of wirings refuses a bundle that has one, one that knows nothing of what becomes of
@@ -33,9 +35,7 @@ OLDER_FORMATS = WITHOUT_OUTCOMES | {"mind bundle 3": FORMAT, "mind bundle 4": WI
 MANIFEST, GRAPH, WIRING = "manifest.json", "graph.json", "wiring.json"
 WEIGHTS, MODULES = "weights/", "procedures/"
 MAX_BUNDLE_BYTES = 64 << 20  # nothing is compressed, so this also limits what is read
-MAX_JSON_BYTES = (
-    4 << 20
-)  # bytes of JSON: it takes up to twenty times as much memory, and half a second for each million
+MAX_JSON_BYTES = 4 << 20  # it takes up to twenty times as much memory, and half a second for each million
 DIGEST_CHARACTERS = 64
 
 
@@ -138,14 +138,9 @@ def _bundle(members: dict[str, bytes]) -> Bundle:
     manifest = parsed(members.pop(MANIFEST, b""))
     if not isinstance(manifest, dict) or manifest.get("format") not in (FORMAT, WIRED, *OLDER_FORMATS):
         raise BundleError(_foreign(manifest))
-    data = with_whole_lessons(_document(members, GRAPH))
-    is_older = manifest["format"] in OLDER_FORMATS
-    if manifest["format"] in WITHOUT_OUTCOMES:
-        data = migrate_graph(data)
-    if is_older:
-        data = with_programs(data)
-        manifest = manifest | {"format": OLDER_FORMATS[manifest["format"]]}
-    graph = decode(data, is_older)
+    version = manifest["format"]
+    manifest = manifest | {"format": OLDER_FORMATS.get(version, version)}
+    graph = decode(migrated(_document(members, GRAPH), version), version in OLDER_FORMATS)
     weights = {name: read_weights(content) for name, content in _below(members, WEIGHTS, ".npy")}
     procedures = {name.replace("/", "."): content.decode() for name, content in _below(members, MODULES, ".py")}
     wiring = decode_wiring(_document(members, WIRING), graph) if manifest["format"] == WIRED else None
@@ -193,3 +188,79 @@ def _foreign(manifest: object) -> str:
 
 def _json(value: Any) -> bytes:
     return json.dumps(value, ensure_ascii=False, sort_keys=True, separators=(",", ":")).encode()
+
+
+def decode(data: object, is_older: bool = False) -> Graph:
+    """The graph that `encode` made this data of; BundleError where anything is missing, unknown or out of range.
+
+    Data that `is_older` may lack what there was no word for.
+    """
+    graph = decode_part(Graph, data, "graph", is_older)
+    found = graph_flaw(graph)
+    if found:
+        raise BundleError(f"this graph is damaged: {found}")
+    return graph
+
+
+def decode_wiring(data: object, graph: Graph) -> Wiring:
+    """The wiring that `encode` made this data of; BundleError where it is damaged, or one for another mind."""
+    import_module("mindrun.robot.drivers")  # registers them all; a mind without a robot needs none
+
+    wiring = decode_part(Wiring, data, "wiring")
+    for found in flaws(wiring, graph):
+        raise BundleError(f"this wiring does not fit its mind: {found}")
+    return wiring
+
+
+def migrated(graph: Any, version: str) -> Any:
+    """The data of a graph of a version as one of today has it: what has got words of its own since is said in them.
+
+    Data that is no graph stays as it is: who decodes it says what is wrong.
+    """
+    try:
+        tasks = graph["tasks"]
+        if version in WITHOUT_OUTCOMES:
+            tasks = [_with_outcomes(task) for task in tasks]
+        if version in OLDER_FORMATS:
+            tasks = [_with_programs(task) for task in tasks]
+        return graph | {"tasks": tasks, "lessons": [_whole_lesson(lesson) for lesson in graph["lessons"]]}
+    except (TypeError, LookupError):
+        return graph
+
+
+def _whole_lesson(lesson: Any) -> Any:
+    """A lesson from before it had a number, needs, or another skill to start from, and its learner all arguments.
+
+    No lesson acts in a bundle, so a new argument makes no new format.
+    """
+    learner = lesson["learner"]
+    usual = {field.name: field.default for field in fields(kinds("curriculum")[learner["is"]])}
+    return {"number": 0, "starts_from": "", "needs": []} | lesson | {"learner": usual | learner}
+
+
+def _with_programs(task: Any) -> Any:
+    """A task from before conditions were programs: each was a comparison, and ends had none."""
+    ends = [{"event": event} for event in task["ends"]]  # the rest is as where nothing is said
+    rewards = []
+    for reward in task["rewards"]:
+        when = reward["when"]
+        program = [*when["left"], *when["right"], [when["compare"], 0]] if when else when
+        rewards.append(reward | {"when": program})
+    return task | {"rewards": rewards, "ends": ends}
+
+
+def _with_outcomes(task: Any) -> Any:
+    """A task from before things said what becomes of them: one moved where a line of its task named it."""
+    named = {(event["is"], event["of"]) for event in task["events"] if event["is"] in ("reach", "delivery")}
+    return task | {"things": [thing | {"kind": thing["kind"] | _outcomes(thing, named)} for thing in task["things"]]}
+
+
+def _outcomes(thing: Any, named: set[Any]) -> dict[str, str]:
+    """What became of a thing."""
+    name, kind = thing["name"], thing["kind"]["is"]
+    outcomes: dict[str, str] = {}
+    if kind in ("item", "zone", "power"):
+        outcomes["reached"] = MOVES if ("reach", name) in named else STAYS
+    if kind == "item":
+        outcomes["delivered"] = MOVES if ("delivery", name) in named else STAYS
+    return outcomes

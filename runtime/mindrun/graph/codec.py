@@ -4,19 +4,19 @@ from collections.abc import Callable, Mapping
 from dataclasses import MISSING, dataclass, fields, is_dataclass
 from math import isfinite
 from types import NoneType, UnionType
-from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_type_hints
+from typing import Annotated, Any, Literal, TypeVar, Union, get_args, get_origin, get_type_hints
 
-from mindrun.errors import MindError
+from mindrun.errors import BundleError, MindError
 from mindrun.kinds.registry import bases, find_kind, names
-from mindrun.numbers.quantity import Quantity, Reference, fits
+from mindrun.numbers.quantity import fits
 
 PLAIN = (bool, int, float, str)
 MAX_WHOLE_NUMBER = 2**53 - 1  # what any reader of JSON takes
 
+T = TypeVar("T")
 Options = Mapping[str, Any]
-Prepare = Callable[[str, Options], Options]  # what is done with the data of a kind of a noun before it is looked for
-
 _known_hints: dict[type[Any], dict[str, Any]] = {}  # of each class that was decoded
+Prepare = Callable[[str, Options], Options]  # what is done with the data of a kind of a noun before it is looked for
 
 
 class CodecError(ValueError):
@@ -49,6 +49,15 @@ def decode(hint: Any, data: Any, where: str, prepare: Prepare = lambda noun, dat
     return _Decoder(prepare, is_older).value(hint, data, where)
 
 
+def decode_part(hint: type[T], data: object, where: str, is_older: bool = False) -> T:
+    """A part of a graph that `encode` made this data of; BundleError where it is not a `hint`."""
+    try:
+        part: T = decode(hint, data, where, is_older=is_older)
+    except CodecError as error:
+        raise BundleError(str(error) if error.unknown else f"this is damaged: {error}") from error
+    return part
+
+
 @dataclass(frozen=True, slots=True)
 class _Decoder:
     prepare: Prepare
@@ -57,11 +66,12 @@ class _Decoder:
     def value(self, hint: Any, data: Any, where: str) -> Any:
         origin, parts = get_origin(hint), get_args(hint)
         if origin is Annotated:
-            return _in_range(parts[1], self.value(parts[0], data, where), where)
+            value = self.value(parts[0], data, where)
+            return _one_of(fits(parts[1], value), value, where)
         if origin in (Union, UnionType):
             return self.union(parts, data, where)
         if origin is Literal:
-            return _word(parts, data, where)
+            return _one_of(data in parts, data, where)
         if origin is tuple:
             return self.tuple(parts, data, where)
         if hint in bases():
@@ -125,17 +135,15 @@ def _plain(hint: Any, data: Any, where: str) -> Any:
         raise CodecError(f"{where} is no number that can be")
     if hint is float and type(data) is int:
         data = float(data)
-    if type(data) is not hint or (hint is float and not isfinite(data)):
-        raise CodecError(f"{where} cannot be {data!r:.60}")
-    if hint is str and not data.isprintable():
-        raise CodecError(f"{where} cannot be {data!r:.60}")
-    return data
+    is_sound = isfinite(data) if type(data) is float else data.isprintable() if type(data) is str else True
+    return _one_of(type(data) is hint and is_sound, data, where)
 
 
-def _word(words: tuple[Any, ...], data: Any, where: str) -> Any:
-    if data not in words:
-        raise CodecError(f"{where} cannot be {data!r:.60}")
-    return data
+def _one_of(may_be: bool, value: Any, where: str) -> Any:
+    """A value that may stand there; CodecError where it may not."""
+    if not may_be:
+        raise CodecError(f"{where} cannot be {value!r:.60}")
+    return value
 
 
 def _hints(cls: type[Any]) -> dict[str, Any]:
@@ -143,9 +151,3 @@ def _hints(cls: type[Any]) -> dict[str, Any]:
         hints = get_type_hints(cls, include_extras=True)
         _known_hints[cls] = {field.name: hints[field.name] for field in fields(cls)}
     return _known_hints[cls]
-
-
-def _in_range(meaning: Quantity | Reference, value: Any, where: str) -> Any:
-    if not fits(meaning, value):
-        raise CodecError(f"{where} cannot be {value!r:.60}")
-    return value

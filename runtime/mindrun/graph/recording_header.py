@@ -4,22 +4,26 @@ import json
 import re
 import zlib
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, fields, replace
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
-from typing import Any, Self
+from typing import Annotated, Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.errors import MindError
 from mindrun.files.strict_json import are_names, is_whole, parsed
+from mindrun.graph.codec import decode
 from mindrun.graph.graph import Graph, Task
 from mindrun.graph.named_readings import physical
 from mindrun.graph.validate import MAX_TICK_SECONDS, MIN_TICK_SECONDS
+from mindrun.numbers.quantity import NUMBER, SECONDS, Quantity
 
 FORMAT, WITHOUT_WORLD, UNSEALED = "mind recording 3", "mind recording 2", "mind recording 1"
 MAX_HEADER_BYTES = 1 << 20
-MAX_SEED, MAX_UNITS = (1 << 64) - 1, 1e9
+MAX_SEED = (1 << 64) - 1
+COLUMNS = Quantity("a number of columns", {"": 1.0}, low=0, high=MAX_HEADER_BYTES, whole=True)
+TICK = replace(SECONDS, low=MIN_TICK_SECONDS, high=MAX_TICK_SECONDS)
 CHECKSUM_FIELD = b', "check": "'  # the checksum of the line before it, which is the last that it says
 SHA256 = re.compile("[0-9a-f]{64}")
 POSE_COLUMNS, THING_COLUMNS, BOX_COLUMNS = 3, 4, 4  # x, y, angle; x, y, size, turned; x, y, half of both sides
@@ -63,18 +67,18 @@ class RecordedWorld:
 
     task: str
     seed: int
-    things: int
-    rewards: int
-    events: int
-    boxes: tuple[tuple[float, ...], ...]
-    begin: tuple[float | None, ...]
+    things: Annotated[int, COLUMNS]
+    rewards: Annotated[int, COLUMNS]
+    events: Annotated[int, COLUMNS]
+    boxes: Annotated[tuple[tuple[float, float, float, float], ...], NUMBER]
+    begin: Annotated[tuple[float | None, ...], NUMBER]
 
     @classmethod
     def of(cls, task: Task, seed: int, boxes: NDArray[np.float64], begin: Sequence[float]) -> Self:
         """The world of a run of a task, with its obstacles [boxes, 4] and what `begin` has."""
         things = (len(begin) - POSE_COLUMNS) // THING_COLUMNS
-        there = tuple(float(number) if abs(number) < MAX_UNITS else None for number in begin)
-        standing = tuple(map(tuple, boxes.tolist()))
+        there = tuple(float(number) if abs(number) < NUMBER.high else None for number in begin)
+        standing = tuple((x, y, half_x, half_y) for x, y, half_x, half_y in boxes.tolist())
         return cls(task.name, seed, things, len(task.rewards), len(task.events), standing, there)
 
     @property
@@ -92,11 +96,11 @@ class About:
 
     bundle: str
     master: str
-    tick: float
+    tick: Annotated[float, TICK]
     sensors: tuple[str, ...]
     actuators: tuple[str, ...]
     skills: tuple[str, ...]
-    readings: int
+    readings: Annotated[int, COLUMNS]
     world: RecordedWorld | None = None
     lacks_readings: bool = False
 
@@ -176,37 +180,19 @@ def _sealed(line: bytes) -> bytes:
 
 def _typed(plain: dict[str, Any]) -> About:
     """What a recording is of, from plain data; ValueError where that is none."""
-    if not all(are_names(plain[name]) for name in NAME_LISTS) or not are_names([plain["master"]]):
-        raise ValueError("its columns have no names")
-    if not isinstance(plain["bundle"], str) or not SHA256.fullmatch(plain["bundle"]):
+    about: About = decode(About, plain | {"world": None, "lacks_readings": False}, "it")
+    if not SHA256.fullmatch(about.bundle):
         raise ValueError("it does not say of which bundle it is")
-    if type(plain["tick"]) not in (int, float) or not MIN_TICK_SECONDS <= plain["tick"] <= MAX_TICK_SECONDS:
-        raise ValueError("it does not say how long a tick is")
-    if not is_whole(plain["readings"], high=MAX_HEADER_BYTES):
-        raise ValueError("it does not say how many readings there are")
-    return About(**plain | {name: tuple(plain[name]) for name in NAME_LISTS})
+    if not all(are_names(plain[name]) for name in NAME_LISTS):
+        raise ValueError("its columns have no names")
+    return about
 
 
 def _world(plain: object) -> RecordedWorld:
     """A world from plain data; ValueError where that is none."""
-    if not isinstance(plain, dict) or plain.keys() != {field.name for field in fields(RecordedWorld)}:
-        raise ValueError("it does not say what its world is")
-    if not are_names([plain["task"]]) or not is_whole(plain["seed"], high=MAX_SEED):
-        raise ValueError("its world has no task or no seed")
-    if not all(is_whole(plain[name], high=MAX_HEADER_BYTES) for name in ("things", "rewards", "events")):
-        raise ValueError("it does not say how many columns its world has")
-    boxes, begin = plain["boxes"], plain["begin"]
-    if not isinstance(boxes, list) or not all(_are_numbers(box, BOX_COLUMNS) for box in boxes):
-        raise ValueError("the obstacles of its world are no boxes")
-    places = POSE_COLUMNS + THING_COLUMNS * plain["things"]
-    if not isinstance(begin, list) or not _are_numbers([0.0 if n is None else n for n in begin], places):
+    if not isinstance(plain, dict) or not is_whole(plain.get("seed"), high=MAX_SEED):
+        raise ValueError("it does not say what its world is, or which seed it is of")
+    world: RecordedWorld = decode(RecordedWorld, plain | {"seed": 0}, "its world")  # a seed may have 64 bits
+    if len(world.begin) != POSE_COLUMNS + THING_COLUMNS * world.things:
         raise ValueError("its world does not say how it began")
-    return RecordedWorld(**plain | {"boxes": tuple(map(tuple, boxes)), "begin": tuple(begin)})
-
-
-def _are_numbers(value: object, count: int) -> bool:
-    return (
-        isinstance(value, list)
-        and len(value) == count
-        and all(type(number) in (int, float) and abs(number) <= MAX_UNITS for number in value)
-    )
+    return replace(world, seed=plain["seed"])

@@ -1,11 +1,19 @@
-"""What comes of runs: an array for each figure."""
+"""What comes of runs: an array for each figure, and what reward lines have paid, added up.
 
+That is always done in the order of the source, so that all come to the same bits.
+"""
+
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mindrun.graph.graph import Reward
 from mindrun.numbers.short_repr import ShortRepr
+
+Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -28,3 +36,19 @@ class Scores(ShortRepr):
     ended_by: NDArray[np.int64]
     met: NDArray[np.int64]
     faults: NDArray[np.int64]
+
+
+def score_of(paid: Floats) -> Any:
+    """The sums [...] of what all lines have paid [..., lines]."""
+    found = np.zeros(paid.shape[:-1])
+    for line in range(paid.shape[-1]):
+        found = found + paid[..., line]
+    return found
+
+
+def paid_by_text(rewards: Sequence[Reward], paid: Floats) -> dict[str, Any]:
+    """What the lines of each text have paid together [...], of what each has paid [..., lines]."""
+    found: dict[str, Any] = {}
+    for line, reward in enumerate(rewards):
+        found[reward.text] = found.get(reward.text, 0.0) + paid[..., line]
+    return found

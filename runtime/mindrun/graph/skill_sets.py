@@ -1,9 +1,8 @@
-"""Which skills a master reaches, which of them learn, and under whose name."""
+"""Which skills a master reaches, which of them learn, and under whose name; which move the robot."""
 
-from collections.abc import Iterable
+from collections.abc import Container, Iterable
 
 from mindrun.graph.graph import Graph, Lesson, Skill
-from mindrun.graph.reachability import reached_from
 
 
 def genes(skill: Skill) -> int:
@@ -19,10 +18,11 @@ def reachable(graph: Graph, master: str) -> tuple[Skill, ...]:
 def below(graph: Graph, index: int) -> tuple[Skill, ...]:
     """The skill of an index and all that it can influence, parents first."""
 
-    def influenced(index: int) -> Iterable[int]:
-        return (edge.target for edge in graph.skills[index].edges if edge.to == "skill")
-
-    return tuple(graph.skills[number] for number in sorted(reached_from([index], influenced)))
+    found = {index}
+    for number in range(index, len(graph.skills)):
+        if number in found:
+            found |= {edge.target for edge in graph.skills[number].edges if edge.to == "skill"}
+    return tuple(graph.skills[number] for number in sorted(found))
 
 
 def owners(skills: Iterable[Skill]) -> tuple[str, ...]:
@@ -40,3 +40,18 @@ def learners(graph: Graph, lesson: Lesson) -> tuple[str, ...]:
     taught = reachable(graph, lesson.skill) if lesson.with_subskills else reachable(graph, lesson.skill)[:1]
     names = {*owners(taught)}
     return tuple(skill.name for skill in graph.skills if skill.name in names and not skill.frozen)
+
+
+def movers(graph: Graph, master: str) -> dict[str, int]:
+    """The skills below a master that drive something that moves the robot, by name, with their places in the graph."""
+    return driving(graph, master, {i for i, actuator in enumerate(graph.actuators) if actuator.kind.moves_body})
+
+
+def driving(graph: Graph, master: str, actuators: Container[int]) -> dict[str, int]:
+    """The skills below a master that drive one of these actuators."""
+    numbers = graph.skill_numbers
+    return {
+        skill.name: numbers[skill.name]
+        for skill in reachable(graph, master)
+        if any(edge.to == "actuator" and edge.target in actuators for edge in skill.edges)
+    }

@@ -2,9 +2,11 @@
 
 import re
 from collections.abc import Container, Iterator
+from graphlib import CycleError, TopologicalSorter
+from math import prod
 
 from mindrun.graph.graph import Graph, Lesson, Program, Skill, Task
-from mindrun.graph.varied import varied_kind
+from mindrun.graph.tasks import varied_kind
 from mindrun.kinds.registry import arguments
 from mindrun.kinds.things.thing import MAX_OBSTACLES, MAX_THINGS
 from mindrun.kinds.variation import varied_quantity
@@ -68,36 +70,19 @@ def _sense_flaws(graph: Graph) -> Iterator[str]:
     start = 0
     widths = {memory.name: 1 for memory in graph.memories} | {sensor.name: sensor.width for sensor in graph.sensors}
     for sensor in graph.sensors:
-        width = widths.get(sensor.kind.source) if sensor.kind.width is None else sensor.kind.width
+        shape = sensor.kind.shape
+        width = widths.get(sensor.kind.source) if shape is None else prod(shape)
         if sensor.width != width or sensor.start != start or sensor.width < 1:
             yield f"sensor {sensor.name} has not the readings of its kind"
         elif not set(sensor.kind.sources) <= widths.keys() or sensor.kind.flaw(widths):
             yield f"sensor {sensor.name} cannot be computed"
         start += sensor.width
-    ending = depths(graph)
-    yield from (f"sensor {each.name} is the derivative of itself" for each in graph.sensors if each.name not in ending)
+    try:
+        TopologicalSorter({sensor.name: sensor.kind.sources for sensor in graph.sensors}).prepare()
+    except CycleError as error:
+        yield f"sensor {error.args[1][0]} is the derivative of itself"
     if [memory.start for memory in graph.memories] != list(range(start, start + len(graph.memories))):
         yield "the readings of its memories do not follow those of its sensors"
-
-
-def depths(graph: Graph) -> dict[str, int]:
-    """How many virtual sensors stand between a sensor or memory and what is measured; without those that never end."""
-    sources = {sensor.name: sensor.kind.sources for sensor in graph.sensors}
-    above: dict[str, list[str]] = {}
-    for name, of in sources.items():
-        for source in of:
-            above.setdefault(source, []).append(name)
-    left = {name: len(of) for name, of in sources.items()}
-    known = dict.fromkeys((name for name in (*above, *sources) if not sources.get(name)), 0)
-    waiting = list(known)
-    while waiting:
-        source = waiting.pop()
-        for name in above.get(source, ()):
-            left[name] -= 1
-            if left[name] == 0:
-                known[name] = 1 + max(known[each] for each in sources[name])
-                waiting.append(name)
-    return known
 
 
 def _skill_flaws(graph: Graph, number: int, skill: Skill, width: int) -> Iterator[str]:

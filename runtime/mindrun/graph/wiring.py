@@ -10,8 +10,8 @@ from typing import Annotated, Literal, get_args
 
 from mindrun.driver import ActuatorDriver, SensorDriver, driver_name
 from mindrun.graph.graph import Graph
+from mindrun.graph.measured import with_sources
 from mindrun.graph.named_readings import physical
-from mindrun.graph.reachability import reached_from
 from mindrun.graph.skill_sets import reachable
 from mindrun.numbers.quantity import NUMBER, RATIO, Quantity, Reference
 
@@ -111,10 +111,8 @@ def still(wire: SensorWire) -> SensorWire:
 
 def read_by(graph: Graph, master: str) -> Set[str]:
     """The physical sensors that `master`, or a skill that it can influence, reads, even as a derivative."""
-    sensors = {sensor.name: sensor for sensor in graph.sensors}
     inputs = {index for skill in reachable(graph, master) for index in skill.inputs}
-    read = [s.name for s in graph.sensors if not inputs.isdisjoint(range(s.start, s.start + s.width))]
-    return reached_from(read, lambda name: {*sensors[name].kind.sources} & sensors.keys()) & physical(graph).keys()
+    return {sensor.name for sensor in with_sources(graph, inputs)} & physical(graph).keys()
 
 
 def flaws(wiring: Wiring, graph: Graph) -> Iterator[str]:

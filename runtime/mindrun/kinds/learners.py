@@ -1,6 +1,6 @@
 """Kinds of curricula: how the lessons are learnt. `train/ask_and_tell.py` knows who does it."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Annotated
 
 from mindrun.kinds.registry import kind
@@ -17,7 +17,6 @@ POPULATION = Quantity("a whole number of at least 4", {"": 1.0}, low=4, high=100
 
 
 @kind("curriculum", "genetic")
-@dataclass(frozen=True, slots=True)
 class Genetic:
     """The paper's learner: a genetic algorithm over the weights of one skill.
 
@@ -61,7 +60,6 @@ class Genetic:
 
 
 @kind("curriculum", "restarting")
-@dataclass(frozen=True, slots=True)
 class Restarting(Genetic):
     """The genetic algorithm that gets there soonest: steps of all sizes, and no time for what is stuck.
 
@@ -75,7 +73,6 @@ class Restarting(Genetic):
 
 
 @kind("curriculum", "evolution_strategy")
-@dataclass(frozen=True, slots=True)
 class EvolutionStrategy:
     """An evolution strategy (Rechenberg, 1973), which finishes in few generations what a skill knows already.
 

@@ -1,6 +1,5 @@
 """Kinds of memory: driven like an actuator, read like a sensor on the next tick."""
 
-from dataclasses import dataclass
 from typing import Annotated
 
 from mindrun.kinds.registry import kind
@@ -8,7 +7,6 @@ from mindrun.numbers.quantity import DECAY, RATIO
 
 
 @kind("memory", "cell")
-@dataclass(frozen=True, slots=True)
 class Cell:
     """One number: decay·cell + (1 − decay)·command where a skill drives it, decay·cell where none has influence."""
 

@@ -5,7 +5,7 @@ from dataclasses import MISSING, dataclass, fields
 from functools import cache
 from importlib import import_module
 from pkgutil import iter_modules
-from typing import Annotated, Any, Literal, TypeVar, get_args, get_origin, get_type_hints
+from typing import Annotated, Any, Literal, TypeVar, dataclass_transform, get_args, get_origin, get_type_hints
 
 from mindrun.numbers.quantity import SLOT, Extent, Place, Quantity, Reference, Span
 
@@ -44,10 +44,12 @@ class Argument:
         return self.default is MISSING
 
 
+@dataclass_transform(frozen_default=True)
 def kind(noun: str, name: str) -> Callable[[type[T]], type[T]]:
-    """Register a frozen dataclass as the kind `name` of `noun`."""
+    """Make a class a frozen dataclass with slots, if it is none yet, and register it as the kind `name` of `noun`."""
 
     def register(cls: type[T]) -> type[T]:
+        cls = cls if "__dataclass_fields__" in vars(cls) else dataclass(frozen=True, slots=True)(cls)
         _kinds.setdefault(noun, {})[name] = cls
         _names[cls] = name
         return cls

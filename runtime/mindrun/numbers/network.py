@@ -1,8 +1,8 @@
 """Networks at work (Eq. 1): genomes as matrices, and what comes out of them, in float32 and in a fixed order."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
-from functools import partial
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,68 +10,89 @@ from numpy.typing import NDArray
 from mindrun.numbers.arrays import Compute, Layers, Weights
 from mindrun.numbers.sigmoid import sigmoid
 
+Matrix = NDArray[np.float32]
 
-def matrices(weights: Weights, shape: Layers) -> tuple[NDArray[np.float32], ...]:
+
+def matrices(weights: Weights, shape: Layers) -> tuple[Matrix, ...]:
     """A genome as one matrix [values out, values in] per layer: it holds them layer by layer, row by row."""
     ends = np.cumsum([before * after for before, after in shape])[:-1]
     parts = np.split(weights, ends) if shape else []
     return tuple(part.reshape(after, before) for part, (before, after) in zip(parts, shape, strict=True))
 
 
-def genome(found: Iterable[NDArray[np.float32]]) -> Weights:
+def genome(found: Iterable[Matrix]) -> Weights:
     """Matrices as a genome."""
     return np.concatenate([matrix.ravel() for matrix in found])
 
 
-def padded(matrix: NDArray[np.float32], shape: tuple[int, int]) -> NDArray[np.float32]:
-    """A matrix in the corner of a larger one, of so many values in and out, that is 0 elsewhere."""
+def padded(matrix: Matrix, shape: tuple[int, int], cut: int, place: int) -> Matrix:
+    """A matrix in the corner of a larger one, of so many values in and out, that is 0 elsewhere.
+
+    The columns from `cut` on stand there from `place` on.
+    """
     found = np.zeros(shape[::-1], np.float32)
-    found[: matrix.shape[0], : matrix.shape[1]] = matrix
+    rows, columns = matrix.shape
+    found[:rows, :cut], found[:rows, place : place + columns - cut] = matrix[:, :cut], matrix[:, cut:]
     return found
 
 
-def perceptron(weights: Weights, shape: Layers) -> Compute:
-    """A feed-forward network with these weights."""
-    return partial(perceive, matrices(weights, shape))
+class Terms(NamedTuple):
+    """What a network computes with, on arrays or tensors [..., values]."""
+
+    product: Callable[[Any, Any], Any]  # of values and a matrix [values out, values in]: the sums, from the first on
+    sigmoid: Callable[[Any], Any]
+    joined: Callable[[Any, Any], Any]  # the values of two side by side
 
 
-def perceive(layer_matrices: tuple[NDArray[np.float32], ...], inputs: NDArray[np.float32]) -> NDArray[np.float32]:
-    """The outputs [..., outputs] for float32 inputs [..., inputs], one or two axes (Eq. 1), before the clamp."""
-    *hidden, last = layer_matrices
-    values = inputs
-    for matrix in hidden:
-        values = sigmoid(_dense(matrix, values))
-    return _dense(last, values)
-
-
-def _dense(matrix: NDArray[np.float32], values: NDArray[np.float32]) -> NDArray[np.float32]:
-    # Strictly from left to right: sum and @ leave the order, and with it the last bit, open.
+def product(values: Matrix, matrix: Matrix) -> Matrix:
+    """The sums [..., values out] of values [..., values in], of one axis or two, strictly from left to right."""
+    # sum and @ leave the order, and with it the last bit, open.
     if values.ndim == 1:
         return np.add.accumulate(matrix * values, axis=1)[:, -1]
     columns = np.ascontiguousarray(values.T)
-    total: NDArray[np.float32] = matrix[:, :1] * columns[0]
+    total: Matrix = matrix[:, :1] * columns[0]
     for j in range(1, len(columns)):
         total += matrix[:, j : j + 1] * columns[j]
     return total.T
 
 
-@dataclass(slots=True)
-class Recurrent:
-    """A network at work: its matrices [values out, values in], and what its hidden neurons said last."""
+def _joined(one: Matrix, other: Matrix) -> Matrix:
+    return np.concatenate([one, other], axis=-1)
 
-    hidden: NDArray[np.float32]
-    last: NDArray[np.float32]
-    said: NDArray[np.float32] = field(init=False)
+
+FLOAT32 = Terms(product, sigmoid, _joined)
+NOTHING = np.zeros(0, np.float32)
+Forward = Callable[[Terms, Sequence[Any], Any, Any], tuple[Any, Any]]
+
+
+def running(forward: Forward, matrices: tuple[Matrix, ...], state_length: int) -> Compute:
+    """A network with these matrices, from tick to tick: inputs [inputs] to outputs, before the clamp (Eq. 1).
+
+    One that remembers nothing takes rows of inputs [rows, inputs], too.
+    """
+    if state_length:
+        return Remembering(forward, matrices, state_length)
+    return lambda inputs: forward(FLOAT32, matrices, inputs, NOTHING)[0]
+
+
+@dataclass(slots=True)
+class Remembering:
+    """A network at work that remembers, from one tick to the next."""
+
+    forward: Forward
+    matrices: tuple[Matrix, ...]
+    length: int
+    state: Matrix = field(init=False)
 
     def __post_init__(self) -> None:
-        """Begin with nothing said."""
+        """Begin with nothing."""
         self.reset()
 
     def reset(self) -> None:
         """Forget."""
-        self.said = np.zeros(len(self.hidden), np.float32)
+        self.state = np.zeros(self.length, np.float32)
 
-    def __call__(self, inputs: NDArray[np.float32]) -> NDArray[np.float32]:
+    def __call__(self, inputs: Matrix) -> Matrix:
         """Its outputs, before the clamp."""
-        self.said = sigmoid(perceive((self.hidden,), np.concatenate([inputs, self.said])))
-        return perceive((self.last,), self.said)
+        outputs, self.state = self.forward(FLOAT32, self.matrices, inputs, self.state)
+        return outputs  # type: ignore[no-any-return]

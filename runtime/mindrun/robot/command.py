@@ -11,8 +11,8 @@ from pathlib import Path
 from mindrun.driver import DeviceError
 from mindrun.errors import MindError
 from mindrun.graph.bundle import Bundle, digest, read_bundle
-from mindrun.graph.default_task import default_task
 from mindrun.graph.graph import Graph, Task
+from mindrun.graph.tasks import default_task
 from mindrun.graph.wiring import still
 from mindrun.robot.device_locks import hold_devices
 from mindrun.robot.drive import DriveOptions, drive

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from mindrun.driver import DeviceError
 from mindrun.errors import MindError
 from mindrun.graph.graph import Graph, Task
-from mindrun.graph.movers import driving, movers
+from mindrun.graph.skill_sets import driving, movers
 from mindrun.robot.drivers.simulated import status
 from mindrun.robot.loop import Loop
 from mindrun.terminal.status_line import StatusLine

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from mindrun.graph.graph import Graph
 from mindrun.graph.policy import Policy
 from mindrun.graph.recording_header import GOES_ON
-from mindrun.graph.reward_sums import score_of
+from mindrun.graph.run_scores import score_of
 from mindrun.kinds.functions.rule import Rule
 from mindrun.numbers.arithmetic import ANGLE, BOX_COLUMNS
 from mindrun.sim.codes import GOING_ON, LOST

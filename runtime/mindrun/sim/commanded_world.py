@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from mindrun.errors import MindError
 from mindrun.graph.graph import Graph, Task
-from mindrun.graph.reward_sums import paid_by_text
+from mindrun.graph.run_scores import paid_by_text
 from mindrun.kinds.events.event import EventKind
 from mindrun.kinds.registry import names
 from mindrun.numbers.arithmetic import ANGLE

@@ -9,7 +9,7 @@ from typing import Any, TypeVar
 from numpy.typing import NDArray
 
 from mindrun.graph.graph import Graph, Task
-from mindrun.graph.varied import varied_kind
+from mindrun.graph.tasks import varied_kind
 from mindrun.kinds.variation import Variation, Varying, varied_quantity
 from mindrun.sim.codes import CONSTANT, DAMPING, DRAWN, DRAWN_WHOLE, FAILING, INVERSE, OVER, PARAMETER, Row, records
 

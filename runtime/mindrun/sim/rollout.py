@@ -13,10 +13,9 @@ from numpy.typing import NDArray
 
 from mindrun.errors import MindError
 from mindrun.graph.graph import Task
-from mindrun.graph.one_world import is_one_world
 from mindrun.graph.policy import Policy
-from mindrun.graph.reward_sums import score_of
-from mindrun.graph.run_scores import Scores
+from mindrun.graph.run_scores import Scores, score_of
+from mindrun.graph.tasks import is_one_world
 from mindrun.sim import chipmunk_internals as chipmunk
 from mindrun.sim.codes import ITEM
 from mindrun.sim.lanes.advance import advance

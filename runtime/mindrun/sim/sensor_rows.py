@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.engine.virtual_sensors import scene_of
+from mindrun.engine.engine import scene_of
 from mindrun.graph.graph import Graph, Sensor, Task
 from mindrun.graph.measured import Used
 from mindrun.kinds.registry import names

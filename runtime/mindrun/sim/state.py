@@ -121,7 +121,7 @@ class Mind(NamedTuple):
     active: Annotated[Array, each(U8)]  # which lanes these are
     gathered: Annotated[Array, rows("inputs", kind=F4)]
     sound: Annotated[Array, each(F4)]  # 0 where all inputs are finite, else NaN
-    hidden: Annotated[Array, rows("width", 2, kind=F4)]
+    hidden: Annotated[Array, rows("scratch", kind=F4)]
     stack: Annotated[Array, rows("depth")]  # of expressions
     values: Annotated[Array, each(F4)]  # of an edge with `at`
     opened: Annotated[Array, each(F4)]  # of an edge with `when`, 1 where that holds

@@ -61,7 +61,7 @@ class Sizes:
     rough: int
     rings: int
     inputs: int
-    width: int
+    scratch: int
     genome: int
     recurrent: int
     delays: int

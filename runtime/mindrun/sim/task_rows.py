@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.graph.goals import goals
 from mindrun.graph.graph import Graph, Sensor, Task, Thing
+from mindrun.graph.tasks import goals
 from mindrun.kinds.registry import names
 from mindrun.kinds.sensors.battery import Battery
 from mindrun.kinds.things.thing import OUTCOMES, STAYS, ThingKind

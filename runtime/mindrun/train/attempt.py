@@ -1,5 +1,9 @@
-"""One attempt: generation after generation, its best tried on layouts never seen, until it ends. No other is asked."""
+"""One attempt: generation after generation, its best tried on layouts never seen, until it ends. No other is asked.
 
+It is done piece by piece: a stretch of it is asked for, and a segment comes of it.
+"""
+
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from math import inf
 from typing import Any
@@ -10,29 +14,94 @@ from numpy.typing import NDArray
 from mindrun.graph.graph import Lesson, Task
 from mindrun.kinds.learners import Learner
 from mindrun.train.ask_and_tell import ask, kept_count, tell
-from mindrun.train.lesson_state import AttemptState, Course, Record
-from mindrun.train.population import Scores, order
-from mindrun.train.rungs import rung_at
-from mindrun.train.scoring import Marks, Results, Scorer, mark, marks_of, succeeded
-from mindrun.train.seeds import Purpose, Seeds, breeding_generator, layouts
+from mindrun.train.lesson_state import AttemptState, Course, Record, Verdict, rung_at
+from mindrun.train.population import Genomes, Scores, order
+from mindrun.train.scoring import (
+    Marks,
+    Purpose,
+    Results,
+    Scorer,
+    Seeds,
+    breeding_generator,
+    layouts,
+    mark,
+    marks_of,
+    succeeded,
+)
 
+SEGMENT_SECONDS = 2.0  # after which a segment ends with the generation at work
+SEGMENT_GENERATIONS = 100  # at most in a segment
 REEVALUATION_GENERATIONS = 10  # between two re-evaluations
 REEVALUATED_CANDIDATES = 4  # of a generation, that are re-evaluated beside the champion
 REEVALUATION_LAYOUTS = 16  # layouts of a re-evaluation of so many candidates
 VERDICT_LAYOUTS = 50  # layouts on which attempts are compared, and as many others on which the best is reported
 
+Clock = Callable[[], float]
+
 
 @dataclass(frozen=True, slots=True)
-class Verdict:
-    """What the champion of an attempt comes to in its end: `scores` [2] decide between attempts, and are reported.
+class Stretch:
+    """A job: attempt `number`, which counts from 0, from a state on; with `cut` it ends there, and is judged."""
 
-    `passed` says whether it meets all that the lesson needs, on the layouts of the one score and on those of the other.
+    number: int
+    state: AttemptState
+    cut: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Segment:
+    """What came of a stretch: `records` and `champions` [records, weights] of its generations, and where it stands now.
+
+    `verdict` is there where the attempt has ended.
     """
 
-    scores: Scores
-    passed: bool
-    ticks: int
-    faults: int
+    state: AttemptState
+    records: tuple[Record, ...]
+    champions: Genomes
+    verdict: Verdict | None
+
+
+class Joined:
+    """Segments of an attempt, each from where that before ends, as one; what they have is copied when it is read."""
+
+    def __init__(self, first: Segment) -> None:
+        self.state, self.verdict = first.state, first.verdict
+        self._records, self._champions = [*first.records], [first.champions]
+
+    def add(self, segment: Segment) -> None:
+        """Join one that goes on from here."""
+        self.state, self.verdict = segment.state, segment.verdict
+        self._records.extend(segment.records)
+        self._champions.append(segment.champions)
+
+    def whole(self) -> Segment:
+        """All as one segment."""
+        self._champions = [np.concatenate(self._champions)]
+        return Segment(self.state, tuple(self._records), self._champions[0], self.verdict)
+
+
+def advance(course: Course, scorer: Scorer, stretch: Stretch, clock: Clock, most: int = SEGMENT_GENERATIONS) -> Segment:
+    """An attempt goes on until it ends by itself, comes to a rung, or has been at it for long enough.
+
+    That is some seconds, or `most` generations.
+    """
+    state, records, champions = stretch.state, list[Record](), [stretch.state.champion[:0]]
+    began, ends = clock(), stretch.cut
+    verdict = judge(course, scorer, state) if ends else None
+    while not ends and (not records or not _pauses(course.lesson, state, len(records), clock() - began, most)):
+        start = clock()
+        state, record = generation(course, scorer, stretch.number, state)
+        if ends := ends_by_itself(course.lesson, state):
+            verdict = judge(course, scorer, state)
+        records.append(replace(record, seconds=clock() - start))
+        champions.append(state.champion)
+    return Segment(state, tuple(records), np.concatenate(champions), verdict)
+
+
+def _pauses(lesson: Lesson, state: AttemptState, generations: int, seconds: float, most: int) -> bool:
+    """Whether a segment ends here, after so many generations and seconds."""
+    is_at_rung = rung_at(lesson, state.population.generation) is not None
+    return is_at_rung or seconds >= SEGMENT_SECONDS or generations >= most
 
 
 def generation(course: Course, scorer: Scorer, number: int, state: AttemptState) -> tuple[AttemptState, Record]:

@@ -12,16 +12,49 @@ from typing import Protocol
 
 import numpy as np
 
-from mindrun.train.attempt import Verdict
-from mindrun.train.lesson import ended, gone_on, judged
-from mindrun.train.lesson_state import AttemptState, Course, LessonState, begin_attempt, is_over
-from mindrun.train.rungs import heights, is_behind, rung_at
-from mindrun.train.segment import Joined, Segment, Stretch
-from mindrun.train.step import Ahead, Step
+from mindrun.train.attempt import Clock, Joined, Segment, Stretch, advance
+from mindrun.train.lesson_state import (
+    AttemptState,
+    Course,
+    LessonState,
+    Record,
+    Verdict,
+    begin_attempt,
+    ended,
+    gone_on,
+    heights,
+    is_behind,
+    is_over,
+    judged,
+    rung_at,
+)
+from mindrun.train.population import Genomes
+from mindrun.train.scoring import Scorer
+
+
+@dataclass(frozen=True, slots=True)
+class Ahead:
+    """What has been done ahead of its turn, which a lesson has not come to: so many generations of so many attempts."""
+
+    attempts: int = 0
+    generations: int = 0
+
+
+NOTHING_AHEAD = Ahead()
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """What a lesson has come to: its state, and the generations since the step before, with the champion of each."""
+
+    state: LessonState
+    records: tuple[Record, ...]
+    champions: Genomes
+    ahead: Ahead = NOTHING_AHEAD
 
 
 class AttemptExecutor(Protocol):
-    """Who does stretches: any number at once, in any order; one that was lost is done again."""
+    """What does stretches: any number at once, in any order; one that was lost is done again."""
 
     def has_room(self) -> bool:
         """Whether somebody would wait without another job."""
@@ -31,6 +64,29 @@ class AttemptExecutor(Protocol):
 
     def take(self) -> tuple[int, Segment] | None:
         """A job that has ended, and what came of it; None where for a while none has."""
+
+
+class InThisThread:
+    """Does one stretch after the other, a generation each, when its segment is asked for."""
+
+    def __init__(self, course: Course, scorer: Scorer, clock: Clock) -> None:
+        self._course, self._scorer, self._clock = course, scorer, clock
+        self._asked: tuple[int, Stretch] | None = None
+
+    def has_room(self) -> bool:
+        """Whether nothing is asked for."""
+        return self._asked is None
+
+    def submit(self, job: int, stretch: Stretch) -> None:
+        """Ask for a stretch."""
+        self._asked = job, stretch
+
+    def take(self) -> tuple[int, Segment] | None:
+        """The job, and the segment that comes of its stretch now."""
+        if self._asked is None:
+            return None
+        (job, stretch), self._asked = self._asked, None
+        return job, advance(self._course, self._scorer, stretch, self._clock, most=1)
 
 
 @dataclass(slots=True)

@@ -5,21 +5,18 @@ CRC-32 of the row, and the weights. Where it is full, no more champions are kept
 comes about every ten generations, so that 1,600 weights (examples/collect) take some 400,000 of them.
 """
 
-import os
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from struct import Struct
-from types import TracebackType
 from zlib import crc32
 
 import numpy as np
 
-from mindrun.files import atomic_write
 from mindrun.files.regular_files import read_whole
 from mindrun.graph.weights import Weights
 from mindrun.train.lesson_state import LessonState
-from mindrun.train.progress import Position, write
+from mindrun.train.progress import AppendedFiles, Position
 
 CHAMPION_ROWS = "champions.rows"
 MAGIC = b"mind champions 1\n"
@@ -41,15 +38,14 @@ class Champion:
         return self.attempt, self.generation
 
 
-class ChampionLog:
-    """The file, open to append, with only the champions that `state` has behind it; `warn` is told where it is full."""
+class ChampionLog(AppendedFiles):
+    """The file, with only the champions that `state` has behind it; `warn` is told where it is full."""
 
     def __init__(self, folder: Path, state: LessonState, warn: Callable[[str], None]) -> None:
-        path, count = folder / CHAMPION_ROWS, state.champions.shape[1]
+        count = state.champions.shape[1]
         here = state.attempt + 1, state.now.population.generation
         kept = [each for each in read_champions(folder) if len(each.genome) == count and each.position <= here]
-        atomic_write.write(path, MAGIC + LENGTH.pack(count) + b"".join(map(_row, kept)))
-        self._rows = os.open(path, os.O_WRONLY | os.O_APPEND)
+        super().__init__({folder / CHAMPION_ROWS: MAGIC + LENGTH.pack(count) + b"".join(map(_row, kept))})
         self._left, self._warn = rows_that_fit(count) - len(kept), warn
         self._last = kept[-1] if kept else None
 
@@ -64,19 +60,9 @@ class ChampionLog:
     def _keep(self, champion: Champion) -> None:
         self._left -= 1
         if self._left >= 0:
-            write(self._rows, _row(champion))
+            self._add(_row(champion))
         elif self._left == -1:
             self._warn(f"{CHAMPION_ROWS} is full: later champions are not kept by their generation")
-
-    def sync(self) -> None:
-        """Bring the file to the disk, so that it is never behind a checkpoint."""
-        os.fsync(self._rows)
-
-    def __enter__(self) -> "ChampionLog":
-        return self
-
-    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
-        os.close(self._rows)
 
 
 def rows_that_fit(weights: int) -> int:

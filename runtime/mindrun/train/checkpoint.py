@@ -1,10 +1,11 @@
 """Checkpoints: the state of a run in one file that knows whether it is whole, and the one before it.
 
-The file is a line that names the format, a JSON header, the arrays' bytes in the header's order, and the SHA-256 of all
-that. It is read only after that hash is right, so a truncated or altered file is never taken for a state.
+Such a file is a line that names the format, a JSON header, the arrays' bytes in the header's order, and the SHA-256 of
+all that. It is read only after that hash is right, so a truncated or altered file is never taken for a state.
 """
 
 import json
+from collections.abc import Mapping
 from dataclasses import dataclass
 from hashlib import sha256
 from math import prod
@@ -25,7 +26,9 @@ NAME, PREVIOUS = "checkpoint", "checkpoint.previous"
 MAGIC = b"mind checkpoint 6\n"
 DIGEST_BYTES = 32
 MAX_CHECKPOINT_BYTES = 1 << 32
+MAX_HEADER_BYTES = 1 << 24
 MAX_COUNT = 2**53  # of any count
+NUMBER_TYPES = ("<f4", "<f8", "<i8")
 
 Arrays = dict[str, NDArray[Any]]
 TYPES = {  # of each array in the order of the file: what its numbers are, and how many dimensions it has
@@ -89,10 +92,7 @@ def pack(state: LessonState, run: str) -> bytes:
         "floats": np.array([state.best, state.seconds]),
         "counts": np.array(_counts(state), np.int64),
     }
-    shapes = {name: [array.dtype.str, list(array.shape)] for name, array in arrays.items()}
-    header = json.dumps({"run": run, "arrays": shapes}).encode() + b"\n"
-    body = MAGIC + header + b"".join(np.ascontiguousarray(array).tobytes() for array in arrays.values())
-    return body + sha256(body).digest()
+    return sealed(MAGIC, {"run": run}, arrays)
 
 
 def _counts(state: LessonState) -> tuple[int, ...]:
@@ -103,36 +103,44 @@ def _counts(state: LessonState) -> tuple[int, ...]:
 
 def unpack(data: bytes, run: str) -> LessonState | None:
     """The state in these bytes; None where they are damaged, of another run, or of no run at all."""
+    arrays = unsealed(MAGIC, {"run": run}, data) or {}
+    types = {name: (array.dtype.str, array.ndim) for name, array in arrays.items()}
+    return _state(arrays) if [*types.items()] == [*TYPES.items()] and _hold_together(arrays) else None
+
+
+def sealed(magic: bytes, said: Mapping[str, object], arrays: Arrays) -> bytes:
+    """Arrays as the bytes of a file of such a format, whose header says this beside their types and shapes."""
+    shapes = {name: [array.dtype.str, list(array.shape)] for name, array in arrays.items()}
+    header = json.dumps({**said, "arrays": shapes}).encode() + b"\n"
+    body = magic + header + b"".join(np.ascontiguousarray(array).tobytes() for array in arrays.values())
+    return body + sha256(body).digest()
+
+
+def unsealed(magic: bytes, said: Mapping[str, object], data: bytes) -> Arrays | None:
+    """The arrays in the bytes of a file whose header says this; None where they are damaged, or say something else."""
     body, digest = data[:-DIGEST_BYTES], data[-DIGEST_BYTES:]
-    if not body.startswith(MAGIC) or sha256(body).digest() != digest:
+    if not body.startswith(magic) or sha256(body).digest() != digest:
         return None
-    header, _, rest = body[len(MAGIC) :].partition(b"\n")
+    header, _, rest = body[len(magic) :].partition(b"\n")
     try:
-        meaning = parsed(header)
+        meaning = parsed(header, MAX_HEADER_BYTES)
     except ValueError:
         return None
-    if not isinstance(meaning, dict) or meaning.keys() != {"run", "arrays"} or meaning["run"] != run:
+    shapes = meaning.pop("arrays", None) if isinstance(meaning, dict) else None
+    if meaning != said or not isinstance(shapes, dict):
         return None
-    arrays = _arrays(meaning["arrays"], rest)
-    return _state(arrays) if arrays and _hold_together(arrays) else None
-
-
-def _arrays(shapes: object, data: bytes) -> Arrays:
-    """The arrays of these shapes that follow one another in the bytes; none where they are not just these."""
-    if not isinstance(shapes, dict) or tuple(shapes) != tuple(TYPES):
-        return {}
-    arrays, start = {}, 0
-    for name, (dtype, dimensions) in TYPES.items():
-        match shapes[name]:
-            case [str(found), [*shape]] if found == dtype and len(shape) == dimensions and all(map(is_whole, shape)):
-                size = prod(shape) * np.dtype(dtype).itemsize
+    arrays, start = dict[str, NDArray[Any]](), 0
+    for name, shape in shapes.items():
+        match shape:
+            case [str(dtype), [*sides]] if dtype in NUMBER_TYPES and all(map(is_whole, sides)):
+                size = prod(sides) * np.dtype(dtype).itemsize
             case _:
-                return {}
-        if start + size > len(data):
-            return {}
-        arrays[name] = np.frombuffer(data[start : start + size], dtype).reshape(shape).copy()
+                return None
+        if start + size > len(rest):
+            return None
+        arrays[name] = np.frombuffer(rest[start : start + size], dtype).reshape(sides).copy()
         start += size
-    return arrays if start == len(data) else {}
+    return arrays if start == len(rest) else None
 
 
 def _hold_together(arrays: Arrays) -> bool:

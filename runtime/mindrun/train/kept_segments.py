@@ -1,35 +1,27 @@
 """What attempts ahead of their turn have come to, in a file of the run: a run that goes on has not to do it again.
 
-The file is a JSON line that says of which run and build it is, the segments of each attempt in their order, a NumPy
-array each, and the SHA-256 of all that. A stretch that begins where one of them did has that for its answer, since a
-segment depends on its stretch alone. A file that is damaged, or of another run or build, is as none.
+A stretch that begins where one of them did has that for its answer, since a segment depends on its stretch alone. The
+file has the form of a checkpoint; one that is damaged, or of another run or build, is as none.
 """
 
-import json
 from contextlib import suppress
 from dataclasses import astuple
-from hashlib import sha256
-from io import BytesIO
 from math import isnan, nan
 from pathlib import Path
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mindrun.files.atomic_write import write
 from mindrun.files.regular_files import read_whole
-from mindrun.train.attempt import Verdict
+from mindrun.train.attempt import Clock, Joined, Segment, Stretch
 from mindrun.train.attempts import AttemptExecutor
-from mindrun.train.build import own_build
-from mindrun.train.lesson import Clock
-from mindrun.train.lesson_state import AttemptState, Course, Record, begin_attempt
+from mindrun.train.checkpoint import Arrays, sealed, unsealed
+from mindrun.train.lesson_state import AttemptState, Course, Record, Verdict, begin_attempt, rung_at
+from mindrun.train.manifest import own_build
 from mindrun.train.population import Population
-from mindrun.train.rungs import rung_at
-from mindrun.train.segment import Joined, Segment, Stretch
 
 NAME = "ahead"
-DIGEST_BYTES = 32
+MAGIC = b"mind attempts ahead 2\n"
 MAX_FILE_BYTES = 1 << 30
 SAVE_SECONDS = 2.0  # between two times that the file is written anew, at least
 MAX_SAVE_SHARE = 0.05  # of the time that goes into writing it
@@ -43,9 +35,9 @@ class KeptSegments:
 
     def __init__(self, folder: Path, identity: str, course: Course) -> None:
         self.path, self.course = folder / NAME, course
-        self._head = json.dumps({"run": identity, "build": dict(own_build())}).encode() + b"\n"
+        self._said = {"run": identity, "build": dict(own_build())}
         self.chains: dict[int, Chain] = {}
-        with suppress(OSError, ValueError, EOFError, LookupError, TypeError, MemoryError):
+        with suppress(OSError, ValueError, LookupError, TypeError, MemoryError):
             self.chains = self._read(read_whole(self.path, MAX_FILE_BYTES))
 
     def find(self, stretch: Stretch) -> Segment | None:
@@ -78,25 +70,24 @@ class KeptSegments:
         if not any(self.chains.values()):
             self.path.unlink(missing_ok=True)
             return
-        body = BytesIO(self._head)
-        body.seek(0, 2)
-        for number, chain in self.chains.items():
-            for each in chain:
-                np.save(body, _row(number, each.whole()), allow_pickle=False)
-        data = body.getvalue()
+        rows = ((number, place, each) for number, chain in self.chains.items() for place, each in enumerate(chain))
+        arrays = {
+            f"{number} {place} {name}": array
+            for number, place, each in rows
+            for name, array in _arrays(each.whole()).items()
+        }
         with suppress(OSError):
-            write(self.path, data + sha256(data).digest())
+            write(self.path, sealed(MAGIC, self._said, arrays))
 
     def _read(self, data: bytes) -> dict[int, Chain]:
-        """The chains in the bytes of a file; ValueError where it is damaged, none where it is of another run."""
-        body, digest = data[:-DIGEST_BYTES], data[-DIGEST_BYTES:]
-        if not body.startswith(self._head) or sha256(body).digest() != digest:
-            return {}
-        chains, stream = dict[int, Chain](), BytesIO(body)
-        stream.seek(len(self._head))
-        while stream.tell() < len(body):
-            number, segment = _segment(np.load(stream, allow_pickle=False), self.course)
-            chains.setdefault(number, []).append(Joined(segment))
+        """The chains in the bytes of a file; none where it is damaged, or of another run."""
+        segments = dict[tuple[int, int], Arrays]()
+        for key, array in (unsealed(MAGIC, self._said, data) or {}).items():
+            number, place, name = key.split()
+            segments.setdefault((int(number), int(place)), {})[name] = array
+        chains = dict[int, Chain]()
+        for (attempt, _), found in sorted(segments.items(), key=lambda each: each[0]):
+            chains.setdefault(attempt, []).append(Joined(_segment(found, self.course)))
         return chains
 
 
@@ -166,14 +157,13 @@ def is_same(one: AttemptState, other: AttemptState) -> bool:
     )
 
 
-def _row(number: int, segment: Segment) -> NDArray[Any]:
-    """A segment of an attempt as one structured number."""
+def _arrays(segment: Segment) -> Arrays:
+    """A segment of an attempt as arrays by name."""
     state, verdict = segment.state, segment.verdict
-    counts = number, state.population.generation, state.since, state.told_apart
     records = [[nan if value is None else value for value in astuple(record)] for record in segment.records]
     ends = [] if verdict is None else [[*verdict.scores, verdict.passed, verdict.ticks, verdict.faults]]
-    arrays: dict[str, NDArray[Any]] = {
-        "counts": np.array(counts, np.int64),
+    return {
+        "counts": np.array([state.population.generation, state.since, state.told_apart], np.int64),
         "genomes": state.population.genomes,
         "scores": state.population.scores,
         "champion": state.champion,
@@ -183,26 +173,22 @@ def _row(number: int, segment: Segment) -> NDArray[Any]:
         "records": np.array(records, np.float64).reshape(-1, RECORD_NUMBERS),
         "verdict": np.array(ends, np.float64).reshape(-1, VERDICT_NUMBERS),
     }
-    row = np.zeros((), [(name, array.dtype, array.shape) for name, array in arrays.items()])
-    for name, array in arrays.items():
-        row[name] = array
-    return row
 
 
-def _segment(row: NDArray[Any], course: Course) -> tuple[int, Segment]:
-    """The number of an attempt and a segment of it; ValueError where it is none of the course."""
-    number, generation, since, told_apart = row["counts"].tolist()
-    genomes, champion, rival, champions = (row[name].copy() for name in ("genomes", "champion", "rival", "champions"))
+def _segment(arrays: Arrays, course: Course) -> Segment:
+    """The segment that these arrays are; ValueError where it is none of the course."""
+    generation, since, told_apart = arrays["counts"].tolist()
+    genomes, champion, rival, champions = (arrays[name] for name in ("genomes", "champion", "rival", "champions"))
     weights = course.start.shape[1]
     if any(each.shape[1] != weights or not np.isfinite(each).all() for each in (genomes, champion, rival, champions)):
         raise ValueError("its genomes are not those of the course")
-    population = Population(genomes, row["scores"].copy(), generation)
-    state = AttemptState(population, champion, rival, since, row["climbed"].copy(), bool(told_apart))
-    records = tuple(map(_record, row["records"].tolist()))
+    population = Population(genomes, arrays["scores"], generation)
+    state = AttemptState(population, champion, rival, since, arrays["climbed"], bool(told_apart))
+    records = tuple(map(_record, arrays["records"].tolist()))
     verdict = None
-    for first, second, passed, ticks, faults in row["verdict"].tolist():
+    for first, second, passed, ticks, faults in arrays["verdict"].tolist():
         verdict = Verdict(np.array([first, second]), bool(passed), int(ticks), int(faults))
-    return number, Segment(state, records, champions, verdict)
+    return Segment(state, records, champions, verdict)
 
 
 def _record(numbers: list[float]) -> Record:

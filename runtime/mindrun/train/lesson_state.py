@@ -1,6 +1,9 @@
-"""Where a lesson stands: all that it needs to go on, and what is written down of each generation."""
+"""Where a lesson stands: all that it needs to go on, what is written down of each generation, and how it goes on.
 
-from dataclasses import dataclass
+Attempts are compared early, at rungs, so that the worse half of them ends there: successive halving, one by one.
+"""
+
+from dataclasses import dataclass, replace
 from math import inf
 
 import numpy as np
@@ -9,7 +12,6 @@ from numpy.typing import NDArray
 from mindrun.graph.graph import Lesson
 from mindrun.train.ask_and_tell import kept_count
 from mindrun.train.population import Genomes, Population, Scores, nobody, order
-from mindrun.train.rungs import not_climbed
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,10 +121,25 @@ class Record:
     faults: int
 
 
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """What the champion of an attempt comes to in its end: `scores` [2] decide between attempts, and are reported.
+
+    `passed` says whether it meets all that the lesson needs, on the layouts of the one score and on those of the other.
+    """
+
+    scores: Scores
+    passed: bool
+    ticks: int
+    faults: int
+
+
 def begin_attempt(course: Course) -> AttemptState:
     """The state of an attempt before its first generation."""
     nothing = course.start[:0]
-    return AttemptState(nobody(nothing.shape[1]), course.start, nothing, 0, not_climbed(course.lesson), False)
+    return AttemptState(
+        nobody(nothing.shape[1]), course.start, nothing, 0, np.full(course.lesson.learner.rungs, -inf), False
+    )
 
 
 def begin(course: Course) -> LessonState:
@@ -149,3 +166,55 @@ def could_be(course: Course, state: LessonState) -> bool:
         and state.now.since <= generation < max(1, course.lesson.generations)
         and not (state.lengths > course.lesson.generations).any()
     )
+
+
+def gone_on(state: LessonState, now: AttemptState, record: Record) -> LessonState:
+    """The state after a generation of the attempt at work, which stands at `now`."""
+    return replace(
+        state,
+        now=now,
+        best=max(state.best, record.best),
+        generations=state.generations + 1,
+        ticks=state.ticks + record.ticks,
+        seconds=state.seconds + record.seconds,
+        faults=state.faults + record.faults,
+        told_apart=state.told_apart or now.told_apart,
+    )
+
+
+def judged(record: Record, verdict: Verdict) -> Record:
+    """The record of the generation with which an attempt ends."""
+    ticks, faults = record.ticks + verdict.ticks, record.faults + verdict.faults
+    return replace(record, verdict=float(verdict.scores[1]), ticks=ticks, faults=faults)
+
+
+def ended(course: Course, state: LessonState, verdict: Verdict) -> LessonState:
+    """The state where the attempt at work has ended, and the next one begins."""
+    return replace(
+        state,
+        attempt=state.attempt + 1,
+        now=begin_attempt(course),
+        rungs=np.concatenate([state.rungs, state.now.climbed[None]]),
+        champions=np.concatenate([state.champions, state.now.champion]),
+        lengths=np.append(state.lengths, state.now.population.generation),
+        verdicts=np.concatenate([state.verdicts, verdict.scores[None]]),
+        passed=np.append(state.passed, verdict.passed),
+    )
+
+
+def heights(rungs: int) -> list[float]:
+    """After which shares of its generations an attempt comes to its rungs, the lowest first."""
+    return [0.5**rung for rung in range(rungs, 0, -1)]
+
+
+def rung_at(lesson: Lesson, generation: int) -> int | None:
+    """Which rung is after so many generations, at least one; None where none is."""
+    at = (int(height * lesson.generations) for height in heights(lesson.learner.rungs))
+    return next((rung for rung, place in enumerate(at) if place == generation), None)
+
+
+def is_behind(scores: Scores) -> bool:
+    """Whether the last of the attempts that came to a rung, with these scores [attempts], is in their worse half."""
+    others, own = scores[:-1], scores[-1]
+    came, better = int(np.isfinite(others).sum()), int((others > own).sum())
+    return better >= max(1, (came + 1) // 2)

@@ -1,9 +1,13 @@
-"""The manifest of a run: what is taught, from what, with what; all that a resumed run is held to."""
+"""The manifest of a run: what is taught, from what, with what; all that a resumed run is held to.
+
+And the build that results depend on: the sources of mindrun, and the versions of what they compute with.
+"""
 
 import json
 import platform
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields, replace
+from functools import cache
 from hashlib import sha256
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
@@ -13,18 +17,22 @@ import numpy as np
 
 from mindrun.errors import BundleError
 from mindrun.files.strict_json import is_whole, parsed
-from mindrun.graph.codec import encode
-from mindrun.graph.encoding import decode_part
+from mindrun.graph.codec import decode_part, encode
 from mindrun.graph.graph import Graph, Lesson
 from mindrun.graph.validate import lesson_flaws
 from mindrun.graph.weights import Weights, reachable
-from mindrun.kinds.environment_module import module_beside
+from mindrun.kinds.environment import module_beside
 from mindrun.kinds.functions.procedure import module_source
 from mindrun.numbers.short_repr import full_repr
 from mindrun.train import RunError
 
 MANIFEST_VERSION = 3
+COMPUTED_WITH = ("numpy", "numba", "pymunk")
+SOURCES = Path(__file__).parents[1]
+SHOWN_CHARACTERS = 12  # of a hash
 MAX_SEED = 2**63 - 1  # seed
+
+Build = Mapping[str, str]
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,13 +95,41 @@ def hashes(weights: Mapping[str, Weights]) -> dict[str, str]:
 
 def versions() -> dict[str, str]:
     """The versions that a result may depend on."""
-    found = {"python": platform.python_version()}
-    for package in ("mindlang", "mindrun", "numpy", "numba", "pymunk"):
-        try:
-            found[package] = version(package)
-        except PackageNotFoundError:
-            continue
-    return found
+    installed = {package: _version(package) for package in ("mindlang", "mindrun", *COMPUTED_WITH)}
+    return {"python": platform.python_version(), **{name: found for name, found in installed.items() if found}}
+
+
+@cache
+def own_build() -> Build:
+    """The build of this process."""
+    major, minor, _ = platform.python_version_tuple()
+    packages = {package: _version(package) or "none" for package in COMPUTED_WITH}
+    return {"mindrun": sources_hash(SOURCES), "python": f"{major}.{minor}", **packages}
+
+
+def _version(package: str) -> str:
+    try:
+        return version(package)
+    except PackageNotFoundError:
+        return ""
+
+
+def difference(asked: Build, own: Build) -> str:
+    """How the build that a job is for differs from one's own, in words; nothing where it does not."""
+    for name in sorted(own.keys() | asked.keys()):
+        here, there = own.get(name), asked.get(name)
+        if there != here:
+            ours, theirs = (str(each)[:SHOWN_CHARACTERS] for each in (here, there))
+            return f"{name} is {ours} at the worker, and {theirs} where the job comes from"
+    return ""
+
+
+def sources_hash(folder: Path) -> str:
+    """The SHA-256 of the Python files below a folder, and of their names."""
+    digest = sha256()
+    for path in sorted(folder.rglob("*.py")):
+        digest.update(path.relative_to(folder).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
+    return digest.hexdigest()
 
 
 def processor() -> str:

@@ -2,11 +2,12 @@
 
 import json
 import os
+from collections.abc import Iterable, Mapping
 from dataclasses import asdict, fields
 from itertools import takewhile
 from math import isfinite
 from pathlib import Path
-from types import TracebackType
+from typing import Self
 
 from mindrun.files import atomic_write
 from mindrun.files.regular_files import read_whole
@@ -24,33 +25,46 @@ MAX_LINE_BYTES = 1 << 12
 MAX_COUNT = 2**53
 
 
-class ProgressLog:
-    """The two files of the log, open to append, with only the generations that `state` has behind it."""
+class AppendedFiles:
+    """Files of a run to which rows are added: each is written anew as it `begins`, and open from then on."""
+
+    def __init__(self, begins: Mapping[Path, bytes]) -> None:
+        for path, data in begins.items():
+            atomic_write.write(path, data)
+        self._files = [os.open(path, os.O_WRONLY | os.O_APPEND) for path in begins]
+
+    def _add(self, *rows: bytes) -> None:
+        """Add all of a row to each file; a full disk may take part of it and fail only at the rest."""
+        for descriptor, data in zip(self._files, rows, strict=True):
+            while data:
+                data = data[os.write(descriptor, data) :]
+
+    def sync(self) -> None:
+        """Bring the files to the disk, so that they are never behind a checkpoint."""
+        for descriptor in self._files:
+            os.fsync(descriptor)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        for descriptor in self._files:
+            os.close(descriptor)
+
+
+class ProgressLog(AppendedFiles):
+    """The two files of the log, with only the generations that `state` has behind it."""
 
     def __init__(self, folder: Path, state: LessonState) -> None:
         records = [record for record in read_progress(folder) if _is_behind(record, state)]
-        atomic_write.write(folder / LINES, b"".join(_line(record) for record in records))
-        atomic_write.write(folder / TABLE, _row(list(COLUMNS)) + b"".join(_row(list(r.values())) for r in records))
-        self._lines = os.open(folder / LINES, os.O_WRONLY | os.O_APPEND)
-        self._table = os.open(folder / TABLE, os.O_WRONLY | os.O_APPEND)
+        table = [_row(COLUMNS), *(_row(record.values()) for record in records)]
+        super().__init__({folder / LINES: b"".join(map(_line, records)), folder / TABLE: b"".join(table)})
 
     def append(self, record: Record) -> None:
         """Add a generation."""
-        plain = {name: _plain(value) for name, value in asdict(record).items()}
-        write(self._lines, _line(plain))
-        write(self._table, _row(list(plain.values())))
-
-    def sync(self) -> None:
-        """Bring the log to the disk, so that it is never behind a checkpoint."""
-        os.fsync(self._lines)
-        os.fsync(self._table)
-
-    def __enter__(self) -> "ProgressLog":
-        return self
-
-    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
-        os.close(self._lines)
-        os.close(self._table)
+        values = asdict(record).items()
+        plain = {name: value if value is not None and isfinite(value) else None for name, value in values}
+        self._add(_line(plain), _row(plain.values()))
 
 
 def read_progress(folder: Path) -> list[Logged]:
@@ -87,20 +101,9 @@ def _is_behind(record: Logged, state: LessonState) -> bool:
     return (attempt, generation) <= (state.attempt, state.now.population.generation)
 
 
-def _plain(value: float | None) -> float | None:
-    return value if value is not None and isfinite(value) else None
-
-
 def _line(record: Logged) -> bytes:
     return json.dumps(record).encode() + b"\n"
 
 
-def _row(values: list[str] | list[float | None]) -> bytes:
+def _row(values: Iterable[object]) -> bytes:
     return ",".join("" if value is None else str(value) for value in values).encode() + b"\n"
-
-
-def write(descriptor: int, data: bytes) -> None:
-    """Write all of the data."""
-    # A full disk may take part of a line and fail only at the rest.
-    while data:
-        data = data[os.write(descriptor, data) :]

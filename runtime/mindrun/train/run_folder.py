@@ -1,11 +1,15 @@
 """A run's folder, `runs/<lesson>/<utc>-<seed>/`: made once, never overwritten, enough by itself to go on."""
 
+import fcntl
 import json
-from collections.abc import Mapping
+import os
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from io import BytesIO
 from itertools import count
 from pathlib import Path
+from stat import S_ISREG
 from typing import Any
 
 import numpy as np
@@ -13,7 +17,7 @@ import numpy as np
 from mindrun.files import atomic_write
 from mindrun.files.archive import read_archive, write_archive
 from mindrun.files.npy import from_npy, to_npy
-from mindrun.files.regular_files import read_whole
+from mindrun.files.regular_files import irregular, read_regular, read_whole
 from mindrun.files.strict_json import parsed
 from mindrun.graph.weights import Weights
 from mindrun.train import NotFoundError, RunError, checkpoint
@@ -23,6 +27,7 @@ from mindrun.train.population import Genomes
 
 MANIFEST, SOURCES, START, WEIGHTS = "manifest.json", "source", "start.npz", "weights.npy"
 CHAMPIONS, RESULT, FAILURE = "champions.npy", "result.json", "failed.txt"
+MAX_PID_DIGITS = 20  # of the number of a process
 MAX_FILE_BYTES = 1 << 27  # of a manifest, a result, or the weights of all skills
 
 
@@ -100,6 +105,40 @@ def open_run(folder: Path) -> RunFolder:
     if hashes(weights) != manifest.weights:
         raise _damaged(folder / START)
     return RunFolder(folder, manifest, weights)
+
+
+@contextmanager
+def claim(folder: Path) -> Iterator[None]:
+    """Hold the run folder; RunError where another living process holds it. The file says who, for people.
+
+    The system lets go of it when its holder dies, however it dies.
+    """
+    path = folder / "lock"
+    with open(_opened(path), "r+", encoding="utf-8") as file:
+        try:
+            # A POSIX lock, not flock: worker processes that are forked while it is held do not share it.
+            fcntl.lockf(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except (BlockingIOError, PermissionError):
+            raise RunError(f"{folder} is in use by process {_holder(path)}", "wait for it, or stop it first") from None
+        file.truncate(0)
+        file.write(f"{os.getpid()}\n")
+        file.flush()
+        yield
+
+
+def _opened(path: Path) -> int:
+    """A descriptor of the lock; OSError where a link or anything but a file stands there."""
+    descriptor = os.open(path, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC, 0o666)
+    mode = os.fstat(descriptor).st_mode
+    if not S_ISREG(mode):
+        os.close(descriptor)
+        raise irregular(path, mode)
+    return descriptor
+
+
+def _holder(path: Path) -> str:
+    number = read_regular(path, MAX_PID_DIGITS).strip()
+    return number.decode() if number.isdigit() else "unknown"
 
 
 def keep_weights(folder: Path, genome: Weights) -> None:

@@ -1,7 +1,11 @@
-"""Genomes scored on layouts, by whatever simulates them."""
+"""Genomes scored on layouts, by whatever simulates them.
+
+All random numbers come from (run seed, attempt, generation, purpose), so that no state of a generator is ever saved.
+"""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from enum import IntEnum
 from math import inf
 from typing import Any, Protocol
 
@@ -10,40 +14,55 @@ from numpy.typing import NDArray
 
 from mindrun.graph.graph import Task
 from mindrun.train.population import Genomes, Scores
-from mindrun.train.seeds import Seeds
+
+Seeds = NDArray[np.uint64]
+
+
+class Purpose(IntEnum):
+    """What the numbers are drawn for; each purpose has its own stream."""
+
+    BREEDING = 0
+    LAYOUTS = 1
+    REEVALUATION = 2
+    VERDICT = 3
+    COMPARISON = 4
+    RUNG = 5
+
+
+def breeding_generator(seed: int, attempt: int, generation: int) -> np.random.Generator:
+    """The rng that breeds one generation."""
+    return np.random.default_rng(_sequence(seed, attempt, generation, Purpose.BREEDING))
+
+
+def layouts(seed: int, attempt: int, generation: int, count: int, purpose: Purpose = Purpose.LAYOUTS) -> Seeds:
+    """The seeds [count] of the worlds on which one generation is scored, the same for every genome."""
+    return _sequence(seed, attempt, generation, purpose).generate_state(count, np.uint64).astype(np.uint64)
+
+
+def _sequence(seed: int, attempt: int, generation: int, purpose: Purpose) -> np.random.SeedSequence:
+    return np.random.SeedSequence(seed, spawn_key=(attempt, generation, int(purpose)))
 
 
 class Results(Protocol):
     """What a scorer measured: arrays [genomes, seeds]."""
 
     @property
-    def total(self) -> NDArray[np.float64]:
-        """The sum of the rewards; -inf where something was not finite."""
-
+    def total(self) -> NDArray[np.float64]: ...  # the sum of the rewards; -inf where something was not finite
     @property
-    def ticks(self) -> NDArray[np.int64]:
-        """How long each evaluation lasted."""
-
+    def ticks(self) -> NDArray[np.int64]: ...  # how long each evaluation lasted
     @property
-    def faults(self) -> NDArray[np.int64]:
-        """How many numbers were not finite."""
-
+    def faults(self) -> NDArray[np.int64]: ...  # how many numbers were not finite
     @property
-    def met(self) -> NDArray[np.int64]:
-        """The end of the task that came first; -1 where none did."""
+    def met(self) -> NDArray[np.int64]: ...  # the end of the task that came first; -1 where none did
 
 
 class Scorer(Protocol):
     """What scores genomes: `mindrun.sim.rollout.Rollout`, or anything of its shape."""
 
     @property
-    def genome_length(self) -> int:
-        """How many weights the learner has."""
-
+    def genome_length(self) -> int: ...  # how many weights the learner has
     @property
-    def task(self) -> Task:
-        """What the genomes are scored in."""
-
+    def task(self) -> Task: ...  # what the genomes are scored in
     def draw(self, count: int, rng: np.random.Generator) -> Genomes:
         """Random genomes [count, genome_length] for learning to begin with."""
 

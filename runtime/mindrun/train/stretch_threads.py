@@ -8,11 +8,10 @@ from typing import Any
 import numpy as np
 
 from mindrun.graph.graph import Task
-from mindrun.train.lesson import Clock
+from mindrun.train.attempt import Clock, Segment, Stretch, advance
 from mindrun.train.lesson_state import Course
 from mindrun.train.population import Genomes
 from mindrun.train.scoring import Results, is_one_world
-from mindrun.train.segment import Segment, Stretch, advance
 
 TAKE_SECONDS = 0.2  # to wait for a segment before who asks may look at something else
 

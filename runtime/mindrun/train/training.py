@@ -5,18 +5,15 @@ from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from mindrun.graph.weights import Weights
 from mindrun.train import RunError, checkpoint
-from mindrun.train.attempts import AttemptExecutor, side_by_side
+from mindrun.train.attempt import Clock
+from mindrun.train.attempts import Ahead, AttemptExecutor, InThisThread, Step, side_by_side
 from mindrun.train.champion_log import ChampionLog
-from mindrun.train.folder_lock import claim
-from mindrun.train.lesson import Clock, teach
 from mindrun.train.lesson_state import Course, LessonState, Record, begin, could_be
 from mindrun.train.population import Genomes
 from mindrun.train.progress import ProgressLog
-from mindrun.train.run_folder import RunFolder, keep_champions, keep_weights
+from mindrun.train.run_folder import RunFolder, claim, keep_champions, keep_weights
 from mindrun.train.scoring import Scorer
-from mindrun.train.step import Ahead, Step
 
 CHECKPOINT_SECONDS = 2.0  # between two checkpoints
 
@@ -51,8 +48,6 @@ def train(run: RunFolder, scorer: Scorer, watch: Watch, executor: AttemptExecuto
                     progress.append(record)
                     champions.append(champion, (record.attempt, record.generation))
                     watch.report(now, record)
-                if watch.stop():
-                    break
                 if watch.clock() - saved >= watch.save_every:
                     _save(run, now, progress, champions)
                     saved = watch.clock()
@@ -72,21 +67,12 @@ def best(state: LessonState) -> Genomes:
 def _steps(
     course: Course, scorer: Scorer, state: LessonState, watch: Watch, executor: AttemptExecutor | None
 ) -> Iterator[Step]:
-    if executor is not None:
-        began = watch.clock()
-        for step in side_by_side(course, executor, state, watch.stop):
-            # Those of several at once are not the sum of their own.
-            yield replace(step, state=replace(step.state, seconds=state.seconds + watch.clock() - began))
-        return
-    for now, record in teach(course, scorer, state, watch.clock):
-        yield Step(now, (record,), champion_of(now, record)[None])
-
-
-def champion_of(state: LessonState, record: Record) -> Weights:
-    """The champion with which a generation ends, after which the run is in this state."""
-    ended = state.attempt == record.attempt
-    champion: Weights = (state.champions if ended else state.now.champion)[-1]
-    return champion
+    began = watch.clock()
+    steps = side_by_side(course, executor or InThisThread(course, scorer, watch.clock), state, watch.stop)
+    for step in steps:
+        # Those of several at once are not the sum of their own.
+        seconds = state.seconds + watch.clock() - began if executor else step.state.seconds
+        yield replace(step, state=replace(step.state, seconds=seconds))
 
 
 def _standing(run: RunFolder, course: Course, watch: Watch) -> LessonState:

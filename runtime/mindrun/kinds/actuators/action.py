@@ -1,16 +1,14 @@
 """One number of what is done in an environment."""
 
-from dataclasses import dataclass
 from typing import Annotated
 
 from mindrun.kinds.actuators.actuator import ActuatorKind
+from mindrun.kinds.environment import Slot
 from mindrun.kinds.registry import kind
-from mindrun.kinds.slot import Slot
 from mindrun.numbers.quantity import INDEX, NUMBER, RATIO, SLOT, TICKS, UNSAID, Span
 
 
 @kind("actuator", "action")
-@dataclass(frozen=True, slots=True)
 class Action(ActuatorKind):
     """One number of a Gymnasium environment's action: a command of 0 is the low end of its range, 1 the high end.
 

@@ -1,16 +1,14 @@
 """One of the things that can be done in an environment, of which one is done."""
 
-from dataclasses import dataclass
 from typing import Annotated
 
 from mindrun.kinds.actuators.actuator import ActuatorKind
+from mindrun.kinds.environment import Slot
 from mindrun.kinds.registry import kind
-from mindrun.kinds.slot import Slot
 from mindrun.numbers.quantity import INDEX, RATIO, SLOT, TICKS
 
 
 @kind("actuator", "choice")
-@dataclass(frozen=True, slots=True)
 class Choice(ActuatorKind):
     """One of the actions of a Gymnasium environment that takes one of a few, by its number; the first is 0.
 

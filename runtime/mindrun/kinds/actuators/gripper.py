@@ -1,6 +1,5 @@
 """What takes items."""
 
-from dataclasses import dataclass
 from typing import Annotated
 
 from mindrun.kinds.actuators.actuator import ActuatorKind, Row
@@ -13,7 +12,6 @@ CLOSED_COMMAND = 0.5  # command, above which it closes
 
 
 @kind("actuator", "gripper")
-@dataclass(frozen=True, slots=True)
 class Gripper(ActuatorKind):
     """A claw at the front of the body: closed above 0.5. It takes an item ahead of it whose rim is within `reach`.
 

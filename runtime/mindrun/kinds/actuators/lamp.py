@@ -1,6 +1,5 @@
 """What shines."""
 
-from dataclasses import dataclass
 from typing import Annotated
 
 from mindrun.kinds.actuators.actuator import ActuatorKind
@@ -9,7 +8,6 @@ from mindrun.numbers.quantity import RATIO, TICKS
 
 
 @kind("actuator", "lamp")
-@dataclass(frozen=True, slots=True)
 class Lamp(ActuatorKind):
     """A lamp: 0 dark, 1 bright. It changes nothing in the simulated world, and pictures show it."""
 

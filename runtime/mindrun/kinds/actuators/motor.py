@@ -1,16 +1,13 @@
 """What drives a car."""
 
-from dataclasses import dataclass
 from typing import Annotated
 
-from mindrun.kinds.actuators.actuator import THRUST
-from mindrun.kinds.actuators.pushing import Pushing
+from mindrun.kinds.actuators.actuator import THRUST, Pushing
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import RATIO, TICKS
 
 
 @kind("actuator", "motor")
-@dataclass(frozen=True, slots=True)
 class Motor(Pushing):
     """The drive of a car: 0 full reverse, 0.5 stopped, 1 full forward; force (2v − 1)·thrust along the heading.
 

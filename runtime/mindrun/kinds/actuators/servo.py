@@ -1,6 +1,5 @@
 """What turns something on the robot."""
 
-from dataclasses import dataclass
 from typing import Annotated
 
 from mindrun.kinds.actuators.actuator import ActuatorKind
@@ -9,7 +8,6 @@ from mindrun.numbers.quantity import RATIO, TICKS
 
 
 @kind("actuator", "servo")
-@dataclass(frozen=True, slots=True)
 class Servo(ActuatorKind):
     """A servo: its position as a share of its travel. It moves nothing in the simulated world."""
 

@@ -1,6 +1,5 @@
 """What steers a car."""
 
-from dataclasses import dataclass
 from math import pi
 from typing import Annotated
 
@@ -14,7 +13,6 @@ TURN = Quantity("an angle between 0 and 80 degrees", {"deg": DEGREE}, low=0.0, h
 
 
 @kind("actuator", "steering")
-@dataclass(frozen=True, slots=True)
 class Steering(ActuatorKind):
     """The front wheels of a car: 0 is `range` to the left, 0.5 straight ahead, 1 `range` to the right, as a bearing.
 

@@ -1,10 +1,8 @@
 """What pushes the body at a point of it."""
 
-from dataclasses import dataclass
 from typing import Annotated
 
-from mindrun.kinds.actuators.actuator import THRUST
-from mindrun.kinds.actuators.pushing import Pushing
+from mindrun.kinds.actuators.actuator import THRUST, Pushing
 from mindrun.kinds.bodies.body import BodyKind, Point
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import ANGLE, RATIO, TICKS, Place, Quantity
@@ -14,7 +12,6 @@ PLACE = Quantity("a place on the body in world units", {"": 1.0}, low=-1000.0, h
 
 
 @kind("actuator", "thruster")
-@dataclass(frozen=True, slots=True)
 class Thruster(Pushing):
     """A force (2v − 1)·thrust `at` a point of the body, x ahead of its middle and y to its left: 0.5 is none.
 

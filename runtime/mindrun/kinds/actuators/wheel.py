@@ -1,10 +1,8 @@
 """What drives the body."""
 
-from dataclasses import dataclass
 from typing import Annotated, get_args
 
-from mindrun.kinds.actuators.actuator import THRUST, Side
-from mindrun.kinds.actuators.pushing import Pushing
+from mindrun.kinds.actuators.actuator import THRUST, Pushing, Side
 from mindrun.kinds.bodies.body import BodyKind, Point
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import RATIO, TICKS, Reference
@@ -13,7 +11,6 @@ SIDE = Reference("side", get_args(Side))
 
 
 @kind("actuator", "wheel")
-@dataclass(frozen=True, slots=True)
 class Wheel(Pushing):
     """A wheel on the body's rim: 0 full reverse, 0.5 stopped, 1 full forward; force (2v − 1)·thrust along the heading.
 

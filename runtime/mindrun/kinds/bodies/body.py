@@ -1,9 +1,11 @@
 """What every kind of body says of itself: the rest of the program asks, and knows no kind by name."""
 
-from typing import Literal
+from dataclasses import dataclass
+from math import cos, hypot, pi, sin
+from typing import Annotated, Literal
 
 from mindrun.kinds.registry import base
-from mindrun.numbers.quantity import Quantity
+from mindrun.numbers.quantity import Extent, Quantity
 
 DIAMETER = Quantity("a length in world units", {"": 1.0}, low=0.01, high=1000.0)
 DENSITY = Quantity("a density", {"": 1.0}, low=1e-3, high=1e6)
@@ -11,6 +13,7 @@ FRICTION = Quantity("a coefficient of friction", {"": 1.0}, low=0.0, high=100.0)
 DAMPING = Quantity("a damping", {"": 1.0}, low=0.0, high=1e6)
 FRICTION_COEFFICIENT = 0.2  # Box2D's default; elasticity is 0 in both engines
 LINEAR_DAMPING, ANGULAR_DAMPING = 5.0, 20.0  # per second
+LEAST_COSINE = 1e-9  # of a direction that meets a side
 
 Drive = Literal["wheel", "motor", "steering", "thruster"]  # what an actuator does to a body
 Point = tuple[float, float]  # x ahead of the middle, y to its left
@@ -83,3 +86,78 @@ class BodyKind:
     def rim(self, angle: float) -> float:
         """How far from its middle it ends in a direction, counterclockwise from straight ahead."""
         return self.radius
+
+
+@dataclass(frozen=True, slots=True)
+class Round(BodyKind):
+    """A disc of diameter `size`."""
+
+    size: Annotated[float, DIAMETER] = 2.0
+    density: Annotated[float, DENSITY] = 2.0
+    friction: Annotated[float, FRICTION] = FRICTION_COEFFICIENT
+    linear_damping: Annotated[float, DAMPING] = LINEAR_DAMPING
+    angular_damping: Annotated[float, DAMPING] = ANGULAR_DAMPING
+
+    @property
+    def radius(self) -> float:
+        """Half of its size."""
+        return self.size / 2
+
+    @property
+    def area(self) -> tuple[float, float]:
+        """Of a disc: π·r²."""
+        return pi, self.radius**2
+
+    @property
+    def gyration(self) -> tuple[float, float]:
+        """Of a disc: r² / 2."""
+        return self.radius**2, 2.0
+
+
+class Rectangle(BodyKind):
+    """A rectangle as long and as wide as its two sizes say."""
+
+    __slots__ = ()
+
+    size: Extent
+
+    @property
+    def sides(self) -> Point:
+        """Its length and its width."""
+        return self.size if isinstance(self.size, tuple) else (self.size, self.size)
+
+    @property
+    def outline(self) -> tuple[Point, ...]:
+        """Its corners, counterclockwise from the right one behind."""
+        x, y = self.front, self.side
+        return (-x, -y), (x, -y), (x, y), (-x, y)
+
+    @property
+    def radius(self) -> float:
+        """Half of its diagonal."""
+        return hypot(*self.sides) / 2
+
+    @property
+    def front(self) -> float:
+        """Half of its length."""
+        return self.sides[0] / 2
+
+    @property
+    def side(self) -> float:
+        """Half of its width."""
+        return self.sides[1] / 2
+
+    @property
+    def area(self) -> tuple[float, float]:
+        """Its sides."""
+        return self.sides
+
+    @property
+    def gyration(self) -> tuple[float, float]:
+        """Of a rectangle: (a² + b²) / 12."""
+        return self.sides[0] * self.sides[0] + self.sides[1] * self.sides[1], 12.0
+
+    def rim(self, angle: float) -> float:
+        """Where a ray from the middle leaves it."""
+        ahead, aside = max(abs(cos(angle)), LEAST_COSINE), max(abs(sin(angle)), LEAST_COSINE)
+        return min(self.front / ahead, self.side / aside)

@@ -1,6 +1,5 @@
 """What is rectangular, and drives on wheels."""
 
-from dataclasses import dataclass
 from typing import Annotated
 
 from mindrun.kinds.bodies.body import (
@@ -11,14 +10,13 @@ from mindrun.kinds.bodies.body import (
     FRICTION,
     FRICTION_COEFFICIENT,
     LINEAR_DAMPING,
+    Rectangle,
 )
-from mindrun.kinds.bodies.rectangle import Rectangle
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import Extent
 
 
 @kind("body", "box")
-@dataclass(frozen=True, slots=True)
 class Box(Rectangle):
     """A rectangular body, `size` being its length and its width, or both, with wheels at its sides, or thrusters.
 

@@ -1,6 +1,5 @@
 """What is rectangular, and is steered."""
 
-from dataclasses import dataclass
 from typing import Annotated
 
 from mindrun.kinds.bodies.body import (
@@ -11,8 +10,8 @@ from mindrun.kinds.bodies.body import (
     FRICTION,
     FRICTION_COEFFICIENT,
     LINEAR_DAMPING,
+    Rectangle,
 )
-from mindrun.kinds.bodies.rectangle import Rectangle
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import Extent, Quantity
 
@@ -20,7 +19,6 @@ WHEELBASE = Quantity("a share of its length", {"": 1.0, "%": 0.01}, low=0.01, hi
 
 
 @kind("body", "car")
-@dataclass(frozen=True, slots=True)
 class Car(Rectangle):
     """A rectangular body with a motor and a steering, `size` its length and its width, or both: the bicycle model.
 

@@ -1,13 +1,11 @@
 """The robot meets something."""
 
-from dataclasses import dataclass
-
-from mindrun.kinds.events.event import EventKind, Hindrance, World
+from mindrun.kinds.events.event import EventKind, Hindrance
 from mindrun.kinds.registry import kind
+from mindrun.kinds.things.thing import World
 
 
 @kind("event", "collision")
-@dataclass(frozen=True, slots=True)
 class Collision(EventKind):
     """The body, or the item it holds, begins to touch an obstacle or a wall; to push a box or ball is no collision."""
 

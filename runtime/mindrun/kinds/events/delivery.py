@@ -1,16 +1,14 @@
 """An item, or what is pushed, comes where it belongs."""
 
-from dataclasses import dataclass
 from typing import Annotated
 
-from mindrun.kinds.events.event import EventKind, Hindrance, TaskWorld, World
+from mindrun.kinds.events.event import EventKind, Hindrance, TaskWorld
 from mindrun.kinds.registry import kind
-from mindrun.kinds.things.thing import ThingKind
+from mindrun.kinds.things.thing import ThingKind, World
 from mindrun.numbers.quantity import THING
 
 
 @kind("event", "delivery")
-@dataclass(frozen=True, slots=True)
 class Delivery(EventKind):
     """The middle of an item that the claw holds, or of a box or ball, comes into a zone.
 

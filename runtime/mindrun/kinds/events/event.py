@@ -1,12 +1,11 @@
 """What every kind of event says of itself: the rest of the program asks, and knows no kind by name."""
 
-from collections.abc import Collection, Mapping, Set
+from collections.abc import Collection, Mapping
 from typing import NamedTuple, Protocol
 
 from mindrun.kinds.registry import base
 from mindrun.kinds.scenes.scene import SceneKind
-from mindrun.kinds.things.about import AboutThing
-from mindrun.kinds.things.thing import ThingKind
+from mindrun.kinds.things.thing import AboutThing, ThingKind, World
 
 Row = Mapping[str, float]  # columns of the lanes' table of events
 
@@ -22,53 +21,13 @@ class TaskWorld(Protocol):
     """What a task says of its world."""
 
     @property
-    def scene(self) -> SceneKind | None:
-        """The scene; None where it is not known."""
-        ...
-
+    def scene(self) -> SceneKind | None: ...  # None where it is not known
     @property
-    def kinds(self) -> Collection[ThingKind]:
-        """The kinds of all things that are known."""
-        ...
-
+    def kinds(self) -> Collection[ThingKind]: ...  # of all things that are known
     @property
-    def has_battery(self) -> bool:
-        """Whether a sensor reads a battery."""
-        ...
-
+    def has_battery(self) -> bool: ...  # whether a sensor reads a battery
     @property
-    def can_succeed(self) -> bool:
-        """Whether a line says when a run is a success."""
-        ...
-
-
-class World(Protocol):
-    """What is known of a task's world from the whole mind, before anything runs in it."""
-
-    @property
-    def has_fixed(self) -> bool:
-        """Whether anything stands in the way that does not give way."""
-        ...
-
-    @property
-    def can_hold(self) -> bool:
-        """Whether a claw may ever close."""
-        ...
-
-    @property
-    def drains(self) -> bool:
-        """Whether the battery can become empty."""
-        ...
-
-    @property
-    def loose(self) -> Set[str]:
-        """Things that can be pushed."""
-        ...
-
-    @property
-    def fleeting(self) -> Set[str]:
-        """Items that are gone as soon as they are reached."""
-        ...
+    def can_succeed(self) -> bool: ...  # whether a line says when a run is a success
 
 
 @base("event")

@@ -1,13 +1,11 @@
 """The battery is empty."""
 
-from dataclasses import dataclass
-
-from mindrun.kinds.events.event import EventKind, Hindrance, TaskWorld, World
+from mindrun.kinds.events.event import EventKind, Hindrance, TaskWorld
 from mindrun.kinds.registry import kind
+from mindrun.kinds.things.thing import World
 
 
 @kind("event", "exhaustion")
-@dataclass(frozen=True, slots=True)
 class Exhaustion(EventKind):
     """The battery is empty."""
 

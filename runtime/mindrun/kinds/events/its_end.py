@@ -1,13 +1,10 @@
 """An environment has come to its end."""
 
-from dataclasses import dataclass
-
 from mindrun.kinds.events.event import EventKind
 from mindrun.kinds.registry import kind
 
 
 @kind("event", "its end")
-@dataclass(frozen=True, slots=True)
 class ItsEnd(EventKind):
     """The Gymnasium environment has come to an end of its own (terminated); no further step can be made in it.
 

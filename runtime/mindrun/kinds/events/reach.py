@@ -1,6 +1,5 @@
 """The robot comes to a thing."""
 
-from dataclasses import dataclass
 from typing import Annotated
 
 from mindrun.kinds.events.event import EventKind
@@ -9,7 +8,6 @@ from mindrun.numbers.quantity import THING
 
 
 @kind("event", "reach")
-@dataclass(frozen=True, slots=True)
 class Reach(EventKind):
     """An item, box, ball or walker comes into the claw's reach, or the robot's centre into a zone or power.
 

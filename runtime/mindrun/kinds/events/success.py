@@ -1,13 +1,10 @@
 """The run has succeeded."""
 
-from dataclasses import dataclass
-
 from mindrun.kinds.events.event import EventKind, Hindrance, TaskWorld
 from mindrun.kinds.registry import kind
 
 
 @kind("event", "success")
-@dataclass(frozen=True, slots=True)
 class Success(EventKind):
     """The run ends as a success: what a line of the task with `succeeds` says has come."""
 

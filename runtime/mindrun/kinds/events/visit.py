@@ -1,6 +1,5 @@
 """The robot comes where it has not been."""
 
-from dataclasses import dataclass
 from math import ceil
 from typing import Annotated
 
@@ -13,7 +12,6 @@ PATCH = Quantity("a length in world units", {"": 1.0}, low=0.1, high=1e5)
 
 
 @kind("event", "visit")
-@dataclass(frozen=True, slots=True)
 class Visit(EventKind):
     """The robot's centre enters a square patch of the arena, of side `size`, for the first time."""
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from io import StringIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -21,7 +20,6 @@ MAX_SOURCE_BYTES = 1 << 20  # of source
 
 
 @kind("skill", "procedure")
-@dataclass(frozen=True, slots=True)
 class Procedure(Function):
     """A Python function `module.function`: one float per reading in, one float (or a tuple) per output out.
 

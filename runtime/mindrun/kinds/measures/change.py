@@ -1,6 +1,6 @@
 """How restless the wheels are."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import inf
 from typing import Annotated
 
@@ -10,7 +10,6 @@ from mindrun.numbers.quantity import RATIO, TICKS, Reference
 
 
 @kind("measure", "change")
-@dataclass(frozen=True, slots=True)
 class Change(MeasureKind):
     """Sum over the wheels of how much the command changed over the last `over` ticks, beyond a share of its travel."""
 

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from math import inf
 
 from mindrun.kinds.registry import base
-from mindrun.kinds.things.about import AboutThing
+from mindrun.kinds.things.thing import AboutThing
 
 Row = Mapping[str, float]  # columns of the lanes' table of measures
 

@@ -1,6 +1,5 @@
 """How much nearer to a thing the robot has come: three kinds that differ in which direction counts."""
 
-from dataclasses import dataclass
 from math import inf
 from typing import Annotated
 
@@ -10,7 +9,6 @@ from mindrun.numbers.quantity import THING
 
 
 @kind("measure", "progress")
-@dataclass(frozen=True, slots=True)
 class Progress(MeasureKind):
     """Distance to the thing's centre closed in this tick, in world units; negative when moving away."""
 
@@ -18,7 +16,6 @@ class Progress(MeasureKind):
 
 
 @kind("measure", "advance")
-@dataclass(frozen=True, slots=True)
 class Advance(MeasureKind):
     """The progress toward the thing where it is positive, else 0."""
 
@@ -28,7 +25,6 @@ class Advance(MeasureKind):
 
 
 @kind("measure", "retreat")
-@dataclass(frozen=True, slots=True)
 class Retreat(MeasureKind):
     """The distance to the thing gained in this tick where it grew, else 0."""
 

@@ -1,6 +1,5 @@
 """A world with walls around it."""
 
-from dataclasses import dataclass
 from typing import Annotated
 
 from mindrun.kinds.registry import kind
@@ -11,7 +10,6 @@ SIDE = Quantity("a length in world units", {"": 1.0}, low=0.01, high=1e5)
 
 
 @kind("task", "arena")
-@dataclass(frozen=True, slots=True)
 class Arena(SceneKind):
     """A square world of side `size` with walls, or one of that width and depth; the robot starts anywhere in it."""
 

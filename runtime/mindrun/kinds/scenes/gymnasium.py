@@ -1,6 +1,5 @@
 """A world that is somebody else's: an environment of Gymnasium."""
 
-from dataclasses import dataclass
 from typing import Annotated
 
 from mindrun.kinds.registry import kind
@@ -11,7 +10,6 @@ ENVIRONMENT = Reference("environment")
 
 
 @kind("task", "gymnasium")
-@dataclass(frozen=True, slots=True)
 class Gymnasium(SceneKind):
     """The environment of Gymnasium with that name: each tick is one of its steps, and it says how a run begins."""
 

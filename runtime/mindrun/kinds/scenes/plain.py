@@ -1,7 +1,5 @@
 """A world without walls."""
 
-from dataclasses import dataclass
-
 from mindrun.kinds.registry import kind
 from mindrun.kinds.scenes.scene import SceneKind
 
@@ -9,7 +7,6 @@ MIN_DISTANCE_UNITS, MAX_DISTANCE_UNITS = 10.0, 40.0  # units from the robot
 
 
 @kind("task", "plain")
-@dataclass(frozen=True, slots=True)
 class Plain(SceneKind):
     """A world without borders; the robot starts in its origin."""
 

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
-from mindrun.kinds.sensors.sensor import Begin, Bounds, Row, Scene, SensorKind
+from mindrun.kinds.sensors.sensor import Begin, Bounds, Scene, SensorKind
 from mindrun.numbers.quantity import SENSOR, WINDOW
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
@@ -18,7 +17,6 @@ if TYPE_CHECKING:  # a lane is given these when it is compiled
 
 
 @kind("sensor", "average")
-@dataclass(frozen=True, slots=True)
 class Average(SensorKind):
     """The mean of another sensor's readings over the last ticks; in the first ones, over as many as there were.
 
@@ -29,22 +27,12 @@ class Average(SensorKind):
     of: Annotated[str, SENSOR]
     over: Annotated[int, WINDOW]
 
-    circular = None
+    circular = shape = None
 
     @property
     def remembered(self) -> int:  # type: ignore[override]
         """The readings of the last ticks."""
         return self.over
-
-    @property
-    def width(self) -> None:
-        """None: it has as many readings as its source."""
-        return
-
-    @property
-    def source(self) -> str:
-        """The sensor whose mean it is."""
-        return self.of
 
     def first(self, begin: Begin) -> Bounds:
         """What its source reads."""
@@ -72,10 +60,6 @@ class Average(SensorKind):
             return mean.astype(np.float32)
 
         return read
-
-    def row(self, scene: Scene) -> Row:
-        """Where its source stands, and over how many ticks."""
-        return {"source": scene.starts[self.of], "over": self.over}
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:

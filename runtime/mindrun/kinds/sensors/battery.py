@@ -1,10 +1,10 @@
 """How full the battery is."""
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
-from mindrun.kinds.sensors.sensor import BatteryModel, Begin, Bounds, Physical, World
+from mindrun.kinds.sensors.sensor import BatteryModel, Begin, Bounds, Physical
+from mindrun.kinds.things.thing import World
 from mindrun.numbers.quantity import RATE, RATIO
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
@@ -12,7 +12,6 @@ if TYPE_CHECKING:  # a lane is given these when it is compiled
 
 
 @kind("sensor", "battery")
-@dataclass(frozen=True, slots=True)
 class Battery(Physical):
     """Charge of the battery: `start`s there, loses `drain` every tick, gains `charge` every tick inside a `power`."""
 

@@ -1,12 +1,10 @@
 """In which direction a thing is."""
 
-from dataclasses import dataclass
 from math import inf
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
-from mindrun.kinds.sensors.sensor import Physical, Row, Scene, World
-from mindrun.kinds.things.thing import ThingKind
+from mindrun.kinds.sensors.sensor import Physical, Row, Scene
 from mindrun.numbers.quantity import LENGTH, RATIO, THING
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
@@ -14,7 +12,6 @@ if TYPE_CHECKING:  # a lane is given these when it is compiled
 
 
 @kind("sensor", "bearing")
-@dataclass(frozen=True, slots=True)
 class Bearing(Physical):
     """Direction of a thing: 0.5 straight ahead, less on the left, more on the right; 0.5 without it.
 
@@ -30,19 +27,11 @@ class Bearing(Physical):
     circular = True
     scaled = True
     blank = rest = 0.5
-
-    @staticmethod
-    def is_about(kind: type[ThingKind]) -> bool:
-        """Whatever there is."""
-        return True
-
-    def constant(self, world: World) -> float | None:
-        """0.5 without the thing, and where all directions are in the dead zone."""
-        return 0.5 if self.of not in world.things or self.dead_zone > 0.5 else None
+    is_about = staticmethod(lambda kind: True)  # whatever there is
 
     def row(self, scene: Scene) -> Row:
-        """The thing, and how far away it may be."""
-        return {"range": self.range or inf, "dead_zone": self.dead_zone}
+        """How far away the thing may be."""
+        return {**Physical.row(self, scene), "range": self.range or inf}
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:

@@ -1,11 +1,11 @@
 """Where the body touches something solid."""
 
-from dataclasses import dataclass
 from math import pi
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
-from mindrun.kinds.sensors.sensor import Physical, World
+from mindrun.kinds.sensors.sensor import Physical
+from mindrun.kinds.things.thing import World
 from mindrun.numbers.quantity import ANGLE, Quantity
 from mindrun.numbers.trigonometry import cosine, sine
 
@@ -33,7 +33,6 @@ WIDTH = Quantity("an angle", {"deg": pi / 180}, low=pi / 180, high=2 * pi)
 
 
 @kind("sensor", "bumper")
-@dataclass(frozen=True, slots=True)
 class Bumper(Physical):
     """Switches around the body, one reading per angle: 1 while something solid touches it there, else 0.
 
@@ -46,16 +45,6 @@ class Bumper(Physical):
 
     near = 1
     remedy = "Let a task contain something solid"
-
-    @property
-    def width(self) -> int:
-        """One reading per angle."""
-        return len(self.at)
-
-    @property
-    def directions(self) -> tuple[float, ...]:
-        """Its angles."""
-        return self.at
 
     @property
     def sector(self) -> float:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import floor
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
-from mindrun.kinds.sensors.sensor import Begin, Bounds, Row, Scene, SensorKind, World
+from mindrun.kinds.sensors.sensor import Begin, Bounds, Row, Scene, SensorKind
+from mindrun.kinds.things.thing import World
 from mindrun.numbers.quantity import SECONDS
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
@@ -18,7 +18,6 @@ if TYPE_CHECKING:  # a lane is given these when it is compiled
 
 
 @kind("sensor", "clock")
-@dataclass(frozen=True, slots=True)
 class Clock(SensorKind):
     """A saw tooth: from 0 to 1 in every period, then 0 again; t/period without its whole part."""
 

@@ -1,10 +1,9 @@
 """In which direction north is."""
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
-from mindrun.kinds.sensors.sensor import Physical, Row, Scene, World
+from mindrun.kinds.sensors.sensor import Physical
 from mindrun.numbers.quantity import RATIO
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
@@ -12,7 +11,6 @@ if TYPE_CHECKING:  # a lane is given these when it is compiled
 
 
 @kind("sensor", "compass")
-@dataclass(frozen=True, slots=True)
 class Compass(Physical):
     """Direction of north, where the world's y axis points: 0.5 straight ahead, less on the left, more on the right.
 
@@ -24,14 +22,6 @@ class Compass(Physical):
     circular = True
     scaled = True
     blank = rest = 0.5
-
-    def constant(self, world: World) -> float | None:
-        """0.5 where all directions are in the dead zone."""
-        return 0.5 if self.dead_zone > 0.5 else None
-
-    def row(self, scene: Scene) -> Row:
-        """The dead zone."""
-        return {"dead_zone": self.dead_zone}
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass
 from math import isfinite
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
-from mindrun.kinds.sensors.sensor import Flaw, Scene, SensorKind, World
+from mindrun.kinds.sensors.sensor import Flaw, Scene, SensorKind
+from mindrun.kinds.things.thing import World
 from mindrun.numbers.expression import Formula, constant_value, fold, is_valid_program, named, placed, single
 from mindrun.numbers.quantity import EXPRESSION
 from mindrun.numbers.stack_machine import evaluate as run_program
@@ -21,7 +21,6 @@ if TYPE_CHECKING:  # a lane is given these when it is compiled
 
 
 @kind("sensor", "computed")
-@dataclass(frozen=True, slots=True)
 class Computed(SensorKind):
     """The value of an expression over sensors and memories of one reading, clamped to 0..1. 0/0 is no reading.
 

@@ -1,11 +1,9 @@
 """Whether the claw can take a thing."""
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
-from mindrun.kinds.sensors.sensor import Physical, World
-from mindrun.kinds.things.thing import ThingKind
+from mindrun.kinds.sensors.sensor import Physical
 from mindrun.numbers.quantity import THING
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
@@ -13,22 +11,14 @@ if TYPE_CHECKING:  # a lane is given these when it is compiled
 
 
 @kind("sensor", "contact")
-@dataclass(frozen=True, slots=True)
 class Contact(Physical):
     """1 while the thing, or one of its name, is in the claw's reach, else 0."""
 
     of: Annotated[str, THING]
 
     near = 1
-
-    @staticmethod
-    def is_about(kind: type[ThingKind]) -> bool:
-        """What a claw can take, push or catch."""
-        return kind.can_be_held or kind.is_loose or kind.walks
-
-    def constant(self, world: World) -> float | None:
-        """0 without the thing."""
-        return None if self.of in world.things else 0.0
+    # What a claw can take, push or catch.
+    is_about = staticmethod(lambda kind: kind.can_be_held or kind.is_loose or kind.walks)
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
-from mindrun.kinds.sensors.sensor import Begin, Bounds, Row, Scene, SensorKind, World
+from mindrun.kinds.sensors.sensor import Begin, Bounds, Row, Scene, SensorKind
+from mindrun.kinds.things.thing import World
 from mindrun.numbers.quantity import POSITIVE, RATIO, SENSOR
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
@@ -17,7 +17,6 @@ if TYPE_CHECKING:  # a lane is given these when it is compiled
 
 
 @kind("sensor", "derivative")
-@dataclass(frozen=True, slots=True)
 class Derivative(SensorKind):
     """Change of another sensor's readings: 0.5 none, 1 rising by `range` a second. A direction turns the short way."""
 
@@ -25,7 +24,9 @@ class Derivative(SensorKind):
     range: Annotated[float, POSITIVE] = 1.0
     dead_zone: Annotated[float, RATIO] = 0.0
 
+    shape = None
     remembered = 1
+    rest = 0.5
 
     @property
     def remedy(self) -> str:  # type: ignore[override]
@@ -34,19 +35,9 @@ class Derivative(SensorKind):
             return SensorKind.remedy
         return f"Derive it from another sensor than {self.of}, which never changes"
 
-    @property
-    def width(self) -> None:
-        """None: it has as many readings as its source."""
-        return
-
-    @property
-    def source(self) -> str:
-        """The sensor whose change it is."""
-        return self.of
-
     def constant(self, world: World) -> float | None:
         """0.5 where the sensor never changes, and where every change is in the dead zone."""
-        return 0.5 if self.dead_zone > 0.5 or world.is_constant(self.of) else None
+        return 0.5 if world.is_constant(self.of) else SensorKind.constant(self, world)
 
     def first(self, begin: Begin) -> Bounds:
         """0.5: nothing has changed yet."""
@@ -75,10 +66,8 @@ class Derivative(SensorKind):
         return read
 
     def row(self, scene: Scene) -> Row:
-        """The change that reads 1 as a gain, and where its source stands."""
-        return {
-            "source": scene.starts[self.of], "gain": 0.5 / (scene.tick * self.range), "dead_zone": self.dead_zone,
-        }  # fmt: skip
+        """The change that reads 1, as a gain."""
+        return {**SensorKind.row(self, scene), "gain": 0.5 / (scene.tick * self.range)}
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:

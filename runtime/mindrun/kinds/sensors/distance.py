@@ -1,11 +1,9 @@
 """How far away a thing is."""
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
-from mindrun.kinds.sensors.sensor import Physical, Row, Scene, World
-from mindrun.kinds.things.thing import ThingKind
+from mindrun.kinds.sensors.sensor import Physical
 from mindrun.numbers.quantity import POSITIVE, THING
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
@@ -15,7 +13,6 @@ if TYPE_CHECKING:  # a lane is given these when it is compiled
 
 
 @kind("sensor", "distance")
-@dataclass(frozen=True, slots=True)
 class Distance(Physical):
     """Distance from the body's rim to that of a thing, of several the nearest: 0 touching, 1 from `range` on or none.
 
@@ -31,24 +28,7 @@ class Distance(Physical):
     unit = "m"
     blank = 1.0
     remedy = "Let a task contain what it is about"
-
-    @staticmethod
-    def is_about(kind: type[ThingKind]) -> bool:
-        """Whatever there is."""
-        return True
-
-    def constant(self, world: World) -> float | None:
-        """1 without the thing."""
-        return None if self.of in world.things else 1.0
-
-    @property
-    def ends(self) -> tuple[float, float]:
-        """Touching, and `range` away."""
-        return 0.0, self.range
-
-    def row(self, scene: Scene) -> Row:
-        """Where it reads 1."""
-        return {"range": self.range}
+    is_about = staticmethod(lambda kind: True)  # whatever there is
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:

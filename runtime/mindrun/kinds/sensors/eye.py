@@ -1,11 +1,9 @@
 """How far a thing is in some directions: one line of a camera that sees its colour alone."""
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
-from mindrun.kinds.sensors.sensor import Physical, Row, Scene, World
-from mindrun.kinds.things.thing import ThingKind
+from mindrun.kinds.sensors.sensor import Physical
 from mindrun.numbers.quantity import ANGLE, POSITIVE, THING
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
@@ -30,7 +28,6 @@ if TYPE_CHECKING:  # a lane is given these when it is compiled
 
 
 @kind("sensor", "eye")
-@dataclass(frozen=True, slots=True)
 class Eye(Physical):
     """Distance from the body's rim to a thing, one reading per angle: 0 touching or inside, 1 where the ray meets none.
 
@@ -43,39 +40,13 @@ class Eye(Physical):
     at: Annotated[tuple[float, ...], ANGLE] = (0.0,)
     range: Annotated[float, POSITIVE] = 30.0
 
+    looks = True
     scaled = True
     near = 0
     unit = "m"
     blank = 1.0
     remedy = "Let a task contain what it is about"
-
-    @property
-    def width(self) -> int:
-        """One reading per angle."""
-        return len(self.at)
-
-    @property
-    def rays(self) -> tuple[float, ...]:
-        """Its angles."""
-        return self.at
-
-    @property
-    def reach(self) -> float:
-        """Its range."""
-        return self.range
-
-    @staticmethod
-    def is_about(kind: type[ThingKind]) -> bool:
-        """Whatever there is."""
-        return True
-
-    def constant(self, world: World) -> float | None:
-        """1 without the thing."""
-        return None if self.of in world.things else 1.0
-
-    def row(self, scene: Scene) -> Row:
-        """How far it looks."""
-        return {"range": self.range}
+    is_about = staticmethod(lambda kind: True)  # whatever there is
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:

@@ -1,11 +1,9 @@
 """What lies under some points of the robot."""
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
-from mindrun.kinds.sensors.sensor import Physical, World
-from mindrun.kinds.things.thing import ThingKind
+from mindrun.kinds.sensors.sensor import Physical
 from mindrun.numbers.quantity import THING, Quantity
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
@@ -15,7 +13,6 @@ OFFSET = Quantity("a length in world units", {"": 1.0}, low=-1000.0, high=1000.0
 
 
 @kind("sensor", "floor")
-@dataclass(frozen=True, slots=True)
 class Floor(Physical):
     """Light sensors that look down, one reading each: 1 where it is over a thing or one of its name, else 0.
 
@@ -27,16 +24,7 @@ class Floor(Physical):
     ahead: Annotated[float, OFFSET] = 0.0
 
     remedy = "Let a task contain what it is about"
-
-    @staticmethod
-    def is_about(kind: type[ThingKind]) -> bool:
-        """What can lie on the floor."""
-        return not kind.is_solid
-
-    @property
-    def width(self) -> int:
-        """One reading per place."""
-        return len(self.at)
+    is_about = staticmethod(lambda kind: not kind.is_solid)  # what can lie on the floor
 
     @property
     def spots(self) -> tuple[tuple[float, float], ...]:
@@ -47,10 +35,6 @@ class Floor(Physical):
     def numbers(self) -> tuple[float, ...]:
         """How far ahead they are, then how far to the left each is."""
         return self.ahead, *self.at
-
-    def constant(self, world: World) -> float | None:
-        """0 without the thing."""
-        return None if self.of in world.things else 0.0
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:

@@ -1,11 +1,10 @@
 """Whether the claw holds a thing."""
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
-from mindrun.kinds.sensors.sensor import Begin, Bounds, Physical, World
-from mindrun.kinds.things.thing import ThingKind
+from mindrun.kinds.sensors.sensor import Begin, Bounds, Physical
+from mindrun.kinds.things.thing import World
 from mindrun.numbers.quantity import THING
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
@@ -13,7 +12,6 @@ if TYPE_CHECKING:  # a lane is given these when it is compiled
 
 
 @kind("sensor", "held")
-@dataclass(frozen=True, slots=True)
 class Held(Physical):
     """1 while the claw holds the thing, or one of its name, else 0."""
 
@@ -21,15 +19,11 @@ class Held(Physical):
 
     near = 1
     remedy = "Let a skill that acts drive a gripper"
-
-    @staticmethod
-    def is_about(kind: type[ThingKind]) -> bool:
-        """What a claw can take."""
-        return kind.can_be_held
+    is_about = staticmethod(lambda kind: kind.can_be_held)  # what a claw can take
 
     def constant(self, world: World) -> float | None:
         """0 without the thing, and where no claw ever closes."""
-        return None if self.of in world.things and world.can_hold else 0.0
+        return Physical.constant(self, world) if world.can_hold else 0.0
 
     def first(self, begin: Begin) -> Bounds | None:
         """0, since a claw begins empty; None where noise hides that."""

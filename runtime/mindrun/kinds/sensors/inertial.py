@@ -1,6 +1,5 @@
 """Whether the robot moves."""
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
@@ -16,7 +15,6 @@ TRAIL_TICKS = 20  # over which the displacement is taken
 
 
 @kind("sensor", "inertial")
-@dataclass(frozen=True, slots=True)
 class Inertial(Physical):
     """Whether the robot moves: its displacement over the last 20 ticks as a mean speed, 1 from `range` units/s on."""
 
@@ -27,7 +25,7 @@ class Inertial(Physical):
 
     def row(self, scene: Scene) -> Row:
         """The speed that reads 1 as a gain of the displacement."""
-        return {"gain": 1.0 / (TRAIL_TICKS * scene.tick * self.range), "dead_zone": self.dead_zone}
+        return {**Physical.row(self, scene), "gain": 1.0 / (TRAIL_TICKS * scene.tick * self.range)}
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:

@@ -1,11 +1,9 @@
 """Whether the robot is inside of a thing."""
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
-from mindrun.kinds.sensors.sensor import Begin, Bounds, Physical, World
-from mindrun.kinds.things.thing import ThingKind
+from mindrun.kinds.sensors.sensor import Begin, Bounds, Physical
 from mindrun.numbers.quantity import THING
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
@@ -13,20 +11,12 @@ if TYPE_CHECKING:  # a lane is given these when it is compiled
 
 
 @kind("sensor", "inside")
-@dataclass(frozen=True, slots=True)
 class Inside(Physical):
     """1 while the robot's centre is inside the thing, or one of its name, else 0."""
 
     of: Annotated[str, THING]
 
-    @staticmethod
-    def is_about(kind: type[ThingKind]) -> bool:
-        """What lies on the floor."""
-        return kind.is_area
-
-    def constant(self, world: World) -> float | None:
-        """0 without the thing."""
-        return None if self.of in world.things else 0.0
+    is_about = staticmethod(lambda kind: kind.is_area)  # what lies on the floor
 
     def first(self, begin: Begin) -> Bounds | None:
         """1 where the robot begins inside of the thing, 0 where it does not."""

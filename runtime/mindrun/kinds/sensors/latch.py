@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
@@ -16,7 +15,6 @@ if TYPE_CHECKING:  # a lane is given these when it is compiled
 
 
 @kind("sensor", "latch")
-@dataclass(frozen=True, slots=True)
 class Latch(SensorKind):
     """1 from when another sensor reads less than `below` until it reads more than `above`, else 0: hysteresis.
 
@@ -29,17 +27,8 @@ class Latch(SensorKind):
     above: Annotated[float, RATIO]
 
     compares = True
+    shape = None
     remembered = 1
-
-    @property
-    def width(self) -> None:
-        """None: it has as many readings as its source."""
-        return
-
-    @property
-    def source(self) -> str:
-        """The sensor that it watches."""
-        return self.of
 
     def flaw(self, widths: Mapping[str, int]) -> Flaw | None:
         """It lets go above where it closes."""
@@ -69,8 +58,8 @@ class Latch(SensorKind):
         return read
 
     def row(self, scene: Scene) -> Row:
-        """Where its source stands, and the two thresholds."""
-        return {"source": scene.starts[self.of], "low": self.below, "high": self.above}
+        """The two thresholds."""
+        return {**SensorKind.row(self, scene), "low": self.below, "high": self.above}
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:

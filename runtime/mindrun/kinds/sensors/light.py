@@ -1,10 +1,9 @@
 """How bright a thing is from where the robot is."""
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
-from mindrun.kinds.sensors.sensor import Physical, Row, Scene, World
+from mindrun.kinds.sensors.sensor import Physical
 from mindrun.numbers.quantity import POSITIVE, THING
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
@@ -29,7 +28,6 @@ if TYPE_CHECKING:  # a lane is given these when it is compiled
 
 
 @kind("sensor", "light")
-@dataclass(frozen=True, slots=True)
 class Light(Physical):
     """Light of a thing, of several the nearest: 1 at its middle, 0.5 at `range`, far away falling with the square.
 
@@ -42,14 +40,6 @@ class Light(Physical):
 
     near = 1
     remedy = "Let a task contain what it is about"
-
-    def constant(self, world: World) -> float | None:
-        """0 without the thing."""
-        return None if self.of in world.things else 0.0
-
-    def row(self, scene: Scene) -> Row:
-        """Where it reads half."""
-        return {"range": self.range}
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:

@@ -1,17 +1,15 @@
 """One number of what an environment observes."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Annotated, Any
 
+from mindrun.kinds.environment import Slot
 from mindrun.kinds.registry import kind
 from mindrun.kinds.sensors.sensor import Flaw, Physical
-from mindrun.kinds.slot import Slot
 from mindrun.numbers.quantity import INDEX, NUMBER, SLOT, Span
 
 
 @kind("sensor", "observation")
-@dataclass(frozen=True, slots=True)
 class Observation(Physical):
     """One number of a Gymnasium environment's observation: 0 at the low end of `range`, 1 at the high end.
 

@@ -1,6 +1,5 @@
 """How fast a wheel rolls."""
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.actuators.actuator import Side
@@ -14,7 +13,6 @@ if TYPE_CHECKING:  # a lane is given these when it is compiled
 
 
 @kind("sensor", "odometer")
-@dataclass(frozen=True, slots=True)
 class Odometer(Physical):
     """Speed of a wheel on the body's rim, as its encoder counts it: 0.5 standing, 1 forward with `range` units/s.
 
@@ -28,11 +26,6 @@ class Odometer(Physical):
     scaled = True
     unit = "m/s"
     blank = rest = still = 0.5
-
-    @property
-    def ends(self) -> tuple[float, float]:
-        """Backward and forward with `range`."""
-        return -self.range, self.range
 
     def row(self, scene: Scene) -> Row:
         """What a unit a second adds, and the side: −1 left, 1 right."""

@@ -1,6 +1,5 @@
 """Where the robot is along an axis of its world."""
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any, Literal, get_args
 
 from mindrun.kinds.registry import kind
@@ -14,7 +13,6 @@ Axis = Literal["x", "y"]
 
 
 @kind("sensor", "position")
-@dataclass(frozen=True, slots=True)
 class Position(Physical):
     """Place of the robot's middle along an axis, as beacons tell it: 0.5 the origin, 1 from `range` units on.
 
@@ -27,11 +25,6 @@ class Position(Physical):
     scaled = True
     unit = "m"
     blank = 0.5
-
-    @property
-    def ends(self) -> tuple[float, float]:
-        """`range` on either side of the origin."""
-        return -self.range, self.range
 
     def row(self, scene: Scene) -> Row:
         """What a unit adds, and the axis as a row of the body."""

@@ -1,10 +1,10 @@
 """How far it is to what stands in the way, in some directions."""
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
-from mindrun.kinds.sensors.sensor import Physical, Row, Scene, World
+from mindrun.kinds.sensors.sensor import Physical
+from mindrun.kinds.things.thing import World
 from mindrun.numbers.quantity import ANGLE, POSITIVE, RATIO
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
@@ -12,7 +12,6 @@ if TYPE_CHECKING:  # a lane is given these when it is compiled
 
 
 @kind("sensor", "range_finder")
-@dataclass(frozen=True, slots=True)
 class RangeFinder(Physical):
     """Distance from the body's rim to what is solid, one reading per angle: 0 touching, 1 clear within `range`.
 
@@ -23,33 +22,15 @@ class RangeFinder(Physical):
     range: Annotated[float, POSITIVE] = 12.0
     dead_zone: Annotated[float, RATIO] = 0.005
 
+    looks = True
     scaled = True
     near = 0
     unit = "m"
     blank = 1.0
 
-    @property
-    def width(self) -> int:
-        """One reading per angle."""
-        return len(self.at)
-
-    @property
-    def rays(self) -> tuple[float, ...]:
-        """Its angles."""
-        return self.at
-
-    @property
-    def reach(self) -> float:
-        """Its range."""
-        return self.range
-
     def constant(self, world: World) -> float | None:
         """1 where nothing is solid."""
         return None if world.is_solid else 1.0
-
-    def row(self, scene: Scene) -> Row:
-        """How far it looks."""
-        return {"range": self.range, "dead_zone": self.dead_zone}
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
@@ -15,7 +14,6 @@ if TYPE_CHECKING:
 
 
 @kind("sensor", "reading")
-@dataclass(frozen=True, slots=True)
 class Reading(SensorKind):
     """One reading of a sensor that has several; the first is 1."""
 
@@ -23,11 +21,6 @@ class Reading(SensorKind):
     of: Annotated[str, SENSOR]
 
     circular = None
-
-    @property
-    def source(self) -> str:
-        """The wide sensor."""
-        return self.of
 
     def flaw(self, widths: Mapping[str, int]) -> Flaw | None:
         """There are so many readings."""

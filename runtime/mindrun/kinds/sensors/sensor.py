@@ -6,29 +6,26 @@ from collections.abc import Collection, Mapping, Set
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, Protocol
 
-from mindrun.kinds.registry import base
-from mindrun.kinds.slot import Slot
-from mindrun.kinds.things.about import AboutThing
+from mindrun.kinds.environment import Slot
+from mindrun.kinds.registry import arguments, base, named_arguments
+from mindrun.kinds.things.thing import AboutThing, World
 from mindrun.numbers.expression import Formula
-from mindrun.numbers.quantity import RATIO, TICKS
+from mindrun.numbers.quantity import ANGLE, RATIO, SENSOR, TICKS
 
 if TYPE_CHECKING:
     from mindrun.numbers.arrays import Reader
 
 Row = Mapping[str, float]  # columns of the lanes' table of sensors
+TOLD = ("range", "dead_zone", "over")  # arguments that are such columns
+Shape = tuple[int, ...]  # of readings: () of a single one, (n,) of n side by side
 Bounds = tuple[float, float]  # the least and the greatest
 
 
 class Begin(Protocol):
     """What is known of how a run begins."""
 
-    def is_within(self, thing: str) -> bool | None:
-        """Whether the robot begins inside of a thing; None where that is drawn."""
-        ...
-
-    def first(self, name: str) -> Bounds:
-        """The least and greatest that a sensor or a memory reads in the first tick."""
-        ...
+    def is_within(self, thing: str) -> bool | None: ...  # whether the robot is in a thing; None where that is drawn
+    def first(self, name: str) -> Bounds: ...  # what a sensor or a memory reads in the first tick
 
 
 class Flaw(NamedTuple):
@@ -65,39 +62,6 @@ class Scene:
         return {name: place.start for name, place in self.places.items()}
 
 
-class World(Protocol):
-    """What is known of the worlds of a mind's tasks before anything runs in them."""
-
-    @property
-    def things(self) -> Set[str]:
-        """The things that a sensor can be about."""
-        ...
-
-    @property
-    def is_solid(self) -> bool:
-        """Whether anything stands in the way, fixed or loose."""
-        ...
-
-    @property
-    def charges(self) -> bool:
-        """Whether a battery can charge."""
-        ...
-
-    @property
-    def can_hold(self) -> bool:
-        """Whether a claw may ever close."""
-        ...
-
-    @property
-    def tick(self) -> float:
-        """The length of a tick in seconds."""
-        ...
-
-    def is_constant(self, reading: str) -> bool:
-        """Whether a sensor or memory always reads the same."""
-        ...
-
-
 @base("sensor")
 class SensorKind(AboutThing):
     """A sensor of one reading that varies; a kind says what is different about it."""
@@ -107,12 +71,14 @@ class SensorKind(AboutThing):
     varying: tuple[str, ...] = ()  # the arguments that can differ from run to run
     circular: bool | None = False  # whether it reads a direction, which goes round: 1 is 0; None where its source does
     compares = False  # whether it compares its source with numbers
+    looks = False  # whether its readings are how far it is along rays, 1 from `range` on
     scaled = False  # whether its values mean something by themselves, so that they need no calibration
     near: int | None = None  # the reading of what is near
     unit = ""  # of a driver that measures the same: m for a length, m/s for a speed
     keeps_lost = False  # whether a reading that fails is the one before, and not `blank`
     remembered = 0  # how many numbers the lanes keep of each of its readings
     blank, rest = 0.0, 0.0  # what it reads where there is nothing to measure, and in its dead zone
+    dead_zone = 0.0
     still: float | None = None  # what it reads of a robot that stands, as it does when a run begins
     remedy = "Give it a dead_zone below 0.5"  # for one that is constant
 
@@ -127,14 +93,15 @@ class SensorKind(AboutThing):
         return self.slot is not None
 
     @property
-    def width(self) -> int | None:
-        """How many readings it has; None where as many as its source."""
-        return 1
+    def shape(self) -> Shape | None:
+        """How its readings lie: one for each of a list that it takes, else a single one; None: as its source's."""
+        lists = [getattr(self, each.field) for each in named_arguments(type(self)) if each.shape == "list"]
+        return (len(lists[0]),) if lists else ()
 
     @property
     def source(self) -> str:
-        """The sensor or memory from which it is computed, if there is one."""
-        return ""
+        """The sensor or memory from which it is computed, which its argument of that type says; empty for none."""
+        return self.named(SENSOR)
 
     @property
     def sources(self) -> tuple[str, ...]:
@@ -160,14 +127,26 @@ class SensorKind(AboutThing):
         return None
 
     @property
-    def rays(self) -> tuple[float, ...]:
-        """The directions in which it looks, counterclockwise from straight ahead, one for each reading."""
-        return ()
+    def directions(self) -> tuple[float, ...]:
+        """Where around the robot it measures, one angle for each reading, counterclockwise from straight ahead."""
+        lists = (each for each in arguments(type(self)) if each.shape == "list" and each.type is ANGLE)
+        return next((getattr(self, each.field) for each in lists), ())
 
     @property
-    def directions(self) -> tuple[float, ...]:
-        """Where around the robot it measures, one angle for each reading: where it looks, if nothing else is said."""
-        return self.rays
+    def rays(self) -> tuple[float, ...]:
+        """The directions in which it looks."""
+        return self.directions if self.looks else ()
+
+    @property
+    def reach(self) -> float:
+        """How far it looks, in world units."""
+        return getattr(self, "range", 0.0) if self.looks else 0.0
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """What its readings 0 and 1 are in units of the world, of what has a `unit`; both ways where 0.5 is nothing."""
+        high = getattr(self, "range", 0.0) if self.unit else 0.0
+        return (-high, high) if high and self.blank == 0.5 else (0.0, high)
 
     @property
     def spots(self) -> tuple[tuple[float, float], ...]:
@@ -184,19 +163,11 @@ class SensorKind(AboutThing):
         """What its lane function reads beside its row: `t.numbers`, from `sensor.number` on."""
         return ()
 
-    @property
-    def reach(self) -> float:
-        """How far it looks, in world units."""
-        return 0.0
-
-    @property
-    def ends(self) -> tuple[float, float]:
-        """What its readings 0 and 1 are in units of the world, of what has a `unit`: a length, or one a second."""
-        return 0.0, self.reach
-
     def row(self, scene: Scene) -> Row:
-        """What its lane function is told: range, dead_zone, gain, period, source or part, those that it reads."""
-        return {}
+        """What its lane function is told beside what each is: those of its arguments that are TOLD, and its source."""
+        plain = (each.field for each in arguments(type(self)) if each.shape == "one" and each.field in TOLD)
+        told = {name: getattr(self, name) for name in plain}
+        return told | ({"source": scene.starts[self.source]} if self.source else {})
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
@@ -208,8 +179,10 @@ class SensorKind(AboutThing):
         """
 
     def constant(self, world: World) -> float | None:
-        """What it always reads in a world; None where that varies, or nobody knows."""
-        return None
+        """What it always reads in a world, as without its thing, or in a dead zone that all is in; else None."""
+        if self.thing and self.thing not in world.things:
+            return self.blank
+        return self.rest if self.dead_zone > max(self.rest, 1 - self.rest) else None
 
     def first(self, begin: Begin) -> Bounds | None:
         """The least and greatest of its readings in the first tick of a run; None where nobody knows."""
@@ -247,3 +220,18 @@ class Physical(SensorKind):
         """The least and greatest reading of what it measures."""
         low, high = max(0.0, value - self.noise), min(1.0, value + self.noise)
         return (min(low, self.blank), max(high, self.blank)) if self.lost and not self.keeps_lost else (low, high)
+
+
+def directions(kinds: Mapping[str, SensorKind]) -> Set[str]:
+    """The sensors whose reading is a direction: those that say so, and those that derive one from such a source."""
+    onward: dict[str, list[str]] = {}
+    for name, kind in kinds.items():
+        for source in kind.sources:
+            onward.setdefault(source, []).append(name)
+    found = {name for name, kind in kinds.items() if kind.goes_round(())}
+    waiting = [*found]
+    while waiting:
+        new = {name for name in onward.get(waiting.pop(), ()) if kinds[name].goes_round(found)} - found
+        found |= new
+        waiting += new
+    return found

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import floor, isclose, pi
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
-from mindrun.kinds.sensors.sensor import Begin, Bounds, Row, Scene, SensorKind, World
+from mindrun.kinds.sensors.sensor import Begin, Bounds, Row, Scene, SensorKind
+from mindrun.kinds.things.thing import World
 from mindrun.numbers.quantity import SECONDS
 from mindrun.numbers.trigonometry import sine
 
@@ -19,7 +19,6 @@ if TYPE_CHECKING:  # a lane is given these when it is compiled
 
 
 @kind("sensor", "sine")
-@dataclass(frozen=True, slots=True)
 class Sine(SensorKind):
     """A wave: 0.5 + 0.5 sin(2πt/period)."""
 

@@ -1,10 +1,9 @@
 """How fast the robot drives."""
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
-from mindrun.kinds.sensors.sensor import Physical, Row, Scene, World
+from mindrun.kinds.sensors.sensor import Physical, Row, Scene
 from mindrun.numbers.quantity import POSITIVE, RATIO
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
@@ -12,7 +11,6 @@ if TYPE_CHECKING:  # a lane is given these when it is compiled
 
 
 @kind("sensor", "speed")
-@dataclass(frozen=True, slots=True)
 class Speed(Physical):
     """Speed along the heading: 0.5 standing, 1 forward with `range` units a second or more, 0 backward.
 
@@ -26,18 +24,9 @@ class Speed(Physical):
     unit = "m/s"
     blank = rest = still = 0.5
 
-    def constant(self, world: World) -> float | None:
-        """0.5 where all speeds are in the dead zone."""
-        return 0.5 if self.dead_zone > 0.5 else None
-
-    @property
-    def ends(self) -> tuple[float, float]:
-        """Backward and forward with `range`."""
-        return -self.range, self.range
-
     def row(self, scene: Scene) -> Row:
         """What a unit a second adds."""
-        return {"gain": 0.5 / self.range, "dead_zone": self.dead_zone}
+        return {**Physical.row(self, scene), "gain": 0.5 / self.range}
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:

@@ -1,11 +1,10 @@
 """How fast the robot turns."""
 
-from dataclasses import dataclass
 from math import pi
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
-from mindrun.kinds.sensors.sensor import Physical, Row, Scene, World
+from mindrun.kinds.sensors.sensor import Physical, Row, Scene
 from mindrun.numbers.quantity import RATIO, Quantity
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
@@ -15,7 +14,6 @@ TURNING = Quantity("an angle a second", {"deg": pi / 180}, low=pi / 1800, high=2
 
 
 @kind("sensor", "turn_rate")
-@dataclass(frozen=True, slots=True)
 class TurnRate(Physical):
     """How fast the robot turns, as a gyroscope says it: 0.5 not at all, 1 to the right with `range` deg/s, 0 left.
 
@@ -28,13 +26,9 @@ class TurnRate(Physical):
     scaled = True
     blank = rest = still = 0.5
 
-    def constant(self, world: World) -> float | None:
-        """0.5 where all turning is in the dead zone."""
-        return 0.5 if self.dead_zone > 0.5 else None
-
     def row(self, scene: Scene) -> Row:
         """What a radian a second adds."""
-        return {"gain": 0.5 / self.range, "dead_zone": self.dead_zone}
+        return {**Physical.row(self, scene), "gain": 0.5 / self.range}
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:

@@ -1,6 +1,5 @@
 """A round thing that can be pushed."""
 
-from dataclasses import dataclass
 from typing import Annotated
 
 from mindrun.kinds.bodies.body import DAMPING, DENSITY
@@ -9,7 +8,6 @@ from mindrun.kinds.things.loose import Loose
 
 
 @kind("content", "ball")
-@dataclass(frozen=True, slots=True)
 class Ball(Loose):
     """A solid disc of diameter `size` that can be pushed, and rolls on for a while; all else is as of a box."""
 

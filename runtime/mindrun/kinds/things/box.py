@@ -1,13 +1,10 @@
 """A square thing that can be pushed."""
 
-from dataclasses import dataclass
-
 from mindrun.kinds.registry import kind
 from mindrun.kinds.things.loose import Loose
 
 
 @kind("content", "box")
-@dataclass(frozen=True, slots=True)
 class LooseBox(Loose):
     """A solid square of side `size` that can be pushed, and turns as it is pushed.
 

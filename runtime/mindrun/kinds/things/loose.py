@@ -1,6 +1,5 @@
 """What every loose thing says of itself: solid, and pushed about."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Annotated
 
@@ -53,8 +52,3 @@ class Loose(ThingKind):
             hint = f"Write away {self.largest:g} to {self.largest + 20:g}: it is {self.largest:g} large."
             return Mistake("on-the-robot", "So near, it would stand on the robot.", hint)
         return ThingKind.mistake(self, scene)
-
-    @property
-    def outcomes(self) -> Mapping[str, Outcome]:
-        """Both."""
-        return {"reached": self.reached, "delivered": self.delivered}

@@ -1,14 +1,13 @@
 """Walls drawn in characters."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import lru_cache
 from typing import Annotated
 
 from mindrun.kinds.registry import kind
 from mindrun.kinds.scenes.scene import SceneKind
-from mindrun.kinds.things.rectangle import Rectangle
-from mindrun.kinds.things.thing import DEFAULT_DISTANCE, DEFAULT_SIZE, Mistake, ThingKind
+from mindrun.kinds.things.thing import DEFAULT_DISTANCE, DEFAULT_SIZE, Mistake, Rectangle, ThingKind
 from mindrun.numbers.quantity import LENGTH, Place, Reference
 
 WALL, FLOOR = "#", "."
@@ -20,7 +19,6 @@ Lines = tuple[str, ...]
 
 
 @kind("content", "map")
-@dataclass(frozen=True, slots=True)
 class Map(ThingKind):
     """Walls drawn in a text file: `#` is wall, `.` is floor, each a square of side `cell`; its middle is the world's.
 

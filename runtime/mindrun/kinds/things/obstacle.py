@@ -1,14 +1,13 @@
 """What stands in the way."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import product
 from typing import Annotated
 
 from mindrun.kinds.registry import kind
 from mindrun.kinds.scenes.scene import SceneKind
-from mindrun.kinds.things.rectangle import Rectangle
-from mindrun.kinds.things.thing import DEFAULT_DISTANCE, DEFAULT_SIZE, MAX_OBSTACLES, Mistake, Row, ThingKind
+from mindrun.kinds.things.thing import DEFAULT_DISTANCE, DEFAULT_SIZE, MAX_OBSTACLES, Mistake, Rectangle, Row, ThingKind
 from mindrun.numbers.quantity import COORDINATE, LENGTH, Place, Quantity, Span
 
 COUNT = Quantity("a whole number", {"": 1.0}, low=0, high=1000, whole=True)
@@ -17,7 +16,6 @@ MAX_GRID_LINES = 1e9  # lines of a grid, far more than can be
 
 
 @kind("content", "obstacle")
-@dataclass(frozen=True, slots=True)
 class Obstacle(ThingKind):
     """Solid squares of side `size`: `count` of them anywhere, one `at` a place, or one at each point of a `grid`.
 

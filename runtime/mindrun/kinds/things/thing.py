@@ -1,14 +1,13 @@
 """What every kind of thing says of itself: the rest of the program asks, and knows no kind by name."""
 
-from collections.abc import Iterable, Mapping
-from dataclasses import replace
+from collections.abc import Iterable, Mapping, Set
+from dataclasses import dataclass, replace
 from math import hypot
-from typing import Literal, NamedTuple, get_args
+from typing import Annotated, Literal, NamedTuple, Protocol, get_args
 
-from mindrun.kinds.registry import base
+from mindrun.kinds.registry import arguments, base
 from mindrun.kinds.scenes.scene import SceneKind
-from mindrun.kinds.things.rectangle import Rectangle
-from mindrun.numbers.quantity import UNSAID, Place, Reference, Span
+from mindrun.numbers.quantity import COORDINATE, COUNT, LENGTH, THING, UNSAID, Place, Reference, Span
 
 DEFAULT_SIZE = Span(1.0, 1.0)
 DEFAULT_DISTANCE = UNSAID  # as far away as its scene says
@@ -25,12 +24,50 @@ MAX_OBSTACLES, MAX_THINGS = 2500, 100  # in one world, which looks at all of its
 Row = Mapping[str, float]  # columns of the lanes' table of obstacles
 
 
+class Rectangle(NamedTuple):
+    """Something solid along the axes: its middle, and half of its sides along x and y."""
+
+    x: float
+    y: float
+    half_x: float
+    half_y: float
+
+    def holds(self, place: Place) -> bool:
+        """Whether a place is inside it."""
+        x, y = place
+        return abs(x - self.x) < self.half_x and abs(y - self.y) < self.half_y
+
+
 class Mistake(NamedTuple):
     """Why a thing cannot be in a scene as it is said: the code of the error, its message, and what to do."""
 
     code: str
     message: str
     hint: str
+
+
+class World(Protocol):
+    """What is known of the worlds of a mind's tasks before anything runs in them."""
+
+    @property
+    def things(self) -> Set[str]: ...  # that a sensor can be about
+    @property
+    def loose(self) -> Set[str]: ...  # things that can be pushed
+    @property
+    def fleeting(self) -> Set[str]: ...  # items that are gone as soon as they are reached
+    @property
+    def is_solid(self) -> bool: ...  # whether anything stands in the way, fixed or loose
+    @property
+    def has_fixed(self) -> bool: ...  # whether anything does that does not give way
+    @property
+    def can_hold(self) -> bool: ...  # whether a claw may ever close
+    @property
+    def charges(self) -> bool: ...  # whether a battery can charge
+    @property
+    def drains(self) -> bool: ...  # whether the battery can become empty
+    @property
+    def tick(self) -> float: ...  # the length of a tick in seconds
+    def is_constant(self, reading: str) -> bool: ...  # whether a sensor or memory always reads the same
 
 
 @base("content")
@@ -87,7 +124,7 @@ class ThingKind:
     @property
     def outcomes(self) -> Mapping[str, Outcome]:
         """What becomes of it, by what happens to it: `reached`, `delivered`. It stays where nothing is said."""
-        return {}
+        return {each.field: getattr(self, each.field) for each in arguments(type(self)) if each.type is OUTCOME}
 
     def distances(self, scene: SceneKind) -> tuple[float, float]:
         """How near to the robot and how far from it it is placed."""
@@ -158,3 +195,39 @@ class ThingKind:
             return None
         hint = f"Its corners are {hypot(*scene.sides):g} apart: write a smaller distance, or a larger arena."
         return Mistake("too-far-away", "Nothing in this arena is so far from the robot.", hint)
+
+
+@dataclass(frozen=True, slots=True)
+class Placed(ThingKind):
+    """What stands or lies somewhere until it is reached."""
+
+    size: Annotated[Span, LENGTH] = DEFAULT_SIZE
+    away: Annotated[Span, LENGTH] = DEFAULT_DISTANCE
+    at: Annotated[tuple[Place, ...], COORDINATE] = ()
+    count: Annotated[int, COUNT] = 1
+    reached: Annotated[Outcome, OUTCOME] = STAYS
+
+
+class AboutThing:
+    """A sensor, event or measure: it may be about a thing of the task, of any kind but obstacles unless it says."""
+
+    __slots__ = ()
+
+    @property
+    def thing(self) -> str:
+        """The name of the thing that it is about, which its argument of that type says; empty where it has none."""
+        return self.named(THING)
+
+    def named(self, reference: Reference) -> str:
+        """What its first argument of a type names; empty where it has none."""
+        return next((getattr(self, each.field) for each in arguments(type(self)) if each.type is reference), "")
+
+    @staticmethod
+    def is_about(kind: type[ThingKind]) -> bool:
+        """Whether it can be about things of a kind."""
+        return not kind.is_obstacle
+
+    @classmethod
+    def accepts(cls, argument: str, kind: type[ThingKind]) -> bool:
+        """Whether an argument of it can name things of a kind."""
+        return cls.is_about(kind)

@@ -1,7 +1,6 @@
 """What moves by itself."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import pairwise
 from math import pi
 from typing import Annotated
@@ -16,7 +15,6 @@ TURNING = replace(ANGLE, low=0.0)
 
 
 @kind("content", "walker")
-@dataclass(frozen=True, slots=True)
 class Walker(ThingKind):
     """A disc of diameter `size` on the floor that moves at `speed`, in units per second, and touches nothing.
 
@@ -46,11 +44,6 @@ class Walker(ThingKind):
     def wanders(self) -> bool:  # type: ignore[override]
         """Where it has no way."""
         return not self.along
-
-    @property
-    def outcomes(self) -> Mapping[str, Outcome]:
-        """When it is caught."""
-        return {"reached": self.reached}
 
     def mistake(self, scene: SceneKind | None) -> Mistake | None:
         """A way goes somewhere, inside the arena, and has a place for each to begin at."""

@@ -1,21 +1,19 @@
 """A wall from place to place."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import pairwise
 from typing import Annotated
 
 from mindrun.kinds.registry import kind
 from mindrun.kinds.scenes.scene import SceneKind
-from mindrun.kinds.things.rectangle import Rectangle
-from mindrun.kinds.things.thing import DEFAULT_DISTANCE, DEFAULT_SIZE, Mistake, ThingKind
+from mindrun.kinds.things.thing import DEFAULT_DISTANCE, DEFAULT_SIZE, Mistake, Rectangle, ThingKind
 from mindrun.numbers.quantity import COORDINATE, LENGTH, Place
 
 THICKNESS = replace(LENGTH, low=0.01, high=1000.0)
 
 
 @kind("content", "wall")
-@dataclass(frozen=True, slots=True)
 class Wall(ThingKind):
     """A solid wall along the places that `from` names, one after the other; each stretch lies along an axis."""
 

@@ -12,7 +12,7 @@ from types import ModuleType
 from typing import Any
 
 from mindrun.errors import MindError, nearest
-from mindrun.kinds.environment_module import module_beside
+from mindrun.kinds.environment import module_beside
 
 NO_TIME_LIMIT = -1  # of steps: how long a run is, the task says
 DRAWN = "rgb_array"  # the render mode of an environment that is to be seen

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.kinds.slot import Slot
+from mindrun.kinds.environment import Slot
 
 NUMBERS = "biuf"  # kinds of arrays: truth values, whole numbers, others
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from mindrun.errors import MindError
 from mindrun.graph.graph import Graph
-from mindrun.kinds.slot import Slot
+from mindrun.kinds.environment import Slot
 from mindrun.sim.outside.parts import Floats, Part, Place, Spaces, found
 
 WRAP = "Wrap the environment in one that has numbers instead, registered in a module beside the mind."

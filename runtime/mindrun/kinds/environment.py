@@ -1,6 +1,7 @@
-"""A number of what an environment observes or takes, by the way that leads to it."""
+"""Environments of others: numbers of what they observe or take, and the module beside a mind that has one."""
 
 from dataclasses import dataclass
+from pathlib import Path
 
 from mindrun.numbers.quantity import Span
 
@@ -24,3 +25,12 @@ class Slot:
     def has_two_ends(self) -> bool:
         """Whether its range, where it has one, goes from a number to a greater one."""
         return self.range is None or (self.range.by is None and self.range.first < self.range.last)
+
+
+def module_beside(name: str, folder: Path | None) -> Path | None:
+    """The file of the module that an environment's name begins with, where it stands in a folder; nothing is run."""
+    module, colon, _ = name.partition(":")
+    if folder is None or not colon:
+        return None
+    top = folder / module.partition(".")[0]
+    return next((path for path in (top.with_suffix(".py"), top / "__init__.py") if path.is_file()), None)

@@ -1,0 +1,118 @@
+"""What a task is before a run: which one is run, its goals, whether anything is drawn, and the physics of its world."""
+
+from importlib.metadata import PackageNotFoundError, version
+from typing import Any
+
+from mindrun.graph.graph import Graph, Task
+from mindrun.graph.measured import measured_in_world, with_sources
+from mindrun.graph.skill_sets import reachable
+from mindrun.kinds.things.thing import MOVES, STAYS
+from mindrun.kinds.variation import Variation
+from mindrun.numbers.expression import leaves
+
+ROUGH = ("noise", "lost", "slip")  # arguments of sensors and actuators of which something is drawn in every tick
+# One more with each change after which a run of the same seed can be another: how bodies move, what is solid, how a
+# world begins, what sensors measure. Weights that were taught before are then said to be taught elsewhere.
+WORLD_VERSION = 1
+
+
+def physics() -> dict[str, str | int]:
+    """The versions of both; "" where pymunk is not installed."""
+    try:
+        found = version("pymunk")
+    except PackageNotFoundError:
+        found = ""
+    return {"pymunk": found, "world": WORLD_VERSION}
+
+
+def default_task(graph: Graph) -> tuple[Task, str]:
+    """The task on which the master is taught, else one of its name on which no skill is, but others are elsewhere.
+
+    Else one on which a skill below it is taught, else the first. And, where a lesson could have said another, a
+    sentence why it is this one. The mind has a task.
+    """
+    tasks = {task.name: task for task in graph.tasks}
+    taught = {lesson.master: lesson.task for lesson in reversed(graph.lessons)}  # the first lesson under each
+    if graph.master in taught:
+        return tasks[taught[graph.master]], ""
+    if graph.lessons and graph.master in tasks.keys() - taught.values():
+        return tasks[graph.master], _why(graph, f"{graph.master}, which has its name")
+    for skill in reachable(graph, graph.master):
+        if skill.name in taught:
+            task = tasks[taught[skill.name]]
+            return task, _why(graph, f"{task.name}, on which {skill.name} is taught")
+    return graph.tasks[0], _why(graph, f"{graph.tasks[0].name}, the first")
+
+
+def _why(graph: Graph, what: str) -> str:
+    said = f"no lesson is under {graph.master}, so the task is {what}; --task names another"
+    return said if graph.lessons and len(graph.tasks) > 1 else ""
+
+
+def goals(graph: Graph, task: Task) -> frozenset[str]:
+    """The names of what is no longer as it was once it is reached, and of what an end of the task is about.
+
+    An end is about what its event is about, and about what the sensors of its condition are about. What is only counted
+    or rewarded is no goal: what measures changes no world.
+    """
+    gone = {thing.name for thing in task.things if thing.kind.outcomes.get("reached", STAYS) != STAYS}
+    events = (task.events[end.event] for end in task.ends if end.event is not None)
+    reached = {event.thing for event in events if event.outcome == "reached"}
+    read = {row for end in task.ends if end.when is not None for row in leaves(end.when, "reading")}
+    return frozenset(gone | reached | {sensor.kind.thing for sensor in with_sources(graph, read)})
+
+
+def varied_kind(graph: Graph, task: Task, variation: Variation) -> Any:
+    """The kind whose argument varies; None where there is none of that name."""
+    if variation.noun == "body":
+        return None if variation.of else graph.body
+    parts: Any = {"actuator": graph.actuators, "sensor": graph.sensors, "thing": task.things}[variation.noun]
+    return next((part.kind for part in parts if part.name == variation.of), None)
+
+
+def is_one_world(graph: Graph, task: Task, master: str) -> bool:
+    """Whether every run of a task under a master is the same, as far as anybody can know.
+
+    Nobody knows what an environment of somebody else's draws, or a procedure.
+    """
+    if task.scene.environment or task.start.facing is None or any(failure.rate > 0 for failure in task.fails):
+        return False
+    if task.scene.is_bounded and task.start.at is None:
+        return False
+    if _varies(graph, task, master) or _draws_things(graph, task):
+        return False
+    return not _draws_in_ticks(graph, task, master)
+
+
+def _varies(graph: Graph, task: Task, master: str) -> bool:
+    """Whether an argument of what is there in a run is drawn between two numbers: not of a sensor nobody measures."""
+    measured = {sensor.name for sensor in measured_in_world(graph, master, task)}
+    return any(each.low != each.high and (each.noun != "sensor" or each.of in measured) for each in task.varies)
+
+
+def _draws_things(graph: Graph, task: Task) -> bool:
+    """Whether a place or a size is drawn, when a run begins or when something moves."""
+    can_deliver = any(thing.kind.takes_items for thing in task.things)
+    can_hold = any(actuator.kind.can_hold for actuator in graph.actuators)
+    for kind in (thing.kind for thing in task.things):
+        is_drawn = kind.begins[0] != kind.begins[1]
+        if kind.is_obstacle:
+            rows = [*kind.rows(task.scene)]
+            if any(row["count"] or (row["columns"] * row["rows"] and (row["jitter"] or is_drawn)) for row in rows):
+                return True
+            continue
+        delivers = can_deliver and (kind.is_loose or can_hold)
+        if is_drawn or not kind.places or kind.wanders:
+            return True
+        if kind.outcomes.get("reached") == MOVES or (delivers and kind.outcomes.get("delivered") == MOVES):
+            return True
+    return False
+
+
+def _draws_in_ticks(graph: Graph, task: Task, master: str) -> bool:
+    """Whether a tick draws anything: noise of what is measured, or of what acts, or what a procedure does."""
+    if any(skill.function.calls for skill in reachable(graph, master)):
+        return True
+    kinds: list[object] = [sensor.kind for sensor in measured_in_world(graph, master, task)]
+    kinds += [actuator.kind for actuator in graph.actuators]
+    return any(getattr(kind, argument, 0.0) for kind in kinds for argument in ROUGH)

@@ -1,0 +1,75 @@
+"""A gated recurrent unit: gates say what of its state it keeps, and what of that it looks at (Cho et al., 2014)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Annotated, Any
+
+from mindrun.kinds.functions.elman import recall, remember
+from mindrun.kinds.functions.function import WIDTH, Network
+from mindrun.kinds.functions.mlp import layer
+from mindrun.kinds.registry import kind
+
+if TYPE_CHECKING:  # a lane is given its terms when it is compiled
+    from mindrun.numbers.arithmetic import LANES, ONE, load, store
+    from mindrun.numbers.arrays import Layers
+    from mindrun.numbers.network import Terms
+
+
+@kind("skill", "gru")
+class Gru(Network):
+    """A gated recurrent unit with `width` neurons (0: Eq. 5, max(inputs, outputs) + 2), without biases.
+
+    Each neuron keeps a share of what it said when the skill last computed, as its update gate says, and takes the rest
+    from a candidate. Gates and candidate are sigmoids of the skill's inputs and of what all neurons said, 0 at the
+    beginning of a run; the candidate sees of that what its reset gate lets through. So a neuron can remember for long
+    what an `elman` forgets. A skill without influence does not compute, and remembers.
+    """
+
+    width: Annotated[int, WIDTH] = 0
+
+    opaque = "remembers what it computed"
+    readers = 3
+
+    def state_length(self, inputs: int, outputs: int) -> int:
+        """What its neurons said."""
+        return self.neurons(inputs, outputs)
+
+    def matrix_shapes(self, inputs: int, outputs: int) -> Layers:
+        """Those of the reset gates, the update gates and the candidates, and that of the outputs."""
+        width = self.neurons(inputs, outputs)
+        return (*[(inputs + width, width)] * 3, (width, outputs)) if width else ()
+
+    def forward(self, of: Terms, matrices: Sequence[Any], inputs: Any, state: Any) -> tuple[Any, Any]:
+        """r, u = σ(R·[x, s]), σ(U·[x, s]); c = σ(C·[x, r·s]); s' = u·s + (1 − u)·c, and the outputs O·s'."""
+        reset, update, candidate, last = matrices
+        both = of.joined(inputs, state)
+        through, kept = of.sigmoid(of.product(both, reset)), of.sigmoid(of.product(both, update))
+        new = of.sigmoid(of.product(of.joined(inputs, through * state), candidate))
+        said = kept * state + (1 - kept) * new
+        return of.product(said, last), said
+
+    def scratch(self, inputs: int, outputs: int) -> int:
+        """Gates, candidates and outputs."""
+        return 3 * self.neurons(inputs, outputs) + outputs
+
+    @staticmethod
+    def lane(t: Any, s: Any, skill: Any, n: int) -> int:
+        """The same sums and products, sixteen lanes at a time."""
+        inputs: int = skill.inputs
+        width: int = skill.width
+        reset, kept, new = s.hidden[:width], s.hidden[width : 2 * width], s.hidden[2 * width : 3 * width]
+        recall(s, skill, n)
+        place = layer(t, s, skill, skill.weights, s.gathered, inputs + width, reset, width, False, n)
+        place = layer(t, s, skill, place, s.gathered, inputs + width, kept, width, False, n)
+        for j in range(width):
+            for p in range(0, n, LANES):
+                store(s.gathered, inputs + j, p, load(reset, j, p) * load(s.gathered, inputs + j, p))
+        place = layer(t, s, skill, place, s.gathered, inputs + width, new, width, False, n)
+        recall(s, skill, n)
+        for j in range(width):
+            for k in range(n):
+                new[j, k] = kept[j, k] * s.gathered[inputs + j, k] + (ONE - kept[j, k]) * new[j, k]
+        layer(t, s, skill, place, new, width, s.hidden[3 * width :], skill.outputs, True, n)
+        remember(s, skill, new, n)
+        return 3 * width
