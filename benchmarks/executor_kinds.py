@@ -11,10 +11,9 @@ from mindrun.train.lesson_state import Course
 from mindrun.train.stretch_threads import StretchThreads
 
 from mindlang.executors.cluster_jobs import ClusterJobs
-from mindlang.executors.connection import connect
+from mindlang.executors.dask import Destination, connect
 from mindlang.executors.jobs import Assignment, StretchExecutor
 from mindlang.executors.processes import ProcessJobs, begin
-from mindlang.executors.scheduler import Destination
 
 Begin = Callable[
     [Course, Rollout], AttemptExecutor | None

@@ -13,7 +13,8 @@ from mindrun.engine.engine import Engine
 from mindrun.errors import MindError
 from mindrun.graph.policy import Policy
 from mindrun.sim.codes import BROKEN_OFF
-from mindrun.sim.rollout import SLOW_SLICE_TICKS, rollout_for
+from mindrun.sim.rollout import SLOW_SLICE_TICKS
+from mindrun.sim.rollouts import rollout_for
 from mindrun.sim.trace import take_over, trace
 
 from tests.outside import minds, worlds

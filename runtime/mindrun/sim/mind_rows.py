@@ -49,7 +49,7 @@ def skill_rows(
     """The tables of the skills that a master reaches, their edges, inputs and weights, and the most of what any needs.
 
     A learner's weights begin at a place in the genome, the others' at one in what is shared. Skills that are like one
-    another have one place. What a skill remembers goes in as its inputs do.
+    another have one place. What a skill remembers goes in as its inputs do, and comes out as a layer.
     """
     lengths = {skill.owner: genes(skill) for skill in reached}
     starts = dict(zip(learners, np.cumsum([0, *(lengths.get(name, 0) for name in learners)]), strict=False))
@@ -58,17 +58,19 @@ def skill_rows(
     edges: list[Row] = []
     inputs: list[int] = []
     shared, places = _shared_weights([skill for skill in reached if skill.owner not in starts], weights)
-    most_inputs = scratch = state = 0
+    most_inputs = scratch = 1
+    state = 0
     for skill in reached:
         function, count, outputs = skill.function, len(skill.inputs), skill.outputs
         own, remembered = skill.owner in starts, function.state_length(count, outputs)
-        rows.append({
+        row: Row = {
             "kind": kinds[names()[type(function)]], "index": numbers[skill.name],
             "input": len(inputs), "inputs": count, "outputs": outputs,
             "weights": int(starts[skill.owner]) if own else places[skill.owner], "own": own,
             "edge": len(edges), "edges": len(skill.edges), "address": addresses.get(skill.name, 0), "state": state,
             **function.row(count, outputs),
-        })  # fmt: skip
+        }  # fmt: skip
+        rows.append(row)
         inputs.extend(skill.inputs)
         edges.extend(_edge(graph, edge, codes) for edge in skill.edges)
         most_inputs = max(most_inputs, count + remembered)
@@ -76,7 +78,7 @@ def skill_rows(
         state += remembered
     all_inputs = np.array(inputs, np.int64)
     tables = {"skills": records(rows, SKILL), "edges": records(edges, EDGE), "inputs": all_inputs, "weights": shared}
-    return tables, {"inputs": max(1, most_inputs), "scratch": max(1, scratch), "recurrent": state}
+    return tables, {"inputs": most_inputs, "scratch": scratch, "recurrent": state}
 
 
 def _shared_weights(skills: Sequence[Skill], weights: Mapping[str, Floats]) -> tuple[Floats, dict[str, int]]:
