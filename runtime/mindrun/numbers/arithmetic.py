@@ -97,7 +97,7 @@ def bearing(x: Any, y: Any) -> Any:
 
 
 def place_of(things: Any, i: Any, p: Any) -> Any:
-    """Where thing i is in the world of lane p: its x and y. Whatever reads or moves things does it by these four."""
+    """Where thing i is in the world of lane p: its x and y. Whatever reads or moves things does it by these five."""
     return things[THING_ROWS * i + X, p], things[THING_ROWS * i + Y, p]
 
 
@@ -109,6 +109,11 @@ def put_thing(things: Any, i: Any, x: Any, y: Any, p: Any) -> None:
 def size_of(things: Any, i: Any, p: Any) -> Any:
     """The side or the diameter of thing i in the world of lane p."""
     return things[THING_ROWS * i + SIZE, p]
+
+
+def resize_thing(things: Any, i: Any, size: Any, p: Any) -> None:
+    """Give thing i a size in the world of lane p."""
+    things[THING_ROWS * i + SIZE, p] = size
 
 
 def distance_of(things: Any, i: Any, p: Any) -> Any:
