@@ -30,8 +30,7 @@ from mindlang.editing.edits import edit
 from mindlang.editing.project import EditError, open_project
 from mindlang.editing.summary import diff, summarise
 from mindlang.editing.unified_diff import unified
-from mindlang.lint.fixing import fixed
-from mindlang.lint.lint import lint
+from mindlang.lint.lint import fixed, lint
 from mindlang.lock.report import rows
 from mindlang.proofs.proof import prove
 from mindlang.server.changing import perform

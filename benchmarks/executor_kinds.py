@@ -10,10 +10,9 @@ from mindrun.train.attempts import AttemptExecutor, StretchThreads
 from mindrun.train.lesson_state import Course
 
 from mindlang.executors.cluster_jobs import ClusterJobs
-from mindlang.executors.connection import connect
+from mindlang.executors.dask import Destination, connect
 from mindlang.executors.jobs import Assignment, StretchExecutor
 from mindlang.executors.processes import ProcessJobs, begin
-from mindlang.executors.scheduler import Destination
 
 Begin = Callable[
     [Course, Rollout], AttemptExecutor | None

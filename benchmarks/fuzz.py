@@ -33,9 +33,9 @@ from mindlang.lock.status import NotLearning, status
 from mindlang.proofs.proof import prove
 from mindlang.server.completing import complete
 from mindlang.server.hovering import hover
-from mindlang.server.lsp_types import LspConverter
 from mindlang.server.navigating import definitions, highlights, references, symbols
 from mindlang.server.proposals import all_mended, mendings
+from mindlang.server.server import LspConverter
 from mindlang.server.workspace import Workspace
 
 CPU_SECONDS = 2.0  # seconds of the processor

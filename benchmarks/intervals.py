@@ -19,7 +19,7 @@ from mindrun.processors import cores
 from numpy.typing import NDArray
 
 from mindlang.compiler.compile import load
-from mindlang.run.layouts import NO_GENOME, layouts
+from mindlang.run.many_runs import NO_GENOME, layouts
 from mindlang.run.paired_difference import difference, t_quantile
 from mindlang.run.setup import set_up
 

@@ -26,9 +26,8 @@ from distributed import Client
 from benchmarks.executor_kinds import Begin, processes
 from benchmarks.executors import SHOWN_CHARACTERS, Taught, assignment_of, course_of, rollout_of, taught
 from mindlang.executors.cluster_jobs import ClusterJobs
-from mindlang.executors.connection import connect
+from mindlang.executors.dask import connect, destination
 from mindlang.executors.jobs import Assignment, StretchExecutor
-from mindlang.executors.scheduler import destination
 
 MIN_KILL_SECONDS, MAX_KILL_SECONDS = 0.5, 5.5  # between two kills
 WORKER_COUNT = 2

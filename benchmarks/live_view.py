@@ -104,13 +104,13 @@ def driven(bundle: Path, day: Path, situation: str, ticks: int) -> tuple[NDArray
     return late, missed, drawn
 
 
-def row_microseconds(bundle: Path, day: Path, at_once: bool, rows: int) -> float:
+def row_microseconds(bundle: Path, day: Path, rows: int) -> float:
     """The median time that the loop gives away for a row, at the rate of its ticks."""
     graph = read_bundle(bundle).graph
     about = About.of(graph, "0" * 64, graph.master, tuple(physical(graph)))
     row = {"readings": np.ones(graph.width), "influence": np.ones(len(graph.skills)), "stopped": 0, "armed": 1}
     taken = []
-    with Recorder(day, about, at_once=at_once) as recorder:
+    with Recorder(day, about) as recorder:
         for tick in range(rows):
             sleep(graph.tick)
             begin = perf_counter()
@@ -128,9 +128,9 @@ def measured(rounds: int, ticks: int) -> list[dict[str, Any]]:
         for number in range(rounds):
             for place, name in enumerate(SITUATIONS):
                 found[name].append(driven(bundle, Path(folder) / f"{number}-{place}.rec", name, ticks))
-        costs = [row_microseconds(bundle, Path(folder) / f"{at_once}.rec", at_once, ticks) for at_once in (False, True)]
+        cost = row_microseconds(bundle, Path(folder) / "rows.rec", ticks)
     rows = [summed(name, runs) for name, runs in found.items()]
-    return [row | {"row µs": cost} for row, cost in zip(rows, [costs[0], *[costs[1]] * len(SITUATIONS)], strict=False)]
+    return [row | {"row µs": cost} for row in rows]
 
 
 def summed(name: str, runs: list[tuple[NDArray[np.float64], int, list[float]]]) -> dict[str, Any]:

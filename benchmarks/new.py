@@ -18,7 +18,7 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from benchmarks.curriculum import MINDC, documents, mindc
-from mindlang.templates.catalogue import Robot, Task, can, robots, tasks
+from mindlang.templates import Robot, Task, missing, robots, tasks
 
 LINE = "| {project} | {figure} | {good} of {seeds} | {cpu:.0f} s | {wall:.0f} s |"
 HEAD = "| robot and task | mean of the seeds (worst) | its test passes | CPU time | wall time |\n|---|---|---|---|---|"
@@ -87,7 +87,7 @@ def main() -> None:
     parser.add_argument("--only", action="append", default=[], metavar="ROBOT-TASK")
     parser.add_argument("--json", action="store_true")
     options = parser.parse_args()
-    both = [(robot, task) for robot in robots().values() for task in tasks().values() if can(robot, task)]
+    both = [(robot, task) for robot in robots().values() for task in tasks().values() if not missing(robot, task)]
     seeds = range(options.first_seed, options.first_seed + options.seeds)
     if not options.json:
         print(f"{os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}, {options.runs} runs of each seed\n\n{HEAD}")

@@ -14,7 +14,7 @@ from pathlib import Path
 from statistics import median
 
 from mindlang.compiler.compile import load
-from mindlang.run.layouts import NO_GENOME
+from mindlang.run.many_runs import NO_GENOME
 from mindlang.run.recorded_run import record_run
 from mindlang.run.setup import set_up
 

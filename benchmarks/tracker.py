@@ -8,7 +8,7 @@ import time
 import cv2
 import numpy as np
 from mindrun.numbers.arrays import Frame
-from mindrun.robot.ball_detection import BallTarget, find_ball
+from mindrun.robot.camera import BallTarget, find_ball
 
 IMAGE_WIDTH, IMAGE_HEIGHT = 320, 240
 FRAME_COUNT = 50

@@ -28,22 +28,20 @@ from mindlang.compiler.compile import load as load_file
 from mindlang.compiler.diagnostic import Diagnostic
 from mindlang.compiler.source import Source
 from mindlang.editing import edits
-from mindlang.editing.apply import Edited, apply_edit
+from mindlang.editing.apply import Edited, apply_edit, write
 from mindlang.editing.project import EditError, open_project
 from mindlang.editing.summary import broken_sentences, diff, summarise
-from mindlang.editing.writing import write
 from mindlang.limits import as_layout, as_workers, refuse_too_large, refuse_too_many
 from mindlang.lock.ready import ReadyMind, make_ready
-from mindlang.run.columns import Column
+from mindlang.run.chosen_task import master_of, skill_of, task_of, unknown
 from mindlang.run.many_runs import run_timed
 from mindlang.run.outcome import bench_data, over_at_once
 from mindlang.run.recorded_run import record_run
-from mindlang.run.setup import RunSetup, master_of, set_up, skill_of, task_of, train_command, unknown, untaught_skills
-from mindlang.run.trace_file import trace_table
-from mindlang.training.lesson_choice import TrainOptions, chosen_lessons
-from mindlang.training.results import Result
-from mindlang.training.subject import begin_run, open_subject, refuse_frozen
-from mindlang.training.teaching import teach
+from mindlang.run.setup import RunSetup, set_up, train_command, untaught_skills
+from mindlang.run.tables import Column, trace_table
+from mindlang.training.lesson_choice import TrainOptions, lessons_to_teach
+from mindlang.training.subject import begin_run
+from mindlang.training.teaching import Result, teach
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -52,6 +50,10 @@ class Mind(ShortRepr):
 
     All but `diagnostics` and `is_valid` raise MindError where its text has errors, where a procedure is needed that
     cannot be called, and where weights are that were not taught, or fit no longer; its `hint` says what to do.
+
+    >>> mind = mindlang.load("collect.mind")
+    >>> mind.is_valid
+    True
     """
 
     path: Path
@@ -59,17 +61,29 @@ class Mind(ShortRepr):
 
     @property
     def diagnostics(self) -> tuple[Diagnostic, ...]:
-        """What is wrong, in the order of the text: each with a code, a message, a hint and where it is."""
+        """What is wrong, in the order of the text: each with a code, a message, a hint and where it is.
+
+        >>> [each.code for each in mindlang.loads("master Nobody").diagnostics]
+        ['no-tick', 'no-body', 'unknown-skill']
+        """
         return self.compiled.diagnostics
 
     @property
     def is_valid(self) -> bool:
-        """Whether it compiles, and its procedures can be called."""
+        """Whether it compiles, and its procedures can be called.
+
+        >>> mind.is_valid
+        True
+        """
         return self.compiled.is_valid
 
     @property
     def graph(self) -> Graph:
-        """The compiled hierarchy, as plain data."""
+        """The compiled hierarchy, as plain data.
+
+        >>> mind.graph.master, [actuator.name for actuator in mind.graph.actuators]
+        ('Collect', ['left_wheel', 'right_wheel', 'claw'])
+        """
         graph = self._without_errors().graph
         assert graph
         return graph
@@ -78,7 +92,6 @@ class Mind(ShortRepr):
     def hierarchy(self) -> DiGraph:
         """All parts and what flows between them, as a graph of networkx.
 
-        >>> mind = mindlang.load("collect.mind")
         >>> sorted(str(node) for node in networkx.descendants(mind.hierarchy, ("skill", "Grab")))
         ['actuator claw']
         """
@@ -87,15 +100,28 @@ class Mind(ShortRepr):
         return mind.hierarchy
 
     def policy(self, master: str | None = None) -> Policy:
-        """The hierarchy with the weights that `master` (default: the mind's) needs to act."""
+        """The hierarchy with the weights that `master` (default: the mind's) needs to act.
+
+        >>> sorted(mind.policy("GoToObject").weights)
+        ['GoToObject']
+        """
         return self._ready(master).policy
 
     def notes(self, master: str | None = None) -> tuple[str, ...]:
-        """A sentence for the skills that were taught in a world that is not the mind's, or is not known."""
+        """A sentence for the skills that were taught in a world that is not the mind's, or is not known.
+
+        >>> mind.notes()
+        ()
+        """
         return self._ready(master).notes
 
     def engine(self, master: str | None = None) -> Engine:
-        """The hierarchy as it runs on a robot: readings [graph.width] to commands [actuators], tick by tick."""
+        """The hierarchy as it runs on a robot: readings [graph.width] to commands [actuators], tick by tick.
+
+        >>> engine = mind.engine()
+        >>> engine.tick(numpy.full(mind.graph.width, 0.5)).shape
+        (3,)
+        """
         return Engine(self.policy(master), self._folder, master)
 
     def rollout(
@@ -105,6 +131,11 @@ class Mind(ShortRepr):
 
         `rollout.score(genomes, seeds)` takes genomes [genomes, weights] of the `learners`, in the order given here, and
         gives scores, counts and lengths as arrays [genomes, seeds].
+
+        >>> rollout = mind.rollout("GoToObject", learners=["GoToObject"])
+        >>> genomes = numpy.zeros((2, rollout.genome_length), numpy.float32)
+        >>> rollout.score(genomes, seeds=[1, 2, 3]).total.shape
+        (2, 3)
         """
         (chosen, _), threads = task_of(self.graph, task), as_workers(workers)
         leader = master_of(self.graph, chosen, master)
@@ -116,11 +147,19 @@ class Mind(ShortRepr):
         return rollout_for(ready.policy, chosen.name, leader, learners, procedures=self._folder, workers=threads)
 
     def trace(self, task: str | None = None, seed: int = 0, master: str | None = None) -> Trace:
-        """One run of a task, tick by tick: `for moment in mind.trace("Collect", 3).moments`."""
+        """One run of a task, tick by tick.
+
+        >>> [*mind.trace("Avoid", seed=3).moments][-1].tick
+        10000
+        """
         return trace(self.rollout(task, master), as_layout(seed))
 
     def trace_table(self, task: str | None = None, seed: int = 0, master: str | None = None) -> dict[str, Column]:
-        """One run as columns by name, a row for each tick, as `mindc run --trace` has it; pandas takes it as it is."""
+        """One run as columns by name, a row for each tick, as `mindc run --trace` has it; pandas takes it as it is.
+
+        >>> int(mind.trace_table("Collect", seed=3)["event delivery of object"].sum())
+        12
+        """
         setup = self._set_up(task, master)
         return trace_table(record_run(setup, setup.rollout(), as_layout(seed)))
 
@@ -130,6 +169,10 @@ class Mind(ShortRepr):
         """Many runs of a task on layouts that `seed` draws: each mean with its standard error, as `mindc bench --json`.
 
         `count_…` is of the events that the task counts, `score_…` of the rewards; `mind.trace` repeats `best_seed`.
+
+        >>> found = mind.bench("Collect", runs=20)
+        >>> found["runs"], found["count_mean"]
+        (20, 11.45)
         """
         cast = self._set_up(task, master)
         seeds = cast.layouts(seed, runs)
@@ -158,29 +201,30 @@ class Mind(ShortRepr):
         `on` says who does the attempts: "processes:2", "dask:scheduler.json". `on_generation` is told of each
         generation, after which `cancelled` is asked. Where that says so, or Ctrl-C comes, the run stays in its folder
         under `runs`, and the same call goes on with it, to the same bits. The result of each lesson that has ended.
+
+        >>> [result] = mind.train("GoToObject", options=mindlang.TrainOptions(generations=1, attempts=1))
+        >>> result["skill"], result["generations"]
+        ('GoToObject', 1)
         """
         if self.graph and not self.path.is_file():  # a mind that does not compile says so first
             raise MindError(f"{self.path} is no file, and what is learnt is kept beside one", "save it, and load that")
-        subject = open_subject(self.path, self.compiled)
-        chosen = chosen_lessons(self.graph, curriculum, skills, subject.trained)
         results, threads, elsewhere = list[Result](), as_workers(workers), executors.where(on)
         watch = Watch(lambda state, record: on_generation(record), warn, cancelled, perf_counter)
-        refuse_frozen(subject, chosen if skills else ())
-        for lesson in chosen:
-            subject = open_subject(self.path, self.compiled)  # the lesson before has changed the lock
-            if not subject.takes(lesson, bool(skills)):
-                continue
-            by = "mindlang.Mind.train", *skills
-            run = begin_run(subject, options.applied(lesson), seed, Path(runs), datetime.now(UTC), by)
+        by = "mindlang.Mind.train", *skills
+        for subject, lesson in lessons_to_teach(self.path, self.compiled, curriculum, skills, options):
+            run = begin_run(subject, lesson, seed, Path(runs), datetime.now(UTC), by)
             if (result := teach(run, subject, threads, watch, elsewhere)) is None:
                 break
             results.append(result)
         return results
 
     def edit(self, name: str, keep_weights: bool = False, **arguments: Any) -> "EditedMind":
-        """One of the edits of `mindc edit`, in memory: `mind.edit("rename", old="proximity", new="whiskers")`.
+        """One of the edits of `mindc edit`, in memory.
 
         Arguments and options are those of the command; EditError, a MindError, where it is impossible.
+
+        >>> mind.edit("rename", old="proximity", new="whiskers").summary
+        ['6 trained skills keep what was learnt']
         """
         if name not in edits.names():
             unknown("edit", name, edits.names())
@@ -190,7 +234,11 @@ class Mind(ShortRepr):
         return EditedMind(self.path, apply_edit(project, of.function(project, **said), keep_weights))
 
     def bundle(self, wiring: Wiring | None = None, master: str | None = None) -> Bundle:
-        """All that runs on a robot; `mindrun.write_bundle` writes it to one file."""
+        """All that runs on a robot; `mindrun.write_bundle` writes it to one file.
+
+        >>> mind.bundle(master="Avoid").graph.master
+        'Avoid'
+        """
         policy = self.policy(master)
         return Bundle(policy, procedure_sources(policy.graph, self._folder), wiring)
 
@@ -222,25 +270,42 @@ class Mind(ShortRepr):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class EditedMind(ShortRepr):
-    """A mind after an edit, in memory: nothing has been written yet."""
+    """A mind after an edit, in memory: nothing has been written yet.
+
+    >>> edited = mind.edit("rename", old="proximity", new="whiskers")
+    >>> mind = edited.write()
+    >>> mind.graph.sensors[0].name
+    'whiskers'
+    """
 
     path: Path
     edited: Edited
 
     @property
     def diff(self) -> str:
-        """The unified diff of all sources."""
+        """The unified diff of all sources.
+
+        >>> print(mind.edit("rename", old="claw", new="hand").diff.splitlines()[0])
+        --- a/collect.mind
+        """
         return diff(self.edited)
 
     @property
     def summary(self) -> list[str]:
-        """A sentence for each skill whose weights do not simply stay, and for each mind that would be broken."""
+        """A sentence for each skill whose weights do not simply stay, and for each mind that would be broken.
+
+        >>> mind.edit("rename", old="claw", new="hand").summary
+        ['6 trained skills keep what was learnt']
+        """
         return [*summarise(self.edited), *broken_sentences(self.edited)]
 
     def write(self, anyway: bool = False) -> Mind:
         """Write sources, locks and weights together, or nothing; the mind as it is then.
 
         MindError where a file has changed since it was loaded; where another mind would not compile, unless `anyway`.
+
+        >>> mind.edit("rename", old="claw", new="hand").write().graph.actuators[2].name
+        'hand'
         """
         if (broken := broken_sentences(self.edited)) and not anyway:
             raise EditError(f"After this edit {broken[0]}", "write(anyway=True) makes it nevertheless")
@@ -249,11 +314,21 @@ class EditedMind(ShortRepr):
 
 
 def load(path: Path | str) -> Mind:
-    """The mind in a file; whatever stands there, nothing is raised for it: `diagnostics` says what is wrong."""
+    """The mind in a file; whatever stands there, nothing is raised for it: `diagnostics` says what is wrong.
+
+    >>> mindlang.load("collect.mind").is_valid
+    True
+    >>> mindlang.load("nowhere.mind").diagnostics[0].code
+    'unreadable'
+    """
     return Mind(Path(path), load_file(Path(path)))
 
 
 def loads(text: str, texts: Mapping[Path, str] | None = None, name: str = "text.mind") -> Mind:
-    """The mind in a text, as if it stood in the working directory; `texts` are those of files that it uses, by path."""
+    """The mind in a text, as if it stood in the working directory; `texts` are those of files that it uses, by path.
+
+    >>> mindlang.loads("master Nobody").is_valid
+    False
+    """
     path = Path.cwd() / name
     return Mind(path, compile_source(Source(name, text, path.parent), path, texts or {}))

@@ -21,7 +21,7 @@ import numpy as np
 
 ROOM = "mindrun.sim."
 VECTOR = f"{ROOM}vector"
-CHIPMUNK = f"{ROOM}lanes.chipmunk", f"{ROOM}lanes.loose_space"  # calls into a library: as it is
+CHIPMUNK = f"{ROOM}lanes.chipmunk"  # calls into a library: as it is
 VECTOR_LANES = 16
 F = np.float32
 
@@ -54,7 +54,7 @@ class Finder(importlib.abc.MetaPathFinder):
     """Finds what is compiled elsewhere: the lanes and their arithmetic; for vectors what stands for them below."""
 
     def find_spec(self, name: str, path: Sequence[str] | None, target: ModuleType | None = None) -> Any:
-        if name in CHIPMUNK or not name.startswith((f"{ROOM}lanes.", f"{ROOM}arithmetic", VECTOR)):
+        if name == CHIPMUNK or not name.startswith((f"{ROOM}lanes.", f"{ROOM}arithmetic", VECTOR)):
             return None
         spec = importlib.machinery.PathFinder.find_spec(name, path)
         if spec and spec.origin:
@@ -93,18 +93,22 @@ class Row:
         return getattr(self, name)
 
 
+class Rows(list[Row]):
+    """A table of rows; its columns by their names are arrays."""
+
+    def __getitem__(self, key: Any) -> Any:
+        if isinstance(key, str):
+            return np.array([row[key] for row in self] or np.zeros(0, np.int64))
+        found = super().__getitem__(key)
+        return Rows(found) if isinstance(key, slice) else found
+
+
 def call(address: Any, *arguments: Any) -> int:
     """A C function called with whole numbers, pointers and doubles, as `chipmunk.call` does."""
     kinds = [ctypes.c_double if isinstance(a, float) else ctypes.c_uint64 for a in arguments]
-    function = ctypes.CFUNCTYPE(ctypes.c_uint64, *kinds)(int(address))
+    function = ctypes.CFUNCTYPE(ctypes.c_int64, *kinds)(int(address))
     given = [float(a) if kind is ctypes.c_double else int(a) for a, kind in zip(arguments, kinds, strict=True)]
     return int(function(*given))
-
-
-def call_procedure(address: Any, inputs: int, outputs: int, lanes: int, stride: int) -> int:
-    """A compiled procedure called over lanes, as `procedures.call_address` does."""
-    function = ctypes.CFUNCTYPE(ctypes.c_ssize_t, *[ctypes.c_void_p] * 2, *[ctypes.c_ssize_t] * 2)(int(address))
-    return int(function(inputs, outputs, lanes, stride))
 
 
 def _plain(*given: Any, **options: Any) -> Any:
@@ -124,21 +128,23 @@ def _install() -> None:
     importlib.import_module("mindrun.sim.exact")  # what formulas call stays compiled, as they are
     numba.njit = _plain
     sys.meta_path.insert(0, Finder())
-    from mindrun.sim import procedures, python_procedures, rollout
-    from mindrun.sim.lanes import advance, chipmunk, loose_space, runs, stages
+    from mindrun.sim import compiling
 
-    chipmunk.call = loose_space.call = call
-    procedures.call_address = call_procedure
-    build, tables = rollout.build, rollout.Tables
+    compiling.keep_code = lambda dispatcher, code: None
+    from mindrun.sim import changed_ticks, procedures, rollout
+    from mindrun.sim.lanes import advance, chipmunk, runs, stages
+
+    chipmunk.call = procedures.call = call
+    build = rollout.build
 
     def build_rows(*given: Any) -> Any:
         found, sizes = build(*given)
-        return tables(*([Row(row) for row in part] if part.dtype.names else part for part in found)), sizes
+        return type(found)(*(Rows(Row(row) for row in part) if part.dtype.names else part for part in found)), sizes
 
     rollout.build = build_rows
     for module in (advance, runs, stages):
         for name in ("advance", "fill", "before", "after", "run_skills", "wake", "send"):
-            for place in (module, rollout, python_procedures):
+            for place in (module, rollout, changed_ticks):
                 found = vars(place).get(name) if place else None
                 if callable(found) and getattr(found, "__name__", "") == name and found.__module__ == module.__name__:
                     setattr(place, name, _quiet(found))

@@ -203,10 +203,12 @@ ROOMS = {
     ),
     "beginnings": Room(
         (
-            *(f"mindlang/compiler/{name}.py" for name in ("beginning", "resolve/places", "resolve/decided")),
-            *(f"mindlang/lint/{name}.py" for name in ("drawn_world", "floor")),
-            *(f"mindlang/lint/rules/{name}.py" for name in ("chance_meeting", "nothing_drawn", "paid_at_once")),
-            *(f"mindlang/lint/rules/{name}.py" for name in ("walled_off", "wall_on_the_way", "standing_learner")),
+            *(f"mindlang/compiler/{name}.py" for name in ("beginning", "resolve/worlds")),
+            *(f"mindlang/lint/rules/{name}.py" for name in ("chance_meeting", "crowded_world", "nothing_drawn")),
+            *(
+                f"mindlang/lint/rules/{name}.py"
+                for name in ("paid_at_once", "walled_off", "wall_on_the_way", "standing_learner")
+            ),
         ),
         (
             "tests/lint/test_floor.py",
@@ -222,7 +224,7 @@ ROOMS = {
     "names": Room(
         (
             *(f"mindlang/editing/{name}.py" for name in ("world_names", "graph_names", "lock_update")),
-            *(f"mindlang/lock/{name}.py" for name in ("merging", "lessons", "due", "status")),
+            *(f"mindlang/lock/{name}.py" for name in ("__init__", "status")),
         ),
         (
             "tests/likeness/test_lock.py",
@@ -246,7 +248,7 @@ ROOMS = {
                     "numbers/short_repr",
                 )
             ),
-            *(f"mindlang/{name}.py" for name in ("lint/intervals", "run/paired_difference", "robot/speed")),
+            *(f"mindlang/{name}.py" for name in ("lint/intervals", "run/paired_difference", "robot/claims")),
             *(f"mindlang/lint/rules/{name}.py" for name in ("zero_division", "direction_as_number", "coarse_tick")),
         ),
         (

@@ -29,8 +29,7 @@ from mindlang.breakpoints.subject import Subject
 from mindlang.compiler import lower, model
 from mindlang.compiler.compile import read_main
 from mindlang.compiler.diagnostic import Diagnostic, Findings, did_you_mean, listed
-from mindlang.compiler.expand import numbers
-from mindlang.compiler.expand.amounts import writer
+from mindlang.compiler.expand import numbers, writer
 from mindlang.compiler.parse import parse_stops
 from mindlang.compiler.resolve import expressions
 from mindlang.compiler.resolve.kinds import a_name
@@ -83,7 +82,7 @@ class _Resolver:
         """The breakpoints of the lines with which nothing is wrong."""
         names = self.subject.names
         self.findings.numbers = names.numbers.keys()
-        for line in map(writer(numbers(names, Findings()), self.subject.graph.tick), lines):
+        for line in map(writer(names, numbers(names, Findings()), self.subject.graph.tick), lines):
             before = len(self.findings.diagnostics)
             cause = self._cause(line)
             if cause and len(self.findings.diagnostics) == before:

@@ -17,7 +17,7 @@ from mindlang.compiler import lower, model
 from mindlang.compiler.compile import Compiled, load
 from mindlang.compiler.names import Names
 from mindlang.compiler.resolve.kinds import Scope
-from mindlang.compiler.resolve.tasks import World
+from mindlang.compiler.resolve.worlds import World
 from mindlang.compiler.source import Source, Span
 from mindlang.compiler.syntax import Declaration, Header, Name
 from mindlang.run.chosen_task import master_of, task_of

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import chain
 from operator import neg
@@ -29,10 +29,9 @@ from mindlang.breakpoints.breakpoint import (
     robot_events,
 )
 from mindlang.breakpoints.subject import Subject
-from mindlang.run.edge_flow import EdgeFlow, EdgeFlows, FlowWalker, accumulated
+from mindlang.run.edge_flow import EdgeFlow, EdgeFlows, Places, Singles, accumulated
 from mindlang.run.recorded_run import RecordedRun
-from mindlang.run.running_bundle import task_of
-from mindlang.run.sent_values import Places, Singles
+from mindlang.run.recording import recorded_task
 from mindlang.run.setup import RunSetup
 
 Leaf = Callable[[str, Any], Any]
@@ -78,8 +77,7 @@ class Watcher:
         self.ticks = 0
         self._breakpoints = breakpoints
         self._columns = {event: column for column, event in enumerate(events)}
-        self._held = [False] * len(breakpoints)
-        self._times = [0] * len(breakpoints)
+        self._before: list[Any] = [0] * len(breakpoints)  # whether each held, or how often it had happened
         asked = chain.from_iterable(each.cause.transmissions for each in breakpoints if isinstance(each.cause, Holds))
         self._asked = tuple(dict.fromkeys(asked))
         self._transmissions = Transmissions(self._asked, graph, mind)
@@ -91,40 +89,34 @@ class Watcher:
         """
         found = self._transmissions.feed(rows.readings, rows.influence, begins)
         weights = dict(zip(self._asked, found, strict=True))
-        stops = [stop for place in range(len(self._breakpoints)) for stop in self._stops(place, rows, weights)]
+        stops = [*chain.from_iterable(self._stops(place, rows, weights) for place in range(len(self._breakpoints)))]
         self.ticks += len(rows.readings)
         return sorted(stops, key=lambda stop: stop.tick)
 
-    def _stops(self, place: int, rows: Rows, weights: Measured) -> list[Stop]:
-        each = self._breakpoints[place]
+    def _stops(self, place: int, rows: Rows, weights: Measured) -> Iterator[Stop]:
+        each, count = self._breakpoints[place], len(rows.readings)
         match each.cause:
             case Reaches(tick):
-                return [Stop(tick, each, ())] if self.ticks < tick <= self.ticks + len(rows.readings) else []
-            case Happens() as cause:
-                return self._happening(place, each, cause, rows)
-        leaf = _leaf(rows, [weights[transmission] for transmission in each.cause.transmissions])
-        return self._beginning(place, each, each.cause, leaf, len(rows.readings))
+                is_met, columns = np.arange(self.ticks + 1, self.ticks + count + 1) == tick, []
+            case Happens(event, asked):
+                if event not in self._columns:
+                    return
+                times = self._after(place, rows.events[:, self._columns[event]])
+                is_met = (times[:-1] < asked) & (times[1:] >= asked) if asked else times[1:] > times[:-1]
+                columns = [("times", times[1:])]
+            case Holds(program, transmissions, named):
+                leaf = _leaf(rows, [weights[transmission] for transmission in transmissions])
+                holds = self._after(place, over(program, leaf, count) > 0)
+                is_met = holds[1:] & ~holds[:-1]
+                columns = [(name, leaf(*operand)) for name, operand in named]
+        for row in np.flatnonzero(is_met):
+            yield Stop(self.ticks + 1 + int(row), each, tuple((name, float(of[row])) for name, of in columns))
 
-    def _happening(self, place: int, each: Breakpoint, cause: Happens, rows: Rows) -> list[Stop]:
-        """Where an event happens, or where it happens for the time that is asked for."""
-        times = rows.events[:, self._columns[cause.event]] if cause.event in self._columns else np.zeros(0, np.int64)
-        before = np.concatenate([[self._times[place]], times])
-        self._times[place] = int(before[-1])
-        is_met = (before[:-1] < cause.times) & (times >= cause.times) if cause.times else times > before[:-1]
-        return [
-            Stop(self.ticks + 1 + int(row), each, (("times", float(times[row])),)) for row in np.flatnonzero(is_met)
-        ]
-
-    def _beginning(self, place: int, each: Breakpoint, cause: Holds, leaf: Leaf, rows: int) -> list[Stop]:
-        """Where a condition holds, and did not hold in the tick before."""
-        holds = over(cause.program, leaf, rows) > 0
-        before = np.concatenate([[self._held[place]], holds])
-        self._held[place] = bool(before[-1])
-        columns = [(name, leaf(*operand)) for name, operand in cause.named]
-        return [
-            Stop(self.ticks + 1 + int(row), each, tuple((name, float(column[row])) for name, column in columns))
-            for row in np.flatnonzero(holds & ~before[:-1])
-        ]
+    def _after(self, place: int, rows: NDArray[Any]) -> NDArray[Any]:
+        """Rows behind what the last row fed before them has, 0 or False at the beginning of a run."""
+        found = np.concatenate([[self._before[place]], rows]).astype(rows.dtype)
+        self._before[place] = found[-1]
+        return found
 
 
 def noticing(setup: RunSetup, breakpoints: Sequence[Breakpoint]) -> RunSetup:
@@ -172,9 +164,6 @@ def _leaf(rows: Rows, measures: Sequence[NDArray[np.float64]]) -> Leaf:
     return column
 
 
-Sink = tuple[bool, int]  # where an edge goes, as the engine has it: whether it drives, and the place
-
-
 class Transmissions:
     """The weights of some transmissions, row after row, computed by the engine's own functions.
 
@@ -185,7 +174,7 @@ class Transmissions:
         """The hierarchy is of the graph, and nothing else makes its skills compute."""
         self._asked = asked
         self._begins: set[int] = set()
-        self._flows = EdgeFlows(graph, FlowWalker(mind, self._rows, self._begins)) if asked else None
+        self._flows = EdgeFlows(graph, mind, self._rows, self._begins) if asked else None
         self._fed = 0  # rows, before those of now
         self._now: tuple[Singles, Singles]  # those rows
 
@@ -201,9 +190,9 @@ class Transmissions:
         found = np.zeros((len(self._asked), len(readings)))
         end = self._fed + len(readings)
         if self._flows:
-            for part, flow in self._flows.walker.parts(np.arange(self._fed, end)):
+            for part, flow in self._flows.parts(np.arange(self._fed, end)):
                 found[:, part] = [_weights(self._flows, flow, each) for each in self._asked]
-            self._flows.walker.go_on(end)
+            self._flows.go_on(end)
         self._fed = end
         return found
 
@@ -224,7 +213,7 @@ def _weights(flows: EdgeFlows, flow: EdgeFlow, asked: Transmission) -> NDArray[n
 
 def recording_subject(of: About, mind: Bundle) -> Subject:
     """What the breakpoints of a recording are about, made with the mind of this bundle."""
-    return Subject.of_recording(mind.graph, of.master, of.sensors, task_of(of, mind))
+    return Subject.of_recording(mind.graph, of.master, of.sensors, recorded_task(of, mind))
 
 
 class RecordingWatcher:
@@ -232,7 +221,7 @@ class RecordingWatcher:
 
     def __init__(self, breakpoints: Sequence[Breakpoint], of: About, mind: Bundle) -> None:
         """WeightsError or ProcedureError where a skill of the bundle cannot be made ready."""
-        ready, task = hierarchy(mind.policy, mind.procedures, of.master), task_of(of, mind)
+        ready, task = hierarchy(mind.policy, mind.procedures, of.master), recorded_task(of, mind)
         events = (*robot_events(of.sensors), *(task.events if task else ()))
         self._watcher = Watcher(breakpoints, events, mind.graph, ready)
         self._before = np.zeros((1, 1 + len(of.sensors)), bool)  # whether it had to stop, and the faults
@@ -241,19 +230,11 @@ class RecordingWatcher:
     def feed(self, rows: NDArray[Any], readings: NDArray[np.float32]) -> list[Stop]:
         """All stops in the rows that follow, with the readings [rows, width] as the skills had them."""
         facts = np.concatenate([self._before, np.column_stack([rows["stopped"], rows["faults"]]) != 0])
-        happened = self._times + np.cumsum(times(facts[:, 0], facts[:, 1:]), axis=0)
+        begins = facts[1:] & ~facts[:-1]  # it stops, and the fault of each sensor
+        begins = np.insert(begins.astype(np.int64), 1, begins[:, 1:].sum(axis=1), axis=1)  # and any fault
+        happened = self._times + np.cumsum(begins, axis=0)
         self._before, self._times = facts[-1:], np.concatenate([self._times, happened])[-1:]
         if "world" in (rows.dtype.names or ()):
             happened = np.concatenate([happened, rows["world"]["events"].astype(np.int64)], axis=1)
         part = Part(readings, rows["influence"], rows["commands"], happened)
         return self._watcher.feed(part, np.flatnonzero(rows["tick"] == 0))
-
-
-def times(stopped: NDArray[np.bool_], faults: NDArray[np.bool_]) -> NDArray[np.int64]:
-    """How often each event begins in each row [rows, events]; of rows and the one before them.
-
-    `stopped` [1 + rows] says where the robot had to stop, `faults` [1 + rows, sensors] which sensors were faulty.
-    """
-    begins = np.column_stack([stopped, faults]).astype(np.int64)
-    begins = np.maximum(np.diff(begins, axis=0), 0)
-    return np.insert(begins, 1, begins[:, 1:].sum(axis=1), axis=1)

@@ -8,10 +8,11 @@ from pkgutil import iter_modules
 from threading import active_count
 
 import click
+from mindrun.errors import MindError, surroundings
 from mindrun.terminal import standard_streams
 from mindrun.terminal.arguments import emptiness
 
-from mindlang.cli._terminal import FINDINGS, INTERRUPTED, MISUSE, OK, say
+from mindlang.cli._terminal import FINDINGS, INTERRUPTED, MISUSE, OK, complain
 
 # Objects made before Python looks for garbage among them: a large mind is millions, and none of them garbage.
 GARBAGE_COLLECTION_OBJECTS = 1_000_000
@@ -72,7 +73,7 @@ def main() -> None:
     standard_streams.prepare()
     code = _run()
     if why := standard_streams.finish():
-        say(why)
+        complain(why)
         code = code or FINDINGS
     if code == INTERRUPTED and active_count() > 1:  # the simulator's threads would be waited for
         os._exit(code)
@@ -99,14 +100,14 @@ def _run() -> int:
 
 
 def _unforeseen(error: Exception) -> int:
-    from mindrun.errors import MindError, surroundings
-
     if os.environ.get("MIND_DEBUG"):
         raise error
     if isinstance(error, MindError):  # a procedure that fails in the middle of a run, say
-        say(str(error), error.hint)
+        complain(str(error), error.hint)
     elif why := surroundings(error):
-        say(why)
+        complain(why)
     else:
-        say(f"mindc failed: {type(error).__name__}: {error}", "Set MIND_DEBUG=1 to see where, and please report it.")
+        complain(
+            f"mindc failed: {type(error).__name__}: {error}", "Set MIND_DEBUG=1 to see where, and please report it."
+        )
     return FINDINGS

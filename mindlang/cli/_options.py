@@ -1,7 +1,10 @@
-"""What options may be: numbers that say both of their bounds, files to be written, and none without effect."""
+"""What options and arguments may be: numbers that say both of their bounds, files, names that a shell completes."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import wraps
 from math import isfinite, nan
 from pathlib import Path
 from typing import Any
@@ -11,10 +14,11 @@ from click.core import ParameterSource
 from click.shell_completion import CompletionItem
 
 from mindlang import limits
-from mindlang.cli._declared_names import SKILLS, TASKS
+from mindlang.cli._terminal import MISUSE, refusing
 
 SHOWN_CHARACTERS = 20  # of what is refused
 MAX_TICK_DIGITS = 15
+Completion = Callable[[click.Context, click.Parameter, str], list[CompletionItem]]
 
 
 class WholeOption(click.IntRange):
@@ -38,7 +42,7 @@ class LayoutOption(WholeOption):
             return super().convert(value, param, ctx)
         first = SEED.convert(seed, param, ctx)
         run = WholeOption(*limits.RUN_BOUNDS).convert(number, param, ctx)
-        from mindlang.run.layouts import layouts
+        from mindlang.run.many_runs import layouts
 
         return layouts(first, run)[-1]
 
@@ -126,10 +130,68 @@ def refuse_ineffective(what_they_are: str, *names: str) -> None:
         raise click.UsageError(f"{listed(words, 'and')} {verb} {what_they_are}.")
 
 
+def _shortened(value: object) -> str:
+    text = str(value)
+    return repr(text if len(text) <= SHOWN_CHARACTERS else f"{text[:SHOWN_CHARACTERS]}…")
+
+
+def files_of(words: Sequence[str], *suffixes: str) -> list[str]:
+    """The files that are named, by themselves or by their folder; a folder without any ends the program."""
+    from mindlang.files import named_files
+
+    with refusing(MISUSE):
+        return named_files(words, *suffixes)
+
+
+def in_files(words: Sequence[str], files: Sequence[str]) -> str:
+    """The end of a summary that says in how many files; empty where each of them was named by itself."""
+    from mindlang.files import is_folder
+
+    return f" in {len(files)} file{'s' * (len(files) != 1)}" if any(map(is_folder, words)) else ""
+
+
+def declared(*nouns: str) -> Completion:
+    """Complete a parameter with the names that the mind on the line declares with one of these nouns, or with any."""
+
+    def found(context: click.Context, parameter: click.Parameter, begun: str) -> list[CompletionItem]:
+        said = context.params.get(parameter.name or "")
+        there = {*said} if isinstance(said, tuple) else set()
+        known = {name: noun for noun, name in _declarations(context, parameter) if not nouns or noun in nouns}
+        return [
+            CompletionItem(name, help=noun)
+            for name, noun in known.items()
+            if name.startswith(begun) and name not in there
+        ]
+
+    return found
+
+
+def _declarations(context: click.Context, parameter: click.Parameter) -> Iterator[tuple[str, str]]:
+    """The noun and the name of each declaration in the .mind files before this word, and in those that they use.
+
+    An option may stand before the file: then they are those of this folder.
+    """
+    from mindlang.compiler.diagnostic import Findings
+    from mindlang.compiler.use import files, read
+
+    values = [*context.params.values(), *context.args]  # before the value of an option, arguments are not sorted yet
+    said = [word for value in values for word in (value if isinstance(value, tuple) else [value])]
+    minds = [Path(word) for word in said if isinstance(word, str) and word.endswith(".mind")]
+    for mind in minds or (Path().glob("*.mind") if isinstance(parameter, click.Option) else ()):
+        try:
+            source = read(mind, str(mind))
+        except (OSError, ValueError):
+            continue  # nobody has asked for a message in the middle of a line
+        for file in files(source, mind.resolve(), Findings(), {})[0]:
+            yield from ((each.header.noun.text, each.header.name.text) for each in file.declarations)
+
+
 SEED = WholeOption(*limits.SEED_BOUNDS)
 LAYOUT = LayoutOption(*limits.LAYOUT_BOUNDS)
 WORKERS = WholeOption(*limits.WORKER_BOUNDS)
 ON = WhereOption()
+PATH = click.Path(path_type=Path)
+SKILLS, TASKS = declared("skill"), declared("task")
 IN_CHARGE = "Who is in charge. Default: the mind's master if a lesson on the task is under it, else that of the first."
 UNDER_MASTER = click.option("--master", metavar="SKILL", shell_complete=SKILLS, help=IN_CHARGE)
 OF_TASK = click.option(
@@ -140,6 +202,32 @@ OF_A_RUN = (*OF_A_CAST, "seed")
 OF_RUNS_ALONE = "of runs, not of recordings"
 
 
-def _shortened(value: object) -> str:
-    text = str(value)
-    return repr(text if len(text) <= SHOWN_CHARACTERS else f"{text[:SHOWN_CHARACTERS]}…")
+@dataclass(frozen=True, slots=True)
+class RunChoice:
+    """Which run of a mind is made, or with `mindc bench` which of several; None for what was not said."""
+
+    task: str | None
+    seed: int | None
+    master: str | None
+    interrupt: bool
+
+
+def run_options(seed: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """The options of a command that say which run it makes, with a help for --seed; it takes them as `chosen`."""
+
+    def decorated(command: Callable[..., Any]) -> Callable[..., Any]:
+        @wraps(command)
+        def called(task: str | None, seed: int | None, master: str | None, no_interruption: bool, **said: Any) -> Any:
+            return command(chosen=RunChoice(task, seed, master, not no_interruption), **said)
+
+        to_the_end = "Go on to the last tick, whatever would end the run."
+        for option in (
+            click.option("--no-interruption", is_flag=True, help=to_the_end),
+            UNDER_MASTER,
+            click.option("--seed", type=LAYOUT, help=seed),
+            OF_TASK,
+        ):
+            called = option(called)
+        return called
+
+    return decorated

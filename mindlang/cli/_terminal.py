@@ -1,37 +1,36 @@
-"""What every command needs: a mind loaded or its report printed, data on stdout, talk on stderr."""
+"""What every command prints: data and results on stdout, talk on stderr; and how it ends."""
 
 from __future__ import annotations
 
 import json
 import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import TYPE_CHECKING, NoReturn
+
+from mindrun.errors import MindError
+from mindrun.files.printable import visible
+from mindrun.terminal import standard_streams
 
 if TYPE_CHECKING:
     from mindrun.files.atomic_write import Data
     from rich.console import Console, RenderableType
+    from rich.text import Text
 
     from mindlang.compiler.compile import Compiled
 
 OK, FINDINGS, MISUSE, INTERRUPTED = 0, 1, 2, 130  # how a program ends
-talk: Console
 PIPE_COLUMNS = 1000
-
-
-def __getattr__(name: str) -> Any:
-    """`talk`, the console on stderr, made when first asked for: rich is slow to import."""
-    if name != "talk":
-        raise AttributeError(name)
-    return console(stderr=True)
+LEAST_BODY_COLUMNS = 24  # for a long text beside short ones; with less it stands below them
+DIFF_STYLES = {"---": "bold", "+++": "bold", "@": "cyan", "-": "red", "+": "green"}  # by how a line begins
 
 
 @cache
 def console(stderr: bool = False) -> Console:
-    """A console that colours only a terminal, and honours NO_COLOR and CI."""
+    """A console that colours only a terminal, and honours NO_COLOR and CI; rich is slow to import."""
     from rich.console import Console
 
     plain = bool(os.environ.get("CI")) or not (sys.stderr if stderr else sys.stdout).isatty()
@@ -39,9 +38,14 @@ def console(stderr: bool = False) -> Console:
     return Console(stderr=stderr, force_terminal=False if plain else None, highlight=False, soft_wrap=True, width=width)
 
 
-def say(message: str, hint: str = "") -> None:
-    """Print a message and what to do about it on stderr."""
-    from mindrun.files.printable import visible
+def tell(*lines: str, quiet: bool = False) -> None:
+    """Print lines on stderr, unless it is to be quiet."""
+    for line in () if quiet else lines:
+        console(stderr=True).print(line, markup=False)
+
+
+def complain(message: str, hint: str = "") -> None:
+    """Print what is wrong and what to do about it on stderr."""
     from rich.text import Text
 
     console(stderr=True).print(Text(visible(message), "red"))
@@ -50,13 +54,30 @@ def say(message: str, hint: str = "") -> None:
 
 
 def fail(message: str, hint: str = "", code: int = FINDINGS) -> NoReturn:
-    """Print a message and what to do about it on stderr, and end with `code`."""
-    say(message, hint)
+    """Print what is wrong and what to do about it on stderr, and end with `code`."""
+    complain(message, hint)
     sys.exit(code)
 
 
+@contextmanager
+def refusing(code: int = FINDINGS, end: str = "", of: type[MindError] = MindError) -> Iterator[None]:
+    """End the program with the message of an error of that class, and `end` behind it."""
+    try:
+        yield
+    except of as error:
+        fail(f"{error}{end}", error.hint, code)
+
+
+def print_result(as_json: bool, data: object, text: Callable[[], RenderableType], end: str = "\n") -> None:
+    """Print what came of a command on stdout: its data as one JSON document, or else its text."""
+    if as_json:
+        print_json(data)
+    else:
+        console().print(text(), end=end)
+
+
 def print_table(table: RenderableType) -> None:
-    """A table on stdout; in a file or a pipe no line of it ends in blanks."""
+    """Print a table on stdout; in a file or a pipe no line of it ends in blanks."""
     out = console()
     with out.capture() as captured:
         out.print(table)
@@ -65,25 +86,60 @@ def print_table(table: RenderableType) -> None:
 
 
 def print_json(value: object) -> None:
-    """One JSON document on stdout."""
+    """Print one JSON document on stdout."""
     print_document(json.dumps(value, indent=2, ensure_ascii=False, allow_nan=False) + "\n")
 
 
-def print_document(text: str) -> None:
-    """What programs read, on stdout: in UTF-8 on any terminal."""
-    from mindrun.terminal.standard_streams import document
+def print_diff(diff: str) -> None:
+    """Print a unified diff on stdout: with colours on a terminal, else as `patch` takes it."""
+    out = console()
+    if not out.is_terminal:
+        print_document(diff)
+        return
+    from rich.text import Text
 
-    document(text)
+    for line in diff.splitlines():
+        style = next((style for start, style in DIFF_STYLES.items() if line.startswith(start)), "")
+        out.print(Text(visible(line), style))
+
+
+def print_document(text: str) -> None:
+    """Print what programs read on stdout: in UTF-8 on any terminal."""
+    standard_streams.document(text)
+
+
+def text_columns(console: Console, rows: Sequence[tuple[Sequence[Text], Text]]) -> Text:
+    """A line or more for each row: its short texts whole, then the long one, whose lines go on below one another."""
+    from rich.cells import cell_len
+    from rich.text import Text
+
+    columns = zip(*(short for short, _ in rows), strict=True)
+    widths = [max(cell_len(text.plain) for text in column) for column in columns]
+    indent = sum(widths) + 2 * len(widths)
+    is_beside = console.width - indent >= LEAST_BODY_COLUMNS
+    indent = indent if is_beside else 2
+    found = Text()
+    for short, body in rows:
+        line = Text()
+        for text, width in zip(short, widths, strict=True):
+            line.append_text(text).append(" " * (width - cell_len(text.plain) + 2))
+        parts = [part for part in body.split("\n") if part]
+        wrapped = [each for part in parts for each in part.wrap(console, max(1, console.width - indent))]
+        lines = [Text(" " * indent).append_text(each) for each in wrapped]
+        if is_beside and lines:
+            lines[0] = line.append_text(lines[0][indent:])
+        else:
+            lines.insert(0, line)
+        for each in lines:
+            each.rstrip()
+            found.append_text(each).append("\n")
+    return found
 
 
 @contextmanager
 def procedures_talk() -> Iterator[None]:
-    """Around whatever runs procedures or environments, or above it as a decorator: what they print is talk, and goes
-    to stderr.
-    """
-    from mindrun.terminal.standard_streams import talk
-
-    with talk():
+    """Around whatever runs procedures or environments, or above it as a decorator: what they print goes to stderr."""
+    with standard_streams.talk():
         yield
 
 
@@ -109,6 +165,19 @@ def write_file(path: Path, data: Data) -> None:
         write_out(path, data)
     except OSError as error:
         fail(f"{path} cannot be written: {error.strerror}", code=MISUSE)
+
+
+def rewrite_source(file: str, old: str, new: str) -> None:
+    """Write a new text into a source file that had the old one, or end the program."""
+    from mindrun.files.atomic_write import rewrite
+
+    from mindlang.compiler.source import encoded
+
+    path = Path(file)
+    try:
+        rewrite(path, encoded(path, new), encoded(path, old))
+    except OSError as error:
+        fail(f"{file} cannot be written: {error.strerror}")
 
 
 def load_compiled(path: Path | str) -> Compiled:

@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Protocol
 
 from mindrun.train.attempts import NOTHING_AHEAD, Ahead
 from mindrun.train.lesson_state import Record
@@ -21,26 +20,6 @@ LINE_SECONDS = 5.0  # between two lines
 MAX_BAR_COLUMNS, MIN_BAR_COLUMNS = 20, 8  # columns of a bar, the space behind it with the narrowest
 
 
-class Watcher(Protocol):
-    """What is told of each generation; `done` counts the generations of all attempts."""
-
-    def report(self, record: Record, done: int, now: float) -> None:
-        """A generation has ended."""
-
-    def close(self) -> None:
-        """No more will come."""
-
-
-class Silent:
-    """Says nothing."""
-
-    def report(self, record: Record, done: int, now: float) -> None:
-        """Nothing."""
-
-    def close(self) -> None:
-        """Nothing."""
-
-
 @dataclass(frozen=True, slots=True)
 class ProgressText:
     """Where a lesson stands after a generation: in words and, before them, in a few figures."""
@@ -54,49 +33,34 @@ class ProgressText:
 
     def text(self) -> str:
         """All of it."""
-        return _joined(self.where, self.best, self.reevaluated, self.rate, self.left)
+        return self._with(self.where, self.best, self.reevaluated, self.rate)
 
     def shorter(self) -> Iterator[tuple[str, int]]:
         """Ever shorter texts, each with the columns that its bar needs; how long it will take is in all of them."""
+        without_rate = self._with(self.where, self.best, self.reevaluated)
         yield self.text(), MIN_BAR_COLUMNS
-        yield _joined(self.where, self.best, self.reevaluated, self.left), MIN_BAR_COLUMNS
-        yield _joined(self.where, self.best, self.reevaluated, self.left), 0
-        yield ", ".join((self.where, self.best, self.left)), 0
-        yield ", ".join((self.where, self.left)), 0
-        yield ", ".join((self.briefly, self.left)), 0
+        yield without_rate, MIN_BAR_COLUMNS
+        yield without_rate, 0
+        yield self._with(self.where, self.best), 0
+        yield self._with(self.where), 0
+        yield self._with(self.briefly), 0
 
-
-def _joined(*parts: str) -> str:
-    return ", ".join(part for part in parts if part)
-
-
-@dataclass(frozen=True, slots=True)
-class Reevaluated:
-    """What the best of a generation scored on fresh layouts."""
-
-    attempt: int
-    generation: int
-    score: float
-
-    def words(self, attempt: int, generation: int) -> str:
-        """In words, in a later generation of the same attempt; nothing in another one, of which it says nothing."""
-        if attempt != self.attempt:
-            return ""
-        when = "" if generation == self.generation else f" in generation {self.generation}"
-        return f"re-evaluated {number(self.score)}{when}"
+    def _with(self, *parts: str) -> str:
+        return ", ".join(filter(None, (*parts, self.left)))
 
 
 @dataclass(slots=True)
 class TimeLeft:
     """How fast generations pass since this process took the lesson up at `began`; `generations` are of all attempts.
 
-    `first` says how many generations the first one of an attempt is worth, with all its founders.
+    `first` says how many generations the first one of an attempt is worth, with all its founders; `reevaluated` is the
+    attempt, the generation and the score on fresh layouts of the last champion that has one. `ticks` were simulated.
     """
 
     generations: int
     began: float
     attempts: int = 1
-    reevaluated: Reevaluated | None = None
+    reevaluated: tuple[int, int, float] | None = None
     first: float = 1.0
     ticks: int = 0
     seen: float = 0.0
@@ -109,13 +73,13 @@ class TimeLeft:
         known = None
         for row in read_progress(run.folder):
             if (score := row["reevaluated"]) is not None:
-                known = Reevaluated(int(row["attempt"] or 0), int(row["generation"] or 0), score)
+                known = int(row["attempt"] or 0), int(row["generation"] or 0), score
         learner = lesson.learner
         first = founder_count(learner) / learner.population if run.begins_with_nothing else 1.0
         return cls(lesson.generations * learner.attempts, began, learner.attempts, known, first)
 
     def count_ahead(self, ahead: Ahead) -> None:
-        """What attempts ahead of their turn have done by now."""
+        """Take note of what attempts ahead of their turn have done by now."""
         self.ahead = ahead
 
     def share(self, done: int) -> float:
@@ -123,14 +87,14 @@ class TimeLeft:
         return (done + self.ahead.generations) / self.generations
 
     def standing(self, record: Record, done: int, now: float) -> ProgressText:
-        """Where the lesson stands after a generation."""
+        """Where the lesson stands after a generation, when `done` of all attempts have been made."""
         self.ticks += record.ticks
         self.seen += self.first if record.generation == 1 else 1.0
         ahead = self.ahead.generations + self.ahead.attempts * (self.first - 1.0)
         left = self.generations - done + (self.attempts - record.attempt) * (self.first - 1.0) - ahead
         everywhere = (self.seen + ahead) / self.seen  # times what has been done in its turn
         if record.reevaluated is not None:
-            self.reevaluated = Reevaluated(record.attempt, record.generation, record.reevaluated)
+            self.reevaluated = record.attempt, record.generation, record.reevaluated
         seconds = max(now - self.began, 1e-9)
         one = self.generations // self.attempts
         where, briefly = f"generation {record.generation} of {one}", f"{record.generation}/{one}"
@@ -143,45 +107,41 @@ class TimeLeft:
             where,
             briefly,
             f"best {number(record.best)}",
-            self.reevaluated.words(record.attempt, record.generation) if self.reevaluated else "",
+            self._reevaluated(record),
             rate(self.ticks * everywhere / seconds),
             f"{duration(seconds / (self.seen * everywhere) * max(0.0, left))} left",
         )
 
+    def _reevaluated(self, record: Record) -> str:
+        """What the best scored on fresh layouts, now or in an earlier generation of this attempt."""
+        attempt, generation, score = self.reevaluated or (0, 0, 0.0)
+        if attempt != record.attempt:
+            return ""
+        when = "" if generation == record.generation else f" in generation {generation}"
+        return f"re-evaluated {number(score)}{when}"
 
-class PrintedLines:
-    """A line every few seconds, and one for the first and the last generation."""
+
+class LessonDisplay:
+    """A progress bar that goes away when the lesson ends; where that is no terminal, a line every few seconds."""
 
     def __init__(self, console: Console, name: str, pace: TimeLeft) -> None:
-        self._console, self._name, self._pace = console, name, pace
-        self._due = pace.began
+        self._console, self._name, self._pace, self._due = console, name, pace, pace.began
+        self._live = Live(self._line(None, 0), console=console, transient=True) if console.is_terminal else None
+        if self._live:
+            self._live.start()
 
-    def report(self, record: Record, done: int, now: float) -> None:
-        """Print a line if the last one is long enough ago."""
-        text = self._pace.standing(record, done, now).text()
-        if now >= self._due or done == self._pace.generations:
-            self._console.print(f"{self._name}: {text}", markup=False)
+    def report(self, standing: ProgressText, done: int, now: float) -> None:
+        """Move the bar, or print a line if the last one is long enough ago; one is for the last generation."""
+        if self._live:
+            self._live.update(self._line(standing, done))
+        elif now >= self._due or done == self._pace.generations:
+            self._console.print(f"{self._name}: {standing.text()}", markup=False)
             self._due = now + LINE_SECONDS
 
     def close(self) -> None:
-        """Nothing is open."""
-
-
-class ProgressBarLine:
-    """A progress bar that goes away when the lesson ends."""
-
-    def __init__(self, console: Console, name: str, pace: TimeLeft) -> None:
-        self._name, self._pace = name, pace
-        self._live = Live(self._line(None, 0), console=console, transient=True)
-        self._live.start()
-
-    def report(self, record: Record, done: int, now: float) -> None:
-        """Move the bar."""
-        self._live.update(self._line(self._pace.standing(record, done, now), done))
-
-    def close(self) -> None:
         """Take the bar away; the cursor is back."""
-        self._live.stop()
+        if self._live:
+            self._live.stop()
 
     def _line(self, standing: ProgressText | None, done: int) -> RenderableType:
         return ProgressLine(self._name, standing, self._pace.share(done))

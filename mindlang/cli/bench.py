@@ -1,20 +1,38 @@
-"""`mindc bench`: many runs of a task, for a figure that can be trusted."""
+"""`mindc bench`: many runs of a task for a figure that can be trusted, of one mind or of two on the same layouts."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
+from mindrun.processors import cores
 
 from mindlang import limits
-from mindlang.cli._declared_names import SKILLS
-from mindlang.cli._options import IN_CHARGE, OF_TASK, ON, SEED, WORKERS, NewFile, WholeOption, refuse_ineffective
+from mindlang.cli._options import (
+    IN_CHARGE,
+    OF_TASK,
+    ON,
+    SEED,
+    SKILLS,
+    WORKERS,
+    NewFile,
+    RunChoice,
+    WholeOption,
+    refuse_ineffective,
+)
+from mindlang.cli._terminal import MISUSE, fail, print_result, refuse_unwritable, write_file
 
 if TYPE_CHECKING:
-    from mindlang.cli._bench_pair import Contender
-    from mindlang.cli._run_session import BenchChoice
+    from mindrun.graph.run_scores import Scores
 
+    from mindlang.cli._session import Cast, RunSession
+    from mindlang.executors import Where
+    from mindlang.run.tables import Table
+
+MAX_COMPARED = 2  # minds, or masters
 EXAMPLES = """\b
 Examples:
   mindc bench collect.mind
@@ -75,47 +93,119 @@ def command(
     With OTHER, or two masters, both run on the same layouts: how much they differ, with a confidence interval, and what
     may be said of it. It is said of the weights that both have, not of how such minds are taught in general.
     """
-    from mindrun.processors import cores
-
-    from mindlang.cli._bench_pair import compare_benched, contenders
-    from mindlang.cli._run_session import BenchChoice
-    from mindlang.cli._terminal import refuse_unwritable
+    from mindlang.cli._session import RunSession
 
     refuse_unwritable(table, ".csv")
     if where is not None:
         refuse_ineffective("for the cores of this machine: with --on others make the runs", "workers")
-    chosen = BenchChoice(task, runs, seed, workers or cores(), not no_interruption, where)
+    chosen = RunChoice(task, seed, None, not no_interruption)
+    bench = Bench(RunSession(quiet), chosen, seed, runs, workers or cores(), where, table, as_json)
     who = contenders(files, masters)
     if len(who) > 1:
-        compare_benched(who, chosen, table, as_json, quiet)
+        bench.compare(who)
     else:
-        _bench(who[0], chosen, table, as_json, quiet)
+        bench.measure(who[0])
 
 
-def _bench(who: Contender, chosen: BenchChoice, table: Path | None, as_json: bool, quiet: bool) -> None:
-    from mindlang.cli._run_session import RunSession
-    from mindlang.cli._terminal import console, print_json, write_file
-    from mindlang.run import outcome
-    from mindlang.run.columns import csv_parts
-    from mindlang.run.runs_table import runs_table
-    from mindlang.run.summary import bench_summary
+@dataclass(frozen=True, slots=True)
+class Contender:
+    """A mind that runs, the master it is asked to run under, and what it is called beside another."""
 
-    session = RunSession(quiet)
-    cast = chosen.task, who.master, chosen.interrupt, chosen.workers, chosen.runs
-    setup, rollout = session.prepare(who.file, *cast)
-    session.say(*(f"note: {note}" for note in setup.world_notes))
-    seeds = setup.layouts(chosen.seed, chosen.runs)
-    with session.scorer(setup, rollout, chosen) as scorer:
-        scores, seconds, cpu = session.score(scorer, seeds)
-    found: dict[str, Any] = {"task": setup.task.name, "master": setup.master, "seed": chosen.seed, **chosen.by}
-    found |= outcome.bench_data(setup.task, scores, seeds, seconds, None if chosen.where else cpu)
-    over = outcome.over_at_once(setup.task, scores)
-    session.say(*(f"note: {note}" for note in over))
-    found["notes"] = setup.notes(rollout, *over)
-    if table:
-        write_file(table, csv_parts(runs_table(setup.task, scores, seeds)))
-        session.say(f"{table}: a row for each of {len(seeds):,} runs")
-    if as_json:
-        print_json(found)
+    file: str
+    master: str | None
+    name: str
+
+
+def contenders(files: Sequence[str], masters: Sequence[str]) -> list[Contender]:
+    """Who runs: one mind, two minds, or one mind under two masters; of two minds each may have a master of its own."""
+    if len(files) > MAX_COMPARED or len(masters) > MAX_COMPARED:
+        fail("Two are compared, not more.", "mindc bench A.mind B.mind, or one FILE with --master X --master Y", MISUSE)
+    count = max(len(files), len(masters))
+    asked: Sequence[str | None] = masters or [None]
+    both = [(files[i % len(files)], asked[i % len(asked)]) for i in range(count)]
+    if len(files) == 1:
+        names = [str(master) for _, master in both]
     else:
-        console().print(bench_summary(found))
+        names = [f"{file} with {master}" if len(masters) == MAX_COMPARED else file for file, master in both]
+    if len({*names}) < count:
+        names = [f"{name} ({place})" for name, place in zip(names, "AB", strict=True)]
+    return [Contender(*each, name) for each, name in zip(both, names, strict=True)]
+
+
+@dataclass(frozen=True, slots=True)
+class Bench:
+    """Which runs are made, and where: in so many `workers` of this machine, or as --on says; and what is printed."""
+
+    session: RunSession
+    chosen: RunChoice
+    seed: int
+    runs: int
+    workers: int
+    where: Where | None
+    table: Path | None
+    as_json: bool
+
+    def measure(self, who: Contender) -> None:
+        """Run one mind, and print its means."""
+        from mindlang.run.outcome import over_at_once
+        from mindlang.run.summary import bench_summary
+        from mindlang.run.tables import runs_table
+
+        cast = self._cast(who, self.chosen.task)
+        task, seeds = cast[0].task, cast[0].layouts(self.seed, self.runs)
+        self.session.say(*(f"note: {note}" for note in cast[0].world_notes))
+        scores, data = self._score(cast, seeds)
+        self.session.say(*(f"note: {note}" for note in over_at_once(task, scores)))
+        found = {"task": task.name, "master": cast[0].master, "seed": self.seed, **self._by(), **data}
+        if self.table:
+            self._write(self.table, runs_table(task, scores, seeds), f"{len(seeds):,} runs")
+        print_result(self.as_json, found, lambda: bench_summary(found))
+
+    def compare(self, who: Sequence[Contender]) -> None:
+        """Run both on the same layouts, the second on the task of the first, and print what differs."""
+        from mindlang.run.comparison import Benched, compare, differing_tasks
+        from mindlang.run.summary import comparison_summary
+        from mindlang.run.tables import joined, runs_table
+
+        first = self._cast(who[0], self.chosen.task)
+        second = self._cast(who[1], first[0].task.name)
+        is_one_world = first[0].is_one_world and second[0].is_one_world
+        seeds = max((setup.layouts(self.seed, self.runs) for setup, _ in (first, second)), key=len)
+        notes = differing_tasks(who[1].file, first[0].task, second[0].task)
+        self.session.say(*(f"note: {note}" for note in notes))
+        benched, minds = [], []
+        for each, cast in zip(who, (first, second), strict=True):
+            scores, data = self._score(cast, seeds, f"{each.name}: ")
+            benched.append(Benched(each.name, cast[0].task, scores))
+            minds.append({"name": each.name, "file": each.file, "master": cast[0].master, **data})
+        compared = compare(benched[0], benched[1], is_one_world)
+        found: dict[str, Any] = {"task": first[0].task.name, "seed": self.seed, "runs": len(seeds), **self._by()}
+        found |= {"minds": minds, **compared.data(), "notes": notes}
+        if self.table:
+            rows = joined({each.name: runs_table(each.task, each.scores, seeds) for each in benched})
+            self._write(self.table, rows, f"2 × {len(seeds):,} runs")
+        print_result(self.as_json, found, lambda: comparison_summary(found, compared))
+
+    def _cast(self, who: Contender, task: str | None) -> Cast:
+        chosen = replace(self.chosen, task=task, master=who.master)
+        return self.session.prepare(who.file, chosen, self.workers, self.runs)
+
+    def _score(self, cast: Cast, seeds: Sequence[int], whose: str = "") -> tuple[Scores, dict[str, Any]]:
+        """What came of each run, and of all of them as data; notes on stderr say `whose` they are."""
+        from mindlang.run.outcome import bench_data, over_at_once
+
+        setup, rollout = cast
+        with self.session.scorer(cast, self.chosen.interrupt, self.where, self.workers) as scorer:
+            scores, seconds, cpu = self.session.score(scorer, seeds, whose)
+        data = bench_data(setup.task, scores, seeds, seconds, None if self.where else cpu)
+        return scores, data | {"notes": setup.notes(rollout, *over_at_once(setup.task, scores))}
+
+    def _by(self) -> dict[str, int | str]:
+        """Who makes the runs."""
+        return {"workers": self.workers} if self.where is None else {"on": f"{self.where}"}
+
+    def _write(self, path: Path, table: Table, runs: str) -> None:
+        from mindlang.run.tables import csv_parts
+
+        write_file(path, csv_parts(table))
+        self.session.say(f"{path}: a row for each of {runs}")

@@ -8,9 +8,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
+from mindrun.errors import MindError
 
-from mindlang.cli._declared_names import SKILLS
-from mindlang.cli._options import NewFile
+from mindlang.cli._diagnostic_printer import print_report
+from mindlang.cli._options import PATH, SKILLS, NewFile
+from mindlang.cli._terminal import FINDINGS, MISUSE, complain, console, fail, load_compiled, print_json
+from mindlang.compiler.diagnostic import did_you_mean, listed
 
 if TYPE_CHECKING:
     from mindrun.graph.wiring import Wiring
@@ -31,9 +34,7 @@ Examples:
 @click.argument("file")
 @click.option("-o", "--output", required=True, type=NewFile(), help="The bundle: -o collect.bundle")
 @click.option("--master", metavar="SKILL", shell_complete=SKILLS, help="Another skill in charge: --master Avoid")
-@click.option(
-    "--robot", type=click.Path(path_type=Path), metavar="FILE", help="What it is wired to: --robot robot.yaml"
-)
+@click.option("--robot", type=PATH, metavar="FILE", help="What it is wired to: --robot robot.yaml")
 @click.option("--json", "as_json", is_flag=True, help="Say what was built as one JSON document: --json")
 @click.option("-q", "--quiet", is_flag=True, help="Print nothing but errors: -q")
 def command(file: str, output: Path, master: str | None, robot: Path | None, as_json: bool, quiet: bool) -> None:
@@ -45,11 +46,8 @@ def command(file: str, output: Path, master: str | None, robot: Path | None, as_
     not been taught, or whose weights belong to another declaration.
     """
     from mindrun.engine.engine import procedure_sources
-    from mindrun.errors import MindError
     from mindrun.graph.bundle import Bundle, write_bundle
 
-    from mindlang.cli._terminal import MISUSE, fail, load_compiled, print_json, say
-    from mindlang.compiler.diagnostic import did_you_mean
     from mindlang.lock.ready import make_ready
 
     compiled = load_compiled(file)
@@ -70,26 +68,21 @@ def command(file: str, output: Path, master: str | None, robot: Path | None, as_
         fail(f"{output} cannot be written: {error.strerror}")
     notes = [*ready.notes, *_needed_modules(ready, compiled.sources[0].folder)]
     for note in notes:
-        say(f"note: {note}")
+        complain(f"note: {note}")
     if as_json:
         print_json(_built(output, digest, ready, wiring) | {"notes": notes})
     elif not quiet:
-        wired = f", wired to {wiring.robot}" if wiring else ""
-        click.echo(f"{output}: {ready.policy.graph.master} in charge, {_taught(ready)}{wired}", err=True)
-
-
-def _taught(ready: ReadyMind) -> str:
-    number = len(ready.policy.weights)
-    return "1 trained skill" if number == 1 else f"{number} trained skills"
+        count, wired = len(ready.policy.weights), f", wired to {wiring.robot}" if wiring else ""
+        taught = f"{count} trained skill{'s' * (count != 1)}"
+        click.echo(f"{output}: {ready.policy.graph.master} in charge, {taught}{wired}", err=True)
 
 
 def _refuse_missing(ready: ReadyMind, file: str) -> None:
     """End the program where a skill that can act has no weights that fit."""
-    from mindlang.cli._terminal import fail, say
     from mindlang.run.setup import train_command
 
     for refusal in ready.refusals[:-1]:
-        say(refusal)
+        complain(refusal)
     if ready.refusals:
         fail(ready.refusals[-1], train_command(Path(file), ready))
 
@@ -98,8 +91,6 @@ def _refuse_procedures(compiled: Compiled, master: str) -> None:
     """Say what `check` says of procedures; end the program where one that travels cannot be what its skill needs."""
     from mindrun.graph.skill_sets import reachable
 
-    from mindlang.cli._diagnostic_printer import print_report
-    from mindlang.cli._terminal import FINDINGS, console
     from mindlang.compiler.procedures import mistakes
 
     assert compiled.graph is not None
@@ -117,7 +108,6 @@ def _needed_modules(ready: ReadyMind, folder: Path) -> list[str]:
     """What has to be installed on the robot beside mindrun, in a sentence."""
     from mindrun.graph.skill_sets import reachable
 
-    from mindlang.compiler.diagnostic import listed
     from mindlang.compiler.procedures import needed_modules
 
     graph = ready.policy.graph
@@ -127,8 +117,6 @@ def _needed_modules(ready: ReadyMind, folder: Path) -> list[str]:
 
 def _wiring(path: Path, compiled: Compiled, master: str | None) -> Wiring:
     """What the mind is wired to; its report goes to stderr, and one with errors ends the program."""
-    from mindlang.cli._diagnostic_printer import print_report
-    from mindlang.cli._terminal import FINDINGS, MISUSE, console
     from mindlang.robot.wire import load_wiring
 
     assert compiled.mind is not None

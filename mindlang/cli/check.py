@@ -9,14 +9,18 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
+from mindrun.terminal.command_line import command_line
 
-from mindlang.cli._declared_names import SKILLS, TASKS
+from mindlang.breakpoints import SUFFIX
+from mindlang.cli._diagnostic_printer import as_data, print_report
+from mindlang.cli._options import SKILLS, TASKS, files_of, in_files
+from mindlang.cli._terminal import FINDINGS, MISUSE, OK, console, print_json, refusing, tell
+from mindlang.compiler.diagnostic import Diagnostic, distinct
 
 if TYPE_CHECKING:
     from mindrun.graph.bundle import Bundle
 
     from mindlang.compiler.compile import Compiled
-    from mindlang.compiler.diagnostic import Diagnostic
 
 EXAMPLES = """\b
 Examples:
@@ -59,11 +63,6 @@ def command(files: tuple[str, ...], task: str | None, master: str | None, as_jso
     with the BUNDLE that drives a robot, against what it will record (with --task in a dry run).
     Ends with 0 when nothing is wrong, with 1 when something is, with 2 when a file cannot be read.
     """
-    from mindlang.breakpoints import SUFFIX
-    from mindlang.cli._diagnostic_printer import as_data, print_report
-    from mindlang.cli._named_files import files_of, in_files
-    from mindlang.cli._terminal import FINDINGS, MISUSE, OK, console, print_json
-    from mindlang.compiler.diagnostic import distinct
     from mindlang.editing.neighbours import minds
 
     named = files_of(files, ".mind", SUFFIX)
@@ -77,8 +76,8 @@ def command(files: tuple[str, ...], task: str | None, master: str | None, as_jso
     found = distinct(diagnostic for each in checked for diagnostic in each.diagnostics)
     _note_speeds(compiled)
     if as_json:
-        files_data = [{"file": each.file, "ok": each.is_whole and not each.diagnostics} for each in checked]
-        print_json({"files": files_data, "diagnostics": [as_data(diagnostic) for diagnostic in found]})
+        of_files = [{"file": each.file, "ok": each.is_whole and not each.diagnostics} for each in checked]
+        print_json({"files": of_files, "diagnostics": [as_data(diagnostic) for diagnostic in found]})
     elif found:
         print_report(found, console(stderr=True))
         click.echo(f"{len(found)} mistake{'s' if len(found) > 1 else ''}{in_files(files, named)}", err=True)
@@ -93,13 +92,9 @@ def _note_speeds(compiled: Mapping[str, Compiled]) -> None:
 
     for file, each in compiled.items():
         if each.graph and (far := farthest_step(each.graph))[0] > (most := simulated_step(each.graph)):
-            from mindrun.terminal.command_line import command_line
-
-            from mindlang.cli._terminal import talk
-
             moves = f"its robot moves {far[0]:.3g} units in a tick of {far[1]} at full thrust"
             hint = f"{command_line('mindc', 'lint', Path(file))} says what helps"
-            talk.print(f"note: {file}: {moves}; beside a wall {most:.3g} of them are simulated; {hint}", markup=False)
+            tell(f"note: {file}: {moves}; beside a wall {most:.3g} of them are simulated; {hint}")
 
 
 def _breakpoints(
@@ -108,23 +103,17 @@ def _breakpoints(
     """The files of breakpoints, each against every bundle, or else a mind; it is said where there is neither."""
     if not files:
         return
-    from mindrun.errors import MindError
-    from mindrun.terminal.command_line import command_line
-
     from mindlang.breakpoints.resolve import load_breakpoints
     from mindlang.breakpoints.subject import mind_of, subject_of_bundle, subject_of_mind
-    from mindlang.cli._terminal import MISUSE, fail, talk
 
     for file in dict.fromkeys(files):
         mind = None if bundles else mind_of(file, given)
-        try:
+        with refusing(MISUSE):
             subjects = [subject_of_bundle(_bundle(path), task, master) for path in bundles]
             subjects += [subject_of_mind(mind, task, master)] if mind else []
-        except MindError as error:
-            fail(str(error), error.hint, MISUSE)
         if not subjects:
             hint = f"{command_line('mindc', 'check', 'NAME.mind', Path(file))} looks for the names in it, too"
-            talk.print(f"note: {file} is read without a mind that compiles, line by line; {hint}", markup=False)
+            tell(f"note: {file} is read without a mind that compiles, line by line; {hint}")
         for subject in subjects or (None,):
             found = load_breakpoints(file, subject).diagnostics
             yield _Checked(file, found, all(each.span for each in found))

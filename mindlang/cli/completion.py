@@ -13,6 +13,8 @@ from click.shell_completion import (
     get_completion_class,
 )
 
+from mindlang.cli._terminal import print_document
+
 EXAMPLES = """\b
 Examples:
   mindc completion bash >> ~/.bashrc
@@ -30,8 +32,6 @@ def command(context: click.Context, shell: str) -> None:
 
     Commands, options, files, and the names in the mind that stands on the line.
     """
-    from mindlang.cli._terminal import print_document
-
     script = get_completion_class(shell)
     assert script
     print_document(script(context.find_root().command, {}, "mindc", "_MINDC_COMPLETE").source())

@@ -7,13 +7,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
+from mindrun.errors import BundleError
+from mindrun.files.printable import visible
+
+from mindlang.cli._terminal import INTERRUPTED, MISUSE, fail, print_json, refusing
 
 if TYPE_CHECKING:
     from mindrun.graph.bundle import Bundle
 
-    from mindlang.robot.deployment import DeployResult, Settings
+    from mindlang.robot.deployment import ReleaseState, Settings
     from mindlang.robot.remote import RemoteRobot
-    from mindlang.robot.remote_state import ReleaseState
 
 EXAMPLES = """\b
 Examples:
@@ -59,35 +62,39 @@ def command(
     one before. Interrupted at any moment, the robot has the old release or the new one, whole; the same command goes
     on.
     """
-    from mindrun.errors import MindError
+    from mindlang.robot.deployment import Deployment, Settings
+    from mindlang.robot.remote import check_host, check_tools, connected
 
-    from mindlang.cli._terminal import INTERRUPTED, fail
-    from mindlang.robot.checks import check_host, check_tools
-    from mindlang.robot.deployment import Settings
-    from mindlang.robot.remote import connected
+    def report(message: str) -> None:
+        if not quiet:
+            click.echo(message, err=True)
 
     path, host = _path_and_host(words, rollback or as_list)
     if (rollback and as_list) or (arm_service and no_service):
         raise click.UsageError("--rollback and --list, like --arm-service and --no-service, exclude each other.")
     settings = Settings(not no_service, arm_service, keep, watch, not no_auto_rollback)
     try:
-        check_host(host)
-        bundle = _checked(path, settings) if path else None
-        check_tools()
-        with connected(host) as robot:
-            if as_list:
-                _list(robot, as_json)
-                return
-            outcome = _do(robot, path, bundle, settings, dry_run, quiet)
-    except MindError as error:
-        fail(str(error), error.hint)
+        with refusing():
+            check_host(host)
+            bundle = _checked(path, settings) if path else None
+            check_tools()
+            with connected(host) as robot:
+                if as_list:
+                    _list(robot, as_json)
+                    return
+                deployment = Deployment(robot, settings, report, dry_run)
+                done = deployment.deploy(path, bundle, datetime.now(UTC)) if path and bundle else deployment.roll_back()
     except KeyboardInterrupt:
-        fail(
-            "Interrupted: the robot has the old release or the new one, whole.",
-            "The same command goes on.",
-            INTERRUPTED,
-        )
-    _say(host, outcome, settings, dry_run, as_json, quiet)
+        whole = "Interrupted: the robot has the old release or the new one, whole."
+        fail(whole, "The same command goes on.", INTERRUPTED)
+    for note in done.notes:
+        click.echo(f"note: {note}", err=True)
+    if as_json:
+        service = {"unit": "mind.service", "armed": settings.armed} if settings.service else None
+        said = {"host": host, "dry_run": dry_run, "release": done.release or None, "before": done.before or None}
+        print_json({**said, "service": service, "notes": list(done.notes)})
+    elif not dry_run:
+        report(f"{host} has {done.release}")
 
 
 def _path_and_host(words: tuple[str, ...], without: bool) -> tuple[Path | None, str]:
@@ -101,41 +108,20 @@ def _path_and_host(words: tuple[str, ...], without: bool) -> tuple[Path | None, 
 
 def _checked(path: Path, settings: Settings) -> Bundle:
     """The bundle; one that cannot be read ends the program."""
-    from mindrun.errors import BundleError
     from mindrun.graph.bundle import read_bundle
 
-    from mindlang.cli._terminal import MISUSE, fail
-    from mindlang.robot.checks import check_procedures, check_wired
+    from mindlang.robot.release import check_deployable
 
     try:
         bundle = read_bundle(path)
     except BundleError as error:
         fail(str(error), error.hint or "mindc build writes one.", MISUSE)
-    check_procedures(bundle)
-    if settings.service:
-        check_wired(bundle)
+    check_deployable(bundle, settings.service)
     return bundle
 
 
-def _do(
-    robot: RemoteRobot, path: Path | None, bundle: Bundle | None, settings: Settings, dry_run: bool, quiet: bool
-) -> DeployResult:
-    from mindlang.robot.deployment import deploy, roll_back
-
-    def report(message: str) -> None:
-        if not quiet:
-            click.echo(message, err=True)
-
-    if path is None or bundle is None:
-        return roll_back(robot, settings, report, dry_run)
-    return deploy(robot, path, bundle, settings, datetime.now(UTC), report, dry_run)
-
-
 def _list(robot: RemoteRobot, as_json: bool) -> None:
-    from mindrun.files.printable import visible
-
-    from mindlang.cli._terminal import print_json
-    from mindlang.robot.remote_state import read_state
+    from mindlang.robot.deployment import read_state
 
     state = read_state(robot)
     if as_json:
@@ -152,16 +138,3 @@ def _list(robot: RemoteRobot, as_json: bool) -> None:
 def _listed(state: ReleaseState) -> dict[str, object]:
     releases = [{"release": each.name, "state": each.state, **each.made_of} for each in state.releases]
     return {"current": state.current or None, "releases": releases}
-
-
-def _say(host: str, outcome: DeployResult, settings: Settings, dry_run: bool, as_json: bool, quiet: bool) -> None:
-    from mindlang.cli._terminal import print_json
-
-    for note in outcome.notes:
-        click.echo(f"note: {note}", err=True)
-    if as_json:
-        service = {"unit": "mind.service", "armed": settings.armed} if settings.service else None
-        done = {"host": host, "dry_run": dry_run, "release": outcome.release or None, "before": outcome.before or None}
-        print_json({**done, "service": service, "notes": list(outcome.notes)})
-    elif not quiet and not dry_run:
-        click.echo(f"{host} has {outcome.release}", err=True)

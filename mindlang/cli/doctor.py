@@ -1,16 +1,12 @@
 """`mindc doctor`: what is installed here, what is missing, and what mends it."""
 
-from __future__ import annotations
-
 import sys
-from typing import TYPE_CHECKING
+from dataclasses import asdict
 
 import click
+from mindrun.files.printable import visible
 
-if TYPE_CHECKING:
-    from rich.text import Text
-
-    from mindlang.diagnosis.checks import Finding
+from mindlang.cli._terminal import FINDINGS, OK, console, print_json, text_columns
 
 EXAMPLES = """\b
 Examples:
@@ -28,28 +24,22 @@ def command(as_json: bool) -> None:
     `ok` is as it should be, `-` is absent and only needed for what is said, `NOT` has to be mended. Changes nothing.
     Ends with 0, or with 1 where something has to be mended. For a robot's devices: mindrun doctor
     """
-    from dataclasses import asdict
-
-    from mindlang.cli._terminal import FINDINGS, OK, console, print_json
-    from mindlang.cli._text_columns import columns
-    from mindlang.diagnosis.checks import State, findings
-
-    found = list(findings())
-    is_fine = all(each.state is not State.WRONG for each in found)
-    if as_json:
-        print_json({"ok": is_fine, "checks": [asdict(each) | {"state": each.state.value} for each in found]})
-    else:
-        console().print(columns(console(), [_row(each) for each in found]), end="")
-        wrong = sum(each.state is State.WRONG for each in found)
-        click.echo(f"{wrong} to be mended" if wrong else "all that is needed is there", err=True)
-    sys.exit(OK if is_fine else FINDINGS)
-
-
-def _row(of: Finding) -> tuple[tuple[Text, Text], Text]:
-    """How it is and what it is about; then what was seen, and below it what mends it."""
-    from mindrun.files.printable import visible
     from rich.text import Text
 
-    mark, style = MARKS[of.state.value]
-    seen = Text.assemble(visible(of.seen), (f"\n{visible(of.mend)}" * bool(of.mend), "cyan"))
-    return (Text(mark, style), Text(of.what)), seen
+    from mindlang.diagnosis import findings
+
+    found = list(findings())
+    wrong = sum(each.state == "wrong" for each in found)
+    if as_json:
+        print_json({"ok": not wrong, "checks": [asdict(each) for each in found]})
+    else:
+        rows = [
+            (
+                (Text(*MARKS[each.state]), Text(each.what)),
+                Text.assemble(visible(each.seen), (f"\n{visible(each.mend)}" * bool(each.mend), "cyan")),
+            )
+            for each in found
+        ]
+        console().print(text_columns(console(), rows), end="")
+        click.echo(f"{wrong} to be mended" if wrong else "all that is needed is there", err=True)
+    sys.exit(FINDINGS if wrong else OK)

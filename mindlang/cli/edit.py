@@ -1,17 +1,25 @@
-"""`mindc edit`: every edit is a command, built from the signature of its function."""
+"""`mindc edit`: every edit is a command, built from the signature of its function; `undo` takes the last one back."""
 
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import click
 
 from mindlang.cli import Suggesting
-from mindlang.cli._declared_names import SKILLS, declared
+from mindlang.cli import _terminal as terminal
+from mindlang.cli._diagnostic_printer import as_data, print_report
+from mindlang.cli._options import SKILLS, declared
+from mindlang.compiler.diagnostic import Diagnostic, listed
 
 if TYPE_CHECKING:
+    from mindlang.editing.apply import Edited
     from mindlang.editing.edits import Edit, EditOption
+    from mindlang.editing.transaction import Files
 
 EXAMPLES = """\b
 Examples:
@@ -20,6 +28,14 @@ Examples:
     --with Avoid --reads proximity --write
   mindc edit undo collect.mind                 takes that back
 """
+
+UNDO_EXAMPLES = """\b
+Examples:
+  mindc edit undo
+  mindc edit undo examples/collect
+  mindc edit undo examples/collect/collect.mind
+"""
+
 
 UNDO = "undo"
 # What a shell completes the parameters of edits with; whatever is not among them is not declared yet.
@@ -46,8 +62,6 @@ class Edits(Suggesting):
         from mindlang.editing.edits import edit
 
         if cmd_name == UNDO:
-            from mindlang.cli._undoing import command as undo
-
             return undo
         return _command(edit(cmd_name)) if cmd_name in self.list_commands(ctx) else None
 
@@ -64,10 +78,8 @@ def _command(of: Edit) -> click.Command:
     """A click command with the parameters of an edit, and those that all of them have."""
 
     def run(file: str, write: bool, anyway: bool, keep_weights: bool, verify: bool, as_json: bool, **said: Any) -> None:
-        from mindlang.cli._editing import EditOptions, perform
-
         file, said = _file_first(of, file, said)
-        perform(of, said, file, EditOptions(write, anyway, keep_weights, verify, as_json))
+        _perform(of, said, file, write, anyway, keep_weights, verify, as_json)
 
     parameters = [
         click.Argument(["file"]),
@@ -118,3 +130,111 @@ def _option(option: EditOption) -> click.Option:
         return click.Option(flags, is_flag=True, help=option.help)
     default, names = None if option.many else option.default, NAMED.get(flags[0])
     return click.Option(flags, multiple=option.many, default=default, help=option.help, shell_complete=names)
+
+
+def _perform(
+    of: Edit,
+    said: Mapping[str, Any],
+    file: str,
+    write: bool,
+    anyway: bool,
+    keep_weights: bool,
+    verify: bool,
+    as_json: bool,
+) -> None:
+    """Make an edit of a file, or only show it; an impossible one ends the program with its reason."""
+    from mindlang.editing.apply import apply_edit
+    from mindlang.editing.apply import write as write_edited
+    from mindlang.editing.project import EditError, open_project
+    from mindlang.editing.summary import broken_sentences, diff, not_followed, summarise
+
+    if write and file == "-":
+        terminal.fail("Standard input cannot be written.", "Leave --write out: the diff is printed.", terminal.MISUSE)
+    project = open_project(terminal.load_compiled(file))
+    try:
+        edited = apply_edit(project, of.function(project, **said), keep_weights)
+        broken = broken_sentences(edited)
+        if broken and write and not anyway:
+            raise EditError(f"After this edit {broken[0]}", "--anyway makes it nevertheless.")
+        sentences = [*summarise(edited), *broken, *not_followed(edited)]
+        if verify:
+            sentences.append(_verified(edited))
+        if write:
+            write_edited(edited)
+    except EditError as error:
+        _refuse(error.diagnostic, as_json)
+    if as_json:
+        terminal.print_json({"diff": diff(edited), "written": write, "weights": sentences})
+        return
+    if not write:
+        terminal.print_diff(diff(edited))
+    terminal.tell(*sentences, _ending(edited, write))
+
+
+def _refuse(diagnostic: Diagnostic, as_json: bool) -> NoReturn:
+    if as_json:
+        terminal.print_json({"diagnostics": [as_data(diagnostic)]})
+    else:
+        print_report([diagnostic], terminal.console(stderr=True))
+    sys.exit(terminal.FINDINGS)
+
+
+def _verified(edited: Edited) -> str:
+    """What has been verified, by running it; EditError where a trained skill would do something else."""
+    from mindlang.cli._session import prepare
+    from mindlang.editing.verify import verify_unchanged
+
+    with terminal.procedures_talk():
+        skills = verify_unchanged(edited, prepare)
+    if not skills:
+        return "verified: there is no trained skill that this edit leaves as it was"
+    return f"verified: {listed(skills, 'and')} did the same to the bit"
+
+
+def _ending(edited: Edited, is_written: bool) -> str:
+    """Which files are written, or would be."""
+    locks = [path.name for path in edited.changed_locks]
+    if is_written:
+        return f"written: {listed([*(path.name for path in edited.texts), *locks], 'and')}"
+    also = f", and changes {listed(locks, 'and')} as well" if locks else ""
+    return f"nothing has been written: --write makes this edit{also}"
+
+
+@click.command(epilog=UNDO_EXAMPLES)
+@click.argument("place", default=".", metavar="[FILE_OR_FOLDER]")
+@click.option("--json", "as_json", is_flag=True, help="One JSON document instead: mindc edit undo --json")
+def undo(place: str, as_json: bool) -> None:
+    """Take back the edit that was last written in a folder.
+
+    Sources, locks and weights become what they were before it, together or not at all. Without FILE_OR_FOLDER it is the
+    working directory. Where one of the files has been changed since, nothing is. Edits before the last are not kept.
+    """
+    from mindlang.editing.transaction import TransactionError, noted_in
+    from mindlang.editing.transaction import undo as take_back
+
+    here = Path(place).absolute()
+    if not here.exists():
+        hint = "Name a file or a folder in which an edit was written."
+        terminal.fail(f"{place} is not there.", hint, terminal.MISUSE)
+    folder = noted_in(here)
+    if folder is None:
+        none = f"In {place} no edit has been written that could be taken back."
+        terminal.fail(none, "Name the file that was edited: mindc edit undo FILE")
+    with terminal.refusing(end=".", of=TransactionError):
+        were, are = take_back(folder)
+    names = [path.relative_to(folder).as_posix() for end in (".mind", ".lock") for path in are if path.suffix == end]
+    if as_json:
+        terminal.print_json({"diff": _undone(folder, were, are), "folder": str(folder), "written": names})
+        return
+    terminal.print_diff(_undone(folder, were, are))
+    terminal.tell(f"taken back: {listed(names, 'and')}")
+
+
+def _undone(folder: Path, were: Files, are: Files) -> str:
+    """The unified diff of the sources."""
+    from mindlang.compiler.source import decode
+    from mindlang.editing.unified_diff import unified
+
+    sources = {path: path.relative_to(folder).as_posix() for path in are if path.suffix == ".mind"}
+    texts = ((name, decode(were[path] or b""), decode(are[path] or b"")) for path, name in sources.items())
+    return "".join(unified(*each) for each in texts)

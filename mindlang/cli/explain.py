@@ -2,6 +2,9 @@
 
 import click
 from click.shell_completion import CompletionItem
+from mindrun.files.printable import visible
+
+from mindlang.cli._terminal import MISUSE, console, fail, print_json, print_result
 
 EXAMPLES = """\b
 Examples:
@@ -18,7 +21,7 @@ Examples:
 
 def _names(context: click.Context, parameter: click.Parameter, begun: str) -> list[CompletionItem]:
     """What a shell may complete: whatever there is an article of."""
-    from mindlang.cli._command_articles import command_articles
+    from mindlang.cli._articles import command_articles
     from mindlang.explaining.collection import articles
 
     known = {each.name: each.sort for each in (*command_articles(), *articles())}
@@ -36,20 +39,15 @@ def command(name: tuple[str, ...], as_json: bool) -> None:
     a noun before it chooses one: sensor light, mindrun doctor. Ends with 0, or with 2 where there is nothing of that
     name.
     """
-    from mindrun.files.printable import visible
     from rich.text import Text
 
-    from mindlang.cli._command_articles import command_articles
-    from mindlang.cli._terminal import MISUSE, console, fail, print_json
-    from mindlang.explaining.codes import codes
-    from mindlang.explaining.collection import articles, found, hint
+    from mindlang.cli._articles import command_articles
+    from mindlang.explaining.collection import articles, codes, found, hint
     from mindlang.explaining.terminal import article_text, as_data, contents
 
     if not name:
-        if as_json:
-            print_json({"articles": [as_data(each) for each in codes().values()]})
-        else:
-            console().print(Text.assemble(*contents(codes().values())), end="")
+        data = {"articles": [as_data(each) for each in codes().values()]}
+        print_result(as_json, data, lambda: Text.assemble(*contents(codes().values())), end="")
         return
     asked = " ".join(" ".join(name).strip("[]").split())
     known = found(asked, articles()) or found(asked, [*command_articles()])

@@ -1,9 +1,11 @@
 """`mindc gc`: remove weights that nobody has any more."""
 
-import sys
 from pathlib import Path
 
 import click
+
+from mindlang.cli._options import PATH
+from mindlang.cli._terminal import MISUSE, console, fail, print_json, refusing, tell
 
 EXAMPLES = """\b
 Examples:
@@ -14,7 +16,7 @@ Examples:
 
 
 @click.command(epilog=EXAMPLES)
-@click.argument("folder", type=click.Path(path_type=Path), default=".", required=False)
+@click.argument("folder", type=PATH, default=".", required=False)
 @click.option("--write", is_flag=True, help="Remove them: mindc gc --write")
 @click.option("--json", "as_json", is_flag=True, help="One JSON document instead: mindc gc --json")
 def command(folder: Path, write: bool, as_json: bool) -> None:
@@ -23,29 +25,22 @@ def command(folder: Path, write: bool, as_json: bool) -> None:
     And in the folders below; --write removes them. `mindc train` and `mindc edit` never remove weights, so those that
     were replaced lie here until then. What a lock of another branch or of a copy elsewhere names is not known here.
     """
-    from mindlang.cli._terminal import MISUSE, OK, console, fail, print_json
-    from mindlang.lock import LockError
-    from mindlang.lock.garbage import remove, unnamed
+    from mindlang.lock.blobs import remove, unnamed
 
     if not folder.is_dir():
         fail(f"{folder} is not a folder.", code=MISUSE)
-    try:
+    with refusing(end="."):
         found = unnamed(folder)
         size = sum(path.stat().st_size for path in found)
         if write:
             remove(found)
-    except LockError as error:
-        fail(f"{error}.", error.hint)
     if as_json:
         print_json({"removed": write, "files": [str(path) for path in found], "bytes": size})
-        sys.exit(OK)
+        return
     for path in found:
         console().print(str(path), markup=False)
-    console(stderr=True).print(_summary(len(found), size, write), markup=False)
-
-
-def _summary(files: int, size: int, write: bool) -> str:
-    if not files:
-        return "nothing to remove: a lock names every file of weights"
-    weights = f"{files} file{'s' * (files > 1)} of weights, {size / 1024:.0f} KiB"
-    return f"removed {weights}" if write else f"{weights}; nothing has been removed: --write removes them"
+    weights = f"{len(found)} file{'s' * (len(found) > 1)} of weights, {size / 1024:.0f} KiB"
+    if not found:
+        tell("nothing to remove: a lock names every file of weights")
+    else:
+        tell(f"removed {weights}" if write else f"{weights}; nothing has been removed: --write removes them")

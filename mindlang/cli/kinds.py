@@ -2,6 +2,11 @@
 
 import click
 from click.shell_completion import CompletionItem
+from mindrun.files.printable import visible
+
+from mindlang.cli._terminal import MISUSE, fail, print_result
+from mindlang.compiler.diagnostic import did_you_mean, listed
+from mindlang.explaining.article import Article
 
 EXAMPLES = """\b
 Examples:
@@ -12,12 +17,17 @@ Examples:
 """
 
 
-def _nouns(context: click.Context, parameter: click.Parameter, begun: str) -> list[CompletionItem]:
-    """What a shell may complete."""
+def _known() -> tuple[Article, ...]:
+    """The articles of all kinds and drivers."""
     from mindlang.explaining.drivers import driver_articles
     from mindlang.explaining.kinds import kind_articles
 
-    nouns = dict.fromkeys(each.noun for each in (*kind_articles(), *driver_articles()))
+    return (*kind_articles(), *driver_articles())
+
+
+def _nouns(context: click.Context, parameter: click.Parameter, begun: str) -> list[CompletionItem]:
+    """What a shell may complete."""
+    nouns = dict.fromkeys(each.noun for each in _known())
     return [CompletionItem(noun) for noun in nouns if noun.startswith(begun)]
 
 
@@ -30,23 +40,16 @@ def command(noun: str | None, as_json: bool) -> None:
     NOUN chooses some: body, actuator, sensor, memory, skill, scene, thing, event, measure, curriculum or driver.
     mindc explain says more of each. Ends with 0, or with 2 where there is no such noun.
     """
-    from mindrun.files.printable import visible
     from rich.text import Text
 
-    from mindlang.cli._terminal import MISUSE, console, fail, print_json
-    from mindlang.compiler.diagnostic import did_you_mean, listed
     from mindlang.explaining.collection import ALSO_CALLED
-    from mindlang.explaining.drivers import driver_articles
-    from mindlang.explaining.kinds import kind_articles
     from mindlang.explaining.terminal import as_data, kind_list
 
-    known = (*kind_articles(), *driver_articles())
-    nouns = list(dict.fromkeys(each.noun for each in known))
+    known = _known()
     chosen = [each for each in known if noun is None or each.noun == ALSO_CALLED.get(noun, noun)]
     if not chosen:
+        nouns = list(dict.fromkeys(each.noun for each in known))
         near = did_you_mean(str(noun), nouns)
         fail(f"There are no kinds of {visible(str(noun))}.", near or f"Write {listed(nouns)}.", MISUSE)
-    if as_json:
-        print_json({"kinds": [as_data(each) for each in chosen]})
-        return
-    console().print(Text.assemble(*kind_list(chosen)), end="")
+    data = {"kinds": [as_data(each) for each in chosen]}
+    print_result(as_json, data, lambda: Text.assemble(*kind_list(chosen)), end="")

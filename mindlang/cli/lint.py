@@ -11,8 +11,12 @@ from typing import TYPE_CHECKING
 import click
 from click.shell_completion import CompletionItem
 
+from mindlang.cli._diagnostic_printer import as_data, print_report
+from mindlang.cli._options import files_of, in_files
+from mindlang.cli._terminal import FINDINGS, MISUSE, OK, console, fail, print_json, refusing
+from mindlang.compiler.diagnostic import Diagnostic, distinct
+
 if TYPE_CHECKING:
-    from mindlang.compiler.diagnostic import Diagnostic
     from mindlang.lint.settings import LintSettings
 
 EXAMPLES = """\b
@@ -55,25 +59,18 @@ def command(files: tuple[str, ...], fix: bool, select: tuple[str, ...], ignore: 
     silences it there, mind.toml in whole files or everywhere (docs/lint.md). Ends with 0 when nothing was found, with 1
     when something was, with 2 when a file cannot be read.
     """
-    from mindrun.errors import MindError
-
-    from mindlang.cli._named_files import files_of, in_files
-    from mindlang.cli._terminal import FINDINGS, MISUSE, OK, fail
-    from mindlang.compiler.diagnostic import distinct
     from mindlang.editing.neighbours import minds
-    from mindlang.lint.lint_file import linted
+    from mindlang.lint.lint import linted
 
     if fix and "-" in files:
         fail("Standard input cannot be mended.", "Leave --fix out, or save it as a file.", MISUSE)
     selected, ignored = _codes(select), _codes(ignore)
     named = files_of(files, ".mind")
-    try:
+    with refusing():
         done = [
             linted(file, compiled, _settings(file).codes(Path(realpath(file)), selected, ignored), fix)
             for file, compiled in minds(named).items()
         ]
-    except MindError as error:
-        fail(str(error), error.hint)
     found = distinct(diagnostic for each in done for diagnostic in each.diagnostics)
     _print(found, as_)
     if as_ == "text":
@@ -85,7 +82,7 @@ def _settings(file: str) -> LintSettings:
     """The settings that count for a file; what is wrong in them ends the program."""
     from mindlang.cli._diagnostic_printer import print_report
     from mindlang.cli._terminal import MISUSE, console
-    from mindlang.lint.settings_file import settings_of
+    from mindlang.lint.settings import settings_of
 
     found = settings_of(Path(realpath(file)))
     if found.wrong:
@@ -97,7 +94,7 @@ def _settings(file: str) -> LintSettings:
 def _codes(said: Sequence[str]) -> list[str]:
     """The codes of an option; one that is none ends the program."""
     from mindlang.cli._terminal import MISUSE, fail
-    from mindlang.lint.settings_file import why_no_rule
+    from mindlang.lint.settings import why_no_rule
 
     codes = [code for text in said for code in text.replace(",", " ").split()]
     if said and not codes:
@@ -109,9 +106,6 @@ def _codes(said: Sequence[str]) -> list[str]:
 
 
 def _print(found: Sequence[Diagnostic], as_: str) -> None:
-    from mindlang.cli._diagnostic_printer import as_data, print_report
-    from mindlang.cli._terminal import console, print_json
-
     match as_:
         case "text":
             print_report(found, console())

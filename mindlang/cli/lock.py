@@ -1,17 +1,19 @@
 """`mindc lock`: what git does with locks."""
 
-import sys
 from pathlib import Path
 
 import click
+from mindrun.errors import reason
 
 from mindlang.cli import Suggesting
+from mindlang.cli._options import PATH
+from mindlang.cli._terminal import MISUSE, fail, write_file
+from mindlang.compiler.diagnostic import listed
 
 EXAMPLES = """\b
 Examples:
   mindc lock merge %O %A %B --name %P     as git calls it
 """
-Lockfile = click.Path(path_type=Path)
 
 
 @click.group(cls=Suggesting)
@@ -20,9 +22,9 @@ def command() -> None:
 
 
 @command.command(epilog=EXAMPLES)
-@click.argument("base", type=Lockfile)
-@click.argument("ours", type=Lockfile)
-@click.argument("theirs", type=Lockfile)
+@click.argument("base", type=PATH)
+@click.argument("ours", type=PATH)
+@click.argument("theirs", type=PATH)
 @click.option("--name", default="", metavar="PATH", help="What the lock is called. Default: as OURS.")
 def merge(base: Path, ours: Path, theirs: Path, name: str) -> None:
     """Merge the locks OURS and THEIRS, which both were BASE once, into OURS.
@@ -33,12 +35,7 @@ def merge(base: Path, ours: Path, theirs: Path, name: str) -> None:
     Ends with 1 where both have changed the line of a skill: then what each says stands between marks, and one of these
     is to be deleted; where one branch has taken the line out, it says nothing there.
     """
-    from mindrun.errors import reason
-
-    from mindlang.cli._terminal import MISUSE, fail, write_file
-    from mindlang.compiler.diagnostic import listed
-    from mindlang.lock import LockError, read_lock
-    from mindlang.lock.merging import merge
+    from mindlang.lock import LockError, merge, read_lock
 
     try:
         # git has an empty file where the branches have no lock in common
@@ -51,7 +48,5 @@ def merge(base: Path, ours: Path, theirs: Path, name: str) -> None:
     if merged.conflicts:
         skills = listed(merged.conflicts, "and")
         taken_out = any(None in sides for sides in merged.conflicts.values())
-        message = f"Both branches have {'taught or taken out' if taken_out else 'taught'} {skills}."
         hint = f"In {name or ours} keep what one of them says between the marks, and delete the other and the marks."
-        fail(message, hint)
-    sys.exit(0)
+        fail(f"Both branches have {'taught or taken out' if taken_out else 'taught'} {skills}.", hint)

@@ -1,8 +1,11 @@
 """`mindc lsp`: what an editor asks about `.mind` files, answered."""
 
 import sys
+from importlib.util import find_spec
 
 import click
+
+from mindlang.cli._terminal import MISUSE, fail
 
 EXAMPLES = """\b
 Examples:
@@ -18,17 +21,8 @@ def command(stdio: bool) -> None:
     It talks on standard input and output, checks as you type, explains, completes, finds, renames, formats and makes
     every edit of `mindc edit`. It never runs a procedure.
     """
-    from importlib.util import find_spec
-
-    from mindlang.cli._terminal import MISUSE, fail
-
     if find_spec("pygls") is None:
-        fail(
-            "The language server needs pygls, which is not installed.",
-            "pip install 'mindlang[lsp]'",
-            MISUSE,
-        )
-
+        fail("The language server needs pygls, which is not installed.", "pip install 'mindlang[lsp]'", MISUSE)
     from mindlang.server.serve import serve
 
     with open(sys.stdout.fileno(), "wb", closefd=False) as answers:  # which pygls closes

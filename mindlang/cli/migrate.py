@@ -1,15 +1,12 @@
 """`mindc migrate`: files of an older mindc say in the words of this one what they meant."""
 
-from __future__ import annotations
-
 import sys
-from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
 
-if TYPE_CHECKING:
-    from mindlang.compiler.source import Source
+from mindlang.cli._diagnostic_printer import print_report
+from mindlang.cli._terminal import FINDINGS, MISUSE, OK, console, print_diff, print_document, rewrite_source
+from mindlang.compiler.diagnostic import Diagnostic, Findings
 
 EXAMPLES = """\b
 Examples:
@@ -33,44 +30,25 @@ def command(files: tuple[str, ...], write: bool) -> None:
 
 def _migrate(file: str, write: bool) -> int:
     """Migrate one file; how the program would end if it were the only one."""
-    from mindlang.cli._diagnostic_printer import print_report
-    from mindlang.cli._diff_printer import print_diff
-    from mindlang.cli._terminal import FINDINGS, MISUSE, OK, console, print_document
     from mindlang.compiler.compile import read_main
-    from mindlang.compiler.diagnostic import Findings
     from mindlang.compiler.migration import migrated
-    from mindlang.compiler.source import Source
     from mindlang.editing.unified_diff import unified
 
-    source = read_main(file)
-    if not isinstance(source, Source):
+    source, findings = read_main(file), Findings()
+    if isinstance(source, Diagnostic):
         print_report([source], console(stderr=True))
         return MISUSE
-    findings = Findings()
     text = migrated(source, findings)
-    print_report(findings.diagnostics, console(stderr=True))
     if findings.diagnostics:
+        print_report(findings.diagnostics, console(stderr=True))
         return FINDINGS
-    is_piped = write and file == "-"
-    if is_piped:
+    if write and file == "-":
         print_document(text)
     else:
         print_diff(unified(file.lstrip("/"), source.text, text))
     if text == source.text:
         click.echo(f"{file} needs nothing", err=True)
-    elif write and not is_piped:
-        _write(file, source, text)
+    elif write and file != "-":
+        rewrite_source(file, source.text, text)
+        click.echo(f"{file} is written", err=True)
     return OK
-
-
-def _write(file: str, source: Source, text: str) -> None:
-    from mindrun.files.atomic_write import rewrite
-
-    from mindlang.cli._terminal import fail
-    from mindlang.compiler.source import encoded
-
-    try:
-        rewrite(Path(file), encoded(Path(file), text), encoded(Path(file), source.text))
-    except OSError as error:
-        fail(f"{file} cannot be written: {error.strerror}")
-    click.echo(f"{file} is written", err=True)

@@ -1,16 +1,16 @@
 """`mindc new`: a project to begin with, a robot and a task put together."""
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 from click.shell_completion import CompletionItem
+from mindrun.errors import MindError
 
-if TYPE_CHECKING:
-    from mindlang.templates.catalogue import Robot, Task
+from mindlang.cli._terminal import MISUSE, fail, print_json
+from mindlang.templates import Robot, Task, fitting, known, robots, robots_for, tasks, tasks_of
+from mindlang.templates.project import check_free, check_name, make_folder, project
 
 EXAMPLES = """\b
 Examples:
@@ -24,10 +24,8 @@ Examples:
 
 def _names(context: click.Context, parameter: click.Parameter, begun: str) -> list[CompletionItem]:
     """What a shell may complete an option with."""
-    from mindlang.templates.catalogue import robots, tasks
-
-    known = robots() if parameter.name == "robot" else tasks()
-    return [CompletionItem(name, help=each.about) for name, each in known.items() if name.startswith(begun)]
+    there = robots() if parameter.name == "robot" else tasks()
+    return [CompletionItem(name, help=each.about) for name, each in there.items() if name.startswith(begun)]
 
 
 @click.command(epilog=EXAMPLES)
@@ -43,12 +41,6 @@ def command(name: str | None, robot: str | None, task: str | None, as_list: bool
     says how to go on. On a terminal whatever is not said is asked; elsewhere it is a differential robot on patrol, or
     what goes together with what is said. Nothing is ever overwritten: where NAME is there and not empty it ends with 2.
     """
-    from mindrun.errors import MindError
-
-    from mindlang.cli._terminal import MISUSE, fail
-    from mindlang.templates.new_folder import check_free, check_name, make_folder
-    from mindlang.templates.project import project
-
     if as_list:
         _print_list(as_json)
         return
@@ -65,16 +57,17 @@ def command(name: str | None, robot: str | None, task: str | None, as_list: bool
         make_folder(Path(name), project(name, chosen_robot, chosen_task))
     except MindError as error:
         fail(str(error), error.hint, MISUSE)
-    _say_what_is_next(name, chosen_robot, chosen_task)
+    click.echo(f"{name}: a {chosen_robot.name} robot, and how it learns to {chosen_task.name}", err=True)
+    click.echo(f"  cd {name}", err=True)
+    click.echo(f"  mindc train {name}.mind --seed 1     # in about a minute", err=True)
+    click.echo(f"  mindc run {name}.mind --seed {chosen_task.picture_seed} --picture {name}.png", err=True)
+    click.echo("README.md says how to go on.", err=True)
 
 
 def _chosen(robot: str | None, task: str | None) -> tuple[Robot, Task]:
     """The robot and the task that are said, asked for, or go together with what is said."""
-    from mindlang.templates.catalogue import robots, robots_for, tasks, tasks_of
-    from mindlang.templates.choice import fitting, known_robot, known_task
-
-    the_robot = None if robot is None else known_robot(robot)
-    the_task = None if task is None else known_task(task)
+    the_robot = None if robot is None else known("robot", robot, robots())
+    the_task = None if task is None else known("task", task, tasks())
     if _asks() and the_robot is None:
         about = {each: robots()[each].about for each in (robots_for(the_task) if the_task else robots())}
         the_robot = robots()[_asked("Which robot?", about)]
@@ -105,27 +98,13 @@ def _asked(question: str, choices: dict[str, str]) -> str:
 
 def _asked_name() -> str:
     """A name for the project, where somebody can be asked for it."""
-    from mindlang.cli._terminal import MISUSE, fail
-
     if not _asks():
         fail("The project has no name.", "mindc new rover", MISUSE)
     return str(click.prompt("What is it called?", default="rover", err=True))
 
 
-def _say_what_is_next(name: str, robot: Robot, task: Task) -> None:
-    """Which folder was made, and the commands to go on with."""
-    click.echo(f"{name}: a {robot.name} robot, and how it learns to {task.name}", err=True)
-    click.echo(f"  cd {name}", err=True)
-    click.echo(f"  mindc train {name}.mind --seed 1     # in about a minute", err=True)
-    click.echo(f"  mindc run {name}.mind --seed {task.picture_seed} --picture {name}.png", err=True)
-    click.echo("README.md says how to go on.", err=True)
-
-
 def _print_list(as_json: bool) -> None:
     """Which robots and tasks there are, and what goes together."""
-    from mindlang.cli._terminal import print_json
-    from mindlang.templates.catalogue import robots, robots_for, tasks, tasks_of
-
     if as_json:
         print_json(
             {
@@ -134,9 +113,9 @@ def _print_list(as_json: bool) -> None:
             }
         )
         return
-    for noun, known in (("robot", robots()), ("task", tasks())):
+    for noun, there in (("robot", robots()), ("task", tasks())):
         click.echo(f"--{noun}")
-        for name, each in known.items():
+        for name, each in there.items():
             click.echo(f"  {name:<13} {each.about}")
     click.echo("together")
     for robot in robots().values():

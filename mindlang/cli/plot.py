@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
-from mindlang.cli._options import NewFile
+from mindlang.cli._options import PATH, NewFile
+from mindlang.cli._terminal import MISUSE, fail, print_json, refuse_unwritable, refusing, write_file
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from mindlang.pictures.learning_log import Curve
 
 EXAMPLES = """\b
@@ -22,7 +22,6 @@ Examples:
   mindc plot GoToObject.csv.gz --json
   mindc plot runs/GoToObject --mean    the mean of its runs, and its error
 """
-PATH = click.Path(path_type=Path)
 
 
 @click.command(epilog=EXAMPLES)
@@ -41,55 +40,33 @@ def command(runs: tuple[Path, ...], output: Path, mean: bool, as_json: bool, qui
     With --mean, runs of one lesson of the same mind, begun with different seeds, become one panel: the mean over all
     their attempts, and a band of its standard error. An attempt that has ended or was given up keeps what it had last.
     """
-    from mindrun.errors import MindError
     from mindrun.train import NotFoundError
 
-    from mindlang.cli._terminal import MISUSE, fail, print_json, refuse_unwritable, write_file
-    from mindlang.pictures.learning_log import load_curves
+    from mindlang.pictures.learning_log import by_lesson, load_curves
 
-    _refuse_without_matplotlib()
+    if find_spec("matplotlib") is None:
+        fail("Curves are drawn with matplotlib, which is not installed.", "pip install 'mindlang[plot]'", MISUSE)
     refuse_unwritable(output, ".svg", ".png")
-    try:
+    with refusing(), refusing(MISUSE, of=NotFoundError):
         curves = load_curves(runs)
-    except NotFoundError as error:
-        fail(str(error), error.hint, MISUSE)
-    except MindError as error:
-        fail(str(error), error.hint)
 
-    from mindlang.pictures.curves import figure, image
-    from mindlang.pictures.mean_curves import by_lesson
-    from mindlang.pictures.mean_figure import mean_figure
+    from mindlang.pictures.curves import figure, image, mean_figure
 
     lessons = by_lesson(curves) if mean else []
     write_file(output, image(mean_figure(lessons) if mean else figure(curves), output.suffix))
     if as_json:
-        print_json({"picture": str(output), "curves": [each.data() for each in lessons] or _data(curves)})
+        data = [each.data() for each in lessons] or [_data(curve) for curve in curves]
+        print_json({"picture": str(output), "curves": data})
     if not quiet:
         shown = curves[0].name if len(curves) == 1 else f"{len(curves)} runs"
         click.echo(f"{output}: how {shown} {'was' if len(curves) == 1 else 'were'} learnt", err=True)
 
 
-def _refuse_without_matplotlib() -> None:
-    from importlib.util import find_spec
-
-    from mindlang.cli._terminal import MISUSE, fail
-
-    if find_spec("matplotlib") is None:
-        fail(
-            "Curves are drawn with matplotlib, which is not installed.",
-            "pip install 'mindlang[plot]'",
-            MISUSE,
-        )
-
-
-def _data(curves: Sequence[Curve]) -> list[dict[str, object]]:
-    return [
-        {
-            "name": curve.name,
-            "run": str(curve.path),
-            "attempts": len(curve.attempts),
-            "generations": len(curve.records),
-            "failed": curve.failure or None,
-        }
-        for curve in curves
-    ]
+def _data(curve: Curve) -> dict[str, object]:
+    return {
+        "name": curve.name,
+        "run": str(curve.path),
+        "attempts": len(curve.attempts),
+        "generations": len(curve.records),
+        "failed": curve.failure or None,
+    }

@@ -2,10 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
 import click
 
-from mindlang.cli._declared_names import SKILLS, TASKS
-from mindlang.cli._options import LAYOUT, NumberOption
+from mindlang.cli._options import LAYOUT, SKILLS, TASKS, NumberOption
+from mindlang.cli._terminal import MISUSE, fail, load_compiled, print_json, print_table, procedures_talk
+from mindlang.compiler.diagnostic import did_you_mean
+
+if TYPE_CHECKING:
+    from mindlang.compiler.compile import Compiled
+    from mindlang.proofs.recorded import Recorded
 
 EXAMPLES = """\b
 Examples:
@@ -46,6 +54,36 @@ def command(
     """
     if task is not None and not with_run:
         raise click.UsageError("--task is of the run: say --run, too.")
-    from mindlang.cli._proving import ProofOptions, perform
+    from mindlang.lock import lock_sources, read_locks
+    from mindlang.lock.ready import make_ready
+    from mindlang.proofs.proof import prove
+    from mindlang.proofs.report import as_data, report
 
-    perform(file, ProofOptions(leak, master, with_run, task, seed, as_json))
+    compiled = load_compiled(file)
+    assert compiled.graph
+    if master is not None:
+        names = [skill.name for skill in compiled.graph.skills]
+        if master not in names:
+            fail(f"there is no skill called {master}", did_you_mean(master, names), MISUSE)
+        compiled = replace(compiled, graph=replace(compiled.graph, master=master))
+    assert compiled.graph
+    ready = make_ready(compiled.graph, compiled.sources)
+    lock = read_locks(lock_sources(compiled.sources))
+    hashes = {skill: lock[skill].weights for skill in ready.policy.weights if skill in lock}
+    run = _run(file, compiled, task, seed) if with_run else None
+    proof = prove(ready.policy.graph, ready.policy.weights, leak)
+    data = as_data(proof, hashes, run)
+    if as_json:
+        print_json(data)
+    else:
+        print_table(report(data))
+
+
+def _run(file: str, compiled: Compiled, task: str | None, seed: int) -> Recorded:
+    from mindlang.cli._session import prepare, refusing_setups
+    from mindlang.proofs.recorded import record
+    from mindlang.run.setup import set_up
+
+    assert compiled.graph
+    with refusing_setups("--run: "), procedures_talk():
+        return record(set_up(file, compiled, task, compiled.graph.master), seed, prepare)

@@ -2,6 +2,8 @@
 
 import click
 
+from mindlang.cli._terminal import print_json
+
 EXAMPLES = """\b
 Examples:
   mindc schema > robot.schema.json
@@ -16,7 +18,6 @@ def command() -> None:
 
     With every driver that is installed, and its options.
     """
-    from mindlang.cli._terminal import print_json
-    from mindlang.robot.schema import schema
+    from mindlang.robot.options import schema
 
     print_json(schema())

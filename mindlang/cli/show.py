@@ -2,6 +2,8 @@
 
 import click
 
+from mindlang.cli._terminal import console, load_compiled, print_document, print_json
+
 EXAMPLES = """\b
 Examples:
   mindc show collect.mind
@@ -20,7 +22,6 @@ def command(file: str, as_dot: bool, as_graphml: bool, as_json: bool) -> None:
     """Show the hierarchy of a mind, from the master down."""
     from networkx import generate_graphml, node_link_data, relabel_nodes
 
-    from mindlang.cli._terminal import console, load_compiled, print_document, print_json
     from mindlang.compiler.drawing import dot, tree
 
     if as_dot + as_graphml + as_json > 1:

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
-from mindlang.cli._declared_names import SKILLS
+from mindlang.cli import _terminal as terminal
+from mindlang.cli._options import SKILLS
+from mindlang.compiler.diagnostic import did_you_mean
 
 if TYPE_CHECKING:
-    from mindrun.graph.graph import Graph
     from rich.console import Console
     from rich.text import Text
 
@@ -50,29 +50,32 @@ def command(file: str, skills: tuple[str, ...], accept: bool, as_json: bool) -> 
 
     Ends with 0 when every skill that is shown, of those below the master, can act, else with 1.
     """
-    from mindlang.cli._terminal import FINDINGS, OK, console, load_compiled, print_json
     from mindlang.lock import lock_sources
+    from mindlang.lock.report import accept as accept_weights
     from mindlang.lock.report import as_data, rows
 
-    compiled = load_compiled(file)
+    compiled = terminal.load_compiled(file)
     assert compiled.graph is not None
-    sources = lock_sources(compiled.sources)
-    _refuse_unknown(compiled.graph, skills)
+    sources, known = lock_sources(compiled.sources), [skill.name for skill in compiled.graph.skills]
+    for skill in skills:
+        if skill not in known:
+            terminal.fail(f"There is no skill {skill}.", did_you_mean(skill, known), terminal.MISUSE)
+    if accept and not skills:
+        needed = "--accept needs the skills whose weights will do."
+        terminal.fail(needed, "Name them: --accept Avoid Collect", terminal.MISUSE)
     if accept:
-        _accept(compiled.graph, sources, skills)
+        with terminal.refusing(end="."):
+            accept_weights(compiled.graph, sources, skills)
     found = [row for row in rows(compiled.graph, sources) if not skills or row.skill in skills]
-    if as_json:
-        print_json({"skills": [as_data(row) for row in found]})
-    else:
-        console().print(report(found, console()), end="")
-    sys.exit(OK if all(row.is_fine for row in found if row.is_needed) else FINDINGS)
+    data = {"skills": [as_data(row) for row in found]}
+    terminal.print_result(as_json, data, lambda: report(found, terminal.console()), end="")
+    sys.exit(terminal.OK if all(row.is_fine for row in found if row.is_needed) else terminal.FINDINGS)
 
 
 def report(found: Sequence[Row], console: Console) -> Text:
     """The rows as lines that a console has room for."""
     from rich.text import Text
 
-    from mindlang.cli._text_columns import columns
     from mindlang.lock.report import made
 
     lines = []
@@ -80,27 +83,4 @@ def report(found: Sequence[Row], console: Console) -> Text:
         word = f"{row.word}, frozen" if row.is_frozen else row.word
         about = Text("\n".join(filter(None, (made(row), *row.remarks))))
         lines.append(((Text(row.skill), Text(word, COLOURS[row.word])), about))
-    return columns(console, lines)
-
-
-def _refuse_unknown(graph: Graph, skills: Sequence[str]) -> None:
-    from mindlang.cli._terminal import MISUSE, fail
-    from mindlang.compiler.diagnostic import did_you_mean
-
-    known = [skill.name for skill in graph.skills]
-    for skill in skills:
-        if skill not in known:
-            fail(f"There is no skill {skill}.", did_you_mean(skill, known), MISUSE)
-
-
-def _accept(graph: Graph, sources: Sequence[Path], skills: Sequence[str]) -> None:
-    from mindlang.cli._terminal import MISUSE, fail
-    from mindlang.lock import LockError
-    from mindlang.lock.accept import accept
-
-    if not skills:
-        fail("--accept needs the skills whose weights will do.", "Name them: --accept Avoid Collect", MISUSE)
-    try:
-        accept(graph, sources, skills)
-    except LockError as error:
-        fail(f"{error}.", error.hint)
+    return terminal.text_columns(console, lines)

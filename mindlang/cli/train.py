@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
 import click
 
 from mindlang import limits
-from mindlang.cli._declared_names import SKILLS, declared
-from mindlang.cli._options import ON, SEED, WORKERS, NumberOption, WholeOption
-from mindlang.cli._terminal import INTERRUPTED, MISUSE, OK, fail
+from mindlang.cli._options import ON, PATH, SEED, SKILLS, WORKERS, NumberOption, WholeOption, declared
+from mindlang.cli._terminal import INTERRUPTED, MISUSE, OK, fail, refusing
 
 EXAMPLES = """\b
 Examples:
@@ -58,8 +58,8 @@ A cluster with SLURM (what tls.pem is, and other ways: docs/cluster.md):
     help="Who does the attempts: processes:N, ssh:HOST,HOST, slurm:N, dask:SCHEDULER … (default: threads; processes in"
     " environments of Gymnasium).",
 )
-@click.option("--runs", type=click.Path(path_type=Path), default="runs", show_default=True, help="Where runs are kept.")
-@click.option("--resume", type=click.Path(path_type=Path), metavar="RUN", help="Go on with a run that was stopped.")
+@click.option("--runs", type=PATH, default="runs", show_default=True, help="Where runs are kept.")
+@click.option("--resume", type=PATH, metavar="RUN", help="Go on with a run that was stopped.")
 @click.option("--tensorboard", "event_files", is_flag=True, help="Write event files for TensorBoard into the run, too.")
 @click.option("--json", "as_json", is_flag=True, help="Print one line of JSON per lesson.")
 @click.option("-q", "--quiet", is_flag=True, help="Print nothing but errors.")
@@ -91,9 +91,6 @@ def command(
     --seed. Its progress.csv has a row for each generation. The weights go to the lock of the file in which the lesson
     stands, or to the one that says them now.
     """
-    from importlib.util import find_spec
-
-    from mindrun.errors import MindError
     from mindrun.train import NotFoundError
 
     from mindlang.cli._trainer import Trainer
@@ -104,20 +101,13 @@ def command(
     if (file is None) == (resume is None):
         fail("Say what to train: a file, or --resume and a run.", "mindc train --help has examples.", MISUSE)
     if event_files and find_spec("tensorboardX") is None:
-        fail(
-            "Event files are written with tensorboardX, which is not installed.",
-            "pip install 'mindlang[tensorboard]'",
-            MISUSE,
-        )
+        missing = "Event files are written with tensorboardX, which is not installed."
+        fail(missing, "pip install 'mindlang[tensorboard]'", MISUSE)
     trainer = Trainer(workers, as_json, quiet, where, event_files)
     options = TrainOptions(generations, scale, population, attempts, from_scratch=from_scratch)
-    try:
+    with refusing(), refusing(MISUSE, of=NotFoundError):
         if resume:
             finished = trainer.resume(resume, force)
         else:
             finished = trainer.teach_file(Path(str(file)), skills, options=options, force=force, **choice)
-    except NotFoundError as error:
-        fail(str(error), error.hint, MISUSE)
-    except MindError as error:
-        fail(str(error), error.hint)
     return OK if finished else INTERRUPTED

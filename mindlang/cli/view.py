@@ -1,26 +1,34 @@
-"""`mindc view`: a run or a recording, seen in a browser."""
+"""`mindc view`: a run, a recording or a training, seen in a browser, or written to a page."""
 
 from __future__ import annotations
 
+import secrets
+import sys
+from contextlib import ExitStack
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
+from mindrun.terminal.command_line import command_line
 
+from mindlang.cli import _terminal as terminal
 from mindlang.cli._options import (
-    LAYOUT,
     OF_A_CAST,
     OF_A_RUN,
     OF_RUNS_ALONE,
-    OF_TASK,
-    UNDER_MASTER,
+    PATH,
     NewFile,
+    RunChoice,
     WholeOption,
     refuse_ineffective,
+    run_options,
 )
 
 if TYPE_CHECKING:
-    from mindlang.cli._view_output import ViewOutput
+    from mindlang.view.learning import Champions
+    from mindlang.view.viewed import Viewed
+    from mindlang.view.viewed_recording import Watching
 
 EXAMPLES = """\b
 Examples:
@@ -37,16 +45,12 @@ Examples:
   mindc view collect.mind --task Collect --export run.html
 """
 MAX_PORT = 65535
-PATH = click.Path(path_type=Path)
 
 
 @click.command(epilog=EXAMPLES)
 @click.argument("file")
 @click.argument("bundle", required=False)
-@OF_TASK
-@click.option("--seed", type=LAYOUT, help="The same seed gives the same run. Default: drawn.")
-@UNDER_MASTER
-@click.option("--no-interruption", is_flag=True, help="Go on to the last tick, whatever would end the run.")
+@run_options(seed="The same seed gives the same run. Default: drawn.")
 @click.option("--break", "breaks", type=PATH, metavar="PATH.break", help="Pause the page where a line of it says.")
 @click.option(
     "--follow", is_flag=True, help="Of a recording: show what is still written. HOST:FILE.rec is read by ssh."
@@ -58,10 +62,7 @@ PATH = click.Path(path_type=Path)
 def command(
     file: str,
     bundle: str | None,
-    task: str | None,
-    seed: int | None,
-    master: str | None,
-    no_interruption: bool,
+    chosen: RunChoice,
     breaks: Path | None,
     follow: bool,
     port: int | None,
@@ -79,58 +80,142 @@ def command(
     open it again. With --export it is one file, which opens from a disk without a server. Runs the Python code of
     procedures.
     """
-    output = _output(port, not no_browser, export, quiet)
-    if follow:
-        _follow(file, bundle, breaks, output)
-    elif Path(file).is_dir():
-        _show_training(file, seed, output)
-    elif bundle is not None:
-        _show_recording(file, bundle, breaks, output)
-    else:
-        from mindlang.cli._run_view import ViewChoice, run_view
-
-        _refuse_recording(file)
-        output.show(run_view(file, ViewChoice(task, seed, master, not no_interruption, breaks), quiet))
-
-
-def _output(port: int | None, opens_browser: bool, export: Path | None, quiet: bool) -> ViewOutput:
-    from mindlang.cli._terminal import refuse_unwritable
-    from mindlang.cli._view_output import ViewOutput
-
     if export:
         refuse_ineffective("of a page that is served, not of --export", "port", "no_browser")
-        refuse_unwritable(export, ".html")
-    return ViewOutput(port, opens_browser, export, quiet)
-
-
-def _follow(file: str, bundle: str | None, breaks: Path | None, output: ViewOutput) -> None:
-    if bundle is None:
+        terminal.refuse_unwritable(export, ".html")
+    output = ViewOutput(port, not no_browser, export, quiet)
+    if follow and bundle is None:
         raise click.UsageError("--follow is for a recording and its bundle: mindc view day.rec NAME.bundle --follow")
-    refuse_ineffective(OF_RUNS_ALONE, *OF_A_RUN)
-    refuse_ineffective("of what has an end, not of --follow", "export")
-    from mindlang.cli._recording_view import followed_view
+    if bundle is not None and (follow or not Path(file).is_dir()):
+        refuse_ineffective(OF_RUNS_ALONE, *OF_A_RUN)
+        if follow:
+            refuse_ineffective("of what has an end, not of --follow", "export")
+        _show_recording(file, Path(bundle), follow, breaks, output)
+    elif Path(file).is_dir():
+        refuse_ineffective("of a run or a recording, not of trainings", "bundle", *OF_A_CAST, "breaks", "export")
+        output.show(*training_view(Path(file), chosen.seed, quiet))
+    elif file.endswith(".rec"):
+        instead = command_line("mindc", "view", Path(file), "NAME.bundle")
+        raise click.UsageError(f"A recording is seen with the bundle that was running: {instead}")
+    else:
+        output.show(run_view(file, chosen, breaks, quiet))
 
-    with followed_view(file, bundle, breaks) as viewed:
+
+def run_view(file: str, chosen: RunChoice, breaks: Path | None, quiet: bool) -> Viewed:
+    """A run at its beginning, of a drawn seed where none is said; `breaks` is a file of breakpoints."""
+    from mindlang.breakpoints.watch import noticing
+    from mindlang.cli._session import RunSession, breakpoints_of_run
+    from mindlang.compiler.drawing import text_after_name
+    from mindlang.view.viewed_run import ViewedRun
+
+    compiled, session = terminal.load_compiled(file), RunSession(quiet)
+    setup = session.cast(file, compiled, chosen)
+    breakpoints = breakpoints_of_run(breaks, compiled, setup) if breaks else ()
+    setup = noticing(setup, breakpoints)
+    rollout = session.simulator(setup, chosen.interrupt)
+    skills = compiled.mind.skills if compiled.mind else ()
+    texts = {(skill.name, edge.target): text_after_name(edge.fact) for skill in skills for edge in skill.edges}
+    seed = secrets.randbits(31) if chosen.seed is None else chosen.seed
+    return ViewedRun(setup, rollout, seed, texts, breakpoints).begun()
+
+
+@terminal.procedures_talk()
+def training_view(folder: Path, seed: int | None, quiet: bool) -> tuple[Viewed, Champions]:
+    """The champion of a training's folder that was found last, at its beginning, and all others."""
+    from mindrun.train import NotFoundError
+
+    from mindlang.cli._session import ensure_compiled
+    from mindlang.view.learning import Champions, open_learning
+    from mindlang.view.messages import RefusedError
+
+    with terminal.refusing(), terminal.refusing(terminal.MISUSE, of=NotFoundError):
+        try:
+            learning = open_learning(folder)
+            champions = Champions(learning, secrets.randbits(31) if seed is None else seed)
+            number, attempt, generation = learning.newest()
+            ensure_compiled(champions.rollout(learning.runs[number]), lambda line: terminal.tell(line, quiet=quiet))
+            return champions.begin(number, attempt, generation), champions
+        except RefusedError as error:
+            terminal.fail(str(error))
+
+
+def _show_recording(file: str, bundle: Path, follow: bool, breaks: Path | None, output: ViewOutput) -> None:
+    """Show a recording: read once, or followed while it is written, of this machine or as HOST:FILE."""
+    from mindlang.cli._session import refusing_recordings
+    from mindlang.view.viewed_recording import followed_recording, viewed_recording
+
+    watching = _watching(breaks) if breaks else None
+    with ExitStack() as stack:
+        with refusing_recordings():
+            if follow:
+                viewed = stack.enter_context(followed_recording(file, bundle, watching))
+            else:
+                viewed = viewed_recording(Path(file), bundle, watching)
         output.show(viewed)
 
 
-def _show_training(folder: str, seed: int | None, output: ViewOutput) -> None:
-    refuse_ineffective("of a run or a recording, not of trainings", "bundle", *OF_A_CAST, "breaks", "export")
-    from mindlang.cli._training_view import training_view
+def _watching(breaks: Path) -> Watching:
+    """What makes the watcher of a recording, for the breakpoints of a file."""
+    from mindlang.breakpoints.watch import RecordingWatcher, recording_subject
+    from mindlang.cli._session import read_breakpoints
 
-    output.show(*training_view(Path(folder), seed, output.quiet))
-
-
-def _show_recording(file: str, bundle: str, breaks: Path | None, output: ViewOutput) -> None:
-    refuse_ineffective(OF_RUNS_ALONE, *OF_A_RUN)
-    from mindlang.cli._recording_view import recording_view
-
-    output.show(recording_view(file, bundle, breaks))
+    return lambda of, mind: RecordingWatcher(read_breakpoints(breaks, recording_subject(of, mind)), of, mind)
 
 
-def _refuse_recording(file: str) -> None:
-    if file.endswith(".rec"):
-        from mindrun.terminal.command_line import command_line
+@dataclass(frozen=True, slots=True)
+class ViewOutput:
+    """In the file `export`, or at a `port` of this machine, None for any that is free."""
 
-        command = command_line("mindc", "view", Path(file), "NAME.bundle")
-        raise click.UsageError(f"A recording is seen with the bundle that was running: {command}")
+    port: int | None
+    opens_browser: bool
+    export: Path | None
+    quiet: bool
+
+    def show(self, viewed: Viewed, champions: Champions | None = None) -> None:
+        """Write the file, or serve until Ctrl-C."""
+        import asyncio
+
+        from mindlang.view.server import PortError, ViewServer, open_browser
+        from mindlang.view.session import Session
+
+        def ready(address: str) -> None:
+            click.echo(address, file=out)
+            terminal.tell("Ctrl-C ends this; a browser that is closed does not.", quiet=self.quiet)
+            if self.opens_browser:
+                open_browser(address)
+
+        if self.export:
+            self._write(viewed, self.export)
+            return
+        if not viewed.is_live:
+            viewed.grow()  # what the page shows first
+        out = sys.stdout  # procedures print elsewhere
+        with terminal.refusing(terminal.MISUSE, of=PortError), terminal.procedures_talk():
+            asyncio.run(ViewServer(Session(viewed, champions), self.port or 0).serve(ready))
+
+    def _write(self, viewed: Viewed, path: Path) -> None:
+        from mindrun.terminal.tick_count import ticks as in_words
+
+        from mindlang.cli._session import RunSession
+        from mindlang.view.export import exported, exported_images, refuse_too_long
+        from mindlang.view.session import Session
+
+        session = RunSession(self.quiet)
+        with session.progress() as progress, terminal.procedures_talk():
+            bar = progress.add_task(path.name, total=viewed.about["of_ticks"])
+            while not viewed.over:
+                viewed.grow()
+                progress.update(bar, completed=viewed.known)
+            if viewed.failed:
+                terminal.fail(f"{viewed.failed}: nothing is written")
+            with terminal.refusing(terminal.MISUSE):
+                refuse_too_long(viewed)
+            progress.reset(bar, description="images", total=viewed.known)
+            images = exported_images(viewed, lambda tick: progress.update(bar, completed=tick))
+        seen = Session(viewed)
+        everything = seen.ticks(0) | {"happened": viewed.happened, "stops": viewed.stops}
+        page = exported(seen.about(edits=False), everything, viewed, images)
+        terminal.write_file(path, page.encode())
+        session.say(f"{path}: {in_words(viewed.known)}, {len(page) / 1e6:.1f} MB, opens in any browser")
+        if images and images.note:
+            session.say(f"note: {images.note}")

@@ -1,8 +1,8 @@
 """`mindc warmup`: what the first start would wait for, done now."""
 
-import sys
-
 import click
+
+from mindlang.cli._terminal import console, fail, print_json, tell
 
 EXAMPLES = """\b
 Examples:
@@ -21,17 +21,16 @@ def command(as_json: bool) -> None:
     """
     from mindrun.sim import cache, warmup
 
-    from mindlang.cli._simulator_compilation import COMPILING
-    from mindlang.cli._terminal import FINDINGS, OK, console, fail, print_json
+    from mindlang.cli._session import COMPILING
 
     had = warmup.is_native()
     if not had:
-        console(stderr=True).print(COMPILING, markup=False)
+        tell(COMPILING)
         warmup.start().wait()
         if not warmup.is_native():
-            fail("The simulator could not be compiled.", "python -m mindrun.sim.warmup says why", FINDINGS)
+            fail("The simulator could not be compiled.", "python -m mindrun.sim.warmup says why")
     if as_json:
         print_json({"processor": cache.processor(), "folder": str(cache.folder()), "compiled": not had})
-        sys.exit(OK)
+        return
     done = "had been compiled" if had else "is compiled"
     console().print(f"the simulator {done} for {cache.processor()}: {cache.folder()}", markup=False, soft_wrap=True)

@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+import sys
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
 from mindlang.cli import Suggesting
-from mindlang.cli._declared_names import SKILLS
+from mindlang.cli import _terminal as terminal
+from mindlang.cli._options import PATH, SKILLS
+from mindlang.number_format import number
 
 if TYPE_CHECKING:
     from mindlang.training.subject import Subject
+    from mindlang.weights.importing import Imported
 
 EXAMPLES = """\b
 Examples:
@@ -41,7 +46,7 @@ def command() -> None:
 @command.command("import", epilog=IMPORT_EXAMPLES)
 @click.argument("file")
 @click.argument("skill", shell_complete=SKILLS)
-@click.argument("weights", metavar="WEIGHTS.safetensors", type=click.Path(path_type=Path))
+@click.argument("weights", metavar="WEIGHTS.safetensors", type=PATH)
 @click.option(
     "--recording", metavar="DAY.rec[,BUNDLE]", help="Compare on what was read there. Default: in a run of the task."
 )
@@ -60,45 +65,79 @@ def import_weights(
 
     Ends with 1 where the lock stays as it is.
     """
-    from mindlang.cli._importing import import_file
+    from mindrun.train import NotFoundError
 
-    import_file(_subject(file), skill, weights, recording, force, as_json, quiet)
+    from mindlang.cli._session import ensure_compiled
+    from mindlang.weights import importing
+
+    subject = _subject(file)
+    with (
+        terminal.refusing(end="."),
+        terminal.refusing(terminal.MISUSE, ".", of=NotFoundError),
+        terminal.procedures_talk(),
+    ):
+        trial = importing.open_trial(subject, skill, weights)
+        ensure_compiled(trial.rollout, lambda line: terminal.tell(line, quiet=quiet))
+        found = importing.import_weights(trial, recording, force)
+    terminal.tell(*_lines(found, subject.keep_path(trial.lesson).name, recording), quiet=quiet)
+    if as_json:
+        terminal.print_json(found.data())
+    sys.exit(terminal.OK if found.is_kept else terminal.FINDINGS)
+
+
+def _lines(found: Imported, lock: str, recording: str | None) -> Iterator[str]:
+    from mindrun.terminal.tick_count import ticks as in_words
+
+    from mindlang.training.lock_update import COMPARED_LAYOUTS
+
+    trial, compared = found.trial, found.deviation
+    skill, lesson = trial.network.skill.name, trial.lesson
+    where = recording or f"a run of {lesson.task}"
+    yield (
+        f"{trial.path}: {len(trial.genome):,} weights of {skill}; "
+        f"{compared.reference} and the engine differ by at most {compared.difference:.3g} "
+        f"in {in_words(compared.ticks)} of {where}"
+    )
+    if compared.faults:
+        yield f"{compared.faults:,} outputs were not finite, and are not sent"
+    if compared.reference == "float64":
+        yield "PyTorch is not installed: pip install 'mindlang[torch]' compares with the function there"
+    yield f"{skill} scores {number(found.score)} on {COMPARED_LAYOUTS} fresh layouts of {lesson.task}"
+    if found.is_unchanged:
+        yield f"{lock} has these weights already, and stays as it is"
+    elif not found.is_kept:
+        yield f"{found.scores}, and stay in {lock}; --force takes the new ones all the same"
+    else:
+        worse = f"; but {found.scores}" if found.scores and found.scores.is_worse else ""
+        yield f"weights in {lock}{worse}"
+    yield from found.notes
 
 
 @command.command("export", epilog=EXPORT_EXAMPLES)
 @click.argument("file")
 @click.argument("skill", shell_complete=SKILLS)
-@click.argument("weights", metavar="WEIGHTS.safetensors", type=click.Path(path_type=Path))
+@click.argument("weights", metavar="WEIGHTS.safetensors", type=PATH)
 def export_weights(file: str, skill: str, weights: Path) -> None:
     """Write the weights that SKILL of FILE was taught to a file.
 
     With what they read and send, in their order. Brought back by import they are the same to the bit.
     """
-    from mindrun.errors import MindError
 
-    from mindlang.cli._terminal import console, fail, refuse_unwritable, write_file
-    from mindlang.weights.files import to_bytes, trained_network
+    from mindlang.weights.network import to_bytes, trained_network
 
-    refuse_unwritable(weights, ".safetensors")
-    try:
+    terminal.refuse_unwritable(weights, ".safetensors")
+    with terminal.refusing(end="."):
         network, genome = trained_network(_subject(file), skill)
-    except MindError as error:
-        fail(f"{error}.", error.hint)
-    write_file(weights, to_bytes(network, genome))
-    talk = console(stderr=True)
-    talk.print(f"{weights}: {len(genome):,} weights of {skill}", markup=False)
+    terminal.write_file(weights, to_bytes(network, genome))
+    terminal.tell(f"{weights}: {len(genome):,} weights of {skill}")
 
 
 def _subject(file: str) -> Subject:
     """The mind of a file with its lock, of which this ends the program where it is damaged."""
-    from mindrun.errors import MindError
-
-    from mindlang.cli._terminal import MISUSE, fail, load_compiled
     from mindlang.training.subject import open_subject
 
     if file == "-":
-        fail("Weights are kept beside a file, and standard input is none.", "Save it as a file.", MISUSE)
-    try:
-        return open_subject(Path(file), load_compiled(file))
-    except MindError as error:
-        fail(f"{error}.", error.hint)
+        why = "Weights are kept beside a file, and standard input is none."
+        terminal.fail(why, "Save it as a file.", terminal.MISUSE)
+    with terminal.refusing(end="."):
+        return open_subject(Path(file), terminal.load_compiled(file))

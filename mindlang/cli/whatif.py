@@ -3,20 +3,27 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
-from mindlang.cli._declared_names import SKILLS, declared
+from mindlang.cli import _terminal as terminal
 from mindlang.cli._options import (
-    LAYOUT,
     OF_A_RUN,
     OF_RUNS_ALONE,
-    OF_TASK,
-    UNDER_MASTER,
+    PATH,
+    SKILLS,
     NewFile,
+    RunChoice,
     WholeOption,
+    declared,
     refuse_ineffective,
+    run_options,
 )
+
+if TYPE_CHECKING:
+    from mindlang.whatif.comparison import Compared
+    from mindlang.whatif.request import Request
 
 EXAMPLES = """\b
 Examples:
@@ -32,11 +39,8 @@ Examples:
 
 @click.command(epilog=EXAMPLES)
 @click.argument("file")
-@click.argument("bundle", required=False, type=click.Path(path_type=Path))
-@OF_TASK
-@click.option("--seed", type=LAYOUT, help="Of the run. Default: 1.")
-@UNDER_MASTER
-@click.option("--no-interruption", is_flag=True, help="Go on to the last tick, whatever would end the run.")
+@click.argument("bundle", required=False, type=PATH)
+@run_options(seed="Of the run. Default: 1.")
 @click.option("--tick", type=WholeOption(1, 2**53), default=1, help="The first tick that is changed. Default: 1.")
 @click.option("--ticks", type=WholeOption(1, 2**53), help="How many are. Default: all that follow; one with --set.")
 @click.option(
@@ -59,10 +63,7 @@ Examples:
 def command(
     file: str,
     bundle: Path | None,
-    task: str | None,
-    seed: int | None,
-    master: str | None,
-    no_interruption: bool,
+    chosen: RunChoice,
     tick: int,
     ticks: int | None,
     without: tuple[str, ...],
@@ -81,7 +82,6 @@ def command(
     Where FILE is a recording, BUNDLE is the one that was running, or the .mind file that it is built from: says what it
     would have sent for the same readings, in an open loop.
     """
-    from mindlang.cli._comparing import Played, compare_recorded, compare_runs
     from mindlang.whatif.request import Request
 
     request = Request(tick, ticks, without, sensor, settings, other)
@@ -89,9 +89,90 @@ def command(
         raise click.UsageError("A mind that takes over goes on to the end: leave out --ticks.")
     if bundle is None and file.endswith(".rec"):
         raise click.UsageError(f"{file} is a recording: say the bundle that was running after it.")
+    if bundle is not None:
+        refuse_ineffective(OF_RUNS_ALONE, *OF_A_RUN, "picture")
+    if not request.parts:
+        words = "--without SKILL, --sensor NAME=0.5, --set NAME=0.5 or --with OTHER.mind"
+        terminal.fail("nothing is changed", f"Say what: {words}", terminal.MISUSE)
     if bundle is None:
-        played = Played(task, 1 if seed is None else seed, master, not no_interruption, picture)
-        compare_runs(file, played, request, as_json, quiet)
-        return
-    refuse_ineffective(OF_RUNS_ALONE, *OF_A_RUN, "picture")
-    compare_recorded(Path(file), bundle, request, as_json)
+        terminal.refuse_unwritable(picture, ".png")
+        _compare_runs(file, chosen, request, picture, as_json, quiet)
+    else:
+        _compare_recorded(Path(file), bundle, request, as_json)
+
+
+def _compare_runs(
+    file: str, chosen: RunChoice, request: Request, picture: Path | None, as_json: bool, quiet: bool
+) -> None:
+    """Run as it is and with changes, and print what differs."""
+    from dataclasses import replace
+
+    from mindrun.engine.changes import ChangeError
+
+    from mindlang.cli._session import RunSession, ensure_stages_compiled, refusing_recordings
+    from mindlang.whatif.comparison import compare
+    from mindlang.whatif.report import comparison_data, comparison_summary
+    from mindlang.whatif.request import changes_of
+
+    session, seed, theirs = RunSession(quiet), 1 if chosen.seed is None else chosen.seed, None
+    ours = session.prepare(file, chosen)
+    if request.other:
+        theirs = session.prepare(request.other, replace(chosen, task=ours[0].task.name))
+        if theirs[0].task != ours[0].task:
+            where = f"task {ours[0].task.name} is another in {request.other}"
+            session.say(f"note: {where}; one seed need not give one world")
+    ensure_stages_compiled(ours[1], session.say)
+    setup = (theirs or ours)[0]
+    with refusing_recordings():
+        changes = changes_of(request, setup.ready.policy.graph, setup.master, Path(file))
+    with terminal.refusing(terminal.MISUSE, of=ChangeError), terminal.procedures_talk():
+        compared = compare(ours, seed, request.tick, changes, theirs)
+    # A sensor that was replaced for as long as a recording lasts reads what it measures after that.
+    ends = {change.last for change in changes if request.ticks is None and change.last and len(change.values) > 1}
+    for end in sorted(ends):
+        if end < compared.now.run.ticks:
+            session.say(f"note: a recording ends with tick {end:,}: from then on its sensor reads what it measures")
+    data = comparison_data(request, compared)
+    terminal.print_result(as_json, data, lambda: comparison_summary(request, compared))
+    if picture:
+        session.say(f"{picture}: {_draw(compared, request, picture)}")
+
+
+def _draw(compared: Compared, request: Request, path: Path) -> str:
+    """Draw both runs; what the picture shows."""
+    from mindlang.pictures.picture import png
+
+    if compared.was.run.task.scene.environment:
+        from mindlang.pictures.environments import environment_pictures as two_runs
+
+        shown = "both runs"
+    else:
+        from mindlang.pictures.two_paths import two_paths as two_runs
+
+        shown = "both paths of the robot"
+    both = [(each.run, each.found) for each in (compared.was, compared.now)]
+    with terminal.refusing(terminal.MISUSE):
+        drawn = two_runs(both, request.words, request.tick)
+    terminal.write_file(path, png(drawn))
+    return shown
+
+
+def _compare_recorded(path: Path, bundle: Path, request: Request, as_json: bool) -> None:
+    """Compute a recording as it was and with changes, and print what differs."""
+    from mindrun.graph.bundle import read_bundle
+
+    from mindlang.cli._session import refusing_recordings
+    from mindlang.run.recording import bundle_without_robot
+    from mindlang.run.setup import ready_to_act
+    from mindlang.whatif.open_loop import compare_recording
+    from mindlang.whatif.report import recording_data, recording_summary
+
+    with refusing_recordings():
+        other = None
+        if request.other and request.other.endswith(".bundle"):
+            other = read_bundle(Path(request.other))
+        elif request.other:
+            compiled = terminal.load_compiled(request.other)
+            other = bundle_without_robot(ready_to_act(request.other, compiled), compiled.sources[0].folder)
+        found = compare_recording(path, bundle, request, other)
+    terminal.print_result(as_json, recording_data(request, found), lambda: recording_summary(request, path.name, found))

@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import click
 
-from mindlang.cli._declared_names import declared
 from mindlang.cli._options import (
-    LAYOUT,
     OF_A_RUN,
     OF_RUNS_ALONE,
-    OF_TASK,
-    UNDER_MASTER,
+    RunChoice,
     TickSpan,
     WholeOption,
+    declared,
     refuse_ineffective,
+    run_options,
 )
+from mindlang.cli._terminal import MISUSE, print_result, procedures_talk, refusing
 
 EXAMPLES = """\b
 Examples:
@@ -35,20 +37,14 @@ Examples:
     metavar="FILE [BUNDLE] WHAT",
     shell_complete=declared("actuator", "memory", "skill"),
 )
-@OF_TASK
-@click.option("--seed", type=LAYOUT, help="Of the run. Default: 1.")
-@UNDER_MASTER
-@click.option("--no-interruption", is_flag=True, help="Go on to the last tick, whatever would end the run.")
+@run_options(seed="Of the run. Default: 1.")
 @click.option("--tick", type=TickSpan(), metavar="T or T..U", help="Which ticks, from 1. Default: all of them.")
 @click.option("--paths", type=WholeOption(1, 1000), help="How many are named. Default: 10.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON document instead.")
 @click.option("-q", "--quiet", is_flag=True, help="Print nothing but results and errors.")
 def command(
     words: tuple[str, ...],
-    task: str | None,
-    seed: int | None,
-    master: str | None,
-    no_interruption: bool,
+    chosen: RunChoice,
     tick: tuple[int, int] | None,
     paths: int | None,
     as_json: bool,
@@ -63,18 +59,25 @@ def command(
     Where FILE is a recording, BUNDLE is the one that was running, or the .mind file that it is built from, and ticks
     are the rows of the recording.
     """
-    from mindlang.cli._asking import Asked, explain_recording, explain_run
+    from mindlang.attribution.answer import QuestionError, answer, course_of_recording, course_of_run
+    from mindlang.attribution.report import answer_text
+    from mindlang.cli._session import RunSession, refusing_recordings
 
     *files, what = words
-    asked = Asked(what, tick, paths, as_json)
     match files:
         case [file] if not file.endswith(".rec"):
-            explain_run(file, task, 1 if seed is None else seed, master, not no_interruption, quiet, asked)
+            session, seed = RunSession(quiet), 1 if chosen.seed is None else chosen.seed
+            made = session.record(*session.prepare(file, chosen), seed)
+            course = course_of_run(made.run, seed)
         case [recording, bundle]:
             refuse_ineffective(OF_RUNS_ALONE, *OF_A_RUN)
-            explain_recording(recording, bundle, asked)
+            with refusing_recordings():
+                course = course_of_recording(Path(recording), Path(bundle))
         case _:
             raise click.UsageError(
                 "Say a file and what is asked about: mindc why collect.mind left_wheel, or mindc why day.rec "
                 "ball.bundle left_wheel."
             )
+    with refusing(MISUSE, of=QuestionError), procedures_talk():
+        found = answer(course, what, tick, paths)
+    print_result(as_json, found, lambda: answer_text(found))

@@ -7,37 +7,15 @@ from typing import Any
 
 from msgspec import Struct
 
+from mindlang.compiler import syntax
 from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.format import spaced
 from mindlang.compiler.model import Lesson, Mind, Part, Skill, Task
 from mindlang.compiler.names import Names
 from mindlang.compiler.resolve.kinds import Scope, make
-from mindlang.compiler.syntax import (
-    NOUNS,
-    Contains,
-    Counts,
-    Declaration,
-    Drives,
-    Ends,
-    Fact,
-    Fails,
-    Header,
-    Influences,
-    Lasts,
-    Reads,
-    Rewards,
-    Starts,
-    Stays,
-    Succeeds,
-    Teaches,
-    Text,
-    Varies,
-)
 
 PLACES = {"span", "fact", "declaration", "curriculum"}  # fields of the model that say where a thing stands
 ORDERED = {"curriculum"}  # nouns whose lines mean something by their order
-
-Forms = tuple[type, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,7 +45,7 @@ def differences(old: Mind, new: Mind) -> list[Difference]:
     """
     found = [*_settings(old, new), *_maps(old, new)]
     before, after = _declared(old), _declared(new)
-    for noun in NOUNS:
+    for noun in syntax.NOUNS:
         for name in dict.fromkeys((*before[noun], *after[noun])):
             lines = before[noun].get(name, ()), after[noun].get(name, ())
             found += _difference(f"{noun} {name}", *lines, noun in ORDERED)
@@ -98,10 +76,9 @@ def _drawn(mind: Mind) -> dict[str, list[_Line]]:
     """The lines of each map by the name of its file."""
     found = {}
     for task in mind.tasks:
-        contains = (fact for fact in task.facts if isinstance(fact, Contains))
-        for fact, thing in zip(contains, task.things, strict=True):
+        for fact, thing in zip(syntax.of_form(task.facts, syntax.Contains), task.things, strict=True):
             for value in (argument.value for argument in fact.phrase.arguments):
-                if isinstance(value, Text):
+                if isinstance(value, syntax.Text):
                     found[value.text] = [_Line(line, line) for line in thing.kind.drawing]
     return found
 
@@ -140,16 +117,7 @@ def _in_order(before: Sequence[int], after: Sequence[int]) -> set[int]:
 
 
 def _declared(mind: Mind) -> dict[str, dict[str, list[_Line]]]:
-    """The lines of every declaration, by noun and name."""
-    found: dict[str, dict[str, list[_Line]]] = {noun: {} for noun in NOUNS}
-    for noun, kinds in _kinds(mind).items():  # a scene means what the tasks in it say
-        for name, declaration in mind.names.declarations(noun):
-            found[noun][name] = _lines(declaration, kinds.get(name), mind)
-    return found
-
-
-def _kinds(mind: Mind) -> dict[str, dict[str, Any]]:
-    """What every declaration has become, by noun and name; a curriculum its lessons."""
+    """The lines of every declaration, by noun and name; a scene means what the tasks in it say."""
     lessons: dict[str, list[Lesson]] = {}
     for lesson in mind.lessons:
         lessons.setdefault(lesson.curriculum, []).append(lesson)
@@ -157,45 +125,50 @@ def _kinds(mind: Mind) -> dict[str, dict[str, Any]]:
         "body": (mind.body,), "actuator": mind.actuators, "sensor": mind.sensors, "memory": mind.memories,
         "skill": mind.skills, "task": mind.tasks,
     }  # fmt: skip
-    return {"curriculum": lessons} | {noun: {part.name: part for part in of} for noun, of in parts.items()}
+    become = {noun: {part.name: part for part in of} for noun, of in parts.items()} | {"curriculum": lessons}
+    return {
+        noun: {
+            name: _lines(declaration, become[noun].get(name), mind)
+            for name, declaration in (mind.names.declarations(noun) if noun in become else ())
+        }
+        for noun in syntax.NOUNS
+    }
 
 
-def _lines(declaration: Declaration, of: Any, mind: Mind) -> list[_Line]:
-    """The header and the facts of a declaration, each with what has become of it."""
+def _lines(declaration: syntax.Declaration, of: Any, mind: Mind) -> list[_Line]:
+    """The header and the facts of a declaration, each with what has become of it.
+
+    Of a task also what its scene says, or the task that it is like.
+    """
     kind, facts = _parts(declaration.header, of)
     found = [_Line(_header(declaration.header, mind.names), _meaning(kind))]
-    for forms, meanings in facts.items():
-        written = [fact for fact in _facts(declaration, of) if isinstance(fact, forms)]
-        found += [_Line(_written(fact), (forms, _meaning(each))) for fact, each in zip(written, meanings, strict=True)]
+    said = of.facts if isinstance(of, Task) else declaration.facts
+    for verbs, meanings in facts.items():
+        written = [fact for fact in said if syntax.verb_of(fact) in verbs.split()]
+        found += [_Line(_written(fact), (verbs, _meaning(each))) for fact, each in zip(written, meanings, strict=True)]
     return found
 
 
-def _facts(declaration: Declaration, of: Any) -> Sequence[Fact]:
-    """What holds of a declaration: of a task, what its scene says or the task that it is like, too."""
-    return of.facts if isinstance(of, Task) else declaration.facts
-
-
-def _parts(header: Header, of: Any) -> tuple[Any, dict[Forms, Sequence[Any]]]:
-    """What a header has become, and what the facts of each form have, in their order."""
+def _parts(header: syntax.Header, of: Any) -> tuple[Any, dict[str, Sequence[Any]]]:
+    """What a header has become, and what the facts of each verb or two have, in their order."""
     match of:
         case Skill(like=like) if like:
-            reads = [fact for fact in of.declaration.facts if isinstance(fact, Reads)]
-            return like, {(Reads,): [(fact.name.text, fact.stands_for and fact.stands_for.text) for fact in reads]}
+            reads = syntax.of_form(of.declaration.facts, syntax.Reads)
+            return like, {"reads": [(fact.name.text, fact.stands_for and fact.stands_for.text) for fact in reads]}
         case Skill():
-            return of.function, {(Reads,): of.reads, (Drives, Influences): of.edges, (Stays,): [True] * of.frozen}
-        case Task(ticks=ticks, ends=ends, counts=counts):
-            starts = [of.start] * any(isinstance(fact, Starts) for fact in of.facts)
-            plain: dict[Forms, Sequence[Any]] = {(Lasts,): [ticks], (Ends, Succeeds): ends, (Counts,): counts}
-            plain |= {(Contains,): of.things, (Starts,): starts, (Varies,): of.varies, (Fails,): of.fails}
-            plain |= {(Rewards,): of.rewards}
-            return of.scene, plain
+            return of.function, {"reads": of.reads, "drives influences": of.edges, "stays": [True] * of.frozen}
+        case Task():
+            starts = [of.start] * bool(syntax.of_form(of.facts, syntax.Starts))
+            judged = {"lasts": [of.ticks], "ends succeeds": of.ends, "rewards": of.rewards, "counts": of.counts}
+            world = {"contains": of.things, "starts": starts, "varies": of.varies, "fails": of.fails}
+            return of.scene, judged | world
         case Part():
             return of.kind, {}
     phrase = header.phrase
-    return phrase and make("curriculum", phrase, Scope(Names({}), None), Findings()), {(Teaches,): of or []}
+    return phrase and make("curriculum", phrase, Scope(Names({}), None), Findings()), {"teaches": of or []}
 
 
-def _header(header: Header, names: Names) -> str:
+def _header(header: syntax.Header, names: Names) -> str:
     """A header as it is written; of a task in a scene by its name, with what that scene is."""
     said = header
     while header.noun.text == "task" and not said.phrase:

@@ -1,6 +1,6 @@
 """Errors as data: what is wrong, where, and what to do about it."""
 
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from itertools import chain
@@ -42,6 +42,10 @@ class Diagnostic(ShortRepr):
     """One finding. `code` is stable, `message` says what is wrong, `hint` what to do.
 
     Without a span it is about a file that could not be read.
+
+    >>> [diagnostic] = mindlang.load("nowhere.mind").diagnostics
+    >>> diagnostic.code, diagnostic.severity
+    ('unreadable', 'error')
     """
 
     code: str
@@ -64,6 +68,13 @@ class Findings:
     def error(self, code: str, span: Span, message: str, hint: str = "", *labels: Label) -> None:
         """Collect an error."""
         self.diagnostics.append(Diagnostic(code, message, span, hint, labels))
+
+    def refuse_again(
+        self, code: str, places: Sequence[Span], message: str, hint: str, first: str = "first said here"
+    ) -> None:
+        """Report all but the first of the places where the same is said."""
+        for again in places[1:]:
+            self.error(code, again, message, hint, Label(places[0], first))
 
     @contextmanager
     def each_once(self) -> Iterator[None]:

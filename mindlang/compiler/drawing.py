@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from mindrun.kinds.registry import arguments, names
 
-from mindlang.compiler.model import Edge, Mind, Skill
+from mindlang.compiler.model import Mind
 from mindlang.compiler.syntax import Drives, Influences
 
 if TYPE_CHECKING:
@@ -27,26 +26,25 @@ def tree(mind: Mind) -> Tree:
     tops = [mind.master, *(skill.name for skill in mind.skills if skill.name not in influenced)]
     root = Tree(Text(f"{mind.master} is the master"), guide_style="dim")
     shown: set[str] = set()
-    waiting: list[tuple[Any, str, Edge | None]] = [(root, name, None) for name in reversed(dict.fromkeys(tops))]
+    waiting: list[tuple[Any, str, str]] = [(root, name, "") for name in reversed(dict.fromkeys(tops))]
     while waiting:
-        above, name, edge = waiting.pop()
+        above, name, said = waiting.pop()
         if name in shown:
-            above.add(Text.assemble((name, "bold"), _edge_text(edge), ("  (shown above)", "dim")))
+            above.add(Text.assemble((name, "bold"), said, ("  (shown above)", "dim")))
             continue
         shown.add(name)
-        branch = above.add(Text.assemble((name, "bold"), _edge_text(edge), (f"  {_what(skills[name])}", "cyan")))
-        if comment := skills[name].declaration.comment:
+        skill = skills[name]
+        what = f"like {skill.like}" if skill.like else phrase(skill.function)
+        branch = above.add(Text.assemble((name, "bold"), said, (f"  {what}", "cyan")))
+        if comment := skill.declaration.comment:
             branch.add(Text(comment, "italic"))
-        for line in _lines(skills[name]):
-            branch.add(Text(line))
-        below = [(branch, edge.target, edge) for edge in skills[name].edges if edge.to == "skill"]
+        if skill.reads:
+            branch.add(Text(f"reads {', '.join(skill.reads)}"))
+        for edge in (edge for edge in skill.edges if edge.to != "skill"):
+            branch.add(Text(f"drives {edge.target}{text_after_name(edge.fact)}"))
+        below = [(branch, edge.target, text_after_name(edge.fact)) for edge in skill.edges if edge.to == "skill"]
         waiting += reversed(below)
     return root
-
-
-def _what(skill: Skill) -> str:
-    """What a skill is: its function, or the skill that it is like."""
-    return f"like {skill.like}" if skill.like else phrase(skill.function)
 
 
 def phrase(kind: object) -> str:
@@ -69,17 +67,13 @@ def dot(mind: Mind) -> str:
             owner = _id("skill", skill.like)
             lines.append(f"  {owner} -> {_id('skill', skill.name)} [style=dashed label=like constraint=false dir=none]")
     for skill in mind.skills:
-        lines += _arrows(skill)
+        here = _id("skill", skill.name)
+        lines += [f"  {_id('input', name)} -> {here} [style=dotted]" for name in skill.reads]
+        for edge in skill.edges:
+            said = text_after_name(edge.fact).removeprefix(" at ")
+            label = f" [label={_quoted(said)}]" if said else ""
+            lines.append(f"  {here} -> {_id('input' if edge.to == 'memory' else edge.to, edge.target)}{label}")
     return "\n".join([*lines, "}"])
-
-
-def _arrows(skill: Skill) -> Iterator[str]:
-    here = _id("skill", skill.name)
-    for name in skill.reads:
-        yield f"  {_id('input', name)} -> {here} [style=dotted]"
-    for edge in skill.edges:
-        label = f" [label={_quoted(said.removeprefix(' at '))}]" if (said := _edge_text(edge)) else ""
-        yield f"  {here} -> {_id('input' if edge.to == 'memory' else edge.to, edge.target)}{label}"
 
 
 def _id(noun: str, name: str) -> str:
@@ -90,19 +84,6 @@ def _quoted(text: str) -> str:
     return f'"{text}"'
 
 
-def _edge_text(edge: Edge | None) -> str:
-    """What a line says after the name: its value, its condition, and below what it cuts."""
-    return text_after_name(edge.fact) if edge else ""
-
-
 def text_after_name(fact: Drives | Influences) -> str:
     """What a line says after the name of whom it is for, as written."""
     return fact.span.source.text[fact.name.span.end : fact.span.end]
-
-
-def _lines(skill: Skill) -> Iterator[str]:
-    if skill.reads:
-        yield f"reads {', '.join(skill.reads)}"
-    for edge in skill.edges:
-        if edge.to != "skill":
-            yield f"drives {edge.target}{_edge_text(edge)}"

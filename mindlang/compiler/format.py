@@ -7,11 +7,8 @@ by a blank line. Nothing is reordered or aligned, and no comment changes.
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
-from itertools import pairwise
+from itertools import accumulate, pairwise
 from typing import Any
-
-from msgspec import Struct
-from msgspec.structs import astuple
 
 from mindlang.compiler import syntax
 from mindlang.compiler.parse import BLANKS, code_of
@@ -59,10 +56,8 @@ def formatted(text: str, start: Start = "line") -> str:
 
     One that cannot be read keeps the words of its bad lines as they are.
     """
-    lines = [_line(line, start) for line in text.split("\n")]
     end = "\r\n" if "\r\n" in text else "\n"
-    placed = [*_indented(lines)] if start == "line" else [(line, "") for line in lines]
-    return "".join(f"{line}{end}" for line in _set_off(placed))
+    return "".join(f"{line}{end}" for line in _placed([_line(line, start) for line in text.split("\n")], start))
 
 
 def _line(text: str, start: Start) -> _Line:
@@ -70,15 +65,29 @@ def _line(text: str, start: Start) -> _Line:
     return _Line(spaced(code.lstrip(" \t").rstrip(BLANKS), start), text[len(code) :].strip(), text[:1] in (" ", "\t"))
 
 
-def _indented(lines: list[_Line]) -> Iterator[tuple[_Line, str]]:
-    """Each line with what stands before it: a comment goes with what it leads, or else keeps to what it closes."""
-    in_declaration = False
+def _placed(lines: list[_Line], start: Start) -> Iterator[str]:
+    """The lines indented, with single blank ones: none at the ends or below a header, one around what owns facts.
+
+    A comment goes with what it leads, or else keeps to what it closes.
+    """
+    above: _Line | None = None
+    in_declaration = was_in = blank = False
     for line, following in zip(lines, _next_written(lines), strict=True):
+        if line.is_blank:
+            blank = True
+            continue
         if line.code:
             in_declaration = line.is_fact or line.first in NOUNS
         leads = following is not None and following.is_fact
         is_in = line.is_fact if line.code else leads or (line.is_indented and in_declaration)
-        yield line, INDENT if is_in and not line.is_blank else ""
+        is_in = is_in and start == "line"
+        if above and not (above.opens and is_in):
+            is_led = not above.code and not was_in  # by a comment
+            begins = following is not None and not is_led and (following.opens or was_in)
+            if blank or (begins and not is_in):
+                yield ""
+        yield f"{INDENT if is_in else ''}{line}"
+        above, was_in, blank = line, is_in, False
 
 
 def _next_written(lines: list[_Line]) -> list[_Line | None]:
@@ -89,28 +98,6 @@ def _next_written(lines: list[_Line]) -> list[_Line | None]:
         following = line if line.code else following
         found.append(following)
     return found[::-1]
-
-
-def _set_off(lines: list[tuple[_Line, str]]) -> Iterator[str]:
-    """The lines with single blank ones: none at the ends or below a header, one around what owns facts."""
-    above: tuple[_Line, str] | None = None
-    blank = False
-    for (line, indent), following in zip(lines, _next_written([line for line, _ in lines]), strict=True):
-        if line.is_blank:
-            blank = True
-            continue
-        is_first = above and above[0].opens and indent
-        if above and not is_first and (blank or (not indent and _is_set_off(above, following))):
-            yield ""
-        yield f"{indent}{line}"
-        above, blank = (line, indent), False
-
-
-def _is_set_off(above: tuple[_Line, str], following: _Line | None) -> bool:
-    """Whether a declaration begins here, with the comments that lead it, and owns facts or follows some."""
-    if following is None or (above[0].comment and not above[0].code and not above[1]):
-        return False
-    return following.opens or bool(above[1])
 
 
 def spaced(code: str, start: Start = "line") -> str:
@@ -141,38 +128,29 @@ def _plan(shape: str, start: Start) -> Plan | None:
         line = parse_line(shape, Source("shape", shape), 0, start)
     except UnexpectedInput:
         return None
-    places: dict[int, int] = {}
-    at = 0
-    for number, piece in enumerate(pieces(shape)):
-        places[at] = number
-        at += len(piece)
-    places[at] = len(places)
+    starts = accumulate(map(len, pieces(shape)), initial=0)
+    places = {start: number for number, start in enumerate(starts)}
     return tuple((places[first], places[end], after) for first, end, after in _words(shape, line, start))
 
 
 def _words(code: str, line: Any, start: Start) -> Iterator[tuple[int, int, str]]:
     """From where to where the words of a line go that the grammar reads as `line`, and what stands after each."""
     tokens = list(grammar().parse_interactive(code, start=start).iter_parse())
-    signs = set(_signs(line))
+    signs = {node.span.start for node in syntax.walk(line) if _is_signed(node)}
     for token, following in zip(tokens, [*tokens[1:], None], strict=True):
         first = token.start_pos or 0
         glued = following is None or token == "(" or following in (")", "%") or first in signs
         yield first, token.end_pos or 0, "" if glued else " "
 
 
-def _signs(node: Any) -> Iterator[int]:
-    """Where the signs of numbers and values stand, which belong to what follows them."""
+def _is_signed(node: Any) -> bool:
+    """Whether it begins with a sign, which belongs to what follows it."""
     match node:
-        case syntax.Amount(_, _, span) if span.text[0] in "+-":
-            yield span.start
-        case syntax.Operator("negate", span):
-            yield span.start
-        case tuple():
-            for part in node:
-                yield from _signs(part)
-        case Struct():
-            for part in astuple(node):
-                yield from _signs(part)
+        case syntax.Amount(_, _, span):
+            return span.text[0] in "+-"
+        case syntax.Operator("negate"):
+            return True
+    return False
 
 
 def format_splices(source: Source, start: Start = "line") -> list[Splice]:

@@ -61,12 +61,9 @@ def _turned(circle: list[int]) -> list[int]:
     return circle[first:] + circle[:first]
 
 
-def check_cycles(graph: DiGraph, findings: Findings) -> None:
-    """Report every circle of influence with its whole path."""
+def refuse_circles(code: str, graph: DiGraph, findings: Findings, says: str, hint: str, label: str) -> None:
+    """Report every circle of a graph with its whole path, along the spans of its edges."""
     for circle in circles(graph):
         around = [*circle, circle[0]]
         first, *others = (graph.edges[step]["span"] for step in pairwise(around))
-        labels = (Label(span, "and from there on") for span in others)
-        message = f"Skills influence one another in a circle: {' → '.join(around)}."
-        hint = "Influence flows one way, from the master down: take one of these lines out."
-        findings.error("influence-cycle", first, message, hint, *labels)
+        findings.error(code, first, f"{says}: {' → '.join(around)}.", hint, *(Label(span, label) for span in others))

@@ -1,10 +1,12 @@
 """Mind → Graph: names become indices, expressions programs, skills stand in the order of influence."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
+from itertools import accumulate, count
 from typing import Any, TypeVar
 
 from mindrun.graph import graph
+from msgspec.structs import astuple
 
 from mindlang.compiler import model
 from mindlang.compiler.format import spaced
@@ -25,79 +27,56 @@ class Places:
 
 def lower(mind: model.Mind) -> graph.Graph:
     """The compiled graph of a mind."""
-    sensors = _sensors(mind)
-    start = sum(sensor.width for sensor in sensors)
-    memories = tuple(
-        graph.Memory(memory.name, memory.kind, start + index) for index, memory in enumerate(mind.memories)
-    )
-    places = {sensor.name: (sensor.start, sensor.width) for sensor in sensors}
-    places |= {memory.name: (memory.start, 1) for memory in memories}
-    commands = {actuator.name: index for index, actuator in enumerate(mind.actuators)}
+    starts = [*accumulate((sensor.width for sensor in mind.sensors), initial=0)]
+    placed = zip(mind.sensors, starts[:-1], strict=True)
+    sensors = [graph.Sensor(each.name, each.kind, start, each.width) for each, start in placed]
+    memories = [graph.Memory(each.name, each.kind, place) for place, each in enumerate(mind.memories, starts[-1])]
+    readings = {sensor.name: (sensor.start, sensor.width) for sensor in sensors}
+    readings |= {memory.name: (memory.start, 1) for memory in memories}
+    commands = _numbered(actuator.name for actuator in mind.actuators)
     return graph.Graph(
         mind.tick,
         mind.body.kind,
         mind.master,
-        sensors,
-        memories,
+        tuple(sensors),
+        tuple(memories),
         tuple(graph.Actuator(actuator.name, actuator.kind) for actuator in mind.actuators),
-        _skills(mind, places),
-        tuple(_task(task, places, commands) for task in mind.tasks),
-        tuple(_lesson(lesson) for lesson in mind.lessons),
+        tuple(_skills(mind, readings)),
+        tuple(_task(task, Places(readings, commands, {})) for task in mind.tasks),
+        tuple(graph.Lesson(*astuple(lesson)[:-1]) for lesson in mind.lessons),  # all but the line that says it
     )
 
 
-def _sensors(mind: model.Mind) -> tuple[graph.Sensor, ...]:
-    sensors: list[graph.Sensor] = []
-    start = 0
-    for sensor in mind.sensors:
-        sensors.append(graph.Sensor(sensor.name, sensor.kind, start, sensor.width))
-        start += sensor.width
-    return tuple(sensors)
+def _numbered(names: Iterable[str]) -> dict[str, int]:
+    return {name: number for number, name in enumerate(names)}
 
 
-def _skills(mind: model.Mind, places: Mapping[str, tuple[int, int]]) -> tuple[graph.Skill, ...]:
-    skills = {skill.name: skill for skill in mind.skills}
-    order = [skills[name] for name in in_order(mind.influences)]
-    targets = {
-        "skill": {skill.name: index for index, skill in enumerate(order)},
-        "actuator": {actuator.name: index for index, actuator in enumerate(mind.actuators)},
-        "memory": {memory.name: index for index, memory in enumerate(mind.memories)},
+def _skills(mind: model.Mind, readings: Mapping[str, tuple[int, int]]) -> Iterator[graph.Skill]:
+    skills, order = {skill.name: skill for skill in mind.skills}, in_order(mind.influences)
+    numbers = {
+        "skill": _numbered(order),
+        "actuator": _numbered(actuator.name for actuator in mind.actuators),
+        "memory": _numbered(memory.name for memory in mind.memories),
     }
-    return tuple(
-        graph.Skill(
-            skill.name,
-            skill.function,
-            tuple(start + i for start, width in (places[read] for read in skill.reads) for i in range(width)),
-            _edges(skill, targets, places),
-            skill.frozen,
-            skill.like,
-        )
-        for skill in order
-    )
+    for skill in map(skills.__getitem__, order):
+        places = [start + i for start, width in (readings[name] for name in skill.reads) for i in range(width)]
+        edges = tuple(_edges(skill, numbers, Places(readings)))
+        yield graph.Skill(skill.name, skill.function, tuple(places), edges, skill.frozen, skill.like)
 
 
-def _edges(
-    skill: model.Skill, targets: Mapping[str, Mapping[str, int]], places: Mapping[str, tuple[int, int]]
-) -> tuple[graph.Edge, ...]:
-    edges: list[graph.Edge] = []
-    outputs = 0
+def _edges(skill: model.Skill, numbers: Mapping[str, Mapping[str, int]], places: Places) -> Iterator[graph.Edge]:
+    outputs = count()
     for edge in skill.edges:
-        value = () if edge.at is None else _program(edge.at, Places(places))
-        gate = _gate(edge.gate, Places(places)) if edge.gate else None
-        output = outputs if edge.at is None else None
-        edges.append(graph.Edge(edge.to, targets[edge.to][edge.target], output, value, gate, edge.cuts))
-        outputs += edge.at is None
-    return tuple(edges)
+        gate = None
+        if edge.gate:
+            otherwise = _program(edge.gate.otherwise, places) if edge.gate.otherwise else None
+            gate = graph.Gate(condition(edge.gate.when, places), otherwise)
+        output, value = (None, _program(edge.at, places)) if edge.at else (next(outputs), ())
+        yield graph.Edge(edge.to, numbers[edge.to][edge.target], output, value, gate, edge.cuts)
 
 
-def _gate(gate: model.Gate, places: Places) -> graph.Gate:
-    otherwise = None if gate.otherwise is None else _program(gate.otherwise, places)
-    return graph.Gate(condition(gate.when, places), otherwise)
-
-
-def _task(task: model.Task, readings: Mapping[str, tuple[int, int]], actuators: Mapping[str, int]) -> graph.Task:
+def _task(task: model.Task, places: Places) -> graph.Task:
     events: dict[Any, int] = {}
-    places = Places(readings, actuators, {})
     ends = tuple(dict.fromkeys(_end(end, events, places) for end in task.ends))
     rewards = tuple(_reward(reward, events, places) for reward in task.rewards)
     counts = tuple(dict.fromkeys(_index(event, events) for event in task.counts))
@@ -158,19 +137,3 @@ def _program(expression: model.Expression, places: Places) -> graph.Program:
                 return term.symbol, 0
 
     return tuple(instruction(term) for term in expression.terms)
-
-
-def _lesson(lesson: model.Lesson) -> graph.Lesson:
-    return graph.Lesson(
-        lesson.curriculum,
-        lesson.skill,
-        lesson.task,
-        lesson.master,
-        lesson.generations,
-        lesson.from_scratch,
-        lesson.with_subskills,
-        lesson.learner,
-        lesson.number,
-        lesson.starts_from,
-        lesson.needs,
-    )

@@ -1,6 +1,6 @@
 """A mind: names resolved, units converted, every part with the place where it was written."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, Generic, NamedTuple, TypeVar
@@ -20,21 +20,9 @@ from mindrun.kinds.things.thing import ThingKind
 from msgspec import Struct
 from networkx import DiGraph
 
+from mindlang.compiler import syntax
 from mindlang.compiler.names import Names
 from mindlang.compiler.source import Span
-from mindlang.compiler.syntax import (
-    Declaration,
-    Drives,
-    Ends,
-    Fact,
-    File,
-    Influences,
-    Operator,
-    Reads,
-    Rewards,
-    Succeeds,
-    Teaches,
-)  # fmt: skip
 
 K = TypeVar("K")
 
@@ -85,7 +73,7 @@ class Measured(Struct, frozen=True):
     span: Span
 
 
-Term = Number | Reading | EachReading | Command | Measured | Operator
+Term = Number | Reading | EachReading | Command | Measured | syntax.Operator
 
 
 class Expression(Struct, frozen=True):
@@ -128,7 +116,7 @@ class Edge(Struct, frozen=True):
     to: Receiver
     target: str
     at: Expression | None
-    fact: Drives | Influences
+    fact: syntax.Drives | syntax.Influences
     gate: Gate | None = None
     cuts: float = 0.0
 
@@ -156,8 +144,13 @@ class Skill(Struct, frozen=True):
     reads: tuple[str, ...]
     edges: tuple[Edge, ...]
     frozen: bool
-    declaration: Declaration
+    declaration: syntax.Declaration
     like: str = ""
+
+    @property
+    def span(self) -> Span:
+        """Where its name is declared."""
+        return self.declaration.header.name.span
 
     @property
     def owner(self) -> str:
@@ -177,7 +170,7 @@ class Reward(Struct, frozen=True):
     on: EventKind | None
     each: str | None
     when: When | None
-    fact: Rewards
+    fact: syntax.Rewards
 
     @property
     def expressions(self) -> tuple[Expression, ...]:
@@ -192,7 +185,7 @@ class End(Struct, frozen=True):
     times: int
     when: When | None
     succeeds: bool
-    fact: Ends | Succeeds
+    fact: syntax.Ends | syntax.Succeeds
 
 
 class Task(Struct, frozen=True):
@@ -211,8 +204,13 @@ class Task(Struct, frozen=True):
     ends: tuple[End, ...]
     rewards: tuple[Reward, ...]
     counts: tuple[EventKind, ...]
-    facts: tuple[Fact, ...]
-    declaration: Declaration
+    facts: tuple[syntax.Fact, ...]
+    declaration: syntax.Declaration
+
+    @property
+    def span(self) -> Span:
+        """Where its name is declared."""
+        return self.declaration.header.name.span
 
 
 class Lesson(Struct, frozen=True):
@@ -229,7 +227,7 @@ class Lesson(Struct, frozen=True):
     number: int
     starts_from: str
     needs: tuple[Need, ...]
-    fact: Teaches
+    fact: syntax.Teaches
 
 
 @dataclass(frozen=True)
@@ -249,7 +247,7 @@ class Mind:
     skills: tuple[Skill, ...]
     tasks: tuple[Task, ...]
     lessons: tuple[Lesson, ...]
-    files: tuple[File, ...]
+    files: tuple[syntax.File, ...]
     names: Names
     influences: DiGraph = field(repr=False, compare=False)
     numbers: Mapping[str, tuple[float, str, str]] = field(default_factory=dict)
@@ -271,22 +269,17 @@ class Node(NamedTuple):
         return f"{self.noun} {self.name}"
 
 
-def influence_graph(skills: Sequence[Skill]) -> DiGraph:
+def influence_graph(skills: Iterable[Skill]) -> DiGraph:
     """The skills by name in the order of the text, an edge for each line `influences`, with its `span`."""
-    graph = DiGraph()
-    graph.add_nodes_from(skill.name for skill in skills)
-    for skill in skills:
-        graph.add_edges_from((skill.name, e.target, {"span": e.fact.span}) for e in skill.edges if e.to == "skill")
-    return graph
+    return DiGraph({
+        skill.name: {edge.target: {"span": edge.fact.span} for edge in skill.edges if edge.to == "skill"}
+        for skill in skills
+    })  # fmt: skip
 
 
-def source_graph(sensors: Sequence[Part[Any] | Sensor]) -> DiGraph:
+def source_graph(sensors: Iterable[Part[Any] | Sensor]) -> DiGraph:
     """The sensors by name in the order of the text, an edge to each sensor or memory that one is computed from."""
-    graph = DiGraph()
-    graph.add_nodes_from(sensor.name for sensor in sensors)
-    for sensor in sensors:
-        graph.add_edges_from((sensor.name, source) for source in sensor.kind.sources)
-    return graph
+    return DiGraph({sensor.name: {source: {} for source in sensor.kind.sources} for sensor in sensors})
 
 
 def hierarchy_graph(mind: Mind) -> DiGraph:
@@ -296,35 +289,30 @@ def hierarchy_graph(mind: Mind) -> DiGraph:
     (reads, influences, drives, computes) and the `file` and `line` that say it. Skills alone are a DAG; a memory that
     is read and driven closes a circle, over one tick.
     """
-    graph = DiGraph()
+    graph, read = DiGraph(), dict[str, Node]()
+
+    def connect(start: Node, end: Node, relation: str, span: Span) -> None:
+        graph.add_edge(start, end, relation=relation, file=span.source.name, line=span.line)
+
     for noun, parts in (("sensor", mind.sensors), ("memory", mind.memories), ("actuator", mind.actuators)):
-        graph.add_nodes_from((Node(noun, part.name), {"kind": kind_names()[type(part.kind)]}) for part in parts)
+        for part in parts:
+            graph.add_node(Node(noun, part.name), kind=kind_names()[type(part.kind)])
+            if noun != "actuator":
+                read[part.name] = Node(noun, part.name)
     for skill in mind.skills:
         about = {"kind": kind_names()[type(skill.function)], "like": skill.like, "frozen": skill.frozen}
         graph.add_node(Node("skill", skill.name), **about, master=skill.name == mind.master)
-    read = {part.name: Node(noun, part.name) for noun, part in _readable(mind)}
     for sensor in mind.sensors:
         for source in dict.fromkeys(sensor.kind.sources):
-            graph.add_edge(read[source], read[sensor.name], relation="computes", **_place(sensor.span))
+            connect(read[source], read[sensor.name], "computes", sensor.span)
     skills = {skill.name: skill for skill in mind.skills}
     for skill in mind.skills:
         here = Node("skill", skill.name)
-        lines = {fact.name.text: fact.span for each in (skills[skill.owner], skill) for fact in _reads(each)}
-        graph.add_edges_from((read[name], here, {"relation": "reads", **_place(lines[name])}) for name in skill.reads)
+        written = (*skills[skill.owner].declaration.facts, *skill.declaration.facts)
+        lines = {fact.name.text: fact.span for fact in syntax.of_form(written, syntax.Reads)}
+        for name in skill.reads:
+            connect(read[name], here, "reads", lines[name])
         for edge in skill.edges:
             relation = "influences" if edge.to == "skill" else "drives"
-            graph.add_edge(here, Node(edge.to, edge.target), relation=relation, **_place(edge.fact.span))
+            connect(here, Node(edge.to, edge.target), relation, edge.fact.span)
     return graph
-
-
-def _readable(mind: Mind) -> Iterator[tuple[str, Part[Any]]]:
-    yield from (("sensor", sensor) for sensor in mind.sensors)
-    yield from (("memory", memory) for memory in mind.memories)
-
-
-def _reads(skill: Skill) -> Iterator[Reads]:
-    return (fact for fact in skill.declaration.facts if isinstance(fact, Reads))
-
-
-def _place(span: Span) -> dict[str, str | int]:
-    return {"file": span.source.name, "line": span.line}

@@ -12,7 +12,7 @@ from msgspec.structs import replace
 
 from mindlang.compiler.diagnostic import Findings, Label, a, listed
 from mindlang.compiler.source import Span
-from mindlang.compiler.syntax import Contains, Declaration, Fact, File, Name, Number
+from mindlang.compiler.syntax import Contains, Declaration, File, Name, Number, of_form
 
 # A memory is read like a sensor and driven like an actuator, so its name must be neither's.
 # In an expression, a number's name stands where a reading's may, and in rewards a command's.
@@ -77,15 +77,13 @@ class Names:
             hint = f"There is {a(other)} of that name, but {NOUN_USES[other]}."
         else:
             known = (self._of(noun) for noun in nouns)
-            hint = self._thing(name.text, nouns) or findings.suggest(name.text, *known) or self._offer(nouns)
+            hint = findings.suggest(name.text, *known) or self._offer(nouns)
+            if "sensor" in nouns and name.text in self._all_things:
+                what = f"{name.text} is a thing of a task; what the robot knows of it is a sensor"
+                hint = f"{what}, such as bearing of {name.text}."
             hint += _foreign_letter(name.text)
         findings.error(f"unknown-{nouns[0]}", name.span, f"There is no {wanted} called {name.text}.", hint)
         return None
-
-    def _thing(self, name: str, nouns: Sequence[str]) -> str:
-        if "sensor" in nouns and name in self._all_things:
-            return f"{name} is a thing of a task; what the robot knows of it is a sensor, such as bearing of {name}."
-        return ""
 
     def _offer(self, nouns: Sequence[str]) -> str:
         known = [*islice(chain.from_iterable(map(self._of, nouns)), 9)]
@@ -96,25 +94,19 @@ class Names:
 
     def things(self) -> dict[str, set[str]] | None:
         """The things that some task contains, with the kinds that they are of; None where this is not known."""
-        if not all(task.whole for _, task in self.declarations("task")) or not self.table.get("task"):
-            return None
-        return self._all_things
+        tasks = self.table.get("task", {}).values()
+        return self._all_things if tasks and all(task.whole for task in tasks) else None
 
     @cached_property
     def _all_things(self) -> dict[str, set[str]]:
-        found: dict[str, set[str]] = {}
-        for _, task in self.declarations("task"):
-            for name, kinds in things_of(task).items():
-                found.setdefault(name, set()).update(kinds)
-        return found
+        return things_of(*self.table.get("task", {}).values())
 
 
-def things_of(task: Declaration) -> dict[str, set[str]]:
-    """The things of one task, with the kinds that they are of."""
+def things_of(*tasks: Declaration) -> dict[str, set[str]]:
+    """The things of some tasks, with the kinds that they are of."""
     found: dict[str, set[str]] = {}
-    for fact in task.facts:
-        if isinstance(fact, Contains):
-            found.setdefault(fact.name.text, set()).add(fact.phrase.kind.text)
+    for fact in of_form((fact for task in tasks for fact in task.facts), Contains):
+        found.setdefault(fact.name.text, set()).add(fact.phrase.kind.text)
     return found
 
 
@@ -140,13 +132,14 @@ def gather(files: Iterable[File], findings: Findings) -> Names:
         noun, name = declaration.header.noun.text, declaration.header.name
         other = names.noun_of(name.text, (noun, *SHARED.get(noun, ())))
         if other and above and not declaration.header.is_read:
-            declaration = _with_facts(above, declaration.facts)  # `senses eyes` was meant as a fact, not as a sensor
+            facts = (*above.facts, *declaration.facts)  # `senses eyes` was meant as a fact, not as a sensor
+            declaration = replace(above, facts=facts, whole=False)
             noun, name = above.header.noun.text, above.header.name
         elif other:
             _refuse_again(names, other, name, findings)
             continue
         names.table.setdefault(noun, {})[name.text] = above = declaration
-    for number in (setting for file in files for setting in file.settings if isinstance(setting, Number)):
+    for number in (setting for file in files for setting in of_form(file.settings, Number)):
         if other := names.noun_of(number.name.text, ("number", *SHARED["number"])):
             _refuse_again(names, other, number.name, findings)
         else:
@@ -159,8 +152,3 @@ def _refuse_again(names: Names, noun: str, name: Name, findings: Findings) -> No
     first = Label(names.place_of(noun, name.text), "first declared here")
     message = f"There is already {a(noun)} called {name.text}."
     findings.error("duplicate-name", name.span, message, "Give one of the two another name.", first)
-
-
-def _with_facts(declaration: Declaration, facts: Sequence[Fact]) -> Declaration:
-    """A declaration of which a line could not be read, with the facts below that line."""
-    return replace(declaration, facts=(*declaration.facts, *facts), whole=False)

@@ -74,6 +74,19 @@ def _line_starts(source: Source) -> list[int]:
     return [0, *(found.end() for found in re.finditer("\n", source.text))]
 
 
+def comment_of(span: Span) -> str:
+    """What the comments of a line say, those right above it and the one behind, as one paragraph."""
+    text = span.source.text
+    end = text.find("\n", span.end)
+    behind = text[span.end : end if end >= 0 else len(text)].strip()
+    said = [behind] if behind.startswith("#") else []
+    end = text.rfind("\n", 0, span.start)
+    while end >= 0 and (line := text[(first := text.rfind("\n", 0, end) + 1) : end].strip()).startswith("#"):
+        said.insert(0, line)
+        end = first - 1
+    return " ".join(filter(None, (each.lstrip("# ").strip() for each in said)))
+
+
 def encoded(path: Path, text: str) -> bytes:
     """The bytes of a text that is to be written to `path`; with a byte order mark if the file begins with one now."""
     try:

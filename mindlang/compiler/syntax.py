@@ -1,9 +1,12 @@
 """The tree of a file: one small struct per fact, each with its span. Nothing in it is checked yet."""
 
-from msgspec import Struct
+from collections.abc import Callable, Iterable, Iterator
+from typing import Any, TypeVar
 
-from mindlang.compiler.comments import comment_of
-from mindlang.compiler.source import Source, Span
+from msgspec import Struct
+from msgspec.structs import astuple
+
+from mindlang.compiler.source import Source, Span, comment_of
 
 # The words with which a line begins; the names of parts begin with a small letter, all others with a capital one.
 PARTS = ("sensor", "actuator", "memory")
@@ -14,6 +17,8 @@ VERBS = (
     "rewards", "counts", "teaches",
 )  # fmt: skip
 SETTINGS = ("use", "master", "tick", "mind", "unit", "number")
+
+L = TypeVar("L", bound=Struct)
 
 
 class Name(Struct, frozen=True):
@@ -140,7 +145,8 @@ class When(Struct, frozen=True):
     @property
     def expressions(self) -> tuple[Expression, ...]:
         """Both sides of every comparison."""
-        return tuple(side for all_ in self.alternatives for each in all_ for side in (each.left, each.right))
+        compared = of_form((each for all_ in self.alternatives for each in all_), Comparison)
+        return tuple(side for each in compared for side in (each.left, each.right))
 
 
 class Gate(Struct, frozen=True):
@@ -164,33 +170,28 @@ class Reads(Struct, frozen=True):
     span: Span
 
 
-class Drives(Struct, frozen=True):
+class Sends(Struct, frozen=True):
+    """What a skill sends, and when."""
+
+    name: Name
+    at: Expression | None
+    gate: Gate | None
+    span: Span
+
+    @property
+    def expressions(self) -> tuple[Expression, ...]:
+        """All that it computes: its value, its condition and what it sends otherwise."""
+        return (*((self.at,) if self.at else ()), *(self.gate.expressions if self.gate else ()))
+
+
+class Drives(Sends, frozen=True):
     """`drives NAME [at EXPRESSION] [when CONDITION …]`"""
 
-    name: Name
-    at: Expression | None
-    gate: Gate | None
-    span: Span
 
-    @property
-    def expressions(self) -> tuple[Expression, ...]:
-        """All that it computes: its value, its condition and what it sends otherwise."""
-        return (*((self.at,) if self.at else ()), *(self.gate.expressions if self.gate else ()))
-
-
-class Influences(Struct, frozen=True):
+class Influences(Sends, frozen=True):
     """`influences NAME [at EXPRESSION] [when CONDITION …] [cuts below AMOUNT]`"""
 
-    name: Name
-    at: Expression | None
-    gate: Gate | None
-    cuts: Amount | None
-    span: Span
-
-    @property
-    def expressions(self) -> tuple[Expression, ...]:
-        """All that it computes: its value, its condition and what it sends otherwise."""
-        return (*((self.at,) if self.at else ()), *(self.gate.expressions if self.gate else ()))
+    cuts: Amount | None = None
 
 
 class Stays(Struct, frozen=True):
@@ -241,8 +242,8 @@ class Lasts(Struct, frozen=True):
     span: Span
 
 
-class Ends(Struct, frozen=True):
-    """`ends on [TIMES] EVENT` or `ends when CONDITION`"""
+class Outcome(Struct, frozen=True):
+    """What something is for: `on [TIMES] EVENT` or `when CONDITION`"""
 
     times: Amount | None
     event: Phrase | None
@@ -250,13 +251,12 @@ class Ends(Struct, frozen=True):
     span: Span
 
 
-class Succeeds(Struct, frozen=True):
-    """`succeeds on [TIMES] EVENT` or `succeeds when CONDITION`"""
+class Ends(Outcome, frozen=True):
+    """`ends OUTCOME`"""
 
-    times: Amount | None
-    event: Phrase | None
-    when: When | None
-    span: Span
+
+class Succeeds(Outcome, frozen=True):
+    """`succeeds OUTCOME`"""
 
 
 class Each(Struct, frozen=True):
@@ -305,14 +305,10 @@ class Teaches(Struct, frozen=True):
     span: Span
 
 
-class Stop(Struct, frozen=True):
-    """A line of a .break file: `stop on [TIMES] EVENT`, `stop when CONDITION` or `stop in tick TICK`."""
+class Stop(Outcome, frozen=True):
+    """A line of a .break file: `stop OUTCOME` or `stop in tick TICK`."""
 
-    times: Amount | None
-    event: Phrase | None
-    when: When | None
-    tick: Amount | None
-    span: Span
+    tick: Amount | None = None
 
 
 Fact = (
@@ -409,3 +405,36 @@ class File(Struct, frozen=True):
     source: Source
     settings: tuple[Setting, ...]
     declarations: tuple[Declaration, ...]
+
+
+def verb_of(fact: Fact) -> str:
+    """The word with which the line of a fact begins."""
+    return type(fact).__name__.lower()
+
+
+def of_form(lines: Iterable[Any], form: type[L]) -> list[L]:
+    """Those of some facts or settings that are of a form."""
+    return [line for line in lines if isinstance(line, form)]
+
+
+def walk(node: Any) -> Iterator[Any]:
+    """A node of a tree and all that it is made of, down to words and spans."""
+    yield node
+    if isinstance(node, Struct):
+        node = astuple(node)
+    if isinstance(node, tuple):
+        for part in node:
+            yield from walk(part)
+
+
+def rebuilt(node: Any, change: Callable[[Any], Any]) -> Any:
+    """A node with what `change` makes of its parts; what that returns as it was is looked into."""
+    new = change(node)
+    if new is not node:
+        return new
+    match node:
+        case tuple():
+            return tuple(rebuilt(part, change) for part in node)
+        case Struct():
+            return type(node)(*(rebuilt(part, change) for part in astuple(node)))
+    return node

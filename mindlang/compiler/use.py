@@ -3,15 +3,18 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Any
 
 from mindrun.errors import reason
 from mindrun.files.regular_files import read_regular
+from msgspec import structs
 
 from mindlang.compiler.diagnostic import Findings
-from mindlang.compiler.expand.aliases import under_alias
+from mindlang.compiler.names import gather
 from mindlang.compiler.parse import parse
+from mindlang.compiler.references import mentions
 from mindlang.compiler.source import MAX_SOURCE_BYTES, Source, decode, within
-from mindlang.compiler.syntax import File, Use
+from mindlang.compiler.syntax import Amount, File, Name, Use, rebuilt
 
 MAX_USE_DEPTH = 64
 
@@ -59,12 +62,13 @@ def _add(path: Path, source: Source, project: _Project) -> None:
 
 
 def _follow(use: Use, project: _Project) -> None:
-    target = _inside(use, project)
-    if "." in _alias(use):
-        hint = f"Write as {_alias(use).rpartition('.')[2]}."
+    target, alias = _inside(use, project), use.alias.text if use.alias else ""
+    known = project.files.get(target) if target else None
+    others = (file.source.name for file in project.files.values() if alias and file.source.alias == alias)
+    if "." in alias:
+        hint = f"Write as {alias.rpartition('.')[2]}."
         project.refuse("dotted-alias", use, "A file is used under one word, without a dot.", hint)
-        return
-    if target in project.open:
+    elif target in project.open:
         loop = [*project.open[project.open.index(target) :], target]
         names = " → ".join(path.relative_to(project.root).as_posix() for path in loop)
         hint = "Move what both need into a third file, and use that in both."
@@ -72,31 +76,15 @@ def _follow(use: Use, project: _Project) -> None:
     elif len(project.open) > MAX_USE_DEPTH:
         hint = f"Files may use one another {MAX_USE_DEPTH} deep; use this one from nearer to the top."
         project.refuse("use-too-deep", use, "Files use one another too deep.", hint)
-    elif target and target in project.files:
-        _check_alias(project.files[target].source, use, project)
-    elif other := _other_of_alias(use, project):
-        hint = f"Use {use.path} as another word."
-        project.refuse("taken-alias", use, f"{other} is used as {_alias(use)} already.", hint)
+    elif known:
+        if known.source.alias != alias:  # its declarations would have two names
+            said = f"as {known.source.alias}" if known.source.alias else "without as"
+            message = f"{use.path} is used {said} already, and has one name."
+            project.refuse("other-alias", use, message, f"Use it {said} here, too.")
+    elif other := next(others, ""):
+        project.refuse("taken-alias", use, f"{other} is used as {alias} already.", f"Use {use.path} as another word.")
     elif target:
-        _read(target, use, project)
-
-
-def _check_alias(source: Source, use: Use, project: _Project) -> None:
-    """Report a file whose declarations would have two names."""
-    if source.alias != _alias(use):
-        known = f"as {source.alias}" if source.alias else "without as"
-        message = f"{use.path} is used {known} already, and has one name."
-        project.refuse("other-alias", use, message, f"Use it {known} here, too.")
-
-
-def _other_of_alias(use: Use, project: _Project) -> str:
-    """The file that has this alias already."""
-    named = (file.source for file in project.files.values() if _alias(use) and file.source.alias == _alias(use))
-    return next((source.name for source in named), "")
-
-
-def _alias(use: Use) -> str:
-    return use.alias.text if use.alias else ""
+        _read(target, alias, use, project)
 
 
 def _inside(use: Use, project: _Project) -> Path | None:
@@ -112,12 +100,12 @@ def _inside(use: Use, project: _Project) -> Path | None:
     return None
 
 
-def _read(target: Path, use: Use, project: _Project) -> None:
+def _read(target: Path, alias: str, use: Use, project: _Project) -> None:
     name = Path(use.span.source.name).parent.joinpath(use.path).as_posix()
     try:
         text = project.texts.get(target)
         source = read(target, name) if text is None else Source(name, within(text), target.parent)
-        source = replace(source, alias=_alias(use))
+        source = replace(source, alias=alias)
     except (OSError, RuntimeError) as error:  # a loop of links is a RuntimeError
         hint = "The path is relative to the file in which it stands."
         project.refuse("unreadable-use", use, f"{use.path} cannot be read: {reason(error)}.", hint)
@@ -125,3 +113,22 @@ def _read(target: Path, use: Use, project: _Project) -> None:
         project.refuse("unreadable-use", use, f"{use.path} {error}.", "Use a .mind file.")
     else:
         _add(target, source, project)
+
+
+def under_alias(file: File) -> File:
+    """The file with the names that it declares as other files say them, `walls.Grab`; itself where it has no alias."""
+    if not file.source.alias:
+        return file
+    names = gather([file], Findings())
+    own = {mention.name.span for mention in mentions([file], names) if mention.noun != "thing"}
+
+    def renamed(node: Any) -> Any:
+        match node:
+            case Name(text, span) if span in own:
+                return Name(f"{file.source.alias}.{text}", span)
+            case Amount(name=name) if name and node.constant.span in own:
+                return structs.replace(node, name=f"{file.source.alias}.{name}")
+        return node
+
+    found: File = rebuilt(file, renamed)
+    return found

@@ -1,20 +1,27 @@
-"""An edit carried out in memory: the texts as they become, held against the compiler, and the locks that follow."""
+"""An edit carried out in memory, and written: sources, locks and weights together or not at all.
+
+The texts as they become are held against the compiler, and the locks follow. Nothing is written over what somebody
+else has written meanwhile.
+"""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from mindrun.files.npy import to_npy
+from mindrun.files.regular_files import read_regular
 from mindrun.graph.graph import Graph
 from mindrun.terminal.command_line import command_line
 
 from mindlang.compiler.compile import Compiled, compile_source, load
 from mindlang.compiler.diagnostic import Diagnostic
-from mindlang.compiler.source import Span
+from mindlang.compiler.source import MAX_SOURCE_BYTES, Span, decode, encoded
 from mindlang.compiler.splice import spliced
-from mindlang.editing.graph_names import Name, NounNames, now_called, renamed
+from mindlang.editing import transaction
 from mindlang.editing.lock_update import Locks, UpdatedLocks, locks_of, new_names, update_locks
 from mindlang.editing.project import EditError, MindChange, Project
-from mindlang.lock import LockError
+from mindlang.editing.world_names import now_called, renamed
+from mindlang.lock import LockError, lock_text
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,12 +48,17 @@ class Edited:
     @property
     def old_texts(self) -> dict[Path, str]:
         """The texts of all files, those of the neighbours too."""
-        return {path: file.source.text for each in _all(self.project) for path, file in each.paths.items()}
+        return {path: text for mind in reversed(self.project.minds) for path, text in mind.texts.items()}
 
     @property
     def sources(self) -> list[Path]:
         """The files of the mind afterwards, main one first."""
         return [*self.project.taught, *self.change.created]
+
+    @property
+    def changed_locks(self) -> list[Path]:
+        """The locks that it changes."""
+        return [path for path, lock in self.followed.locks.items() if lock != self.locks[path]]
 
 
 def apply_edit(project: Project, change: MindChange, keep_weights: bool) -> Edited:
@@ -70,10 +82,6 @@ def apply_edit(project: Project, change: MindChange, keep_weights: bool) -> Edit
     return Edited(project, change, texts, graph, tuple(beside), locks, followed)
 
 
-def _all(project: Project) -> tuple[Project, ...]:
-    return (*project.neighbours, project)
-
-
 def _concerned(project: Project, change: MindChange) -> list[Project]:
     """The neighbours that an edit concerns: those to which a new name is none are left alone."""
     sharing = [set(map(id, project.sharing(rename.noun, rename.old))) for rename in change.renamed]
@@ -95,13 +103,10 @@ def _refuse_under_alias(change: MindChange) -> None:
 def _refuse_captured(project: Project, change: MindChange, graph: Graph) -> None:
     """EditError where a rename makes a line mean something else: the new name is that of something else there."""
     names = new_names(change)
-    if any(names.values()) and renamed(project.graph, _called(names)) != renamed(graph, _called({})):
+    meant = renamed(project.graph, lambda text, *nouns: now_called(text, names, *nouns))
+    if any(names.values()) and meant != renamed(graph, lambda text, *nouns: text):
         old, new = change.renamed[0].old, change.renamed[0].new
         raise EditError(f"If {old} is called {new}, a line means something else.", "Choose another name.")
-
-
-def _called(names: NounNames) -> Name:
-    return lambda text, *nouns: now_called(text, names, *nouns)
 
 
 def _texts(change: MindChange) -> dict[Path, str]:
@@ -112,7 +117,7 @@ def _texts(change: MindChange) -> dict[Path, str]:
 
 def _compiled(project: Project, texts: dict[Path, str]) -> Graph:
     """What the files of a project come to with these texts; EditError where they do not compile."""
-    now = _texts_of(project) | texts
+    now = project.texts | texts
     main = project.main.source
     compiled = compile_source(replace(main, text=now[main.path]), main.path, now)
     if worst := _new_mistake(project, compiled):
@@ -127,13 +132,9 @@ def _new_mistake(project: Project, edited: Compiled) -> Diagnostic | None:
     """The first error that was not there before: what was wrong with a procedure may stay so."""
     errors = [each for each in edited.diagnostics if each.severity == "error"]
     main = project.main.source
-    before = compile_source(main, main.path, _texts_of(project)).diagnostics if errors else ()
+    before = compile_source(main, main.path, project.texts).diagnostics if errors else ()
     known = {each.message for each in before}
     return next((each for each in errors if each.message not in known), None)
-
-
-def _texts_of(project: Project) -> dict[Path, str]:
-    return {path: file.source.text for path, file in project.paths.items()}
 
 
 def _as_edited(diagnostic: Diagnostic) -> Diagnostic:
@@ -144,3 +145,33 @@ def _as_edited(diagnostic: Diagnostic) -> Diagnostic:
 
     labels = tuple(replace(label, span=named(label.span)) for label in diagnostic.labels)
     return replace(diagnostic, span=diagnostic.span and named(diagnostic.span), labels=labels)
+
+
+def write(edited: Edited) -> None:
+    """Write what an edit changes; MindError where that fails."""
+    locks = {path: edited.followed.locks[path] for path in edited.changed_locks}
+    files: dict[Path, bytes | None] = {path: to_npy(weights) for path, weights in edited.followed.weights.items()}
+    files |= {path: lock_text(lock).encode() for path, lock in locks.items()}
+    files |= {path: encoded(path, text) for path, text in edited.texts.items()}
+    with transaction.no_training(files):
+        folder = transaction.common_folder(files)
+        transaction.change(folder, files, lambda: _refuse_changed(edited), keeps=True)
+
+
+def _refuse_changed(edited: Edited) -> None:
+    """EditError where something is not as it was read: another edit, a training or an editor has written it since."""
+    old = edited.old_texts
+    for path in old.keys() & edited.texts.keys():
+        if path.is_symlink() or not path.is_file():
+            raise EditError(f"There is no file {path} that could be written.", "Edit the file to which a link leads.")
+    changed = [path for path in (*old, *edited.texts) if _read(path) != old.get(path)]
+    changed += [path for path, lock in edited.locks.items() if locks_of([path])[path] != lock]
+    for path in changed:
+        raise EditError(f"{path.name} has been changed meanwhile.", "Try again: nothing has been written.")
+
+
+def _read(path: Path) -> str | None:
+    try:
+        return decode(read_regular(path, MAX_SOURCE_BYTES + 1))
+    except (FileNotFoundError, ValueError):
+        return None

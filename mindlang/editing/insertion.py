@@ -1,9 +1,10 @@
-"""Where facts and declarations are inserted: below others of their kind, with the comments that belong to them."""
+"""Splices of whole lines: facts and declarations below others of their kind, with the comments that belong to them."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from itertools import takewhile
 
-from mindlang.compiler.source import Span
+from mindlang.compiler.source import Source, Span
 from mindlang.compiler.splice import Splice
 from mindlang.compiler.syntax import (
     PARTS,
@@ -27,15 +28,6 @@ from mindlang.compiler.syntax import (
     Use,
     Varies,
 )
-from mindlang.editing.lines import (
-    SourceLine,
-    first_line,
-    insert_above,
-    insert_below,
-    newline,
-    remove_lines,
-    replace_line,
-)
 
 INDENT = "  "
 NOUNS = ("body", "actuator", "sensor", "memory", "skill", "scene", "task", "curriculum")  # in the order of a file
@@ -43,7 +35,104 @@ FACTS: tuple[type[Fact], ...] = (
     Contains, Starts, Varies, Fails, Lasts, Ends, Succeeds, Reads, Drives, Influences, Stays, Rewards, Counts, Teaches,
 )  # fmt: skip
 
+OWNERS = {  # below which declarations the facts of each verb stand
+    "skill": ("reads", "drives", "influences", "stays"),
+    "task": ("lasts", "ends", "succeeds", "rewards", "counts", "contains", "starts", "varies", "fails"),
+    "scene": ("contains", "starts", "varies", "fails"),
+    "curriculum": ("teaches",),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class SourceLine:
+    """A line of a source, from offset `start` up to `end`, without its line end."""
+
+    source: Source
+    start: int
+    end: int
+
+    @property
+    def text(self) -> str:
+        """What stands on it, comment and indentation included."""
+        return self.source.text[self.start : self.end]
+
+    @property
+    def indent(self) -> str:
+        """The blanks with which it begins."""
+        return self.text[: len(self.text) - len(self.text.lstrip())]
+
+    @property
+    def is_blank(self) -> bool:
+        """Whether nothing stands on it."""
+        return not self.text.strip()
+
+    @property
+    def is_comment(self) -> bool:
+        """Whether only a comment stands on it."""
+        return self.text.lstrip().startswith("#")
+
+    def above(self) -> Iterator["SourceLine"]:
+        """The lines above, from this one up."""
+        line = self
+        while line.start:
+            line = _line_at(self.source, line.start - 1)
+            yield line
+
+    def below(self) -> Iterator["SourceLine"]:
+        """The lines below, from this one down."""
+        line = self
+        while (start := self.source.text.find("\n", line.end) + 1) and start < len(self.source.text):
+            line = _line_at(self.source, start)
+            yield line
+
+
+def first_line(span: Span) -> SourceLine:
+    """The line in which a span begins."""
+    return _line_at(span.source, span.start)
+
+
+def newline(source: Source) -> str:
+    """How lines end in a source."""
+    return "\r\n" if "\r\n" in source.text else "\n"
+
+
+def insert_below(line: SourceLine, texts: Iterable[str]) -> Splice:
+    """Lines below a line; where that is the last one and has no line end, the new last one has none."""
+    return Splice(line.source, line.end, line.end, newline(line.source).join(["", *texts]))
+
+
+def insert_above(line: SourceLine, text: str) -> Splice:
+    """A line above a line."""
+    return Splice(line.source, line.start, line.start, text + newline(line.source))
+
+
+def replace_line(line: SourceLine, texts: Iterable[str]) -> Splice:
+    """Other lines in the place of one."""
+    return Splice(line.source, line.start, line.end, newline(line.source).join(texts))
+
+
+def remove_lines(first: SourceLine, last: SourceLine) -> Splice:
+    """Lines taken out with the line end before them; the first of a source with what is blank below them."""
+    if above := next(first.above(), None):
+        return Splice(first.source, above.end, last.end, "")
+    below = next((line for line in last.below() if not line.is_blank), None)
+    return Splice(first.source, 0, below.start if below else len(first.source.text), "")
+
+
+def _line_at(source: Source, offset: int) -> SourceLine:
+    text = source.text
+    start, end = text.rfind("\n", 0, offset) + 1, text.find("\n", offset)
+    end = len(text) if end < 0 else end
+    return SourceLine(source, start, end - text[start:end].endswith("\r"))
+
+
 Extent = tuple[SourceLine, SourceLine]  # the first and the last line
+
+
+def owners(fact: str) -> tuple[str, ...]:
+    """The nouns below which a fact of this verb may stand; none where it begins with no verb."""
+    verb = fact.partition(" ")[0]
+    return tuple(noun for noun, verbs in OWNERS.items() if verb in verbs)
 
 
 def instead(span: Span, text: str) -> Splice:

@@ -1,4 +1,4 @@
-"""Updates locks after an edit: trained weights follow renamed, replaced and widened skills."""
+"""Updates locks after an edit: trained weights follow skills that were renamed, replaced, unshared or widened."""
 
 from __future__ import annotations
 
@@ -7,13 +7,16 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from mindrun.graph.graph import Graph
+from mindrun.graph.graph import Graph, Skill
+from mindrun.graph.skill_sets import owners, reachable
 
-from mindlang.editing.project import MindChange, Replaced
-from mindlang.editing.unshared import with_copy
-from mindlang.editing.widen import widen_locks
+from mindlang.editing.project import EditError, MindChange, Replaced, Unshared
 from mindlang.editing.world_names import Renaming
-from mindlang.lock import Entry, Lock, lock_path, read_lock
+from mindlang.lock import Entry, Lock, Signature, lock_path, read_lock
+from mindlang.lock.blobs import blob, digest, load_weights
+from mindlang.lock.signature import signature, width
+from mindlang.lock.status import Stale, Trained, status
+from mindlang.lock.training_world import TrainingWorld
 
 if TYPE_CHECKING:
     from mindrun.numbers.arrays import Weights
@@ -63,12 +66,8 @@ def update_locks(
         own = {skill.name for skill in before.skills} - {change.replaced.new}
         kept = {path: _moved(lock, change.replaced, own) for path, lock in kept.items()}
     if change.unshared:
-        kept = {path: with_copy(lock, change.unshared, after) for path, lock in kept.items()}
-    return (
-        UpdatedLocks(*widen_locks(locks, kept, names["skill"], before, after))
-        if keep_weights
-        else UpdatedLocks(kept, {})
-    )
+        kept = {path: _with_copy(lock, change.unshared, after) for path, lock in kept.items()}
+    return _widened(locks, kept, names["skill"], before, after) if keep_weights else UpdatedLocks(kept, {})
 
 
 def new_names(change: MindChange) -> dict[str, dict[str, str]]:
@@ -116,9 +115,106 @@ def _entry(entry: Entry, renaming: Renaming) -> Entry:
 
 def _moved(lock: Lock, replaced: Replaced, parents: Set[str]) -> dict[str, Entry]:
     """A lock in which those of `parents` that influenced a skill influence the one that has taken its place."""
-    return {name: _moved_entry(entry, replaced) if name in parents else entry for name, entry in lock.items()}
+
+    def moved(entry: Entry) -> Entry:
+        sends = (replaced.new if name == replaced.old else name for name in entry.signature.sends)
+        return replace(entry, signature=replace(entry.signature, sends=tuple(sends)))
+
+    return {name: moved(entry) if name in parents else entry for name, entry in lock.items()}
 
 
-def _moved_entry(entry: Entry, replaced: Replaced) -> Entry:
-    sends = (replaced.new if name == replaced.old else name for name in entry.signature.sends)
-    return replace(entry, signature=replace(entry.signature, sends=tuple(sends)))
+def _with_copy(lock: Lock, unshared: Unshared, graph: Graph) -> dict[str, Entry]:
+    """A lock with a copy of the owner's line, where it has one, for a skill that has weights of its own now.
+
+    Who was taught with the shared weights was taught with the copy, which does the same; `graph` is the mind after the
+    edit.
+    """
+    found = {name: _beside(entry, unshared, graph) for name, entry in lock.items()}
+    if unshared.owner in lock:
+        owned = found[unshared.owner]
+        reads = (text.partition(":") for text in owned.signature.reads)
+        own = tuple(f"{unshared.instead.get(name, name)}{colon}{wide}" for name, colon, wide in reads)
+        found[unshared.skill] = replace(owned, skill=unshared.skill, signature=replace(owned.signature, reads=own))
+    return found
+
+
+def _beside(entry: Entry, unshared: Unshared, graph: Graph) -> Entry:
+    """A line of a skill that may have been taught with the shared weights."""
+    shared = dict(entry.subskills).get(unshared.owner)
+    worlds = tuple(_without_likeness(world, unshared.skill) for world in entry.worlds)
+    if entry.skill not in graph.skill_numbers or not shared:
+        return replace(entry, worlds=worlds)
+    below = owners(reachable(graph, entry.skill))
+    beside = dict(entry.subskills) | ({unshared.skill: shared} if unshared.skill in below else {})
+    if unshared.owner not in below:
+        del beside[unshared.owner]
+    return replace(entry, worlds=worlds, subskills=tuple(sorted(beside.items())))
+
+
+def _without_likeness(world: TrainingWorld, skill: str) -> TrainingWorld:
+    """A training world in which a skill that was like another says of itself what it does."""
+    fact = world.facts.get(f"skill {skill}", {})
+    return TrainingWorld({**world.facts, f"skill {skill}": {"sends": fact["sends"]}}) if "like" in fact else world
+
+
+def _widened(locks: Locks, kept: Locks, new_names: Mapping[str, str], before: Graph, after: Graph) -> UpdatedLocks:
+    """The locks `kept` with weights of zero for whatever a skill reads or influences beside what it was taught with.
+
+    `locks` are those before the edit. EditError where a skill that was trained cannot go on.
+    """
+    weights: dict[Path, Weights] = {}
+    hashes: dict[tuple[str, str], str] = {}
+    wide: dict[Path, dict[str, Entry]] = {}
+    old, new = ({skill.name: skill for skill in graph.skills} for graph in (before, after))
+    for path, lock in kept.items():
+        wide[path] = dict(lock)
+        fitted = {
+            new_names.get(name, name): old[name]
+            for name, state in status(before, locks[path]).items()
+            if isinstance(state, Trained)
+        }
+        for name, state in status(after, lock).items():
+            if isinstance(state, Stale) and name in fitted and not new[name].like:
+                if (found := _wide(lock[name], fitted[name], after, new[name])) is None:
+                    message = f"{name} cannot keep its weights: {'; '.join(state.differences)}."
+                    raise EditError(message, "Leave --keep-weights out, and teach it again after the edit.")
+                wide[path][name], made = found
+                hashes[name, lock[name].weights] = wide[path][name].weights
+                weights[blob(path.parent, wide[path][name].weights)] = made
+    return UpdatedLocks({path: _taught_with(lock, hashes) for path, lock in wide.items()}, weights)
+
+
+def _taught_with(lock: Lock, hashes: Mapping[tuple[str, str], str]) -> dict[str, Entry]:
+    """Widened subskills do the same as before: a skill that was taught with them still is."""
+    return {
+        name: replace(
+            entry,
+            subskills=tuple((sub, hashes.get((sub, old), old)) for sub, old in entry.subskills),
+            origin=entry.origin and (entry.origin[0], hashes.get(entry.origin, entry.origin[1])),
+        )
+        for name, entry in lock.items()
+    }
+
+
+def _wide(entry: Entry, old: Skill, graph: Graph, new: Skill) -> tuple[Entry, Weights] | None:
+    """An entry, and its weights, for a skill that reads and influences more; None where it is not that alone.
+
+    What is new has weights of zero, so the outputs are the same to the bit: a sum that zeros stand in is the same
+    sum, and an output of zero is no influence. It is a command, though, and would be averaged: a skill that drives more
+    has no weights that do the same.
+    """
+    was, now = entry.signature, signature(graph, new)
+    if not (set(was.reads) <= set(now.reads) and set(was.sends) <= set(now.sends)):
+        return None
+    reads, sends = (
+        (*before, *(name for name in after if name not in before))
+        for before, after in ((was.reads, now.reads), (was.sends, now.sends))
+    )
+    influenced = {graph.named("skill", edge.target) for edge in new.edges if edge.to == "skill"}
+    if not set(sends[len(was.sends) :]) <= influenced or type(old.function) is not type(new.function):
+        return None
+    before, after = (sum(map(width, was.reads)), len(was.sends)), (sum(map(width, reads)), len(sends))
+    weights = old.function.widened(load_weights(entry, old), before, new.function, after)
+    if weights is None:
+        return None
+    return replace(entry, signature=Signature(now.function, reads, sends), weights=digest(weights)), weights

@@ -11,18 +11,33 @@ from mindrun.kinds.functions.function import Function
 from mindrun.kinds.registry import kinds
 
 from mindlang.compiler.compile import Compiled
-from mindlang.compiler.diagnostic import Diagnostic, Label, a, did_you_mean, listed
+from mindlang.compiler.diagnostic import Diagnostic, Findings, Label, a, did_you_mean, listed
 from mindlang.compiler.model import Mind
 from mindlang.compiler.names import SHARED, Names
+from mindlang.compiler.parse import parse
+from mindlang.compiler.parse.explain import proper
 from mindlang.compiler.references import VALUE_NOUNS, Mention, mentions
-from mindlang.compiler.source import Span
+from mindlang.compiler.source import Source, Span
 from mindlang.compiler.splice import Splice
-from mindlang.compiler.syntax import NOUNS, Declaration, Drives, Fact, File, Influences, Master, Reads
+from mindlang.compiler.syntax import (
+    NOUNS,
+    PARTS,
+    Contains,
+    Declaration,
+    Drives,
+    Fact,
+    File,
+    Influences,
+    Master,
+    Number,
+    Reads,
+)
 from mindlang.editing.neighbours import neighbours
 from mindlang.lock import lock_sources
 
 F = TypeVar("F", bound=Fact)
 MAX_SUGGESTED_NAMES = 8  # names in a message
+EXAMPLES = dict.fromkeys((*PARTS, "thing", "number"), "left_wheel")  # of the other nouns it is GoThere
 
 
 class EditError(MindError):
@@ -77,6 +92,11 @@ class Project:
     mind: Mind
     graph: Graph
     neighbours: tuple["Project", ...] = ()
+
+    @property
+    def minds(self) -> tuple["Project", ...]:
+        """The mind and its neighbours."""
+        return (self, *self.neighbours)
 
     @property
     def names(self) -> Names:
@@ -156,6 +176,11 @@ class Project:
         return {file.source.path: file for file in self.files}
 
     @property
+    def texts(self) -> dict[Path, str]:
+        """The texts of the files by their paths."""
+        return {path: file.source.text for path, file in self.paths.items()}
+
+    @property
     def taught(self) -> list[Path]:
         """The files whose locks tell of the skills of this mind."""
         return lock_sources(file.source for file in self.files)
@@ -202,11 +227,12 @@ class Project:
 
 def open_project(compiled: Compiled) -> Project:
     """The project of a file that compiled, with its neighbours."""
-    alone = _project(compiled)
-    return replace(alone, neighbours=tuple(map(_project, neighbours(tuple(alone.paths)))))
+    alone = project_alone(compiled)
+    return replace(alone, neighbours=tuple(map(project_alone, neighbours(tuple(alone.paths)))))
 
 
-def _project(compiled: Compiled) -> Project:
+def project_alone(compiled: Compiled) -> Project:
+    """The project of a file that compiled, without its neighbours."""
     assert compiled.mind is not None
     assert compiled.graph is not None
     return Project(compiled.mind, compiled.graph)
@@ -244,3 +270,29 @@ def refuse_no_noun(word: str, nouns: Sequence[str]) -> None:
     """EditError where a word is none of the nouns."""
     if word not in nouns:
         raise EditError(f"{word} is no noun.", did_you_mean(word, nouns) or f"The nouns are {listed(nouns, 'and')}.")
+
+
+def refuse_misnamed(noun: str, name: str) -> None:
+    """EditError where the grammar takes a text for no name of a noun."""
+    if not _is_name(noun, name):
+        better = proper("sensor" if noun in ("thing", "number") else noun, name)
+        hint = f"Write {better}." if _is_name(noun, better) else f"Write for example {EXAMPLES.get(noun, 'GoThere')}."
+        raise EditError(f"{name} cannot be the name of {a(noun)}.", hint)
+
+
+def refuse_lines(text: str) -> None:
+    """EditError where a text would be more than a part of a line."""
+    if "\n" in text or "#" in text:
+        raise EditError("This is more than a part of a line.", "Add lines and comments with: mindc edit add")
+
+
+def _is_name(noun: str, name: str) -> bool:
+    """Whether a line that gives this name can be read, and gives this and no other."""
+    line = f"contains {name} is item" if noun == "thing" else f"{noun} {name} {'in' if noun == 'task' else 'is'} kind"
+    findings = Findings()
+    if noun == "number":
+        read = parse(Source("name", f"number {name} is 1"), findings).settings
+        return not findings.diagnostics and [each.name.text for each in read if isinstance(each, Number)] == [name]
+    task, *others = parse(Source("name", f"task Task in plain\n{line}"), findings).declarations
+    names = [other.header.name for other in others] or [fact.name for fact in facts(task, Contains)]
+    return not findings.diagnostics and [known.text for known in names] == [name]

@@ -12,7 +12,7 @@ from mindlang.editing.apply import Edited, EditedNeighbour
 from mindlang.editing.lock_update import Locks, merged
 from mindlang.editing.unified_diff import unified
 from mindlang.files import files_beside, text_of, within_read_limits
-from mindlang.lock.arrange import arrange
+from mindlang.lock.signature import arrange
 from mindlang.lock.status import Stale, Status, Trained, Untaught, status
 
 Statuses = Mapping[str, Status]

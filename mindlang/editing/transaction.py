@@ -5,14 +5,13 @@ whose process was killed while it wrote, the note is there, and `mindc edit undo
 """
 
 import errno
-import json
-from base64 import b64decode, b64encode
-from collections.abc import Callable, Mapping
-from contextlib import ExitStack
-from dataclasses import dataclass
+import os
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import ExitStack, contextmanager
 from hashlib import sha256
 from pathlib import Path
 
+import msgspec
 from mindrun.errors import MindError
 from mindrun.files.atomic_write import exchange, exclusive_access, write
 from mindrun.files.regular_files import read_whole
@@ -30,8 +29,7 @@ class TransactionError(MindError):
     """Files that cannot be written, or put back."""
 
 
-@dataclass(frozen=True, slots=True)
-class _Noted:
+class _Noted(msgspec.Struct, frozen=True):
     """What a file was, and a hash of what it is going to be; None and "" where there is none."""
 
     was: bytes | None
@@ -58,6 +56,20 @@ def change(folder: Path, files: Files, check: Callable[[], None] = lambda: None,
             raise TransactionError(f"{error.filename or folder} cannot be written: {error.strerror}") from error
 
 
+@contextmanager
+def no_training(files: Iterable[Path]) -> Iterator[None]:
+    """Let no training write what it has taught into those of these files that are locks."""
+    with ExitStack() as stack:
+        for weights in sorted({path.parent / FOLDER for path in files if path.suffix == ".lock"}):
+            stack.enter_context(exclusive_folder(weights))
+        yield
+
+
+def common_folder(files: Iterable[Path]) -> Path:
+    """The folder in which all files lie, or below."""
+    return Path(os.path.commonpath([path.parent for path in files]))
+
+
 def noted_in(folder: Path) -> Path | None:
     """The folder, or the nearest above it, in which an edit was written last; None where none was."""
     return next((each for each in (folder, *folder.parents) if (each / UNDO_NAME).is_file()), None)
@@ -70,9 +82,7 @@ def undo(folder: Path) -> tuple[Files, Files]:
     """
     files = _before(folder)
     now = {path: _get(path) for path in files}
-    with ExitStack() as stack:
-        for weights in sorted({path.parent / FOLDER for path in files if path.suffix == ".lock"}):
-            stack.enter_context(exclusive_folder(weights))  # a training may keep what it has taught just now
+    with no_training(files):
         change(folder, files, lambda: _refuse_changed(folder, files))
     (folder / UNDO_NAME).unlink(missing_ok=True)
     return now, files
@@ -131,24 +141,18 @@ def _exchange(path: Path, data: bytes | None, was: bytes | None) -> None:
 
 
 def _note(folder: Path, files: Files, were: Files) -> bytes:
-    plain = {
-        path.relative_to(folder).as_posix(): {"was": _packed(were[path]), "becomes": _hash(data)}
-        for path, data in files.items()
-    }
-    return json.dumps(plain).encode()
+    noted = {path.relative_to(folder).as_posix(): _Noted(were[path], _hash(data)) for path, data in files.items()}
+    return msgspec.json.encode(noted)
 
 
 def _read(note: Path) -> dict[Path, _Noted]:
     """What a note says; TransactionError where it is none that mindc wrote."""
     try:
-        plain = json.loads(read_whole(note, MAX_FILE_BYTES))
-        return {
-            _inside(note.parent, path): _Noted(_unpacked(told["was"]), str(told["becomes"]))
-            for path, told in plain.items()
-        }
+        noted = msgspec.json.decode(read_whole(note, MAX_FILE_BYTES), type=dict[str, _Noted])
+        return {_inside(note.parent, path): each for path, each in noted.items()}
     except OSError as error:
         raise TransactionError(f"{note} cannot be read: {error.strerror}", "delete it") from error
-    except (ValueError, TypeError, KeyError, AttributeError, RuntimeError) as error:
+    except (msgspec.MsgspecError, ValueError, RuntimeError) as error:
         # a RuntimeError is of what nests too deep, or of links in a circle
         raise TransactionError(f"{note} is not what mindc wrote", "delete it") from error
 
@@ -177,11 +181,3 @@ def _get(path: Path) -> bytes | None:
 
 def _hash(data: bytes | None) -> str:
     return "" if data is None else sha256(data).hexdigest()
-
-
-def _packed(data: bytes | None) -> str | None:
-    return None if data is None else b64encode(data).decode()
-
-
-def _unpacked(text: str | None) -> bytes | None:
-    return None if text is None else b64decode(text, validate=True)

@@ -17,12 +17,12 @@ from numpy.typing import NDArray
 
 from mindlang.compiler.references import READABLE_NOUNS
 from mindlang.editing.apply import Edited
-from mindlang.editing.graph_names import NounNames, now_called
 from mindlang.editing.lock_update import merged, new_names
 from mindlang.editing.project import EditError
+from mindlang.editing.world_names import NounNames, now_called
 from mindlang.lock import Lock
-from mindlang.lock.arrange import arrange
 from mindlang.lock.blobs import blob, load_weights
+from mindlang.lock.signature import arrange
 from mindlang.lock.status import Trained, status
 
 VERIFIED_TICKS = 2000  # of a run that is recorded

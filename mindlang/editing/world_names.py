@@ -1,4 +1,4 @@
-"""Renames inside of a training world: the facts of a lock after sensors, tasks or skills have been renamed.
+"""A compiled mind with other names, and the facts of a training world after sensors, tasks or skills were renamed.
 
 A fact is renamed as the mind says it now, whatever its sentence looks like: the worlds of the mind are made once more
 with a mark for each renamed name, and say of every text what it was and what it becomes. Only what the mind does not
@@ -7,13 +7,28 @@ say any more is read as a line of the language.
 
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import Field, dataclass, fields, is_dataclass, replace
 from functools import cached_property
 from itertools import count
-from typing import Any, cast
+from typing import Any, TypeVar, cast
 
 from lark import UnexpectedInput
-from mindrun.graph.graph import Graph
+from mindrun.graph.graph import (
+    Actuator,
+    End,
+    Failure,
+    Graph,
+    Lesson,
+    Memory,
+    Reward,
+    Sensor,
+    Skill,
+    Task,
+    Thing,
+    Variation,
+)
+from mindrun.kinds.registry import arguments, names
+from mindrun.numbers.quantity import EXPRESSION, SENSOR, THING
 
 from mindlang.compiler.names import Names
 from mindlang.compiler.parse.shape import parse_line
@@ -21,10 +36,25 @@ from mindlang.compiler.references import READABLE_NOUNS, names_in
 from mindlang.compiler.source import Source
 from mindlang.compiler.splice import spliced
 from mindlang.compiler.syntax import Declaration, Fact
-from mindlang.editing.graph_names import NounNames, now_called, renamed
 from mindlang.editing.insertion import instead
 from mindlang.lock.training_world import TrainingWorld
 from mindlang.lock.world_facts import Worlds
+
+T = TypeVar("T")
+Name = Callable[..., str]  # what a name is called that may be of these nouns
+NounNames = Mapping[str, Mapping[str, str]]  # what is called otherwise now, by noun
+
+NAMED: Mapping[type, Mapping[str, str]] = {
+    Graph: {"master": "skill"},
+    Sensor: {"name": "sensor"},
+    Memory: {"name": "memory"},
+    Actuator: {"name": "actuator"},
+    Skill: {"name": "skill", "like": "skill"},
+    Thing: {"name": "thing"},
+    Task: {"name": "task"},
+    Failure: {"actuator": "actuator"},
+    Lesson: {"curriculum": "curriculum", "skill": "skill", "task": "task", "master": "skill", "starts_from": "skill"},
+}  # the nouns of the fields that are names
 
 Role = tuple[str | int, ...]  # where a text stands: the noun of its fact, and the keys and numbers that lead to it
 _MARK = re.compile("\0([0-9]+)\0")  # no name has such a character
@@ -148,3 +178,36 @@ def _mapped(value: Any, role: Role, text: Callable[[Role, str], str]) -> Any:
                 for part in value
             ]
     return value
+
+
+def now_called(name: str, names: NounNames, *nouns: str) -> str:
+    """The new name of something with one of these nouns; the old one where it was not renamed."""
+    return next((names[noun][name] for noun in nouns if name in names.get(noun, {})), name)
+
+
+def renamed(node: T, name: Name) -> T:
+    """A graph, or a part of one, with the names that `name(TEXT, *NOUNS)` gives, without texts as they were written."""
+    if isinstance(node, tuple):
+        return tuple(renamed(each, name) for each in node)  # type: ignore[return-value]
+    if not is_dataclass(node) or isinstance(node, type):
+        return node
+    return replace(node, **{field.name: _value(node, field, name) for field in fields(node)})
+
+
+def _value(node: Any, field: Field[Any], name: Name) -> Any:
+    value = getattr(node, field.name)
+    if isinstance(node, Reward | End) and field.name == "text":
+        return ""
+    if isinstance(node, Variation) and field.name == "of":
+        return name(value, node.noun)
+    if noun := NAMED.get(type(node), {}).get(field.name):
+        return name(value, noun)
+    taken = arguments(type(node)) if type(node) in names() else ()
+    match next((each.type for each in taken if each.field == field.name), None):
+        case found if found == THING:
+            return name(value, "thing")
+        case found if found == SENSOR:
+            return name(value, *READABLE_NOUNS)
+        case found if found == EXPRESSION:
+            return tuple((word, name(x, *READABLE_NOUNS) if isinstance(x, str) else x) for word, x in value)
+    return renamed(value, name)

@@ -2,12 +2,12 @@
 
 import numpy as np
 
-from mindlang.environments.agent import Agent
-from mindlang.pictures.canvas import Canvas, Image, Viewport, blank
-from mindlang.pictures.film_images import half_window
-from mindlang.pictures.names import draw_names
+from mindlang.environments.episodes import Agent
+from mindlang.pictures.canvas import Image
+from mindlang.pictures.film_images import empty_window, half_window, window
+from mindlang.pictures.labels import draw_names
 from mindlang.pictures.robot import draw_robot
-from mindlang.pictures.scene import draw_floor, draw_items, draw_zones
+from mindlang.pictures.scene import draw_items, draw_zones
 from mindlang.pictures.theme import NIGHT
 from mindlang.run.recorded_run import RecordedRun
 
@@ -18,17 +18,12 @@ SHOWN_TICK = 1  # of a run that has one
 def image_of(agent: Agent, lane: int) -> Image:
     """What the robot of a lane is in, [height, width, 3] as red, green, blue."""
     run = _as_run(agent, lane)
-    half = np.array(half_window(run))
-    width, height = (max(1, round(IMAGE_PIXELS * side / half.max())) for side in half.tolist())
-    middle = run.body[SHOWN_TICK, :2] * (not run.task.scene.is_bounded)
-    image = blank(width, height, NIGHT.page if run.task.scene.is_bounded else NIGHT.floor)
-    canvas = Canvas(image, Viewport.around(middle - half, middle + half, width, height))
-    draw_floor(canvas, run, NIGHT)
-    draw_zones(canvas, run, NIGHT, SHOWN_TICK)
-    draw_items(canvas, run, NIGHT, SHOWN_TICK)
-    draw_robot(canvas, run, NIGHT, SHOWN_TICK)
-    draw_names(canvas, run, NIGHT, SHOWN_TICK)
-    return np.ascontiguousarray(image[:, :, ::-1])
+    half = half_window(run)
+    size = [max(1, round(IMAGE_PIXELS * side / max(half))) for side in half]
+    canvas = empty_window(run, window(run, SHOWN_TICK, *size), *size)
+    for draw in (draw_zones, draw_items, draw_robot, draw_names):
+        draw(canvas, run, NIGHT, SHOWN_TICK)
+    return np.ascontiguousarray(canvas.image[:, :, ::-1])
 
 
 def _as_run(agent: Agent, lane: int) -> RecordedRun:

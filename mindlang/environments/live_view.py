@@ -17,11 +17,11 @@ from mindrun.kinds.functions.rule import Rule
 from mindrun.robot.rate import Rate
 from numpy.typing import NDArray
 
-from mindlang.environments.agent import Agent
-from mindlang.run.run_recording import world_of
+from mindlang.environments.episodes import Agent
+from mindlang.run.recording import recorded_task, world_of
 from mindlang.view.server import BackgroundView, open_browser
 from mindlang.view.viewed import Viewed
-from mindlang.view.viewed_recording import viewed_mind
+from mindlang.view.viewed_rows import viewed_rows
 
 Rows = NDArray[Any]
 LOOK_SECONDS = 0.05  # after which a thread that waits for a tick looks whether anybody still wants it
@@ -103,7 +103,8 @@ def _viewed(agent: Agent, about: About, coming: "SimpleQueue[Rows | None]") -> V
     played = f"{agent.played} played" if agent.played else "commanded"
     title = f"{setup.task.name} with {setup.master} in charge, {played} by a program"
     rows = ((row, row["readings"]) for row in _rows(coming, np.zeros(0, about.row)))
-    return viewed_mind(title, "environment", bundle, setup.folder, about, rows, None)
+    task = recorded_task(about, bundle)
+    return viewed_rows(title, "environment", about, bundle, task, setup.folder, rows, None)
 
 
 def _rows(coming: "SimpleQueue[Rows | None]", nothing: Rows) -> Iterator[Rows]:

@@ -1,25 +1,29 @@
 """One robot as a `gymnasium.Env`."""
 
+from __future__ import annotations
+
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from gymnasium import Env
 from gymnasium.error import ResetNeeded
-from gymnasium.spaces import Box
 from gymnasium.utils import EzPickle
-from numpy.typing import NDArray
 
-from mindlang.environments.agent import Agent
-from mindlang.environments.episodes import Episodes, layouts, numbers
+from mindlang.environments.episodes import (
+    Episodes,
+    Floats,
+    layouts,
+    numbers,
+    refuse_unknown_mode,
+    unit_box,
+)
 from mindlang.environments.image import image_of
-from mindlang.environments.render_modes import refuse_unknown_mode
 from mindlang.pictures.canvas import Image
 
 if TYPE_CHECKING:
     from mindlang.environments.live_view import LiveView
 
-Floats = NDArray[np.float32]
 ONE_LANE = np.ones(1, np.bool_)
 
 
@@ -51,7 +55,11 @@ class TaskEnv(Env[Floats, Floats], EzPickle):
         self.metadata = self.metadata | {"render_fps": round(1 / agent.setup.ready.policy.graph.tick)}
         self.observation_space, self.action_space = unit_box(len(agent.readings)), unit_box(agent.actions)
         self._goes_on = False
-        self._view = _live_view(agent) if render_mode == "human" else None
+        self._view: LiveView | None = None
+        if render_mode == "human":
+            from mindlang.environments.live_view import LiveView  # serves a page: imported where one is asked for
+
+            self._view = LiveView(agent)
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Floats, dict[str, Any]]:
         """Begin another episode; `info["layout"]` is the seed by which `mindc run` repeats it."""
@@ -87,14 +95,3 @@ class TaskEnv(Env[Floats, Floats], EzPickle):
         """End the page, if there is one."""
         if self._view:
             self._view.close()
-
-
-def _live_view(agent: Agent) -> "LiveView":
-    from mindlang.environments.live_view import LiveView  # serves a page: imported where one is asked for
-
-    return LiveView(agent)
-
-
-def unit_box(length: int) -> Box:
-    """So many numbers in 0..1."""
-    return Box(0.0, 1.0, (length,), np.float32)

@@ -14,12 +14,10 @@ from gymnasium.vector.utils import batch_space
 from mindrun.errors import MindError
 from numpy.typing import NDArray
 
-from mindlang.environments.episodes import Episodes, Floats, Mask, layouts
+from mindlang.environments.episodes import Episodes, Floats, Mask, layouts, refuse_unknown_mode, unit_box
 from mindlang.environments.image import image_of
-from mindlang.environments.render_modes import refuse_unknown_mode
-from mindlang.environments.task_env import unit_box
 from mindlang.pictures.canvas import Image
-from mindlang.run.layouts import layouts as children
+from mindlang.run.many_runs import layouts as children
 
 Seeds = SupportsIndex | Sequence[SupportsIndex | None] | NDArray[np.integer] | None
 Step = tuple[Floats, NDArray[np.float64], Mask, Mask, dict[str, Any]]

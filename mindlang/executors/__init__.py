@@ -78,16 +78,12 @@ def where(text: str) -> Where | None:
     if kind == COMMAND:
         raise MindError(f"there is no --on {COMMAND}: any more", INSTEAD_OF_COMMAND)
     if kind not in KINDS:
-        raise MindError(f"nobody knows where {text!r:.60} is", f"--on says {THREADS}, or {usages()}")
+        hint = f"--on says {THREADS}, or {', '.join(kinds_by_usage().values())}"
+        raise MindError(f"nobody knows where {text!r:.60} is", hint)
     module = import_module(f"{__name__}.{kind}")
     if flaw := module.flaw(argument):
         raise MindError(f"{text!r:.60} says no {kind}: {flaw}", f"--on says it so: {module.USAGE}")
     return Where(kind, argument)
-
-
-def usages() -> str:
-    """How each kind is said."""
-    return ", ".join(kinds_by_usage().values())
 
 
 def kinds_by_usage() -> dict[str, str]:

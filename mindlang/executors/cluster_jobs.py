@@ -5,28 +5,44 @@ Dask does the jobs of a worker that is lost again, and gives one up that has cos
 again here, MAX_LOSSES times. A worker unpickles a job only where it is of the same build.
 """
 
+import logging
 import multiprocessing
 import pickle
+import re
+import ssl
+import warnings
 from collections.abc import Callable
 from concurrent.futures import CancelledError
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cache, lru_cache
 from pathlib import Path
-from queue import Empty, Queue
 from threading import local
 from time import monotonic
 from typing import Any
 from weakref import finalize
 
 from distributed import Client, Future, KilledWorker, get_worker
+from distributed.security import Security
 from mindrun.train.manifest import Build, difference, own_build, sources_hash
 
 from mindlang.executors.job_scorer import JobScorer
-from mindlang.executors.jobs import FATAL, MAX_LOSSES, TAKE_SECONDS, Assignment, Done, Work, WorkError
+from mindlang.executors.jobs import (
+    FATAL,
+    MAX_LOSSES,
+    SHOWN_CHARACTERS,
+    Assignment,
+    Done,
+    Failed,
+    Job,
+    JobExecutor,
+    WorkError,
+    answer,
+    rollout_of,
+)
 from mindlang.executors.processes import ProcessJobs
-from mindlang.executors.worker import answer, rollout_of
 
+CONNECT_SECONDS = 10.0
 LOOK_SECONDS = 1.0  # between two times that the scheduler is asked for its workers
 RESULT_SECONDS = 30.0  # to wait for the bytes of a job that has ended, before who asks may look at something else
 WAIT_SECONDS = 5.0  # without a worker, before it is said that there is none
@@ -34,6 +50,8 @@ INSTALL = "install the same wheel on the machines of scheduler and workers, and 
 CORES = "cores"  # the resource by which a worker says that it has others than one for each of its threads
 KEPT_SCORERS = 4  # scorers that each thread of a worker keeps
 DONE, FAILED, REFUSED = "done", "failed", "refused"  # how an answer begins
+PLACE = re.compile(r"^in <[^>]*>: ")  # in which of its objects Dask has failed
+SHOWN_REASON_CHARACTERS = 300  # of why nobody answers
 
 WireAnswer = tuple[str, bytes] | tuple[str, str, str]  # built-ins alone: whoever has no mindlang can read them
 
@@ -44,16 +62,28 @@ def cluster_build() -> Build:
     return {**own_build(), "mindlang": sources_hash(Path(__file__).parent)}
 
 
-@dataclass(slots=True)
-class Job:
-    """A job at a worker."""
+def client_of(address: str, security: Security) -> Client:
+    """A client of the scheduler at an address. WorkError where nobody answers."""
+    silence()
+    try:
+        with warnings.catch_warnings():
+            # Other versions of what results do not depend on: a worker's build says more.
+            warnings.simplefilter("ignore")
+            return Client(address, security=security, timeout=CONNECT_SECONDS, set_as_default=False, name="mindc")
+    except (OSError, ssl.SSLError, ValueError, TypeError, RuntimeError, ImportError) as error:
+        said = PLACE.sub("", str(error.__cause__ or error).strip()).splitlines() or ["nothing"]
+        hint = "see that the scheduler runs there, and speaks tls or tcp as its address says"
+        message = f"no scheduler answers at {address}: {said[0]:.{SHOWN_REASON_CHARACTERS}}"
+        raise WorkError(message, hint) from error
 
-    number: int
-    work: bytes
-    losses: int = 0  # times that Dask gave it up
+
+def silence() -> None:
+    """Have Dask log nothing of connections that fail: whoever asked for them says so."""
+    for name in ("client", "comm", "core", "batched", "deploy", "scheduler", "worker", "nanny"):
+        logging.getLogger(f"distributed.{name}").setLevel(logging.CRITICAL)
 
 
-class ClusterJobs:
+class ClusterJobs(JobExecutor):
     """The jobs of one assignment, done by whoever is connected to a scheduler; `say` is told when nobody is.
 
     `function` is what a worker of Dask calls with a build, an assignment and a job. It is named and not pickled: a
@@ -68,8 +98,8 @@ class ClusterJobs:
         function: str = "mindlang.executors.cluster_jobs.answer_here",
         ended: Callable[[], object] = lambda: None,
     ) -> None:
-        self.assignment = assignment
-        self._client, self._say, self._ended = client, say, ended
+        super().__init__()
+        self._client, self._say, self._when_over = client, say, ended
         module, _, name = function.rpartition(".")
         self._call = f"__import__({module!r}, fromlist=[{name!r}]).{name}(build, assignment, work)"
         self._shared = {
@@ -77,8 +107,6 @@ class ClusterJobs:
             "assignment": pickle.dumps(replace(assignment, folder=None)),
         }
         self._address: str = client.scheduler.address
-        self._open: dict[Future, Job] = {}
-        self._done: Queue[Future] = Queue()
         self._slots, self._looked = 0, float("-inf")
         self._missed_since: float | None = None
         self._has_said = False
@@ -92,87 +120,48 @@ class ClusterJobs:
             self._tell(now)
         return self._slots
 
-    def has_room(self) -> bool:
-        """Whether a worker would wait without another job."""
-        return len(self._open) < self.workers
-
-    def submit(self, number: int, work: Work) -> None:
-        """Ask for a job."""
-        self._submit(Job(number, pickle.dumps(work)))
-
-    def take(self) -> tuple[int, Done] | None:
-        """The number of a job that has been done, and its answer; None after TAKE_SECONDS without one.
-
-        WorkError where none can come any more.
-        """
-        try:
-            future = self._done.get(timeout=TAKE_SECONDS)
-        except Empty:
-            self.workers  # noqa: B018  # looks whether there are any
-            return None
-        job = self._open.pop(future)
-        try:
-            if (found := self._result(future)) is None:
-                self._open[future] = job
-                self._done.put(future)
-                return None
-            return job.number, self._read(found)
-        except KilledWorker as why:
-            job.losses += 1
-            if job.losses >= MAX_LOSSES:
-                last = why.last_worker.address
-                message = f"a job was lost {job.losses} times, the last time its workers ended, the last at {last}"
-                raise WorkError(message, FATAL) from why
-        self._submit(job)
-        return None
-
     def close(self) -> None:
         """Send no more; what is at work ends by itself, and nobody hears of it."""
         with suppress(Exception):  # of a scheduler that is gone, too
             self._client.cancel([*self._open], force=True)
         with suppress(Exception):
             self._client.close(timeout=LOOK_SECONDS)
-        self._ended()
+        self._when_over()
 
-    def _read(self, answer: object) -> Done:
-        """What an answer says was done; WorkError where it says why it was not."""
-        match answer:
-            case "done", bytes(done):
-                found: Done = pickle.loads(done)
-                return found
-            case "failed", str(message), str(hint):
-                raise WorkError(message, hint)
-            case "refused", str(message), str(hint):
-                raise WorkError(f"a worker at {self._address} is of another build: {message}", hint)
-        raise WorkError(f"a worker of {self._address} answers with something else", INSTALL)
+    def _future_of(self, job: Job) -> Future:
+        words = {**self._shared, "work": pickle.dumps(job.work)}
+        return self._client.submit(eval, self._call, words, pure=False, priority=-job.number)
 
-    def _submit(self, job: Job) -> None:
-        words = {**self._shared, "work": job.work}
-        future = self._client.submit(eval, self._call, words, pure=False, priority=-job.number)
-        self._open[future] = job
-        future.add_done_callback(self._done.put)
-
-    def _result(self, future: Future) -> object:
-        """What a future has come to; KilledWorker where Dask gave it up, WorkError where it has come to nothing.
-
-        None where that is on a worker that does not answer: if it was lost, it is computed again.
-        """
+    def _answer(self, future: Future, job: Job) -> Done | Failed | None:
+        """The answer; a worker that does not answer has perhaps been lost, and then it is computed again."""
         try:
             found = future.result(timeout=RESULT_SECONDS)
         except TimeoutError:
-            return None
+            raise
         except CancelledError as error:
             raise self._gone() from error
-        except KilledWorker:
-            raise
+        except KilledWorker as why:
+            job.losses += 1
+            if job.losses < MAX_LOSSES:
+                return None
+            last = why.last_worker.address
+            message = f"a job was lost {job.losses} times, the last time its workers ended, the last at {last}"
+            raise WorkError(message, FATAL) from why
         except (ImportError, AttributeError) as error:
             raise WorkError(f"a worker of {self._address} has no such mindlang: {error}", INSTALL) from error
         except Exception as error:
-            raise WorkError(
-                f"a job failed at {self._address}: {type(error).__name__}: {error}"[:1000], INSTALL
-            ) from error
+            said = f"a job failed at {self._address}: {type(error).__name__}: {error}"
+            raise WorkError(said[:SHOWN_CHARACTERS], INSTALL) from error
         future.release()
-        return found
+        match found:
+            case "done", bytes(pickled):
+                done: Done = pickle.loads(pickled)
+                return done
+            case "failed", str(message), str(hint):
+                return Failed(message, hint)
+            case "refused", str(message), str(hint):
+                return Failed(f"a worker at {self._address} is of another build: {message}", hint)
+        return Failed(f"a worker of {self._address} answers with something else", INSTALL)
 
     def _found_slots(self) -> int:
         """The threads of all workers; WorkError where the scheduler does not answer."""
@@ -198,6 +187,22 @@ class ClusterJobs:
         if now - self._missed_since >= WAIT_SECONDS and not self._has_said:
             self._say(f"no worker is connected to {self._address}: waiting for one (Ctrl-C stops)")
             self._has_said = True
+
+
+def jobs_of_cluster(
+    cluster: Any,
+    security: Security,
+    assignment: Assignment,
+    say: Callable[[str], object],
+    end: Callable[[], object],
+) -> ClusterJobs:
+    """The jobs of a cluster that was begun for them: `end` is called when they are over, or nobody answers there."""
+    try:
+        client = client_of(cluster.scheduler_address, security)
+    except BaseException:
+        end()
+        raise
+    return ClusterJobs(client, assignment, say, ended=end)
 
 
 def answer_here(build: Build, assignment: bytes, work: bytes) -> WireAnswer:

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from math import ceil
 from typing import Any
 
@@ -12,7 +13,7 @@ from mindrun.train.population import Genomes
 from mindrun.train.scoring import is_one_world
 from numpy.typing import NDArray
 
-from mindlang.executors.jobs import JobExecutor, Score, Tally, tally_of
+from mindlang.executors.jobs import JobExecutor, Tally, tally_of
 
 JOB_SECONDS = 1.0  # that a job takes at most, as far as is known: so much is lost with a worker
 MIN_JOB_SECONDS = 0.1  # that it takes at least, while there is so much to do
@@ -67,7 +68,7 @@ class JobScorer:
             while blocks.left and self.jobs.has_room():
                 block = blocks.next(runs_in_a_job(genomes.shape[0] * len(words), self.jobs.workers, self._seconds))
                 self._asked += 1
-                self.jobs.submit(self._asked, Score(genomes[block.genomes], words[block.seeds]))
+                self.jobs.submit(self._asked, partial(_score, genomes[block.genomes], words[block.seeds]))
                 open_jobs[self._asked] = block
             if (taken := self.jobs.take()) is not None and (block_done := open_jobs.pop(taken[0], None)):
                 done = taken[1]
@@ -86,6 +87,12 @@ class JobScorer:
         self.rollout.add(tally)
 
 
+def _score(genomes: NDArray[np.float32], seeds: NDArray[np.uint64], scorer: Any) -> Scores:
+    """Every genome [genomes, weights] on every seed."""
+    scores: Scores = scorer.score(genomes, seeds)
+    return scores
+
+
 @dataclass(frozen=True, slots=True)
 class Block:
     """Some genomes on some seeds."""
@@ -96,8 +103,7 @@ class Block:
     @property
     def runs(self) -> int:
         """How many runs it is."""
-        count: int = (self.genomes.stop - self.genomes.start) * (self.seeds.stop - self.seeds.start)
-        return count
+        return int((self.genomes.stop - self.genomes.start) * (self.seeds.stop - self.seeds.start))
 
 
 def runs_in_a_job(runs: int, workers: int, seconds: float | None) -> int:
@@ -113,25 +119,22 @@ class Blocks:
     """What is left of genomes × seeds: whole genomes while a job is for more runs than there are seeds."""
 
     def __init__(self, genomes: int, seeds: int) -> None:
-        self._shape, self._genome, self._seed = (genomes, seeds), 0, 0
+        self._genomes, self._seeds, self._done = genomes, seeds, 0
 
     @property
     def left(self) -> int:
         """How many runs are left."""
-        genomes, seeds = self._shape
-        return max(0, (genomes - self._genome) * seeds - self._seed)
+        return self._genomes * self._seeds - self._done
 
     def next(self, runs: int) -> Block:
         """The next block, of about so many runs, at least one."""
-        genomes, seeds = self._shape
-        at, first = self._genome, self._seed
-        if first == 0 and runs >= seeds:
-            self._genome = min(genomes, at + runs // seeds)
-            return Block(slice(at, self._genome), slice(0, seeds))
-        self._seed = min(seeds, first + max(1, runs))
-        block = Block(slice(at, at + 1), slice(first, self._seed))
-        if self._seed == seeds:
-            self._genome, self._seed = at + 1, 0
+        genome, seed = divmod(self._done, self._seeds)
+        if seed == 0 and runs >= self._seeds:
+            last = min(self._genomes, genome + runs // self._seeds)
+            block = Block(slice(genome, last), slice(0, self._seeds))
+        else:
+            block = Block(slice(genome, genome + 1), slice(seed, min(self._seeds, seed + max(1, runs))))
+        self._done += block.runs
         return block
 
 

@@ -4,22 +4,39 @@ A job is a stretch of an attempt, or genomes to be scored on seeds. What came of
 one, too, in plain words.
 """
 
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
+from importlib import import_module
+from importlib.util import find_spec
 from pathlib import Path
-from typing import Any, Protocol
+from queue import Empty, SimpleQueue
+from time import perf_counter
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from mindrun.errors import MindError
-from mindrun.graph.run_scores import Scores
-from mindrun.train.attempt import Clock, Segment, Stretch, advance
+from mindrun.graph.bundle import unpack
+from mindrun.train.attempt import Segment, Stretch, advance
 from mindrun.train.lesson_state import Course
 from numpy.typing import NDArray
 
+if TYPE_CHECKING:
+    from mindrun import Rollout
+
 TAKE_SECONDS = 0.2  # to wait for an answer before who asks may look at something else
 MAX_LOSSES = 5  # times that a job may be lost with its worker
-FATAL = "the same job ends whoever does it: memory may run out there, or a procedure or an environment end the process"
+SHOWN_CHARACTERS = 1000  # of why a job failed
+FATAL = (
+    "the same job ends whoever does it: memory may run out there, a procedure end the process, or an environment that "
+    "a program registered itself"
+)
 
 Tally = NDArray[np.int64]
+Work = Callable[[Any], Any]  # what comes of a job, by what scores its assignment; it is pickled
 
 
 class WorkError(MindError):
@@ -40,38 +57,6 @@ class Assignment:
     learners: tuple[str, ...] = ()
     interrupt: bool = True
     folder: Path | None = None
-
-
-class Work(Protocol):
-    """What a job is about; it is pickled."""
-
-    def by(self, scorer: Any, clock: Clock) -> Any:
-        """What comes of it, by what scores the job's assignment."""
-
-
-@dataclass(frozen=True, slots=True)
-class Advance:
-    """A stretch of an attempt, of which a segment comes."""
-
-    course: Course
-    stretch: Stretch
-
-    def by(self, scorer: Any, clock: Clock) -> Segment:
-        """The segment."""
-        return advance(self.course, scorer, self.stretch, clock)
-
-
-@dataclass(frozen=True, slots=True)
-class Score:
-    """Genomes [genomes, weights] to be scored on seeds [seeds]."""
-
-    genomes: NDArray[np.float32]
-    seeds: NDArray[np.uint64]
-
-    def by(self, scorer: Any, clock: Clock) -> Scores:
-        """Every genome on every seed."""
-        scores: Scores = scorer.score(self.genomes, self.seeds)
-        return scores
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,40 +81,115 @@ class Failed:
     hint: str = ""
 
 
+def answer(scorer: Callable[[], Any], work: Work) -> Done | Failed:
+    """The answer to a job, by what makes the scorer of its assignment; whatever is raised is an answer, too."""
+    try:
+        made = scorer()
+        before, began = tally_of(made), perf_counter()
+        result = work(made)
+        return Done(result, max(0.0, perf_counter() - began), tally_of(made) - before)
+    except MindError as error:
+        return Failed(str(error), error.hint)
+    except BaseException as error:
+        return Failed(f"a job failed: {type(error).__name__}: {error}"[:SHOWN_CHARACTERS])
+
+
 def tally_of(scorer: Any) -> Tally:
     """What a scorer has counted beside its results, as `mindrun.sim.outside.rollout` does; others count nothing."""
     return scorer.tally() if hasattr(scorer, "tally") else np.zeros(0, np.int64)
 
 
-class JobExecutor(Protocol):
-    """Does the jobs of one assignment; one whose worker is lost is done again."""
+def rollout_of(assignment: Assignment, threads: int) -> Rollout:
+    """A rollout of an assignment on so many cores, compiled; the text of its procedures' modules is run."""
+    rollout_for = import_module("mindrun.sim.rollouts").rollout_for
+    bundle = unpack(assignment.bundle)
+    with tempfile.TemporaryDirectory(prefix="mind-work-") as folder:
+        for module, text in bundle.procedures.items():
+            path = Path(folder, *module.split(".")).with_suffix(".py")
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text, encoding="utf-8")
+        cast = bundle.policy, assignment.task, assignment.master, assignment.learners
+        rollout: Rollout = rollout_for(*cast, procedures=Path(folder), interrupt=assignment.interrupt, workers=threads)
+        rollout.compile()
+    return rollout
 
-    @property
-    def assignment(self) -> Assignment:
-        """What all of its jobs share."""
+
+@dataclass(slots=True)
+class Job:
+    """A job that somebody is at: `worker` is who, where that is one of ours."""
+
+    number: int
+    work: Work
+    worker: Any = None
+    losses: int = 0  # workers that it has cost
+    starts: int = 0  # and those with others that had not come to it yet
+
+
+class JobExecutor:
+    """Does the jobs of one assignment, a future each; one whose worker is lost is done again."""
+
+    has_begun = True  # whether a worker has been there by now: before, nobody has done anything
+
+    def __init__(self) -> None:
+        self._open: dict[Any, Job] = {}  # by their futures
+        self._ended: SimpleQueue[Any] = SimpleQueue()
 
     @property
     def workers(self) -> int:
         """How many jobs can be at work at once, as far as is known; it may change."""
-
-    @property
-    def has_begun(self) -> bool:
-        """Whether a worker has been there by now: before, nobody has done anything."""
+        raise NotImplementedError
 
     def has_room(self) -> bool:
         """Whether a worker would wait without another job."""
+        return len(self._open) < self.workers
 
     def submit(self, number: int, work: Work) -> None:
         """Ask for a job."""
+        self._ask(Job(number, work))
 
     def take(self) -> tuple[int, Done] | None:
         """The number of a job that has been done, and its answer; None after TAKE_SECONDS without one.
 
         WorkError where none can come any more.
         """
+        try:
+            future = self._ended.get(timeout=TAKE_SECONDS)
+        except Empty:
+            self.workers  # noqa: B018  # looks whether there are any
+            return None
+        job = self._open.pop(future)
+        try:
+            found = self._answer(future, job)
+        except TimeoutError:  # its result has not come yet
+            self._open[future] = job
+            self._ended.put(future)
+            return None
+        if found is None:
+            self._ask(job)
+            return None
+        if isinstance(found, Failed):
+            raise WorkError(found.message, found.hint)
+        return job.number, found
 
     def close(self) -> None:
         """End all workers, whatever they do."""
+        raise NotImplementedError
+
+    def _ask(self, job: Job) -> None:
+        future = self._future_of(job)
+        self._open[future] = job
+        future.add_done_callback(self._ended.put)
+
+    def _future_of(self, job: Job) -> Any:
+        """The answer to a job, once there is one."""
+        raise NotImplementedError
+
+    def _answer(self, future: Any, job: Job) -> Done | Failed | None:
+        """The answer in a future that has ended; None where its worker was lost, so that it is asked for again.
+
+        TimeoutError where it has not come yet, WorkError where none will.
+        """
+        raise NotImplementedError
 
 
 @dataclass(frozen=True, slots=True)
@@ -146,7 +206,7 @@ class StretchExecutor:
 
     def submit(self, job: int, stretch: Stretch) -> None:
         """Ask for a stretch."""
-        self.jobs.submit(job, Advance(self.course, stretch))
+        self.jobs.submit(job, partial(_advance, self.course, stretch))
 
     def take(self) -> tuple[int, Segment] | None:
         """The number of a job and its segment; None after TAKE_SECONDS without one."""
@@ -155,3 +215,15 @@ class StretchExecutor:
         job, done = taken
         done.count_in(self.scorer)
         return job, done.result
+
+
+def _advance(course: Course, stretch: Stretch, scorer: Any) -> Segment:
+    return advance(course, scorer, stretch, perf_counter)
+
+
+def refuse_without(packages: tuple[str, ...], who: str, extra: str) -> None:
+    """MindError where one of these packages, which somebody is asked by, is not installed."""
+    for name in packages:
+        if find_spec(name) is None:
+            hint = f"pip install 'mindlang[{extra}]'"
+            raise MindError(f"{who} {name.replace('_', '-')}, which is not installed", hint)

@@ -12,10 +12,8 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass
-from functools import cache
+from functools import lru_cache
 from multiprocessing.context import SpawnContext, SpawnProcess
-from queue import Empty, SimpleQueue
 from signal import Signals
 from threading import Thread
 from types import ModuleType
@@ -23,15 +21,25 @@ from typing import Any
 
 from mindrun.processors import cores
 
-from mindlang.executors.jobs import FATAL, MAX_LOSSES, TAKE_SECONDS, Assignment, Done, Failed, Work, WorkError
-from mindlang.executors.worker import answer, rollout_of
+from mindlang.executors.jobs import (
+    FATAL,
+    MAX_LOSSES,
+    Assignment,
+    Done,
+    Failed,
+    Job,
+    JobExecutor,
+    Work,
+    WorkError,
+    answer,
+    rollout_of,
+)
 
 USAGE = "processes:N"
 MAX_PROCESSES = 1024
 MAX_DIGITS = 4
-Make = Callable[[Assignment, int], Any]
-
 MAX_STARTS = 20  # of processes for a job: where others end them, or the machine is busy, few come to it
+Make = Callable[[Assignment, int], Any]
 
 
 def flaw(argument: str) -> str:
@@ -47,19 +55,17 @@ def begin(argument: str, assignment: Assignment, say: Callable[[str], object]) -
     return ProcessJobs(count, max(1, cores() // count), assignment)
 
 
-class ProcessJobs:
+class ProcessJobs(JobExecutor):
     """The jobs of one assignment, done by so many processes of so many threads each.
 
     `make` is how an assignment becomes a scorer in a process; it is pickled by its name.
     """
 
-    has_begun = True
-
     def __init__(self, count: int, threads: int, assignment: Assignment, make: Make = rollout_of) -> None:
-        self.assignment = assignment
-        self.members = [Member(f"process {number}", assignment, threads, make) for number in range(1, count + 1)]
+        super().__init__()
+        setup = assignment, threads, make
+        self.members = [Member(f"process {number}", setup) for number in range(1, count + 1)]
         self._idle = self.members[::-1]
-        self._ended: SimpleQueue[Member] = SimpleQueue()
         for each in self.members:
             each.begin()
 
@@ -68,37 +74,6 @@ class ProcessJobs:
         """How many there are."""
         return len(self.members)
 
-    def has_room(self) -> bool:
-        """Whether a process would wait without another job."""
-        return bool(self._idle)
-
-    def submit(self, number: int, work: Work) -> None:
-        """Ask for a job."""
-        member = self._idle.pop()
-        member.number, member.work, member.losses, member.starts = number, work, 0, 0
-        member.ask(self._ended)
-
-    def take(self) -> tuple[int, Done] | None:
-        """The number of a job that has been done, and its answer; None after TAKE_SECONDS without one.
-
-        WorkError where a job cannot be done.
-        """
-        try:
-            member = self._ended.get(timeout=TAKE_SECONDS)
-        except Empty:
-            return None
-        assert member.future is not None
-        try:
-            found = member.future.result()
-        except BrokenProcessPool:
-            member.count_loss()
-            member.ask(self._ended)
-            return None
-        self._idle.append(member)
-        if isinstance(found, Failed):
-            raise WorkError(found.message, found.hint)
-        return member.number, found
-
     def close(self) -> None:
         """End all processes, whatever they do."""
         for each in self.members:
@@ -106,17 +81,24 @@ class ProcessJobs:
         for each in self.members:
             each.end()
 
+    def _future_of(self, job: Job) -> "Future[Done | Failed]":
+        member = job.worker = self._idle.pop()
+        return member.ask(job.work)
+
+    def _answer(self, future: "Future[Done | Failed]", job: Job) -> Done | Failed | None:
+        self._idle.append(job.worker)
+        try:
+            return future.result()
+        except BrokenProcessPool:
+            job.worker.count_loss(job)
+            return None
+
 
 class Member:
-    """A process, which is begun anew with the next job where it has ended; and the job that it is at."""
+    """A process, which is begun anew with the next job where it has ended."""
 
-    number = 0
-    work: Work
-    future: "Future[Done | Failed] | None" = None
-    losses = starts = 0  # processes that the job has cost, and those with others that had not come to it yet
-
-    def __init__(self, name: str, assignment: Assignment, threads: int, make: Make) -> None:
-        self.name, self._assignment, self._threads, self._make = name, assignment, threads, make
+    def __init__(self, name: str, setup: tuple[Assignment, int, Make]) -> None:
+        self.name, self._setup = name, setup
         self._context = Spawning()
         self._pool: ProcessPoolExecutor | None = None
 
@@ -128,28 +110,28 @@ class Member:
     def begin(self) -> ProcessPoolExecutor:
         """Begin the process where there is none, and do not wait until it is ready."""
         if self._pool is None:
-            setup = Setup(self._assignment, self._threads, self._make)
-            self._pool = ProcessPoolExecutor(1, self._context, _begin, (setup,))
+            self._pool = ProcessPoolExecutor(1, self._context, _begin, self._setup)
             with no_program():
                 self._loaded = self._pool.submit(_load)
         return self._pool
 
-    def ask(self, ended: "SimpleQueue[Member]") -> None:
-        """Have the process do its job; it is put into `ended` when there is an answer, or none any more."""
+    def ask(self, work: Work) -> "Future[Done | Failed]":
+        """Have the process do a job."""
         try:
-            self.future = self.begin().submit(_answer, self.work)
+            return self.begin().submit(_answer, work)
         except BrokenProcessPool:  # it has ended since its last job
             self.end()
-            self.future = self.begin().submit(_answer, self.work)
-        self.future.add_done_callback(lambda future: ended.put(self))
+            return self.begin().submit(_answer, work)
 
-    def count_loss(self) -> None:
-        """Take note of an end of the process; WorkError where the job is at fault."""
+    def count_loss(self, job: Job) -> None:
+        """Take note that the process has ended at a job; WorkError where that is at fault."""
         self.end()
         has_come_to_it = not self._loaded.cancelled() and self._loaded.exception() is None
-        self.losses, self.starts = self.losses + has_come_to_it, self.starts + 1
-        if self.losses >= MAX_LOSSES or self.starts >= MAX_STARTS:
-            raise WorkError(f"a job has ended {self.starts} workers, the last, {self.name}, {self._ending()}", FATAL)
+        job.losses, job.starts = job.losses + has_come_to_it, job.starts + 1
+        if job.losses >= MAX_LOSSES or job.starts >= MAX_STARTS:
+            code = self._context.process.exitcode or 0
+            ending = f"by {Signals(-code).name}" if -code in {*Signals} else f"by exit code {code}"
+            raise WorkError(f"a job has ended {job.starts} workers, the last, {self.name}, {ending}", FATAL)
 
     def kill(self) -> None:
         """End the process, whatever it does; who waits for its answer is told."""
@@ -162,11 +144,6 @@ class Member:
         if self._pool is not None:
             self._pool.shutdown(cancel_futures=True)
         self._pool = None
-
-    def _ending(self) -> str:
-        """How the process has ended."""
-        code = self._context.process.exitcode or 0
-        return f"by {Signals(-code).name}" if -code in {*Signals} else f"by exit code {code}"
 
 
 class Spawning(SpawnContext):
@@ -191,37 +168,23 @@ def no_program() -> Iterator[None]:
         sys.modules["__main__"] = program
 
 
-@dataclass(frozen=True, slots=True)
-class Setup:
-    """What a process is told first."""
-
-    assignment: Assignment
-    threads: int
-    make: Make
+_scorer: Callable[[], Any]  # of this process
 
 
-_setup: Setup  # of this process
-
-
-def _begin(setup: Setup) -> None:
+def _begin(assignment: Assignment, threads: int, make: Make) -> None:
     """What a process does first: it ends with the one that began it, and has no part in its streams and signals."""
-    global _setup
-    _setup = setup
+    global _scorer
+    _scorer = lru_cache(lambda: make(assignment, threads))
     os.setsid()  # Ctrl-C at the terminal is for who asks, who lets the work go on to be saved
     os.dup2(2, 1)  # what somebody's code prints is no answer of a command
     Thread(target=_end_with_parent, daemon=True).start()
-    sys.path += [f"{setup.assignment.folder}"] if setup.assignment.folder else []
+    sys.path += [f"{assignment.folder}"] if assignment.folder else []
 
 
 def _end_with_parent() -> None:
     if (parent := multiprocessing.parent_process()) is not None:
         parent.join()
     os._exit(0)
-
-
-@cache
-def _scorer() -> Any:
-    return _setup.make(_setup.assignment, _setup.threads)
 
 
 def _load() -> None:

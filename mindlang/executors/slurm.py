@@ -3,13 +3,10 @@
 import signal
 from collections.abc import Callable
 from contextlib import suppress
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-from mindrun.errors import MindError
-
-from mindlang.executors.jobs import Assignment, JobExecutor, WorkError
+from mindlang.executors.jobs import Assignment, JobExecutor, WorkError, refuse_without
 
 USAGE = "slurm:N, or slurm:N,cores=4,memory=8GB with queue=, account=, walltime="
 OPTIONS = ("cores", "memory", "queue", "account", "walltime")
@@ -22,8 +19,7 @@ def flaw(argument: str) -> str:
 
     MindError without dask-jobqueue.
     """
-    if find_spec("dask_jobqueue") is None:
-        raise MindError("SLURM is asked by dask-jobqueue, which is not installed", "pip install 'mindlang[slurm]'")
+    refuse_without(("dask_jobqueue",), "SLURM is asked by", "slurm")
     count, *options = argument.split(",")
     if not _is_count(count, MAX_JOBS):
         return f"{count!r:.40} is no number of jobs from 1 to {MAX_JOBS}"
@@ -45,8 +41,7 @@ def begin(argument: str, assignment: Assignment, say: Callable[[str], object]) -
     from dask_jobqueue import SLURMCluster
 
     signal.signal(signal.SIGINT, handler)  # which that import has taken, so that Ctrl-C would leave nothing saved
-    from mindlang.executors.cluster_jobs import ClusterJobs
-    from mindlang.executors.connection import client_of, silence
+    from mindlang.executors.cluster_jobs import jobs_of_cluster, silence
 
     silence()
     count, *options = argument.split(",")
@@ -60,6 +55,7 @@ def begin(argument: str, assignment: Assignment, say: Callable[[str], object]) -
             shared_temp_directory=f"{Path.cwd()}",
             scheduler_options={"dashboard": False, "dashboard_address": None},
         )
+        cluster.adapt(minimum_jobs=int(count), maximum_jobs=int(count))
     except (ValueError, OSError, ImportError) as error:
         raise WorkError(f"SLURM's jobs cannot be begun: {error}", f"--on says it so: {USAGE}") from error
 
@@ -67,13 +63,7 @@ def begin(argument: str, assignment: Assignment, say: Callable[[str], object]) -
         with suppress(Exception):
             cluster.close()
 
-    try:
-        cluster.adapt(minimum_jobs=int(count), maximum_jobs=int(count))
-        client = client_of(cluster.scheduler_address, cluster.security)
-    except BaseException:
-        end()
-        raise
-    return ClusterJobs(client, assignment, say, ended=end)
+    return jobs_of_cluster(cluster, cluster.security, assignment, say, end)
 
 
 def _is_count(text: str, most: int) -> bool:

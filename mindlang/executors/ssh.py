@@ -9,22 +9,16 @@ import sys
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
-from importlib.util import find_spec
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from mindrun.errors import MindError
-
-from mindlang.executors.jobs import Assignment, JobExecutor, WorkError
-
-if TYPE_CHECKING:
-    from distributed.security import Security
+from mindlang.executors.jobs import Assignment, JobExecutor, WorkError, refuse_without
 
 USAGE = "ssh:HOST[,HOST]…, with :/path/of/python behind a HOST where it is another than here"
 CONNECT_SECONDS = 30.0
 CHECK_SECONDS = 120.0  # to import mindlang there
 # A machine that is gone is noticed within a minute.
 OPTIONS: dict[str, Any] = {"keepalive_interval": 15, "keepalive_count_max": 3, "connect_timeout": CONNECT_SECONDS}
-TLS_ROLES = ("client", "scheduler", "worker")
+TLS_FILES = [f"{who}.{what}" for who in ("client", "scheduler", "worker") for what in ("cert", "key")] + ["ca-file"]
 SCHEDULER_OPTIONS = {"port": 0, "protocol": "tls://", "dashboard": False, "idle_timeout": "10 minutes"}
 WORKER_OPTIONS = {"protocol": "tls://", "death_timeout": 60}  # both end where nobody is left who gives jobs
 
@@ -42,6 +36,26 @@ class Machine:
         """How asyncssh connects to it; ports, keys and other names are read in ~/.ssh/config."""
         return {**OPTIONS, "username": self.user} if self.user else OPTIONS
 
+    async def run(self, command: str, given: str = "") -> Any:
+        """What a command has come to there, whose standard input is given."""
+        import asyncssh
+
+        async with asyncssh.connect(self.host, **self.options) as connection:
+            return await connection.run(command, input=given, timeout=CHECK_SECONDS)
+
+    async def flaw(self, name: str, certificate: str) -> str:
+        """Why it takes no part; nothing where it does, and has the certificate now."""
+        import asyncssh
+
+        command = f"umask 077 && cat > {name} && {self.python} -c 'import mindlang.executors.cluster_jobs'"
+        try:
+            done = await self.run(command, certificate)
+        except (OSError, asyncssh.Error, TimeoutError) as error:
+            return f"{error}" or type(error).__name__
+        if done.exit_status == 0:
+            return ""
+        return (f"{done.stderr}".strip().splitlines() or [f"exit code {done.exit_status}"])[-1]
+
 
 def machines(argument: str) -> list[Machine]:
     """The machines of a list."""
@@ -55,14 +69,10 @@ def machines(argument: str) -> list[Machine]:
 
 def flaw(argument: str) -> str:
     """What is wrong with a list of machines; nothing where nothing is. MindError where Dask or asyncssh is missing."""
-    missing = [name for name in ("distributed", "asyncssh") if find_spec(name) is None]
-    if missing:
-        raise MindError(
-            f"machines are reached with {missing[0]}, which is not installed", "pip install 'mindlang[cluster]'"
-        )
-    names = argument.split(",")
+    refuse_without(("distributed", "asyncssh"), "machines are reached with", "cluster")
     if not all(machine.host for machine in machines(argument)):
         return "a machine has no name"
+    names = argument.split(",")
     wrong = next((name for name in names if name.startswith("-") or not name.isprintable() or " " in name), "")
     return f"{wrong!r:.40} is no machine" if wrong else ""
 
@@ -73,34 +83,29 @@ def begin(argument: str, assignment: Assignment, say: Callable[[str], object]) -
     from distributed import SSHCluster
     from distributed.security import Security
 
-    from mindlang.executors.cluster_jobs import ClusterJobs
-    from mindlang.executors.connection import client_of, silence
+    from mindlang.executors.cluster_jobs import jobs_of_cluster, silence
 
     silence()
     security, name = Security.temporary(), f".mindc-{secrets.token_hex(8)}.pem"
-    there = asyncio.run(prepared(machines(argument), name, certificate_of(security), say))
+    certificate = f"{security.tls_ca_file}{security.tls_client_key}"
+    there = asyncio.run(_prepared(machines(argument), name, certificate, say))
     # Else a worker that is lost again within 15 s is given up for ever, nanny and all.
     dask.config.set({"distributed.deploy.lost-worker-timeout": "1h"})
+    # Nobody there is talked to but with the certificate in that file of the home folder.
+    encrypted = {f"distributed.comm.tls.{file}": name for file in TLS_FILES}
     try:
-        with dask.config.set(tls_config(name)):  # which goes there
+        with dask.config.set({**encrypted, "distributed.comm.require-encryption": True}):  # which goes there
             cluster = SSHCluster(**arguments(there), security=security)
     except Exception as error:
-        said = f"{error.__cause__ or error}"
-        raise WorkError(
-            f"no cluster begins at {there[0].host}: {said}", "the machines have to reach each other"
-        ) from error
+        said = f"no cluster begins at {there[0].host}: {error.__cause__ or error}"
+        raise WorkError(said, "the machines have to reach each other") from error
 
     def end() -> None:
         with suppress(Exception):  # of machines that are gone, too
             cluster.close(timeout=CONNECT_SECONDS)
-        asyncio.run(told(there, f"rm -f {name}"))
+        asyncio.run(_told(there, f"rm -f {name}"))
 
-    try:
-        client = client_of(cluster.scheduler_address, security)
-    except BaseException:
-        end()
-        raise
-    return ClusterJobs(client, assignment, say, ended=end)
+    return jobs_of_cluster(cluster, security, assignment, say, end)
 
 
 def arguments(there: Sequence[Machine]) -> dict[str, Any]:
@@ -115,54 +120,21 @@ def arguments(there: Sequence[Machine]) -> dict[str, Any]:
     }
 
 
-def tls_config(name: str) -> dict[str, Any]:
-    """Dask's configuration there: nobody is talked to but with the certificate in that file of the home folder."""
-    roles = {f"distributed.comm.tls.{who}.{what}": name for who in TLS_ROLES for what in ("cert", "key")}
-    return {**roles, "distributed.comm.tls.ca-file": name, "distributed.comm.require-encryption": True}
-
-
-def certificate_of(security: "Security") -> str:
-    """A certificate and its key."""
-    return f"{security.tls_ca_file}{security.tls_client_key}"
-
-
-async def prepared(
+async def _prepared(
     asked: Sequence[Machine], name: str, certificate: str, say: Callable[[str], object]
 ) -> list[Machine]:
     """The machines that have mindlang, and now the certificate; WorkError where there are none."""
-    found = await asyncio.gather(*(_flaw_of(each, name, certificate) for each in asked))
-    for machine, why in zip(asked, found, strict=True):
-        if why and not all(found):
-            say(f"{machine.host} takes no part: {why}")
+    found = await asyncio.gather(*(each.flaw(name, certificate) for each in asked))
     if all(found):
-        message = f"no machine takes part; the last, {asked[-1].host}: {found[-1]}"
-        raise WorkError(
-            message, f"see that this says nothing: ssh {asked[-1].host} {asked[-1].python} -c 'import mindlang'"
-        )
+        last = asked[-1]
+        message = f"no machine takes part; the last, {last.host}: {found[-1]}"
+        raise WorkError(message, f"see that this says nothing: ssh {last.host} {last.python} -c 'import mindlang'")
+    for machine, why in zip(asked, found, strict=True):
+        if why:
+            say(f"{machine.host} takes no part: {why}")
     return [machine for machine, why in zip(asked, found, strict=True) if not why]
 
 
-async def told(there: Sequence[Machine], command: str) -> None:
+async def _told(there: Sequence[Machine], command: str) -> None:
     """Have a command run on machines, as far as they can be reached."""
-    await asyncio.gather(*(_run(each, command) for each in there), return_exceptions=True)
-
-
-async def _flaw_of(machine: Machine, name: str, certificate: str) -> str:
-    """Why a machine takes no part; nothing where it does."""
-    import asyncssh
-
-    command = f"umask 077 && cat > {name} && {machine.python} -c 'import mindlang.executors.cluster_jobs'"
-    try:
-        done = await _run(machine, command, certificate)
-    except (OSError, asyncssh.Error, TimeoutError) as error:
-        return f"{error}" or type(error).__name__
-    if done.exit_status == 0:
-        return ""
-    return (f"{done.stderr}".strip().splitlines() or [f"exit code {done.exit_status}"])[-1]
-
-
-async def _run(machine: Machine, command: str, given: str = "") -> Any:
-    import asyncssh
-
-    async with asyncssh.connect(machine.host, **machine.options) as connection:
-        return await connection.run(command, input=given, timeout=CHECK_SECONDS)
+    await asyncio.gather(*(each.run(command) for each in there), return_exceptions=True)

@@ -1,1 +1,1 @@
-"""What the codes of diagnostics mean: the compiler's in `errors.md`, the lint rules' in the rules themselves."""
+"""What there is to say of kinds, drivers, codes, words and commands: to be printed, hovered and published."""

@@ -1,15 +1,17 @@
-"""All articles, and those that somebody asks for by a name."""
+"""All articles, those of the codes of diagnostics among them, and those that somebody asks for by a name."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from functools import cache
 
-from mindlang.compiler.diagnostic import did_you_mean, listed
+from mindlang.compiler.diagnostic import ERRORS, did_you_mean, listed
 from mindlang.explaining.article import Article
-from mindlang.explaining.codes import codes
 from mindlang.explaining.drivers import driver_articles
 from mindlang.explaining.kinds import kind_articles
+from mindlang.explaining.sections import sections, titled
 from mindlang.explaining.words import word_articles
+from mindlang.lint.rules import all_rules
 
+ERROR, RULE = "error", "lint rule"  # sorts of codes
 ALSO_CALLED = {
     "task": "scene",
     "content": "thing",
@@ -42,3 +44,22 @@ def hint(asked: str, among: Iterable[Article]) -> str:
         return f"It is an argument of {listed(some, 'and')}: mindc explain {owners[0].name} says what it takes."
     near = did_you_mean(asked, [*(each.name for each in known), *(f"{each.noun} {each.name}" for each in known)])
     return near or "mindc kinds lists the kinds and drivers, mindc explain the codes."
+
+
+@cache
+def codes() -> dict[str, Article]:
+    """All codes: errors in the order of their chapters, then the lint rules."""
+    return {each.name: each for each in (*errors(), *_rules())}
+
+
+def errors() -> Iterator[Article]:
+    """The errors."""
+    for each in sections(ERRORS):
+        wrong, right = each.labelled("mind bad"), each.labelled("mind good")
+        yield Article(each.name, ERROR, ERROR, each.chapter, each.title, each.text, wrong=wrong, right=right)
+
+
+def _rules() -> Iterator[Article]:
+    for rule in all_rules().values():
+        wrong, right = (tuple(mind.lstrip("\n") for mind in minds) for minds in (rule.bad, rule.good))
+        yield Article(rule.code, RULE, RULE, "Lint rules", *titled(rule.text), wrong=wrong, right=right)

@@ -6,7 +6,7 @@ from textwrap import fill, indent
 from typing import Any
 
 from mindlang.explaining.article import Article
-from mindlang.explaining.codes import ERROR
+from mindlang.explaining.collection import ERROR
 
 LINE_COLUMNS = 80
 WITH_OPTIONS = ("driver", "command", "program", "mindrun")  # nouns

@@ -1,18 +1,27 @@
-"""The range in which the value of an expression must lie, by interval arithmetic."""
+"""The range in which the value of an expression must lie, by interval arithmetic, and what conditions come to in it."""
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from itertools import product
 from math import inf, isnan
 from typing import Any
 
 from mindrun.numbers.expression import Formula, fold
 
-from mindlang.compiler.model import Command, Expression, Measured, Number, Reading, Term
+from mindlang.compiler.model import Command, Comparison, Expression, Measured, Number, Reading, When
 from mindlang.compiler.syntax import Operator
 
 Interval = tuple[float, float]
+Readings = Callable[[str], Interval]  # the range of each reading
+Range = Callable[[Expression], Interval]  # in which the value of an expression lies
 UNBOUNDED: Interval = (-inf, inf)
 UNIT_INTERVAL: Interval = (0.0, 1.0)
+
+COMPARISON_WORDS = {"<": "below", "<=": "at or below", ">": "above", ">=": "at or above"}
+OPPOSITES = {"<": ">=", "<=": ">", ">": "<=", ">=": "<"}
+TURNED = {"<": ">", "<=": ">=", ">": "<", ">=": "<="}  # the same with its sides the other way round
+UPPER = ("<", "<=")
+STRICT = ("<", ">")
 
 
 def share(name: str) -> Interval:
@@ -20,29 +29,13 @@ def share(name: str) -> Interval:
     return UNIT_INTERVAL
 
 
-def interval(of: Expression, reading: Callable[[str], Interval] = share, each: Interval = UNIT_INTERVAL) -> Interval:
+def interval(of: Expression | Formula, reading: Readings = share, each: Interval = UNIT_INTERVAL) -> Interval:
     """The range of an expression whose readings have these ranges, that of `for each` the range `each`."""
     return fold(words(of), _leaf(reading, each), _negated, _combined)
 
 
-def divisors(
-    of: Expression, reading: Callable[[str], Interval] = share, each: Interval = UNIT_INTERVAL
-) -> list[Interval]:
+def divisors(of: Expression | Formula, reading: Readings = share, each: Interval = UNIT_INTERVAL) -> list[Interval]:
     """The ranges of all that an expression divides by."""
-    return _divisors(words(of), _leaf(reading, each))
-
-
-def formula_divisors(of: Formula, reading: Callable[[str], Interval] = share) -> list[Interval]:
-    """The ranges of all that the formula of a sensor divides by."""
-    return _divisors(of, lambda word, term: (term, term) if word == "number" else reading(term))
-
-
-def formula_interval(of: Formula, reading: Callable[[str], Interval] = share) -> Interval:
-    """The range of the formula of a sensor."""
-    return fold(of, lambda word, term: (term, term) if word == "number" else reading(term), _negated, _combined)
-
-
-def _divisors(words: Iterable[tuple[str, Any]], leaf: Callable[[str, Any], Interval]) -> list[Interval]:
     found: list[Interval] = []
 
     def combined(symbol: str, left: Interval, right: Interval) -> Interval:
@@ -50,25 +43,27 @@ def _divisors(words: Iterable[tuple[str, Any]], leaf: Callable[[str, Any], Inter
             found.append(right)
         return _combined(symbol, left, right)
 
-    fold(words, leaf, _negated, combined)
+    fold(words(of), _leaf(reading, each), _negated, combined)
     return found
 
 
-def words(of: Expression) -> Iterator[tuple[str, Term]]:
-    """The terms of an expression, each with the word by which `fold` knows it."""
+def words(of: Expression | Formula) -> Iterable[tuple[str, Any]]:
+    """The terms of an expression, or of the formula of a sensor, each with the word by which `fold` knows it."""
+    if not isinstance(of, Expression):
+        return of
     return ((term.symbol if isinstance(term, Operator) else "term", term) for term in of.terms)
 
 
-def _leaf(reading: Callable[[str], Interval], each: Interval) -> Callable[[str, Term], Interval]:
-    def leaf(_: str, term: Term) -> Interval:
-        match term:
-            case Number(value):
+def _leaf(reading: Readings, each: Interval) -> Callable[[str, Any], Interval]:
+    def leaf(word: str, term: Any) -> Interval:
+        match word, term:
+            case ("number", value) | (_, Number(value)):
                 return value, value
-            case Reading(name):
+            case ("reading", name) | (_, Reading(name)):
                 return reading(name)
-            case Measured(measure):
+            case _, Measured(measure):
                 return measure.interval
-            case Command():
+            case _, Command():
                 return UNIT_INTERVAL
         return each
 
@@ -77,21 +72,6 @@ def _leaf(reading: Callable[[str], Interval], each: Interval) -> Callable[[str, 
 
 def _negated(of: Interval) -> Interval:
     return -of[1], -of[0]
-
-
-def is_constant(of: Expression) -> bool:
-    """Whether an expression is made of numbers alone."""
-    return all(isinstance(term, Number | Operator) for term in of.terms)
-
-
-def range_in_words(of: Interval) -> str:
-    """A range in words."""
-    low, high = (bound + 0.0 for bound in of)  # -0.0 is 0
-    if low == high:
-        return f"always {low:g}"
-    if low == -inf:
-        return "anything" if high == inf else f"at most {high:g}"
-    return f"at least {low:g}" if high == inf else f"{low:g} to {high:g}"
 
 
 def _combined(symbol: str, left: Interval, right: Interval) -> Interval:
@@ -114,6 +94,98 @@ def _combined(symbol: str, left: Interval, right: Interval) -> Interval:
 
 
 def _around(lows: list[float], highs: list[float]) -> Interval:
-    if any(map(isnan, [*lows, *highs])):
-        return UNBOUNDED
-    return min(lows), max(highs)
+    return UNBOUNDED if any(map(isnan, [*lows, *highs])) else (min(lows), max(highs))
+
+
+def is_constant(of: Expression) -> bool:
+    """Whether an expression is made of numbers alone."""
+    return all(isinstance(term, Number | Operator) for term in of.terms)
+
+
+def range_in_words(of: Interval) -> str:
+    """A range in words."""
+    low, high = (bound + 0.0 for bound in of)  # -0.0 is 0
+    if low == high:
+        return f"always {low:g}"
+    if low == -inf:
+        return "anything" if high == inf else f"at most {high:g}"
+    return f"at least {low:g}" if high == inf else f"{low:g} to {high:g}"
+
+
+def why_never(when: When, value: Range) -> str | None:
+    """Why a condition never holds: what is wrong with the first of its alternatives; None where one may hold."""
+    reasons = [_why_never(all_, value) for all_ in when.alternatives]
+    return reasons[0] if all(reasons) else None
+
+
+def why_always(when: When, value: Range) -> str | None:
+    """Why a condition holds whatever is read; None where it may not."""
+    for all_ in when.alternatives:
+        if not any(_can_be(each, OPPOSITES[each.compare], value) for each in all_):
+            return _in_words(all_[0], "always", value)
+    return None
+
+
+def _why_never(all_: Sequence[Comparison], value: Range) -> str | None:
+    """Why comparisons never hold all at once."""
+    never = next((each for each in all_ if not _can_be(each, each.compare, value)), None)
+    return _in_words(never, "never", value) if never else _contradiction(all_, value)
+
+
+def _can_be(each: Comparison, compare: str, value: Range) -> bool:
+    """Whether both sides of a comparison can be to each other as `compare` says."""
+    left, right = value(each.left), value(each.right)
+    match compare:
+        case "<":
+            return left[0] < right[1]
+        case "<=":
+            return left[0] <= right[1]
+        case ">":
+            return left[1] > right[0]
+    return left[1] >= right[0]
+
+
+def _in_words(each: Comparison, how_often: str, value: Range) -> str:
+    left, right = (range_in_words(value(side)) for side in (each.left, each.right))
+    compared = f"{COMPARISON_WORDS[each.compare]} {right.removeprefix('always ')}"
+    return f"{each.left.span.text} is {left}, {how_often} {compared}"
+
+
+@dataclass(frozen=True, slots=True)
+class _Bound:
+    """`subject compare number`."""
+
+    subject: str
+    compare: str
+    number: float
+
+    @property
+    def strictness(self) -> tuple[float, bool]:
+        """The order of upper bounds, of which the least is the strictest, and of lower ones: there the greatest."""
+        return self.number, (self.compare in STRICT) != (self.compare in UPPER)
+
+    def __str__(self) -> str:
+        return f"{COMPARISON_WORDS[self.compare]} {self.number:g}"
+
+
+def _bounds(all_: Sequence[Comparison], value: Range) -> Iterator[_Bound]:
+    """What comparisons with a number say of their other side."""
+    for each in all_:
+        if is_constant(each.right):
+            yield _Bound(" ".join(each.left.span.text.split()), each.compare, value(each.right)[0])
+        elif is_constant(each.left):
+            yield _Bound(" ".join(each.right.span.text.split()), TURNED[each.compare], value(each.left)[0])
+
+
+def _contradiction(all_: Sequence[Comparison], value: Range) -> str | None:
+    """What would have to be below a number and above a greater one."""
+    bounds = [*_bounds(all_, value)]
+    for subject in dict.fromkeys(bound.subject for bound in bounds):
+        own = [bound for bound in bounds if bound.subject == subject]
+        upper = min((each for each in own if each.compare in UPPER), key=lambda each: each.strictness, default=None)
+        lower = max((each for each in own if each.compare not in UPPER), key=lambda each: each.strictness, default=None)
+        if upper and lower:
+            is_open = lower.compare in STRICT or upper.compare in STRICT
+            if lower.number > upper.number or (lower.number == upper.number and is_open):
+                return f"{subject} is never {upper} and {lower} at once"
+    return None

@@ -1,15 +1,27 @@
-"""What is wrong with a file: the compiler's errors or, where there are none, what the rules find."""
+"""What is wrong with a file: the compiler's errors or, where there are none, what the rules find; mended on demand."""
 
 import re
-from collections.abc import Collection, Iterator
+from bisect import bisect_right, insort
+from collections.abc import Callable, Collection, Iterable
+from dataclasses import dataclass, replace
+from operator import attrgetter
+from pathlib import Path
 
-from mindlang.compiler.compile import Compiled
+from mindrun.files.regular_files import read_regular
+
+from mindlang.compiler.compile import Compiled, compile_source, load
 from mindlang.compiler.diagnostic import Diagnostic
 from mindlang.compiler.references import mentions
+from mindlang.compiler.source import Source, encoded
+from mindlang.compiler.splice import Splice, spliced
+from mindlang.editing import transaction
 from mindlang.editing.neighbours import neighbours
 from mindlang.lint.rules import Rule, all_rules
 from mindlang.lint.study import Finding, study
+from mindlang.lock import LockError
 
+MAX_FIX_ROUNDS = 100  # a fix may make room for another
+MAX_FIXED_CHARACTERS = 4 << 20  # that are looked at in all rounds: what is left of a long file is for the next time
 _NOQA = re.compile(r"#\s*noqa(?:\s*:\s*(?P<codes>[\w-]+(?:[ ,]+[\w-]+)*))?\s*$", re.IGNORECASE)
 
 
@@ -51,10 +63,68 @@ def _diagnostic(rule: Rule, of: Finding) -> Diagnostic:
 def _is_silenced(diagnostic: Diagnostic) -> bool:
     """Whether `# noqa` or `# noqa: CODE` stands on the line."""
     assert diagnostic.span
-    line = diagnostic.span.source.line(diagnostic.span.line)
-    found = _NOQA.search(line)
-    return found is not None and (found["codes"] is None or diagnostic.code in _codes(found["codes"]))
+    found = _NOQA.search(diagnostic.span.source.line(diagnostic.span.line))
+    return found is not None and diagnostic.code in (found["codes"] or diagnostic.code).replace(",", " ").split()
 
 
-def _codes(text: str) -> Iterator[str]:
-    return (code.strip() for code in text.replace(",", " ").split())
+@dataclass(frozen=True, slots=True)
+class Linted:
+    """What is found in a file, after so many fixes; one that cannot be read says so in its diagnostics."""
+
+    diagnostics: tuple[Diagnostic, ...]
+    readable: bool
+    fixed: int
+
+
+def linted(file: str, compiled: Compiled, codes: Collection[str], fix: bool) -> Linted:
+    """A file held against the rules with these codes; MindError where the mended file cannot be written."""
+    try:
+        if fix and compiled.graph:
+            return _mended(Path(file).resolve(), compiled, codes)
+        return Linted(tuple(lint(compiled, codes)), compiled.readable, 0)
+    except LockError as error:
+        return Linted((Diagnostic("damaged-lock", f"{error}.", None, error.hint),), True, 0)
+
+
+def _mended(path: Path, compiled: Compiled, codes: Collection[str]) -> Linted:
+    """A file after its fixes; none is made where one of them would break it, or another mind that uses it."""
+
+    def again(source: Source) -> Compiled:
+        return compiled if source is compiled.sources[0] else compile_source(source, path)
+
+    def refuse_changed() -> None:
+        was = encoded(path, compiled.sources[0].text)
+        if read_regular(path, len(was) + 1) != was:
+            message = f"{path.name} has been changed meanwhile"
+            raise transaction.TransactionError(message, "Try again: nothing has been written.")
+
+    source, made = fixed(compiled.sources[0], lambda source: lint(again(source), codes))
+    users = (each.sources[0].path for each in neighbours([path]))
+    if not made or again(source).graph is None or any(load(user, {path: source.text}).graph is None for user in users):
+        return Linted(tuple(lint(compiled, codes)), True, 0)
+    transaction.change(path.parent, {path: encoded(path, source.text)}, refuse_changed)
+    return Linted(tuple(lint(again(source), codes)), True, made)
+
+
+def fixed(source: Source, look: Callable[[Source], Iterable[Diagnostic]]) -> tuple[Source, int]:
+    """A source with all safe fixes made of what `look` finds in it, round by round, and how many those were."""
+    made = 0
+    for _ in range(min(MAX_FIX_ROUNDS, MAX_FIXED_CHARACTERS // max(len(source.text), 1) + 1)):
+        chosen: list[Splice] = []  # that keep clear of one another, in order
+        before = made
+        for fix in (each.fix for each in look(source) if each.fix and each.fix.is_safe):
+            own = [splice for splice in fix.splices if splice.source is source]
+            if len(own) == len(fix.splices) and not any(_touches(splice, chosen) for splice in own):
+                for splice in own:
+                    insort(chosen, splice, key=attrgetter("start"))
+                made += 1
+        if made == before:
+            break
+        source = replace(source, text=spliced(source, chosen))
+    return source, made
+
+
+def _touches(splice: Splice, chosen: list[Splice]) -> bool:
+    """Whether a splice meets one of those that are chosen, which are in order and clear of one another."""
+    place = bisect_right(chosen, splice.end, key=attrgetter("start"))
+    return place > 0 and chosen[place - 1].end >= splice.start

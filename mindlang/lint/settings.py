@@ -1,12 +1,30 @@
-"""Which lint rules are held in which files, as `mind.toml` and the command line say."""
+"""Which lint rules are held in which files, as the command line and `mind.toml` say.
 
+A `mind.toml` is for the files in its folder and below, where no other one is nearer.
+
+What is wrong in it is a diagnostic on its line, and does not count.
+"""
+
+import os
+import tomllib
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, field
 from fnmatch import fnmatchcase
 from pathlib import Path
+from typing import Any
 
-from mindlang.compiler.diagnostic import Diagnostic
+from mindrun.errors import reason
+from mindrun.files.regular_files import read_regular
+
+from mindlang.compiler.diagnostic import ERRORS, Diagnostic, did_you_mean, listed
+from mindlang.compiler.source import MAX_SOURCE_BYTES, Source, Span, decode
+from mindlang.files import folders_above, name_from_here
 from mindlang.lint.rules import all_rules
+
+SETTINGS_NAME = "mind.toml"
+SECTION, PER_FILE = "lint", "per-file-ignores"
+KEYS = ("select", "ignore", PER_FILE)
+EXAMPLE_CODES = '["untaught-skill"]'
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,3 +51,121 @@ class LintSettings:
         for pattern, codes in self.per_file.items():
             if fnmatchcase(name, pattern) or fnmatchcase(path.name, pattern):
                 yield from codes
+
+
+def settings_of(path: Path) -> LintSettings:
+    """The settings that count for a file, those of the nearest `mind.toml`; its path is absolute."""
+    found = (folder / SETTINGS_NAME for folder in folders_above(path))
+    return next((_read(each) for each in found if os.access(each, os.F_OK) and each.is_file()), LintSettings())
+
+
+def why_no_rule(code: str) -> tuple[str, str] | None:
+    """Why a code cannot be selected or ignored, and what may have been meant; None where it can."""
+    if code in all_rules():
+        return None
+    if f"\n## {code}\n" in ERRORS.read_text(encoding="utf-8"):
+        return f"{code} is an error, not a rule: errors are always reported.", ""
+    return f"There is no rule called {code}.", did_you_mean(code, all_rules()) or "mindc explain lists them."
+
+
+def _read(path: Path) -> LintSettings:
+    name = name_from_here(path)
+    try:
+        source = Source(name, decode(read_regular(path, MAX_SOURCE_BYTES + 1)), path.parent)
+    except (OSError, ValueError) as error:
+        message = f"{name} cannot be read: {reason(error)}."
+        return LintSettings(wrong=(Diagnostic("unreadable-settings", message, None, "It is a text in TOML."),))
+    return _Reading(source).settings()
+
+
+@dataclass(slots=True)
+class _Reading:
+    """One file of settings, read from its beginning to its end; `at` is how far."""
+
+    source: Source
+    at: int = 0
+    wrong: list[Diagnostic] = field(default_factory=list)
+
+    def settings(self) -> LintSettings:
+        """What it says."""
+        try:
+            said = tomllib.loads(self.source.text)
+        except (tomllib.TOMLDecodeError, RecursionError) as error:
+            self._no_toml(error)
+            said = {}
+        lint = self._tables(said).get(SECTION, {})
+        found = self._keys(lint)
+        in_order = sorted(self.wrong, key=lambda each: each.span.start if each.span else 0)
+        return LintSettings(self.source.folder, **found, wrong=tuple(in_order))
+
+    def _tables(self, said: dict[str, Any]) -> dict[str, Any]:
+        for name, table in said.items():
+            if name != SECTION:
+                self._unknown(name, (SECTION,), "section")
+            elif not isinstance(table, dict):
+                self._refuse("wrong-setting", name, f"{SECTION} is a section.", f"Write [{SECTION}].")
+        return {name: table for name, table in said.items() if isinstance(table, dict)}
+
+    def _keys(self, lint: dict[str, Any]) -> dict[str, Any]:
+        found: dict[str, Any] = {}
+        for key, value in lint.items():
+            match key:
+                case "select" | "ignore":
+                    found[key] = self._rules(key, value)
+                case "per-file-ignores" if isinstance(value, dict):
+                    found["per_file"] = {pattern: self._rules(pattern, codes) for pattern, codes in value.items()}
+                case "per-file-ignores":
+                    hint = f'Write [{SECTION}.{PER_FILE}], and below it "drafts/*" = {EXAMPLE_CODES}.'
+                    self._refuse("wrong-setting", key, f"{key} is a section of patterns.", hint)
+                case _:
+                    self._unknown(key, KEYS, "setting")
+        return found
+
+    def _rules(self, key: str, value: object) -> tuple[str, ...]:
+        if not isinstance(value, list) or not all(isinstance(code, str) for code in value):
+            written = key if key in KEYS else f'"{key}"'
+            self._refuse("wrong-setting", key, f"{key} is a list of codes.", f"Write {written} = {EXAMPLE_CODES}.")
+            return ()
+        if key == "select" and not value:
+            self._refuse("wrong-setting", key, "select names no rule.", "Leave it out: then all rules are held.")
+        for code in value:
+            if why := why_no_rule(code):
+                self._refuse("unknown-rule", code, *why)
+        return tuple(code for code in value if code in all_rules())
+
+    def _unknown(self, word: str, known: tuple[str, ...], what: str) -> None:
+        hint = did_you_mean(word, known) or f"There {'is only' if len(known) == 1 else 'are'} {listed(known, 'and')}."
+        self._refuse("unknown-setting", word, f"There is no {what} called {word}.", hint)
+
+    def _refuse(self, code: str, word: str, message: str, hint: str) -> None:
+        self.wrong.append(Diagnostic(code, message, self._place(word), hint))
+
+    def _place(self, word: str) -> Span:
+        """Where a word stands, behind what was found before: TOML's values are in the order of the text, mostly."""
+        text = self.source.text
+        start = next((place for place in (_found(text, word, self.at), _found(text, word, 0)) if place >= 0), 0)
+        self.at = start + len(word)
+        return Span(self.source, start, self.at)
+
+    def _no_toml(self, error: Exception) -> None:
+        """Tell of a text that is no TOML; the place stands at the end of Python's message only."""
+        why, _, place = str(error).partition(" (at ")
+        numbers = [int(word) for word in place.rstrip(")").replace(",", "").split() if word.isdigit()]
+        starts = [0, *(index + 1 for index, character in enumerate(self.source.text) if character == "\n")]
+        end = len(self.source.text)
+        start = min(starts[numbers[0] - 1] + numbers[1] - 1, end) if len(numbers) == 2 else max(0, end - 1)
+        message = f"This is no TOML: {why[:1].lower()}{why[1:]}."
+        self.wrong.append(
+            Diagnostic("unreadable-settings", message, Span(self.source, start, min(start + 1, end)), "Mend the line.")
+        )
+
+
+def _found(text: str, word: str, start: int) -> int:
+    """Where a word stands by itself in a text and not in a comment; -1 where it does not."""
+    while (place := text.find(word, start)) >= 0:
+        line = text[text.rfind("\n", 0, place) + 1 : place]
+        ends = text[place - 1 : place], text[place + len(word) : place + len(word) + 1]
+        if "#" not in line and not any(end.isalnum() or end in ("-", "_") for end in ends if end):
+            return place
+        start = place + 1
+    return -1

@@ -1,23 +1,93 @@
 """What a lint rule looks at, and what it finds."""
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Hashable, Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from operator import attrgetter
+from typing import NamedTuple
 
 from mindrun.graph.graph import Graph, Lesson
-from mindrun.kinds.events.event import EventKind
-from mindrun.kinds.sensors.sensor import SensorKind
+from mindrun.kinds.sensors.sensor import Physical, SensorKind
+from mindrun.kinds.things.thing import STAYS
 
+from mindlang.compiler.beginning import Beginning, beginning
 from mindlang.compiler.compile import Compiled
 from mindlang.compiler.diagnostic import Fix, Label
 from mindlang.compiler.hierarchy import below, ends_first, in_order
-from mindlang.compiler.model import Mind, Skill, Task, source_graph
+from mindlang.compiler.model import Edge, End, Expression, Mind, Reading, Reward, Skill, Task, When, source_graph
 from mindlang.compiler.references import Mention, mentions
 from mindlang.compiler.source import Source, Span
+from mindlang.compiler.syntax import Declaration, Fact
+from mindlang.editing.insertion import without_declarations, without_fact
+from mindlang.lint.intervals import UNIT_INTERVAL, Interval, Range, interval
 from mindlang.lock import Lock, lock_sources, read_locks
 
 _WORD = re.compile(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])")
+
+
+@dataclass(frozen=True, slots=True)
+class AnalysedWorld:
+    """The things in a world that sensors can be about, what stands in the way, and whether the battery charges."""
+
+    study: "Study"
+    things: frozenset[str]
+    is_solid: bool
+    has_fixed: bool  # what is solid and does not give way
+    charges: bool
+    loose: frozenset[str] = frozenset()  # things that can be pushed
+    fleeting: frozenset[str] = frozenset()  # items that are gone as soon as they are reached
+
+    def constant(self, name: str) -> float | None:
+        """What a sensor always reads in this world; None where that varies, or nobody knows."""
+        kind = self.study.sensors.get(name)
+        if kind is None or (isinstance(kind, Physical) and kind.noise):
+            return None
+        return kind.constant(self)
+
+    def is_constant(self, reading: str) -> bool:
+        """Whether what a reading comes from in the end always reads the same."""
+        return all(self.constant(root) is not None for root in self.study.roots.get(reading, {reading}))
+
+    @property
+    def can_hold(self) -> bool:
+        """Whether a claw may ever close."""
+        return self.study.can_hold
+
+    @property
+    def tick(self) -> float:
+        """The length of a tick in seconds."""
+        return self.study.mind.tick
+
+    def reading(self, name: str) -> Interval:
+        """The range of a reading in this world."""
+        constant = self.constant(name)
+        return UNIT_INTERVAL if constant is None else (constant, constant)
+
+    def each(self, of: "Conditional") -> Interval:
+        """The range of the readings that a reward goes through."""
+        return self.reading(of.each) if isinstance(of, Reward) and of.each else UNIT_INTERVAL
+
+    def range_in(self, of: "Conditional") -> Range:
+        """The ranges of the expressions of an edge, an end or a reward."""
+        return lambda expression: interval(expression, self.reading, self.each(of))
+
+    @property
+    def drains(self) -> bool:
+        """Whether the battery can become empty."""
+        batteries = [kind.battery for kind in self.study.sensors.values() if kind.battery]
+        return not all(battery.start and not battery.drain for battery in batteries)
+
+
+Conditional = Edge | Reward | End
+
+
+class Condition(NamedTuple):
+    """A condition, what it is a condition of, and the world in which it is."""
+
+    when: When
+    of: Conditional
+    world: AnalysedWorld
 
 
 @dataclass(frozen=True)
@@ -32,6 +102,11 @@ class Study:
     def skills(self) -> dict[str, Skill]:
         """The skills by name."""
         return {skill.name: skill for skill in self.mind.skills}
+
+    @cached_property
+    def edges(self) -> tuple[tuple[Skill, Edge], ...]:
+        """What skills send, those left out that are like others."""
+        return tuple((skill, edge) for skill in self.mind.skills if not skill.like for edge in skill.edges)
 
     @cached_property
     def tasks(self) -> dict[str, Task]:
@@ -49,14 +124,9 @@ class Study:
         return tuple(self.skills[name] for name in reversed(in_order(self.mind.influences)))
 
     @cached_property
-    def masters(self) -> set[str]:
-        """The skills that are ever in charge: the mind's master, and those of its lessons."""
-        return {self.mind.master, *(lesson.master for lesson in self.mind.lessons)}
-
-    @cached_property
     def active(self) -> set[str]:
-        """The skills that a master reaches."""
-        return below(self.mind.influences, self.masters)
+        """The skills that a master reaches, the mind's or that of a lesson."""
+        return below(self.mind.influences, {self.mind.master, *(lesson.master for lesson in self.mind.lessons)})
 
     @cached_property
     def acting(self) -> set[str]:
@@ -100,22 +170,55 @@ class Study:
     @cached_property
     def is_exhausted(self) -> bool:
         """Whether a task asks for exhaustion, which is of the battery without naming it."""
-        events = (event for task in self.mind.tasks for event in (*_ending(task), *task.counts, *_paid(task)))
-        return any(event.is_of_battery for event in events)
+        ending = (end.event for task in self.mind.tasks for end in task.ends)
+        paid = (reward.on for task in self.mind.tasks for reward in task.rewards)
+        counted = (event for task in self.mind.tasks for event in task.counts)
+        return any(event.is_of_battery for event in (*ending, *paid, *counted) if event)
 
     @cached_property
-    def used(self) -> dict[str, set[str]]:
-        """The names that stand anywhere but in their own declaration, by noun."""
-        found: dict[str, set[str]] = {}
-        for mention in self.mentions:
-            if not mention.is_own:
-                found.setdefault(mention.noun, set()).add(mention.name.text)
-        return found
+    def used(self) -> set[tuple[str, str]]:
+        """The names that stand anywhere but in their own declaration, each with its noun before it."""
+        return {(mention.noun, mention.name.text) for mention in self.mentions if not mention.is_own}
 
     @property
     def main(self) -> Source:
         """The file that is linted."""
         return self.mind.files[0].source
+
+    @cached_property
+    def worlds(self) -> dict[str, AnalysedWorld]:
+        """The world of each task by its name."""
+        return {task.name: self._world(task) for task in self.mind.tasks}
+
+    def _world(self, task: Task) -> AnalysedWorld:
+        solid = [thing for thing in task.things if thing.kind.is_solid]
+        loose = frozenset(thing.name for thing in solid if thing.kind.is_loose)
+        items = (thing for thing in task.things if thing.kind.can_be_held)
+        fleeting = frozenset(thing.name for thing in items if thing.kind.outcomes.get("reached", STAYS) != STAYS)
+        is_solid, has_fixed = task.scene.is_bounded or bool(solid), task.scene.is_bounded or len(solid) > len(loose)
+        return AnalysedWorld(self, _named([task]), is_solid, has_fixed, _charges([task]), loose, fleeting)
+
+    @cached_property
+    def any_world(self) -> AnalysedWorld:
+        """A world in which there is everything that any task has."""
+        tasks = self.mind.tasks
+        return AnalysedWorld(self, _named(tasks), True, True, not tasks or _charges(tasks))
+
+    @property
+    def conditions(self) -> Iterator[Condition]:
+        """Every condition of what skills send, of rewards and of ends."""
+        for _, edge in self.edges:
+            if edge.gate:
+                yield Condition(edge.gate.when, edge, self.any_world)
+        for task in self.mind.tasks:
+            judging: tuple[Reward | End, ...] = (*task.rewards, *task.ends)
+            for each in judging:
+                if each.when:
+                    yield Condition(each.when, each, self.worlds[task.name])
+
+    def beginning(self, task: Task) -> Beginning:
+        """What is where when a run of a task begins."""
+        return beginning(task.scene, task.things, task.start, self.mind.body.kind, self.graph.claw_reach)
 
     def goals(self, task: Task) -> frozenset[str]:
         """The things on which no run of a task begins."""
@@ -144,12 +247,14 @@ class Finding:
 Found = Iterator[Finding]
 
 
-def _paid(task: Task) -> Iterator[EventKind]:
-    return (reward.on for reward in task.rewards if reward.on)
+def _named(tasks: Iterable[Task]) -> frozenset[str]:
+    """The things that sensors can be about."""
+    things = ((thing, task.scene) for task in tasks for thing in task.things)
+    return frozenset(thing.name for thing, scene in things if not thing.kind.is_obstacle or thing.kind.obstacles(scene))
 
 
-def _ending(task: Task) -> Iterator[EventKind]:
-    return (end.event for end in task.ends if end.event)
+def _charges(tasks: Iterable[Task]) -> bool:
+    return any(thing.kind.charges for task in tasks for thing in task.things)
 
 
 def study(compiled: Compiled) -> Study:
@@ -160,6 +265,27 @@ def study(compiled: Compiled) -> Study:
     return Study(compiled.mind, compiled.graph, lock)
 
 
+def first_of_each(found: Iterable[Finding], key: Callable[[Finding], Hashable] = attrgetter("span")) -> Found:
+    """The findings, each once: several tasks can have one from the same line."""
+    told = set[Hashable]()
+    for finding in found:
+        if key(finding) not in told:
+            told.add(key(finding))
+            yield finding
+
+
+def removal(what: Declaration | Fact, title: str = "", is_safe: bool = False) -> Fix:
+    """The fix that takes out a declaration, or the line of a fact."""
+    if isinstance(what, Declaration):
+        return Fix(title or f"Remove {what.header.name.text}", without_declarations([what]), is_safe)
+    return Fix(title or "Remove the line", (without_fact(what),), is_safe)
+
+
 def words(name: str) -> list[str]:
     """The words of a name in lower case, whether underscores or capitals part them: left_wheel, LeftWheel."""
     return [word.lower() for word in _WORD.findall(name)]
+
+
+def readings(expressions: Iterable[Expression]) -> set[str]:
+    """The names of the readings in some expressions."""
+    return {term.name for expression in expressions for term in expression.terms if isinstance(term, Reading)}

@@ -4,7 +4,7 @@ from math import cos, inf, pi, sin
 
 from mindrun.graph.graph import Graph, Task
 
-SIMULATED_SIZES = 25.0  # of its lesser side, in one tick: mindrun.sim.strides, whose import is slow
+SIMULATED_SIZES = 25.0  # of its lesser side, in one tick: mindrun.sim.lanes.solid, whose import is slow
 TRIED_DIRECTIONS = 180  # that are tried
 
 

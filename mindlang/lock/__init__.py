@@ -27,6 +27,7 @@ HEADER = (
 )
 MAX_LOCK_BYTES = 64 << 20
 CONFLICT_MARKS = ("<<<<<<< ", "||||||| ", "=======", ">>>>>>> ")  # as git leaves them
+CONFLICT_PARTS = ("<<<<<<< ours", "=======", ">>>>>>> theirs")  # as we do
 FILE_ORIGIN = "file:"  # before the name of a file, where weights begin with those in it; no skill's name has a colon
 
 _NAMES = r"[^\s|]+(?: [^\s|]+)*"
@@ -134,18 +135,29 @@ class Entry:
         names = (found["worlds"] or "").split() if found else []
         if found is None or not isfinite(float(found["score"])) or not worlds.keys() >= set(names):
             return None
-        signature = Signature(found["function"], tuple(found["reads"].split()), tuple(found["sends"].split()))
-        generations, population, seed = (int(found[key]) for key in ("generations", "population", "seed"))
-        where = found["task"], found["master"], found["jointly"] is not None
-        lesson = int(found["number"] or 0), found["curriculum"] or ""
-        success = None if found["success"] is None else float(found["success"])
-        taught = Taught(*where, generations, population, seed, float(found["score"]), *lesson, success)
-        subskills, origin = _hashed(found["subskills"]), _hashed(found["origin"])
-        taught_in = tuple(worlds[name] for name in names)
-        accepted = found["how"] == _EVIDENCE_WORDS[True]
-        weights = found["weights"]
-        begun = origin[0] if origin else None
-        return cls(found["skill"], signature, weights, taught, subskills, taught_in, accepted, begun, folder)
+        taught = Taught(
+            found["task"],
+            found["master"],
+            found["jointly"] is not None,
+            int(found["generations"]),
+            int(found["population"]),
+            int(found["seed"]),
+            float(found["score"]),
+            int(found["number"] or 0),
+            found["curriculum"] or "",
+            None if found["success"] is None else float(found["success"]),
+        )
+        return cls(
+            found["skill"],
+            Signature(found["function"], tuple(found["reads"].split()), tuple(found["sends"].split())),
+            found["weights"],
+            taught,
+            _hashed(found["subskills"]),
+            tuple(worlds[name] for name in names),
+            found["how"] == _EVIDENCE_WORDS[True],
+            next(iter(_hashed(found["origin"])), None),
+            folder,
+        )
 
 
 Lock = Mapping[str, Entry]
@@ -241,3 +253,34 @@ def write_lock(path: Path, entries: Lock) -> None:
         write(path, lock_text(entries).encode())
     except OSError as error:
         raise LockError(f"{path} cannot be written: {error.strerror}") from error
+
+
+@dataclass(frozen=True, slots=True)
+class MergedLock:
+    """What two branches agree on, and by skill what each of them says where both have changed it; None: nothing."""
+
+    entries: Lock
+    conflicts: Mapping[str, tuple[Entry | None, Entry | None]]
+
+    def text(self) -> str:
+        """The lock; of a skill that both have changed both lines, between the marks of git."""
+        first, between, last = CONFLICT_PARTS
+        lines = {skill: str(entry) for skill, entry in self.entries.items()}
+        for skill, (ours, theirs) in self.conflicts.items():
+            said = [first, *([str(ours)] if ours else []), between, *([str(theirs)] if theirs else []), last]
+            lines[skill] = "\n".join(said)
+        both = (side for sides in self.conflicts.values() for side in sides if side)
+        return lock_of(lines, [*self.entries.values(), *both])
+
+
+def merge(base: Lock, ours: Lock, theirs: Lock) -> MergedLock:
+    """The lines that one of two branches has changed, added or taken out since `base`, and those that none has."""
+    entries: dict[str, Entry] = {}
+    conflicts: dict[str, tuple[Entry | None, Entry | None]] = {}
+    for skill in sorted({*ours, *theirs}):
+        before, own, other = (lock.get(skill) for lock in (base, ours, theirs))
+        if own != other and before not in (own, other):
+            conflicts[skill] = own, other
+        elif now := other if own == before else own:
+            entries[skill] = now
+    return MergedLock(entries, conflicts)

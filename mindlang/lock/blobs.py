@@ -1,7 +1,9 @@
-"""Files of weights beside a lock: read and held against it, and new ones kept."""
+"""Files of weights beside a lock: read and held against it, new ones kept, and those removed that no lock names."""
 
 from __future__ import annotations
 
+import os
+import re
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import replace
@@ -13,7 +15,7 @@ from mindrun.errors import WeightsError
 from mindrun.files import atomic_write
 from mindrun.files.atomic_write import write
 from mindrun.files.npy import to_npy
-from mindrun.files.regular_files import read_whole
+from mindrun.files.regular_files import read_regular, read_whole
 from mindrun.graph.graph import Graph, Skill
 from mindrun.graph.skill_sets import owners, reachable
 
@@ -26,6 +28,7 @@ if TYPE_CHECKING:
     from mindrun.numbers.arrays import Weights
 
 FOLDER = "weights"
+_BLOB = re.compile(r"(?P<hash>[0-9a-f]{64})\.npy")
 MAX_WEIGHTS_BYTES = 1 << 27  # of the weights of a skill; a bundle cannot hold more than half of that
 EMPTY_LOCK: Lock = {}
 Origin = tuple[str, str]  # a skill, and the SHA-256 of its weights; or file:NAME, and that of the file
@@ -120,3 +123,45 @@ def exclusive_folder(folder: Path) -> Iterator[None]:
 def blob(folder: Path, weights: str) -> Path:
     """The file of weights of this SHA-256, for the locks of a folder."""
     return folder / FOLDER / f"{weights}.npy"
+
+
+def unnamed(project: Path) -> list[Path]:
+    """The files of weights in a folder, and below, that no lock beside their folder names.
+
+    LockError where a lock is damaged: nobody knows what it names. Where no lock stands at all nothing is unnamed, since
+    it may only be missing.
+    """
+    return [blob for folder in _folders(project) for blob in _unnamed(folder)]
+
+
+def remove(blobs: list[Path]) -> None:
+    """Remove those of these files that still no lock names; LockError where that fails."""
+    for folder in sorted({blob.parent.parent for blob in blobs}):
+        try:
+            with exclusive_folder(folder / FOLDER):  # a training may be writing a lock
+                for blob in sorted(set(_unnamed(folder)) & set(blobs)):
+                    blob.unlink()
+        except OSError as error:
+            raise LockError(f"{error.filename} cannot be removed: {error.strerror}") from error
+
+
+def _folders(project: Path) -> Iterator[Path]:
+    """The folders with locks and weights; links are not followed."""
+    for path, folders, files in os.walk(project):
+        folders[:] = sorted(name for name in folders if not name.startswith("."))
+        is_link = (Path(path) / FOLDER).is_symlink()
+        if FOLDER in folders and not is_link and any(name.endswith(".lock") for name in files):
+            yield Path(path)
+
+
+def _unnamed(folder: Path) -> list[Path]:
+    named = {
+        entry.weights for lock in folder.glob("*.lock") if _is_of_a_mind(lock) for entry in read_lock(lock).values()
+    }
+    blobs = ((path, _BLOB.fullmatch(path.name)) for path in sorted((folder / FOLDER).iterdir()))
+    return [path for path, found in blobs if found and found["hash"] not in named and not path.is_symlink()]
+
+
+def _is_of_a_mind(lock: Path) -> bool:
+    """Whether a lock is one of ours: other tools have locks, too (poetry.lock)."""
+    return lock.with_suffix(".mind").exists() or read_regular(lock, 11) == b"# mind lock"

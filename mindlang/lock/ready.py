@@ -12,7 +12,7 @@ from mindrun.graph.skill_sets import reachable
 from mindlang.compiler.diagnostic import listed
 from mindlang.compiler.source import Source
 from mindlang.lock import lock_sources, read_locks
-from mindlang.lock.arrange import arrange
+from mindlang.lock.signature import arrange
 from mindlang.lock.status import UNKNOWN, Status, Trained, status, trained_weights
 
 if TYPE_CHECKING:
@@ -59,7 +59,7 @@ def elsewhere_sentences(states: Mapping[str, Status]) -> Iterator[str]:
 
 def unknown_world_sentences(states: Mapping[str, Status]) -> Iterator[str]:
     """A sentence for all skills of which the lock does not know in which world they were taught."""
-    skills = [name for name, state in states.items() if isinstance(state, Trained) and not state.knows_world]
+    skills = [name for name, state in states.items() if isinstance(state, Trained) and not state.entry.worlds]
     if skills:
         yield f"{_were_taught(skills)} {UNKNOWN}"
 

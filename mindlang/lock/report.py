@@ -1,22 +1,36 @@
-"""How the skills of a mind stand to their weights, for people and for programs."""
+"""How the skills of a mind stand to their weights, for people and for programs, and what a person accepts of that."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from mindrun.graph.graph import Graph, Lesson, Skill
-from mindrun.graph.skill_sets import learners, reachable
+from mindrun.graph.skill_sets import learners, owner_of, owners, reachable
 
 from mindlang.compiler.diagnostic import listed
-from mindlang.lock import LockError, Taught, read_locks
-from mindlang.lock.arrange import arrange
-from mindlang.lock.blobs import load_weights
-from mindlang.lock.due import is_due
+from mindlang.lock import Entry, Lock, LockError, Taught, lock_path, read_lock, read_locks, write_lock
+from mindlang.lock.blobs import FOLDER, exclusive_folder, load_weights
 from mindlang.lock.ready import elsewhere_sentences
-from mindlang.lock.status import UNKNOWN, NotLearning, Stale, Status, Trained, Untaught, status
+from mindlang.lock.signature import arrange
+from mindlang.lock.status import (
+    UNKNOWN,
+    NotLearning,
+    Stale,
+    Status,
+    Trained,
+    Untaught,
+    in_question,
+    is_due,
+    key_of,
+    key_of_taught,
+    last_lesson,
+    lessons_of,
+    status,
+)
+from mindlang.lock.world_facts import Worlds
 
 ACCEPTED = "accepted by a person"
 
@@ -78,11 +92,11 @@ def rows(graph: Graph, sources: Sequence[Path]) -> list[Row]:
     graph = arrange(graph, lock)
     states = status(graph, lock, sources[0].parent)
     needed = {skill.name for skill in reachable(graph, graph.master)}
-    return [
-        Row(skill.name, state, skill.frozen, skill.name in needed, _damage(skill, state), skill.like, due)
-        for skill in graph.skills
-        for state, due in [(states[skill.name], _due(graph, skill.name, states))]
-    ]
+    found = []
+    for skill in graph.skills:
+        state, due = states[skill.name], _due(graph, skill.name, states)
+        found.append(Row(skill.name, state, skill.frozen, skill.name in needed, _damage(skill, state), skill.like, due))
+    return found
 
 
 def _due(graph: Graph, skill: str, states: Mapping[str, Status]) -> tuple[Lesson, ...]:
@@ -153,3 +167,46 @@ def survival(found: Sequence[Row]) -> list[str]:
     lines += [row.damage for row in found if row.damage]
     lines += [f"{row.skill} is stale: {'; '.join(row.remarks)}" for row in found if isinstance(row.status, Stale)]
     return lines + [f"{row.skill} has not been taught" for row in found if isinstance(row.status, Untaught)]
+
+
+def accept(graph: Graph, sources: Sequence[Path], skills: Sequence[str]) -> None:
+    """Write into the locks of these files that the weights of these skills will do as the mind is now.
+
+    LockError where one has no weights that fit, or none of its lessons is there any more; then nothing is written.
+    """
+    lock = read_locks(sources)
+    skills = list(dict.fromkeys(owner_of(graph, skill) for skill in skills))
+    states = status(graph, lock, sources[0].parent)
+    for skill in skills:
+        if not isinstance(states.get(skill), Trained):
+            raise LockError(f"{skill} has no weights that fit, and none can be accepted")
+    entries = {skill: _accepted(graph, lock, sources[0].parent, lock[skill]) for skill in skills}
+    for path in map(lock_path, sources):
+        if mine := {skill: entries.pop(skill) for skill in read_lock(path) if skill in entries}:
+            try:
+                with exclusive_folder(path.parent / FOLDER):
+                    write_lock(path, read_lock(path) | mine)
+            except OSError as error:
+                raise LockError(f"{path} cannot be written: {error.strerror}") from error
+
+
+def _accepted(graph: Graph, lock: Lock, folder: Path, entry: Entry) -> Entry:
+    taught = entry.taught
+    last = last_lesson(graph.lessons, taught)
+    teaching = [lesson for lesson in graph.lessons if entry.skill in learners(graph, lesson)]
+    if entry.worlds:
+        known = [lessons_of(graph, world, entry, teaching, last) for world in entry.worlds]
+    else:
+        known = [in_question([each for each in teaching if key_of(each) == key_of_taught(taught)], last)]
+    lessons = [found[0] for found in known if found]
+    if not lessons:
+        raise LockError(
+            f"no lesson of the mind teaches {entry.skill} on {taught.task}, so its world cannot be accepted"
+        )
+    worlds = tuple(Worlds(graph, folder).of(lesson) for lesson in lessons)
+    below = (name for name in owners(reachable(graph, entry.skill)) if name != entry.skill and name in lock)
+    subskills = tuple(sorted((name, lock[name].weights) for name in below))
+    origin = entry.origin
+    if origin and (now := lock.get(owner_of(graph, origin[0]))):
+        origin = origin[0], now.weights
+    return replace(entry, worlds=worlds, subskills=subskills, origin=origin, accepted=True)

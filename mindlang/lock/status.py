@@ -1,19 +1,19 @@
-"""Which skills of a mind have weights that fit, and what is different about those that do not."""
+"""Which skills of a mind have weights that fit, what is different about those that do not, and which lesson is due."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections import defaultdict
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from mindrun.graph.graph import Graph, Lesson, Skill
+from mindrun.graph.graph import Graph, Lesson, Need, Skill
 from mindrun.graph.skill_sets import below, genes, learners, owner_of, owners, reachable
 
-from mindlang.lock import Entry, Lock
+from mindlang.lock import Entry, Lock, Taught
 from mindlang.lock.blobs import load_weights
-from mindlang.lock.lessons import in_question, key_of, key_of_taught, last_lesson, lessons_of
 from mindlang.lock.signature import differences, reordered, signature
 from mindlang.lock.training_world import LessonKey, TrainingWorld
 from mindlang.lock.world_changes import changes
@@ -43,11 +43,6 @@ class Trained:
         """Whether the world in which it was taught is known, and is another now."""
         return bool(self.changes)
 
-    @property
-    def knows_world(self) -> bool:
-        """Whether the lock says in which world it was taught; those of older versions do not."""
-        return bool(self.entry.worlds)
-
 
 @dataclass(frozen=True, slots=True)
 class Stale:
@@ -58,12 +53,12 @@ class Stale:
 
 @dataclass(frozen=True, slots=True)
 class Untaught:
-    """It learns, and has no weights yet."""
+    """A skill that learns, and has no weights yet."""
 
 
 @dataclass(frozen=True, slots=True)
 class NotLearning:
-    """It has no weights to learn."""
+    """A skill that has no weights to learn."""
 
 
 Status = Trained | Stale | Untaught | NotLearning
@@ -97,17 +92,16 @@ class _Standing:
         skill = self.graph.skills[index]
         if genes(skill) == 0:
             return NotLearning()
-        entry = self.lock.get(skill.name)
-        if entry is None:
+        if (entry := self.lock.get(skill.name)) is None:
             return Untaught()
         found = (*mismatches(self.graph, skill, entry), *reordered(entry, self.graph))
         return Stale(found) if found else self._trained(index, entry)
 
     def _trained(self, index: int, entry: Entry) -> Trained:
-        alike = self._lessons.get(key_of_taught(entry.taught), [])
+        alike = self._lessons[key_of_taught(entry.taught)]
         last, changed, outdated = last_lesson(alike, entry.taught), list[str](), set[Lesson]()
         for world in entry.worlds:
-            lessons = lessons_of(self.graph, world, entry, self._teaching.get(entry.skill, ()), last)
+            lessons = lessons_of(self.graph, world, entry, self._teaching[entry.skill], last)
             if not lessons and world != entry.worlds[-1]:
                 continue  # it has learnt something since, and nothing could teach it that again
             told = {lesson: self._world_changes(world, lesson) for lesson in lessons}
@@ -118,7 +112,7 @@ class _Standing:
             outdated |= {lesson for lesson, said in told.items() if said}
         if other := [*self._other_origin(entry)]:
             changed += other
-            outdated |= self._lessons_from(entry)
+            outdated |= {each for each in self.graph.lessons if each.starts_from and each.skill == entry.skill}
         subskills = [*self._subskill_changes(index, entry)]
         if subskills:
             outdated |= {*in_question(alike, last)}
@@ -126,7 +120,7 @@ class _Standing:
 
     def _renamed(self, world: TrainingWorld, entry: Entry, told: Collection[Lesson]) -> list[Lesson]:
         """The lessons of a skill that are just as a world says, whose name another has now."""
-        others = (each for each in self._teaching.get(entry.skill, ()) if each not in told)
+        others = (each for each in self._teaching[entry.skill] if each not in told)
         alike = (each for each in others if each.with_subskills == world.lesson.jointly)
         return [each for each in alike if not self._world_changes(world, each)]
 
@@ -137,7 +131,7 @@ class _Standing:
             return changes(world, self._worlds.of(lesson))
         if key.task not in self._tasks:
             return [f"its task {key.task} is gone"]
-        if key.master not in self._skills:
+        if key.master not in self.graph.skill_numbers:
             return [f"its master {key.master} is gone"]
         return changes(world, self._worlds.of_gone(key, world.facts["lesson"]))
 
@@ -166,15 +160,11 @@ class _Standing:
         elif now.weights != weights and not self._took_part(entry.skill, now):
             yield f"began with another {name} ({weights[:4]}…, now {now.weights[:4]}…)"
 
-    def _lessons_from(self, entry: Entry) -> set[Lesson]:
-        """The lessons in which a skill begins with the weights of another."""
-        return {each for each in self.graph.lessons if each.starts_from and each.skill == entry.skill}
-
     def _took_part(self, skill: str, taught: Entry) -> bool:
         """Whether a skill acted in the lesson that another was taught in."""
         master = taught.taught.master
         if master not in self._acting:
-            acting = reachable(self.graph, master) if master in self._skills else ()
+            acting = reachable(self.graph, master) if master in self.graph.skill_numbers else ()
             self._acting[master] = {name for each in acting for name in (each.name, each.owner)}
         return master != taught.skill and skill in self._acting[master]
 
@@ -192,23 +182,19 @@ class _Standing:
         return {task.name for task in self.graph.tasks}
 
     @cached_property
-    def _skills(self) -> set[str]:
-        return {skill.name for skill in self.graph.skills}
-
-    @cached_property
     def _teaching(self) -> dict[str, list[Lesson]]:
         """The lessons that teach a skill, by its name."""
-        found: dict[str, list[Lesson]] = {}
+        found: dict[str, list[Lesson]] = defaultdict(list)
         for lesson in self.graph.lessons:
             for skill in learners(self.graph, lesson):
-                found.setdefault(skill, []).append(lesson)
+                found[skill].append(lesson)
         return found
 
     @cached_property
     def _lessons(self) -> dict[LessonKey, list[Lesson]]:
-        found: dict[LessonKey, list[Lesson]] = {}
+        found: dict[LessonKey, list[Lesson]] = defaultdict(list)
         for lesson in self.graph.lessons:
-            found.setdefault(key_of(lesson), []).append(lesson)
+            found[key_of(lesson)].append(lesson)
         return found
 
 
@@ -234,3 +220,94 @@ def trained_weights(graph: Graph, lock: Lock, skills: Collection[str]) -> tuple[
             case Untaught():
                 refusals.append(f"{skill.name} has not been taught{frozen}")
     return weights, refusals
+
+
+def key_of(lesson: Lesson) -> LessonKey:
+    """Which lesson it is, whatever its curriculum says of how it is learnt."""
+    return LessonKey(lesson.task, lesson.master, lesson.with_subskills)
+
+
+def key_of_taught(taught: Taught) -> LessonKey:
+    """Which lesson it was that a line of a lock tells of last."""
+    return LessonKey(taught.task, taught.master, taught.jointly)
+
+
+def last_lesson(lessons: Iterable[Lesson], taught: Taught) -> Lesson | None:
+    """Which of these lessons a line of a lock tells of; None where it does not say, or another stands there."""
+    said = taught.number, taught.curriculum, key_of_taught(taught)
+    return next((each for each in lessons if (each.number, each.curriculum, key_of(each)) == said), None)
+
+
+def in_question(lessons: Sequence[Lesson], last: Lesson | None) -> Sequence[Lesson]:
+    """The lessons that a world of a lock may be of, out of some with its key; the one taught last, if known, is first.
+
+    Of its curriculum it is the only one: the worlds of those before it are forgotten.
+    """
+    if last is None or last not in lessons:
+        return lessons
+    return [last, *(each for each in lessons if each.curriculum != last.curriculum)]
+
+
+def lessons_of(
+    graph: Graph, world: TrainingWorld, entry: Entry, teaching: Iterable[Lesson], last: Lesson | None
+) -> Sequence[Lesson]:
+    """Those of the lessons `teaching` a skill that a world of its line may be of; `last` is the one taught last.
+
+    A task or a master that is gone may have another name now: then they are those that the line does not know.
+    """
+    key, teaching = world.lesson, [*teaching]
+    if found := [lesson for lesson in teaching if key_of(lesson) == key]:
+        return in_question(found, last)
+    known = {each.lesson for each in entry.worlds}
+    gone = {key.task} - {task.name for task in graph.tasks}, {key.master} - graph.skill_numbers.keys()
+    return [each for each in teaching if key_of(each) not in known and _may_be(key_of(each), key, *gone)]
+
+
+def _may_be(now: LessonKey, key: LessonKey, tasks: Collection[str], masters: Collection[str]) -> bool:
+    """Whether a lesson is another, `key`, but for the names of the task and the master that are gone."""
+    same_task = now.task == key.task or key.task in tasks
+    return same_task and (now.master == key.master or key.master in masters) and now.jointly == key.jointly
+
+
+def needed_skills(graph: Graph, lesson: Lesson) -> set[str]:
+    """The skills without whose weights a lesson cannot begin: those that act in it and do not learn, and its origin."""
+    return {*subskills(graph, lesson)} | ({owner_of(graph, lesson.starts_from)} if lesson.starts_from else set())
+
+
+def subskills(graph: Graph, lesson: Lesson) -> tuple[str, ...]:
+    """The skills whose weights act in a lesson and do not learn: all below its master but the learners."""
+    taught = learners(graph, lesson)
+    return tuple(name for name in owners(reachable(graph, lesson.master)) if name not in taught)
+
+
+def is_due(graph: Graph, lesson: Lesson, states: Mapping[str, Status]) -> bool:
+    """Whether a lesson has yet to be taught, by how its learners stand.
+
+    Skills whose weights fit are left alone, except where they came from an earlier lesson that taught them, where the
+    world of the lesson is another than the one in which they were taught, and where they are not known to have what it
+    needs.
+    """
+    before = graph.lessons[: graph.lessons.index(lesson)]
+    return any(
+        _is_due(lesson, [other for other in before if skill in learners(graph, other)], state)
+        for skill, state in states.items()
+    )
+
+
+def _is_due(lesson: Lesson, earlier: Iterable[Lesson], state: Status) -> bool:
+    if not isinstance(state, Trained):
+        return True
+    if lesson in state.outdated:
+        return True
+    taught = key_of_taught(state.entry.taught)
+    if key_of(lesson) == taught and not all(_has(state.entry.taught, each) for each in lesson.needs):
+        return True  # taught by less than it needs, or before it needed that
+    if state.last and state.last.curriculum == lesson.curriculum:
+        return state.last.number < lesson.number
+    return key_of(lesson) != taught and any(key_of(other) == taught for other in earlier)
+
+
+def _has(taught: Taught, needed: Need) -> bool:
+    """Whether what was taught is known to have what a lesson needs."""
+    reached = taught.score if needed.measure == "score" else taught.success
+    return reached is not None and reached > needed.above

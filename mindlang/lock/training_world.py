@@ -14,13 +14,54 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from hashlib import sha256
-from math import isfinite
-from typing import Any, NoReturn
+from typing import Annotated, Any, NoReturn
+
+from msgspec import Meta, Struct, ValidationError, convert, defstruct, field
 
 HEADING = re.compile(r"world (?P<name>[0-9a-f]{16})")
 MOST_FACT_CHARACTERS = 1 << 20
 _FACT = re.compile(r"  (?P<subject>[^\s=]+(?: [^\s=]+)?) = (?P<value>.+)")
-_PARTS = ("actuator", "memory", "sensor", "thing")
+
+
+class Kind:
+    """A kind as `mindrun.graph.encoding` says it: its name and its arguments."""
+
+
+class Argument:
+    """An argument of a kind, in one of the forms ARGUMENTS."""
+
+
+def _table(name: str, *fields: Any) -> type[Struct]:
+    return defstruct(name, fields, forbid_unknown_fields=True)
+
+
+Number = Annotated[float, Meta(gt=-1e300, lt=1e300)]
+ARGUMENTS: tuple[Any, ...] = (
+    None | bool | str | Number | _table("Span", ("first", Number), ("last", Number), ("by", Number | None)),
+    list[Number],
+    list[str],
+    list[tuple[Number, Number]],
+    list[tuple[str, str | Number]],  # an expression over readings, of words with a number or a name each
+)
+NAMED = {**dict.fromkeys(("actuator", "memory", "sensor", "thing"), Kind), "skill": dict[str, str | list[str]]}
+FORMS = {
+    "tick": Annotated[float, Meta(gt=0, lt=1e300)],
+    "claw": Number,
+    "body": Kind,
+    "task": _table(
+        "Task", ("scene", Kind), ("ticks", Number), ("ends", list[str]), ("succeeds", list[str], field(default=[]))
+    ),
+    "environment": _table("Environment", ("text", str)),
+    "physics": _table("Physics", ("pymunk", str), ("world", int)),
+    "start": _table("Start", ("at", Argument), ("facing", Argument)),
+    "varying": list[str],
+    "rewards": list[tuple[str, str]],
+    "lesson": _table(
+        "Lesson",
+        *(("task", str), ("master", str), ("with_subskills", bool), ("from_scratch", bool), ("learner", Kind)),
+        ("starts_from", str, ""),
+    ),
+}  # what a fact may be, by its subject or, of those with a name, by the noun in NAMED
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,7 +119,9 @@ def _value(subject: str, text: str) -> Any:
         value = json.loads(text, parse_constant=_no_number)
     except RecursionError:
         raise ValueError("it is nested too deeply") from None
-    if not _is_valid_fact(subject, value):
+    noun, _, name = subject.partition(" ")
+    form = (NAMED if name else FORMS).get(noun)
+    if form is None or not _fits(value, form):
         raise ValueError(f"{subject} cannot be so")
     return value
 
@@ -87,99 +130,22 @@ def _no_number(text: str) -> NoReturn:
     raise ValueError(f"{text} is no number")
 
 
-def _is_valid_fact(subject: str, value: Any) -> bool:
-    match subject.split(" "):
-        case ["tick"]:
-            return _is_number(value) and value > 0
-        case ["claw"]:
-            return _is_number(value)
-        case ["body"]:
-            return _is_kind(value)
-        case [noun, _] if noun in _PARTS:
-            return _is_kind(value)
-        case ["skill", _]:
-            return _is_skill(value)
-        case ["task"]:
-            return isinstance(value, dict) and _is_task(value)
-        case ["environment"]:
-            return isinstance(value, dict) and value.keys() == {"text"} and isinstance(value["text"], str)
-        case ["physics"]:
-            known = {"pymunk": str, "world": int}
-            return isinstance(value, dict) and {key: type(part) for key, part in value.items()} == known
-        case ["start"]:
-            return (
-                isinstance(value, dict) and value.keys() == {"at", "facing"} and all(map(_is_argument, value.values()))
-            )
-        case ["varying"]:
-            return _are_strings(value)
-        case ["rewards"]:
-            return isinstance(value, list) and all(_are_strings(each) and len(each) == 2 for each in value)
-        case ["lesson"]:
-            return isinstance(value, dict) and _is_lesson(value)
-    return False
+def _fits(value: Any, form: Any) -> bool:
+    """Whether a value has a form."""
+    try:
+        convert(value, form, dec_hook=_checked)
+    except (ValidationError, OverflowError):
+        return False
+    return True
 
 
-def _is_skill(value: Any) -> bool:
-    """Whether it is what `facts.py` says of a skill: strings, or lists of them."""
-    return isinstance(value, dict) and all(isinstance(each, str) or _are_strings(each) for each in value.values())
-
-
-def _is_task(value: dict[str, Any]) -> bool:
-    match value:
-        case {"scene": scene, "ticks": ticks, "ends": ends}:
-            successes = value.get("succeeds", [])
-            known = len(value) == 3 + ("succeeds" in value) and _are_strings(ends) and _are_strings(successes)
-            return known and _is_kind(scene) and _is_number(ticks)
-    return False
-
-
-def _is_lesson(value: dict[str, Any]) -> bool:
-    match value:
-        case {"task": str(), "master": str(), "with_subskills": bool(), "from_scratch": bool(), "learner": learner}:
-            origin = value.get("starts_from", "")
-            return len(value) == 5 + ("starts_from" in value) and isinstance(origin, str) and _is_kind(learner)
-    return False
-
-
-def _is_kind(value: Any) -> bool:
-    """Whether it is a kind as `mindrun.graph.codec` says it: its name and its arguments."""
-    return isinstance(value, dict) and isinstance(value.get("is"), str) and all(map(_is_argument, value.values()))
-
-
-def _is_argument(value: Any) -> bool:
-    match value:
-        case None | bool() | str():
-            return True
-        case list():
-            return (
-                all(map(_is_number, value)) or _are_strings(value) or all(map(_is_place, value)) or _is_formula(value)
-            )
-        case dict():
-            by = value.get("by")
-            is_span = value.keys() == {"first", "last", "by"} and (by is None or _is_number(by))
-            return is_span and _is_number(value["first"]) and _is_number(value["last"])
-    return _is_number(value)
-
-
-def _is_place(value: Any) -> bool:
-    return isinstance(value, list) and len(value) == 2 and all(map(_is_number, value))
-
-
-def _is_formula(value: list[Any]) -> bool:
-    """Whether it is an expression over readings, of words with a number or a name each."""
-    return all(
-        isinstance(step, list)
-        and len(step) == 2
-        and isinstance(step[0], str)
-        and (isinstance(step[1], str) or _is_number(step[1]))
-        for step in value
-    )
-
-
-def _is_number(value: Any) -> bool:
-    # Not isinstance: true and false would be numbers.
-    return type(value) in (int, float) and abs(value) < 1e300 and isfinite(value)
-
-
-def _are_strings(value: Any) -> bool:
-    return isinstance(value, list) and all(isinstance(each, str) for each in value)
+def _checked(form: type[Kind | Argument], value: Any) -> Kind | Argument:
+    """What stands for a kind or an argument of one; ValueError where the value is none."""
+    if form is Argument:
+        is_one = any(_fits(value, each) for each in ARGUMENTS)
+    else:
+        is_named = isinstance(value, dict) and isinstance(value.get("is"), str)
+        is_one = is_named and all(_fits(argument, Argument) for argument in value.values())
+    if not is_one:
+        raise ValueError("it cannot be so")
+    return form()

@@ -5,15 +5,17 @@ from collections.abc import Iterator, Mapping, Sequence
 from math import degrees, sin
 from typing import Any
 
+from mindrun.kinds.things.thing import MOVES
 from mindrun.numbers.quantity import ANGLE
 
-from mindlang.lock.older_worlds import migrate_facts
 from mindlang.lock.training_world import TrainingWorld
-from mindlang.lock.wording import argument, meaning_of, number
+from mindlang.lock.world_facts import argument, meaning_of, number
 
 PARTS = ("sensor", "memory", "actuator", "thing")
 SAME_DIRECTION = 1e-9  # so far apart may be the sines of what is one direction to a reader
 NOUNS = {"thing": "content"}  # of the registry, where it says another
+ONE_ANYWHERE = {"at": [], "count": 1}  # what every thing was before there was a word for it
+EVENTS = {"reached": "reach", "delivered": "delivery"}
 
 
 def changes(old: TrainingWorld, now: TrainingWorld) -> list[str]:
@@ -204,3 +206,21 @@ def _beginning(lesson: Mapping[str, Any]) -> str:
     if lesson["from_scratch"]:
         return "from scratch"
     return f"from {lesson['starts_from']}" if "starts_from" in lesson else "from its weights"
+
+
+def migrate_facts(facts: Mapping[str, Any]) -> dict[str, Any]:
+    """The facts of a world; a thing moved where a reward or an end of its task named it.
+
+    What was only counted is not known, so nothing is said of that.
+    """
+    named = {*facts.get("task", {}).get("ends", ())}
+    named |= {reason.removeprefix("on ").partition(" when ")[0] for _, reason in facts["rewards"]}
+    return {subject: _with_outcomes(subject, fact, named) for subject, fact in facts.items()}
+
+
+def _with_outcomes(subject: str, fact: Any, named: set[str]) -> Any:
+    noun, _, name = subject.partition(" ")
+    if noun != "thing":
+        return fact
+    outcomes = {field: MOVES for field, event in EVENTS.items() if f"{event} of {name}" in named}
+    return ONE_ANYWHERE | outcomes | fact  # what it says itself counts

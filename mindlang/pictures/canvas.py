@@ -3,6 +3,7 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import product
+from typing import NamedTuple
 
 import cv2
 import numpy as np
@@ -21,6 +22,43 @@ def blank(width: int, height: int, colour: Colour) -> Image:
     image = np.empty((height, width, 3), np.uint8)
     image[:] = np.full((width, 3), colour, np.uint8)  # whole rows are copied five times as fast as pixels
     return image
+
+
+def pasted(page: Image, part: Image, x: int, y: int) -> None:
+    """Put a part on a page."""
+    page[y : y + part.shape[0], x : x + part.shape[1]] = part
+
+
+def fitted(seen: Image, width: int, height: int, around: Colour) -> Image:
+    """An image, red first, as one of that size: as large as fits, in the middle."""
+    high, wide, _ = seen.shape
+    scale = min(width / wide, height / high)
+    size = max(1, round(wide * scale)), max(1, round(high * scale))
+    how = cv2.INTER_AREA if scale < 1 else cv2.INTER_CUBIC
+    inner = cv2.resize(np.ascontiguousarray(seen[:, :, ::-1]), size, interpolation=how)
+    page = blank(width, height, around)
+    pasted(page, inner.astype(np.uint8), (width - size[0]) // 2, (height - size[1]) // 2)
+    return page
+
+
+class Rectangle(NamedTuple):
+    """Where something stands: by the corner from which both coordinates grow, in units or pixels."""
+
+    left: float
+    low: float
+    width: float
+    height: float
+
+    def overlaps(self, other: "Rectangle") -> bool:
+        """Whether both cover a place."""
+        is_beside = self.left >= other.left + other.width or other.left >= self.left + self.width
+        return not is_beside and self.low < other.low + other.height and other.low < self.low + self.height
+
+    def is_within(self, other: "Rectangle") -> bool:
+        """Whether the other covers all of it."""
+        right, top = other.left + other.width, other.low + other.height
+        ends_in = self.left + self.width <= right and self.low + self.height <= top
+        return other.left <= self.left and other.low <= self.low and ends_in
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,6 +85,16 @@ class Canvas:
         self.image, self.view, self.pen = image, view, pen
         self._up = 1.0 if down else -1.0
 
+    @classmethod
+    def of_page(cls, image: Image, pen: int = 1) -> "Canvas":
+        """A canvas for a page, in pixels from its upper left corner, of which the image has `pen` for each."""
+        return cls(image, Viewport(0.0, 0.0, pen), pen, down=True)
+
+    @property
+    def pixel(self) -> float:
+        """How many units a line of width 1 is wide."""
+        return self.pen / self.view.scale
+
     def places(self, points: ArrayLike) -> Places:
         """Points [n, 2] in sixteenths of a pixel."""
         corner = np.array([self.view.left, self.view.top])
@@ -61,8 +109,7 @@ class Canvas:
         line = self._line(width) if width else cv2.FILLED
 
         def draw(image: Image, places: Places) -> None:
-            middle = int(places[0, 0]), int(places[0, 1])
-            cv2.circle(image, middle, size, colour, line, cv2.LINE_AA, COORDINATE_BITS)
+            cv2.circle(image, places[0].tolist(), size, colour, line, cv2.LINE_AA, COORDINATE_BITS)
 
         self._blend(alpha, self.places([x, y]), size / 2**COORDINATE_BITS + width * self.pen, draw)
 
@@ -95,24 +142,23 @@ class Canvas:
         bold: bool = False,
         align: str = "left",
         halo: Colour | None = None,
-    ) -> float:
-        """Text with capitals of `size` pixels on the line that begins, is centred or ends in x, y; its width.
+    ) -> None:
+        """Text with capitals of `size` pixels on the line that begins, is centred or ends in x, y.
 
         A halo sets it off from what is drawn below it.
         """
-        font, scale, line = (cv2.FONT_HERSHEY_DUPLEX if bold else cv2.FONT_HERSHEY_SIMPLEX), *self._font(size)
-        wide = text_width(text, size * self.pen, bold)
-        start = {"left": 0.0, "centre": wide / 2, "right": wide}[align]
+        font, scale, line = _font(size * self.pen, bold)
+        start = {"left": 0.0, "centre": 0.5, "right": 1.0}[align] * text_width(text, size * self.pen, bold)
         column, row = self.places([x, y])[0] / 2**COORDINATE_BITS
         left, low, far = round(column - start), round(row), round(1.5 * self.pen)
         if halo is not None:
             for aside, up in product((-far, 0, far), repeat=2):
                 cv2.putText(self.image, text, (left + aside, low + up), font, scale, halo, line, cv2.LINE_AA)
         cv2.putText(self.image, text, (left, low), font, scale, colour, line, cv2.LINE_AA)
-        return wide
 
-    def _font(self, size: float) -> tuple[float, int]:
-        return size * self.pen / CAPITAL_PIXELS, max(1, round(size * self.pen / 20))
+    def width(self, text: str, size: float) -> float:
+        """How many pixels of the page a text with capitals of `size` is wide."""
+        return text_width(text, size * self.pen) / self.pen
 
     def _line(self, width: float) -> int:
         return max(1, round(width * self.pen))
@@ -132,11 +178,27 @@ class Canvas:
             under[:] = cv2.addWeighted(over, alpha, under, 1.0 - alpha, 0.0)
 
 
+def _font(size: float, bold: bool) -> tuple[int, float, int]:
+    """OpenCV's font, its size and the width of its lines, for capitals of so many pixels."""
+    font = cv2.FONT_HERSHEY_DUPLEX if bold else cv2.FONT_HERSHEY_SIMPLEX
+    return font, size / CAPITAL_PIXELS, max(1, round(size / 20))
+
+
 def text_width(text: str, size: float, bold: bool = False) -> float:
     """How many pixels wide a text with capitals of that size is."""
-    font = cv2.FONT_HERSHEY_DUPLEX if bold else cv2.FONT_HERSHEY_SIMPLEX
-    (width, _), _ = cv2.getTextSize(text, font, size / CAPITAL_PIXELS, max(1, round(size / 20)))
+    (width, _), _ = cv2.getTextSize(text, *_font(size, bold))
     return float(width)
+
+
+def in_lines(widths: Sequence[float], gap: float, room: float) -> list[tuple[float, int]]:
+    """Where each of some texts of these widths begins, and in which line, side by side in lines as wide as the room."""
+    places, along, line = [], 0.0, 0
+    for width in widths:
+        if along and along + width > room:
+            along, line = 0.0, line + 1
+        places.append((along, line))
+        along += width + gap
+    return places
 
 
 def square(x: float, y: float, half: float) -> Sequence[tuple[float, float]]:
@@ -148,8 +210,3 @@ def rectangle(x: float, y: float, half_x: float, half_y: float) -> Sequence[tupl
     """The corners of a rectangle around a place."""
     left, right, low, high = x - half_x, x + half_x, y - half_y, y + half_y
     return (left, low), (right, low), (right, high), (left, high)
-
-
-def pasted(page: Image, part: Image, x: int, y: int) -> None:
-    """Put a part on a page."""
-    page[y : y + part.shape[0], x : x + part.shape[1]] = part

@@ -1,4 +1,4 @@
-"""Learning curves, as in the paper's Figures 11 to 14: one panel a lesson, one colour an attempt."""
+"""Learning curves, as in the paper's Figures 11 to 14: one panel a lesson, one colour an attempt, or their mean."""
 
 from collections.abc import Sequence
 from io import BytesIO
@@ -10,10 +10,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.legend_handler import HandlerTuple
 from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 from matplotlib.transforms import offset_copy
 
-from mindlang.pictures.learning_log import Curve
+from mindlang.pictures.learning_log import Curve, MeanCurve
 
 INK, FAINT, GRID, PAGE = "#23272f", "#8a8f99", "#ececee", "#ffffff"
 ATTEMPTS = (  # Paul Tol's muted colours, which all eyes tell apart, and a grey
@@ -58,6 +59,7 @@ MAX_PANELS_PER_ROW = 4  # panels
 ROUND = [1, 2, 5, 10]  # steps of the axes
 VERDICT_OFFSET_POINTS = 9.0  # points from the last generation to the verdict on it
 
+Entry = tuple[Any, str]  # of a legend: what is drawn, and what it means
 EDGE = {"markeredgecolor": PAGE, "markeredgewidth": 0.6}  # so that marks which overlap can be told apart
 CURVE_STYLES: dict[str, dict[str, Any]] = {
     "best": {"linewidth": 0.6, "alpha": 0.45},
@@ -69,26 +71,94 @@ MEANINGS = {
     "reevaluated": "champion, tried again on fresh layouts",
     "verdict": "champion in the end, on layouts that chose nothing",
 }
+MEAN_COLOURS = {"best": ATTEMPTS[2], "reevaluated": ATTEMPTS[0], "verdict": ATTEMPTS[1]}
+MEAN_MEANINGS = {
+    "best": "best of the generation, mean",
+    "reevaluated": "champion, tried again on fresh layouts, mean",
+    "verdict": "champion in the end, mean",
+}
+BAND: dict[str, Any] = {"alpha": 0.22, "linewidth": 0}  # of a standard error around a mean
+MAX_LEGEND_COLOURS = 5  # of attempts
 
 
 @style.context(["default", STYLE])
 def figure(curves: Sequence[Curve]) -> Figure:
     """A panel for each curve, and below them what its lines and marks mean."""
-    drawn, panels = grid(len(curves))
+    drawn, panels = _grid(len(curves))
     for axes, curve in zip(panels, curves, strict=True):
         _panel(drawn, axes, curve)
-    _legend(drawn, curves)
+    shown = [name for name in MEANINGS if any(curve.points(a, name) for curve in curves for a in curve.attempts)]
+    entries: list[Entry] = [(Line2D([], [], color=INK, **CURVE_STYLES[name]), MEANINGS[name]) for name in shown]
+    if (attempts := max(len(curve.attempts) for curve in curves)) > 1:
+        colours = ATTEMPTS[: min(attempts, MAX_LEGEND_COLOURS)]
+        entries.append((tuple(Line2D([], [], color=each, linewidth=1.5) for each in colours), "one colour per attempt"))
+    _legend(drawn, len(curves), entries)
     return drawn
 
 
-def panels_per_row(count: int) -> int:
+@style.context(["default", STYLE])
+def mean_figure(curves: Sequence[MeanCurve]) -> Figure:
+    """A panel for each lesson, and below them what the lines and bands mean."""
+    drawn, panels = _grid(len(curves))
+    for axes, curve in zip(panels, curves, strict=True):
+        _mean_panel(axes, curve)
+    shown = [column for column in MEAN_MEANINGS if any(curve.points(column) for curve in curves)]
+    entries: list[Entry] = [
+        (Line2D([], [], color=MEAN_COLOURS[column], **CURVE_STYLES[column]), MEAN_MEANINGS[column]) for column in shown
+    ]
+    if any(curve.attempts > 1 for curve in curves):
+        entries.append((Patch(color=MEAN_COLOURS["reevaluated"], **BAND), "± the standard error of the mean"))
+    _legend(drawn, len(curves), entries)
+    return drawn
+
+
+def _panel(drawn: Figure, axes: Axes, curve: Curve) -> None:
+    beyond = offset_copy(axes.transData, drawn, x=VERDICT_OFFSET_POINTS, units="points")
+    for layer, (column, look) in enumerate(CURVE_STYLES.items(), 3):
+        where = beyond if column == "verdict" else axes.transData
+        for attempt in curve.attempts:
+            points = curve.points(attempt, column)
+            generations, scores = [generation for generation, _ in points], [score for _, score in points]
+            colour, label = ATTEMPTS[(attempt - 1) % len(ATTEMPTS)], f"{column} {attempt}"
+            axes.plot(generations, scores, color=colour, label=label, transform=where, zorder=layer, **look)
+            axes.update_datalim(points)  # whose own place does not count where it is shifted
+    name = f"{curve.name}, failed" if curve.failure else curve.name
+    _frame(axes, name, curve.note, max(map(curve.last, curve.attempts)))
+
+
+def _mean_panel(axes: Axes, curve: MeanCurve) -> None:
+    for layer, column in enumerate(("best", "reevaluated"), 3):
+        points, colour = curve.points(column), MEAN_COLOURS[column]
+        generations, means = [point.generation for point in points], [point.mean for point in points]
+        axes.plot(generations, means, color=colour, label=column, zorder=layer, **CURVE_STYLES[column])
+        if curve.attempts > 1:
+            low, high = ([p.mean + sign * (p.error or 0.0) for p in points] for sign in (-1, 1))
+            axes.fill_between(generations, low, high, color=colour, label=f"{column} band", **BAND)
+    if verdict := curve.verdict():
+        look = CURVE_STYLES["verdict"] | {"color": MEAN_COLOURS["verdict"], "label": "verdict", "zorder": 5}
+        axes.errorbar([verdict.generation], [verdict.mean], yerr=verdict.error, elinewidth=1.3, **look)
+    _frame(axes, curve.name, curve.note, curve.generations)
+
+
+def _legend(drawn: Figure, panels: int, entries: Sequence[Entry]) -> None:
+    handles, labels = zip(*entries, strict=True) if entries else ((), ())
+    drawn.legend(
+        handles,
+        labels,
+        loc="outside lower center",
+        ncols=4 if _panels_per_row(panels) > 2 else 2,
+        handler_map={tuple: HandlerTuple(ndivide=None, pad=0.0)},
+    )
+
+
+def _panels_per_row(count: int) -> int:
     """How many of so many panels are beside each other."""
     return count if count <= 3 else min(MAX_PANELS_PER_ROW, ceil(sqrt(count)))
 
 
-def grid(count: int) -> tuple[Figure, list[Axes]]:
+def _grid(count: int) -> tuple[Figure, list[Axes]]:
     """A figure with `count` empty panels, and the panels."""
-    columns = panels_per_row(count)
+    columns = _panels_per_row(count)
     rows = ceil(count / columns)
     wide, high = SINGLE_PANEL_INCHES if count == 1 else GRID_PANEL_INCHES
     drawn = Figure(figsize=(wide * columns, high * rows + 0.4), layout="constrained", facecolor=PAGE)
@@ -98,7 +168,7 @@ def grid(count: int) -> tuple[Figure, list[Axes]]:
     return drawn, panels
 
 
-def frame(axes: Axes, name: str, note: str, generations: int) -> None:
+def _frame(axes: Axes, name: str, note: str, generations: int) -> None:
     """What is around the lines of a panel: its name, a note below that, and its axes."""
     axes.set_title(name, pad=20.0 if note else 8.0)
     axes.annotate(note, (0, 1), (0, 8), xycoords="axes fraction", textcoords="offset points", size=6.5, color=FAINT)
@@ -115,33 +185,3 @@ def image(drawn: Figure, suffix: str) -> bytes:
     nothing = {"svg": {"Date": None, "Creator": None}, "png": {"Software": None}}[kind]
     drawn.savefig(file, format=kind, metadata=nothing)
     return file.getvalue()
-
-
-def _panel(drawn: Figure, axes: Axes, curve: Curve) -> None:
-    beyond = offset_copy(axes.transData, drawn, x=VERDICT_OFFSET_POINTS, units="points")
-    for layer, (column, look) in enumerate(CURVE_STYLES.items(), 3):
-        where = beyond if column == "verdict" else axes.transData
-        for attempt in curve.attempts:
-            points = curve.points(attempt, column)
-            generations, scores = [generation for generation, _ in points], [score for _, score in points]
-            colour, label = ATTEMPTS[(attempt - 1) % len(ATTEMPTS)], f"{column} {attempt}"
-            axes.plot(generations, scores, color=colour, label=label, transform=where, zorder=layer, **look)
-            axes.update_datalim(points)  # whose own place does not count where it is shifted
-    name = f"{curve.name}, failed" if curve.failure else curve.name
-    frame(axes, name, curve.note, max(map(curve.last, curve.attempts)))
-
-
-def _legend(drawn: Figure, curves: Sequence[Curve]) -> None:
-    shown = [name for name in CURVE_STYLES if any(curve.points(a, name) for curve in curves for a in curve.attempts)]
-    handles: list[Any] = [Line2D([], [], color=INK, **CURVE_STYLES[name]) for name in shown]
-    labels = [MEANINGS[name] for name in shown]
-    if (attempts := max(len(curve.attempts) for curve in curves)) > 1:
-        handles.append(tuple(Line2D([], [], color=colour, linewidth=1.5) for colour in ATTEMPTS[: min(attempts, 5)]))
-        labels.append("one colour per attempt")
-    drawn.legend(
-        handles,
-        labels,
-        loc="outside lower center",
-        ncols=4 if panels_per_row(len(curves)) > 2 else 2,
-        handler_map={tuple: HandlerTuple(ndivide=None, pad=0.0)},
-    )

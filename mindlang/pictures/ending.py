@@ -4,10 +4,9 @@ from collections.abc import Iterable, Iterator
 from typing import Any
 
 from mindlang.number_format import score
-from mindlang.pictures.canvas import Canvas, rectangle, text_width
-from mindlang.pictures.layout import Place
-from mindlang.pictures.names import Label, Words, free
-from mindlang.pictures.theme import Colour, Theme
+from mindlang.pictures.canvas import Canvas, Rectangle, rectangle, text_width
+from mindlang.pictures.labels import Label, free
+from mindlang.pictures.theme import NIGHT, PAPER, Colour, Theme
 from mindlang.run.recorded_run import RecordedRun
 
 MARK_PIXELS, RING_PIXELS = 8.0, 4.0  # from the robot to the mark's inner ring, and from there to the outer one
@@ -31,50 +30,48 @@ def ending_colour(found: dict[str, Any], theme: Theme) -> Colour:
 
 def draw_end_mark(canvas: Canvas, run: RecordedRun, found: dict[str, Any], theme: Theme) -> None:
     """Two rings around the robot, where the run ended."""
-    x, y, _ = run.body[run.ticks]
-    pixel = canvas.pen / canvas.view.scale
-    draw_rings(canvas, x, y, run.graph.body.radius + MARK_PIXELS * pixel, found, theme)
+    x, y, _ = run.body[-1]
+    draw_rings(canvas, x, y, run.graph.body.radius + MARK_PIXELS * canvas.pixel, found, theme)
 
 
-def end_label(canvas: Canvas, run: RecordedRun, found: dict[str, Any], theme: Theme) -> Words:
+def end_label(canvas: Canvas, run: RecordedRun, found: dict[str, Any]) -> Label:
     """The words beside the mark."""
-    x, y, _ = run.body[run.ticks]
-    size = 2 * (run.graph.body.radius + (MARK_PIXELS + RING_PIXELS) * canvas.pen / canvas.view.scale)
-    return Words(ending_words(found), LABEL_PIXELS, ending_colour(found, theme), x, y, size)
+    x, y, _ = run.body[-1]
+    size = 2 * (run.graph.body.radius + (MARK_PIXELS + RING_PIXELS) * canvas.pixel)
+    return Label(ending_words(found), LABEL_PIXELS, ending_colour(found, PAPER), x, y, size)
 
 
 def draw_rings(canvas: Canvas, x: float, y: float, radius: float, found: dict[str, Any], theme: Theme) -> None:
     """The mark of an end around a place."""
-    outer = radius + RING_PIXELS * canvas.pen / canvas.view.scale
-    for size, width in ((radius, 2.0), (outer, 1.2)):
+    for size, width in ((radius, 2.0), (radius + RING_PIXELS * canvas.pixel, 1.2)):
         canvas.disc(x, y, size, theme.floor, width=width + 2.0)
         canvas.disc(x, y, size, ending_colour(found, theme), width=width)
 
 
 def draw_banner(
-    canvas: Canvas, run: RecordedRun, found: dict[str, Any], theme: Theme, room: Place, taken: Iterable[Label]
+    canvas: Canvas, run: RecordedRun, found: dict[str, Any], room: Rectangle, taken: Iterable[Rectangle]
 ) -> None:
     """How it ended, when, and with which score: at an edge of the room, where nothing that is `taken` lies below it.
 
-    The room is given by its upper left corner, as are the labels, all in pixels.
+    All are in pixels, from the upper left corner.
     """
-    colour, seconds = ending_colour(found, theme), found["ticks"] * run.graph.tick
+    colour, seconds = ending_colour(found, NIGHT), found["ticks"] * run.graph.tick
     words, detail = ending_words(found), f"after {seconds:.1f} s with a score of {score(found['score'])}"
     widest = max(text_width(words, WORDS_PIXELS, True), text_width(detail, DETAIL_PIXELS)) + 2 * BANNER_MARGIN_PIXELS
     wide = min(widest, room.width - 2 * BANNER_MARGIN_PIXELS)
     fit = wide / widest
-    left, low, *_ = free(_banner_places(wide, room), taken, Label(room.x, room.y, room.width, room.height))
+    left, low, *_ = free(_banner_places(wide, room), taken, room)
     x = left + wide / 2
     around = rectangle(x, low + BANNER_PIXELS / 2, wide / 2, BANNER_PIXELS / 2)
-    canvas.polygon(around, theme.page, 0.88)
+    canvas.polygon(around, NIGHT.page, 0.88)
     canvas.line(around, colour, 1.6, closed=True)
     canvas.text(x, low + 33, words, fit * WORDS_PIXELS, colour, bold=True, align="centre")
-    canvas.text(x, low + 56, detail, fit * DETAIL_PIXELS, theme.ink, align="centre")
+    canvas.text(x, low + 56, detail, fit * DETAIL_PIXELS, NIGHT.ink, align="centre")
 
 
-def _banner_places(wide: float, room: Place) -> Iterator[Label]:
+def _banner_places(wide: float, room: Rectangle) -> Iterator[Rectangle]:
     """Below and above, each in the middle, at the left and at the right."""
     far = room.width - wide
-    for y in (room.y + room.height - BANNER_MARGIN_PIXELS - BANNER_PIXELS, room.y + BANNER_MARGIN_PIXELS):
+    for y in (room.low + room.height - BANNER_MARGIN_PIXELS - BANNER_PIXELS, room.low + BANNER_MARGIN_PIXELS):
         for x in (far / 2, BANNER_MARGIN_PIXELS, far - BANNER_MARGIN_PIXELS):
-            yield Label(room.x + x, y, wide, BANNER_PIXELS)
+            yield Rectangle(room.left + x, y, wide, BANNER_PIXELS)

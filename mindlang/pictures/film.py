@@ -1,70 +1,100 @@
-"""The film of a run: how long it is and what it shows when; each image is drawn by `film_images`."""
+"""The film of a run: how long it is, what it shows when, and the files that it can become; `film_images` draws it.
 
-from collections.abc import Callable
+They are mp4 by OpenCV, and GIF by Pillow, which a README shows without a player. OpenCV writes GIFs as well, but no
+palette for all images: 150 images took it 7.0 s and 8.4 MB, Pillow 0.6 s and 6.7 MB.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import cached_property
+from itertools import chain
 from math import ceil
 from pathlib import Path
 from typing import Any, Never
 
+import cv2
+import numpy as np
+from mindrun.errors import MindError
 from mindrun.files.atomic_write import destination, write
+from PIL import Image as Pillow
 
 from mindlang.pictures.canvas import Image
-from mindlang.pictures.environment_film import EnvironmentFilmImages
 from mindlang.pictures.film_images import FilmImages
-from mindlang.pictures.video_formats import FORMATS, VideoError, VideoFormat
 from mindlang.run.recorded_run import RecordedRun
 
 TRAIL_SECONDS = 8.0  # of the film for which the path stays
 COLLISION_SECONDS = 0.7  # of the film for which a collision does
 END_SECONDS = 3.0  # of the film for which the last image stays and says how the run ended
+PALETTE_COLOURS = 255  # one of 256 is left for pixels that stay as they were
+PALETTE_SAMPLES = 6  # images from which the colours of a GIF are taken
+GIF_SCALE = 0.75  # of a film's width and height
+MAX_GIF_IMAGES = 600  # all are in memory until they are written
+
+
+class VideoError(MindError):
+    """A video that cannot be encoded or written."""
 
 
 @dataclass(frozen=True, slots=True)
+class VideoFormat:
+    """How many images a second has, how long a whole run lasts where nobody says a speed, and how it is encoded.
+
+    `encode` writes a film to a file and tells of each image; it raises VideoError. `most` is how many it takes.
+    """
+
+    fps: int
+    seconds: float
+    encode: Callable[[Path, Film, Callable[[], None]], None]
+    most: int | None = None
+
+
 class Film:
-    """A run at so many times the robot's speed."""
+    """A run at so many times the robot's speed, as images by their numbers from 0: `moving` ones, then its end.
 
-    run: RecordedRun
-    found: dict[str, Any]
-    speed: float
-    format: VideoFormat
+    It is for files that end in `suffix`. Without a speed it shows the whole of the task's time in the seconds of its
+    format, if that is not slower.
+    """
 
-    @classmethod
-    def of(cls, run: RecordedRun, found: dict[str, Any], speed: float | None, suffix: str = ".mp4") -> "Film":
-        """A film for files that end in `suffix`.
+    def __init__(self, run: RecordedRun, found: dict[str, Any], speed: float | None, suffix: str = ".mp4") -> None:
+        self.run, self.format = run, FORMATS[suffix]
+        self.speed = speed or max(1.0, round(run.task.ticks * run.graph.tick / self.format.seconds, 1))
+        self._found = found
+        self._step = self.speed / self.format.fps / run.graph.tick  # ticks from one image to the next
+        self.moving = int(-(-(run.ticks - 1) // self._step)) + 1
+        self.seconds = len(self) / self.format.fps
 
-        Without a speed one that shows the whole of the task's time in the seconds of its format, if that is not slower.
-        """
-        chosen, long = FORMATS[suffix], run.task.ticks * run.graph.tick
-        return cls(run, found, speed or max(1.0, round(long / chosen.seconds, 1)), chosen)
-
-    @property
-    def step(self) -> float:
-        """Ticks from one image to the next."""
-        return self.speed / self.format.fps / self.run.graph.tick
-
-    @property
-    def moving(self) -> int:
-        """How many images show the run; the last of them its last tick."""
-        return int(-(-(self.run.ticks - 1) // self.step)) + 1
-
-    @property
-    def frames(self) -> int:
-        """How many images the film has."""
+    def __len__(self) -> int:
         return self.moving + round(END_SECONDS * self.format.fps)
 
-    @property
-    def seconds(self) -> float:
-        """How long it is."""
-        return self.frames / self.format.fps
+    def __iter__(self) -> Iterator[Image]:
+        return (self[number] for number in range(len(self)))
+
+    def __getitem__(self, number: int) -> Image:
+        if not 0 <= number < len(self):
+            raise IndexError(number)
+        if number >= self.moving:
+            return self._end
+        return self._images.image(min(self.run.ticks, 1 + round(number * self._step)))
+
+    @cached_property
+    def _images(self) -> FilmImages:
+        trail, flash = (seconds * self.format.fps * self._step for seconds in (TRAIL_SECONDS, COLLISION_SECONDS))
+        return FilmImages(self.run, self._found, self.speed, round(trail), flash)
+
+    @cached_property
+    def _end(self) -> Image:
+        return self._images.end()
 
     def write(self, path: Path, wrote: Callable[[], None]) -> None:
         """Encode the film into `path`, which is only replaced when it is whole; `wrote` is told of each image."""
-        if self.format.most and self.frames > self.format.most:
+        if self.format.most and len(self) > self.format.most:
             self._refuse(path, self.format.most)
         place = destination(path)
         spare = place.with_name(f".{place.stem}.part{place.suffix}")
         try:
-            self.format.encode(spare, Reel(self), self.format.fps, wrote)
+            self.format.encode(spare, self, wrote)
             write(place, spare.read_bytes())
         except VideoError as error:
             raise VideoError(f"{path} cannot be written: {error}") from error
@@ -75,29 +105,54 @@ class Film:
         """Raise VideoError: more images than `most`."""
         seconds = self.run.ticks * self.run.graph.tick
         fast = ceil(10 * seconds * self.format.fps / (most - round(END_SECONDS * self.format.fps) - 1)) / 10
-        said = f"{path} would have {self.frames:,} images, and a {path.suffix} of more than {most} is too large"
+        said = f"{path} would have {len(self):,} images, and a {path.suffix} of more than {most} is too large"
         raise VideoError(said, f"--speed {fast:g} or faster, or a film: {path.with_suffix('.mp4').name}")
 
 
-class Reel:
-    """The images of a film by their numbers."""
+def _mp4(path: Path, film: Film, wrote: Callable[[], None]) -> None:
+    height, width, _ = film[0].shape
+    writer = cv2.VideoWriter(str(path), cv2.VideoWriter.fourcc(*"mp4v"), film.format.fps, (width, height))
+    try:
+        if not writer.isOpened():
+            raise VideoError("OpenCV cannot encode a video there")
+        for image in film:
+            writer.write(image)
+            wrote()
+    finally:
+        writer.release()
+    if _images_in(path) != len(film):
+        raise VideoError("it is not whole: is the disk full?")
 
-    def __init__(self, film: Film) -> None:
-        self._film = film
-        trail, flash = (seconds * film.format.fps * film.step for seconds in (TRAIL_SECONDS, COLLISION_SECONDS))
-        images = EnvironmentFilmImages if film.run.task.scene.environment else FilmImages
-        self._images = images(film.run, film.found, film.speed, round(trail), flash)
-        self._last: Image | None = None
 
-    def __len__(self) -> int:
-        return self._film.frames
+def _images_in(path: Path) -> int:
+    video = cv2.VideoCapture(str(path))
+    count = int(video.get(cv2.CAP_PROP_FRAME_COUNT))
+    video.release()
+    return count
 
-    def __getitem__(self, number: int) -> Image:
-        film = self._film
-        if not 0 <= number < len(self):
-            raise IndexError(number)
-        if number < film.moving:
-            return self._images.image(min(film.run.ticks, 1 + round(number * film.step)))
-        if self._last is None:
-            self._last = self._images.end()
-        return self._last
+
+def _gif(path: Path, film: Film, wrote: Callable[[], None]) -> None:
+    """One palette for all images and no dithering: what does not move costs nothing."""
+    samples = [_small(film[int(number)]) for number in np.linspace(0, len(film) - 1, PALETTE_SAMPLES)]
+    palette = Pillow.fromarray(np.concatenate(samples)).quantize(PALETTE_COLOURS, dither=Pillow.Dither.NONE)
+
+    def drawn() -> Iterator[Pillow.Image]:
+        for image in film:
+            yield Pillow.fromarray(_small(image)).quantize(palette=palette, dither=Pillow.Dither.NONE)
+            wrote()
+
+    images = drawn()
+    duration = round(1000 / film.format.fps)
+    next(images).save(path, "GIF", save_all=True, append_images=chain(images), duration=duration, loop=0)
+
+
+def _small(image: Image) -> Image:
+    """An image as small as in a GIF, red first."""
+    size = round(GIF_SCALE * image.shape[1]), round(GIF_SCALE * image.shape[0])
+    return np.ascontiguousarray(cv2.resize(image, size, interpolation=cv2.INTER_AREA)[..., ::-1]).astype(np.uint8)
+
+
+FORMATS = {
+    ".mp4": VideoFormat(fps=30, seconds=60.0, encode=_mp4),
+    ".gif": VideoFormat(fps=10, seconds=20.0, encode=_gif, most=MAX_GIF_IMAGES),
+}

@@ -1,106 +1,159 @@
-"""One image of a film: the world at the left, hierarchy and readings at the right, after the paper's Figure 15."""
+"""One image of a film: the world beside the hierarchy and the readings, after the paper's Figure 15.
 
+Where the arena is long, the world stands above them.
+"""
+
+from dataclasses import dataclass
+from math import ceil
 from typing import Any
 
 import numpy as np
 from mindrun.graph.run_scores import score_of
 
-from mindlang.pictures.canvas import Canvas, Image, Viewport, blank, pasted, text_width
+from mindlang.pictures.canvas import Canvas, Image, Rectangle, Viewport, blank, fitted, in_lines, pasted, text_width
 from mindlang.pictures.ending import LEAST_WORLD_PIXELS, draw_banner, draw_end_mark, ending_colour, ending_words
-from mindlang.pictures.film_layout import TITLE_PIXELS, FilmLayout
-from mindlang.pictures.hierarchy_panel import Panel
-from mindlang.pictures.layout import Place
-from mindlang.pictures.names import Label, draw_names
+from mindlang.pictures.environments import seen_run
+from mindlang.pictures.hierarchy_panel import HierarchyPanel
+from mindlang.pictures.labels import draw_names
 from mindlang.pictures.path import Path, draw_cross
-from mindlang.pictures.readings_panel import ReadingsPanel, sensors_read
+from mindlang.pictures.readings_panel import COLUMN_PIXELS, ROW_PIXELS, ReadingsPanel, sensors_read
 from mindlang.pictures.robot import draw_robot
 from mindlang.pictures.scene import WALL_UNITS, draw_floor, draw_items, draw_zones, each_thing, half_sides
 from mindlang.pictures.theme import NIGHT
 from mindlang.run.recorded_run import RecordedRun
 
+FILM_WIDTH, FILM_HEIGHT = 1280, 720  # pixels, the height where the world is square
+LEAST_HEIGHT, LEAST_WORLD_WIDTH = 480, 240
+LONG_RATIO = 16 / 9  # of width and depth, above which the world has the whole width
+TITLE_PIXELS, MARGIN_PIXELS = 86, 8  # above the hierarchy, and around it
+LOW_PANEL_PIXELS = 240  # the height of a hierarchy below its world
+BELOW_SHARE, BESIDE_SHARE = 0.36, 0.36  # at most of the panel: readings below a hierarchy, or beside it
 WINDOW_UNITS = 84.0  # of a plain scene that are seen around the robot
+TITLE_INDENT_PIXELS, NAME_LINE_PIXELS, NAME_TEXT_PIXELS = 24.0, 38.0, 17.0  # of the name of the task
 TITLE_LINE_PIXELS, TITLE_TEXT_PIXELS, TITLE_GAP_PIXELS = 22.0, 11.0, 22.0
 FIRST_LINE_PIXELS = 66.0  # from the upper edge of the title to its first line
 
 
+@dataclass(frozen=True, slots=True)
+class FilmLayout:
+    """The size of a film's images, that of the world in their upper left corner, and where all else begins."""
+
+    width: int
+    height: int
+    world: tuple[int, int]
+    left: int
+    top: int
+
+    @classmethod
+    def of(cls, ratio: float) -> "FilmLayout":
+        """The page for a world so many times as wide as deep. Video needs even numbers."""
+        if ratio > LONG_RATIO:
+            high = _even(FILM_WIDTH / ratio)
+            return cls(FILM_WIDTH, high + TITLE_PIXELS + LOW_PANEL_PIXELS, (FILM_WIDTH, high), 0, high)
+        wide, high = max(LEAST_WORLD_WIDTH, _even(FILM_HEIGHT * min(1.0, ratio))), _even(FILM_HEIGHT / max(1.0, ratio))
+        return cls(FILM_WIDTH, max(LEAST_HEIGHT, high), (wide, high), wide, 0)
+
+    @property
+    def panel(self) -> Rectangle:
+        """The rectangle of the hierarchy and the readings."""
+        left, top = self.left + MARGIN_PIXELS, self.top + TITLE_PIXELS
+        return Rectangle(left, top, self.width - left - MARGIN_PIXELS, self.height - top - MARGIN_PIXELS - 2)
+
+    def divided(self, sensors: int, lower: float = 0.0) -> tuple[Rectangle, Rectangle]:
+        """The rectangles of the hierarchy and of the readings of so many sensors: below it, or beside where it is low.
+
+        The readings have at most their share, and show what fits. Both begin so many pixels `lower`, for a long title.
+        """
+        x, y, width, height = self.panel
+        y, height = y + lower, height - lower
+        if self.left == 0:
+            wide = BESIDE_SHARE * width if sensors else 0.0
+            return Rectangle(x, y, width - wide, height), Rectangle(x + width - wide, y, wide, height)
+        rows = min(ceil(sensors / int(width // COLUMN_PIXELS)), int(BELOW_SHARE * height // ROW_PIXELS))
+        high = ROW_PIXELS * rows
+        return Rectangle(x, y, width, height - high), Rectangle(x, y + height - high, width, high)
+
+
+def _even(pixels: float) -> int:
+    return 2 * round(pixels / 2)
+
+
 class FilmImages:
-    """Draws any tick of a run: its path of the last `trail` ticks, its collisions of the last `flash` ones."""
+    """Draws any tick of a run: its path of the last `trail` ticks, its collisions of the last `flash` ones.
+
+    MindError where its world is an environment that draws nothing.
+    """
 
     def __init__(self, run: RecordedRun, found: dict[str, Any], speed: float, trail: int, flash: float) -> None:
         self._run, self._found, self._speed = run, found, speed
         self._trail_ticks, self._flash_ticks = trail, flash
         self._path = Path.of(run, NIGHT)
-        self.layout = FilmLayout.of(self.ratio())
+        self._seen = seen_run(run, found["seed"]) if run.task.scene.environment else None
+        wide, high = self._seen.image(0).shape[1::-1] if self._seen else half_window(run)
+        self.layout = FilmLayout.of(float(wide / high))
         lines = self._title_places(self._facts(run.ticks))[-1][1] + 1
         lower = max(0.0, FIRST_LINE_PIXELS + TITLE_LINE_PIXELS * (lines - 0.5) - TITLE_PIXELS)
         hierarchy, readings = self.layout.divided(len(sensors_read(run)), lower)
-        self._panel = Panel(run, NIGHT, hierarchy)
-        self._readings = ReadingsPanel(run, NIGHT, readings)
+        self._panel = HierarchyPanel(run, hierarchy)
+        self._readings = ReadingsPanel(run, readings)
         self._empty_image = self._drawn_once()
         self._empty_world = self._floor(1) if run.task.scene.is_bounded else None
 
-    def ratio(self) -> float:
-        """How many times as wide as deep the world is that is seen."""
-        return float(np.divide(*half_window(self._run)))
-
     def image(self, tick: int) -> Image:
         """The film's image of a tick, the first of which is 1."""
-        return self._drawn(tick, self._world(tick))
+        return self._drawn(tick, self._world(tick)).image
 
     def end(self) -> Image:
         """The last image, with a mark where the run ended and the words how."""
-        run, found, tick = self._run, self._found, self._run.ticks
-        page = self._drawn(tick, self._world(tick, has_ended=True))
-        over = Canvas(page, Viewport(0.0, 0.0, 1.0), down=True)
+        run, found = self._run, self._found
+        page = self._drawn(run.ticks, self._world(run.ticks, has_ended=True))
         wide, high = self.layout.world
         if high >= LEAST_WORLD_PIXELS:
-            draw_banner(over, run, found, NIGHT, Place(0.0, 0.0, wide, high), self._occupied(self.view(tick)))
+            draw_banner(page, run, found, Rectangle(0.0, 0.0, wide, high), self._occupied())
         else:
-            words, colour = ending_words(found), ending_colour(found, NIGHT)
-            over.text(self.layout.width - 20, self.layout.top + 38, words, 14, colour, bold=True, align="right")
-        return page
+            place = self.layout.width - 20, self.layout.top + NAME_LINE_PIXELS
+            page.text(*place, ending_words(found), 14, ending_colour(found, NIGHT), bold=True, align="right")
+        return page.image
 
-    def _occupied(self, view: Viewport) -> list[Label]:
-        """Where the robot and the things are in the end, in pixels, by their upper left corners."""
-        (x, y, _), radius = self._run.body[-1], self._run.graph.body.radius
-        things = [place.tolist() for _, _, place in each_thing(self._run, NIGHT, self._run.ticks)]
-        corners = [(x - size / 2, y + size / 2, size) for x, y, size in ((x, y, 2 * radius), *things)]
-        placed = (np.array(corners) - [view.left, view.top, 0.0]) * view.scale * [1.0, -1.0, 1.0]
-        return [Label(left, top, size, size) for left, top, size in placed.tolist()]
+    def _occupied(self) -> list[Rectangle]:
+        """Where the robot and the things are in the end, in pixels; of an environment nobody knows."""
+        run, view = self._run, self.view(self._run.ticks)
+        if self._seen:
+            return []
+        (x, y, _), radius = run.body[-1], run.graph.body.radius
+        places = [np.array([x, y, 2 * radius]), *(place for _, _, place in each_thing(run, NIGHT, run.ticks))]
+        corners = [(x - size / 2 - view.left, view.top - y - size / 2, size, size) for x, y, size in places]
+        return [Rectangle(*each) for each in (np.array(corners) * view.scale).tolist()]
 
     def view(self, tick: int) -> Viewport:
         """What is seen of the world in a tick."""
-        half = np.array(half_window(self._run))
-        middle = self._run.body[tick, :2] * (not self._run.task.scene.is_bounded)
-        return Viewport.around(middle - half, middle + half, *self.layout.world)
+        return window(self._run, tick, *self.layout.world)
 
     def _drawn_once(self) -> Image:
         """What no tick changes: the page, the name of the task and those of the sensors."""
-        page = blank(self.layout.width, self.layout.height, NIGHT.page)
-        canvas = Canvas(page, Viewport(0.0, 0.0, 1.0), down=True)
-        canvas.text(self.layout.left + 24.0, self.layout.top + 38.0, self._run.task.name, 17, NIGHT.ink, bold=True)
-        self._readings.draw_names(canvas)
-        return page
+        page = Canvas.of_page(blank(self.layout.width, self.layout.height, NIGHT.page))
+        left, low = self.layout.left + TITLE_INDENT_PIXELS, self.layout.top + NAME_LINE_PIXELS
+        page.text(left, low, self._run.task.name, NAME_TEXT_PIXELS, NIGHT.ink, bold=True)
+        self._readings.draw_names(page)
+        return page.image
 
-    def _drawn(self, tick: int, world: Image) -> Image:
-        page = self._empty_image.copy()
-        pasted(page, world, 0, 0)
-        canvas = Canvas(page, Viewport(0.0, 0.0, 1.0), down=True)
+    def _drawn(self, tick: int, world: Image) -> Canvas:
+        page = Canvas.of_page(self._empty_image.copy())
+        pasted(page.image, world, 0, 0)
         facts = self._facts(tick)
-        for text, (left, line) in zip(facts, self._title_places(facts), strict=True):
+        for text, (along, line) in zip(facts, self._title_places(facts), strict=True):
             low = self.layout.top + FIRST_LINE_PIXELS + TITLE_LINE_PIXELS * line
-            canvas.text(left, low, text, TITLE_TEXT_PIXELS, NIGHT.faint)
-        self._panel.draw(canvas, tick)
-        self._readings.draw(canvas, tick)
+            page.text(self.layout.left + TITLE_INDENT_PIXELS + along, low, text, TITLE_TEXT_PIXELS, NIGHT.faint)
+        self._panel.draw(page, tick)
+        self._readings.draw(page, tick)
         return page
 
     def _floor(self, tick: int) -> Image:
-        ground = NIGHT.page if self._run.task.scene.is_bounded else NIGHT.floor
-        canvas = Canvas(blank(*self.layout.world, ground), self.view(tick))
-        draw_floor(canvas, self._run, NIGHT)
-        return canvas.image
+        return empty_window(self._run, self.view(tick), *self.layout.world).image
 
     def _world(self, tick: int, has_ended: bool = False) -> Image:
+        if self._seen:
+            return fitted(self._seen.image(tick), *self.layout.world, NIGHT.page)
         run = self._run
         image = self._floor(tick) if self._empty_world is None else self._empty_world.copy()
         canvas = Canvas(image, self.view(tick))
@@ -128,15 +181,8 @@ class FilmImages:
 
     def _title_places(self, facts: list[str]) -> list[tuple[float, int]]:
         """Where each fact begins, and in which line."""
-        begin = self.layout.left + 24.0
-        left, line, places = begin, 0, []
-        for text in facts:
-            wide = text_width(text, TITLE_TEXT_PIXELS)
-            if left > begin and left + wide > self.layout.width - 12:
-                left, line = begin, line + 1
-            places.append((left, line))
-            left += wide + TITLE_GAP_PIXELS
-        return places
+        widths = [text_width(text, TITLE_TEXT_PIXELS) for text in facts]
+        return in_lines(widths, TITLE_GAP_PIXELS, self.layout.width - 12 - self.layout.left - TITLE_INDENT_PIXELS)
 
 
 def half_window(run: RecordedRun) -> tuple[float, float]:
@@ -145,3 +191,17 @@ def half_window(run: RecordedRun) -> tuple[float, float]:
     x, y = half_sides(scene) if scene.is_bounded else (WINDOW_UNITS / 2, WINDOW_UNITS / 2)
     margin = 2 * WALL_UNITS * scene.is_bounded
     return x + margin, y + margin
+
+
+def window(run: RecordedRun, tick: int, width: int, height: int) -> Viewport:
+    """What is seen of the world in a tick, in so many pixels."""
+    half = np.array(half_window(run))
+    middle = run.body[tick, :2] * (not run.task.scene.is_bounded)
+    return Viewport.around(middle - half, middle + half, width, height)
+
+
+def empty_window(run: RecordedRun, view: Viewport, width: int, height: int) -> Canvas:
+    """The floor with all that stands on it for good."""
+    canvas = Canvas(blank(width, height, NIGHT.page if run.task.scene.is_bounded else NIGHT.floor), view)
+    draw_floor(canvas, run, NIGHT)
+    return canvas

@@ -6,7 +6,8 @@ from itertools import pairwise
 from statistics import fmean
 from typing import Literal
 
-from mindlang.pictures.influence_flow import Link, Sink
+from mindlang.pictures.canvas import Rectangle
+from mindlang.run.edge_flow import Link, Sink
 
 Stop = Sink | tuple[Literal["link"], int]  # a box, or where a link passes a row
 
@@ -34,7 +35,7 @@ class Layout:
     stops: list[list[Place]]
 
     @classmethod
-    def of(cls, links: Sequence[Link], skills: Sequence[int], room: Place) -> "Layout":
+    def of(cls, links: Sequence[Link], skills: Sequence[int], room: Rectangle) -> "Layout":
         """The layout of what is linked; `skills` stand parents first."""
         level = _levels(links, skills)
         routes = [_route(number, link, level) for number, link in enumerate(links)]
@@ -85,11 +86,11 @@ def _ordered(rows: list[list[Stop]], routes: Iterable[Sequence[Stop]]) -> list[l
     return rows
 
 
-def _spread(row: Sequence[Stop], level: int, levels: int, room: Place) -> Iterable[tuple[Stop, Place]]:
-    """The boxes of a row side by side; `room` is given by its upper left corner."""
+def _spread(row: Sequence[Stop], level: int, levels: int, room: Rectangle) -> Iterable[tuple[Stop, Place]]:
+    """The boxes of a row side by side."""
     shares = [PASSAGE_SHARE if sink[0] == "link" else 1.0 for sink in row]
     unit, gap = room.width / sum(shares), room.height / levels
-    x, y = room.x, room.y + (level + 0.5) * gap
+    x, y = room.left, room.low + (level + 0.5) * gap
     for sink, share in zip(row, shares, strict=True):
         width, height = min(0.88 * share * unit, MAX_BOX_WIDTH), min(BOX_SHARE * gap, MAX_BOX_HEIGHT)
         yield sink, Place(x + share * unit / 2, y, width, height)

@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from mindlang.pictures.canvas import Canvas, square
 from mindlang.pictures.scene import thing_colours
-from mindlang.pictures.theme import Colour, Theme, mixed
+from mindlang.pictures.theme import PAPER, Colour, Theme, mixed
 from mindlang.run.recorded_run import RecordedRun
 
 TIME_SHADES = 64  # shades of a path by time
@@ -80,33 +80,32 @@ def _stretches(keys: NDArray[np.int64]) -> list[tuple[int, int]]:
     return list(pairwise([0, *(int(change) for change in changes), len(keys)])) if len(keys) else []
 
 
-def draw_start(canvas: Canvas, run: RecordedRun, theme: Theme) -> None:
+def draw_start(canvas: Canvas, run: RecordedRun) -> None:
     """Where the run began."""
-    unit = canvas.pen / canvas.view.scale
     x, y, _ = run.body[0]
-    canvas.disc(x, y, 5 * unit, theme.floor)
-    canvas.disc(x, y, 5 * unit, theme.ink, width=1.8)
+    canvas.disc(x, y, 5 * canvas.pixel, PAPER.floor)
+    canvas.disc(x, y, 5 * canvas.pixel, PAPER.ink, width=1.8)
 
 
-def draw_collisions(canvas: Canvas, run: RecordedRun, theme: Theme) -> None:
+def draw_collisions(canvas: Canvas, run: RecordedRun) -> None:
     """Where the robot collided; over the robot, since a run may end there."""
     for x, y, _ in run.body[run.collisions]:
-        draw_cross(canvas, x, y, 5.5 * canvas.pen / canvas.view.scale, theme)
+        draw_cross(canvas, x, y, 5.5 * canvas.pixel, PAPER)
 
 
 def draw_cross(canvas: Canvas, x: float, y: float, size: float, theme: Theme) -> None:
     """The mark of a collision."""
     for colour, width in ((theme.floor, 4.5), (theme.crash, 2.2)):
-        canvas.line([(x - size, y - size), (x + size, y + size)], colour, width)
-        canvas.line([(x - size, y + size), (x + size, y - size)], colour, width)
+        for up in (size, -size):
+            canvas.line([(x - size, y - up), (x + size, y + up)], colour, width)
 
 
-def draw_former(canvas: Canvas, run: RecordedRun, theme: Theme) -> None:
+def draw_former(canvas: Canvas, run: RecordedRun) -> None:
     """Faintly, where things were before, numbered where they were several, and not too many.
 
     Of what walks or was pushed also the way; what can be pushed was first where it appeared.
     """
-    for number, (thing, colour) in enumerate(zip(run.contents, thing_colours(run.contents, theme), strict=True)):
+    for number, (thing, colour) in enumerate(zip(run.contents, thing_colours(run.contents, PAPER), strict=True)):
         former = run.former(number)
         if thing.kind.walks or thing.kind.is_loose:
             for stretch in run.stretches(number):
@@ -119,5 +118,5 @@ def draw_former(canvas: Canvas, run: RecordedRun, theme: Theme) -> None:
                 canvas.polygon(square(x, y, size / 2), colour, 0.08)
                 canvas.line(square(x, y, size / 2), colour, 1.0, 0.4, closed=True)
             if order <= len(former) and 1 < len(former) <= MOST_NUMBERED:
-                below = 9 * canvas.pen / canvas.view.scale
-                canvas.text(x + size / 2 + below / 3, y - below, str(order), 9, theme.faint)
+                below = 9 * canvas.pixel
+                canvas.text(x + size / 2 + below / 3, y - below, str(order), 9, PAPER.faint)

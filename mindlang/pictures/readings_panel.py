@@ -7,13 +7,12 @@ from mindrun.graph.graph import Sensor
 from mindrun.graph.weights import reachable
 from numpy.typing import NDArray
 
-from mindlang.pictures.canvas import Canvas, text_width
-from mindlang.pictures.film_layout import COLUMN_PIXELS, ROW_PIXELS
-from mindlang.pictures.layout import Place
-from mindlang.pictures.theme import Theme
+from mindlang.pictures.canvas import Canvas, Rectangle, text_width
+from mindlang.pictures.theme import NIGHT
 from mindlang.run.recorded_run import RecordedRun
 
 TEXT_PIXELS, MIN_TEXT_PIXELS = 9.0, 6.5  # capitals
+ROW_PIXELS, COLUMN_PIXELS = 20.0, 250.0  # of a sensor's readings
 INDENT_PIXELS = 10.0  # on both sides of a cell
 NAME_SHARE, NUMBER_SHARE = 0.54, 0.14  # of a cell: what its name and its number have
 BAR_PIXELS, MANY_BARS_PIXELS = 5.0, 13.0  # the height of a bar, and of each among many
@@ -29,8 +28,8 @@ def sensors_read(run: RecordedRun) -> list[Sensor]:
 class ReadingsPanel:
     """Draws the readings of a run into a rectangle of a canvas, as many sensors as fit."""
 
-    def __init__(self, run: RecordedRun, theme: Theme, room: Place) -> None:
-        self._run, self._theme = run, theme
+    def __init__(self, run: RecordedRun, room: Rectangle) -> None:
+        self._run = run
         self._sensors, self._cells, self._left_out = fitted(sensors_read(run), room)
 
     def draw_names(self, canvas: Canvas) -> None:
@@ -39,41 +38,41 @@ class ReadingsPanel:
         names += [f"and {self._left_out} more"] * (self._left_out > 0)
         for name, cell in zip(names, self._cells, strict=False):
             text, size = shortened(name, NAME_SHARE * cell.width - 8)
-            canvas.text(cell.x, cell.y + size / 2, text, size, self._theme.faint)
+            canvas.text(cell.left, cell.low + size / 2, text, size, NIGHT.faint)
 
     def draw(self, canvas: Canvas, tick: int) -> None:
         """The readings in a tick, the first of which is 1."""
         for sensor, cell in zip(self._sensors, self._cells, strict=False):
             values = self._run.readings[tick - 1, sensor.start : sensor.start + sensor.width].astype(float)
-            left, right = cell.x + NAME_SHARE * cell.width, cell.x + cell.width
+            left, right = cell.left + NAME_SHARE * cell.width, cell.left + cell.width
             if len(values) == 1:
-                self._number(canvas, float(values[0]), left, right - NUMBER_SHARE * cell.width, right, cell.y)
+                self._number(canvas, float(values[0]), left, right - NUMBER_SHARE * cell.width, right, cell.low)
             else:
-                self._many(canvas, values, left, right, cell.y)
+                self._many(canvas, values, left, right, cell.low)
 
     def _number(self, canvas: Canvas, value: float, left: float, end: float, right: float, y: float) -> None:
-        theme, share = self._theme, _shares(np.array([value]))[0]
-        canvas.line([(left, y), (end, y)], theme.dark, BAR_PIXELS)
+        share = _shares(np.array([value]))[0]
+        canvas.line([(left, y), (end, y)], NIGHT.dark, BAR_PIXELS)
         if share > 0:
-            canvas.line([(left, y), (left + share * (end - left), y)], theme.ray, BAR_PIXELS)
-        canvas.text(right, y + TEXT_PIXELS / 2, f"{value:.2f}", TEXT_PIXELS, theme.ink, align="right")
+            canvas.line([(left, y), (left + share * (end - left), y)], NIGHT.ray, BAR_PIXELS)
+        canvas.text(right, y + TEXT_PIXELS / 2, f"{value:.2f}", TEXT_PIXELS, NIGHT.ink, align="right")
 
     def _many(self, canvas: Canvas, values: NDArray[np.float64], left: float, right: float, y: float) -> None:
         """A bar for each reading, one beside the other; readings at equal distances, where there are too many."""
-        theme, low = self._theme, y + MANY_BARS_PIXELS / 2
+        low = y + MANY_BARS_PIXELS / 2
         count = min(len(values), int((right - left) // LEAST_BAR_PIXELS))
         shown = _shares(values)[np.linspace(0, len(values) - 1, count).astype(int)]
         wide = (right - left) / count
         for number, share in enumerate(shown):
             begin, end = left + number * wide, left + (number + 1) * wide - 1
-            for high, colour in ((1.0, theme.dark), (float(share), theme.ray)):
+            for high, colour in ((1.0, NIGHT.dark), (float(share), NIGHT.ray)):
                 top = low - high * MANY_BARS_PIXELS
                 if high > 0:
                     canvas.polygon([(begin, low), (end, low), (end, top), (begin, top)], colour)
 
 
-def fitted(sensors: Sequence[Sensor], room: Place) -> tuple[Sequence[Sensor], list[Place], int]:
-    """The sensors that are shown in a room given by its upper left corner, the cells, and how many are left out.
+def fitted(sensors: Sequence[Sensor], room: Rectangle) -> tuple[Sequence[Sensor], list[Rectangle], int]:
+    """The sensors that are shown in a room, the cells, and how many are left out.
 
     A cell is given by its left end and its middle row. Where some are left out, the last cell says how many.
     """
@@ -84,7 +83,7 @@ def fitted(sensors: Sequence[Sensor], room: Place) -> tuple[Sequence[Sensor], li
     return sensors[:shown], cells, len(sensors) - shown
 
 
-def _cells(count: int, room: Place) -> Iterator[Place]:
+def _cells(count: int, room: Rectangle) -> Iterator[Rectangle]:
     """At most so many cells, column by column."""
     columns = max(1, int(room.width // COLUMN_PIXELS))
     most = int(room.height // ROW_PIXELS)
@@ -92,8 +91,8 @@ def _cells(count: int, room: Place) -> Iterator[Place]:
     wide = room.width / columns
     for number in range(min(count, rows * columns)):
         column, row = divmod(number, rows)
-        left = room.x + column * wide + INDENT_PIXELS
-        yield Place(left, room.y + (row + 0.5) * ROW_PIXELS, wide - 2 * INDENT_PIXELS, ROW_PIXELS)
+        left = room.left + column * wide + INDENT_PIXELS
+        yield Rectangle(left, room.low + (row + 0.5) * ROW_PIXELS, wide - 2 * INDENT_PIXELS, ROW_PIXELS)
 
 
 def shortened(name: str, room: float) -> tuple[str, float]:

@@ -2,49 +2,58 @@
 
 from collections.abc import Iterable, Sequence
 from itertools import cycle
+from math import cos, sin
 
 import numpy as np
 from mindrun.graph.graph import Thing
 from mindrun.kinds.registry import names
 from mindrun.kinds.scenes.scene import SceneKind
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from mindlang.pictures.canvas import Canvas, rectangle, square
-from mindlang.pictures.pose import placed
 from mindlang.pictures.theme import Colour, Theme, mixed
 from mindlang.run.recorded_run import RecordedRun
 
+Floats = NDArray[np.float64]
 GRID_UNITS = 10.0
 WALL_UNITS = 0.8
 
 
+def placed(points: ArrayLike, pose: Floats) -> Floats:
+    """Points [n, 2] of a body in the world, where it stands at x, y and is turned by an angle."""
+    x, y, angle = pose
+    turned = np.asarray(points, float) @ np.array([(cos(angle), sin(angle)), (-sin(angle), cos(angle))])
+    there: Floats = turned + np.array([x, y])
+    return there
+
+
 def draw_floor(canvas: Canvas, run: RecordedRun, theme: Theme) -> None:
     """The floor with a line every ten units, the walls and the obstacles."""
+    view, (height, width) = canvas.view, canvas.image.shape[:2]
+    left, right, low, high = view.left, view.left + width / view.scale, view.top - height / view.scale, view.top
     if run.task.scene.is_bounded:
-        x, y = half_sides(run.task.scene)
-        canvas.polygon(rectangle(0, 0, x + WALL_UNITS, y + WALL_UNITS), theme.wall)
-        canvas.polygon(rectangle(0, 0, x, y), theme.floor)
-    _grid(canvas, theme, run.task.scene)
+        right, high = half_sides(run.task.scene)
+        left, low = -right, -high
+        canvas.polygon(rectangle(0, 0, right + WALL_UNITS, high + WALL_UNITS), theme.wall)
+        canvas.polygon(rectangle(0, 0, right, high), theme.floor)
+    for x in _grid(left, right):
+        canvas.line([(x, low), (x, high)], theme.grid)
+    for y in _grid(low, high):
+        canvas.line([(left, y), (right, y)], theme.grid)
     for box in run.boxes:
         canvas.line(rectangle(*box), theme.rock_edge, 2.4, closed=True)
     for box in run.boxes:
         canvas.polygon(rectangle(*box), theme.rock)
 
 
+def _grid(first: float, last: float) -> Floats:
+    return np.arange((np.floor(first / GRID_UNITS) + 1) * GRID_UNITS, last - 1e-6, GRID_UNITS)
+
+
 def half_sides(scene: SceneKind) -> tuple[float, float]:
     """How far its walls are from its middle, along x and y."""
     width, depth = scene.sides
     return width / 2, depth / 2
-
-
-def _grid(canvas: Canvas, theme: Theme, scene: SceneKind) -> None:
-    view, (height, width), (x, y) = canvas.view, canvas.image.shape[:2], half_sides(scene)
-    left, right = (-x, x) if scene.is_bounded else (view.left, view.left + width / view.scale)
-    low, high = (-y, y) if scene.is_bounded else (view.top - height / view.scale, view.top)
-    for x in np.arange(np.floor(left / GRID_UNITS) * GRID_UNITS + GRID_UNITS, right - 1e-6, GRID_UNITS):
-        canvas.line([(x, low), (x, high)], theme.grid)
-    for y in np.arange(np.floor(low / GRID_UNITS) * GRID_UNITS + GRID_UNITS, high - 1e-6, GRID_UNITS):
-        canvas.line([(left, y), (right, y)], theme.grid)
 
 
 def thing_colours(things: Sequence[Thing], theme: Theme) -> list[Colour]:
@@ -58,7 +67,7 @@ def thing_colours(things: Sequence[Thing], theme: Theme) -> list[Colour]:
     return [known[thing.name] for thing in things]
 
 
-def each_thing(run: RecordedRun, theme: Theme, tick: int) -> Iterable[tuple[Thing, Colour, NDArray[np.float64]]]:
+def each_thing(run: RecordedRun, theme: Theme, tick: int) -> Iterable[tuple[Thing, Colour, Floats]]:
     """Every thing that has not vanished, its colour, and its place and size after a tick."""
     each = zip(run.contents, thing_colours(run.contents, theme), run.things[tick], strict=True)
     return (found for found in each if np.isfinite(found[2][0]))

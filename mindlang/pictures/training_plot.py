@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 
 from mindrun.errors import MindError
 
+from mindlang.pictures.learning_log import by_lesson, load_curves
+
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
@@ -17,13 +19,13 @@ def plot_training(*runs: Path | str, mean: bool = False) -> Figure:
 
     Each is the folder of a run (a result of `train` has its own as `run`), a folder with runs beneath it, or a table of
     a log. With `mean`, runs of one lesson become one panel with their mean. MindError where there is nothing to draw.
+
+    >>> [result] = mind.train("GoToObject", options=mindlang.TrainOptions(generations=1, attempts=1))
+    >>> mindlang.plot_training(result["run"]).savefig("curves.svg")
     """
     if find_spec("matplotlib") is None:
         raise MindError("curves are drawn with matplotlib, which is not installed", "pip install 'mindlang[plot]'")
-    from mindlang.pictures.curves import figure
-    from mindlang.pictures.learning_log import load_curves
-    from mindlang.pictures.mean_curves import by_lesson
-    from mindlang.pictures.mean_figure import mean_figure
+    from mindlang.pictures.curves import figure, mean_figure
 
     curves = load_curves([Path(run) for run in runs])
     if not curves:

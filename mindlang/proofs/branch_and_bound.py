@@ -6,6 +6,8 @@ A box whose bounds reach no further than what the skill was seen to send cannot 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import reduce
+from typing import NamedTuple
 
 import numpy as np
 from mindrun.graph.graph import Edge, Gate, Program, Skill
@@ -13,8 +15,18 @@ from mindrun.graph.weights import Weights
 from mindrun.kinds.functions.mlp import Mlp
 from numpy.typing import NDArray
 
-from mindlang.proofs.batch import values
-from mindlang.proofs.interval import Boxes, SentBounds, Singles, is_known, perceptron, sent
+from mindlang.proofs.interval import (
+    Boxes,
+    SentBounds,
+    Singles,
+    is_known,
+    joined,
+    part,
+    perceptron,
+    sent,
+    whole,
+)
+from mindlang.proofs.trying import readings_to_try, values
 
 SHARP_ENOUGH = 1e-3  # a bound this near to a value that was seen is sharp enough, but for 0 and 1
 BOXES_PER_ROUND = 256  # boxes that are cut in one round
@@ -36,18 +48,15 @@ class EdgeRange:
         return self.high <= 0
 
 
-@dataclass(frozen=True, slots=True)
-class Pool:
+class Pool(NamedTuple):
     """Boxes and what is sent in them."""
 
     boxes: Boxes
     sent: SentBounds
 
-    def __getitem__(self, rows: NDArray[np.intp] | NDArray[np.bool_]) -> Pool:
-        boxes, found = self.boxes, self.sent
-        return Pool(
-            Boxes(boxes.low[rows], boxes.high[rows]), SentBounds(found.low[rows], found.high[rows], found.sure[rows])
-        )
+
+def _some(of: Pool, rows: NDArray[np.intp] | NDArray[np.bool_]) -> Pool:
+    return Pool(part(of.boxes, rows), part(of.sent, rows))
 
 
 def ranges(skill: Skill, weights: Weights | None, most: int) -> tuple[EdgeRange, ...]:
@@ -56,18 +65,14 @@ def ranges(skill: Skill, weights: Weights | None, most: int) -> tuple[EdgeRange,
         return tuple(EdgeRange(0.0, 1.0, sure=False) for _ in skill.edges)
     skill = by_itself(skill)
     low, high = _seen(skill, weights)
-    pools = _cut(skill, weights, low, high, most)
-    bounds = (
-        np.min([pool.sent.low.min(axis=0) for pool in pools], axis=0).tolist(),
-        np.max([pool.sent.high.max(axis=0) for pool in pools], axis=0).tolist(),
-        np.all([pool.sent.sure.all(axis=0) for pool in pools], axis=0).tolist(),
-    )
+    found = reduce(joined, (pool.sent for pool in _cut(skill, weights, low, high, most)))
+    bounds = [found.low.min(axis=0), found.high.max(axis=0), found.sure.all(axis=0)]
     known = is_known(skill, weights)
     seen = [
         (least, most_) if least <= most_ and (known or edge.output is None) else None
         for edge, least, most_ in zip(skill.edges, low.tolist(), high.tolist(), strict=True)
     ]
-    return tuple(EdgeRange(*found) for found in zip(*bounds, seen, strict=True))
+    return tuple(EdgeRange(*each) for each in zip(*(bound.tolist() for bound in bounds), seen, strict=True))
 
 
 def by_itself(skill: Skill) -> Skill:
@@ -102,29 +107,22 @@ def _without_function(skill: Skill) -> Skill:
     return replace(skill, function=Mlp(), inputs=())
 
 
-def readings_to_try(width: int, rows: int) -> Singles:
-    """Readings [rows, width]: first corners of the box, then points inside, the same ones every time."""
-    rng = np.random.default_rng(1)
-    corners = rng.integers(0, 2, (rows // 2, width)).astype(np.float32)
-    return np.concatenate([corners, rng.random((rows - rows // 2, width), np.float32)])
-
-
 def _cut(skill: Skill, weights: Weights | None, low: Singles, high: Singles, most: int) -> list[Pool]:
     """Pools that cover the box together; the boxes that say least are cut first."""
     sides = len(skill.inputs)
-    whole = Boxes(np.zeros((1, sides), np.float32), np.ones((1, sides), np.float32))
-    open_, done, made = Pool(whole, sent(skill, weights, whole)), [], 1
+    open_, done, made = Pool(whole(sides), sent(skill, weights, whole(sides))), [], 1
     sway = sway_of(skill, weights)
     while True:
         excess = _excess(open_.sent, low, high)
-        done.append(open_[excess <= 0])
-        open_, excess = open_[excess > 0], excess[excess > 0]
+        done.append(_some(open_, excess <= 0))
+        open_, excess = _some(open_, excess > 0), excess[excess > 0]
         if not len(excess) or made >= most or sides == 0:
-            return [pool for pool in (*done, open_) if len(pool.sent.low)]
+            return [*done, open_]
         order = np.argsort(-excess, kind="stable")
-        cut = halves(open_[order[:BOXES_PER_ROUND]].boxes, sway)
+        cut = halves(part(open_.boxes, order[:BOXES_PER_ROUND]), sway)
         made += len(cut.low)
-        open_ = _joined(open_[order[BOXES_PER_ROUND:]], Pool(cut, sent(skill, weights, cut)))
+        rest = _some(open_, order[BOXES_PER_ROUND:])
+        open_ = Pool(joined(rest.boxes, cut), joined(rest.sent, sent(skill, weights, cut)))
 
 
 def _excess(found: SentBounds, low: Singles, high: Singles) -> Singles:
@@ -155,13 +153,4 @@ def halves(boxes: Boxes, sway: Singles) -> Boxes:
     middle = (low[rows, side] + high[rows, side]) / 2
     upper, lower = low.copy(), high.copy()
     upper[rows, side], lower[rows, side] = middle, middle
-    return Boxes(np.concatenate([low, upper]), np.concatenate([lower, high]))
-
-
-def _joined(a: Pool, b: Pool) -> Pool:
-    def both(x: Singles, y: Singles) -> Singles:
-        return np.concatenate([x, y])
-
-    boxes = Boxes(both(a.boxes.low, b.boxes.low), both(a.boxes.high, b.boxes.high))
-    sure = np.concatenate([a.sent.sure, b.sent.sure])
-    return Pool(boxes, SentBounds(both(a.sent.low, b.sent.low), both(a.sent.high, b.sent.high), sure))
+    return joined(Boxes(low, lower), Boxes(upper, high))

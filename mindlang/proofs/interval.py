@@ -8,7 +8,7 @@ computes, rounding included. Only the sigmoid, a quotient, needs a margin: `SIGM
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from mindrun.graph.graph import Gate, Program, Skill
@@ -26,21 +26,39 @@ Doubles = NDArray[np.float64]
 SIGMOID_ERROR = np.float32(5e-7)
 
 
-@dataclass(frozen=True, slots=True)
-class Boxes:
+class Boxes(NamedTuple):
     """Boxes of readings: `low` and `high` [boxes, graph.width]."""
 
     low: Singles
     high: Singles
 
 
-@dataclass(frozen=True, slots=True)
-class SentBounds:
+class SentBounds(NamedTuple):
     """What a skill sends [boxes, edges], clamped to 0..1; where it is not `sure`, it may be no number and not sent."""
 
     low: Singles
     high: Singles
     sure: NDArray[np.bool_]
+
+
+Bounds = TypeVar("Bounds", Boxes, SentBounds)
+
+
+def whole(width: int) -> Boxes:
+    """One box with all readings there are."""
+    return Boxes(np.zeros((1, width), np.float32), np.ones((1, width), np.float32))
+
+
+def part(of: Bounds, boxes: slice | NDArray[np.intp] | NDArray[np.bool_]) -> Bounds:
+    """Some of the boxes."""
+    some: list[Any] = [each[boxes] for each in of]
+    return type(of)(*some)
+
+
+def joined(first: Bounds, second: Bounds) -> Bounds:
+    """The boxes of both."""
+    both: list[Any] = [np.concatenate(pair) for pair in zip(first, second, strict=True)]
+    return type(first)(*both)
 
 
 def is_known(skill: Skill, weights: Weights | None) -> bool:

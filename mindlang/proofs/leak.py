@@ -51,11 +51,8 @@ class Leak:
 def leaks(found: Ways, actuators: int, delta: float) -> list[Leak | None]:
     """For each actuator the worst case of a leak of `delta`; None where no path leads to it."""
     with np.errstate(all="ignore"):  # where the ways are too many for a number, they are infinitely many
-        found = _without_cut(found, delta)
-        reach = _weighted(found, actuators)
-        learnt = {skill: _learnt(found, reach, skill, None) for skill in found.skills}
-        worst, above = _worst(found, reach, learnt, actuators, delta)
-        return [_leak(found, reach, learnt, worst, above, actuator, delta) for actuator in range(actuators)]
+        search = _Leaks(_without_cut(found, delta), actuators, delta)
+        return [search.worst_path(actuator) for actuator in range(actuators)]
 
 
 def _without_cut(found: Ways, delta: float) -> Ways:
@@ -72,80 +69,60 @@ def _without_cut(found: Ways, delta: float) -> Ways:
     return replace(found, onward=tuple(onward))
 
 
-def _weighted(found: Ways, actuators: int) -> dict[int, Row]:
-    """W: by skill, how much influence an influence of 1 can become at each actuator."""
-    reach: dict[int, Row] = {}
-    for skill in reversed(found.skills):
-        own = np.array([float(actuator in found.drives[skill]) for actuator in range(actuators)])
-        for way in found.onward[skill]:
-            own += way.most * reach[way.target]
-        reach[skill] = own
-    return reach
+class _Leaks:
+    """Rows by skill: W, Σ W over its learnt lines, and the greatest U of a path to it, with that path's last steps."""
 
+    def __init__(self, found: Ways, actuators: int, delta: float) -> None:
+        self._found, self._delta = found, delta
+        self._reach: dict[int, Row] = {}
+        for skill in reversed(found.skills):
+            own = np.array([float(actuator in found.drives[skill]) for actuator in range(actuators)])
+            self._reach[skill] = sum((way.most * self._reach[way.target] for way in found.onward[skill]), own)
+        self._learnt = {skill: self._sum_of_learnt(skill, None) for skill in found.skills}
+        self._worst = {skill: np.full(actuators, -1.0) for skill in found.skills}  # where no path leads
+        self._worst[found.skills[0]] = np.zeros(actuators)
+        self._above: dict[int, dict[int, tuple[int, Way]]] = {skill: {} for skill in found.skills}
+        for skill in found.skills:
+            for way in found.onward[skill] if self._worst[skill].min(initial=0) >= 0 else ():
+                leaked = (self._worst[skill] + delta * self._others(skill, way)) / way.most
+                for actuator in np.flatnonzero(leaked > self._worst[way.target]).tolist():
+                    self._worst[way.target][actuator] = leaked[actuator]
+                    self._above[way.target][actuator] = skill, way
 
-def _others(found: Ways, reach: dict[int, Row], learnt: dict[int, Row], skill: int, kept: Way | None) -> Row:
-    """Σ W over the learnt lines of a skill other than the one that is meant; `learnt` has the sums over all of them."""
-    if kept is None or not kept.is_learnt:
-        return learnt[skill]
-    if np.isfinite(learnt[skill]).all():
-        return np.maximum(learnt[skill] - reach[kept.target], 0.0)
-    return _learnt(found, reach, skill, kept)
+    def _sum_of_learnt(self, skill: int, kept: Way | None) -> Row:
+        ways = (way for way in self._found.onward[skill] if way.is_learnt and way is not kept)
+        return sum((self._reach[way.target] for way in ways), np.zeros_like(self._reach[skill]))
 
+    def _others(self, skill: int, kept: Way | None) -> Row:
+        """Σ W over the learnt lines of a skill other than the one that is meant."""
+        if kept is None or not kept.is_learnt:
+            return self._learnt[skill]
+        if np.isfinite(self._learnt[skill]).all():
+            return np.maximum(self._learnt[skill] - self._reach[kept.target], 0.0)
+        return self._sum_of_learnt(skill, kept)
 
-def _learnt(found: Ways, reach: dict[int, Row], skill: int, kept: Way | None) -> Row:
-    total = np.zeros_like(reach[skill])
-    for way in found.onward[skill]:
-        if way.is_learnt and way is not kept:
-            total += reach[way.target]
-    return total
-
-
-def _worst(
-    found: Ways, reach: dict[int, Row], learnt: dict[int, Row], actuators: int, delta: float
-) -> tuple[dict[int, Row], dict[int, list[tuple[int, Way] | None]]]:
-    """By skill: the greatest U of a path to it, by actuator, −1 where there is none, and the last step of that path."""
-    master = found.skills[0]
-    worst = {skill: np.full(actuators, -1.0) for skill in found.skills}
-    above: dict[int, list[tuple[int, Way] | None]] = {skill: [None] * actuators for skill in found.skills}
-    worst[master] = np.zeros(actuators)
-    for skill in found.skills:
-        for way in found.onward[skill] if worst[skill].min(initial=0) >= 0 else ():
-            leaked = (worst[skill] + delta * _others(found, reach, learnt, skill, way)) / way.most
-            for actuator in np.flatnonzero(leaked > worst[way.target]).tolist():
-                worst[way.target][actuator] = leaked[actuator]
-                above[way.target][actuator] = skill, way
-    return worst, above
-
-
-def _leak(
-    found: Ways,
-    reach: dict[int, Row],
-    learnt: dict[int, Row],
-    worst: dict[int, Row],
-    above: dict[int, list[tuple[int, Way] | None]],
-    actuator: int,
-    delta: float,
-) -> Leak | None:
-    """The worst path of one actuator, followed back from the worst driver."""
-    drivers = [skill for skill in found.skills if actuator in found.drives[skill] and worst[skill][actuator] >= 0]
-    if not drivers:
-        return None
-    ends = [
-        worst[driver][actuator] + delta * _others(found, reach, learnt, driver, None)[actuator] for driver in drivers
-    ]
-    unwanted = max(ends)
-    skill, way = drivers[ends.index(unwanted)], None
-    levels: list[Level] = []
-    passed = 1.0
-    while True:
-        passed *= way.most if way else 1.0
-        own = delta * _others(found, reach, learnt, skill, way)[actuator] / passed
-        into = (w.target for w in found.onward[skill] if w.is_learnt and w is not way and reach[w.target][actuator] > 0)
-        levels.append(Level(found.names[skill], _share(own, unwanted), tuple(found.names[m] for m in into)))
-        step = above[skill][actuator]
-        if step is None:
-            return Leak(_share(unwanted, unwanted), tuple(reversed(levels)))
-        skill, way = step
+    def worst_path(self, actuator: int) -> Leak | None:
+        """The worst path of one actuator, followed back from the worst driver."""
+        found = self._found
+        unwanted = {
+            driver: float(self._worst[driver][actuator] + self._delta * self._others(driver, None)[actuator])
+            for driver in found.skills
+            if actuator in found.drives[driver] and self._worst[driver][actuator] >= 0
+        }
+        if not unwanted:
+            return None
+        skill, way = max(unwanted, key=unwanted.__getitem__), None
+        most, passed = unwanted[skill], 1.0
+        levels: list[Level] = []
+        while True:
+            passed *= way.most if way else 1.0
+            own = self._delta * self._others(skill, way)[actuator] / passed
+            leaking = (each.target for each in found.onward[skill] if each.is_learnt and each is not way)
+            into = tuple(found.names[target] for target in leaking if self._reach[target][actuator] > 0)
+            levels.append(Level(found.names[skill], _share(own, most), into))
+            if actuator not in self._above[skill]:
+                return Leak(_share(most, most), tuple(reversed(levels)))
+            skill, way = self._above[skill][actuator]
 
 
 def _share(own: float, unwanted: float) -> float:

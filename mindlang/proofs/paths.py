@@ -14,7 +14,7 @@ from mindrun.graph.graph import Edge, Graph, Skill
 from mindrun.graph.weights import reachable
 from networkx import DiGraph, all_simple_paths
 
-from mindlang.proofs.interval import Boxes, evaluate
+from mindlang.proofs.interval import Boxes, evaluate, whole
 
 MAX_COUNTED_PATHS = 10**15  # stands for itself and for more
 
@@ -53,9 +53,9 @@ class Ways:
 def ways(graph: Graph) -> Ways:
     """Where influence can go, without any weights."""
     place = graph.skill_numbers
-    whole = Boxes(np.zeros((1, graph.width), np.float32), np.ones((1, graph.width), np.float32))
+    everything = whole(graph.width)
     onward = [
-        tuple(way for edge in skill.edges if edge.to == "skill" for way in [_way(skill, edge, whole)] if way.most > 0)
+        tuple(way for edge in skill.edges if edge.to == "skill" and (way := _way(skill, edge, everything)).most > 0)
         for skill in graph.skills
     ]
     drives = [tuple(edge.target for edge in skill.edges if edge.to == "actuator") for skill in graph.skills]
@@ -63,12 +63,12 @@ def ways(graph: Graph) -> Ways:
     return Ways(tuple(place), below, tuple(onward), tuple(drives))
 
 
-def _way(skill: Skill, edge: Edge, whole: Boxes) -> Way:
+def _way(skill: Skill, edge: Edge, everything: Boxes) -> Way:
     if edge.output is not None:
         return Way(edge.target, 1.0, skill.function.learns, edge.cuts)  # Python code is as exact as it is written
     with np.errstate(all="ignore"):
         sent_values = [edge.value] + ([edge.gate.otherwise] if edge.gate and edge.gate.otherwise is not None else [])
-        most = max(evaluate(value, whole)[1][0] for value in sent_values)
+        most = max(evaluate(value, everything)[1][0] for value in sent_values)
     return Way(edge.target, float(np.clip(most, 0, 1)), False, edge.cuts)
 
 

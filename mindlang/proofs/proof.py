@@ -13,11 +13,10 @@ from networkx import DiGraph
 from mindlang.compiler.hierarchy import above
 from mindlang.proofs.branch_and_bound import EdgeRange
 from mindlang.proofs.interval import is_known
-from mindlang.proofs.joint import together
 from mindlang.proofs.leak import Leak, leaks
 from mindlang.proofs.paths import Paths, paths, ways
-from mindlang.proofs.reach import MIN_INFLUENCE, Driven, ProvedReach, reach
-from mindlang.proofs.silence_search import Tried, try_out
+from mindlang.proofs.reach import MIN_INFLUENCE, Driven, ProvedReach, reach, together
+from mindlang.proofs.trying import Tried, try_out
 
 MAX_LISTED_PATHS = 10
 DECLARATION = "the declaration alone"

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 from mindrun.sim.rollout import Rollout
-from mindrun.sim.ticks import joined
-from mindrun.sim.trace import trace
+from mindrun.sim.trace import joined, trace
+from numpy.typing import NDArray
 
 from mindlang.run.setup import RunSetup
 
@@ -39,27 +39,17 @@ def record(setup: RunSetup, seed: int, prepare: Callable[[Rollout], None] = Roll
     prepare(rollout)
     run = trace(rollout, seed)
     ticks = joined(run.chunks)
-    reached = rollout.tables.skills["index"]
-    total = ticks.influence[:, reached] @ _drivers(rollout)[reached]
-    actuators = (_undriven(total[:, place], ticks.commands[:, place]) for place in range(total.shape[1]))
-    return Recorded(setup.task.name, seed, len(ticks), int(run.jobs.faults[0]), tuple(actuators))
-
-
-def _drivers(rollout: Rollout) -> np.ndarray[tuple[int, int], np.dtype[np.float32]]:
-    """1 where a skill drives an actuator [skills, actuators]."""
-    graph = rollout.graph
-    drives = np.zeros((len(graph.skills), len(graph.actuators)), np.float32)
-    for place, skill in enumerate(graph.skills):
-        for edge in skill.edges:
+    influence = np.zeros_like(ticks.commands)  # on each actuator
+    for place in rollout.tables.skills["index"]:
+        for edge in rollout.graph.skills[place].edges:
             if edge.to == "actuator":
-                drives[place, edge.target] = 1
-    return drives
+                influence[:, edge.target] += ticks.influence[:, place]
+    actuators = tuple(map(undriven, influence.T, ticks.commands.T))
+    return Recorded(setup.task.name, seed, len(ticks), int(run.jobs.faults[0]), actuators)
 
 
-def _undriven(
-    total: np.ndarray[tuple[int], np.dtype[np.float32]], commands: np.ndarray[tuple[int], np.dtype[np.float32]]
-) -> Undriven:
-    still = np.flatnonzero(total == 0)
-    return Undriven(
-        len(still), int(still[0]) + 1 if len(still) else None, (float(commands.min()), float(commands.max()))
-    )
+def undriven(influence: NDArray[np.float32], commands: NDArray[np.float32]) -> Undriven:
+    """What became of an actuator [ticks] with that influence on it."""
+    still = np.flatnonzero(influence == 0)
+    first = int(still[0]) + 1 if len(still) else None
+    return Undriven(len(still), first, (float(commands.min()), float(commands.max())))

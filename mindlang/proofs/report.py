@@ -1,20 +1,30 @@
-"""A proof for reading: what the declaration says, what the weights say, what a run has shown."""
+"""A proof as plain data, the contents of `--json`, and for reading.
+
+Every claim says what it rests on: the declaration, weights, a run.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
 
+from mindrun.graph.graph import Graph
+from mindrun.terminal.tick_count import ticks as in_words
 from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
 from mindlang.compiler.diagnostic import listed
-from mindlang.proofs.data import Hashes, rests_on, run_of
 from mindlang.proofs.leak import Leak
 from mindlang.proofs.paths import MAX_COUNTED_PATHS
-from mindlang.proofs.proof import DECLARATION, OfActuator, Proof
-from mindlang.proofs.recorded import Recorded
+from mindlang.proofs.proof import DECLARATION, OfActuator, OfEdge, Proof
+from mindlang.proofs.trying import Tried
 
+if TYPE_CHECKING:
+    from mindlang.proofs.recorded import Recorded
+
+Data = dict[str, Any]
+Hashes = Mapping[str, str]  # the SHA-256 of each skill's weights
 MAX_NAMED_SKILLS = 3  # skills in a list, above which it says how many
 MAX_PATH_SKILLS = 6  # skills of a path
 MEANINGS = {
@@ -23,21 +33,118 @@ MEANINGS = {
 }
 
 
-def report(proof: Proof, hashes: Hashes, run: Recorded | None) -> RenderableType:
+def _rests_on(skills: Iterable[str], hashes: Hashes) -> list[str]:
+    """What a claim rests on, beside the declaration."""
+    return [f"the weights {hashes[skill][:4]}… of {skill}" for skill in skills] or [DECLARATION]
+
+
+def as_data(proof: Proof, hashes: Hashes, run: Recorded | None) -> Data:
+    """A whole proof as plain data."""
+    return {
+        "master": proof.graph.master,
+        "assumes": "every reading is a number from 0 to 1",
+        "delta": proof.delta,
+        "weights": dict(hashes),
+        "unknown": dict(proof.unknown),
+        "not_below_master": list(proof.outside),
+        "actuators": [_actuator(found, place, proof, hashes, run) for place, found in enumerate(proof.actuators)],
+        "edges": [_edge(edge, hashes) for edge in proof.edges],
+        "dead_skills": [{"skill": name, "rests_on": _rests_on(why, hashes)} for name, why in proof.dead.items()],
+        "run": None if run is None else {"task": run.task, "seed": run.seed, "ticks": run.ticks, "faults": run.faults},
+    }
+
+
+def _actuator(found: OfActuator, place: int, proof: Proof, hashes: Hashes, run: Recorded | None) -> Data:
+    tried, total = found.tried, found.driven.total
+    low, high = found.command
+    data: Data = {
+        "actuator": found.actuator.name,
+        "paths": {
+            "count": found.paths.count,
+            "first": [list(path) for path in found.paths.first],
+            "rests_on": [DECLARATION],
+        },
+        "leak": found.leak and _leak(found.leak),
+        "command": {
+            "low": low,
+            "high": high,
+            "seen": tried and tried.commands,
+            "needs_influence_of": 1e-30 if found.is_rough else 0.0,
+            "rests_on": _rests_on(found.weights, hashes),
+        },
+        "neutral": {
+            "value": float(found.actuator.kind.neutral),
+            "sent": found.neutral,
+            "influence": [total.low, total.high if total.high < float("inf") else None],
+            "example": _example(proof.graph, tried),
+            "rests_on": _rests_on(hashes if found.neutral == "can be" else found.weights, hashes),
+        },
+    }
+    if run is not None:
+        undriven = run.actuators[place]
+        said = f"a run of {in_words(run.ticks)} of task {run.task}, seed {run.seed}"
+        data["run"] = {
+            "neutral_ticks": undriven.ticks,
+            "first_tick": undriven.first,
+            "commands": list(undriven.commands),
+            "rests_on": [said],
+        }
+    return data
+
+
+def _leak(leak: Leak) -> Data:
+    return {
+        "share": leak.share,
+        "worst": leak.worst and leak.worst.skill,
+        "levels": [{"skill": level.skill, "share": level.share, "into": list(level.into)} for level in leak.levels],
+        "rests_on": [DECLARATION],
+    }
+
+
+def _example(graph: Graph, tried: Tried | None) -> Data | None:
+    """Readings for which nothing influences an actuator, and which skills keep still then."""
+    if tried is None or tried.readings is None:
+        return None
+    values = tried.readings.tolist()
+    readings = {sensor.name: values[sensor.start : sensor.start + sensor.width] for sensor in graph.sensors}
+    return {"still": list(tried.still), "readings": readings | {m.name: [values[m.start]] for m in graph.memories}}
+
+
+def _edge(edge: OfEdge, hashes: Hashes) -> Data:
+    sends = edge.range
+    return {
+        "skill": edge.skill,
+        "target": edge.target,
+        "low": sends.low if sends.sure else 0.0,
+        "high": sends.high,
+        "seen": sends.seen,
+        "rests_on": _rests_on(edge.weights, hashes),
+    }
+
+
+def report(data: Data) -> RenderableType:
     """A whole proof as text."""
     parts: list[RenderableType] = [
-        Text.assemble((proof.graph.master, "bold"), " in charge, for any readings from 0 to 1"),
+        Text.assemble((data["master"], "bold"), " in charge, for any readings from 0 to 1"),
         "",
-        _heading(f"Paths, and the worst that leaks of {proof.delta:g} can do", DECLARATION),
-        _leaks(proof),
+        _heading(f"Paths, and the worst that leaks of {data['delta']:g} can do", DECLARATION),
+        _table(
+            ("actuator", "paths", "leaks take", "worst path", "most of it leaks from"), map(_leaks, data["actuators"])
+        ),
         "",
         _heading("What each actuator can be sent", "the weights that are named, and the declaration"),
-        _commands(proof, hashes),
-        *_legend(proof),
+        _table(
+            ("actuator", "command", "seen", "neutral, where nothing influences it", "rests on"),
+            map(_sent, data["actuators"]),
+        ),
     ]
-    if run is not None:
-        parts += ["", _heading("What it was sent", run_of(run)), _run(proof, run)]
-    for title, lines in (("Lines and skills", _lines(proof, hashes)), ("Not known", _unknown(proof))):
+    answers = {found["neutral"]["sent"] for found in data["actuators"]}
+    parts += [Text(f"  {words}", "dim") for answer, words in MEANINGS.items() if answer in answers]
+    if data["run"] is not None:
+        rows = (_shown(found, data["run"]["ticks"]) for found in data["actuators"])
+        parts += ["", _heading("What it was sent", data["actuators"][0]["run"]["rests_on"][0])]
+        parts += [_table(("actuator", "command", "ticks without influence"), rows)]
+    for title, lines in (("Lines and skills", _lines(data)), ("Not known", _unknown(data["unknown"]))):
         found = list(lines)
         parts += ["", Text(title, "bold"), *found] if found else []
     return Group(*parts)
@@ -47,114 +154,84 @@ def _heading(title: str, rests: str) -> Text:
     return Text.assemble((title, "bold"), (f"  rests on {rests}", "dim"))
 
 
-def _table(*columns: str) -> Table:
+def _table(columns: Iterable[str], rows: Iterable[Iterable[str]]) -> Table:
     table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0), header_style="dim")
     for column in columns:
         table.add_column(column, overflow="fold")
+    for row in rows:
+        table.add_row(*map(Text, row))
     return table
 
 
-def _leaks(proof: Proof) -> Table:
-    table = _table("actuator", "paths", "leaks take", "worst path", "most of it leaks from")
-    for found in proof.actuators:
-        count = f"{found.paths.count:,}" if found.paths.count < MAX_COUNTED_PATHS else "10^15 or more"
-        table.add_row(Text(found.actuator.name), count, *map(Text, _leak(found.leak)))
-    return table
-
-
-def _leak(leak: Leak | None) -> tuple[str, str, str]:
+def _leaks(found: Data) -> Iterator[str]:
+    """An actuator, how many paths lead to it, and the worst of them."""
+    count, leak = found["paths"]["count"], found["leak"]
+    yield from (found["actuator"], f"{count:,}" if count < MAX_COUNTED_PATHS else "10^15 or more")
     if leak is None:
-        return "", "none", ""
-    names = [level.skill for level in leak.levels]
-    path = (
-        names
-        if len(names) <= MAX_PATH_SKILLS
-        else [*names[: MAX_PATH_SKILLS // 2], "…", *names[-MAX_PATH_SKILLS // 2 :]]
-    )
-    worst = leak.worst
-    cause = "" if worst is None else f"{worst.skill} {worst.share:.1%}, into {some(worst.into)}"
-    return f"{leak.share:.1%}", " → ".join(path), cause
+        yield from ("", "none", "")
+        return
+    names = [level["skill"] for level in leak["levels"]]
+    ends = [*names[: MAX_PATH_SKILLS // 2], "…", *names[-MAX_PATH_SKILLS // 2 :]]
+    worst = next((level for level in leak["levels"] if level["skill"] == leak["worst"]), None)
+    yield f"{leak['share']:.1%}"
+    yield " → ".join(names if len(names) <= MAX_PATH_SKILLS else ends)
+    yield f"{worst['skill']} {worst['share']:.1%}, into {some(worst['into'])}" if worst else ""
 
 
-def _commands(proof: Proof, hashes: Hashes) -> Table:
-    table = _table("actuator", "command", "seen", "neutral, where nothing influences it", "rests on")
-    for found in proof.actuators:
-        seen = _span(*found.tried.commands) if found.tried and found.tried.commands else ""
-        table.add_row(
-            Text(found.actuator.name), _span(*found.command), seen, Text(_neutral(found)), Text(_rests(found, hashes))
-        )
-    return table
-
-
-def _neutral(found: OfActuator) -> str:
-    value = f"{found.actuator.kind.neutral:g}"
-    match found.neutral:
+def _sent(found: Data) -> Iterator[str]:
+    """An actuator, what it can be sent and was seen to be, when it is neutral, and what that rests on."""
+    command, neutral = found["command"], found["neutral"]
+    yield found["actuator"]
+    yield _span(command["low"], command["high"])
+    yield _span(*command["seen"]) if command["seen"] else ""
+    match neutral["sent"]:
         case "always":
-            return f"always {value}: nothing can influence it"
+            yield f"always {neutral['value']:g}: nothing can influence it"
         case "never":
-            return "never"
+            yield "never"
         case "can be":
-            assert found.tried
-            return f"{value} where {some(found.tried.still)} keep{'s' * (len(found.tried.still) == 1)} still"
-    return f"{value}, not ruled out"
+            still = neutral["example"]["still"]
+            yield f"{neutral['value']:g} where {some(still)} keep{'s' * (len(still) == 1)} still"
+        case _:
+            yield f"{neutral['value']:g}, not ruled out"
+    rests = neutral["rests_on"]
+    few = listed(rests, "and") if len(rests) < MAX_NAMED_SKILLS else f"the weights of {len(rests)} skills"
+    yield few + ", where Σ influence is 0 or at least 1e-30" * bool(command["needs_influence_of"])
 
 
-def _legend(proof: Proof) -> Iterator[Text]:
-    """What the words in the table mean, where it has them."""
-    answers = {found.neutral for found in proof.actuators}
-    for answer, words in MEANINGS.items():
-        if answer in answers:
-            yield Text(f"  {words}", "dim")
+def _shown(found: Data, ticks: int) -> Iterator[str]:
+    """An actuator, what it was sent in a run of so many ticks, and how often nothing influenced it."""
+    run = found["run"]
+    first = f", the first of them tick {run['first_tick']:,}" if run["first_tick"] else ""
+    yield from (found["actuator"], _span(*run["commands"]))
+    yield f"{run['neutral_ticks']:,} ({run['neutral_ticks'] / ticks:.1%}){first}"
 
 
-def _rests(found: OfActuator, hashes: Hashes) -> str:
-    names = list(hashes) if found.neutral == "can be" else list(found.weights)
-    few = (
-        listed(rests_on(names, hashes), "and")
-        if len(names) <= MAX_NAMED_SKILLS - 1
-        else f"the weights of {len(names)} skills"
-    )
-    return few + ", where Σ influence is 0 or at least 1e-30" * found.is_rough
-
-
-def _run(proof: Proof, run: Recorded) -> Table:
-    table = _table("actuator", "command", "ticks without influence")
-    for found, shown in zip(proof.actuators, run.actuators, strict=True):
-        first = f", the first of them tick {shown.first:,}" if shown.first else ""
-        often = f"{shown.ticks:,} ({shown.ticks / run.ticks:.1%}){first}"
-        table.add_row(Text(found.actuator.name), _span(*shown.commands), often)
-    return table
-
-
-def _lines(proof: Proof, hashes: Hashes) -> Iterator[Text]:
+def _lines(data: Data) -> Iterator[Text]:
     """What is dead, and what is always fully on though it could be learnt not to be."""
-    for edge in proof.edges:
-        rests = listed(rests_on(edge.weights, hashes), "and")
-        if edge.range.is_dead:
-            yield _line(f"{edge.skill} never influences {edge.target}", rests)
-        elif edge.range.low >= 1 and edge.range.sure and edge.weights:
-            yield _line(f"{edge.skill} always influences {edge.target} fully", rests)
-    for name, weights in proof.dead.items():
-        yield _line(f"{name} never has influence", listed(rests_on(weights, hashes), "and"))
-    if proof.outside:
-        yield _line(f"{some(proof.outside)}: not below {proof.graph.master}", DECLARATION)
+    for edge in data["edges"]:
+        if edge["high"] <= 0:
+            yield _line(f"{edge['skill']} never influences {edge['target']}", edge["rests_on"])
+        elif edge["low"] >= 1 and edge["rests_on"] != [DECLARATION]:
+            yield _line(f"{edge['skill']} always influences {edge['target']} fully", edge["rests_on"])
+    for dead in data["dead_skills"]:
+        yield _line(f"{dead['skill']} never has influence", dead["rests_on"])
+    if outside := data["not_below_master"]:
+        yield _line(f"{some(outside)}: not below {data['master']}", [DECLARATION])
 
 
-def _line(claim: str, rests: str) -> Text:
-    return Text.assemble(f"  {claim}", (f"  rests on {rests}", "dim"))
+def _line(claim: str, rests: Sequence[str]) -> Text:
+    return Text.assemble(f"  {claim}", (f"  rests on {listed(rests, 'and')}", "dim"))
 
 
-def _unknown(proof: Proof) -> Iterator[Text]:
-    for why in dict.fromkeys(proof.unknown.values()):
-        names = [name for name, reason in proof.unknown.items() if reason == why]
-        yield _line_of(names, why)
-
-
-def _line_of(names: Sequence[str], why: str) -> Text:
-    if len(names) == 1:
-        return Text(f"  {names[0]} {why}: what it sends is taken to be from 0 to 1")
-    plural = why.replace("is ", "are ").replace("has ", "have ")
-    return Text(f"  {some(names)} {plural}: what they send is taken to be from 0 to 1")
+def _unknown(unknown: Mapping[str, str]) -> Iterator[Text]:
+    for why in dict.fromkeys(unknown.values()):
+        names = [name for name, reason in unknown.items() if reason == why]
+        if len(names) == 1:
+            yield Text(f"  {names[0]} {why}: what it sends is taken to be from 0 to 1")
+        else:
+            plural = why.replace("is ", "are ").replace("has ", "have ")
+            yield Text(f"  {some(names)} {plural}: what they send is taken to be from 0 to 1")
 
 
 def some(names: Iterable[str]) -> str:

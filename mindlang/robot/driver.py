@@ -1,25 +1,51 @@
-"""The driver of a sensor or an actuator: found by name, with its options checked."""
+"""The driver of a sensor or an actuator: found by name, one of one's own too, with its options checked.
 
-import re
+One's own is found beside `robot.yaml` or in an installed package, and asked what it is. Its code runs in a process of
+its own that may take some seconds, and only here: where a bundle is built.
+"""
+
+import json
+import os
+import subprocess
+import sys
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
-from functools import partial
+from dataclasses import MISSING, asdict, dataclass
+from functools import cache, partial
+from math import inf
+from pathlib import Path
 from typing import Any
 
-from mindrun.errors import MindError, nearest
+from mindrun.errors import MindError, nearest, reason
+from mindrun.files.regular_files import read_regular
 from mindrun.numbers.quantity import Quantity, Reference
+from mindrun.robot.drivers.own import ENTRY_POINTS, DriverCode, OwnActuator, OwnSensor, encoded, of_file, of_package
 
 from mindlang.compiler.diagnostic import Findings, errors, listed
 from mindlang.compiler.source import Span
-from mindlang.robot.nodes import Scalar, Table, TableEntry, report_error, shortened
-from mindlang.robot.options import DRIVER, DriverOption, driver_options, drivers, own_options
-from mindlang.robot.own_driver import BrokenDriverError, DriverClass, own_class
-from mindlang.robot.timing import Timing, timing_of
-from mindlang.robot.values import by_option, first_line, is_empty, missing_key, unknown_key
+from mindlang.robot import driver_inspection
+from mindlang.robot.driver_inspection import Timing, timing_of
+from mindlang.robot.misread import shortened
+from mindlang.robot.options import DRIVER, ENDS, OWN_NAME, DriverOption, driver_options, drivers, own_options
+from mindlang.robot.read import Items, Scalar, Table, TableEntry, first_line
+from mindlang.robot.values import by_option, is_empty, missing_key, unknown_key
 
-ENDS = ("from", "to")  # are in the unit of the driver, so they are read when there is one
-OWN_NAME = re.compile(r"^[A-Za-z_][A-Za-z0-9_]*\.[A-Za-z_][A-Za-z0-9_]*$")  # FILE.CLASS, or PACKAGE.NAME
 COUNTERPARTS = {"sensor": "actuator", "actuator": "sensor"}
+ANSWER_SECONDS = 10.0  # that a driver may take to be imported
+MAX_DRIVER_BYTES = 32 << 10  # bytes of a file: each wire carries it
+OUTSIDE = "What takes long, or waits for a device, belongs into open()."
+INFINITIES = {"Infinity": inf, "-Infinity": -inf}  # in the JSON of an inspection
+
+
+class BrokenDriverError(MindError):
+    """A driver of a user whose code cannot be read, does not run, or is no driver."""
+
+
+@dataclass(frozen=True, slots=True)
+class DriverClass:
+    """What a driver can be told, and how it is made of that, with its timing."""
+
+    options: tuple[DriverOption, ...]
+    make: Callable[..., tuple[Any, Timing]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +66,7 @@ class Wired:
 
     def entry(self, key: str) -> TableEntry | None:
         """What is said under a key."""
-        return next((entry for entry in self.table.entries if entry.key.text == key), None)
+        return self.table.entries.get(key)
 
     def span(self, *keys: str) -> Span:
         """Where the value of the first of these keys stands that is said, or else the name."""
@@ -54,26 +80,31 @@ def wired(noun: str, name: Scalar, table: Table, findings: Findings) -> Wired | 
     cls = _class(noun, name, table, findings)
     if cls is None:
         return None
-    entry = next(entry for entry in table.entries if entry.key.text == DRIVER)
-    assert isinstance(entry.value, Scalar)
+    driver = table.entries[DRIVER].value
+    assert isinstance(driver, Scalar)
     own = {option.key: option for option in own_options(noun)}
     its = {option.key: option for option in cls.options}
-    _check_keys(f"The driver {entry.value.text}", entry.value, table, its, own, findings)
-    others = [entry for entry in table.entries if entry.key.text not in {DRIVER, *its, *ENDS}]
-    values, own_values = by_option(table.entries, its, findings), by_option(others, own, findings)
-    said = [entry for entry in table.entries if entry.key.text not in {DRIVER, *ENDS}]
+    _check_keys(driver, table, its, own, findings)
+    values = by_option(table.entries.values(), its, findings)
+    others = [entry for key, entry in table.entries.items() if key not in {DRIVER, *its, *ENDS.values()}]
+    own_values = by_option(others, own, findings)
+    said = table.entries.keys() - {DRIVER, *ENDS.values()}
     if len(errors(findings.diagnostics)) > before or len(said) > len(values) + len(own_values) or not table.whole:
         return None
-    made = _made(cls, values, entry.value, findings)
-    if made is None:
+    try:
+        made, timing = cls.make(**values)
+    except BrokenDriverError as error:
+        findings.error("broken-driver", driver.span, f"{error}.", error.hint)
         return None
-    driver, timing = made
+    except (MindError, ValueError) as error:
+        hint = getattr(error, "hint", "") or f"Look at the options of {driver.text} in docs/drivers.md."
+        findings.error("impossible-driver", driver.span, f"{driver.text} cannot be wired so: {error}.", hint)
+        return None
     every = {option.field: values.get(option.field, option.default) for option in cls.options}
-    return Wired(name, table, noun, driver, timing, own_values, cls.options, every)
+    return Wired(name, table, noun, made, timing, own_values, cls.options, every)
 
 
 def _check_keys(
-    what: str,
     driver: Scalar,
     table: Table,
     its: Mapping[str, DriverOption],
@@ -81,10 +112,11 @@ def _check_keys(
     findings: Findings,
 ) -> None:
     """Keys that the driver does not have, and those that it needs."""
-    strange = [entry.key for entry in table.entries if entry.key.text not in {DRIVER, *own, *its}]
+    what, known = f"The driver {driver.text}", [*its, *own]
+    strange = [entry.key for key, entry in table.entries.items() if key not in {DRIVER, *known}]
     for key in strange:
-        unknown_key(key, what, [*its, *own], findings)
-    said = {entry.key.text for entry in table.entries} | {nearest(key.text, [*its, *own]) for key in strange}
+        unknown_key(key, what, known, findings)
+    said = table.entries.keys() | {nearest(key.text, known) for key in strange}
     for option in its.values():
         if option.required and option.key not in said and table.whole:
             missing_key(driver.span, what, option.key, _example(option), findings)
@@ -92,44 +124,41 @@ def _check_keys(
 
 def _class(noun: str, name: Scalar, table: Table, findings: Findings) -> DriverClass | None:
     known = drivers(noun)
-    entry = next((entry for entry in table.entries if entry.key.text == DRIVER), None)
-    if entry is None:
+    if (entry := table.entries.get(DRIVER)) is None:
         if table.whole:
             missing_key(name.span, name.text, DRIVER, listed(sorted(known)), findings)
         return None
+    code, message, hint = "not-a-word", "Here stands the name of a driver.", ""
     match entry.value:
         case Scalar(text=driver) if driver in known:
             return DriverClass(driver_options(known[driver]), partial(_shipped, known[driver], noun))
         case _ if is_empty(entry, findings):
             return None
         case Scalar(text=driver) as scalar if OWN_NAME.fullmatch(driver):
-            return own_class(noun, scalar, findings)
-        case Scalar(text=driver, span=span):
-            message = f"There is no {noun} driver called {shortened(driver)}."
+            return _own_class(noun, scalar, findings)
+        case Scalar(text=driver):
+            code, message = "unknown-driver", f"There is no {noun} driver called {shortened(driver)}."
             hint = findings.suggest(driver, known) or f"Known are {listed(sorted(known), 'and')}."
             if driver in drivers(COUNTERPARTS[noun]):
                 hint = f"{driver} is for {COUNTERPARTS[noun]}s. Known for {noun}s are {listed(sorted(known), 'and')}."
-            report_error(findings, "unknown-driver", span, message, hint)
-        case Table(span=span):
+        case Table():
             hint = "Write driver: and its name, and its options as lines below, as far in as driver."
-            report_error(findings, "not-a-word", first_line(span), "Here stands the name of a driver.", hint)
-        case other if not isinstance(other, Scalar) and other.span.text[:1] == "[":
+        case Items(span=span) if not span.text.startswith(("!", "&")):  # which has been reported
             hint = f"A {noun} has one driver: {listed(sorted(known))}."
-            report_error(findings, "not-a-word", first_line(other.span), "Here stands the name of a driver.", hint)
+    if hint:
+        findings.error(code, first_line(entry.value.span), message, hint)
     return None
 
 
 def _example(option: DriverOption) -> str:
-    match option.shape:
-        case "number" | "numbers":
-            assert isinstance(option.type, Quantity)
-            one = f"… {next(iter(option.type.units))}".strip()
-            name = option.type.name
-            return f"{one}, {name}" if option.shape == "number" else f"[{one}, {one}], each {name}"
-        case "flag":
+    match option.type:
+        case _ if option.shape == "flag":
             return "true"
-    assert isinstance(option.type, Reference)
-    return listed(option.type.words) if option.type.words else f"…, a {option.type.noun}"
+        case Reference(noun=noun, words=words):
+            return listed(words) if words else f"…, a {noun}"
+        case Quantity(name=name, units=units):
+            one = f"… {next(iter(units))}".strip()
+            return f"{one}, {name}" if option.shape == "number" else f"[{one}, {one}], each {name}"
 
 
 def _shipped(cls: Callable[..., Any], noun: str, **options: Any) -> tuple[Any, Timing]:
@@ -138,14 +167,101 @@ def _shipped(cls: Callable[..., Any], noun: str, **options: Any) -> tuple[Any, T
     return driver, timing_of(driver, noun)
 
 
-def _made(cls: DriverClass, values: Mapping[str, Any], name: Scalar, findings: Findings) -> tuple[Any, Timing] | None:
-    """The driver and its timing, unless it says itself that its options do not go together."""
+def _own_class(noun: str, name: Scalar, findings: Findings) -> DriverClass | None:
+    """The driver FILE.CLASS or PACKAGE.NAME; None after reporting why there is none."""
+    file, _, cls = name.text.partition(".")
     try:
-        return cls.make(**values)
+        code = _found(name.text, name.span.source.folder)
+        if code is None:
+            message = f"There is no {file}.py beside this file, and no package {file} offers a driver {cls}."
+            hint = f"Write {file}.py with a class {cls}; a package says it under {ENTRY_POINTS}."
+            findings.error("unknown-driver", name.span, message, hint)
+            return None
+        answer = _ask(code, noun, None)
     except BrokenDriverError as error:
-        report_error(findings, "broken-driver", name.span, f"{error}.", error.hint)
+        findings.error("broken-driver", name.span, f"{error}.", error.hint)
         return None
-    except (MindError, ValueError) as error:
-        hint = getattr(error, "hint", "") or f"Look at the options of {name.text} in docs/drivers.md."
-        report_error(findings, "impossible-driver", name.span, f"{name.text} cannot be wired so: {error}.", hint)
+    if "absent" in answer:
+        hint = f"Write it there: a frozen dataclass {cls} with a method open."
+        if known := [f"{file}.{each}" for each in answer["absent"]]:
+            hint = findings.suggest(name.text, known) or f"Write driver: {listed(known)}."
+        findings.error("unknown-driver", name.span, f"{code.origin} has no class {cls}.", hint)
         return None
+    return DriverClass(tuple(map(_option, answer["options"])), partial(_made, noun, code))
+
+
+def _found(name: str, folder: Path) -> DriverCode | None:
+    """The code of a driver; BrokenDriverError where its file cannot be read."""
+    path = folder / f"{name.partition('.')[0]}.py"
+    if not os.path.lexists(path):
+        return of_package(name)
+    try:
+        data = read_regular(path, MAX_DRIVER_BYTES + 1)
+        text = data.decode()
+    except OSError as error:
+        message = f"{path.name} cannot be read: {reason(error)}"
+        raise BrokenDriverError(message, "Is it a file that you may read?") from error
+    except UnicodeDecodeError as error:
+        raise BrokenDriverError(f"{path.name} is not UTF-8", "Save it as UTF-8.") from error
+    if len(data) > MAX_DRIVER_BYTES:
+        hint = "Put what it shares with others into an installed package."
+        raise BrokenDriverError(f"{path.name} is larger than {MAX_DRIVER_BYTES >> 10} kB", hint)
+    for number, line in enumerate(text.split("\n"), 1):
+        if not line.isprintable():
+            hint = "Indent with spaces, and end lines as Linux does."
+            raise BrokenDriverError(f"{path.name} has a character on line {number} that cannot be printed", hint)
+    return of_file(name, text)
+
+
+def _made(noun: str, code: DriverCode, **options: Any) -> tuple[Any, Timing]:
+    """The driver as a bundle has it, and its timing; MindError where its class refuses these options."""
+    said = encoded(options)
+    answer = _ask(code, noun, said)
+    if "impossible" in answer:
+        raise MindError(answer["impossible"], answer["hint"] or f"So says its class, in {code.origin}.")
+    facts: dict[str, Any] = {key: _as_tuple(value) for key, value in answer["facts"].items()}
+    cls: type[Any] = OwnSensor if noun == "sensor" else OwnActuator
+    return cls(code.name, code.digest, code.lines, code.package, said, **facts), Timing(**answer["timing"])
+
+
+@cache
+def _ask(code: DriverCode, noun: str, options: str | None) -> dict[str, Any]:
+    """What a driver answers; BrokenDriverError where it has no answer that is one."""
+    question = json.dumps({"code": asdict(code), "noun": noun, "options": options})
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+    try:
+        done = subprocess.run(
+            [sys.executable, "-P", "-m", driver_inspection.__name__],
+            input=question.encode(),
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            timeout=ANSWER_SECONDS,
+            env=environment,
+            start_new_session=True,  # Ctrl-C is for who asks
+        )
+        answer: dict[str, Any] = json.loads(done.stdout, parse_constant=INFINITIES.__getitem__)
+    except subprocess.TimeoutExpired as error:
+        raise BrokenDriverError(f"{code.origin} has not been imported after {ANSWER_SECONDS:g} s", OUTSIDE) from error
+    except (ValueError, KeyError) as error:
+        message = f"{code.origin} ends the program that imports it"
+        raise BrokenDriverError(message, "Nothing in it may do that.") from error
+    if "raised" in answer:
+        failed = "cannot be imported" if options is None else "does not take these options"
+        hint = "Mend it" if options is None else "Mend it, or let the class refuse them with a ValueError that says why"
+        raise BrokenDriverError(f"{code.origin} {failed}: {answer['raised']}", f"{hint}.")
+    if "unfit" in answer:
+        raise BrokenDriverError(f"{code.name} {answer['unfit']}", "docs/robot-yaml.md shows a driver that is whole.")
+    return answer
+
+
+def _option(data: dict[str, Any]) -> DriverOption:
+    """An option as it was before it became data."""
+    said = {key: _as_tuple(value) for key, value in data["type"].items()}
+    meaning = Quantity(**said) if data["is_quantity"] else Reference(**said)
+    default = _as_tuple(data.get("default", MISSING))
+    return DriverOption(data["key"], data["field"], meaning, data["shape"], data["count"], default)
+
+
+def _as_tuple(value: Any) -> Any:
+    """What was a tuple before it became JSON."""
+    return tuple(value) if isinstance(value, list) else value

@@ -1,7 +1,8 @@
-"""What a user's driver says of itself, asked in a process of its own: `python -m mindlang.robot.driver_inspection`.
+"""What a driver says of itself: its options, the values that it measures, and how much time it needs.
 
-It takes a question on standard input and gives an answer on standard output, both as JSON. What the driver's code
-prints goes elsewhere, and how it ends is nobody else's end.
+A user's driver is asked in a process of its own, `python -m mindlang.robot.driver_inspection`, which takes a question
+on standard input and gives an answer on standard output, both as JSON. What the driver's code prints goes elsewhere,
+and how it ends is nobody else's end.
 """
 
 import json
@@ -9,24 +10,69 @@ import os
 import sys
 import traceback
 from collections.abc import Mapping
-from dataclasses import MISSING, asdict, is_dataclass
-from math import inf
+from dataclasses import asdict, dataclass, is_dataclass
+from inspect import getattr_static
+from math import inf, isfinite
 from typing import Any
 
 from mindrun.errors import MindError
-from mindrun.numbers.quantity import NUMBER, Quantity
-from mindrun.robot.driver_code import DriverCode, load_class
-from mindrun.robot.drivers.own import decoded
+from mindrun.numbers.given_numbers import is_truth, number
+from mindrun.numbers.quantity import NUMBER, Quantity, fits
+from mindrun.robot.driver_support import BUS
+from mindrun.robot.drivers.own import DriverCode, decoded, load_class
 
-from mindlang.robot.direction import near_value
 from mindlang.robot.options import DriverOption, driver_options
-from mindlang.robot.timing import UnfitTimingError, timing_of
 
 Answer = dict[str, Any]
+ABSENT = object()
+METRES = "m"
 
 
-class NoDriverError(Exception):
-    """A class that is no driver; the sentence goes on after its name."""
+class UnfitDriverError(Exception):
+    """A class that is no driver, or says of itself what cannot be; the sentence goes on after its name."""
+
+
+@dataclass(frozen=True, slots=True)
+class Timing:
+    """What a driver can do, in the words of `SensorDriver`; `queue` is empty where nothing has to wait for another."""
+
+    seconds: float = 0.0
+    bus_seconds: float = 0.0
+    most: float = inf
+    bus: int = -1
+    queue: str = ""
+
+
+def timing_of(driver: object, noun: str) -> Timing:
+    """What a driver says of its time; UnfitDriverError where that cannot be."""
+    names = Timing.__dataclass_fields__.keys() | {"device"}
+    said = {name: getattr(driver, name) for name in names if getattr_static(driver, name, ABSENT) is not ABSENT}
+    queue = said.get("queue", said.get("device", "") if noun == "actuator" else "")
+    if not isinstance(queue, str) or not queue.isprintable():
+        raise UnfitDriverError("has a queue that is no text")
+    seconds, bus_seconds = (_amount(said, name) for name in ("seconds", "bus_seconds"))
+    bus = said.get("bus") if bus_seconds else -1
+    if not isinstance(bus, int) or is_truth(bus) or (bus_seconds and not fits(BUS, bus)):
+        raise UnfitDriverError(f"has bus_seconds, and no bus that is a whole number from {BUS.low:g} to {BUS.high:g}")
+    return Timing(seconds, bus_seconds, _amount(said, "most", inf), bus, queue)
+
+
+def near_value(driver: object) -> float | None:
+    """The value of a driver that means that something is near; None where that depends on what is connected."""
+    near: float | None = getattr(driver, "near", 0.0 if getattr(driver, "unit", "") == METRES else None)
+    return near
+
+
+def _amount(said: Mapping[str, Any], name: str, unsaid: float = 0.0) -> float:
+    """A number from 0, which is finite or what it is where nothing is said."""
+    given = said.get(name, unsaid)
+    try:
+        found = number(given)
+    except Exception:  # whatever the code of a user's number raises
+        found = -1.0
+    if is_truth(given) or not (found == unsaid or (isfinite(found) and found >= 0)):
+        raise UnfitDriverError(f"has {name} that {'is' if name == 'most' else 'are'} no number from 0: {given!r:.60}")
+    return found
 
 
 def main() -> None:
@@ -34,7 +80,7 @@ def main() -> None:
     question = json.load(sys.stdin)
     answers = os.dup(1)
     os.dup2(2, 1)  # what the driver prints is no answer
-    os.write(answers, json.dumps(_answer(question), allow_nan=False).encode())
+    os.write(answers, json.dumps(_answer(question)).encode())
     os._exit(0)  # whatever threads the driver has begun
 
 
@@ -48,7 +94,7 @@ def _answer(question: Mapping[str, Any]) -> Answer:
         if question["options"] is None:
             return {"options": [_plain(option) for option in _options(cls)]}
         return _facts(cls, question["noun"], decoded(question["options"]))
-    except NoDriverError as error:
+    except UnfitDriverError as error:
         return {"unfit": str(error)}
     except BaseException as error:  # a user's code may raise anything
         return {"raised": _reason(error, code)}
@@ -56,8 +102,7 @@ def _answer(question: Mapping[str, Any]) -> Answer:
 
 def _is_outside(error: BaseException) -> bool:
     """Whether an error comes from asking for the class, and not from code of the user."""
-    frames = traceback.extract_tb(error.__traceback__)
-    return frames[-1].name == load_class.__name__
+    return traceback.extract_tb(error.__traceback__)[-1].name == load_class.__name__
 
 
 def _classes(code: DriverCode) -> list[str]:
@@ -77,18 +122,17 @@ def _reason(error: BaseException, code: DriverCode) -> str:
 
 def _options(cls: Any) -> tuple[DriverOption, ...]:
     if not (isinstance(cls, type) and is_dataclass(cls)) or not cls.__dataclass_params__.frozen:  # type: ignore[attr-defined]
-        raise NoDriverError("is no frozen dataclass")
+        raise UnfitDriverError("is no frozen dataclass")
     if not callable(getattr(cls, "open", None)):
-        raise NoDriverError("has no method open")
+        raise UnfitDriverError("has no method open")
     return driver_options(cls)
 
 
 def _plain(option: DriverOption) -> Answer:
     """An option as data: its type is a quantity with units, or the words that can stand there."""
     data = {name: getattr(option, name) for name in ("key", "field", "shape", "count")}
-    type_ = {name: None if value in (inf, -inf) else value for name, value in asdict(option.type).items()}
-    said = {} if option.default is MISSING else {"default": option.default}
-    return {**data, **said, "is_quantity": isinstance(option.type, Quantity), "type": type_}
+    said = {} if option.required else {"default": option.default}
+    return {**data, **said, "is_quantity": isinstance(option.type, Quantity), "type": asdict(option.type)}
 
 
 def _facts(cls: Any, noun: str, options: Mapping[str, Any]) -> Answer:
@@ -98,31 +142,22 @@ def _facts(cls: Any, noun: str, options: Mapping[str, Any]) -> Answer:
         device = getattr(driver, "device", "")
     except (MindError, ValueError) as error:
         return {"impossible": str(error), "hint": getattr(error, "hint", "")}
-    if not isinstance(device, str) or not (device.isprintable()):
-        raise NoDriverError("has a device that is no text")
+    if not isinstance(device, str) or not device.isprintable():
+        raise UnfitDriverError("has a device that is no text")
     facts = {} if noun == "actuator" else _sensor_facts(driver)
-    return {"facts": {**facts, "device": device}, "timing": _timing(driver, noun)}
-
-
-def _timing(driver: Any, noun: str) -> Answer:
-    """What a driver says of its time; None for what has no end."""
-    try:
-        timing = timing_of(driver, noun)
-    except UnfitTimingError as error:
-        raise NoDriverError(str(error)) from error
-    return {name: None if value == inf else value for name, value in asdict(timing).items()}
+    return {"facts": {**facts, "device": device}, "timing": asdict(timing_of(driver, noun))}
 
 
 def _sensor_facts(driver: Any) -> Answer:
     """What a sensor's driver says of its values."""
     for name in ("unit", "readings", "usual"):
         if not hasattr(driver, name):
-            raise NoDriverError(f"says no {name}, so it is for no sensor")
+            raise UnfitDriverError(f"says no {name}, so it is for no sensor")
     unit, readings = driver.unit, driver.readings
     if not isinstance(unit, str) or not unit.isprintable():
-        raise NoDriverError("has a unit that is no text")
+        raise UnfitDriverError("has a unit that is no text")
     if type(readings) is not int or readings < 1:
-        raise NoDriverError("has readings that are no whole number from 1")
+        raise UnfitDriverError("has readings that are no whole number from 1")
     near = near_value(driver)
     usual, possible = _pair(driver.usual, "usual"), _pair(getattr(driver, "possible", (-1e9, 1e9)), "possible")
     facts = {"unit": unit, "readings": readings, "usual": usual, "possible": possible}
@@ -134,7 +169,7 @@ def _pair(values: Any, name: str) -> tuple[float, float]:
     try:
         low, high = (min(max(float(value), NUMBER.low), NUMBER.high) for value in values)
     except (TypeError, ValueError):
-        raise NoDriverError(f"has a {name} that is no pair of numbers") from None
+        raise UnfitDriverError(f"has a {name} that is no pair of numbers") from None
     return low, high
 
 

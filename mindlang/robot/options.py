@@ -1,8 +1,13 @@
-"""The options of a wire: the fields of its own dataclass and of its driver's, with their types."""
+"""The options of a wire: the fields of its own dataclass and of its driver's, and the JSON Schema that they make.
 
+By the schema an editor completes and underlines `robot.yaml` while one writes.
+"""
+
+import re
 from dataclasses import MISSING, Field, dataclass, fields, replace
 from functools import cache
 from importlib import import_module
+from math import isinf
 from types import NoneType, UnionType
 from typing import Annotated, Any, Union, get_args, get_origin, get_type_hints
 
@@ -11,10 +16,30 @@ from mindrun.kinds.registry import kinds
 from mindrun.numbers.quantity import NUMBER, Quantity, Reference
 
 DRIVER = "driver"
+OWN_NAME = re.compile(r"^[A-Za-z_][A-Za-z0-9_]*\.[A-Za-z_][A-Za-z0-9_]*$")  # FILE.CLASS, or PACKAGE.NAME
 WORD = Reference("text")
 WHOLE = Quantity("a whole number", {"": 1.0}, whole=True)
 LIMITS = ("low", "high")  # of an actuator: one key, two fields
-OWN_NAMES = {"low": "from", "high": "to"}
+ENDS = {"low": "from", "high": "to"}  # of a sensor: in the unit of the driver, so they are read when there is one
+
+DRAFT = "https://json-schema.org/draft/2020-12/schema"
+NUMBER_PATTERN = r"-?[0-9]+(\.[0-9]+)?(/[0-9]+)?"
+TEXT = {"type": "string", "minLength": 1, "maxLength": 200}
+OPTION_DESCRIPTIONS = {
+    "from": "The value at which it reads 0, in the unit of the driver.",
+    "to": "The value at which it reads 1, in the unit of the driver; it may be the smaller one.",
+    "median": "Of so many values, an odd number, the median is taken.",
+    "rate": "How often it is measured.",
+    "max_age": "What was measured longer ago is a fault.",
+    "on_fault": "On a fault: every actuator neutral, the reading before held, or blank read.",
+    "hold": "For how long the reading before is held.",
+    "blank": "What it reads where there is nothing to measure; as in training where it is not said.",
+    "dead_zone": "Closer to 0, of a bearing to 0.5, it reads just that; as in training where it is not said.",
+    "trim": "Added to every command, and to neutral.",
+    "slew": "A command changes by no more than this share of the travel in a second.",
+    "reversed": "Whether 0 and 1 change places.",
+    "limits": "No command is below the first or above the second.",
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,52 +70,39 @@ def drivers(noun: str) -> dict[str, type[Any]]:
 def own_options(noun: str) -> tuple[DriverOption, ...]:
     """The options of every sensor or actuator, whatever its driver."""
     if noun == "sensor":
-        found = _options(SensorWire, skipped=("sensor", DRIVER, "rest"))
-        return tuple(replace(option, key=OWN_NAMES.get(option.key, option.key)) for option in found)
-    found = _options(ActuatorWire, skipped=("actuator", DRIVER, *LIMITS))
-    share = next(option.type for option in _options(ActuatorWire, ("actuator", DRIVER)) if option.field == "low")
-    return (*found, DriverOption("limits", "limits", share, "numbers", 2, (0.0, 1.0)))
+        found = driver_options(SensorWire, skipped=("sensor", DRIVER, "rest"))
+        return tuple(replace(option, key=ENDS.get(option.key, option.key)) for option in found)
+    found = driver_options(ActuatorWire, skipped=("actuator", DRIVER))
+    share = next(option.type for option in found if option.field in LIMITS)
+    rest = (option for option in found if option.field not in LIMITS)
+    return (*rest, DriverOption("limits", "limits", share, "numbers", 2, (0.0, 1.0)))
 
 
-def driver_options(cls: type[Any]) -> tuple[DriverOption, ...]:
+def driver_options(cls: type[Any], skipped: tuple[str, ...] = ()) -> tuple[DriverOption, ...]:
     """The options of a driver, required ones and others."""
-    return _options(cls)
-
-
-def _options(cls: type[Any], skipped: tuple[str, ...] = ()) -> tuple[DriverOption, ...]:
     hints = get_type_hints(cls, include_extras=True)
     return tuple(_option(field, hints[field.name]) for field in fields(cls) if field.init and field.name not in skipped)
 
 
 def _option(field: Field[Any], hint: Any) -> DriverOption:
     default = field.default if field.default_factory is MISSING else field.default_factory()
-    plain, meaning, count = _type(hint)
-    match plain, meaning:
-        case _ if plain is bool:
-            shape = "flag"
-        case _, Reference(words=words):
-            shape = "word" if words else "text"
-        case _:
-            shape = "number"
-    if count is not None:
-        shape, count = f"{shape}s", count or None
-    return DriverOption(field.name.removesuffix("_"), field.name, meaning, shape, count, default)
-
-
-def _type(hint: Any) -> tuple[Any, Quantity | Reference, int | None]:
-    """The plain type of one value, its meaning, and how many there are: None for one, 0 for any number."""
     hint = _without_none(hint)
     plain, meaning = get_args(hint)[:2] if get_origin(hint) is Annotated else (hint, None)
     plain = _without_none(plain)
     count = None
-    if get_origin(plain) is tuple:
-        parts = get_args(plain)
-        plain, count = parts[0], 0 if parts[-1] is Ellipsis else len(parts)
+    if is_several := get_origin(plain) is tuple:
+        plain, *others = get_args(plain)
+        count = None if Ellipsis in others else 1 + len(others)
+    if not isinstance(meaning, Quantity | Reference):
+        meaning = WORD if plain in (str, bool) else WHOLE if plain is int else NUMBER
     match meaning:
-        case Quantity() | Reference():
-            return plain, meaning, count
-    bare: dict[Any, Quantity | Reference] = {str: WORD, bool: WORD, int: WHOLE}
-    return plain, bare.get(plain, NUMBER), count
+        case _ if plain is bool:
+            shape = "flag"
+        case Reference(words=words):
+            shape = "word" if words else "text"
+        case _:
+            shape = "number"
+    return DriverOption(field.name.removesuffix("_"), field.name, meaning, shape + "s" * is_several, count, default)
 
 
 def _without_none(hint: Any) -> Any:
@@ -98,3 +110,104 @@ def _without_none(hint: Any) -> Any:
     if get_origin(hint) in (Union, UnionType):
         return next(part for part in get_args(hint) if part is not NoneType)
     return hint
+
+
+def schema() -> dict[str, Any]:
+    """The JSON Schema of `robot.yaml` as plain data."""
+    return {
+        "$schema": DRAFT,
+        "title": "robot.yaml of the mind language",
+        "description": "What each sensor and actuator is wired to. mindc build --robot checks more than this.",
+        "type": "object",
+        "required": ["robot", "sensors", "actuators"],
+        "additionalProperties": False,
+        "properties": {
+            "robot": {**TEXT, "description": "A name for the robot."},
+            "sensors": _section_schema("sensor"),
+            "actuators": _section_schema("actuator"),
+        },
+        "$defs": {
+            f"{noun} {name}": _wire_schema(noun, name, cls)
+            for noun in ("sensor", "actuator")
+            for name, cls in sorted(drivers(noun).items())
+        },
+    }
+
+
+def _section_schema(noun: str) -> dict[str, Any]:
+    names = sorted(drivers(noun))
+    choices = [
+        {
+            "if": {"properties": {DRIVER: {"const": name}}, "required": [DRIVER]},
+            "then": {"$ref": f"#/$defs/{noun}%20{name}"},
+        }
+        for name in names
+    ]
+    own = {"type": "string", "pattern": OWN_NAME.pattern, "description": "FILE.CLASS beside this file, or PACKAGE.NAME"}
+    driver = {"anyOf": [{"enum": names}, own]}
+    return {
+        "type": ["object", "null"],
+        "description": f"Each {noun} by its name in the mind.",
+        "additionalProperties": {
+            "type": "object",
+            "required": [DRIVER],
+            "properties": {DRIVER: driver},
+            "allOf": choices,
+        },
+    }
+
+
+def _wire_schema(noun: str, name: str, cls: type[Any]) -> dict[str, Any]:
+    """What can be said of a sensor or actuator with this driver."""
+    its, own = driver_options(cls), own_options(noun)
+    text = " ".join(str(cls.__doc__).split())
+    said = {option.key: _option_schema(option, OPTION_DESCRIPTIONS[option.key]) for option in own}
+    said |= {option.key: _option_schema(option, getattr(option.type, "name", "")) for option in its}
+    return {
+        "description": text,
+        "required": [DRIVER, *(option.key for option in its if option.required)],
+        "additionalProperties": False,
+        "properties": {DRIVER: {"const": name, "description": text}, **said},
+    }
+
+
+def _option_schema(option: DriverOption, description: str) -> dict[str, Any]:
+    found = _any_amount() if option.key in ENDS.values() and option.field in ENDS else _value_schema(option)
+    default = option.default
+    has_units = isinstance(option.type, Quantity) and option.type.units.keys() - {"", "%"}
+    told = default is not MISSING and default is not None and option.key not in ("blank", "dead_zone") and not has_units
+    return found | ({"description": description} if description else {}) | ({"default": default} if told else {})
+
+
+def _value_schema(option: DriverOption) -> dict[str, Any]:
+    one: dict[str, Any]
+    match option.shape.removesuffix("s"), option.type:
+        case "number", Quantity() as quantity:
+            one = _number_schema(quantity)
+        case "flag", _:
+            one = {"type": "boolean"}
+        case "word", Reference(words=words):
+            one = {"enum": [*words]}
+        case _:
+            one = TEXT
+    if not option.shape.endswith("s"):
+        return one
+    count = {"minItems": option.count, "maxItems": option.count} if option.count else {"minItems": 1}
+    several = {"type": "array", "items": one, **count}
+    return {"anyOf": [one, several]} if option.shape == "numbers" and option.count in (None, 1) else several
+
+
+def _number_schema(quantity: Quantity) -> dict[str, Any]:
+    """A number, or a text with one of the units."""
+    low = {} if isinf(quantity.low) else {"minimum": quantity.low}
+    high = {} if isinf(quantity.high) else {"maximum": quantity.high}
+    bare = {"type": "integer" if quantity.whole else "number", **low, **high}
+    units = "|".join(re.escape(unit) for unit in quantity.units if unit)
+    written = {"type": "string", "pattern": f"^{NUMBER_PATTERN} *({units})$"}
+    return bare if not units else {"anyOf": [bare, written]} if "" in quantity.units else written
+
+
+def _any_amount() -> dict[str, Any]:
+    """A value in a unit that only the driver knows."""
+    written = {"type": "string", "pattern": rf"^{NUMBER_PATTERN} *[^\s0-9].*$"}
+    return {"anyOf": [{"type": "number", "minimum": -1e6, "maximum": 1e6}, written]}

@@ -9,13 +9,48 @@ from hashlib import sha256
 from pathlib import Path
 
 import mindrun
+from mindrun.errors import ProcedureError
 from mindrun.files.regular_files import read_whole
 from mindrun.graph.bundle import MAX_BUNDLE_BYTES, Bundle
+from mindrun.graph.weights import reachable
 from mindrun.graph.wiring import code_digests
+from mindrun.kinds.procedure_text import fit, module_of
 
-from mindlang.robot.unit import ARMED, SERVICE, unit
+from mindlang.robot import DeployError
 
 WORKSTATION = "sim"  # the room of mindrun that no robot has a use for
+SERVICE, ARMED = "mind.service", "mind-armed.service"  # what they are called in a release
+PYTHON = "%h/mind/venv/bin/python"
+UNIT = """\
+# Written by `mindc deploy`, which replaces it; `systemctl --user edit mind.service` is for changes that stay.
+[Unit]
+Description=The mind of this robot, {state}
+StartLimitIntervalSec=60
+StartLimitBurst=5
+
+[Service]
+# Ready when every sensor has been measured once; then each tick is told, and two seconds without one are the end.
+Type=notify
+NotifyAccess=main
+WatchdogSec=2
+# Entered once: a process keeps the release that it was started in, whatever is current later.
+WorkingDirectory=%h/mind/current
+# No .pyc files: a release stays what was sent, and a power cut leaves none that is half written.
+Environment=PYTHONPATH=runtime PYTHONDONTWRITEBYTECODE=1 PYTHONUNBUFFERED=1
+ExecStart={run}
+{neutral}Restart=on-failure
+# 2 is said on purpose: a bundle that is refused, or a guardian that will move nothing more.
+RestartPreventExitStatus=2
+RestartSec=2
+# Only the controller is told to end; the guardian ends after it, once every actuator is at neutral.
+KillMode=mixed
+TimeoutStopSec=10
+LimitCORE=0
+NoNewPrivileges=yes
+
+[Install]
+WantedBy=default.target
+"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,6 +64,21 @@ class Release:
     def named(self, moment: str) -> str:
         """What it is called on the robot: names sort by their age."""
         return f"{moment}-{self.fingerprint[:8]}"
+
+
+def check_deployable(bundle: Bundle, with_service: bool) -> None:
+    """Refuse procedures of which the text says that they could not run, and a service that would have no wiring."""
+    for skill in reachable(bundle.graph, bundle.graph.master):
+        if (calls := skill.function.calls) is not None:
+            try:
+                fit(calls, bundle.procedures.get(module_of(calls), ""), len(skill.inputs), skill.outputs)
+            except ProcedureError as error:
+                raise DeployError(f"{error}.", error.hint or "Mend it, and build the bundle anew.") from error
+    if with_service and bundle.wiring is None:
+        raise DeployError(
+            "This bundle does not say how the robot is wired, so no service can run it.",
+            "Build it with its robot.yaml, or use --no-service to bring it there all the same.",
+        )
 
 
 def make_release(path: Path, bundle: Bundle, folder: Path) -> Release:
@@ -51,6 +101,16 @@ def make_release(path: Path, bundle: Bundle, folder: Path) -> Release:
         place.parent.mkdir(parents=True, exist_ok=True)
         place.write_bytes(content)
     return Release(folder, sha256(sums).hexdigest(), sum(map(len, files.values())))
+
+
+def unit(arm: bool = False) -> str:
+    """The service that runs the current release, for the systemd of the robot's user: it needs no root, no password.
+
+    Armed, the mind moves what is wired to it, and however it ends everything goes to neutral.
+    """
+    run = f"{PYTHON} -m mindrun mind.bundle" + " --arm" * arm
+    neutral = f"ExecStopPost={PYTHON} -P -m mindrun.robot.guardian --neutral mind.bundle\n" * arm
+    return UNIT.format(state="armed" if arm else "not armed", run=run, neutral=neutral)
 
 
 def _runtime() -> Iterator[tuple[str, bytes]]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import shlex
 import shutil
 import subprocess
@@ -17,12 +18,29 @@ from typing import IO
 
 from mindlang.robot import DeployError
 
+HOST = re.compile(r"(?:[A-Za-z0-9_][\w.-]*@)?[A-Za-z0-9_][\w.-]*", re.ASCII)
 SSH_FAILURE_CODE = 255  # ssh's own exit code
 SCRIPTS = ("robot.sh", "switch.sh")
 HEARTBEAT_SECONDS = 5.0  # after thirty without one the robot is free again
 RobotEvent = tuple[str, str]  # an event, and its detail
 LOCK_HELD: RobotEvent = ("held", "")
 LOCK_WAITING: RobotEvent = ("waiting", "")
+
+
+def check_host(host: str) -> None:
+    """Refuse what ssh or rsync could take for an option, a path, or a command."""
+    if not HOST.fullmatch(host):
+        raise DeployError(
+            f"{host!r} is not a host: write it as pi@robot.local.",
+            "A port, an address with colons or a key belong under a Host in ~/.ssh/config.",
+        )
+
+
+def check_tools() -> None:
+    """Refuse to begin without the two programs that do the work."""
+    for tool, package in (("ssh", "openssh-client"), ("rsync", "rsync")):
+        if shutil.which(tool) is None:
+            raise DeployError(f"{tool} is not installed here.", f"sudo apt install {package}")
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,8 +10,9 @@ from mindlang.compiler.diagnostic import Findings, listed
 from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.source import Span
 from mindlang.compiler.syntax import Amount
-from mindlang.robot.nodes import Items, Lost, Node, Scalar, Table, TableEntry, report_error, shortened
+from mindlang.robot.misread import shortened
 from mindlang.robot.options import DriverOption
+from mindlang.robot.read import Items, Lost, Node, Scalar, Table, TableEntry, first_line
 
 AMOUNT = re.compile(r"(0x[0-9a-fA-F]{1,8}|-?[0-9]+(?:\.[0-9]+)?(?:/[0-9]+)?) *((?![0-9.,]).*)?")
 MAX_TEXT_CHARACTERS = 200
@@ -23,13 +24,13 @@ def value(option: DriverOption, node: Node, findings: Findings) -> Any:
         case "number", Quantity() as quantity:
             return number(node, quantity, findings)
         case "numbers", Quantity() as quantity:
-            return numbers(node, quantity, option.count, findings)
-        case "word", Reference(noun=noun, words=words):
-            return word(node, noun, words, findings)
+            return _numbers(node, quantity, option.count, findings)
+        case "word", Reference() as reference:
+            return _word(node, reference, findings)
         case "flag", _:
-            return flag(node, findings)
-        case "texts" | "words", _:
-            return _each(node, option, findings)
+            return _flag(node, findings)
+        case "texts" | "words", Reference() as reference:
+            return _words(node, reference, option.count, findings)
     return text(node, findings)
 
 
@@ -38,17 +39,15 @@ def number(node: Node, quantity: Quantity, findings: Findings) -> float | int | 
     match node:
         case Scalar(text=written, plain=True, span=span) if found := AMOUNT.fullmatch(written):
             return convert(Amount(_parsed(found[1]), found[2] or "", span), quantity, findings)
-        case Scalar(text=written, plain=False, span=span) if AMOUNT.fullmatch(written):
-            report_error(
-                findings, "quoted-number", span, "This is a text, because of its quotes.", "Remove the quotes."
-            )
+        case Scalar(text=written, span=span) if AMOUNT.fullmatch(written):
+            findings.error("quoted-number", span, "This is a text, because of its quotes.", "Remove the quotes.")
         case Scalar(text=written, span=span):
             comma = re.fullmatch(r"(-?[0-9]+),([0-9]+ ?\w*)", written)
             hint = f"Write {comma[1]}.{comma[2]}." if comma else f"Here stands {quantity.name}."
-            report_error(findings, "not-a-number", span, f"{shortened(written)} is not a number.", hint)
-        case Items(span=span) | Table(span=span):
+            findings.error("not-a-number", span, f"{shortened(written)} is not a number.", hint)
+        case _:
             hint = f"Here stands {quantity.name}, without brackets."
-            report_error(findings, "one-number", first_line(span), "Only one number can stand here.", hint)
+            _refuse(node, "one-number", "Only one number can stand here.", hint, findings)
     return None
 
 
@@ -60,88 +59,89 @@ def _parsed(digits: str) -> float:
     return float(over) / divisor if divisor else float("nan")
 
 
-def numbers(node: Node, quantity: Quantity, count: int | None, findings: Findings) -> tuple[float | int, ...] | None:
+def _numbers(node: Node, quantity: Quantity, count: int | None, findings: Findings) -> tuple[float | int, ...] | None:
     """A list of numbers; where there may be any number of them, or one, a single one needs no brackets."""
-    if isinstance(node, Scalar) and count in (None, 1) and AMOUNT.fullmatch(node.text):
-        one = number(node, quantity, findings)
-        return None if one is None else (one,)
+    is_amount = isinstance(node, Scalar) and AMOUNT.fullmatch(node.text)
+    if is_amount and count in (None, 1):
+        return _all([number(node, quantity, findings)])
     if not isinstance(node, Items):
-        example = node.span.text if isinstance(node, Scalar) and AMOUNT.fullmatch(node.text) else "1"
+        example = node.span.text if is_amount else "1"
         hint = f"Write [{', '.join([shortened(example)] * (count or 1))}]."
-        _not_so(node, "not-a-list", "A list stands here.", hint, findings)
+        _refuse(node, "not-a-list", "A list stands here.", hint, findings)
         return None
-    if len(node.items) != (count or len(node.items)) or not node.items:
+    if _has_another_count(node, count):
         wanted = f"{count} numbers" if count else "at least one number"
         message = f"This list has {len(node.items)} entries." if node.items else "This list is empty."
-        report_error(findings, "wrong-count", first_line(node.span), message, f"Write {wanted}, each {quantity.name}.")
+        _refuse(node, "wrong-count", message, f"Write {wanted}, each {quantity.name}.", findings)
         return None
-    found = [number(item, quantity, findings) for item in node.items]
-    return tuple(each for each in found if each is not None) if None not in found else None
+    return _all([number(item, quantity, findings) for item in node.items])
 
 
-def word(node: Node, noun: str, words: tuple[str, ...], findings: Findings) -> str | None:
+def _words(node: Node, reference: Reference, count: int | None, findings: Findings) -> tuple[str, ...] | None:
+    """A list of words or texts."""
+    if not isinstance(node, Items) or _has_another_count(node, count):
+        wanted = f"{count} of them" if count else "at least one"
+        _refuse(node, "not-a-list", "A list stands here.", f"Write {wanted} between brackets: [a, b].", findings)
+        return None
+    if reference.words:
+        return _all([_word(item, reference, findings) for item in node.items])
+    return _all([text(item, findings) for item in node.items])
+
+
+def _has_another_count(node: Items, count: int | None) -> bool:
+    return not node.items or len(node.items) != (count or len(node.items))
+
+
+def _all(found: list[Any]) -> tuple[Any, ...] | None:
+    """All values of a list; None where one of them is wrong."""
+    return None if None in found else tuple(found)
+
+
+def _word(node: Node, reference: Reference, findings: Findings) -> str | None:
     """One of a few words."""
+    noun, words = reference.noun, reference.words
     if not isinstance(node, Scalar):
-        _not_so(node, "not-a-word", f"Here stands a {noun}.", f"It is {listed(words)}.", findings)
+        _refuse(node, "not-a-word", f"Here stands a {noun}.", f"It is {listed(words)}.", findings)
         return None
     if node.text in words:
         return node.text
     hint = findings.suggest(node.text, words) or f"It is {listed(words)}."
-    report_error(findings, f"unknown-{noun}", node.span, f"There is no {noun} called {shortened(node.text)}.", hint)
+    findings.error(f"unknown-{noun}", node.span, f"There is no {noun} called {shortened(node.text)}.", hint)
     return None
 
 
-def flag(node: Node, findings: Findings) -> bool | None:
+def _flag(node: Node, findings: Findings) -> bool | None:
     """True or false."""
     if isinstance(node, Scalar) and node.plain and node.text in ("true", "false"):
         return node.text == "true"
-    _not_so(node, "not-a-switch", "Here stands true or false.", "Write true or false, without quotes.", findings)
+    _refuse(node, "not-a-switch", "Here stands true or false.", "Write true or false, without quotes.", findings)
     return None
 
 
 def text(node: Node, findings: Findings) -> str | None:
     """A text of one line."""
     if not isinstance(node, Scalar):
-        _not_so(node, "not-a-word", "Here stands a text.", "Write it without brackets.", findings)
+        _refuse(node, "not-a-word", "Here stands a text.", "Write it without brackets.", findings)
     elif not node.text.strip() or len(node.text) > MAX_TEXT_CHARACTERS or not node.text.isprintable():
         hint = f"Write 1 to {MAX_TEXT_CHARACTERS} characters that can be printed."
-        report_error(findings, "not-a-text", node.span, "This text cannot stand here.", hint)
+        findings.error("not-a-text", node.span, "This text cannot stand here.", hint)
     else:
         return node.text
     return None
 
 
-def _each(node: Node, option: DriverOption, findings: Findings) -> tuple[str, ...] | None:
-    """A list of words or texts."""
-    if not isinstance(node, Items) or not node.items or len(node.items) != (option.count or len(node.items)):
-        wanted = f"{option.count} of them" if option.count else "at least one"
-        _not_so(node, "not-a-list", "A list stands here.", f"Write {wanted} between brackets: [a, b].", findings)
-        return None
-    assert isinstance(option.type, Reference)
-    noun, words = option.type.noun, option.type.words
-    found = [word(item, noun, words, findings) if words else text(item, findings) for item in node.items]
-    return tuple(each for each in found if each is not None) if None not in found else None
-
-
-def _not_so(node: Node, code: str, message: str, hint: str, findings: Findings) -> None:
+def _refuse(node: Node, code: str, message: str, hint: str, findings: Findings) -> None:
+    """Report a value that is none of the kind that is asked for, unless it has been reported before."""
     if not isinstance(node, Lost):
-        report_error(findings, code, first_line(node.span), message, hint)
-
-
-def first_line(span: Span) -> Span:
-    """As much of a span as stands on its first line."""
-    return Span(span.source, span.start, span.start + len(span.text.split("\n")[0].rstrip()))
+        findings.error(code, first_line(node.span), message, hint)
 
 
 def table(node: Node, what: str, example: str, findings: Findings) -> Table | None:
     """The node, if it is a table."""
     if isinstance(node, Table):
         return node
-    if not isinstance(node, Lost):
-        message = f"{what} has no keys and values."
-        report_error(
-            findings, "not-a-table", first_line(node.span), message, f"Write, each on a line of its own: {example}."
-        )
+    hint = f"Write, each on a line of its own: {example}."
+    _refuse(node, "not-a-table", f"{what} has no keys and values.", hint, findings)
     return None
 
 
@@ -150,17 +150,15 @@ def is_empty(entry: TableEntry, findings: Findings) -> bool:
     if not isinstance(entry.value, Scalar) or entry.value.text or not entry.value.plain:
         return False
     hint = "Write a value after the colon, or remove the line; what belongs to it stands below it, farther in."
-    report_error(findings, "no-value", entry.key.span, f"{shortened(entry.key.text)} has no value.", hint)
+    findings.error("no-value", entry.key.span, f"{shortened(entry.key.text)} has no value.", hint)
     return True
 
 
 def by_option(entries: Iterable[TableEntry], options: Mapping[str, DriverOption], findings: Findings) -> dict[str, Any]:
     """The values of those entries that are options, by their fields; those that are wrong are reported and left out."""
-    found = {
-        options[entry.key.text].field: value(options[entry.key.text], entry.value, findings)
-        for entry in entries
-        if entry.key.text in options and not is_empty(entry, findings)
-    }
+    said = [entry for entry in entries if entry.key.text in options and not is_empty(entry, findings)]
+    known = ((options[entry.key.text], entry.value) for entry in said)
+    found = {option.field: value(option, node, findings) for option, node in known}
     return {field: each for field, each in found.items() if each is not None}
 
 
@@ -168,9 +166,9 @@ def unknown_key(key: Scalar, what: str, known: Iterable[str], findings: Findings
     """Report a key that means nothing here."""
     known = list(known)
     hint = findings.suggest(key.text, known) or f"{what} takes {listed(known, 'and')}."
-    report_error(findings, "unknown-key", key.span, f"{what} has no key {shortened(key.text)}.", hint)
+    findings.error("unknown-key", key.span, f"{what} has no key {shortened(key.text)}.", hint)
 
 
 def missing_key(span: Span, what: str, key: str, example: str, findings: Findings) -> None:
     """Report a key that is missing."""
-    report_error(findings, "missing-key", first_line(span), f"{what} needs {key}.", f"Add a line: {key}: {example}.")
+    findings.error("missing-key", first_line(span), f"{what} needs {key}.", f"Add a line: {key}: {example}.")

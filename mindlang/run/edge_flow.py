@@ -1,23 +1,26 @@
-"""What flows over each edge of a hierarchy, tick by tick, computed from what was read and thought."""
+"""What flows over each edge of a hierarchy, tick by tick, computed by the engine's own functions."""
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterator, Mapping
+from collections.abc import Callable, Container, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from threading import Lock
 from typing import Protocol
 
 import numpy as np
-from mindrun.engine.think import Hierarchy, hierarchy
+from mindrun.engine.think import Hierarchy, Ready, hierarchy, values
 from mindrun.graph.graph import Graph, Receiver
 from mindrun.graph.policy import Policy
+from mindrun.kinds.functions.function import Stateful
 from numpy.typing import NDArray
 
-from mindlang.run.sent_values import Places, Rows, SentValues, Singles
-
+Singles = NDArray[np.float32]
+Places = NDArray[np.int64]  # of rows, the first of which is 0
+Rows = Callable[[Places], tuple[Singles, Singles]]  # their readings [rows, width] and their influence [rows, skills]
 Sink = tuple[Receiver, int]  # which one of its kind
-NOTHING = np.float32(0.0)
+NOTHING, NAN = np.float32(0.0), np.float32(np.nan)
+BLOCK_ROWS = 1024  # of what functions that remember have sent, kept together
 PART_EDGES = 1_000_000  # edges times rows that are computed at once, a few dozen bytes each
 
 
@@ -55,71 +58,30 @@ class EdgeFlow:
     influence: Singles
 
 
-class FlowWalker:
-    """What the edges of the skills of a hierarchy carry in any rows of a run, in their order.
+class EdgeFlows:
+    """The edges below the master of a hierarchy, and what they carry in any rows of a run.
 
-    Rows may be asked for in any order, and by several threads; a hierarchy belongs to one walker. In the rows of
-    `begins` the mind was begun anew; they are looked up when their rows are.
+    Rows may be asked for in any order, and by several threads; nothing else may make the hierarchy compute. In the rows
+    of `begins` the mind was begun anew; they are looked up when their rows are. Of functions that remember all that was
+    sent is kept: four bytes for each edge and row.
     """
 
-    def __init__(self, mind: Hierarchy, rows: Rows, begins: Container[int] = ()) -> None:
-        self.mind, self.rows = mind, rows
-        edges = [(skill.index, edge) for skill in mind.skills for edge in skill.edges]
-        self._sources = np.array([index for index, _ in edges], np.intp)
-        self._drives = np.array([edge.drives for _, edge in edges], bool)
-        self._cuts = np.array([-np.inf if edge.drives else edge.cuts for _, edge in edges], np.float32)
-        self._values = SentValues(mind, rows, begins)
-        self._walking = Lock()
-
-    def over(self, rows: Places) -> EdgeFlow:
-        """What the edges carried in rows in rising order; all at once."""
-        with self._walking, np.errstate(all="ignore"):
-            readings, influence = self.rows(rows)
-            sent = self._values.over(rows, readings, influence)
-            is_sent = np.isfinite(sent)
-            behind = np.where(is_sent, influence[:, self._sources], NOTHING)
-            value = np.where(is_sent & (sent > NOTHING), np.minimum(sent, np.float32(1.0)), NOTHING)
-            product = value * behind
-            carried = np.where(product < self._cuts, NOTHING, product)
-            return EdgeFlow(value, behind, carried, np.where(self._drives, behind, carried), influence)
-
-    def parts(self, rows: Places) -> Iterator[tuple[slice, EdgeFlow]]:
-        """What flows in these rows, as many at a time as fit into memory, each part with its places among them."""
-        most = max(1, PART_EDGES // max(1, len(self._sources)))
-        for first in range(0, len(rows), most):
-            part = slice(first, first + most)
-            yield part, self.over(rows[part])
-
-    def transmitted(self, rows: Places) -> Singles:
-        """The influence over each edge [rows, edges], 0 to 1."""
-        found = np.zeros((len(rows), len(self._sources)), np.float32)
-        for part, flow in self.parts(rows):
-            found[part] = flow.transmitted
-        return found
-
-    @property
-    def kept_bytes(self) -> int:
-        """How many bytes are kept of rows that have been asked for."""
-        return self._values.kept_bytes
-
-    def go_on(self, end: int) -> None:
-        """Compute what remembers up to the row `end`: no row before it will be asked of `rows` any more."""
-        with self._walking, np.errstate(all="ignore"):
-            self._values.go_on(end)
-
-
-class EdgeFlows:
-    """The edges below a master, by where they lead, and what they carry in each row of a run."""
-
-    def __init__(self, graph: Graph, walker: FlowWalker) -> None:
-        self.graph, self.walker = graph, walker
-        self.master = graph.skills[walker.mind.master].name
-        self.skills = [skill.index for skill in walker.mind.skills]
-
-    @cached_property
-    def links(self) -> list[Link]:
-        """All edges."""
-        return [Link(index, (edge.to, edge.target)) for index in self.skills for edge in self.graph.skills[index].edges]
+    def __init__(self, graph: Graph, mind: Hierarchy, rows: Rows, begins: Container[int] = ()) -> None:
+        self.graph, self.rows = graph, rows
+        self.master = graph.skills[mind.master].name
+        self.skills = [skill.index for skill in mind.skills]
+        self.links = [
+            Link(index, (edge.to, edge.target)) for index in self.skills for edge in graph.skills[index].edges
+        ]
+        edges = [edge for skill in mind.skills for edge in skill.edges]
+        self._ready = mind.skills
+        self._counts = np.array([len(skill.edges) for skill in mind.skills], np.intp)
+        self._sources = np.repeat(np.array(self.skills, np.intp), self._counts)
+        self._drives = np.array([edge.drives for edge in edges], bool)
+        self._cuts = np.array([-np.inf if edge.drives else edge.cuts for edge in edges], np.float32)
+        remembering = [skill for skill in mind.skills if isinstance(skill.compute, Stateful)]
+        self._kept = {skill.index: _Kept(skill, rows, begins) for skill in remembering}
+        self._computing = Lock()
 
     @cached_property
     def links_to(self) -> Mapping[Sink, list[int]]:
@@ -129,9 +91,89 @@ class EdgeFlows:
             found.setdefault(link.target, []).append(place)
         return found
 
-    def over(self, rows: range) -> EdgeFlow:
-        """What each of `links` carried in some rows, the first of which is 0; IndexError where one is not there."""
-        return self.walker.over(np.array(rows, np.int64))
+    def over(self, rows: Places | range) -> EdgeFlow:
+        """What each of `links` carried in rows in rising order; IndexError where one of these is not there."""
+        places = np.asarray(rows, np.int64)
+        with self._computing, np.errstate(all="ignore"):
+            readings, influence = self.rows(places)
+            sent = self._sent(places, readings, influence)
+            is_sent = np.isfinite(sent)
+            behind = np.where(is_sent, influence[:, self._sources], NOTHING)
+            value = np.where(is_sent & (sent > NOTHING), np.minimum(sent, np.float32(1.0)), NOTHING)
+            product = value * behind
+            carried = np.where(product < self._cuts, NOTHING, product)
+            return EdgeFlow(value, behind, carried, np.where(self._drives, behind, carried), influence)
+
+    def parts(self, rows: Places) -> Iterator[tuple[slice, EdgeFlow]]:
+        """What flows in these rows, as many at a time as fit into memory, each part with its places among them."""
+        most = max(1, PART_EDGES // max(1, len(self.links)))
+        for first in range(0, len(rows), most):
+            part = slice(first, first + most)
+            yield part, self.over(rows[part])
+
+    def transmitted(self, rows: Places) -> Singles:
+        """The influence over each edge [rows, edges], 0 to 1."""
+        found = np.zeros((len(rows), len(self.links)), np.float32)
+        for part, flow in self.parts(rows):
+            found[part] = flow.transmitted
+        return found
+
+    @property
+    def kept_bytes(self) -> int:
+        """How many bytes are kept of rows that have been asked for."""
+        return sum(block.nbytes for kept in self._kept.values() for block in kept.blocks)
+
+    def go_on(self, end: int) -> None:
+        """Compute what remembers up to the row `end`: no row before it will be asked of `rows` any more."""
+        with self._computing, np.errstate(all="ignore"):
+            for kept in self._kept.values():
+                kept.go_on(end)
+
+    def _sent(self, rows: Places, readings: Singles, influence: Singles) -> Singles:
+        """What each skill sent over its edges [rows, edges], before the clamp; NaN where nothing is sent."""
+        is_influenced = influence[:, self.skills] != 0
+        sent: list[np.float32] = []
+        for row, place in np.argwhere(is_influenced).tolist():
+            skill = self._ready[place]
+            kept = self._kept.get(skill.index)
+            sent += _numbers(skill, readings[row]) if kept is None else kept.at(int(rows[row]))
+        is_computed = np.repeat(is_influenced, self._counts, axis=1)
+        found = np.full(is_computed.shape, NAN)
+        found[is_computed] = sent
+        return found
+
+
+class _Kept:
+    """What a skill that remembers has sent so far; like the engine it computes only where it is influenced."""
+
+    def __init__(self, skill: Ready, rows: Rows, begins: Container[int]) -> None:
+        self.blocks: list[Singles] = []  # [BLOCK_ROWS, edges] each
+        self._skill, self._rows, self._begins = skill, rows, begins
+        self._known = 0  # how many rows are computed
+
+    def at(self, row: int) -> list[np.float32]:
+        """What it sent in a row."""
+        self.go_on(row + 1)
+        return [*self.blocks[row // BLOCK_ROWS][row % BLOCK_ROWS]]
+
+    def go_on(self, end: int) -> None:
+        """Compute the rows before `end` that are not computed yet."""
+        while self._known < end:
+            if self._known == len(self.blocks) * BLOCK_ROWS:
+                self.blocks.append(np.full((BLOCK_ROWS, len(self._skill.edges)), NAN))
+            self._fill(self.blocks[-1], np.arange(self._known, min(end, len(self.blocks) * BLOCK_ROWS)))
+
+    def _fill(self, block: Singles, rows: Places) -> None:
+        for row, readings, influence in zip(rows.tolist(), *self._rows(rows), strict=True):
+            if row in self._begins and isinstance(self._skill.compute, Stateful):
+                self._skill.compute.reset()
+            if influence[self._skill.index] != 0:
+                block[row % BLOCK_ROWS] = _numbers(self._skill, readings)
+            self._known = row + 1
+
+
+def _numbers(skill: Ready, readings: Singles) -> list[np.float32]:
+    return [NAN if value is None else value for value in values(skill, readings)]
 
 
 def edge_flows(
@@ -142,7 +184,7 @@ def edge_flows(
     def rows(places: Places) -> tuple[Singles, Singles]:
         return run.readings[places], run.influence[places]
 
-    return EdgeFlows(policy.graph, FlowWalker(hierarchy(policy, sources, master), rows, begins))
+    return EdgeFlows(policy.graph, hierarchy(policy, sources, master), rows, begins)
 
 
 def accumulated(edges: NDArray[np.floating]) -> Singles:
@@ -155,7 +197,7 @@ def accumulated(edges: NDArray[np.floating]) -> Singles:
 def sink_named(flows: EdgeFlows, name: str) -> Sink | None:
     """The skill below the master, the actuator or the memory of a name."""
     graph = flows.graph
-    skills: list[tuple[str, Sink]] = [(graph.skills[index].name, ("skill", index)) for index in flows.skills]
-    actuators: list[tuple[str, Sink]] = [(each.name, ("actuator", i)) for i, each in enumerate(graph.actuators)]
-    memories: list[tuple[str, Sink]] = [(each.name, ("memory", i)) for i, each in enumerate(graph.memories)]
-    return dict([*skills, *actuators, *memories]).get(name)
+    sinks: dict[str, Sink] = {graph.skills[index].name: ("skill", index) for index in flows.skills}
+    sinks |= {each.name: ("actuator", place) for place, each in enumerate(graph.actuators)}
+    sinks |= {each.name: ("memory", place) for place, each in enumerate(graph.memories)}
+    return sinks.get(name)

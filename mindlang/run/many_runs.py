@@ -1,4 +1,4 @@
-"""Many runs of a task in which nobody learns: a slice after the other, so that memory is for their results alone."""
+"""Many runs of a task in which nobody learns: their layouts, and a slice of them after the other."""
 
 from __future__ import annotations
 
@@ -6,16 +6,24 @@ from collections.abc import Callable, Sequence
 from time import perf_counter
 from typing import TYPE_CHECKING
 
+import numpy as np
 from mindrun.graph.run_scores import Scores
 from mindrun.processors import cpu_seconds
 
 from mindlang.executors.job_scorer import Block, JobScorer, empty_scores, place
-from mindlang.run.layouts import NO_GENOME
+from mindlang.limits import as_runs, as_seed
 
 if TYPE_CHECKING:
     from mindrun.sim.rollout import Rollout
 
-SLICE_RUNS = 1 << 16  # that are begun together
+NO_GENOME = np.zeros((1, 0), np.float32)  # the genome where nobody learns
+SLICE_RUNS = 1 << 16  # that are begun together, so that memory is for their results alone
+
+
+def layouts(seed: int, runs: int) -> list[int]:
+    """The seeds of so many runs; MindError where these are none."""
+    seed, runs = as_seed(seed), as_runs(runs)
+    return [int(word) for word in np.random.SeedSequence(seed).generate_state(runs, np.uint64)]
 
 
 def run_all(

@@ -20,8 +20,6 @@ from mindlang.run.paired_difference import unseen_share
 if TYPE_CHECKING:
     from mindrun.graph.run_scores import Scores
 
-    from mindlang.run.recorded_run import RecordedRun
-
 TIME = "time"
 NOTHING = np.zeros(0)
 OTHERWISE = {LOST: "flight out of bounds", BROKEN_OFF: "its environment"}  # beyond 1e9 units, or nowhere; truncated
@@ -58,32 +56,32 @@ def over_at_once(task: Task, scores: Scores) -> list[str]:
 
 
 def run_data(task: Task, scores: Scores) -> dict[str, Any]:
-    """The single run of `scores`; a sum that is not a finite number is None, `counts` the sum of `by_event` if any."""
+    """The single run of `scores`, as `data_so_far` has it, and whether it succeeded, where that can be."""
+    ended = ended_by(task, int(scores.ended_by[0, 0]))
     return {
-        **rewards_data(task, scores.by_line[0, 0]),
-        "counts": int(scores.counts[0, 0]) if task.counts else None,
-        "counted": [events(task)[event] for event in task.counts],
-        "by_event": {events(task)[event]: int(scores.by_event[0, 0, event]) for event in task.counts},
-        "ticks": int(scores.ticks[0, 0]),
-        "of_ticks": task.ticks,
-        "ended_by": ended_by(task, int(scores.ended_by[0, 0])),
+        **data_so_far(task, scores.by_line[0, 0], scores.by_event[0, 0], int(scores.ticks[0, 0]), ended),
         **({"succeeded": bool(succeeded(task, scores)[0, 0])} if task.can_succeed else {}),
         "faults": int(scores.faults[0, 0]),
     }
 
 
-def data_so_far(run: RecordedRun) -> dict[str, Any]:
-    """What came, so far, of a run that may go on, as `run_data` says it: without faults, and nothing has ended it."""
-    task = run.task
-    counts = dict(zip([events(task)[event] for event in task.counts], run.counts[-1].tolist(), strict=True))
+def data_so_far(
+    task: Task, paid: NDArray[np.float64], times: NDArray[np.integer], ticks: int, ended: str | None
+) -> dict[str, Any]:
+    """What came of a run by a tick, of what each line has paid [rewards] and how often each event happened [events].
+
+    A sum that is not a finite number is None, `counts` the sum of `by_event` if any.
+    """
+    counted = [events(task)[event] for event in task.counts]
+    counts = [int(times[event]) for event in task.counts]
     return {
-        **rewards_data(task, run.lines[-1]),
-        "counts": sum(counts.values()) if counts else None,
-        "counted": [*counts],
-        "by_event": counts,
-        "ticks": run.ticks,
+        **rewards_data(task, paid),
+        "counts": sum(counts) if counts else None,
+        "counted": counted,
+        "by_event": dict(zip(counted, counts, strict=True)),
+        "ticks": ticks,
         "of_ticks": task.ticks,
-        "ended_by": None,
+        "ended_by": ended,
     }
 
 

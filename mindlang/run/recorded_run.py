@@ -1,22 +1,27 @@
 """A run written down tick by tick, as arrays: what pictures, films, traces and answers are made from."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
+from mindrun.engine.changes import Change
 from mindrun.engine.engine import procedure_sources
 from mindrun.graph.graph import Graph, Task, Thing
 from mindrun.graph.recording_header import GOES_ON
 from mindrun.graph.skill_sets import movers
-from mindrun.sim.rollout import Rollout
+from mindrun.sim.rollout import Rollout, scores_of
 from mindrun.sim.task_rows import things_of
-from mindrun.sim.ticks import joined
-from mindrun.sim.trace import Trace, trace
+from mindrun.sim.trace import Trace, joined, trace
 from numpy.typing import NDArray
 
 from mindlang.run.edge_flow import edge_flows
+from mindlang.run.outcome import run_data
 from mindlang.run.setup import RunSetup
 
 Floats = NDArray[np.float64]
+WITH_BEGINNING = ("body", "things", "turned", "held")  # which have a row for the beginning, too
+ROWS = (*WITH_BEGINNING, "readings", "influence", "commands", "lines", "touching", "battery", "events")
 REAPPEARANCE_UNITS = 0.5  # nothing is moved that far in a tick but what reappears elsewhere
 
 
@@ -79,14 +84,9 @@ class RecordedRun:
 
     def until(self, tick: int) -> "RecordedRun":
         """The run as it was after a tick."""
-        with_beginning = ("body", "things", "turned", "held")
-        of_ticks = ("readings", "influence", "commands", "lines", "touching", "battery", "events")
-        cut = {name: getattr(self, name)[: tick + 1] for name in with_beginning}
-        ended = self.ended if tick >= self.ticks else GOES_ON
+        cut: dict[str, Any] = {name: getattr(self, name)[: tick + (name in WITH_BEGINNING)] for name in ROWS}
         acting = None if self.acting is None else self.acting[:tick]
-        return replace(
-            self, ended=ended, acting=acting, **cut, **{name: getattr(self, name)[:tick] for name in of_ticks}
-        )
+        return replace(self, ended=self.ended if tick >= self.ticks else GOES_ON, acting=acting, **cut)
 
     def placements(self, thing: int) -> Floats:
         """Every place and size [n, 3] where a thing appeared; neither a claw nor its own speed makes a new place."""
@@ -120,13 +120,11 @@ class RecordedRun:
 
         A skill that has influence and sends nothing moves nothing.
         """
-        setup, moving = (
-            self.setup,
-            {("actuator", i) for i, each in enumerate(self.graph.actuators) if each.kind.moves_body},
-        )
+        setup = self.setup
+        moving = {("actuator", i) for i, each in enumerate(self.graph.actuators) if each.kind.moves_body}
         sources = procedure_sources(self.graph, setup.folder, setup.master)
         flows = edge_flows(setup.ready.policy, sources, setup.master, self)
-        sent = flows.walker.transmitted(np.arange(self.ticks))
+        sent = flows.transmitted(np.arange(self.ticks))
         nobody = np.full(self.ticks, np.finfo(np.float32).smallest_subnormal)
         influence = [nobody]
         for skill in self.movers.values():
@@ -134,6 +132,26 @@ class RecordedRun:
             influence.append(sent[:, edges].max(axis=1))
         chosen: NDArray[np.int64] = np.argmax(np.stack(influence, axis=1), axis=1) - 1
         return np.where(chosen < 0, len(self.movers), chosen)
+
+
+@dataclass(frozen=True, slots=True)
+class RunResult:
+    """A run written down, and what came of it (`mindlang.run.outcome.run_data`)."""
+
+    run: RecordedRun
+    found: dict[str, Any]
+
+
+def run_result(setup: RunSetup, rollout: Rollout, seed: int, changes: Sequence[Change] = ()) -> RunResult:
+    """The run of a seed, with changes, and what came of it."""
+    return result_of(setup, trace(rollout, seed, changes=changes), seed)
+
+
+def result_of(setup: RunSetup, run: Trace, seed: int) -> RunResult:
+    """A run of that seed that is about to begin, made and written down, and what came of it."""
+    written = recorded(setup, run)
+    found = run_data(setup.task, scores_of(run.jobs, setup.task))
+    return RunResult(written, {"task": setup.task.name, "master": setup.master, "seed": seed} | found)
 
 
 def record_run(setup: RunSetup, rollout: Rollout, seed: int) -> RecordedRun:

@@ -16,12 +16,8 @@ from mindrun.terminal.command_line import command_line
 from mindlang.compiler.compile import Compiled
 from mindlang.executors.jobs import Assignment
 from mindlang.lock.ready import ReadyMind, make_ready
-from mindlang.run.chosen_task import SetupError as SetupError
-from mindlang.run.chosen_task import master_of as master_of
-from mindlang.run.chosen_task import skill_of as skill_of
-from mindlang.run.chosen_task import task_of as task_of
-from mindlang.run.chosen_task import unknown as unknown
-from mindlang.run.layouts import layouts
+from mindlang.run.chosen_task import SetupError, master_of, task_of
+from mindlang.run.many_runs import layouts
 
 if TYPE_CHECKING:
     from mindrun.sim.rollout import Rollout
@@ -43,12 +39,10 @@ class RunSetup:
         return is_one_world(self.ready.policy.graph, self.task, self.master)
 
     @property
-    def world_notes(self) -> tuple[str, ...]:
+    def world_notes(self) -> list[str]:
         """That there is one world, where it is so."""
-        said = (
-            f"1 world: nothing is drawn in {self.task.name}, so that one run is made, and any other would be the same"
-        )
-        return (said,) if self.is_one_world else ()
+        said = f"nothing is drawn in {self.task.name}, so that one run is made, and any other would be the same"
+        return [f"1 world: {said}"] if self.is_one_world else []
 
     def layouts(self, seed: int, runs: int) -> list[int]:
         """The seeds of so many runs, the first alone where there is one world; MindError where these are none."""
@@ -62,14 +56,8 @@ class RunSetup:
         """The task under the master, in the simulator. Runs the text of the procedures' modules."""
         from mindrun.sim.rollouts import rollout_for
 
-        return rollout_for(
-            self.ready.policy,
-            self.task.name,
-            self.master,
-            procedures=self.folder,
-            interrupt=interrupt,
-            workers=workers,
-        )
+        of, task = self.ready.policy, self.task.name
+        return rollout_for(of, task, self.master, procedures=self.folder, interrupt=interrupt, workers=workers)
 
     def assignment(self, interrupt: bool = True) -> Assignment:
         """What a worker has to know to make such runs; MindError where it is too large for a bundle."""
@@ -83,10 +71,16 @@ def set_up(file: str, compiled: Compiled, task: str | None, master: str | None) 
     assert compiled.graph is not None
     chosen, note = task_of(compiled.graph, task)
     leader = master_of(compiled.graph, chosen, master)
-    ready = make_ready(compiled.graph, compiled.sources, leader)
+    return RunSetup(chosen, leader, ready_to_act(file, compiled, leader), compiled.sources[0].folder, note)
+
+
+def ready_to_act(file: str, compiled: Compiled, master: str | None = None) -> ReadyMind:
+    """The mind under a master, by default its own; SetupError where a skill has no weights that fit."""
+    assert compiled.graph is not None
+    ready = make_ready(compiled.graph, compiled.sources, master)
     if ready.refusals:
         raise SetupError("\n".join(ready.refusals), train_command(Path(file), ready))
-    return RunSetup(chosen, leader, ready, compiled.sources[0].folder, note)
+    return ready
 
 
 def train_command(file: Path, ready: ReadyMind) -> str:

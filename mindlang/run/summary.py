@@ -1,14 +1,17 @@
-"""Outcomes for reading."""
+"""What came of a run, of many runs, and of two minds on the same layouts, for reading."""
 
-from collections.abc import Sequence
+from collections.abc import Collection, Iterator, Sequence
 from typing import Any
 
+import numpy as np
 from mindrun.sim.outside.making import GAVE_NO_NUMBER
 from rich.console import Group, RenderableType
 from rich.text import Text
 
 from mindlang.number_format import duration, rate, score
+from mindlang.run.comparison import PERCENT, SCORE, SUCCESS, Comparison, amount
 from mindlang.run.outcome import TIME
+from mindlang.run.paired_difference import MAX_RUNS, Difference
 
 
 def run_summary(found: dict[str, Any]) -> RenderableType:
@@ -21,9 +24,9 @@ def run_summary(found: dict[str, Any]) -> RenderableType:
         ("ticks", f"{found['ticks']:,} of {found['of_ticks']:,}, {ended}"),
         ("faults", _faults(found)),
     )
-    sums = [(Text(score(paid)), text) for text, paid in found["by_line"].items()]
+    sums = [(score(paid), text) for text, paid in found["by_line"].items()]
     total = (Text(score(found["score"]), "bold"), "score")
-    return Group(_title(found), facts, "", _aligned([*sums, total]))
+    return Group(_title(found), facts, "", aligned([*sums, total], left=(1,)))
 
 
 def bench_summary(found: dict[str, Any]) -> RenderableType:
@@ -93,10 +96,82 @@ def _faults(found: dict[str, Any]) -> str:
 
 
 def _facts(*rows: tuple[str, str]) -> Text:
-    return _aligned([(Text(name, "dim"), value) for name, value in rows if value])
+    return aligned([(Text(name, "dim"), value) for name, value in rows if value], left=(1,))
 
 
-def _aligned(rows: Sequence[tuple[Text, str]]) -> Text:
-    """A line per row, the first column to the right; nothing is padded at the ends of lines."""
-    width = max(len(first) for first, _ in rows)
-    return Text("\n").join(Text.assemble(" " * (width - len(first)), first, f"  {second}") for first, second in rows)
+def comparison_summary(found: dict[str, Any], comparison: Comparison) -> RenderableType:
+    """Both means of each figure, their difference with its interval, how often which did better, and what that says."""
+    runs, seed, is_one_world = found["runs"], found["seed"], comparison.is_one_world
+    where = f"on the same layouts, {runs:,} run{'s' * (runs != 1)} from seed {seed}"
+    ours, theirs = comparison.first.figures(), comparison.second.figures()
+    head = ("", "A", "B", "B − A", f"{PERCENT} confidence")
+    rows = [
+        (name, *(_figure(name, mean[name].mean()) for mean in (ours, theirs)), *_difference(name, each))
+        for name, each in comparison.differences.items()
+    ]
+    told = () if is_one_world else [*comparison.differences.items()][:1]
+    columns = len(head) - is_one_world  # of one run nothing is inferred
+    table = [["", *row[:columns]] for row in rows]
+    return Group(
+        Text.assemble((found["task"], "bold"), " in its one world" if is_one_world else f" {where}"),
+        *(
+            Text(f"  {place}  {each['file']} with {each['master']} in charge")
+            for place, each in zip("AB", found["minds"], strict=True)
+        ),
+        "",
+        aligned([["", *(Text(each, "dim") for each in head[:columns])], *table], left=(0, 1)),
+        "",
+        *(Text(line, "dim") for each in told for line in _told(*each)),
+        Text(comparison.conclusion, "bold"),
+    )
+
+
+def _figure(name: str, value: float) -> str:
+    if name == SUCCESS:
+        return f"{100 * value:.1f} %"
+    return score(float(value) if np.isfinite(value) else None)
+
+
+def _difference(name: str, found: Difference) -> tuple[str, str]:
+    """The difference and its interval."""
+
+    def bound(value: float) -> str:
+        return f"{100 * value:.1f} %" if name == SUCCESS else amount(name, value, found)
+
+    if found.mean is None:
+        return "–", ""
+    difference = "+" * (found.mean >= 0) + bound(found.mean)
+    if found.low is None or found.high is None:
+        return difference, "no interval"
+    return difference, f"{bound(found.low)} to {bound(found.high)}"
+
+
+def _told(name: str, found: Difference) -> Iterator[str]:
+    """How many runs did better, and, where they do not tell, what would."""
+    more = {SCORE: "B scores more", SUCCESS: "B alone succeeds"}.get(name, f"B has more ({name})")
+    less = {SUCCESS: "A alone"}.get(name, "less")
+    yield f"{more} in {found.more:,} runs, {less} in {found.less:,}, as much in {found.equal:,}"
+    if found.is_widened:
+        yield (
+            f"the interval is as wide as layouts can make it of which {found.runs:,} runs need have no example: "
+            f"up to {100 * found.most_that_differ:.2g} % of all"
+        )
+    if found.detectable is not None and found.mean is not None and not found.leaves_zero_out:
+        needed = f"about {found.runs_to_tell:,} runs" if found.runs_to_tell else f"more than {MAX_RUNS:,} runs"
+        yield (
+            f"{found.runs:,} runs tell a difference of {amount(name, found.detectable, found)} four times in five; "
+            f"one of {amount(name, abs(found.mean), found)}, as it was here, would take {needed}"
+        )
+
+
+def aligned(rows: Sequence[Sequence[str | Text]], left: Collection[int]) -> Text:
+    """A line for each row, two blanks between its columns, of which those in `left` are set to the left."""
+    cells = [[Text(cell) if isinstance(cell, str) else cell.copy() for cell in row] for row in rows]
+    for number, column in enumerate(zip(*cells, strict=True)):
+        width = max(cell.cell_len for cell in column)
+        for cell in column:
+            cell.align("left" if number in left else "right", width)
+    lines = [Text("  ").join(row) for row in cells]
+    for line in lines:
+        line.rstrip()
+    return Text("\n").join(lines)

@@ -6,12 +6,9 @@ and saved again takes the lock back, too.
 """
 
 from collections.abc import Mapping, Sequence
-from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
-
-from mindrun.graph.graph import Graph
 
 from mindlang.compiler.compile import Compiled, load
 from mindlang.compiler.diagnostic import did_you_mean, listed
@@ -20,12 +17,10 @@ from mindlang.editing import transaction
 from mindlang.editing.apply import apply_edit
 from mindlang.editing.edits import Edit, edit, names
 from mindlang.editing.lock_update import Locks, locks_of, merged, update_locks
-from mindlang.editing.project import EditError, MindChange, Project, Renamed, Replaced
+from mindlang.editing.project import EditError, MindChange, Project, Renamed, Replaced, project_alone
 from mindlang.editing.summary import broken_sentences, summarise
-from mindlang.editing.writing import changed_locks
-from mindlang.lock import Lock, lock_sources, lock_text
-from mindlang.lock.arrange import arrange
-from mindlang.lock.blobs import FOLDER, exclusive_folder
+from mindlang.lock import lock_sources, lock_text
+from mindlang.lock.signature import arrange
 from mindlang.lock.status import Trained, status
 from mindlang.server.navigating import sharing
 from mindlang.server.workspace import MindView, Workspace
@@ -62,8 +57,8 @@ def project(workspace: Workspace, view: MindView) -> Project:
     if view.compiled.graph is None:
         first = next(each for each in view.compiled.diagnostics if each.severity == "error")
         raise EditError(f"{view.main.name} has to compile first. {first.message}", first.hint, first.span)
-    shared = (_project(other) for other in sharing(workspace, view) if other.compiled.graph)
-    return replace(_project(view), neighbours=tuple(shared))
+    shared = (project_alone(other.compiled) for other in sharing(workspace, view) if other.compiled.graph)
+    return replace(project_alone(view.compiled), neighbours=tuple(shared))
 
 
 def proposed(project: Project, name: str, arguments: Mapping[str, Any]) -> MindChange:
@@ -83,20 +78,13 @@ def perform(workspace: Workspace, path: Path, name: str, arguments: Mapping[str,
     if broken := broken_sentences(edited):
         raise EditError(f"After this edit {broken[0]}", "mindc edit --anyway makes it nevertheless.")
     sentences = summarise(edited)
-    locks = [lock.name for lock in changed_locks(edited)]
+    locks = [lock.name for lock in edited.changed_locks]
     if not locks or not (change.renamed or change.replaced):
         return EditOutcome(change, tuple(sentences), None)
     sentences.append(f"{listed(locks, 'and')} will follow when the files are saved")
-    minds = (on, *on.neighbours)
-    files = dict.fromkeys(path for mind in minds for path in mind.paths)
-    mains = tuple(mind.main.source.path for mind in minds)
+    files = dict.fromkeys(path for mind in on.minds for path in mind.paths)
+    mains = tuple(mind.main.source.path for mind in on.minds)
     return EditOutcome(change, tuple(sentences), PendingRename(mains, tuple(files), change.renamed, change.replaced))
-
-
-def _project(view: MindView) -> Project:
-    assert view.compiled.mind is not None
-    assert view.compiled.graph is not None
-    return Project(view.compiled.mind, view.compiled.graph)
 
 
 def _checked_arguments(of: Edit, arguments: Mapping[str, Any]) -> dict[str, Any]:
@@ -108,21 +96,22 @@ def _checked_arguments(of: Edit, arguments: Mapping[str, Any]) -> dict[str, Any]
     if missing := [key for key, _ in of.arguments if not arguments.get(key)]:
         raise EditError(f"{of.name} needs {listed(missing, 'and')}.", of.example)
     flags = {option.name for option in of.options if isinstance(option.default, bool)}
-    return {key: _value(value, many[key], key in flags) for key, value in arguments.items()}
-
-
-def _value(value: Any, is_many: bool, is_flag: bool) -> Any:
-    if is_flag:
-        return bool(value)
-    texts = [str(each) for each in value] if isinstance(value, list | tuple) else [str(value)]
-    return tuple(texts) if is_many else " ".join(texts)
+    found: dict[str, Any] = {}
+    for key, value in arguments.items():
+        texts = [str(each) for each in value] if isinstance(value, list | tuple) else [str(value)]
+        found[key] = bool(value) if key in flags else tuple(texts) if many[key] else " ".join(texts)
+    return found
 
 
 def _as_open(project: Project, change: MindChange, workspace: Workspace) -> MindChange:
     """The change with an empty splice for each open file that it leaves alone, so that this is held against, too."""
     touched = {splice.source.path for splice in change.splices}
-    minds = (*project.neighbours, project)
-    open_ = {path: file.source for mind in minds for path, file in mind.paths.items() if path in workspace.texts}
+    open_ = {
+        path: file.source
+        for mind in reversed(project.minds)
+        for path, file in mind.paths.items()
+        if path in workspace.texts
+    }
     idle = (Splice(source, 0, 0, "") for path, source in open_.items() if path not in touched)
     return replace(change, splices=(*change.splices, *idle))
 
@@ -132,7 +121,7 @@ def keep_up(following: PendingRename) -> list[Path]:
 
     MindError where a lock is damaged or cannot be written.
     """
-    minds = [mind for mind in map(load, following.mains) if mind.mind]
+    minds = [mind for mind in map(load, following.mains) if mind.graph]
     if not minds:
         return []
     locks = locks_of(following.files)
@@ -145,34 +134,30 @@ def keep_up(following: PendingRename) -> list[Path]:
 
 def _followed(minds: Sequence[Compiled], locks: Locks, change: MindChange) -> Locks:
     """The locks that are others with these names; none where the minds do not have these names."""
-    first = minds[0].graph
-    assert first is not None
     graphs = [mind.graph for mind in minds if mind.graph]
-    followed = update_locks(locks, first, first, change, keep_weights=False, neighbours=graphs[1:]).locks
+    names = minds[0].mind.names if minds[0].mind else None
+    followed = update_locks(locks, graphs[0], graphs[0], change, keep_weights=False, neighbours=graphs[1:]).locks
     fit, would_fit = _fitting(minds, locks), _fitting(minds, followed)
     is_whole = all(len(followed[path]) == len(locks[path]) for path in locks)
-    if would_fit < fit or (would_fit == fit and not (is_whole and _is_renamed(minds[0], change))):
+    is_renamed = (
+        names
+        and change.renamed
+        and all(each.new in names.of(each.noun) and each.old not in names.of(each.noun) for each in change.renamed)
+    )  # it has the new names, and not the old ones
+    if would_fit < fit or (would_fit == fit and not (is_whole and is_renamed)):
         return {}
     return {path: lock for path, lock in followed.items() if lock != locks[path]}
 
 
-def _is_renamed(mind: Compiled, change: MindChange) -> bool:
-    """Whether a mind has the new names and not the old ones."""
-    assert mind.mind is not None
-    names = mind.mind.names
-    return bool(change.renamed) and all(
-        each.new in names.of(each.noun) and each.old not in names.of(each.noun) for each in change.renamed
-    )
-
-
 def _fitting(minds: Sequence[Compiled], locks: Locks) -> int:
     """How many skills of the minds have weights that fit."""
-    return sum(_trained(mind.graph, merged(locks, lock_sources(mind.sources))) for mind in minds if mind.graph)
-
-
-def _trained(graph: Graph, lock: Lock) -> int:
-    states = status(arrange(graph, lock), lock)
-    return sum(isinstance(state, Trained) for state in states.values())
+    count = 0
+    for mind in minds:
+        if mind.graph:
+            lock = merged(locks, lock_sources(mind.sources))
+            states = status(arrange(mind.graph, lock), lock).values()
+            count += sum(isinstance(state, Trained) for state in states)
+    return count
 
 
 def _write(before: Locks, now: Locks) -> None:
@@ -183,9 +168,6 @@ def _write(before: Locks, now: Locks) -> None:
             if locks_of([path])[path] != before[path]:
                 raise EditError(f"{path.name} has been changed meanwhile.", "Save once more.")
 
-    with ExitStack() as stack:
-        for folder in sorted({path.parent / FOLDER for path in now}):
-            stack.enter_context(exclusive_folder(folder))
-        for folder in sorted({path.parent for path in now}):
-            files = {path: lock_text(lock).encode() for path, lock in now.items() if path.parent == folder}
-            transaction.change(folder, files, refuse_changed)
+    with transaction.no_training(now):
+        files = {path: lock_text(lock).encode() for path, lock in now.items()}
+        transaction.change(transaction.common_folder(files), files, refuse_changed)

@@ -1,20 +1,17 @@
 """Explanations of what stands under the mouse, as Markdown: a name, a kind, an argument, a word."""
 
 import re
-from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from mindrun.errors import MindError
 from mindrun.kinds.registry import arguments, kinds
 from mindrun.kinds.variation import VARIED_NOUNS
 from networkx import DiGraph, single_target_shortest_path
 
-from mindlang.compiler.comments import comment_of
 from mindlang.compiler.drawing import text_after_name
 from mindlang.compiler.resolve.curricula import USING
-from mindlang.compiler.source import Span
+from mindlang.compiler.source import Span, comment_of
 from mindlang.compiler.syntax import (
     NOUNS,
     Argument,
@@ -36,11 +33,11 @@ from mindlang.explaining.kinds import kind_article
 from mindlang.explaining.parameters import parameter
 from mindlang.explaining.words import language_words
 from mindlang.lock import lock_sources
-from mindlang.lock.report import Row, made_by, rows
+from mindlang.lock.report import made_by, rows
 from mindlang.lock.status import Trained
 from mindlang.server.workspace import MindView, declaration_at, path_to
 
-_WORD = re.compile(r"[A-Za-z_][\w.]*(?:\+[A-Z]\w*)*|%")
+_WORD = r"[A-Za-z_][\w.]*(?:\+[A-Z]\w*)*|%"
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,7 +59,23 @@ def hover(view: MindView, path: Path, offset: int) -> Hover | None:
     return _kind(view, file, offset) or _word(view, file, offset)
 
 
-def noun_of(above: object) -> str:
+def _kind(view: MindView, file: File, offset: int) -> Hover | None:
+    """A kind, or an argument of one; those of a lesson are of its own learner or the curriculum's."""
+    path = path_to(file, offset)
+    if varies := next((node for node in path if isinstance(node, Varies)), None):
+        return _varied(view, varies) if varies.argument.span.start <= offset <= varies.argument.span.end else None
+    places = [place for place, node in enumerate(path) if isinstance(node, Phrase | Teaches)]
+    match path[places[-1] - 1 : places[-1] + 2] if places else []:
+        case above, Phrase(kind=kind), Name() as name if name is kind:
+            return _kind_itself(_noun_of(above), kind)
+        case above, Phrase() as phrase, Argument() as argument:
+            return _argument(_noun_of(above), phrase.kind.text, argument)
+        case _, Teaches() as lesson, Argument() as argument if declaration := declaration_at(file, offset):
+            return _of_lesson(lesson, declaration.header.phrase, argument, offset)
+    return None
+
+
+def _noun_of(above: object) -> str:
     """The noun of the kind that a phrase names, told by what is around it."""
     match above:
         case Header(noun=noun):
@@ -72,20 +85,6 @@ def noun_of(above: object) -> str:
         case Expression():
             return "measure"
     return "event"
-
-
-def _kind(view: MindView, file: File, offset: int) -> Hover | None:
-    """A kind, or an argument of one; those of a lesson are of its own learner or the curriculum's."""
-    if varies := next((node for node in path_to(file, offset) if isinstance(node, Varies)), None):
-        return _varied(view, varies) if varies.argument.span.start <= offset <= varies.argument.span.end else None
-    match _owned(path_to(file, offset)):
-        case above, Phrase(kind=kind), Name() as name if name is kind:
-            return _kind_itself(noun_of(above), kind)
-        case above, Phrase() as phrase, Argument() as argument:
-            return _argument(noun_of(above), phrase.kind.text, argument)
-        case _, Teaches() as lesson, Argument() as argument if declaration := declaration_at(file, offset):
-            return _of_lesson(lesson, declaration.header.phrase, argument, offset)
-    return None
 
 
 def _varied(view: MindView, fact: Varies) -> Hover | None:
@@ -110,14 +109,7 @@ def _of_lesson(lesson: Teaches, of_all: Phrase | None, argument: Argument, offse
 
 
 def _kind_itself(noun: str, kind: Name) -> Hover | None:
-    cls = kinds(noun).get(kind.text)
-    return Hover(markdown.card(kind_article(noun, kind.text)), kind.span) if cls else None
-
-
-def _owned(path: list[Any]) -> tuple[Any, ...]:
-    """The last phrase or lesson on the way to an offset, between what is around it and what is in it."""
-    places = [place for place, node in enumerate(path) if isinstance(node, Phrase | Teaches)]
-    return tuple(path[places[-1] - 1 : places[-1] + 2]) if places else ()
+    return Hover(markdown.card(kind_article(noun, kind.text)), kind.span) if kind.text in kinds(noun) else None
 
 
 def _argument(noun: str, kind: str, argument: Argument) -> Hover | None:
@@ -128,20 +120,22 @@ def _argument(noun: str, kind: str, argument: Argument) -> Hover | None:
 
 def _word(view: MindView, file: File, offset: int) -> Hover | None:
     """A word of the language or, in a line that cannot be read, a name that is declared."""
-    source = file.source
-    start = source.text.rfind("\n", 0, offset) + 1
-    line = source.text[start:].partition("\n")[0].partition("#")[0]
-    found = next((word for word in _WORD.finditer(line) if word.start() <= offset - start <= word.end()), None)
-    if found is None:
-        return None
+    start = file.source.text.rfind("\n", 0, offset) + 1
+    line = file.source.text[start:].partition("\n")[0].partition("#")[0]
     words = language_words()
-    joints = re.finditer(rf"\b(?:{'|'.join(word for word in words if ' ' in word)})\b", line)
-    for joint in (each for each in joints if each.start() <= offset - start <= each.end()):
-        return Hover(markdown.card(words[joint[0]]), Span(source, start + joint.start(), start + joint.end()))
-    span = Span(source, start + found.start(), start + found.end())
-    if noun := view.names.noun_of(found[0], NOUNS):
-        return Hover(card(view, noun, found[0]), span)
-    return Hover(markdown.card(words[found[0]]), span) if found[0] in words else None
+
+    def here(pattern: str) -> tuple[str, Span] | None:
+        found = (word for word in re.finditer(pattern, line) if word.start() <= offset - start <= word.end())
+        return next(((word[0], Span(file.source, start + word.start(), start + word.end())) for word in found), None)
+
+    if (found := here(_WORD)) is None:
+        return None
+    if joint := here(rf"\b(?:{'|'.join(word for word in words if ' ' in word)})\b"):
+        return Hover(markdown.card(words[joint[0]]), joint[1])
+    word, span = found
+    if noun := view.names.noun_of(word, NOUNS):
+        return Hover(card(view, noun, word), span)
+    return Hover(markdown.card(words[word]), span) if word in words else None
 
 
 def card(view: MindView, noun: str, name: str) -> str:
@@ -149,23 +143,52 @@ def card(view: MindView, noun: str, name: str) -> str:
     if noun == "thing":
         return _thing(view, name)
     if noun == "number" and name in view.names.numbers:
-        return _number(view, name)
+        number = view.names.numbers[name]
+        return f"```mind\n{number.span.text.strip()}\n```\n\n{comment_of(number.span)}".strip()
     declaration = view.names.table.get(noun, {}).get(name)
     if declaration is None:
         return ""
-    parts = [f"```mind\n{declaration.header.span.text.strip()}\n```", declaration.comment]
+    header = declaration.header
+    parts = [f"```mind\n{header.span.text.strip()}\n```", declaration.comment]
     match noun:
         case "skill":
-            parts += _skill(view, name, declaration)
-        case "task" | "scene":
-            parts += _world(view, noun, name)
+            parts += [_skill(view, name, declaration), _lessons(view, "skill", name), _weights(view, name)]
+        case "task" | "scene":  # all that it says, that of its scene and of what it is like, too
+            whole = view.whole.table[noun][name]
+            parts.append("\n".join(f"- {fact.span.text.strip()}" for fact in whole.facts))
+            parts.append(_lessons(view, "task", name) if noun == "task" else "")
         case "sensor" | "memory" | "actuator":
-            parts += _part(view, noun, name)
-    parts.append(_of_kind(noun, declaration))
+            parts.append(_part(view, noun, name))
+    if header.phrase and header.phrase.kind.text in kinds(noun):
+        parts.append(f"---\n{markdown.card(kind_article(noun, header.phrase.kind.text))}")
     return "\n\n".join(filter(None, parts))
 
 
-def paths_to(view: MindView, skill: str) -> list[str]:
+def _skill(view: MindView, name: str, declaration: Declaration) -> str:
+    lines = []
+    for verb, form in (("reads", Reads), ("drives", Drives), ("influences", Influences)):
+        if said := [_edge(view, fact) for fact in declaration.facts if isinstance(fact, form)]:
+            lines.append(f"- {verb} {', '.join(said)}")
+    if by := _users(view, name, Influences):
+        lines.append(f"- influenced by {', '.join(by)}")
+    if view.compiled.mind and view.compiled.mind.master == name:
+        lines.append("- the master")
+    return "\n".join([*lines, *(f"- place: {path}" for path in _paths_to(view, name))])
+
+
+def _edge(view: MindView, fact: Reads | Drives | Influences) -> str:
+    if not isinstance(fact, Reads):
+        return f"{fact.name.text}{text_after_name(fact)}"
+    width = _width(view, fact.name.text)
+    return f"{fact.name.text} ({width})" if width > 1 else fact.name.text
+
+
+def _width(view: MindView, sensor: str) -> int:
+    graph = view.compiled.graph
+    return next((known.width for known in graph.sensors if known.name == sensor), 1) if graph else 1
+
+
+def _paths_to(view: MindView, skill: str) -> list[str]:
     """The ways on which influence comes down to a skill, the shortest one from each top."""
     influences = DiGraph()
     for name, declaration in view.names.declarations("skill"):
@@ -176,117 +199,64 @@ def paths_to(view: MindView, skill: str) -> list[str]:
     return [" → ".join(way) for top, way in ways if top != skill and not influences.pred[top]]
 
 
-def _skill(view: MindView, name: str, declaration: Declaration) -> Iterator[str]:
-    lines = []
-    for verb, form in (("reads", Reads), ("drives", Drives), ("influences", Influences)):
-        if said := [_edge(view, fact) for fact in declaration.facts if isinstance(fact, form)]:
-            lines.append(f"- {verb} {', '.join(said)}")
-    if by := _users(view, name, "skill", (Influences,)):
-        lines.append(f"- influenced by {', '.join(by)}")
-    if view.compiled.mind and view.compiled.mind.master == name:
-        lines.append("- the master")
-    lines += [f"- place: {path}" for path in paths_to(view, name)]
-    yield "\n".join(lines)
-    yield "\n".join(f"- `{lesson}`" for lesson in _lessons(view, "skill", name))
-    yield _weights(view, name)
-
-
-def _edge(view: MindView, fact: Reads | Drives | Influences) -> str:
-    width = _width(view, fact.name.text) if isinstance(fact, Reads) else 1
-    said = "" if isinstance(fact, Reads) else text_after_name(fact)
-    return f"{fact.name.text} ({width})" if width > 1 else f"{fact.name.text}{said}"
-
-
-def _width(view: MindView, sensor: str) -> int:
-    graph = view.compiled.graph
-    return next((known.width for known in graph.sensors if known.name == sensor), 1) if graph else 1
-
-
 def _weights(view: MindView, skill: str) -> str:
     """How a skill stands to its weights, as `mindc status` says it."""
     if view.compiled.graph is None:
         return ""
     try:
         found = rows(view.compiled.graph, lock_sources(view.compiled.sources))
-        row = next((row for row in found if row.skill == skill), None)
     except MindError as error:
         return f"Weights: {error}"
-    return _row(row) if row else ""
-
-
-def _row(row: Row) -> str:
-    words = [row.word] + ["frozen"] * row.is_frozen
-    made = []
+    row = next((row for row in found if row.skill == skill), None)
+    if row is None:
+        return ""
+    lines = [f"Weights: **{', '.join([row.word, *['frozen'] * row.is_frozen])}**"]
     if isinstance(row.status, Trained):
         how = f"those of {row.like}" if row.like else made_by(row.status.entry.taught)
-        made.append(f"{row.status.entry.weights[:8]}…, {how}")
-    return "\n".join([f"Weights: **{', '.join(words)}**", *(f"- {line}" for line in [*made, *row.remarks])])
+        lines.append(f"- {row.status.entry.weights[:8]}…, {how}")
+    return "\n".join([*lines, *(f"- {remark}" for remark in row.remarks)])
 
 
-def _world(view: MindView, noun: str, name: str) -> Iterator[str]:
-    """All that a task or scene says, that of its scene and of what it is like, too."""
-    declaration = view.whole.table[noun][name]
-    yield "\n".join(f"- {fact.span.text.strip()}" for fact in declaration.facts)
-    if noun == "task":
-        yield "\n".join(f"- `{lesson}`" for lesson in _lessons(view, "task", name))
-
-
-def _number(view: MindView, name: str) -> str:
-    """A number, and what its comment says."""
-    number = view.names.numbers[name]
-    return f"```mind\n{number.span.text.strip()}\n```\n\n{comment_of(number.span)}".strip()
-
-
-def _part(view: MindView, noun: str, name: str) -> Iterator[str]:
+def _part(view: MindView, noun: str, name: str) -> str:
     lines = []
     if noun == "sensor" and (width := _width(view, name)) > 1:
         lines.append(f"- {width} readings")
-    if noun != "actuator" and (by := _users(view, name, noun, (Reads,))):
+    if noun != "actuator" and (by := _users(view, name, Reads)):
         lines.append(f"- read by {', '.join(by)}")
-    if noun != "sensor" and (by := _users(view, name, noun, (Drives,))):
+    if noun != "sensor" and (by := _users(view, name, Drives)):
         lines.append(f"- driven by {', '.join(by)}")
-    if others := _others(view, noun, name):
-        lines.append(f"- stands in {', '.join(others)}")
-    yield "\n".join(lines)
+    mentions = (m for m in view.mentions if (m.noun, m.name.text) == (noun, name) and not m.is_own)
+    headers = (m.by.header for m in mentions if m.by)  # other sensors, and tasks in their rewards
+    others = dict.fromkeys(f"{h.noun.text} {h.name.text}" for h in headers if h.noun.text != "skill")
+    return "\n".join([*lines, *([f"- stands in {', '.join(others)}"] if others else [])])
 
 
-def _others(view: MindView, noun: str, name: str) -> list[str]:
-    """What else names a part: other sensors, and tasks in their rewards."""
-    found = (m for m in view.mentions if (m.noun, m.name.text) == (noun, name) and m.by and not m.is_own)
-    headers = (m.by.header for m in found if m.by)
-    others = (f"{h.noun.text} {h.name.text}" for h in headers if h.noun.text != "skill")
-    return list(dict.fromkeys(others))
-
-
-def _users(view: MindView, name: str, noun: str, forms: tuple[type[Reads | Drives | Influences], ...]) -> list[str]:
-    """The skills that have a fact of one of these verbs about a name."""
+def _users(view: MindView, name: str, form: type[Reads | Drives | Influences]) -> list[str]:
+    """The skills that have a fact of this verb about a name."""
     return [
         skill
         for skill, declaration in view.names.declarations("skill")
-        if any(isinstance(fact, forms) and fact.name.text == name for fact in declaration.facts)
+        if any(isinstance(fact, form) and fact.name.text == name for fact in declaration.facts)
     ]
 
 
-def _lessons(view: MindView, part: str, name: str) -> Iterator[str]:
+def _lessons(view: MindView, part: str, name: str) -> str:
     """The lessons that teach a skill, or are on a task."""
-    for curriculum, declaration in view.names.declarations("curriculum"):
-        for fact in declaration.facts:
-            if isinstance(fact, Teaches) and getattr(fact, part).text == name:
-                yield f"{curriculum}: {fact.span.text.strip()}"
+    return "\n".join(
+        f"- `{curriculum}: {fact.span.text.strip()}`"
+        for curriculum, declaration in view.names.declarations("curriculum")
+        for fact in declaration.facts
+        if isinstance(fact, Teaches) and getattr(fact, part).text == name
+    )
 
 
 def _thing(view: MindView, name: str) -> str:
     """Where a thing is."""
-    lines = []
-    for noun in ("scene", "task"):
-        for world, declaration in view.names.declarations(noun):
-            for fact in declaration.facts:
-                if isinstance(fact, Contains) and fact.name.text == name:
-                    lines.append(f"- in {world}: `{fact.phrase.span.text}`")
+    lines = [
+        f"- in {world}: `{fact.phrase.span.text}`"
+        for noun in ("scene", "task")
+        for world, declaration in view.names.declarations(noun)
+        for fact in declaration.facts
+        if isinstance(fact, Contains) and fact.name.text == name
+    ]
     return "\n".join([f"**{name}**, a thing", "", *lines])
-
-
-def _of_kind(noun: str, declaration: Declaration) -> str:
-    phrase = declaration.header.phrase
-    is_known = phrase is not None and phrase.kind.text in kinds(noun)
-    return f"---\n{markdown.card(kind_article(noun, phrase.kind.text))}" if phrase and is_known else ""

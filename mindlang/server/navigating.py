@@ -50,14 +50,12 @@ def references(workspace: Workspace, view: MindView, path: Path, offset: int, wi
     mention = view.mention_at(path, offset)
     if mention is None:
         return []
-    declared = {found.name.span for found in _introduced(view, mention)}
-    places = dict.fromkeys(span for each in (view, *sharing(workspace, view)) for span in _places(each, mention))
-    unique = {(span.source.path, span.start): span for span in reversed(places)}
-    spans = sorted(unique.values(), key=lambda span: (span.source.path != path, span.source.path, span.start))
-    if with_declaration:
-        return spans
-    own = {(span.source.path, span.start) for span in declared}
-    return [span for span in spans if (span.source.path, span.start) not in own]
+    views = (view, *sharing(workspace, view))
+    places = {(span.source.path, span.start): span for each in reversed(views) for span in _places(each, mention)}
+    if not with_declaration:
+        for declared in _introduced(view, mention):
+            places.pop((declared.name.span.source.path, declared.name.span.start), None)
+    return sorted(places.values(), key=lambda span: (span.source.path != path, span.source.path, span.start))
 
 
 def highlights(view: MindView, path: Path, offset: int) -> list[Span]:
@@ -125,15 +123,11 @@ def everything(workspace: Workspace, folders: Iterable[Path], query: str) -> lis
     """The declarations whose names hold the letters of a query in their order, by file."""
     paths = dict.fromkeys(chain(workspace.texts, (path for folder in folders for path in files_below(folder))))
     files = within_read_limits((path, workspace.text(path)) for path in paths)
-    found = (symbol for path, text in files for symbol in _declared(path, text))
-    return list(islice((symbol for symbol in found if _fits(query.lower(), symbol.name.lower())), MAX_SYMBOLS))
+    letters = re.compile(".*".join(map(re.escape, query)), re.IGNORECASE)
+    found = (symbol for path, text in files for symbol in _declared(path, text) if letters.search(symbol.name))
+    return list(islice(found, MAX_SYMBOLS))
 
 
 @lru_cache(CACHED_FILES)
 def _declared(path: Path, text: str) -> tuple[Symbol, ...]:
     return tuple(symbols(parse(Source(str(path), text, path.parent), Findings())))
-
-
-def _fits(query: str, name: str) -> bool:
-    letters = iter(name)
-    return all(letter in letters for letter in query)

@@ -1,7 +1,7 @@
 """Code actions where the cursor is: the edits of `mindc edit` that make sense there, and quick fixes of findings."""
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from itertools import chain, count, islice
 from pathlib import Path
@@ -16,7 +16,7 @@ from mindlang.compiler.source import Source
 from mindlang.compiler.splice import Splice
 from mindlang.compiler.syntax import Declaration, Drives, Fact, Influences, Reads, Stays
 from mindlang.editing.project import EditError, Project, facts, has_outputs, kind_of
-from mindlang.lint.fixing import fixed
+from mindlang.lint.lint import fixed
 from mindlang.server.changing import proposed
 from mindlang.server.workspace import MindView, fact_at, on_line
 
@@ -67,7 +67,19 @@ class Proposal:
 
 def proposals(selection: Selection) -> list[Proposal]:
     """The edits that are possible there; whether the mind compiles after them is known once one is chosen."""
-    return [each for offer in OFFERS for each in offer(selection) if _is_possible(selection.project, each)]
+    project, declaration = selection.project, selection.declaration
+    found: list[Proposal] = []
+    if declaration:
+        fact = fact_at(declaration, selection.start)
+        if fact and selection.start == selection.end:
+            found += _of_fact(declaration, fact)
+        if declaration.header.noun.text == "skill":
+            found += [*_of_lines(selection, declaration), *_of_skill(project, declaration)]
+        if on_line(declaration.header.span, selection.start):
+            found += _of_header(project, declaration)
+    if selection.path == project.main.source.path:
+        found += _of_file(selection)
+    return [each for each in found if _is_possible(project, each)]
 
 
 def _is_possible(project: Project, proposal: Proposal) -> bool:
@@ -78,148 +90,114 @@ def _is_possible(project: Project, proposal: Proposal) -> bool:
     return True
 
 
-def _of_skill(selection: Selection) -> Iterator[Proposal]:
-    """The edits of the skill whose line this is."""
-    declaration = selection.declaration
-    if declaration is None or declaration.header.noun.text != "skill":
-        return
+def _of_fact(declaration: Declaration, fact: Fact) -> Iterator[Proposal]:
+    """The edits of the fact on whose line the cursor is."""
     name = declaration.header.name.text
-    frozen = any(isinstance(fact, Stays) for fact in declaration.facts)
-    if frozen:
+    if not isinstance(fact, Reads | Drives | Influences):
+        arguments = {"what": [fact.span.text.strip()], "from_": name, "noun": declaration.header.noun.text}
+        yield Proposal("Remove this line", "remove", arguments)
+        return
+    verb, target = type(fact).__name__.lower().removesuffix("s"), fact.name.text
+    yield Proposal(f"Let {name} no longer {verb} {target}", "disconnect", {"skill": name, "target": target})
+    if isinstance(fact, Influences):
+        title = f"Let the subskills of {target} take its place"
+        yield Proposal(title, "inline", {"skill": target}, kind="refactor.inline")
+
+
+def _of_lines(selection: Selection, skill: Declaration) -> Iterator[Proposal]:
+    """The subskills on the selected lines, under a skill of their own."""
+    edges = [fact for fact in facts(skill, Influences) if selection.touches(fact)]
+    if chosen := [fact.name.text for fact in edges]:
+        new = _fresh_title(selection.project, "New" + "+".join(chosen))
+        is_ = {"is_": "rule"} if all(fact.at for fact in edges) or not facts(skill, Reads) else {}
+        arguments = {"parent": skill.header.name.text, "new": new, "subskills": chosen, **is_}
+        yield Proposal(f"Put {listed(chosen, 'and')} under a new skill", "extract", arguments, new, "refactor.extract")
+
+
+def _of_skill(project: Project, skill: Declaration) -> Iterator[Proposal]:
+    """The edits of the skill whose line this is."""
+    name = skill.header.name.text
+    if facts(skill, Stays):
         yield Proposal(f"Let {name} be taught again", "unfreeze", {"skill": name})
     else:
         yield Proposal(f"Freeze {name}", "freeze", {"skill": name})
-    if declaration.header.like:
+    if skill.header.like:
         yield Proposal(f"Give {name} weights of its own", "unshare", {"skill": name})
-    new = fresh_title(selection.project, f"New{name}")
-    put = {"skill": name, "new": new, **_function(declaration)}
+    new = _fresh_title(project, f"New{name}")
+    reads = [fact.name.text for fact in facts(skill, Reads)]  # the new one is a rule where that is nothing
+    put = {"skill": name, "new": new, **({"reads": reads} if reads else {"is_": "rule"})}
     yield Proposal(f"Put a new skill over {name}", "encapsulate", put, new, "refactor.extract")
     yield Proposal(f"Let the subskills of {name} take its place", "inline", {"skill": name}, kind="refactor.inline")
 
 
-def _of_header(selection: Selection) -> Iterator[Proposal]:
+def _of_header(project: Project, declaration: Declaration) -> Iterator[Proposal]:
     """The edits that connect the skill on whose header the cursor is, or put another in its place."""
-    declaration = selection.declaration
-    if declaration is None or not on_line(declaration.header.span, selection.start):
-        return
     noun, name = declaration.header.noun.text, declaration.header.name.text
     if noun != "body":
         yield Proposal(f"Remove {noun} {name}", "remove", {"what": [noun, name]})
     if noun != "skill":
         return
-    project = selection.project
-    for verb, target in connectable(project, declaration):
+    for verb, target in _connectable(project, declaration):
         rule = {"at": "1"} if verb != "read" and not has_outputs(kind_of(declaration)) else {}
         flags = {"drives": True} if verb == "drive" and target in project.names.of("memory") else {}
         yield Proposal(f"Let {name} {verb} {target}", "connect", {"skill": name, "target": target, **rule, **flags})
-    for other, reads in not_yet_below(project, name):
+    read = {known.name: known.reads for known in project.mind.skills}
+    for other in _not_below(project, name)[:MAX_TARGETS]:
+        reads = [reading for reading in read[other] if reading not in read[name]]
         also = f" and read {listed(reads, 'and')}" if reads else ""
         arguments = {"skill": name, "with_": [other], "reads": reads}
         yield Proposal(f"Integrate: let {name} influence {other}{also}", "integrate", arguments)
-    for other in replacements(project, name):
+    for other in _replacements(project, name):
         yield Proposal(f"Let {other} take the place of {name}", "replace", {"skill": name, "new": other})
-    if lines := lesson(project, name):
+    if lines := _lesson(project, name):
         yield Proposal(f"Add a lesson for {name}", "add", lines)
 
 
-def _function(declaration: Declaration) -> dict[str, Any]:
-    """What a new skill beside another is: it reads the same, and is a rule where that is nothing."""
-    reads = [fact.name.text for fact in facts(declaration, Reads)]
-    return {"reads": reads} if reads else {"is_": "rule"}
-
-
-def _of_line(selection: Selection) -> Iterator[Proposal]:
-    """The edits of the fact on whose line the cursor is."""
-    declaration = selection.declaration
-    fact = fact_at(declaration, selection.start) if declaration else None
-    if declaration is None or fact is None or selection.start != selection.end:
-        return
-    name = declaration.header.name.text
-    if isinstance(fact, Reads | Drives | Influences):
-        verb = type(fact).__name__.lower().removesuffix("s")
-        target = fact.name.text
-        yield Proposal(f"Let {name} no longer {verb} {target}", "disconnect", {"skill": name, "target": target})
-        if isinstance(fact, Influences):
-            yield Proposal(
-                f"Let the subskills of {target} take its place", "inline", {"skill": target}, kind="refactor.inline"
-            )
-    else:
-        arguments = {"what": [fact.span.text.strip()], "from_": name, "noun": declaration.header.noun.text}
-        yield Proposal("Remove this line", "remove", arguments)
-
-
-def _of_lines(selection: Selection) -> Iterator[Proposal]:
-    """The subskills on the selected lines, under a skill of their own."""
-    declaration = selection.declaration
-    if declaration is None or declaration.header.noun.text != "skill":
-        return
-    edges = [fact for fact in facts(declaration, Influences) if selection.touches(fact)]
-    if chosen := [fact.name.text for fact in edges]:
-        new = fresh_title(selection.project, "New" + "+".join(chosen))
-        is_rule = all(fact.at for fact in edges) or "is_" in _function(declaration)
-        is_ = {"is_": "rule"} if is_rule else {}
-        arguments = {"parent": declaration.header.name.text, "new": new, "subskills": chosen, **is_}
-        yield Proposal(f"Put {listed(chosen, 'and')} under a new skill", "extract", arguments, new, "refactor.extract")
-
-
 def _of_file(selection: Selection) -> Iterator[Proposal]:
-    """The selected declarations moved to a file of their own, and a new skill."""
-    if selection.path != selection.project.main.source.path:
-        return
+    """The selected declarations moved to a file of their own, and a new skill: every actuator at its neutral value."""
     if chosen := selection.declarations:
         names = [f"{each.header.noun.text}:{each.header.name.text}" for each in chosen]
         title = f"Move {listed((each.header.name.text for each in chosen), 'and')} to a new file"
-        to = fresh_file(selection.path, chosen[0].header.noun.text)
+        free = (f"{name}.mind" for name in _numbered(f"{chosen[0].header.noun.text}s"))
+        to = next(name for name in free if not selection.path.with_name(name).exists())
         yield Proposal(title, "split", {"to": to, "names": names}, to, "refactor.move")
-    if made := new_skill(selection.project):
-        name, lines = made
-        yield Proposal("Add a new skill", "add", {"lines": lines}, name)
+    actuators = selection.project.mind.actuators
+    if lines := [f"drives {actuator.name} at {actuator.kind.neutral:.15g}" for actuator in actuators]:
+        new = _fresh_title(selection.project, "NewSkill")
+        yield Proposal("Add a new skill", "add", {"lines": [f"skill {new} is rule", *lines]}, new)
 
 
-OFFERS: tuple[Callable[[Selection], Iterator[Proposal]], ...] = (_of_line, _of_lines, _of_skill, _of_header, _of_file)
-
-
-def fresh_title(project: Project, wish: str) -> str:
+def _fresh_title(project: Project, wish: str) -> str:
     """A name for a skill, as wished for or with a number that is free."""
     taken = project.names.of("skill")
     return next(name for name in _numbered(wish) if name not in taken)
-
-
-def fresh_file(beside: Path, noun: str) -> str:
-    """The name of a file beside another that is not there yet."""
-    return next(f"{name}.mind" for name in _numbered(f"{noun}s") if not (beside.parent / f"{name}.mind").exists())
-
-
-def new_skill(project: Project) -> tuple[str, list[str]] | None:
-    """A skill that leaves every actuator at its neutral value: its name and its lines; None where there is none."""
-    lines = [f"drives {actuator.name} at {actuator.kind.neutral:.15g}" for actuator in project.mind.actuators]
-    name = fresh_title(project, "NewSkill")
-    return (name, [f"skill {name} is rule", *lines]) if lines else None
 
 
 def _numbered(wish: str) -> Iterator[str]:
     return chain([wish], (f"{wish}{number}" for number in count(2)))
 
 
-def connectable(project: Project, declaration: Declaration) -> Iterator[tuple[str, str]]:
+def _connectable(project: Project, skill: Declaration) -> Iterator[tuple[str, str]]:
     """What a skill could read, drive or influence besides, with the verb."""
-    said = {fact.name.text for fact in declaration.facts if isinstance(fact, Reads | Drives | Influences)}
-    names = project.names
-    free = [name for name in names.of("sensor", "memory") if name not in said][:MAX_TARGETS]
-    yield from (("read", name) for name in free)
-    free = [name for name in names.of("actuator", "memory") if name not in said][:MAX_TARGETS]
-    yield from (("drive", name) for name in free)
-    yield from (("influence", name) for name in _below(project, declaration.header.name.text)[:MAX_TARGETS])
+    said = {fact.name.text for fact in skill.facts if isinstance(fact, Reads | Drives | Influences)}
+    targets = {
+        "read": project.names.of("sensor", "memory"),
+        "drive": project.names.of("actuator", "memory"),
+        "influence": _not_below(project, skill.header.name.text),
+    }
+    for verb, names in targets.items():
+        yield from ((verb, name) for name in [name for name in names if name not in said][:MAX_TARGETS])
 
 
-def not_yet_below(project: Project, skill: str) -> Iterator[tuple[str, list[str]]]:
-    """Skills that another could influence besides, with what they read and it does not."""
-    reads = {known.name: known.reads for known in project.mind.skills}
-    for other in _below(project, skill)[:MAX_TARGETS]:
-        yield other, [reading for reading in reads[other] if reading not in reads[skill]]
+def _not_below(project: Project, skill: str) -> list[str]:
+    """The skills that a skill could influence without a circle, and does not."""
+    influences = project.mind.influences
+    alike = [known.name for known in project.mind.skills if known.like == skill]  # they would influence it, too
+    taken = {*influences[skill], *above(influences, [skill, *alike])}
+    return [name for name in influences if name not in taken]
 
 
-def replacements(project: Project, skill: str) -> list[str]:
+def _replacements(project: Project, skill: str) -> list[str]:
     """Skills that are not above it; those that drive other actuators are refused by the edit itself."""
     influences = project.mind.influences
     parents = set(influences.pred[skill])
@@ -233,7 +211,7 @@ def replacements(project: Project, skill: str) -> list[str]:
     return [*islice(others, 8 * MAX_TARGETS)]
 
 
-def lesson(project: Project, skill: str) -> dict[str, Any]:
+def _lesson(project: Project, skill: str) -> dict[str, Any]:
     """The arguments with which `add` gives a skill that learns its first lesson; none where it has one, or cannot."""
     learns = any(known.name == skill and genes(known) and not known.like for known in project.graph.skills)
     taught = any(known.skill == skill for known in project.mind.lessons)
@@ -242,14 +220,6 @@ def lesson(project: Project, skill: str) -> dict[str, Any]:
         return {}
     task = skill if skill in tasks else tasks[-1]
     return {"lines": [f"teaches {skill} on {task} for 100 generations"], "to": curricula[0], "noun": "curriculum"}
-
-
-def _below(project: Project, skill: str) -> list[str]:
-    """The skills that a skill could influence without a circle, and does not."""
-    influences = project.mind.influences
-    alike = [known.name for known in project.mind.skills if known.like == skill]  # they would influence it, too
-    not_below = {*influences[skill], *above(influences, [skill, *alike])}
-    return [name for name in influences if name not in not_below]
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,13 +9,12 @@ from lsprotocol import types
 from mindlang.compiler.format import format_splices
 from mindlang.compiler.source import Source, Span
 from mindlang.compiler.splice import Splice
-from mindlang.compiler.syntax import Declaration, Master, Teaches
+from mindlang.compiler.syntax import Master, Teaches
 from mindlang.server.completing import complete
 from mindlang.server.hovering import hover
-from mindlang.server.lsp_types import LspConverter
 from mindlang.server.navigating import Symbol, definitions, everything, highlights, references, symbols
 from mindlang.server.offers import Offer
-from mindlang.server.server import MindServer
+from mindlang.server.server import LspConverter, MindServer
 from mindlang.server.workspace import MindView, are_breakpoints
 
 SYMBOLS = {
@@ -51,19 +50,6 @@ OFFERS = {
 TERMINAL = "mind.terminal"  # which is the editor's own
 DUE_TITLE = "Train what is due"
 LOOKING_COMMANDS = {"Run": "run", "Bench": "bench", "View": "view"}  # a word above the line, and the command of mindc
-
-
-def register(server: MindServer) -> None:
-    """Let a server answer these requests."""
-    server.feature(types.TEXT_DOCUMENT_HOVER)(hovered)
-    server.feature(types.TEXT_DOCUMENT_COMPLETION, types.CompletionOptions(trigger_characters=[" ", '"']))(completed)
-    server.feature(types.TEXT_DOCUMENT_DEFINITION)(defined)
-    server.feature(types.TEXT_DOCUMENT_REFERENCES)(referred)
-    server.feature(types.TEXT_DOCUMENT_DOCUMENT_HIGHLIGHT)(highlighted)
-    server.feature(types.TEXT_DOCUMENT_DOCUMENT_SYMBOL)(outlined)
-    server.feature(types.WORKSPACE_SYMBOL)(searched)
-    server.feature(types.TEXT_DOCUMENT_FORMATTING)(formatted)
-    server.feature(types.TEXT_DOCUMENT_CODE_LENS, types.CodeLensOptions())(asked_above)
 
 
 def hovered(ls: MindServer, params: types.HoverParams) -> types.Hover | None:
@@ -182,42 +168,45 @@ class Lens:
 def lenses(view: MindView, path: Path) -> list[Lens]:
     """The words above the lines `master`, `task` and `curriculum` of a file, in the order of its text.
 
-    All of them are about the mind to which the file belongs. A task has the skills that are taught on it.
+    All of them are about the mind to which the file belongs: there are none about one that only thinks, for it has no
+    world in which it could be run. A task has the skills that are taught on it.
     """
     file = view.file(path)
     if file is None or not view.main.is_file():
         return []
-    found = [lens for setting in file.settings if isinstance(setting, Master) for lens in _of_master(view, setting)]
-    for declaration in file.declarations:
-        match declaration.header.noun.text:
+    found: list[Lens] = []
+    for setting in file.settings:
+        if isinstance(setting, Master) and path == view.main and view.names.of("task"):
+            if view.names.of("curriculum"):
+                found.append(Lens(setting.span, DUE_TITLE, ("train", view.main.name)))
+            found += _looks(view, setting.span)
+    lessons = [
+        fact for each in view.files for of in each.declarations for fact in of.facts if isinstance(fact, Teaches)
+    ]
+    for header in (declaration.header for declaration in file.declarations):
+        name = header.name.text
+        match header.noun.text:
             case "task":
-                found += _of_task(view, declaration)
+                skills = dict.fromkeys(lesson.skill.text for lesson in lessons if lesson.task.text == name)
+                found += [Lens(header.span, f"Train {skill}", ("train", view.main.name, skill)) for skill in skills]
+                found += _looks(view, header.span, "--task", name)
             case "curriculum":
-                found.append(_of_curriculum(view, declaration))
+                found.append(Lens(header.span, DUE_TITLE, ("train", view.main.name, "--curriculum", name)))
     return sorted(found, key=lambda lens: lens.span.start)
-
-
-def _of_master(view: MindView, master: Master) -> Iterator[Lens]:
-    """Nothing in a mind that only thinks, for there is no world in which it could be run."""
-    if master.span.source.path == view.main and view.names.of("task"):
-        if view.names.of("curriculum"):
-            yield Lens(master.span, DUE_TITLE, ("train", view.main.name))
-        yield from _looks(view, master.span)
-
-
-def _of_task(view: MindView, task: Declaration) -> Iterator[Lens]:
-    header, name = task.header, task.header.name.text
-    lessons = (fact for file in view.files for each in file.declarations for fact in each.facts)
-    skills = dict.fromkeys(fact.skill.text for fact in lessons if isinstance(fact, Teaches) and fact.task.text == name)
-    for skill in skills:
-        yield Lens(header.span, f"Train {skill}", ("train", view.main.name, skill))
-    yield from _looks(view, header.span, "--task", name)
-
-
-def _of_curriculum(view: MindView, curriculum: Declaration) -> Lens:
-    header = curriculum.header
-    return Lens(header.span, DUE_TITLE, ("train", view.main.name, "--curriculum", header.name.text))
 
 
 def _looks(view: MindView, span: Span, *more: str) -> Iterator[Lens]:
     return (Lens(span, title, (command, view.main.name, *more)) for title, command in LOOKING_COMMANDS.items())
+
+
+QUESTIONS = (
+    (types.TEXT_DOCUMENT_HOVER, hovered),
+    (types.TEXT_DOCUMENT_COMPLETION, completed, types.CompletionOptions(trigger_characters=[" ", '"'])),
+    (types.TEXT_DOCUMENT_DEFINITION, defined),
+    (types.TEXT_DOCUMENT_REFERENCES, referred),
+    (types.TEXT_DOCUMENT_DOCUMENT_HIGHLIGHT, highlighted),
+    (types.TEXT_DOCUMENT_DOCUMENT_SYMBOL, outlined),
+    (types.WORKSPACE_SYMBOL, searched),
+    (types.TEXT_DOCUMENT_FORMATTING, formatted),
+    (types.TEXT_DOCUMENT_CODE_LENS, asked_above, types.CodeLensOptions()),
+)

@@ -1,26 +1,146 @@
-"""The server of one editor: what it remembers, what it may ask for, and how it talks."""
+"""The server of one editor: what it remembers, how it talks, and plain values as the types of the protocol."""
 
 import asyncio
-from collections.abc import Iterator
+import re
+from bisect import bisect_right
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
+from functools import cached_property, lru_cache
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
+from urllib.parse import quote
 
 from lsprotocol import types
 from mindrun.errors import MindError
 from pygls.exceptions import JsonRpcException
 from pygls.lsp.server import LanguageServer
+from pygls.uris import from_fs_path, to_fs_path
+from pygls.workspace import PositionCodec
 
+from mindlang.breakpoints.resolve import breakpoints_of
+from mindlang.breakpoints.subject import subject_of_mind
 from mindlang.compiler.diagnostic import Diagnostic, listed
+from mindlang.compiler.source import Source, Span
+from mindlang.compiler.splice import Splice
 from mindlang.server.changing import EditOutcome, PendingRename, keep_up, perform
-from mindlang.server.lsp_types import LspConverter
-from mindlang.server.stops import stop_findings
 from mindlang.server.workspace import MindView, Workspace, are_breakpoints
 
 Report = tuple[int | None, list[types.Diagnostic]]
 MAX_PENDING_EDITS = 8  # edits whose locks are looked after
 MAX_PUBLISHED_DIAGNOSTICS = 1000  # findings in a file
+TYPING_PAUSE_SECONDS = 0.15  # seconds without typing, after which a text is checked
+REQUEST_FAILED = -32803  # RequestFailed
+NOTHING_CREATED: Mapping[Path, str] = {}
+SEVERITIES = {"error": types.DiagnosticSeverity.Error, "warning": types.DiagnosticSeverity.Warning}
+CACHED_TEXTS = 16  # whose lines are remembered
+_LINE_END = re.compile(r"\r\n|\n|\r")
+
+
+@dataclass
+class LspConverter:
+    """How paths and offsets are said to one editor: its URIs, and the units that its columns count."""
+
+    codec: PositionCodec = field(default_factory=PositionCodec)
+    uris: dict[Path, str] = field(default_factory=dict)  # of the open files, as the editor says them
+    versions: dict[Path, int] = field(default_factory=dict)
+
+    def path(self, uri: str) -> Path:
+        """The path that a URI stands for; one that is no file has a path where no file is."""
+        name = to_fs_path(uri)
+        return Path(name).resolve() if name else Path("/", ".untitled", quote(uri, safe=""))
+
+    def uri(self, path: Path) -> str:
+        """The URI of a file."""
+        return self.uris.get(path) or from_fs_path(str(path)) or ""
+
+    def offset(self, text: str, position: types.Position) -> int:
+        """The offset of a position."""
+        return lines_of(text).offset(position, self.codec)
+
+    def range(self, span: Span) -> types.Range:
+        """A span as a range."""
+        lines = lines_of(span.source.text)
+        return types.Range(lines.position(span.start, self.codec), lines.position(span.end, self.codec))
+
+    def location(self, span: Span) -> types.Location:
+        """A span with its file."""
+        return types.Location(self.uri(span.source.path), self.range(span))
+
+    def diagnostic(self, found: Diagnostic) -> types.Diagnostic:
+        """A finding; one whose fix takes it out is of something unnecessary."""
+        empty = types.Range(types.Position(0, 0), types.Position(0, 0))
+        is_removed = found.fix is not None and found.fix.title.startswith("Remove")
+        return types.Diagnostic(
+            self.range(found.span) if found.span else empty,
+            f"{found.message}\n{found.hint}".strip(),
+            SEVERITIES.get(found.severity, types.DiagnosticSeverity.Information),
+            code=found.code or None,
+            source="mindc",
+            tags=[types.DiagnosticTag.Unnecessary] if is_removed else None,
+            related_information=[
+                types.DiagnosticRelatedInformation(self.location(label.span), label.message) for label in found.labels
+            ]
+            or None,
+        )
+
+    def text_edit(self, splice: Splice) -> types.TextEdit:
+        """A splice of one file."""
+        return types.TextEdit(self.range(Span(splice.source, splice.start, splice.end)), splice.text)
+
+    def workspace_edit(
+        self, splices: Iterable[Splice], created: Mapping[Path, str], plain: bool
+    ) -> types.WorkspaceEdit:
+        """Splices of several files, and new files; `plain` where the editor knows no more than texts that change."""
+        by_path: dict[Path, list[types.TextEdit]] = {}
+        for splice in splices:
+            by_path.setdefault(splice.source.path, []).append(self.text_edit(splice))
+        if plain:
+            return types.WorkspaceEdit(changes={self.uri(path): edits for path, edits in by_path.items()})
+        changes: list[types.TextDocumentEdit | types.CreateFile | types.RenameFile | types.DeleteFile] = []
+        for path, text in created.items():
+            changes.append(types.CreateFile(self.uri(path)))
+            start = types.Range(types.Position(0, 0), types.Position(0, 0))
+            changes.append(self._document_edit(path, [types.TextEdit(start, text)]))
+        changes += [self._document_edit(path, edits) for path, edits in by_path.items()]
+        return types.WorkspaceEdit(document_changes=changes)
+
+    def _document_edit(self, path: Path, edits: list[types.TextEdit]) -> types.TextDocumentEdit:
+        document = types.OptionalVersionedTextDocumentIdentifier(self.uri(path), self.versions.get(path))
+        return types.TextDocumentEdit(document, list(edits))
+
+
+@dataclass(frozen=True)
+class TextLines:
+    """The lines of a text as the protocol counts them: a lone carriage return ends one, too."""
+
+    text: str
+
+    @cached_property
+    def starts(self) -> list[int]:
+        """The offset at which each line begins."""
+        return [0, *(end.end() for end in _LINE_END.finditer(self.text))]
+
+    def offset(self, position: types.Position, codec: PositionCodec) -> int:
+        """The offset of a position; one behind the end of its line, or of the text, is that end."""
+        if position.line >= len(self.starts):
+            return len(self.text)
+        start, end = [*self.starts, len(self.text)][position.line : position.line + 2]
+        line = self.text[start:end].rstrip("\r\n")
+        column = min(position.character, codec.client_num_units(line))
+        found = codec.position_from_client_units([line], types.Position(0, column))
+        return start + found.character
+
+    def position(self, offset: int, codec: PositionCodec) -> types.Position:
+        """The position of an offset."""
+        line = bisect_right(self.starts, offset) - 1
+        return types.Position(line, codec.client_num_units(self.text[self.starts[line] : offset]))
+
+
+@lru_cache(CACHED_TEXTS)
+def lines_of(text: str) -> TextLines:
+    """The lines of a text."""
+    return TextLines(text)
 
 
 @dataclass
@@ -68,11 +188,15 @@ class Session:
                 path = each.span.source.path if each.span else main
                 place = (each.span.start, each.span.end) if each.span else (0, 0)
                 found.setdefault(path, {}).setdefault((*place, each.code, each.message), each)
-        mistakes = {path: self._stop_findings(path) for path in self.workspace.texts if are_breakpoints(path)}
-        return {path: _first(path, mistakes.get(path, [*each.values()])) for path, each in found.items()}
+        by_file = {path: [*each.values()] for path, each in found.items()}
+        by_file |= {path: self._stop_findings(path) for path in self.workspace.texts if are_breakpoints(path)}
+        return {path: _first(path, each) for path, each in by_file.items()}
 
     def _stop_findings(self, path: Path) -> list[Diagnostic]:
-        return [*stop_findings(path, self.workspace.text(path), self.workspace.view(path))]
+        """What is wrong with a file of breakpoints; no names are looked for in a mind that does not compile."""
+        mind = self.workspace.view(path).compiled
+        subject = subject_of_mind(mind) if mind.graph else None
+        return [*breakpoints_of(Source(str(path), self.workspace.text(path), path.parent), subject).diagnostics]
 
     def follow(self, following: PendingRename | None) -> None:
         """Let locks follow an edit once its files are saved."""
@@ -98,10 +222,6 @@ def _first(path: Path, found: list[Diagnostic]) -> list[Diagnostic]:
         "", f"There are {len(found) - MAX_PUBLISHED_DIAGNOSTICS} more findings in {path.name}.", severity="warning"
     )
     return [*found[:MAX_PUBLISHED_DIAGNOSTICS], more]
-
-
-TYPING_PAUSE_SECONDS = 0.15  # seconds without typing, after which a text is checked
-REQUEST_FAILED = -32803  # RequestFailed
 
 
 class MindServer(LanguageServer):
@@ -142,11 +262,15 @@ class MindServer(LanguageServer):
     def outcome(self, path: Path, name: str, arguments: dict[str, Any]) -> tuple[EditOutcome, types.WorkspaceEdit]:
         """An edit made in memory, and as the editor takes it; MindError where it is impossible."""
         outcome = perform(self.session.workspace, path, name, arguments)
-        plain = not self.knows_documents
-        if outcome.change.created and plain:
+        if outcome.change.created and not self.knows_documents:
             raise MindError("This editor cannot make files.", f"On the command line: mindc edit {name}")
-        edit = self.session.lsp.workspace_edit(outcome.change.splices, outcome.change.created, plain)
-        return outcome, edit
+        return outcome, self.workspace_edit(outcome.change.splices, outcome.change.created)
+
+    def workspace_edit(
+        self, splices: Iterable[Splice], created: Mapping[Path, str] = NOTHING_CREATED
+    ) -> types.WorkspaceEdit:
+        """Splices of several files, and new files, as the editor takes them."""
+        return self.session.lsp.workspace_edit(splices, created, not self.knows_documents)
 
     def done(self, outcome: EditOutcome) -> None:
         """Say what an edit does to weights, and let the locks follow it."""

@@ -73,7 +73,7 @@ class MindView:
     def findings(self) -> tuple[Diagnostic, ...]:
         """What is wrong, and where nothing is, what is hardly meant; a damaged lock is a finding, too."""
         from mindlang.lint.lint import lint
-        from mindlang.lint.settings_file import settings_of
+        from mindlang.lint.settings import settings_of
 
         settings = settings_of(self.main)
         try:
@@ -189,7 +189,9 @@ class Workspace:
             return path
         known = self._mains.get(path)
         if known is None or path not in self.mind(known).paths:
-            users = (main for main in self._users(path) if _is_part(path, load(main, self.texts)))
+            around = (main for main, text in self.around(path) if _USE.search(text) and _MASTER.search(text))
+            sources = ((main, load(main, self.texts).sources) for main in [*around])
+            users = (main for main, files in sources if any(source.path == path for source in files))
             known = self._mains[path] = next(users, path)
         return known
 
@@ -213,10 +215,6 @@ class Workspace:
         others = dict.fromkeys(chain(open_, chain.from_iterable(map(files_beside, folders))))
         yield from within_read_limits((other, self.text(other)) for other in others if [other] != [*paths])
 
-    def _users(self, path: Path) -> list[Path]:
-        """Those around that may be minds and may use a file."""
-        return [other for other, text in self.around(path) if _USE.search(text) and _MASTER.search(text)]
-
     def _is_now(self, known: MindView, stamps: dict[Path, Stamp]) -> bool:
         """Whether a view is of the files as they are."""
         apart = stamps.keys() - {*known.paths}
@@ -226,10 +224,6 @@ class Workspace:
             file.source.text == self.texts[path] if path in self.texts else stamps.get(path, ()) == _stamp(path)
             for path, file in zip(known.paths, known.files, strict=True)
         )
-
-
-def _is_part(path: Path, of: Compiled) -> bool:
-    return any(source.path == path for source in of.sources)
 
 
 def _stamp(path: Path) -> Stamp:

@@ -45,7 +45,7 @@ class EventFiles:
         self._attempt: float | None = None
         self._time, self._flushed = 0.0, 0.0
 
-    def report(self, record: Record, done: int, now: float) -> None:
+    def report(self, record: Record, now: float) -> None:
         """A generation has ended, and is in the log: write it, and at first all before it."""
         with _disk(self.folder):
             if self._writer is None:

@@ -1,7 +1,8 @@
 """Which lessons to teach: those of a curriculum, those asked for, and what must be taught before them."""
 
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 from mindrun.errors import MindError
 from mindrun.graph.graph import Graph, Lesson
@@ -9,8 +10,10 @@ from mindrun.graph.weights import learners
 from mindrun.train import NotFoundError, RunError
 
 from mindlang import limits
+from mindlang.compiler.compile import Compiled
 from mindlang.compiler.diagnostic import did_you_mean, listed
-from mindlang.lock.lessons import needed_skills
+from mindlang.lock.status import needed_skills
+from mindlang.training.subject import Subject, open_subject, refuse_frozen
 
 BOUNDS = {
     "generations": limits.GENERATION_BOUNDS,
@@ -26,6 +29,9 @@ class TrainOptions:
     """What the command line or a program says instead of the source; None leaves it as it stands there.
 
     `scale` multiplies the generations of a lesson.
+
+    >>> mindlang.TrainOptions(scale=0.1, attempts=3)
+    TrainOptions(generations=None, scale=0.1, population=None, attempts=3, rungs=None, from_scratch=False)
     """
 
     generations: int | None = None
@@ -60,6 +66,42 @@ class TrainOptions:
             starts_from="" if self.from_scratch else lesson.starts_from,
             learner=learner,
         )
+
+
+def lessons_to_teach(
+    path: Path,
+    compiled: Compiled,
+    curriculum: str | None,
+    skills: Sequence[str],
+    options: TrainOptions,
+    force: bool = False,
+    note: Callable[[str], object] = lambda line: None,
+) -> Iterator[tuple[Subject, Lesson]]:
+    """The lessons of a file that are due, or those asked for, each as it is wished for with the lock as it is by then.
+
+    With `force` also what is not due. `note` is told what is not taught, or taught otherwise than the source says.
+    """
+    subject = open_subject(path, compiled)
+    chosen = chosen_lessons(subject.graph, curriculum, skills, subject.trained)
+    if skills or force:
+        refuse_frozen(subject, chosen)
+    taught = frozen = 0
+    for lesson in chosen:
+        subject = open_subject(path, compiled)  # the lesson before has changed the lock
+        if not subject.standing(lesson):
+            frozen += 1
+            note(f"{lesson.skill} is frozen, and is not taught")
+        elif force or subject.takes(lesson, bool(skills)):
+            wished = options.applied(lesson)
+            if lesson.needs and not wished.needs:
+                note(f"{lesson.skill} has fewer generations than its lesson says: nothing is needed of it")
+            taught += 1
+            yield subject, wished
+    if not taught and len(chosen) == 1 and not frozen:
+        note("nothing to do: its lesson has been taught (--force teaches it again)")
+    elif not taught:
+        which = "all other lessons" if frozen else f"all {len(chosen)} lessons"
+        note(f"nothing to do: {which} have been taught (--force teaches them again)")
 
 
 def chosen_lessons(

@@ -1,6 +1,5 @@
 """What becomes of what a lesson has taught: it goes to the lock, unless what is there does better."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from math import isfinite
 
@@ -15,14 +14,12 @@ from mindrun.train.run_folder import WEIGHTS, RunFolder, keep_failure
 from mindrun.train.scoring import Purpose, Scorer, Seeds, is_one_world, layouts, mark, succeeded
 
 from mindlang.compiler.diagnostic import listed
-from mindlang.lock import Entry, LockError, Taught, read_lock
+from mindlang.lock import LockError, Taught, read_lock
 from mindlang.lock.blobs import record
-from mindlang.lock.lessons import key_of
-from mindlang.lock.status import Trained, trained_weights
+from mindlang.lock.status import Trained, key_of, trained_weights
 from mindlang.lock.world_facts import Worlds
 from mindlang.number_format import number
-from mindlang.training.origin import origin_of
-from mindlang.training.subject import Subject
+from mindlang.training.subject import Subject, origin_of
 
 COMPARED_LAYOUTS = 50  # common to the weights that a lock has and to the new ones, and to nothing else
 
@@ -49,11 +46,10 @@ class Comparison:
 
 @dataclass(frozen=True, slots=True)
 class Kept:
-    """What the lock says now of the skills that were taught; `comparison` where there were weights to compare with."""
+    """Whether the new weights are in the lock, and how those that were there compare, where there were any."""
 
-    entries: Mapping[str, Entry]
-    comparison: Comparison | None
     is_new: bool
+    comparison: Comparison | None
 
 
 def keep(run: RunFolder, subject: Subject, state: LessonState, scorer: Scorer, force: bool) -> Kept:
@@ -63,35 +59,32 @@ def keep(run: RunFolder, subject: Subject, state: LessonState, scorer: Scorer, f
     cannot be read or written.
     """
     try:
-        refuse_nothing(run, state, scorer)
-        refuse_failed(run, state, scorer)
+        _refuse_nothing(run, state, scorer)
+        _refuse_failed(run, state, scorer)
     except RunError as error:
         keep_failure(run.folder, str(error))
         raise
+    lesson, new, found = run.manifest.lesson, state.kept[0], None
     old = _genome_there(run, subject)
-    if old is None or np.array_equal(old, state.kept[0]):
-        return Kept(_record(run, subject, state, scorer, state.kept[0], state.reevaluated), None, True)
-    found = compare(run, scorer, np.stack([old, state.kept[0]]))
-    if force or not found.is_worse or not _meets_needs(run, scorer, old):
-        return Kept(_record(run, subject, state, scorer, state.kept[0], state.reevaluated), found, True)
-    lesson = declared(subject, run.manifest.lesson)
-    if subject.is_due(lesson):
-        return Kept(_record(run, subject, state, scorer, old, found.old), found, False)
-    known = read_lock(subject.keep_path(lesson))
-    return Kept({skill: known[skill] for skill in run.manifest.learners}, found, False)
+    if old is not None and not np.array_equal(old, new):
+        found = compare(run, scorer, np.stack([old, new]))
+        if not force and found.is_worse and _meets_needs(run, scorer, old):
+            if subject.is_due(declared(subject, lesson)):
+                _record(run, subject, state, scorer, old, found.old)
+            return Kept(False, found)
+    _record(run, subject, state, scorer, new, state.reevaluated)
+    return Kept(True, found)
 
 
 def _meets_needs(run: RunFolder, scorer: Scorer, genome: Genomes) -> bool:
     """Whether a genome has what the lesson needs, on the layouts on which the new one has it."""
-    lesson = run.manifest.lesson
+    lesson, seed = run.manifest.lesson, run.manifest.seed
     if not lesson.needs:
         return True
-    return has_needed(
-        lesson, scorer.task, scorer.score(genome[None], verdict_layouts(run.manifest.seed, lesson.generations))
-    )
+    return has_needed(lesson, scorer.task, scorer.score(genome[None], verdict_layouts(seed, lesson.generations)))
 
 
-def refuse_nothing(run: RunFolder, state: LessonState, scorer: Scorer) -> None:
+def _refuse_nothing(run: RunFolder, state: LessonState, scorer: Scorer) -> None:
     """RunError where a lesson has taught nothing: the best had no score in the end, or all scores were the same."""
     lesson = run.manifest.lesson
     if not isfinite(state.reevaluated):
@@ -111,7 +104,7 @@ def refuse_nothing(run: RunFolder, state: LessonState, scorer: Scorer) -> None:
     raise RunError(f"{lesson.skill} has learnt nothing: {why}; the lock stays as it is", hint)
 
 
-def refuse_failed(run: RunFolder, state: LessonState, scorer: Scorer) -> None:
+def _refuse_failed(run: RunFolder, state: LessonState, scorer: Scorer) -> None:
     """RunError where no attempt has met what its lesson needs: nothing is to be taught on top of that."""
     lesson = run.manifest.lesson
     if not lesson.needs or state.passed.any():
@@ -145,26 +138,24 @@ def needed_success(lesson: Lesson, scorer: Scorer, genome: Genomes, seeds: Seeds
 
 def _genome_there(run: RunFolder, subject: Subject) -> Genomes | None:
     """The weights of the learners in the lock to which the lesson goes; None where not all have some that fit."""
-    standing = subject.standing(run.manifest.lesson)
-    if not all(isinstance(standing.get(skill), Trained) for skill in run.manifest.learners):
+    lesson, learners = run.manifest.lesson, run.manifest.learners
+    standing = subject.standing(lesson)
+    if not all(isinstance(standing.get(skill), Trained) for skill in learners):
         return None
     try:
-        known, _ = trained_weights(
-            subject.graph, read_lock(subject.keep_path(run.manifest.lesson)), run.manifest.learners
-        )
+        known, _ = trained_weights(subject.graph, read_lock(subject.keep_path(lesson)), learners)
     except LockError:  # their file is gone or damaged
         return None
-    return np.concatenate([known[skill] for skill in run.manifest.learners])
+    return np.concatenate([known[skill] for skill in learners])
 
 
 def _record(
     run: RunFolder, subject: Subject, state: LessonState, scorer: Scorer, genome: Genomes, score: float
-) -> dict[str, Entry]:
-    lesson, learners = run.manifest.lesson, run.manifest.learners
-    population, seed = lesson.learner.population, run.manifest.seed
+) -> None:
+    lesson, learners, seed = run.manifest.lesson, run.manifest.learners, run.manifest.seed
     asked = declared(subject, lesson)
     success = needed_success(asked, scorer, genome, verdict_layouts(seed, lesson.generations)[VERDICT_LAYOUTS:])
-    where = lesson.task, lesson.master, lesson.with_subskills
+    where, population = (lesson.task, lesson.master, lesson.with_subskills), lesson.learner.population
     taught = Taught(*where, state.kept_after, population, seed, score, lesson.number, lesson.curriculum, success)
     begun_with = {
         skill: subject.lock[skill]
@@ -174,7 +165,7 @@ def _record(
     learnt = parts(subject.graph, learners, genome)
     world = Worlds(subject.graph, subject.folder).of(asked)
     origins = {lesson.skill: origin} if (origin := origin_of(subject.graph, subject.lock, lesson)) else {}
-    return record(subject.keep_path(lesson), subject.graph, learnt, taught, run.weights, world, begun_with, origins)
+    record(subject.keep_path(lesson), subject.graph, learnt, taught, run.weights, world, begun_with, origins)
 
 
 def declared(subject: Subject, lesson: Lesson) -> Lesson:

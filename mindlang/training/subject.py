@@ -6,8 +6,8 @@ from datetime import datetime
 from hashlib import sha256
 from pathlib import Path
 
-from mindrun.graph.graph import Graph, Lesson
-from mindrun.graph.weights import Weights, learners
+from mindrun.graph.graph import Graph, Lesson, Skill
+from mindrun.graph.weights import Weights, learners, owner_of
 from mindrun.terminal.command_line import command_line
 from mindrun.train import RunError
 from mindrun.train.manifest import Manifest, fingerprint, hashes, processor, versions
@@ -15,13 +15,12 @@ from mindrun.train.run_folder import RunFolder, create, unfinished
 
 from mindlang.compiler.compile import Compiled
 from mindlang.compiler.diagnostic import listed
+from mindlang.compiler.resolve.curricula import counterparts
 from mindlang.limits import as_seed
 from mindlang.lock import Lock, lock_path, lock_sources, read_lock, read_locks
-from mindlang.lock.arrange import arrange
-from mindlang.lock.due import is_due
-from mindlang.lock.lessons import needed_skills, subskills
-from mindlang.lock.status import Status, Trained, status, trained_weights
-from mindlang.training.origin import origin_weights
+from mindlang.lock.blobs import Origin
+from mindlang.lock.signature import arrange, places, signature, width
+from mindlang.lock.status import Status, Trained, is_due, needed_skills, status, subskills, trained_weights
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,8 +105,17 @@ def begin_run(
     It notes the time, and the `command` that asked for it. RunError where it cannot begin, and what to train first
     where that is why.
     """
-    weights = _needed(subject, lesson) | (_known(subject, lesson) if not lesson.from_scratch else {})
-    weights |= origin_weights(subject.graph, subject.lock, lesson, subject.shown)
+    needed = subskills(subject.graph, lesson)
+    weights, refusals = trained_weights(subject.graph, subject.lock, needed)
+    if refusals:
+        first = [skill for skill in reversed(needed) if skill not in weights]
+        raise RunError(
+            f"{lesson.skill} cannot be taught yet: {listed(refusals, 'and')}",
+            f"first: {command_line('mindc', 'train', subject.shown, *first)}",
+        )
+    if not lesson.from_scratch:
+        weights = weights | trained_weights(subject.graph, subject.lock, learners(subject.graph, lesson))[0]
+    weights = weights | origin_weights(subject.graph, subject.lock, lesson, subject.shown)
     manifest = Manifest(
         lesson=lesson,
         learners=learners(subject.graph, lesson),
@@ -148,11 +156,13 @@ def refuse_frozen(subject: Subject, chosen: Iterable[Lesson]) -> None:
 
 def refuse_changed(subject: Subject, run: RunFolder) -> None:
     """RunError where the run was begun with a mind that differs in something the lesson depends on."""
-    lesson = run.manifest.lesson
+    lesson, graph = run.manifest.lesson, subject.graph
+    skills, tasks = {skill.name for skill in graph.skills}, {task.name for task in graph.tasks}
     if (
-        not _is_named(subject.graph, lesson)
-        or learners(subject.graph, lesson) != run.manifest.learners  # one may have been frozen
-        or fingerprint(subject.graph, lesson, subject.folder) != run.manifest.mind
+        not {lesson.skill, lesson.master} <= skills
+        or lesson.task not in tasks
+        or learners(graph, lesson) != run.manifest.learners  # one may have been frozen
+        or fingerprint(graph, lesson, subject.folder) != run.manifest.mind
     ):
         raise RunError(
             f"{subject.shown} has changed since this run of {lesson.skill} began, so it cannot go on",
@@ -161,23 +171,48 @@ def refuse_changed(subject: Subject, run: RunFolder) -> None:
         )
 
 
-def _is_named(graph: Graph, lesson: Lesson) -> bool:
-    """Whether there still are the skills and the task of a lesson."""
-    skills, tasks = {skill.name for skill in graph.skills}, {task.name for task in graph.tasks}
-    return {lesson.skill, lesson.master} <= skills and lesson.task in tasks
+def origin_weights(graph: Graph, lock: Lock, lesson: Lesson, shown: Path) -> dict[str, Weights]:
+    """The weights with which its skill begins; none where the lesson starts from no other. The graph is `arrange`d.
+
+    RunError where the other skill, or one that learns with the learner, has none that fit, and how to teach it in the
+    file that is `shown`.
+    """
+    skills = {skill.name: skill for skill in graph.skills}
+    together = learners(graph, lesson)
+    if not lesson.starts_from or lesson.skill not in together:
+        return {}
+    origin = skills[lesson.starts_from]
+    known: dict[str, Weights] = {}
+    for needed in (origin.name, *(name for name in together if name != lesson.skill)):
+        weights, refusals = trained_weights(graph, lock, [needed])
+        if refusals:
+            message = f"{lesson.skill} cannot begin with the weights of {origin.name}: {refusals[0]}"
+            raise RunError(message, f"first: {command_line('mindc', 'train', shown, skills[needed].owner)}")
+        known |= weights
+    return {lesson.skill: _brought(graph, lesson, origin, known[origin.owner])}
 
 
-def _needed(subject: Subject, lesson: Lesson) -> dict[str, Weights]:
-    skills = subskills(subject.graph, lesson)
-    weights, refusals = trained_weights(subject.graph, subject.lock, skills)
-    if refusals:
-        first = [skill for skill in reversed(skills) if skill not in weights]
-        raise RunError(
-            f"{lesson.skill} cannot be taught yet: {listed(refusals, 'and')}",
-            f"first: {command_line('mindc', 'train', subject.shown, *first)}",
-        )
-    return weights
+def origin_of(graph: Graph, lock: Lock, lesson: Lesson) -> Origin | None:
+    """The skill that a lesson starts from, and the SHA-256 of its weights."""
+    owner = owner_of(graph, lesson.starts_from)
+    return (lesson.starts_from, lock[owner].weights) if owner in lock else None
 
 
-def _known(subject: Subject, lesson: Lesson) -> dict[str, Weights]:
-    return trained_weights(subject.graph, subject.lock, learners(subject.graph, lesson))[0]
+def _brought(graph: Graph, lesson: Lesson, origin: Skill, weights: Weights) -> Weights:
+    """Weights of one skill in the order in which another reads and sends what stands for the same; 0 for the new."""
+    learner = next(skill for skill in graph.skills if skill.name == lesson.skill)
+    own, its = signature(graph, learner), signature(graph, origin)
+    begun = (each for each in graph.lessons if each.curriculum == lesson.curriculum and each.starts_from)
+    heirs = {each.skill: each.starts_from for each in begun}
+    inputs, outputs = (_places(*names, heirs) for names in ((own.reads, its.reads), (own.sends, its.sends)))
+    before = sum(map(width, its.reads)), len(its.sends)
+    wide = origin.function.widened(weights, before, learner.function, (len(inputs), len(outputs)))
+    return learner.function.reordered(weights if wide is None else wide, inputs, outputs)
+
+
+def _places(of: tuple[str, ...], among: tuple[str, ...], heirs: Mapping[str, str]) -> list[int]:
+    """For each value of these names its place among those of the other names, behind which new ones are."""
+    found = counterparts(of, among, heirs)
+    if found is None:
+        raise RunError("these weights do not fit", "run mindc check")
+    return places(of, (*among, *(name for name in of if name not in found)), found)

@@ -1,12 +1,14 @@
-"""The beginning and the end of a run of a lesson: what scores its genomes, and what becomes of what was learnt."""
+"""A run of a lesson from beginning to end: what scores its genomes, and what came of it, as data and in words."""
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from math import isfinite
+from typing import Any
 
 from mindrun.engine.engine import procedure_sources
 from mindrun.graph.bundle import Bundle, pack
 from mindrun.graph.policy import Policy
+from mindrun.graph.weights import parts
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.rollouts import rollout_for
 from mindrun.terminal.command_line import command_line
@@ -15,7 +17,7 @@ from mindrun.train.attempts import StretchThreads
 from mindrun.train.kept_segments import KeptSegments, RememberingExecutor
 from mindrun.train.lesson_state import Course, LessonState, is_over
 from mindrun.train.population import founder_count
-from mindrun.train.run_folder import RunFolder, keep_result, read_result
+from mindrun.train.run_folder import WEIGHTS, RunFolder, keep_result, read_result
 from mindrun.train.scoring import Scorer, breeding_generator, layouts
 from mindrun.train.training import Watch, train
 
@@ -23,17 +25,12 @@ from mindlang.executors import Where, scorer_on
 from mindlang.executors.job_scorer import JobScorer
 from mindlang.executors.jobs import Assignment, StretchExecutor, WorkError
 from mindlang.limits import refuse_too_large, refuse_too_long
+from mindlang.lock.blobs import digest
+from mindlang.number_format import duration, number, rate
 from mindlang.training.lock_update import Kept, keep
-from mindlang.training.results import Result, result_of
 from mindlang.training.subject import Subject
 
-
-@dataclass(frozen=True, slots=True)
-class TeachingResult:
-    """What came of a run that has ended."""
-
-    result: Result
-    kept: Kept
+Result = dict[str, Any]
 
 
 def rollout_of(run: RunFolder, subject: Subject, workers: int) -> Rollout:
@@ -65,9 +62,8 @@ def make_again(run: RunFolder, rollout: Rollout) -> None:
 def assignment_of(run: RunFolder, subject: Subject) -> Assignment:
     """What a worker has to know to do the jobs of a run; MindError where it is too large for a bundle."""
     lesson = run.manifest.lesson
-    policy = Policy(subject.graph, run.weights)
     procedures = procedure_sources(subject.graph, subject.folder, lesson.master)
-    bundle = pack(Bundle(policy, procedures))
+    bundle = pack(Bundle(Policy(subject.graph, run.weights), procedures))
     return Assignment(bundle, lesson.task, lesson.master, run.manifest.learners, folder=subject.folder)
 
 
@@ -86,21 +82,25 @@ def workers_of(
     They `say` what they wait for, and are sent away in the end, whatever they do. What they cannot do is a WorkError,
     whose hint says how the run goes on.
     """
-    course = run.course(rollout.genome_length)
-    with _resumable(run), scorer_on(where, rollout, lambda: assignment_of(run, subject), workers, say) as scorer:
-        if (stretches := stretches_of(course, rollout, scorer if where else rollout, clock)) is None:
-            yield scorer, None
-            return
-        kept = KeptSegments(run.folder, run.manifest.identity, course)
-        try:
-            yield rollout, RememberingExecutor(stretches, kept, clock)
-        finally:
-            if isinstance(stretches, StretchThreads):
-                stretches.close()
-            kept.save()
+    try:
+        with scorer_on(where, rollout, lambda: assignment_of(run, subject), workers, say) as scorer:
+            course = run.course(rollout.genome_length)
+            if (stretches := _stretches(course, rollout, scorer if where else rollout, clock)) is None:
+                yield scorer, None
+                return
+            kept = KeptSegments(run.folder, run.manifest.identity, course)
+            try:
+                yield rollout, RememberingExecutor(stretches, kept, clock)
+            finally:
+                if isinstance(stretches, StretchThreads):
+                    stretches.close()
+                kept.save()
+    except WorkError as error:
+        resume = f"what was saved is intact; to go on: {command_line('mindc', 'train', '--resume', run.folder)}"
+        raise WorkError(str(error), "; ".join(filter(None, (error.hint, resume)))) from error
 
 
-def stretches_of(
+def _stretches(
     course: Course, rollout: Rollout, scorer: Scorer, clock: Clock
 ) -> StretchExecutor | StretchThreads | None:
     """Who does several attempts side by side: the workers of a scorer, else threads; None where nobody does.
@@ -113,16 +113,6 @@ def stretches_of(
         return StretchExecutor(course, scorer.jobs, rollout)
     side_by_side = rollout.workers > 1 and not course.lesson.needs
     return StretchThreads(course, rollout.workers, rollout.on, clock) if side_by_side else None
-
-
-@contextmanager
-def _resumable(run: RunFolder) -> Iterator[None]:
-    """Say of work that nobody can do how to go on when somebody can."""
-    try:
-        yield
-    except WorkError as error:
-        resume = f"what was saved is intact; to go on: {command_line('mindc', 'train', '--resume', run.folder)}"
-        raise WorkError(str(error), "; ".join(filter(None, (error.hint, resume)))) from error
 
 
 def teach(run: RunFolder, subject: Subject, workers: int, watch: Watch, where: Where | None = None) -> Result | None:
@@ -140,24 +130,87 @@ def teach(run: RunFolder, subject: Subject, workers: int, watch: Watch, where: W
     processes = workers if workers > 1 else 0  # what was registered in this one is not known in others
     with workers_of(run, subject, rollout, where, processes, watch.warn, watch.clock) as (scorer, executor):
         state = train(run, scorer, watch, executor)
-        return finish(run, subject, state, scorer, False, rollout.notes).result if has_ended(run, state) else None
+        if not is_over(run.manifest.lesson, state):
+            return None
+        return finish(run, subject, state, scorer, False, rollout.notes)[0]
 
 
 def finish(
-    run: RunFolder, subject: Subject, state: LessonState, scorer: Scorer, force: bool, notes: Sequence[str] = ()
-) -> TeachingResult:
+    run: RunFolder, subject: Subject, state: LessonState, scorer: Scorer, force: bool, notes: Sequence[str]
+) -> tuple[Result, Kept]:
     """Put what a run has taught into the lock, unless what is there does better; with `force` even then.
 
-    The result has the `notes`.
-
-    MindError where nothing was learnt, or the lock is damaged.
+    The result has the `notes`. MindError where nothing was learnt, or the lock is damaged.
     """
     kept = keep(run, subject, state, scorer, force)
     result = result_of(run, subject, state, kept) | {"notes": [*notes]}
     keep_result(run.folder, result)
-    return TeachingResult(result, kept)
+    return result, kept
 
 
-def has_ended(run: RunFolder, state: LessonState) -> bool:
-    """Whether a run has come to its end; it was stopped otherwise."""
-    return is_over(run.manifest.lesson, state)
+def opening(run: RunFolder) -> str:
+    """What is about to be taught, in a sentence."""
+    lesson = run.manifest.lesson
+    known = set(run.manifest.learners) <= set(run.weights)
+    origin = f"the weights of {lesson.starts_from}" if lesson.starts_from else "its weights"
+    start = "from scratch" if lesson.from_scratch or not known else f"from {origin}"
+    where = f"on {lesson.task}" + (f" under {lesson.master}" if lesson.master != lesson.skill else "")
+    who = f"{lesson.skill} with its subskills" if lesson.with_subskills else lesson.skill
+    return f"{who} {where} {start}, seed {run.manifest.seed}, in {run.folder}"
+
+
+def result_of(run: RunFolder, subject: Subject, state: LessonState, kept: Kept) -> Result:
+    """A finished run as plain data; `weights` has the SHA-256 of what was learnt of each skill.
+
+    `kept` says whether that is in the lock now. Where this had weights before, `compared` are their score and that of
+    the new ones on common fresh layouts.
+    """
+    lesson = run.manifest.lesson
+    learnt = parts(subject.graph, run.manifest.learners, state.kept[0])
+    return {
+        "lesson": run.manifest.name,
+        "curriculum": lesson.curriculum,
+        "skill": lesson.skill,
+        "task": lesson.task,
+        "master": lesson.master,
+        "generations": lesson.generations,
+        "bred": state.generations,
+        "population": lesson.learner.population,
+        "attempts": state.attempt,
+        "seed": run.manifest.seed,
+        "best": state.best,
+        "reevaluated": state.reevaluated,
+        "ticks": state.ticks,
+        "seconds": round(state.seconds, 3),
+        "ticks_per_second": round(state.ticks / max(state.seconds, 1e-9)),
+        "faults": state.faults,
+        "verdicts": [_finite(verdict) for verdict in state.verdicts[:, 1]],
+        "weights": {skill: digest(weights) for skill, weights in learnt.items()},
+        "kept": kept.is_new,
+        "compared": [_finite(score) for score in (kept.comparison.old, kept.comparison.new)]
+        if kept.comparison
+        else None,
+        "run": str(run.folder),
+    }
+
+
+def _finite(score: float) -> float | None:
+    return float(score) if isfinite(score) else None
+
+
+def outcome(run: RunFolder, result: Result, kept: Kept, lock: str) -> list[str]:
+    """What was learnt, what is in the lock now, and where the new weights are if they are not there."""
+    generations = "1 generation" if result["bred"] == 1 else f"{result['bred']} generations"
+    if result["attempts"] > 1:
+        generations += f" in {result['attempts']} attempts"
+    cpu = result.get("ticks_per_cpu_second")
+    speed = rate(result["ticks_per_second"]) if cpu is None else rate(cpu, "CPU second")
+    learnt = (
+        f"{result['skill']} has learnt: {number(result['reevaluated'])} on fresh layouts after "
+        f"{generations}, in {duration(result['seconds'])} at {speed}"
+    )
+    if kept.is_new:
+        worse = kept.comparison is not None and kept.comparison.is_worse
+        return [f"{learnt}; weights in {lock}", *[f"but {kept.comparison}"] * worse]
+    stay = f"{kept.comparison}, and stay in {lock}"
+    return [learnt, stay, f"the new ones: {run.folder / WEIGHTS}; --force puts them there"]

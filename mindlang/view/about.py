@@ -1,254 +1,225 @@
-"""Plain data of a run for a page: its hierarchy and its world, which do not change, and the events of its world."""
+"""Plain data of a run for a page: its hierarchy and its world, which do not change, and the events that can happen."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
-from typing import Any
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
 
-import numpy as np
 from mindrun.engine.engine import scene_of
 from mindrun.graph.graph import Graph, Skill, Task
 from mindrun.graph.named_readings import reading_names
+from mindrun.graph.recording_header import About, RecordedWorld
 from mindrun.kinds.registry import names
-from mindrun.kinds.things.thing import ThingKind
 from mindrun.sim.task_rows import things_of
-from numpy.typing import NDArray
 
 from mindlang.pictures.scene import half_sides, thing_colours
-from mindlang.pictures.theme import NIGHT, PAPER, Colour
+from mindlang.pictures.theme import NIGHT, PAPER, code
 from mindlang.run import outcome
-from mindlang.view.rows import Columns, Doubles
-from mindlang.view.texts import shown
+from mindlang.view.messages import shown
+from mindlang.view.rows import Columns
 
 Texts = Mapping[tuple[str, str], str]  # what a line says, by the names of its skill and of whom it is for
+Data = dict[str, Any]
 TOUCH, COLLISION = "touch", "collision"  # kinds of events
 
 
-@dataclass(frozen=True, slots=True)
-class HierarchyData:
-    """The hierarchy below a master: `skills` are those that it reaches, in the order of the graph."""
+class Node(NamedTuple):
+    """A node of the hierarchy, and where its values are: the `places` in a group of columns."""
 
-    graph: Graph
-    master: str
-    skills: Sequence[Skill]
-    columns: Columns
-
-    def data(self, texts: Texts) -> dict[str, Any]:
-        """`nodes`, `edges` and `reads`."""
-        numbers = node_numbers(self.graph, self.skills)
-        places = {name: ("skill", place) for name, place in self.graph.skill_numbers.items()}
-        inputs = [*self._inputs()]
-        return {
-            "nodes": [self._node(noun, place) for noun, place in numbers],
-            "edges": [
-                {
-                    "from": numbers[places[skill.name]],
-                    "to": numbers[edge.to, edge.target],
-                    "text": shown(texts.get((skill.name, self.graph.named(edge.to, edge.target)), "").strip()),
-                }
-                for skill in self.skills
-                for edge in skill.edges
-            ],
-            "reads": [
-                [numbers[source], numbers[places[skill.name]]]
-                for skill in self.skills
-                for source in dict.fromkeys(inputs[reading] for reading in skill.inputs)
-            ],
-        }
-
-    def _node(self, noun: str, place: int) -> dict[str, Any]:
-        graph = self.graph
-        match noun:
-            case "sensor":
-                sensor = graph.sensors[place]
-                read = range(sensor.start, sensor.start + sensor.width)
-                return self._node_data(noun, sensor.name, sensor.kind, "readings", read)
-            case "memory":
-                memory = graph.memories[place]
-                return self._node_data(noun, memory.name, memory.kind, "readings", [memory.start])
-            case "skill":
-                skill = graph.skills[place]
-                return self._node_data(noun, skill.name, skill.function, "influence", [place])
-        actuator = graph.actuators[place]
-        return self._node_data(noun, actuator.name, actuator.kind, "commands", [place])
-
-    def _node_data(self, noun: str, name: str, kind: object, group: str, places: Sequence[int]) -> dict[str, Any]:
-        return {
-            "name": shown(name),
-            "kind": noun,
-            "says": names().get(type(kind), ""),
-            "columns": [self.columns[group].column(place) for place in places],
-            "master": noun == "skill" and name == self.master,
-        }
-
-    def _inputs(self) -> Iterator[tuple[str, int]]:
-        """For each reading, of which sensor or memory it is."""
-        for place, sensor in enumerate(self.graph.sensors):
-            for _ in range(sensor.width):
-                yield "sensor", place
-        for place, _ in enumerate(self.graph.memories):
-            yield "memory", place
-
-    def curves(self, rewards: Sequence[str] = (), has_robot: bool = True) -> list[dict[str, Any]]:
-        """Every column that can be drawn over time, by name; of rewards where there are any, and of a robot.
-
-        Those of directions are `circular`: no line leads from 1 to 0.
-        """
-        graph, reached, scene = self.graph, {skill.name for skill in self.skills}, scene_of(self.graph)
-        circular = {scene.starts[name] for name in scene.directions}
-        named: list[tuple[str, str, list[tuple[int, str]]]] = [
-            ("reading", "readings", [*enumerate(reading_names(graph))]),
-            ("influence", "influence", [(i, s.name) for i, s in enumerate(graph.skills) if s.name in reached]),
-            ("command", "commands", [*enumerate(actuator.name for actuator in graph.actuators)]),
-            ("command", "sent", [*enumerate(f"{actuator.name}, sent" for actuator in graph.actuators)]),
-            ("reward", "rewards", [*enumerate(rewards)]),
-            ("world", "robot", [*enumerate(("x", "y", "angle"))]),
-            ("world", "battery", [(0, "battery")]),
-        ]
-        return [
-            {"name": shown(name), "group": group, "column": self.columns[of].column(place)}
-            | {"circular": of == "readings" and place in circular}
-            for group, of, each in named
-            if of in self.columns.groups and (has_robot or group != "world")
-            for place, name in each
-        ]
+    name: str
+    kind: object
+    group: str
+    places: Sequence[int]
 
 
-def node_numbers(graph: Graph, skills: Sequence[Skill]) -> dict[tuple[str, int], int]:
-    """The number of each node by its noun and its place there: sensors, memories, the skills reached, actuators."""
-    reached = {skill.name for skill in skills}
-    nodes = [
-        *(("sensor", place) for place in range(len(graph.sensors))),
-        *(("memory", place) for place in range(len(graph.memories))),
-        *(("skill", place) for place, skill in enumerate(graph.skills) if skill.name in reached),
-        *(("actuator", place) for place in range(len(graph.actuators))),
-    ]
-    return {node: number for number, node in enumerate(nodes)}
+def about_data(
+    of: About, graph: Graph, task: Task | None, skills: Sequence[Skill], columns: Columns, texts: Texts
+) -> Data:
+    """All that does not change of rows with these columns; `skills` are those below the master, parents first.
 
-
-def run_data(graph: Graph, task: Task, seed: int, boxes: Doubles, columns: Columns) -> dict[str, Any]:
-    """The task of a run, its seed, its rewards and ends, and its world, None where it is an environment."""
+    There is a task where there is a world.
+    """
+    rewards = [reward.text for reward in task.rewards] if task else []
+    has_robot = not (task and task.scene.environment)
     return {
-        "task": shown(task.name),
-        "seed": str(seed),
-        "rewards": [shown(reward.text) for reward in task.rewards],
-        "ends": [shown(text) for text in outcome.ends(task)],
-        "world": None if task.scene.environment else world_data(graph, task, boxes, columns),
+        "master": shown(of.master),
+        "tick": of.tick,
+        "task": shown(task.name) if task else None,
+        "seed": str(of.world.seed) if task and of.world else None,
+        "rewards": [shown(text) for text in rewards],
+        "ends": [shown(text) for text in outcome.ends(task)] if task else [],
+        "world": _world(graph, task, of.world, columns) if task and of.world and has_robot else None,
+        "curves": _curves(graph, skills, columns, rewards, has_robot),
+        **_hierarchy(graph, of.master, skills, columns, texts),
     }
 
 
-def world_data(graph: Graph, task: Task, boxes: Doubles, columns: Columns) -> dict[str, Any]:
+def _nodes(graph: Graph, skills: Sequence[Skill]) -> dict[tuple[str, int], Node]:
+    """The nodes by noun and place there: sensors, memories, the skills that are reached, actuators."""
+    reached = {skill.name for skill in skills}
+    return {
+        **{
+            ("sensor", place): Node(each.name, each.kind, "readings", range(each.start, each.start + each.width))
+            for place, each in enumerate(graph.sensors)
+        },
+        **{
+            ("memory", place): Node(each.name, each.kind, "readings", [each.start])
+            for place, each in enumerate(graph.memories)
+        },
+        **{
+            ("skill", place): Node(each.name, each.function, "influence", [place])
+            for place, each in enumerate(graph.skills)
+            if each.name in reached
+        },
+        **{
+            ("actuator", place): Node(each.name, each.kind, "commands", [place])
+            for place, each in enumerate(graph.actuators)
+        },
+    }
+
+
+def node_numbers(graph: Graph, skills: Sequence[Skill]) -> dict[tuple[str, int], int]:
+    """The number of each node by its noun and its place there."""
+    return {node: number for number, node in enumerate(_nodes(graph, skills))}
+
+
+def _hierarchy(graph: Graph, master: str, skills: Sequence[Skill], columns: Columns, texts: Texts) -> Data:
+    """`nodes`, `edges` and `reads`."""
+    nodes = _nodes(graph, skills)
+    numbers = {node: number for number, node in enumerate(nodes)}
+    read_from = [numbers[key] for key, node in nodes.items() if node.group == "readings" for _ in node.places]
+    own = {skill.name: numbers["skill", graph.skill_numbers[skill.name]] for skill in skills}
+    return {
+        "nodes": [
+            {
+                "name": shown(node.name),
+                "kind": noun,
+                "says": names().get(type(node.kind), ""),
+                "columns": [columns[node.group].column(place) for place in node.places],
+                "master": noun == "skill" and node.name == master,
+            }
+            for (noun, _), node in nodes.items()
+        ],
+        "edges": [
+            {
+                "from": own[skill.name],
+                "to": numbers[edge.to, edge.target],
+                "text": shown(texts.get((skill.name, graph.named(edge.to, edge.target)), "").strip()),
+            }
+            for skill in skills
+            for edge in skill.edges
+        ],
+        "reads": [
+            [source, own[skill.name]]
+            for skill in skills
+            for source in dict.fromkeys(read_from[reading] for reading in skill.inputs)
+        ],
+    }
+
+
+def _curves(
+    graph: Graph, skills: Sequence[Skill], columns: Columns, rewards: Sequence[str], has_robot: bool
+) -> list[Data]:
+    """Every column that can be drawn over time, by name; of rewards where there are any, and of a robot.
+
+    Those of directions are `circular`: no line leads from 1 to 0.
+    """
+    reached, scene = {skill.name for skill in skills}, scene_of(graph)
+    circular = {scene.starts[name] for name in scene.directions}
+    named: list[tuple[str, str, list[tuple[int, str]]]] = [
+        ("reading", "readings", [*enumerate(reading_names(graph))]),
+        ("influence", "influence", [(i, s.name) for i, s in enumerate(graph.skills) if s.name in reached]),
+        ("command", "commands", [*enumerate(actuator.name for actuator in graph.actuators)]),
+        ("command", "sent", [*enumerate(f"{actuator.name}, sent" for actuator in graph.actuators)]),
+        ("reward", "rewards", [*enumerate(rewards)]),
+        ("world", "robot", [*enumerate(("x", "y", "angle"))]),
+        ("world", "battery", [(0, "battery")]),
+    ]
+    return [
+        {"name": shown(name), "group": group, "column": columns[of].column(place)}
+        | {"circular": of == "readings" and place in circular}
+        for group, of, each in named
+        if of in columns.groups and (has_robot or group != "world")
+        for place, name in each
+    ]
+
+
+def _world(graph: Graph, task: Task, world: RecordedWorld, columns: Columns) -> Data:
     """The arena, what stands in it, its things with their colours, and the robot; lengths in units, angles in rad."""
     contents = things_of(task)
     colours = zip(thing_colours(contents, PAPER), thing_colours(contents, NIGHT), strict=True)
+    body = graph.body
     return {
         "arena": [*half_sides(task.scene)] if task.scene.is_bounded else None,
-        "boxes": boxes.tolist(),
+        "boxes": [[*box] for box in world.boxes],
         "things": [
             {
                 "name": shown(thing.name),
                 "kind": names()[type(thing.kind)],
-                "shape": _shape(thing.kind),
-                "light": _code(light),
-                "dark": _code(dark),
+                "shape": "area" if thing.kind.is_area else "disc" if thing.kind.is_round else "square",
+                "light": code(light),
+                "dark": code(dark),
             }
             for thing, (light, dark) in zip(contents, colours, strict=True)
         ],
-        "robot": _body(graph) | _sensing(graph, columns) | _acting(graph, columns),
+        "robot": {
+            "radius": body.radius,
+            "outline": [[*corner] for corner in body.outline],
+            "front": body.front,
+            "side": body.side,
+            "axles": body.axle_distance,
+            **_sensing(graph, columns),
+            **_acting(graph, columns),
+        },
     }
 
 
-def _shape(kind: ThingKind) -> str:
-    return "area" if kind.is_area else "disc" if kind.is_round else "square"
-
-
-def _code(colour: Colour) -> str:
-    blue, green, red = colour
-    return f"#{red:02x}{green:02x}{blue:02x}"
-
-
-def _body(graph: Graph) -> dict[str, Any]:
-    body = graph.body
-    return {
-        "radius": body.radius,
-        "outline": [[*corner] for corner in body.outline],
-        "front": body.front,
-        "side": body.side,
-        "axles": body.axle_distance,
-    }
-
-
-def _sensing(graph: Graph, columns: Columns) -> dict[str, Any]:
+def _sensing(graph: Graph, columns: Columns) -> Data:
     """Rays, points of the floor, switches on the rim, and directions of things, each with the column it reads."""
-    group = columns["readings"]
-    rays, spots, switches, bearings = [], [], [], []
+    found: dict[str, list[Data]] = {"rays": [], "spots": [], "switches": [], "bearings": []}
     for sensor in graph.sensors:
-        kind, name, body = sensor.kind, shown(sensor.name), graph.body
-        for number, angle in enumerate(kind.rays):
-            column, only = group.column(sensor.start + number), bool(kind.thing)
-            rays.append(
-                {"angle": angle, "rim": body.rim(angle), "reach": kind.reach, "column": column, "name": name}
-                | {"sees": only}
-            )
-        for number, (x, y) in enumerate(kind.spots):
-            spots.append({"x": x, "y": y, "column": group.column(sensor.start + number)})
-        for number, angle in enumerate(kind.directions if kind.sector else ()):
-            switches.append({"angle": angle, "width": kind.sector, "column": group.column(sensor.start + number)})
+        kind, name = sensor.kind, shown(sensor.name)
+        read = [columns["readings"].column(sensor.start + number) for number in range(sensor.width)]
+        for angle, column in zip(kind.rays, read, strict=False):
+            ray = {"angle": angle, "rim": graph.body.rim(angle), "reach": kind.reach, "column": column}
+            found["rays"].append({**ray, "name": name, "sees": bool(kind.thing)})
+        found["spots"] += [{"x": x, "y": y, "column": at} for (x, y), at in zip(kind.spots, read, strict=False)]
+        for angle, column in zip(kind.directions if kind.sector else (), read, strict=False):
+            found["switches"].append({"angle": angle, "width": kind.sector, "column": column})
         if kind.circular and kind.thing:
-            bearings.append({"name": name, "column": group.column(sensor.start)})
-    return {"rays": rays, "spots": spots, "switches": switches, "bearings": bearings}
+            found["bearings"].append({"name": name, "column": read[0]})
+    return found
 
 
-def _acting(graph: Graph, columns: Columns) -> dict[str, Any]:
+def _acting(graph: Graph, columns: Columns) -> Data:
     """The claw, the wheels that turn, lamps and thrusters, each with the column of its command."""
-    lamps, jets, claw, steering = [], [], None, None
+    found: Data = {"claw": None, "steering": None, "lamps": [], "jets": []}
     for number, actuator in enumerate(graph.actuators):
         kind, column = actuator.kind, columns["commands"].column(number)
         if kind.is_light:
-            lamps.append(column)
+            found["lamps"].append(column)
         if (push := kind.push(graph.body)) is not None:
-            jets.append({"at": [*push[0]], "way": [*push[1]], "column": column})
+            found["jets"].append({"at": [*push[0]], "way": [*push[1]], "column": column})
         if kind.can_hold:
-            claw = column
+            found["claw"] = column
         if kind.drive == "steering":
-            steering = {"column": column, "turn": kind.row(graph.body)["turn"]}
-    return {"claw": claw, "steering": steering, "lamps": lamps, "jets": jets}
+            found["steering"] = {"column": column, "turn": kind.row(graph.body)["turn"]}
+    return found
 
 
-@dataclass(slots=True)
-class WorldEvents:
-    """The events of a task's world, found in the rows of its recording one part after the other."""
+def world_events(task: Task) -> list[dict[str, str]]:
+    """The texts and kinds of a task's events; touching is one, unless an event says it or there is nothing to touch."""
+    kinds = [names()[type(event)] for event in task.events]
+    found = [{"text": shown(text), "kind": kind} for text, kind in zip(outcome.events(task), kinds, strict=True)]
+    if COLLISION in kinds or task.scene.environment:
+        return found
+    return [*found, {"text": TOUCH, "kind": TOUCH}]
 
-    task: Task
-    _counts: NDArray[np.uint64] = field(init=False)
-    _touched: bool = False
 
-    def __post_init__(self) -> None:
-        self._counts = np.zeros(len(self.task.events), np.uint64)
-
-    def data(self) -> list[dict[str, str]]:
-        """Their texts and kinds."""
-        kinds = self._kinds()
-        found = [
-            {"text": shown(text), "kind": kind} for text, kind in zip(outcome.events(self.task), kinds, strict=True)
-        ]
-        return found if self._knows_touch() else [*found, {"text": "touch", "kind": TOUCH}]
-
-    def in_rows(self, rows: NDArray[Any]) -> NDArray[np.bool_]:
-        """Which of them happen [ticks, events] in rows that follow those of the call before."""
-        world = rows["world"]
-        counts = np.concatenate([self._counts[None], world["events"]])
-        touching = np.concatenate([[self._touched], world["touching"] != 0])
-        self._counts, self._touched = counts[-1], bool(touching[-1])
-        happened = [counts[1:] != counts[:-1]]
-        if not self._knows_touch():
-            happened.append((touching[1:] & ~touching[:-1])[:, None])
-        return np.concatenate(happened, axis=1)
-
-    def _knows_touch(self) -> bool:
-        """Whether touching goes without saying: an event says it, or there is nothing to touch."""
-        return COLLISION in self._kinds() or bool(self.task.scene.environment)
-
-    def _kinds(self) -> list[str]:
-        return [names()[type(event)] for event in self.task.events]
+def robot_events(of: About) -> list[dict[str, str]]:
+    """The texts and kinds of what happens to a robot."""
+    return [
+        {"text": "stopped", "kind": "stopped"},
+        {"text": "began anew", "kind": "begin"},
+        *({"text": shown(f"fault of {name}"), "kind": "fault"} for name in of.sensors),
+    ]

@@ -21,8 +21,8 @@ import numpy as np
 from mindrun.errors import MindError
 from numpy.typing import NDArray
 
+from mindlang.view.messages import error_text
 from mindlang.view.rows import DOUBLE_BLOCK, SINGLE_BLOCK
-from mindlang.view.texts import error_text
 from mindlang.view.viewed import Image, Viewed, data_url
 
 PAGE = Path(__file__).parent / "page"
@@ -126,10 +126,9 @@ def _inert(data: dict[str, Any]) -> str:
 
 def _rows(viewed: Viewed) -> str:
     numbers = np.arange(viewed.known + 1)
-    doubles, singles = viewed.blocks.doubles(numbers), viewed.singles(numbers)
     deflate = zlib.compressobj(9)
-    parts = [deflate.compress(_differences(column, "<u8")) for column in doubles.T]
-    parts += [deflate.compress(_differences(column, "<u4")) for column in singles.T]
+    parts = [deflate.compress(_differences(column, "<u8")) for column in viewed.doubles(numbers).T]
+    parts += [deflate.compress(_differences(column, "<u4")) for column in viewed.singles(numbers).T]
     return base64.b64encode(b"".join([*parts, deflate.flush()])).decode()
 
 

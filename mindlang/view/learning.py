@@ -1,19 +1,32 @@
-"""Trainings while they are seen: what the logs of run folders have come to, read again whenever they have grown."""
+"""Trainings while they are seen: logs of run folders, read again whenever they have grown, and champions that play."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
+from mindrun.errors import MindError
+from mindrun.graph.policy import Policy
+from mindrun.graph.weights import learners, parts
+from mindrun.sim.rollout import Rollout
 from mindrun.train import NotFoundError, RunError, checkpoint
 from mindrun.train.champion_log import CHAMPION_ROWS, Champion, read_champions, rows_that_fit
+from mindrun.train.manifest import fingerprint
+from mindrun.train.population import Genomes
 from mindrun.train.progress import LINES, Position, read_progress
-from mindrun.train.run_folder import MANIFEST, RunFolder, open_run
+from mindrun.train.run_folder import MANIFEST, SOURCES, RunFolder, open_run
 
-from mindlang.view.messages import RefusedError
-from mindlang.view.texts import shown
+from mindlang.compiler.compile import load
+from mindlang.compiler.drawing import text_after_name
+from mindlang.lock.ready import ReadyMind
+from mindlang.run.setup import RunSetup
+from mindlang.training.subject import Subject, open_subject
+from mindlang.view.about import Texts
+from mindlang.view.messages import RefusedError, shown
+from mindlang.view.viewed import Viewed
+from mindlang.view.viewed_run import ViewedRun
 
 WATCH_SECONDS = 0.5  # between two looks at the files
 MAX_GENERATIONS = 10_000  # that are told at once
@@ -176,3 +189,80 @@ def _stamp(path: Path) -> tuple[int, int] | None:
     except OSError:
         return None
     return found.st_mtime_ns, found.st_size
+
+
+@dataclass(slots=True)
+class Champions:
+    """Plays champions of trainings; a mind is compiled once for each run."""
+
+    learning: Learning
+    seed: int
+    _minds: dict[Path, tuple[Subject, Texts]] = field(default_factory=dict)
+
+    def begin(self, number: int, attempt: int, generation: int, seed: int | None = None) -> Viewed:
+        """The run of a champion, which has not begun but for its beginning; MindError where it cannot be made."""
+        learnt = self.learning.runs[number]
+        champion = learnt.champion(attempt, generation)
+        setup, texts = self._setup(learnt.run, champion.genome)
+        viewed = ViewedRun(setup, setup.rollout(), self.seed if seed is None else seed, texts).begun()
+        viewed.about = {
+            **viewed.about,
+            "source": "training",
+            "training": {
+                "run": number,
+                "attempt": attempt,
+                "generation": generation,
+                "since": champion.generation,
+                "score": learnt.score(attempt, generation),
+            },
+        }
+        viewed.grow()
+        return viewed
+
+    def rollout(self, learnt: LearntRun) -> Rollout:
+        """The simulator of a run, for compiling it before anybody waits."""
+        return self._setup(learnt.run, learnt.champions[-1].genome)[0].rollout()
+
+    def _setup(self, run: RunFolder, genome: Genomes) -> tuple[RunSetup, Texts]:
+        if run.folder not in self._minds:
+            self._minds[run.folder] = mind_of(run)
+        subject, texts = self._minds[run.folder]
+        lesson = run.manifest.lesson
+        weights = dict(run.weights) | parts(subject.graph, run.manifest.learners, genome)
+        policy = Policy(replace(subject.graph, master=lesson.master), weights)
+        task = next(task for task in subject.graph.tasks if task.name == lesson.task)
+        return RunSetup(task, lesson.master, ReadyMind(policy, (), ()), subject.folder), texts
+
+
+def mind_of(run: RunFolder) -> tuple[Subject, Texts]:
+    """The mind of a run, and what its edges say: its source if that has not changed since, else the run's copy of it.
+
+    RunError where both are another mind than that which was taught.
+    """
+    source = Path(run.manifest.source)
+    for path in (source, run.folder / SOURCES / source.name):
+        try:
+            compiled = load(path)
+            if compiled.graph is None or compiled.mind is None:
+                continue
+            subject = open_subject(path, compiled)
+            if _is_mind_of(run, subject):
+                edges = ((skill.name, edge) for skill in compiled.mind.skills for edge in skill.edges)
+                return subject, {(name, edge.target): text_after_name(edge.fact) for name, edge in edges}
+        except (MindError, OSError):
+            continue
+    raise RunError(
+        f"{source} has changed since this run of {run.manifest.lesson.skill} began, and its champions do not fit",
+        f"undo the change: {run.folder / SOURCES} has it as it was",
+    )
+
+
+def _is_mind_of(run: RunFolder, subject: Subject) -> bool:
+    lesson = run.manifest.lesson
+    names = {skill.name for skill in subject.graph.skills}, {task.name for task in subject.graph.tasks}
+    return (
+        {lesson.skill, lesson.master} <= names[0]
+        and lesson.task in names[1]
+        and learners(subject.graph, lesson) == run.manifest.learners
+        and fingerprint(subject.graph, lesson, subject.folder) == run.manifest.mind
+    )

@@ -1,4 +1,6 @@
-"""Messages of a page: JSON objects told apart by `say`, decoded by msgspec with the bounds of every part.
+"""What a page says, and texts as it may show them.
+
+Messages are JSON objects told apart by `say`, decoded by msgspec with the bounds of every part.
 
 Numbers of rows go into the header of a frame, which has 32 bits for each. It is msgspec, not cattrs, since bounds and
 unknown keys are part of its types, and cattrs comes with the extra of the language server alone.
@@ -9,12 +11,15 @@ from __future__ import annotations
 from typing import Annotated, Any, ClassVar, Literal
 
 import msgspec
+from mindrun.errors import MindError
+from mindrun.files.printable import visible
 from msgspec import Meta, Struct, field
 
 MAX_MESSAGE_BYTES = 16 << 10
 MAX_COLUMNS = 64  # that are asked for at once
 MAX_FORKS = 16
 MAX_SEED = (1 << 64) - 1
+SHOWN_CHARACTERS = 200
 
 Whole = Annotated[int, Meta(ge=0, le=(1 << 32) - 1)]
 Counted = Annotated[int, Meta(ge=1, le=(1 << 32) - 1)]
@@ -26,50 +31,55 @@ class RefusedError(ValueError):
     """What cannot be answered; the sentence is for who has asked."""
 
 
-class AskRows(Struct, tag_field="say", tag="rows", frozen=True, forbid_unknown_fields=True):
+class _Said(Struct, tag_field="say", frozen=True, forbid_unknown_fields=True):
+    """Whatever a page says."""
+
+
+class _Asked(_Said, frozen=True, kw_only=True):
+    """What is about the run that is seen, or a fork of it."""
+
+    fork: ForkNumber = 0
+
+
+class _AskTicks(_Asked, frozen=True, kw_only=True):
     """Ticks `first`, `first` + `every` … below `below`."""
 
     first: Whole = field(name="from")
     below: Whole = field(name="to")
     every: Counted = 1
-    fork: ForkNumber = 0
     ask: Whole = 0
 
 
-class AskColumns(Struct, tag_field="say", tag="columns", frozen=True, forbid_unknown_fields=True):
+class AskRows(_AskTicks, tag="rows", frozen=True):
+    """All columns of ticks."""
+
+
+class AskColumns(_AskTicks, tag="columns", frozen=True, kw_only=True):
     """Some columns of ticks."""
 
     columns: Annotated[tuple[Column, ...], Meta(min_length=1, max_length=MAX_COLUMNS)]
-    first: Whole = field(name="from")
-    below: Whole = field(name="to")
-    every: Counted = 1
-    fork: ForkNumber = 0
-    ask: Whole = 0
 
 
-class Run(Struct, tag_field="say", tag="run", frozen=True, forbid_unknown_fields=True):
+class Run(_Asked, tag="run", frozen=True):
     """Let a run go on to a tick."""
 
     to: Whole
-    fork: ForkNumber = 0
 
 
-class Why(Struct, tag_field="say", tag="why", frozen=True, forbid_unknown_fields=True):
+class Why(_Asked, tag="why", frozen=True):
     """What an actuator's command of a tick consists of."""
 
     tick: Counted
     actuator: Whole
-    fork: ForkNumber = 0
 
 
-class AskImage(Struct, tag_field="say", tag="image", frozen=True, forbid_unknown_fields=True):
+class AskImage(_Asked, tag="image", frozen=True):
     """What an environment draws of itself after a tick."""
 
     tick: Whole
-    fork: ForkNumber = 0
 
 
-class Change(Struct, tag_field="say", tag="change", frozen=True, forbid_unknown_fields=True):
+class Change(_Asked, tag="change", frozen=True):
     """A run beside the one seen, in which something is replaced in a tick and `lasts` for so many."""
 
     tick: Counted
@@ -77,10 +87,9 @@ class Change(Struct, tag_field="say", tag="change", frozen=True, forbid_unknown_
     column: Column
     value: Annotated[float, Meta(ge=0, le=1)]
     lasts: Counted = 1
-    fork: ForkNumber = 0
 
 
-class PlayChampion(Struct, tag_field="say", tag="champion", frozen=True, forbid_unknown_fields=True):
+class PlayChampion(_Said, tag="champion", frozen=True):
     """The champion of a generation of a training, instead of the run that is seen; `seed` None is the same world.
 
     A seed is told as text: JavaScript has no whole numbers of 64 bits.
@@ -125,3 +134,14 @@ def refusal(text: str | bytes, why: str) -> dict[str, Any]:
     except (msgspec.DecodeError, RecursionError, UnicodeError):
         of = _Question()
     return {"say": "refused", "why": why, "of": of.say, "ask": of.ask}
+
+
+def shown(text: str) -> str:
+    """The text with control and direction characters spelt out, and no longer than a page can show."""
+    spelt = visible(text[: SHOWN_CHARACTERS + 1])
+    return spelt if len(spelt) <= SHOWN_CHARACTERS else spelt[: SHOWN_CHARACTERS - 1] + "…"
+
+
+def error_text(error: MindError) -> str:
+    """What is wrong, and what to do."""
+    return shown("; ".join(filter(None, (str(error), error.hint))))

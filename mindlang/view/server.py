@@ -9,26 +9,45 @@ import os
 import secrets
 import webbrowser
 from asyncio import BaseTransport
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from concurrent.futures import Future
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import partial
+from http import HTTPStatus
+from pathlib import Path
 from threading import Thread
 from typing import Any
 
 from mindrun.errors import MindError
 from websockets.asyncio.server import Server, ServerConnection, serve
+from websockets.datastructures import Headers
 from websockets.exceptions import ConnectionClosed
 from websockets.frames import CloseCode
+from websockets.http11 import Request, Response
 
-from mindlang.view.http_answers import HttpAnswers
 from mindlang.view.learning import MAX_GENERATIONS
 from mindlang.view.messages import MAX_MESSAGE_BYTES, RefusedError, message, refusal
 from mindlang.view.session import MAX_HAPPENED, Session
 from mindlang.view.viewed import Viewed
 
 LOOPBACK = "127.0.0.1"
+FOLDER = Path(__file__).parent / "page"
+WEBSOCKET_PATH = "/rows"
+FILES: Mapping[str, tuple[str, str]] = {  # paths, their files, and what is in them
+    "/": ("index.html", "text/html; charset=utf-8"),
+    "/view.js": ("view.js", "text/javascript; charset=utf-8"),
+    "/view.css": ("view.css", "text/css; charset=utf-8"),
+}
+SECURITY: Mapping[str, str] = {
+    "Content-Security-Policy": "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; "
+    "img-src 'self' data:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'",
+    "X-Content-Type-Options": "nosniff",
+    "Referrer-Policy": "no-referrer",
+    "Cache-Control": "no-store",
+    "Cross-Origin-Opener-Policy": "same-origin",
+    "Cross-Origin-Resource-Policy": "same-origin",
+}
 MAX_VIEWERS, MAX_STRANGERS = 16, 64
 MAX_QUEUED_FRAMES = 4  # of what one viewer has said and nobody has read
 OPEN_SECONDS, TOKEN_SECONDS, SEND_SECONDS, CLOSE_SECONDS = 5.0, 5.0, 10.0, 0.5
@@ -113,7 +132,6 @@ class ViewServer:
         except OSError as error:
             raise PortError.of(self.port, error) from error
         self.port = server.sockets[0].getsockname()[1]
-        self._answers = HttpAnswers(self.port)
         await server.start_serving()
         self._session.begin()
         watching = asyncio.create_task(self._session.watch())
@@ -130,8 +148,8 @@ class ViewServer:
             self._handle,
             LOOPBACK,
             self.port,
-            process_request=lambda connection, request: self._answers.to_request(connection, request),
-            process_response=lambda connection, request, response: self._answers.secured(connection, request, response),
+            process_request=lambda _, request: answer(request, self.port),
+            process_response=lambda _, request, response: response.headers.update(SECURITY),
             server_header=None,
             compression=None,
             create_connection=partial(StrangerConnection, self._strangers),  # type: ignore[arg-type]  # as good as a class
@@ -232,6 +250,38 @@ class ViewServer:
         with suppress(TimeoutError):
             async with asyncio.timeout(CLOSE_SECONDS):
                 await asyncio.gather(*closing)
+
+
+def answer(request: Request, port: int) -> Response | None:
+    """A file, or why not; None where the websocket may be opened.
+
+    A browser that another site has led here says another host or origin: this server has no other name.
+    """
+    hosts = request.headers.get_all("Host")
+    if len(hosts) != 1 or hosts[0] not in (f"{LOOPBACK}:{port}", f"localhost:{port}"):
+        return _refusal(HTTPStatus.FORBIDDEN)
+    if request.method != "GET":
+        return _refusal(HTTPStatus.METHOD_NOT_ALLOWED, Allow="GET")
+    if request.path == WEBSOCKET_PATH:
+        own = request.headers.get_all("Origin") == [f"http://{hosts[0]}"]
+        return None if own else _refusal(HTTPStatus.FORBIDDEN)
+    if request.path not in FILES:
+        return _refusal(HTTPStatus.NOT_FOUND)
+    name, content = FILES[request.path]
+    try:
+        body = (FOLDER / name).read_bytes()
+    except OSError:
+        return _refusal(HTTPStatus.NOT_FOUND)
+    return _response(HTTPStatus.OK, body, content)
+
+
+def _refusal(status: HTTPStatus, **headers: str) -> Response:
+    return _response(status, f"{status.phrase}\n".encode(), "text/plain; charset=utf-8", **headers)
+
+
+def _response(status: HTTPStatus, body: bytes, content: str, **headers: str) -> Response:
+    told = {"Content-Type": content, "Content-Length": str(len(body)), "Connection": "close", **headers}
+    return Response(status.value, status.phrase, Headers(told), body)
 
 
 class BackgroundView:

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import asyncio
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from math import isfinite
 from typing import TYPE_CHECKING, Any
 
 from mindrun.errors import MindError
-from mindrun.graph.graph import Skill
 
 from mindlang.attribution.shares import shares
 from mindlang.view.about import node_numbers
@@ -26,13 +25,13 @@ from mindlang.view.messages import (
     RefusedError,
     Run,
     Why,
+    error_text,
 )
 from mindlang.view.rows import DOUBLE_BLOCK, SINGLE_BLOCK
-from mindlang.view.texts import error_text
-from mindlang.view.viewed import Fork, SeenMind, Viewed, data_url
+from mindlang.view.viewed import Fork, Viewed, data_url
 
 if TYPE_CHECKING:
-    from mindlang.view.viewed_champion import Champions
+    from mindlang.view.learning import Champions
 
 
 MAX_HAPPENED = 10_000  # events, and stops, that are told at once
@@ -210,19 +209,18 @@ def _begun(forked: Callable[[Change], Fork], change: Change) -> Fork:
 
 def command_shares(viewed: Viewed, asked: Why) -> dict[str, Any]:
     """What each path has contributed to a command; RefusedError where there is no such actuator or tick."""
-    mind = viewed.mind
-    graph = mind.policy.graph
+    flows, graph = viewed.flows, viewed.flows.graph
     if viewed.about["source"] == "environment":
         raise RefusedError("a program acts here: no path of influence has made its commands")
     if asked.actuator >= len(graph.actuators):
         raise RefusedError(f"there is no actuator {asked.actuator}")
     if asked.tick > viewed.known:
         raise RefusedError(f"tick {asked.tick} is not known yet")
-    found = shares(viewed.flows, ("actuator", asked.actuator), range(asked.tick, asked.tick + 1))
+    found = shares(flows, ("actuator", asked.actuator), range(asked.tick, asked.tick + 1))
     if not all(isfinite(number) for each in found.paths for number in (each.influence, each.share)):
         raise RefusedError(f"the influence of tick {asked.tick} is beyond all numbers")
-    nodes = _nodes_by_name(mind)
-    end = node_numbers(graph, mind.skills)["actuator", asked.actuator]
+    numbers = node_numbers(graph, [graph.skills[place] for place in flows.skills])
+    end, own = numbers["actuator", asked.actuator], graph.skill_numbers
     return {
         "say": "why",
         "fork": asked.fork,
@@ -233,7 +231,7 @@ def command_shares(viewed: Viewed, asked: Why) -> dict[str, Any]:
         "rounding": found.rounding,
         "paths": [
             {
-                "path": [*(nodes[name] for name in each.path[:-1]), end],
+                "path": [*(numbers["skill", own[name]] for name in each.path[:-1]), end],
                 "value": each.value,
                 "influence": each.influence,
                 "share": each.share,
@@ -243,9 +241,3 @@ def command_shares(viewed: Viewed, asked: Why) -> dict[str, Any]:
         "rest": found.rest.share,
         "rest_paths": found.rest.paths,
     }
-
-
-def _nodes_by_name(mind: SeenMind) -> dict[str, int]:
-    numbers = node_numbers(mind.policy.graph, mind.skills)
-    places: Sequence[Skill] = mind.policy.graph.skills
-    return {skill.name: numbers["skill", place] for place, skill in enumerate(places) if ("skill", place) in numbers}

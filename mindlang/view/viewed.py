@@ -3,27 +3,24 @@
 from __future__ import annotations
 
 import base64
-from collections.abc import Callable, Iterator, Mapping, Sequence, Set
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator, Mapping, Set
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import Any
 
 import cv2
 import numpy as np
-from mindrun.engine.think import Hierarchy, hierarchy
+from mindrun.engine.think import Hierarchy
 from mindrun.errors import MindError, reason
-from mindrun.graph.graph import Graph, Skill, Task
-from mindrun.graph.policy import Policy
-from mindrun.graph.weights import reachable
+from mindrun.graph.graph import Graph, Task
 from mindrun.sim.outside.seen import UNKNOWN_FAILURES, SeenEpisode, Sent
 from numpy.typing import NDArray
 
-from mindlang.run.edge_flow import EdgeFlows, FlowWalker
-from mindlang.view.messages import AskColumns, AskRows, Change, RefusedError
+from mindlang.run.edge_flow import EdgeFlows
+from mindlang.view.messages import AskColumns, AskRows, Change, RefusedError, error_text, shown
 from mindlang.view.rows import (
     DOUBLE_BLOCK,
-    FLOW,
     SINGLE_BLOCK,
     Chunk,
     Columns,
@@ -35,14 +32,12 @@ from mindlang.view.rows import (
     rows_frame,
     rows_that_fit,
 )
-from mindlang.view.texts import error_text, shown
 
 Drawing = Callable[[Sent], SeenEpisode]
 Image = NDArray[np.uint8]
 FLOW_ROWS = 1024  # of a curve of what an edge transmits
 MAX_COMPUTED_EDGES = 200_000  # in one answer, so that nobody waits long for another's
 MAX_KEPT_BYTES = 2 << 30  # of rows, of a run and of all that are beside it
-Answer = dict[str, Any]
 
 
 def drawing_of(graph: Graph, task: Task | None, folder: Path, seed: int) -> Drawing | None:
@@ -63,64 +58,42 @@ def data_url(image: Image, kind: str, quality: tuple[int, ...] = ()) -> str:
     return f"data:image/{kind};base64,{base64.b64encode(bytes(data)).decode()}"
 
 
-@dataclass(frozen=True, slots=True)
-class SeenMind:
-    """The mind of a run: the `skills` that its master reaches, made ready with the sources of their procedures.
-
-    `begins` are the ticks in which it was begun anew; of a recording they come with the rows.
-    """
-
-    policy: Policy
-    master: str
-    skills: Sequence[Skill]
-    hierarchy: Hierarchy
-    begins: Set[int]
-
-    @classmethod
-    def of(cls, policy: Policy, sources: Mapping[str, str], master: str, begins: Set[int] = frozenset({1})) -> SeenMind:
-        """The mind with that master; WeightsError or ProcedureError where a skill cannot be made ready."""
-        skills = reachable(policy.graph, master)
-        return cls(policy, master, skills, hierarchy(policy, sources, master), begins)
-
-    @property
-    def edges(self) -> int:
-        """How many edges its skills have."""
-        return sum(len(skill.edges) for skill in self.skills)
-
-
-@dataclass(eq=False, slots=True)
 class Viewed:
     """`about` is what does not change, `chunks` what is still to come; the first chunk begins with tick 0.
 
-    `forked` makes the same run with a change; RefusedError where that cannot be, None where nothing can be changed.
-    `delay` says, where it is so, what has to be done first and takes a while. `drawing` is of its environment. One
-    thread lets it `grow`; others may ask at the same time. What `is_live` grows without being asked.
+    In the ticks of `begins` the mind was begun anew; they come with the rows. `drawing` is of its environment. What
+    `is_live` grows without being asked. `forked` makes the same run with a change; RefusedError where that cannot be,
+    None where nothing can be changed. `delay` says, where it is so, what has to be done first and takes a while. One
+    thread lets it `grow`; others may ask at the same time.
     """
 
-    about: Mapping[str, Any]
-    columns: Columns
-    chunks: Iterator[Chunk]
-    mind: SeenMind
-    forked: Callable[[Change], Fork] | None = None
-    delay: Callable[[], str | None] = lambda: None
-    is_live: bool = False
-    drawing: Drawing | None = None
-    blocks: RowBlocks = field(default_factory=RowBlocks)
-    happened: list[tuple[int, int]] = field(default_factory=list)
-    stops: list[tuple[int, str]] = field(default_factory=list)
-    over: bool = False
-    ended_by: str | None = None
-    failed: str | None = None
-    flows: EdgeFlows = field(init=False)
-    _seen: SeenEpisode | None = None
+    def __init__(
+        self,
+        about: Mapping[str, Any],
+        columns: Columns,
+        chunks: Iterator[Chunk],
+        graph: Graph,
+        mind: Hierarchy,
+        begins: Set[int],
+        drawing: Drawing | None = None,
+        is_live: bool = False,
+    ) -> None:
+        self.about, self.columns, self.is_live, self.drawing = about, columns, is_live, drawing
+        self.flows = EdgeFlows(graph, mind, self._thought, begins)
+        self.forked: Callable[[Change], Fork] | None = None
+        self.delay: Callable[[], str | None] = lambda: None
+        self.blocks = RowBlocks()
+        self.happened: list[tuple[int, int]] = []
+        self.stops: list[tuple[int, str]] = []
+        self.over = False
+        self.ended_by: str | None = None
+        self.failed: str | None = None
+        self._chunks = chunks
+        self._seen: SeenEpisode | None = None
 
-    def __post_init__(self) -> None:
-        """One walker of what flows, for all who ask; rows are ticks, and in the first of them nothing flows."""
-
-        def rows(ticks: TickNumbers) -> tuple[Singles, Singles]:
-            return self.group("readings", ticks), self.group("influence", ticks)
-
-        self.flows = EdgeFlows(self.mind.policy.graph, FlowWalker(self.mind.hierarchy, rows, self.mind.begins))
+    def _thought(self, ticks: TickNumbers) -> tuple[Singles, Singles]:
+        """What the mind read and its influence; rows are ticks, and in the first of them nothing flows."""
+        return self.group("readings", ticks), self.group("influence", ticks)
 
     @property
     def known(self) -> int:
@@ -130,26 +103,23 @@ class Viewed:
     @property
     def kept_bytes(self) -> int:
         """Of its rows, and of what flowed in them."""
-        return self.blocks.kept_bytes + self.flows.walker.kept_bytes
+        return self.blocks.kept_bytes + self.flows.kept_bytes
 
     def grow(self, bytes_elsewhere: int = 0) -> None:
         """One chunk more; where a procedure fails, or memory ends, the run is over and `failed` says why.
 
         `bytes_elsewhere` are those of other runs, whose rows are kept at the same time.
         """
+        chunk = None
         if bytes_elsewhere + self.kept_bytes > MAX_KEPT_BYTES:
-            self.failed, self.over = (
-                f"more than {MAX_KEPT_BYTES >> 30} GiB of rows, of a run and its forks together, are not kept",
-                True,
-            )
-            return
-        try:
-            chunk = next(self.chunks, None)
-        except MindError as error:
-            self.failed = error_text(error)
-            chunk = None
-        except OSError as error:
-            self.failed, chunk = shown(reason(error)), None
+            self.failed = f"more than {MAX_KEPT_BYTES >> 30} GiB of rows, of a run and its forks together, are not kept"
+        else:
+            try:
+                chunk = next(self._chunks, None)
+            except MindError as error:
+                self.failed = error_text(error)
+            except OSError as error:
+                self.failed = shown(reason(error))
         if chunk is None:
             self.over = True
             return
@@ -162,45 +132,34 @@ class Viewed:
         """A frame of rows: as many as are known and fit."""
         fit = rows_that_fit(self.columns.width(DOUBLE_BLOCK), self.columns.width(SINGLE_BLOCK))
         ticks = self.blocks.ticks(asked.first, asked.below, asked.every, min(fit, self._computed_rows))
-        header = asked.fork, asked.ask, asked.first, asked.every
-        return rows_frame(*header, self.blocks.doubles(ticks), self.singles(ticks))
+        return rows_frame(asked, self.doubles(ticks), self.singles(ticks))
 
     def some_columns(self, asked: AskColumns) -> bytes:
         """A frame of columns; RefusedError where there is no such column."""
         for block, index in asked.columns:
             if index >= self.columns.width(block):
                 raise RefusedError(f"there is no column {index} in block {block}")
-        flows = any(block == SINGLE_BLOCK and index >= self.columns.kept_singles for block, index in asked.columns)
-        most = rows_that_fit(len(asked.columns), 0)
-        most = min(most, FLOW_ROWS, self._computed_rows) if flows else most
-        ticks = self.blocks.ticks(asked.first, asked.below, asked.every, most)
-        header = asked.fork, asked.ask, asked.first, asked.every
-        return columns_frame(*header, self._asked(asked.columns, ticks))
-
-    def _asked(self, asked: Sequence[tuple[int, int]], ticks: TickNumbers) -> Doubles:
-        """Columns [ticks, asked] as doubles; nothing else is gathered."""
         kept = self.columns.kept_singles
-        found = np.empty((len(ticks), len(asked)))
-        blocks, indices = np.array(asked).T
-        for chosen, read in (
-            (blocks == DOUBLE_BLOCK, lambda columns: self.blocks.doubles(ticks, columns)),
-            ((blocks == SINGLE_BLOCK) & (indices < kept), lambda columns: self.blocks.singles(ticks, columns)),
-            (
-                (blocks == SINGLE_BLOCK) & (indices >= kept),
-                lambda columns: self._flow(ticks)[:, columns - kept],
-            ),
-        ):
-            if chosen.any():
-                found[:, chosen] = read(indices[chosen])
-        return found
+        blocks, indices = np.array(asked.columns).T
+        is_flow = (blocks == SINGLE_BLOCK) & (indices >= kept)
+        most = rows_that_fit(len(asked.columns), 0)
+        most = min(most, FLOW_ROWS, self._computed_rows) if is_flow.any() else most
+        ticks = self.blocks.ticks(asked.first, asked.below, asked.every, most)
+        values = np.empty((len(ticks), len(asked.columns)))
+        for kept_block in (DOUBLE_BLOCK, SINGLE_BLOCK):
+            chosen = (blocks == kept_block) & ~is_flow
+            values[:, chosen] = self.blocks.kept(kept_block, ticks, indices[chosen])
+        if is_flow.any():
+            values[:, is_flow] = self.flows.transmitted(ticks)[:, indices[is_flow] - kept]
+        return columns_frame(asked, values)
+
+    def doubles(self, ticks: TickNumbers) -> Doubles:
+        """The doubles [ticks, columns]."""
+        return self.blocks.kept(DOUBLE_BLOCK, ticks)
 
     def singles(self, ticks: TickNumbers) -> Singles:
         """The singles [ticks, columns] with what each edge transmits."""
-        kept = self.blocks.singles(ticks)
-        return np.concatenate([kept, self._flow(ticks)], axis=1) if FLOW in self.columns.groups else kept
-
-    def _flow(self, ticks: TickNumbers) -> Singles:
-        return self.flows.walker.transmitted(ticks)
+        return np.concatenate([self.blocks.kept(SINGLE_BLOCK, ticks), self.flows.transmitted(ticks)], axis=1)
 
     def image(self, tick: int) -> Image:
         """What its environment draws after a tick [height, width, 3], red first.
@@ -219,15 +178,12 @@ class Viewed:
 
     def group(self, name: str, ticks: TickNumbers) -> NDArray[Any]:
         """The columns [ticks, count] of a group that is kept."""
-        group = self.columns[name]
-        columns = range(group.first, group.first + group.count)
-        is_double = group.block == DOUBLE_BLOCK
-        return self.blocks.doubles(ticks, columns) if is_double else self.blocks.singles(ticks, columns)
+        return self.blocks.kept(self.columns[name].block, ticks, self.columns[name].places)
 
     @property
     def _computed_rows(self) -> int:
         """Of how many rows it is computed at once what each edge transmits."""
-        return max(1, MAX_COMPUTED_EDGES // max(1, self.mind.edges))
+        return max(1, MAX_COMPUTED_EDGES // max(1, len(self.flows.links)))
 
 
 @dataclass(frozen=True, slots=True)

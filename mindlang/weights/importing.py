@@ -2,44 +2,112 @@
 
 from dataclasses import dataclass
 from hashlib import sha256
+from math import isfinite
 from pathlib import Path
 from typing import Any
 from urllib.parse import quote
 
 import numpy as np
 from mindrun.graph.graph import Lesson
-from mindrun.graph.weights import Weights, learners
+from mindrun.graph.policy import Policy
+from mindrun.graph.weights import Weights, learners, owners, reachable
+from mindrun.sim.rollout import Rollout
+from mindrun.sim.rollouts import rollout_for
+from mindrun.sim.trace import trace
 from mindrun.terminal.command_line import command_line
 from mindrun.train import RunError
+from mindrun.train.scoring import Purpose, Seeds, layouts, mark
+from numpy.typing import NDArray
 
+from mindlang.compiler.diagnostic import listed
 from mindlang.lock import FILE_ORIGIN, LockError, Taught, read_lock, read_locks
-from mindlang.lock.blobs import Origin, digest, record
+from mindlang.lock.blobs import digest, record
 from mindlang.lock.ready import elsewhere_sentences
 from mindlang.lock.status import status, trained_weights
 from mindlang.lock.world_facts import Worlds
 from mindlang.training.lesson_choice import chosen_lessons
-from mindlang.training.lock_update import Comparison
+from mindlang.training.lock_update import COMPARED_LAYOUTS, Comparison, needed_success
 from mindlang.training.subject import Subject
 from mindlang.weights.comparison import Deviation, compare
-from mindlang.weights.files import genome_in, read_bytes
-from mindlang.weights.network import Network, network_of
-from mindlang.weights.trial import Trial
+from mindlang.weights.network import Network, genome_in, network_of, read_bytes
+from mindlang.whatif.request import recorded_readings
+
+READINGS_SEED = 1  # of the run whose readings are taken
+LAYOUTS_SEED = 0  # of the layouts on which weights are tried
 
 
 @dataclass(frozen=True, slots=True)
-class Incoming:
-    """Weights in a file that fit a skill, and the lesson in which they will be tried."""
+class Trial:
+    """Weights in a file that fit a skill, and the lesson in which they are tried.
 
+    `others` are the weights of all other skills below the lesson's master.
+    """
+
+    subject: Subject
     path: Path
-    network: Network
-    lesson: Lesson
-    genome: Weights
     file_digest: str
+    network: Network
+    genome: Weights
+    lesson: Lesson
+    others: dict[str, Weights]
+    rollout: Rollout
+
+    def readings(self) -> NDArray[np.float32]:
+        """What the skill reads [ticks, inputs] in a run of the lesson's task with these weights."""
+        inputs = list(self.network.skill.inputs)
+        moments = trace(self.rollout, READINGS_SEED, self.genome).moments
+        return np.array([moment.readings[inputs] for moment in moments], np.float32)
+
+    def recorded(self, said: str) -> NDArray[np.float32]:
+        """What it has read in a recording, `day.rec` or `day.rec,ball.bundle`; MindError where that cannot be said."""
+        graph, columns = self.subject.graph, {}
+        for name in (read.partition(":")[0] for read in self.network.signature.reads):
+            for change in recorded_readings(graph, name, said, self.subject.source, 1, None):
+                columns[change.row] = change.values
+        rows = [columns[row] for row in self.network.skill.inputs]
+        return np.array(rows, np.float32).T
+
+    def score(self, old: Weights | None) -> tuple[float, Comparison | None]:
+        """The mean score on fresh layouts and, where there are old weights, both beside each other.
+
+        RunError where the new ones have no score that is a finite number.
+        """
+        genomes = [self.genome] if old is None else [self.genome, old]
+        scores = mark(self.rollout, np.stack(genomes), self._layouts).scores
+        if not isfinite(scores[0]):
+            why = f"{self.network.skill.name} with these weights: a reward or a command was not a finite number"
+            raise RunError(why, f"look at the weights, and at the rewards of the task {self.lesson.task}")
+        return float(scores[0]), None if old is None else Comparison(float(scores[1]), float(scores[0]))
+
+    def success(self) -> float | None:
+        """The share of runs that succeed on these layouts; None where the lesson does not need any."""
+        return needed_success(self.lesson, self.rollout, self.genome, self._layouts)
 
     @property
-    def origin(self) -> Origin:
-        """Where they come from, as a lock says it."""
-        return f"{FILE_ORIGIN}{quote(self.path.name, safe='')}", self.file_digest
+    def _layouts(self) -> Seeds:
+        last = self.lesson.generations
+        return layouts(LAYOUTS_SEED, attempt=0, generation=last, count=COMPARED_LAYOUTS, purpose=Purpose.COMPARISON)
+
+
+def open_trial(subject: Subject, name: str, path: Path) -> Trial:
+    """The trial of a skill's weights in a file; MindError where they do not fit, or nothing would come of them."""
+    network = network_of(subject.graph, name)
+    lesson = chosen_lessons(subject.graph, None, [name])[-1]
+    if name not in learners(subject.graph, lesson):
+        raise RunError(f"{name} is frozen", command_line("mindc", "edit", "unfreeze", subject.shown, name, "--write"))
+    data = read_bytes(path)
+    genome = genome_in(path, data, network)
+    needed = [each for each in owners(reachable(subject.graph, lesson.master)) if each != name]
+    others, refusals = trained_weights(subject.graph, subject.lock, needed)
+    if refusals:
+        first = [each for each in reversed(needed) if each not in others]
+        raise RunError(
+            f"{name} cannot be tried on {lesson.task} yet: {listed(refusals, 'and')}",
+            f"first: {command_line('mindc', 'train', subject.shown, *first)}",
+        )
+    policy = Policy(subject.graph, others)
+    rollout = rollout_for(policy, lesson.task, lesson.master, (name,), procedures=subject.folder)
+    return Trial(subject, path, sha256(data).hexdigest(), network, genome, lesson, others, rollout)
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,7 +118,7 @@ class Imported:
     those that were there. The lock `is_unchanged` where it had these very weights.
     """
 
-    incoming: Incoming
+    trial: Trial
     deviation: Deviation
     score: float
     scores: Comparison | None
@@ -60,79 +128,64 @@ class Imported:
 
     def data(self) -> dict[str, Any]:
         """The file, the deviation and the scores as plain data for JSON."""
-        incoming, compared = self.incoming, self.deviation
+        trial, compared = self.trial, self.deviation
         return {
-            "skill": incoming.network.skill.name,
-            "file": str(incoming.path),
-            "file_sha256": incoming.file_digest,
-            "weights": digest(incoming.genome),
+            "skill": trial.network.skill.name,
+            "file": str(trial.path),
+            "file_sha256": trial.file_digest,
+            "weights": digest(trial.genome),
             "kept": self.is_kept,
             "reference": compared.reference,
             "ticks": compared.ticks,
             "difference": compared.difference,
             "faults": compared.faults,
-            "task": incoming.lesson.task,
-            "master": incoming.lesson.master,
+            "task": trial.lesson.task,
+            "master": trial.lesson.master,
             "score": self.score,
             "score_before": None if self.scores is None else self.scores.old,
             "notes": [*self.notes],
         }
 
 
-def read_incoming(subject: Subject, skill: str, path: Path) -> Incoming:
-    """The weights of a skill in a file; MindError where they are not, and where nothing would come of them."""
-    network = network_of(subject.graph, skill)
-    lesson = chosen_lessons(subject.graph, None, [skill])[-1]
-    if skill not in learners(subject.graph, lesson):
-        raise RunError(f"{skill} is frozen", command_line("mindc", "edit", "unfreeze", subject.shown, skill, "--write"))
-    data = read_bytes(path)
-    return Incoming(path, network, lesson, genome_in(path, data, network), sha256(data).hexdigest())
-
-
-def import_weights(trial: Trial, incoming: Incoming, recording: str | None, force: bool) -> Imported:
+def import_weights(trial: Trial, recording: str | None, force: bool) -> Imported:
     """Compare and try weights, and write them into the lock, unless what is there does better; with `force` even then.
 
     LockError where the lock cannot be read or written.
     """
-    subject, genome = trial.subject, incoming.genome
-    rows = trial.recorded(recording) if recording else trial.readings(genome)
-    compared = compare(incoming.network, genome, rows)
-    old = _weights_there(subject, incoming)
-    if old is not None and np.array_equal(old, genome):
-        score, scores = trial.score(genome, None)
-        return Imported(incoming, compared, score, scores, True, True)
-    score, scores = trial.score(genome, old)
+    rows = trial.recorded(recording) if recording else trial.readings()
+    compared = compare(trial.network, trial.genome, rows)
+    old = _weights_there(trial)
+    if old is not None and np.array_equal(old, trial.genome):
+        return Imported(trial, compared, *trial.score(None), True, True)
+    score, scores = trial.score(old)
     if scores and scores.is_worse and not force:
-        return Imported(incoming, compared, score, scores, False)
-    return Imported(incoming, compared, score, scores, True, notes=_write(trial, incoming, score))
+        return Imported(trial, compared, score, scores, False)
+    return Imported(trial, compared, score, scores, True, notes=_write(trial, score))
 
 
-def _weights_there(subject: Subject, incoming: Incoming) -> Weights | None:
+def _weights_there(trial: Trial) -> Weights | None:
     """The weights in the lock to which the new ones go; None where there are none that fit, or they are damaged."""
-    name = incoming.network.skill.name
+    subject, name = trial.subject, trial.network.skill.name
     try:
-        lock = read_lock(subject.keep_path(incoming.lesson))
-        return trained_weights(subject.graph, lock, [name])[0].get(name)
+        return trained_weights(subject.graph, read_lock(subject.keep_path(trial.lesson)), [name])[0].get(name)
     except LockError:
         return None
 
 
-def _write(trial: Trial, incoming: Incoming, score: float) -> tuple[str, ...]:
+def _write(trial: Trial, score: float) -> tuple[str, ...]:
     """Write the line of the skill; a sentence for each skill that was taught with what was there before."""
-    subject, lesson, name = trial.subject, incoming.lesson, incoming.network.skill.name
-    reached = score, lesson.number, lesson.curriculum, trial.success(incoming.genome)
-    taught = Taught(lesson.task, lesson.master, False, 0, 0, 0, *reached)
+    subject, lesson, name = trial.subject, trial.lesson, trial.network.skill.name
+    reached = score, lesson.number, lesson.curriculum, trial.success()
     record(
         subject.keep_path(lesson),
         subject.graph,
-        {name: incoming.genome},
-        taught,
+        {name: trial.genome},
+        Taught(lesson.task, lesson.master, False, 0, 0, 0, *reached),
         trial.others,
         Worlds(subject.graph, subject.folder).of(lesson),
-        origins={name: incoming.origin},
+        origins={name: (f"{FILE_ORIGIN}{quote(trial.path.name, safe='')}", trial.file_digest)},
         accepted=True,
     )
     before = status(subject.graph, subject.lock, subject.folder)
     now = status(subject.graph, read_locks(subject.taught), subject.folder)
-    changed = {skill: state for skill, state in now.items() if state != before[skill]}
-    return (*elsewhere_sentences(changed),)
+    return (*elsewhere_sentences({skill: state for skill, state in now.items() if state != before[skill]}),)

@@ -1,23 +1,35 @@
-"""A skill that learns as other programs know it: a network of matrices without biases, and its genome as these."""
+"""A skill that learns as other programs know it: a network of matrices without biases, in a file of safetensors."""
 
+import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 
 import numpy as np
 from mindrun.errors import WeightsError
+from mindrun.files.atomic_write import write
 from mindrun.files.printable import visible
+from mindrun.files.regular_files import read_whole
 from mindrun.graph.graph import Graph, Skill
 from mindrun.graph.weights import Weights, genes
 from mindrun.kinds.registry import kinds
 from mindrun.numbers.arrays import Layers
 from mindrun.numbers.network import matrices
+from mindrun.terminal.command_line import command_line
 from numpy.typing import NDArray
+from safetensors import SafetensorError
+from safetensors.numpy import load, save
 
 from mindlang.lock import Signature
+from mindlang.lock.blobs import MAX_WEIGHTS_BYTES
 from mindlang.lock.signature import differences, places, signature
+from mindlang.lock.status import trained_weights
+from mindlang.training.subject import Subject
 
 MAX_SHOWN = 400  # characters of what another program wrote
 KEYS = ("mind.function", "mind.reads", "mind.sends")  # of the metadata: the signature of the weights
+LENGTH_BYTES = 8  # of the length of a file's header, before it
+METADATA = "__metadata__"
 
 Matrix = NDArray[np.float32]
 
@@ -131,3 +143,64 @@ def _in_order(network: Network, tensors: Tensors, genome: Weights) -> Weights:
 
 def _shortened(text: str) -> str:
     return visible(text if len(text) <= MAX_SHOWN else f"{text[:MAX_SHOWN]}…")
+
+
+def trained_network(subject: Subject, skill: str) -> tuple[Network, Weights]:
+    """A skill's network and the weights that it was taught; MindError where it has none that fit."""
+    network = network_of(subject.graph, skill)
+    weights, refusals = trained_weights(subject.graph, subject.lock, [skill])
+    if refusals:
+        raise WeightsError(refusals[0], command_line("mindc", "train", subject.shown, skill))
+    return network, weights[skill]
+
+
+def save_genome(path: Path, network: Network, genome: Weights) -> None:
+    """Write a genome as the matrices of its network; WeightsError where that fails."""
+    try:
+        write(path, to_bytes(network, genome))
+    except OSError as error:
+        raise WeightsError(f"{path} cannot be written: {error.strerror}") from error
+
+
+def to_bytes(network: Network, genome: Weights) -> bytes:
+    """A genome as a file of safetensors; the order in which it says of what the weights are is any."""
+    tensors = to_tensors(network, genome)
+    return save(dict(tensors.by_name), dict(tensors.metadata))
+
+
+def load_genome(path: Path, network: Network) -> Weights:
+    """The genome in a file of safetensors; WeightsError where it is not that of this network."""
+    return genome_in(path, read_bytes(path), network)
+
+
+def read_bytes(path: Path) -> bytes:
+    """What is in a file; WeightsError where it cannot be read or is too large."""
+    try:
+        return read_whole(path, MAX_WEIGHTS_BYTES)
+    except OSError as error:
+        raise WeightsError(f"{path} cannot be read: {error.strerror}") from error
+
+
+def genome_in(path: Path, data: bytes, network: Network) -> Weights:
+    """The genome in these bytes of a file."""
+    try:
+        return to_genome(network, from_bytes(data))
+    except WeightsError as error:
+        raise WeightsError(f"{path}: {error}", error.hint) from error
+
+
+def from_bytes(data: bytes) -> Tensors:
+    """The tensors of a file of safetensors; WeightsError where it is damaged, and for other numbers than float32."""
+    try:
+        by_name = load(data)
+    except (SafetensorError, KeyError, ValueError) as error:  # KeyError: numbers that numpy does not have
+        said = visible(f"{error!s:.200}".removeprefix("Error while deserializing: "))
+        raise WeightsError(f"it is no file of safetensors that can be read: {said}") from error
+    for name, tensor in by_name.items():
+        if tensor.dtype != np.float32:
+            shown = visible(f"{name:.60}")
+            raise WeightsError(
+                f"{shown} is {tensor.dtype}, and weights are float32", "save it as float32: skill.float()"
+            )
+    header = json.loads(data[LENGTH_BYTES : LENGTH_BYTES + int.from_bytes(data[:LENGTH_BYTES], "little")])
+    return Tensors(by_name, header.get(METADATA) or {})

@@ -18,10 +18,9 @@ from torch import Tensor, nn
 from torch.autograd import Function
 
 from mindlang.lock import lock_sources, read_locks
-from mindlang.lock.arrange import arrange
+from mindlang.lock.signature import arrange
 from mindlang.lock.status import trained_weights
-from mindlang.weights.files import load_genome, save_genome
-from mindlang.weights.network import Network, network_of
+from mindlang.weights.network import Network, load_genome, network_of, save_genome
 
 if TYPE_CHECKING:
     from mindlang.api import Mind

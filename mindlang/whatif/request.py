@@ -4,12 +4,21 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
 from mindrun.engine.changes import Change, ChangeError, What, change_of, silenced
-from mindrun.graph.graph import Graph
+from mindrun.graph.bundle import Bundle
+from mindrun.graph.graph import Graph, Sensor
+from mindrun.graph.named_readings import physical
+from mindrun.graph.recording_header import About, RecordingError
 from mindrun.graph.weights import reachable
+from mindrun.robot.recording import read
+from mindrun.terminal.command_line import command_line
+from mindrun.terminal.tick_count import ticks as in_words
 
 from mindlang.compiler.diagnostic import did_you_mean, listed
-from mindlang.whatif.recorded_readings import is_recording, recorded_readings
+from mindlang.run.recording import measured_in, running_bundle
+
+RECORDING_SUFFIX = ".rec"
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,11 +36,6 @@ class Request:
     sensors: tuple[str, ...] = ()
     settings: tuple[str, ...] = ()
     other: str | None = None
-
-    @property
-    def is_empty(self) -> bool:
-        """Whether nothing is to be different."""
-        return not self.parts
 
     @property
     def parts(self) -> tuple[str, ...]:
@@ -64,40 +68,39 @@ def changes_of(request: Request, graph: Graph, master: str, own: Path | None = N
 
     `own` is its source or bundle, with which a recording was made where nothing else is said.
     """
-    last = None if request.ticks is None else request.tick + request.ticks - 1
+    first = request.tick
+    last = None if request.ticks is None else first + request.ticks - 1
     found: list[Change] = []
     for skill in request.without:
         _refuse_unreached(graph, master, skill)
-        found += silenced(graph, skill, request.tick, last)
+        found += silenced(graph, skill, first, last)
     for words in request.sensors:
         name, said = _parts(words)
-        if is_recording(said):
-            found += recorded_readings(graph, name, said, own, request.tick, last)
-            continue
-        _, values = _assignment(words, "--sensor")
-        found += change_of(graph, "reading", name, [values], request.tick, last)
+        if said.partition(",")[0].endswith(RECORDING_SUFFIX):
+            found += recorded_readings(graph, name, said, own, first, last)
+        else:
+            found += change_of(graph, "reading", name, [_values(words, "--sensor")], first, last)
     for words in request.settings:
-        name, values = _assignment(words, "--set")
+        name, values = _parts(words)[0], _values(words, "--set")
         what = _what(graph, name)
         if what == "influence":
             _refuse_unreached(graph, master, name)
-        found += change_of(graph, what, name, [values], request.tick, request.tick if last is None else last)
+        found += change_of(graph, what, name, [values], first, last or first)
     return tuple(found)
-
-
-def _assignment(words: str, option: str) -> tuple[str, list[float]]:
-    """The name and the numbers of `proximity=0.5` or `proximity=1,0.5,1`."""
-    name, said = _parts(words)
-    try:
-        values = [float(value) for value in said.split(",")]
-    except ValueError:
-        raise ChangeError(f"{option} {words} does not say a number", f"write {option} {name or 'NAME'}=0.5") from None
-    return name, values
 
 
 def _parts(words: str) -> tuple[str, str]:
     name, _, said = words.partition("=")
     return name.strip(), said.strip()
+
+
+def _values(words: str, option: str) -> list[float]:
+    """The numbers of `proximity=0.5` or `proximity=1,0.5,1`."""
+    name, said = _parts(words)
+    try:
+        return [float(value) for value in said.split(",")]
+    except ValueError:
+        raise ChangeError(f"{option} {words} does not say a number", f"write {option} {name or 'NAME'}=0.5") from None
 
 
 def _what(graph: Graph, name: str) -> What:
@@ -121,3 +124,58 @@ def _refuse_unreached(graph: Graph, master: str, skill: str) -> None:
         known = skill in {each.name for each in graph.skills}
         said = f"{master} does not influence {skill}" if known else f"there is no skill called {skill}"
         raise ChangeError(said, did_you_mean(skill, names) or f"Below {master} there is {listed(names, 'and')}.")
+
+
+def recorded_readings(
+    graph: Graph, name: str, said: str, own: Path | None, first: int, last: int | None
+) -> tuple[Change, ...]:
+    """A sensor that reads in each tick from `first` on what it has read in this tick of a recording, while that lasts.
+
+    `said` is the recording and, behind a comma, the bundle or source that was running, without which that is `own`.
+    MindError where one cannot be read, the recording is of another bundle, or the sensor is another there.
+    """
+    file, _, bundle = said.partition(",")
+    path = Path(file)
+    [begin, *_] = change_of(graph, "reading", name, [[0.0]], first, last)  # or it says what is wrong
+    about, parts = read(path)
+    mind = _bundle(path, about, Path(bundle) if bundle else own, name, bool(bundle))
+    sensor = _sensor(path, about, mind, name)
+    ours = next(each for each in graph.sensors if each.name == name)
+    if sensor.width != ours.width:
+        many = "1 reading" if sensor.width == 1 else f"{sensor.width} readings"
+        raise ChangeError(f"{name} has {many} in {path}, and {ours.width} here", "take a recording of the same sensor")
+    if about.tick != graph.tick:
+        raise ChangeError(
+            f"a tick of {path} is {about.tick:g} s, and one of this run {graph.tick:g} s",
+            "take a recording of a mind with the same tick",
+        )
+    columns = slice(sensor.start, sensor.start + sensor.width)
+    nothing = np.zeros((0, sensor.width), np.float32)  # a recording may have no row
+    rows = np.concatenate([nothing, *(part["readings"][:, columns] for part in parts)])
+    if len(rows) < first:
+        raise ChangeError(f"{path} has {in_words(len(rows))}: there is no tick {first:,}", "say an earlier one")
+    end = len(rows) if last is None else min(last, len(rows))
+    read_then = rows[first - 1 : end].astype(float).T.tolist()
+    return tuple(Change("reading", begin.row + k, tuple(column), first, end) for k, column in enumerate(read_then))
+
+
+def _bundle(path: Path, about: About, running: Path | None, name: str, is_said: bool) -> Bundle:
+    """The bundle of a recording, which knows where the readings of each sensor stand in a row."""
+    hint = f"say the bundle that was running behind it: {command_line('--sensor', f'{name}={path},NAME.bundle')}"
+    if running is None:
+        raise ChangeError(f"nobody says which bundle was running when {path} was recorded", hint)
+    try:
+        return running_bundle(running, about)
+    except RecordingError as error:
+        if is_said:
+            raise
+        raise ChangeError(f"{path}: {error}", hint) from error
+
+
+def _sensor(path: Path, about: About, mind: Bundle, name: str) -> Sensor:
+    """A sensor whose readings are in a recording."""
+    found = next((sensor for sensor in mind.graph.sensors if sensor.name == name), None)
+    is_there = found is not None and measured_in(about, mind)[found.start]
+    if found is None or not is_there or (about.lacks_readings and name not in physical(mind.graph)):
+        raise ChangeError(f"{path} has no readings of {name}", f"it has those of {', '.join(about.sensors)}")
+    return found

@@ -1,6 +1,6 @@
 """`mindrun FILE.bundle`: drive the robot to which it is wired; without wiring say what it holds, or run it on readings.
 
-Needs numpy alone. `mindrun replay`, `report`, `calibrate` and `doctor` are in `tools/`.
+Needs numpy alone. `mindrun replay`, `report`, `calibrate`, `adopt` and `doctor` are in `cli/`.
 """
 
 import argparse
@@ -9,11 +9,11 @@ import os
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import redirect_stdout
+from itertools import count
 from math import isnan
 from typing import Any
 
-from mindrun.cli.driving_arguments import driving_parser
-from mindrun.cli.tools import run_tool, tools
+from mindrun.cli import driving_parser, run_tool, tools
 from mindrun.engine.engine import Engine
 from mindrun.errors import MindError, ProcedureError, ReadingsError, surroundings
 from mindrun.files.printable import visible
@@ -104,7 +104,7 @@ def _refuse_view_of_nothing(options: argparse.Namespace) -> None:
 
 def drive(options: argparse.Namespace) -> int:
     """Drive the robot, or a simulated one."""
-    from mindrun.robot.command import run as run_robot
+    from mindrun.robot.drive import run as run_robot
 
     standard_streams.detach_standard_error()
     with redirect_stdout(sys.stderr):  # a procedure may print
@@ -116,16 +116,15 @@ def _run(engine: Engine, options: argparse.Namespace) -> None:
 
     Where nobody takes them any more it ends.
     """
-    source = _source(options.readings)
     names = [actuator.name for actuator in engine.graph.actuators]
     skills = [skill.name for skill in engine.graph.skills]
     needed = read_by(engine.graph, options.master or engine.graph.master)
-    for number, given in _lines(options.readings):
+    for where, given in _lines(options.readings):
         try:
             with redirect_stdout(sys.stderr):
                 commands = engine.tick(vector(engine.graph, given, options.fill, needed))
         except ReadingsError as error:
-            raise ReadingsError(f"{source}, line {number}: {error}") from error
+            raise ReadingsError(f"{where}: {error}") from error
         line: dict[str, Any] = {"commands": dict(zip(names, commands.tolist(), strict=True))}
         if options.influence:
             influence = (None if isnan(number) else number for number in engine.influence.tolist())
@@ -138,33 +137,28 @@ def _run(engine: Engine, options: argparse.Namespace) -> None:
         print(f"{what} not sent, because a number was not finite", file=sys.stderr)
 
 
-def _lines(name: str) -> Iterator[tuple[int, dict[str, Any]]]:
-    """The number and the object of each line that is not empty."""
+def _lines(name: str) -> Iterator[tuple[str, dict[str, Any]]]:
+    """Where each line stands that is not empty, and the object that it is."""
+    source = "standard input" if name == "-" else name
     try:
         with open(0 if name == "-" else name, encoding="utf-8", closefd=name != "-") as file:
-            number = 0
-            while text := file.readline(MAX_LINE_CHARACTERS):
-                number += 1
-                if text.strip():
-                    yield number, _object(text, f"{_source(name)}, line {number}")
+            for number in count(1):
+                if not (text := file.readline(MAX_LINE_CHARACTERS)):
+                    return
+                if not text.strip():
+                    continue
+                where = f"{source}, line {number}"
+                try:
+                    given = json.loads(text)
+                except (ValueError, RecursionError) as error:
+                    raise ReadingsError(f'{where}: write readings as {{"sensor": 0.5}} ({error})') from error
+                if not isinstance(given, dict):
+                    raise ReadingsError(f'{where}: write readings as {{"sensor": 0.5}}')
+                yield where, given
     except UnicodeDecodeError as error:
-        raise ReadingsError(f"{_source(name)} is not UTF-8 text") from error
+        raise ReadingsError(f"{source} is not UTF-8 text") from error
     except OSError as error:
         raise ReadingsError(f"cannot read {name}: {error.strerror}") from error
-
-
-def _source(name: str) -> str:
-    return "standard input" if name == "-" else name
-
-
-def _object(text: str, where: str) -> dict[str, Any]:
-    try:
-        value = json.loads(text)
-    except (ValueError, RecursionError) as error:
-        raise ReadingsError(f'{where}: write readings as {{"sensor": 0.5}} ({error})') from error
-    if not isinstance(value, dict):
-        raise ReadingsError(f'{where}: write readings as {{"sensor": 0.5}}')
-    return value
 
 
 def _json(value: object, indent: int | None = None) -> str:

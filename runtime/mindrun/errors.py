@@ -12,7 +12,12 @@ MAX_LETTERS = 100
 
 
 class MindError(Exception):
-    """Something a user gave is wrong: the text says what, and `hint`, where there is one, what to do."""
+    """Something a user gave is wrong: the text says what, and `hint`, where there is one, what to do.
+
+    >>> raise mindrun.MindError("there is no skill called Avoyd", "Did you mean Avoid?")
+    Traceback (most recent call last):
+    mindrun.errors.MindError: there is no skill called Avoyd
+    """
 
     def __init__(self, message: str, hint: str = "") -> None:
         super().__init__(message)

@@ -11,9 +11,9 @@ from mindrun.engine.engine import procedure_sources
 from mindrun.graph.bundle import Bundle
 from mindrun.graph.graph import Graph
 from mindrun.graph.policy import Policy
-from mindrun.graph.recording_header import About, about_of_line
+from mindrun.graph.recording_header import About
 from mindrun.graph.weights import reachable
-from mindrun.robot.recording import whole_rows
+from mindrun.robot.recording import read_growing
 
 from mindlang.breakpoints.breakpoint import Breakpoint, Fault, Happens, Holds, Reaches, Stopped, Transmission
 from mindlang.breakpoints.resolve import breakpoints_of
@@ -21,7 +21,7 @@ from mindlang.breakpoints.watch import RecordingWatcher, recording_subject, watc
 from mindlang.compiler.source import Source
 from mindlang.lock.ready import ReadyMind
 from mindlang.run.recorded_run import record_run
-from mindlang.run.run_recording import run_bytes
+from mindlang.run.recording import run_bytes
 from mindlang.run.setup import RunSetup
 from tests.breakpoints.subjects import subject
 from tests.calling import Call
@@ -57,9 +57,8 @@ def test_the_recording_of_a_run_stops_where_the_run_does(
     policy = Policy(graph, weights_for(graph, scale, np.random.default_rng(seed % 1000)))
     setup = RunSetup(graph.tasks[0], graph.master, ReadyMind(policy, (), ()), PROCEDURES)
     run = record_run(setup, setup.rollout(), seed)
-    line, _, written = run_bytes(run, setup, seed).partition(b"\n")
-    about = about_of_line(line + b"\n", Path("run.rec"))
-    rows = np.concatenate([*whole_rows(Path("run.rec"), about, [written])])
+    about, parts = read_growing(Path("run.rec"), iter([run_bytes(run, setup, seed)]))
+    rows = np.concatenate([*parts])
     is_late = not np.array_equal(rows["commands"], run.commands)  # a run has what reaches an actuator with a delay
     asked = [*breakpoints(graph, 0 if is_late else len(graph.actuators))]
     bundle = Bundle(policy, procedure_sources(graph, PROCEDURES))
@@ -101,7 +100,7 @@ def test_what_happens_to_a_robot_is_found_where_it_begins(facts: list[tuple[int,
 def test_events_of_its_task_are_found_in_a_recording_with_a_world(mindc: Call, rules: Path, tmp_path: Path) -> None:
     from mindrun.robot.recording import read
 
-    from mindlang.run.running_bundle import running_bundle
+    from mindlang.run.recording import running_bundle
 
     rec = tmp_path / "run.rec"
     assert mindc("run", rules, "--task", "Roam", "--seed", 3, "--record", rec).code == 0

@@ -4,7 +4,7 @@ import numpy as np
 
 from mindlang.breakpoints.breakpoint import Breakpoint, Reaches
 from mindlang.breakpoints.watch import Stop
-from mindlang.cli._run_to_breakpoint import stop_summary, stopped_data
+from mindlang.cli.run import stop_summary, stopped_data
 
 BY = [
     {"file": "a.break", "line": 2, "text": "stop on collision", "values": {"times": 3.0}},

@@ -57,8 +57,10 @@ def test_the_document_in_python_stops_where_the_command_does(
     shutil.copytree(COLLECT.parent, tmp_path, ignore=shutil.ignore_patterns("runs"), dirs_exist_ok=True)
     code = (ROOT / "docs" / "breakpoints.md").read_text().partition("```python\n")[2].partition("```")[0]
     path, text = tmp_path / "collect.break", "stop when Avoid influences left_wheel above 70% and holding > 0.5\n"
+    mind = tmp_path / "collect.mind"
+    mind.write_text(mind.read_text().replace("lasts 30000 ticks", "lasts 1500 ticks"))
     monkeypatch.chdir(tmp_path)
-    data = found(mindc, COLLECT, path, text, "--task", "Collect", "--seed", 3)
+    data = found(mindc, mind, path, text, "--task", "Collect", "--seed", 3)
     scope: dict[str, Any] = {}
     exec(code, scope)
     assert scope["compiled"].graph.skills != scope["setup"].ready.policy.graph.skills

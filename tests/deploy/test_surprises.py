@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 
+from mindlang.robot.deployment import parse_state
 from mindlang.robot.remote import script
-from mindlang.robot.remote_state import parse_state
 from tests.calling import Call
 from tests.deploy.robot import HOST, FakeRobot, program
 

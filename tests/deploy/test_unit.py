@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from mindlang.robot.unit import unit
+from mindlang.robot.release import unit
 
 
 def read(text: str) -> configparser.ConfigParser:

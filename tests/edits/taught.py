@@ -7,8 +7,8 @@ from mindrun.graph.weights import genes
 
 from mindlang.compiler.compile import load
 from mindlang.lock import Taught, lock_path, read_lock, read_locks
-from mindlang.lock.arrange import arrange
 from mindlang.lock.blobs import record
+from mindlang.lock.signature import arrange
 from mindlang.lock.status import Status, status
 from mindlang.lock.world_facts import Worlds
 

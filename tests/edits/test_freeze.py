@@ -9,7 +9,7 @@ from mindrun.train.manifest import fingerprint
 
 from mindlang.compiler.compile import load
 from mindlang.lock import lock_path, read_lock
-from mindlang.lock.arrange import arrange
+from mindlang.lock.signature import arrange
 from tests.calling import Call
 from tests.edits.taught import teach, write_mind
 from tests.train.test_train_command import MIND

@@ -15,11 +15,10 @@ from typing import Any
 import pytest
 
 from mindlang.compiler.compile import load
-from mindlang.editing.apply import apply_edit
+from mindlang.editing.apply import apply_edit, write
 from mindlang.editing.edits.rename import rename
 from mindlang.editing.project import EditError, open_project
 from mindlang.editing.transaction import UNDO_NAME, TransactionError, change, undo
-from mindlang.editing.writing import write
 from tests.edits.changing import ONE, OTHER, files
 
 CHANGING = Path(__file__).parent / "changing.py"

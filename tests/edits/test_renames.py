@@ -16,9 +16,9 @@ from mindlang.compiler.compile import load
 from mindlang.compiler.references import introductions
 from mindlang.editing.apply import apply_edit
 from mindlang.editing.edits import edit
-from mindlang.editing.graph_names import now_called, renamed
 from mindlang.editing.lock_update import new_names, update_locks
 from mindlang.editing.project import EditError, Project, open_project
+from mindlang.editing.world_names import now_called, renamed
 from mindlang.lock import Entry, Lock, Taught, lock_sources, lock_text, read_locks
 from mindlang.lock.signature import signature
 from mindlang.lock.status import Status, Trained, status

@@ -17,16 +17,15 @@ from mindrun.graph.weights import genes
 from mindrun.kinds.sensors.battery import Battery
 
 from mindlang.compiler.compile import load
-from mindlang.editing.apply import apply_edit
+from mindlang.editing.apply import apply_edit, write
 from mindlang.editing.edits import edit
 from mindlang.editing.lock_update import update_locks
 from mindlang.editing.project import EditError, MindChange, open_project
 from mindlang.editing.summary import summarise
-from mindlang.editing.writing import write
 from mindlang.lock import lock_path, read_lock, write_lock
-from mindlang.lock.arrange import arrange
 from mindlang.lock.blobs import FOLDER, blob
 from mindlang.lock.ready import make_ready
+from mindlang.lock.signature import arrange
 from mindlang.lock.status import NotLearning, Stale, Trained, Untaught
 from tests.draws import cases
 from tests.edits.taught import MIND, statuses, teach, write_mind

@@ -15,7 +15,7 @@ pytest.importorskip("gymnasium")
 
 from mindlang.environments import TaskEnv, TaskVectorEnv
 from mindlang.environments.episodes import numbers
-from mindlang.run.layouts import layouts
+from mindlang.run.many_runs import layouts
 
 
 @pytest.fixture(scope="module")

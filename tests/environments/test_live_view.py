@@ -20,7 +20,7 @@ from websockets.sync.client import connect
 from websockets.typing import Origin
 
 from mindlang.run.recorded_run import record_run
-from mindlang.run.run_recording import run_bytes
+from mindlang.run.recording import run_bytes
 from tests.calling import write_rules
 from tests.view.serving import ViewingClient
 

@@ -19,7 +19,7 @@ from tests.edits.taught import MIND, teach, write_mind
 pytest.importorskip("gymnasium")
 
 from mindlang.environments import TaskEnv, TaskVectorEnv
-from mindlang.environments.agent import Agent
+from mindlang.environments.episodes import Agent
 
 SEEDS = (4, 5, 11)
 TICKS = 60

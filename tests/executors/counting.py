@@ -10,11 +10,9 @@ import numpy as np
 from mindrun.graph.run_scores import Scores
 from numpy.typing import NDArray
 
-from mindlang.executors.jobs import Assignment, Done, Work
-from mindlang.executors.worker import answer
+from mindlang.executors.jobs import Done, Work, answer
 
 LENGTH, TICKS = 3, 100
-ASSIGNMENT = Assignment(b"no bundle", "Count", "Count")
 TASK: Any = SimpleNamespace(
     name="Count", rewards=(None,) * 2, events=(None,) * 3, ends=(None,), ticks=TICKS, scene=None, can_succeed=False
 )
@@ -60,7 +58,6 @@ class Shuffling:
 
     choices: Iterable[int]
     width: int = 2
-    assignment: Assignment = ASSIGNMENT
     has_begun: bool = True
     jobs: list[tuple[int, Work]] = field(default_factory=list)
     scorer: Counting = field(default_factory=Counting)

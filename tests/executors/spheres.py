@@ -6,12 +6,9 @@ from itertools import count
 from time import sleep
 from typing import Any
 
-import numpy as np
-
 from mindlang.executors import cluster_jobs
-from mindlang.executors.jobs import Assignment, Done
-from mindlang.executors.worker import answer
-from tests.train.climbing import LENGTH, Results, Sphere
+from mindlang.executors.jobs import Assignment, Done, answer
+from tests.train.climbing import Results, Sphere
 
 ASSIGNMENT = Assignment(b"no bundle", "Climb", "Climb")
 SLOW_SECONDS = 0.02
@@ -78,11 +75,3 @@ def raising(build: Any, assignment: bytes, work: bytes) -> object:
 
 def of_another_build(build: Any, assignment: bytes, work: bytes) -> object:
     return cluster_jobs.answer_here({**build, "numpy": "1.0"}, assignment, b"that nobody unpickles")
-
-
-class Once:
-    """A single call of what scores."""
-
-    def by(self, scorer: Any, clock: Any) -> int:
-        scorer.score(np.zeros((1, LENGTH), np.float32), np.zeros(1, np.uint64))
-        return 1

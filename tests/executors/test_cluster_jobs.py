@@ -21,8 +21,7 @@ pytest.importorskip("distributed", reason="distributed is not installed: pip ins
 
 from mindlang.executors import cluster_jobs
 from mindlang.executors.cluster_jobs import ClusterJobs
-from mindlang.executors.connection import connect
-from mindlang.executors.scheduler import destination
+from mindlang.executors.dask import connect, destination
 
 ROOT = Path(__file__).parents[2]
 KILLS = 2

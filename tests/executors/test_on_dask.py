@@ -12,7 +12,7 @@ from time import sleep
 
 import pytest
 
-from mindlang.executors.scheduler import TLS, sbatch
+from mindlang.executors.dask import TLS, sbatch
 from tests.executors.test_on import RUN, called
 from tests.train.test_train_command import LONG, MIND, mindc
 

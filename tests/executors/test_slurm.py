@@ -12,7 +12,7 @@ if find_spec("dask_jobqueue") is None:  # whose import takes Ctrl-C away from th
     pytest.skip("dask-jobqueue is not installed: pip install 'mindlang[slurm]'", allow_module_level=True)
 pytest.importorskip("cryptography", reason="cryptography is not installed: pip install 'mindlang[slurm]'")
 
-from mindlang.executors import slurm
+from mindlang.executors import jobs, slurm
 from tests.executors.test_on import TAUGHT, weights
 from tests.train.test_train_command import MIND, mindc
 
@@ -70,7 +70,7 @@ def test_what_a_job_is_has_to_be_said(tmp_path: Path, cluster: Path) -> None:
 
 
 def test_without_the_package_its_line_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(slurm, "find_spec", lambda name: None)
-    with pytest.raises(slurm.MindError, match="which is not installed") as error:
+    monkeypatch.setattr(jobs, "find_spec", lambda name: None)
+    with pytest.raises(jobs.MindError, match="which is not installed") as error:
         slurm.flaw("2")
     assert error.value.hint == "pip install 'mindlang[slurm]'"

@@ -6,18 +6,17 @@ from pathlib import Path
 import pytest
 from mindrun.robot.driver_support import PIN
 
+from docs.reference.pages import reference
 from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.source import Source
 from mindlang.explaining.article import Article
-from mindlang.explaining.drivers import NOUNS, driver_articles
-from mindlang.explaining.markdown import card, reference
+from mindlang.explaining.drivers import GPIO_PINS, HEADER_PINS, NAMED_PINS, NOUNS, driver_articles
+from mindlang.explaining.markdown import card
 from mindlang.explaining.sections import sections
 from mindlang.explaining.terminal import LINE_COLUMNS, article_text
-from mindlang.explaining.wiring import GPIO_PINS, HEADER_PINS, NAMED_PINS
 from mindlang.robot.driver import wired
-from mindlang.robot.nodes import Table
 from mindlang.robot.options import driver_options, drivers
-from mindlang.robot.read import read
+from mindlang.robot.read import Table, read
 
 every_driver = pytest.mark.parametrize("article", driver_articles(), ids=lambda each: f"{each.sort}-{each.name}")
 
@@ -60,7 +59,7 @@ def test_an_example_is_a_wire(article: Article) -> None:
     for text in article.right:
         table = read(Source("robot.yaml", text, Path()), findings)
         assert isinstance(table, Table), [each.message for each in findings.diagnostics]
-        (entry,) = table.entries
+        (entry,) = table.entries.values()
         assert isinstance(entry.value, Table)
         found = wired(noun_of(article), entry.key, entry.value, findings)
         assert [each.message for each in findings.diagnostics] == []
@@ -86,7 +85,7 @@ def test_the_pins_of_the_header_are_those_of_a_raspberry_pi() -> None:
     spi = [NAMED_PINS[name] for name in ("MOSI", "MISO", "SCLK", "CE0")]
     assert [GPIO_PINS[gpio] for gpio in (10, 9, 11, 8)] == spi
     supplies = {1, 17, 2, 4, 6, 9, 14, 20, 25, 30, 34, 39}
-    assert sorted([*GPIO_PINS.values(), *supplies]) == list(range(1, HEADER_PINS + 1))
+    assert sorted([*GPIO_PINS, *supplies]) == list(range(1, HEADER_PINS + 1))
 
 
 @every_driver

@@ -8,7 +8,7 @@ from zipfile import ZipFile
 
 import pytest
 
-from mindlang.explaining.codes import codes
+from mindlang.explaining.collection import codes
 from tests.calling import Call, caller
 from tests.project.sources import ROOT
 

@@ -4,10 +4,9 @@ import json
 from argparse import ArgumentParser
 
 import pytest
-from mindrun.cli.driving_arguments import driving_parser
-from mindrun.cli.tools import tool_parser, tools
+from mindrun.cli import driving_parser, tool_parser, tools
 
-from mindlang.cli._mindrun_articles import mindrun_articles
+from mindlang.cli._articles import mindrun_articles
 from tests.calling import Call
 from tests.project.sources import ROOT
 

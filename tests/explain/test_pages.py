@@ -5,26 +5,24 @@ from xml.etree import ElementTree
 
 import pytest
 
-from mindlang.cli._command_articles import command_reference
+from docs.reference.pages import PAGES, pictures
 from mindlang.explaining.collection import articles
-from mindlang.explaining.pages import PAGES, all_pictures
 from tests.project.sources import ROOT
 
 PICTURE_BYTES = 16_000
-ALL = {**PAGES, "commands.md": command_reference}
 
 
-@pytest.mark.parametrize("name", ALL)
+@pytest.mark.parametrize("name", PAGES)
 def test_what_is_published_is_what_the_program_says(name: str) -> None:
     published = ROOT / "docs" / name
     if os.environ.get("UPDATE"):
-        published.write_text(ALL[name](), encoding="utf-8")
-    assert published.read_text(encoding="utf-8") == ALL[name]()
+        published.write_text(PAGES[name](), encoding="utf-8")
+    assert published.read_text(encoding="utf-8") == PAGES[name]()
 
 
-@pytest.mark.parametrize("name", all_pictures())
+@pytest.mark.parametrize("name", pictures())
 def test_what_is_drawn_is_what_the_program_draws(name: str) -> None:
-    drawn, published = all_pictures()[name](), ROOT / "docs" / name
+    drawn, published = pictures()[name](), ROOT / "docs" / name
     if os.environ.get("UPDATE"):
         published.parent.mkdir(exist_ok=True)
         published.write_text(drawn, encoding="utf-8")
@@ -35,7 +33,7 @@ def test_what_is_drawn_is_what_the_program_draws(name: str) -> None:
 
 def test_no_picture_is_left_over_and_each_is_shown() -> None:
     published = {f"pictures/{path.name}" for path in (ROOT / "docs" / "pictures").iterdir()}
-    assert published == set(all_pictures())
+    assert published == set(pictures())
     text = "".join(make() for make in PAGES.values())
     assert all(f"]({name})" in text for name in published)
 

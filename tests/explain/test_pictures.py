@@ -6,9 +6,9 @@ from xml.etree import ElementTree
 
 import pytest
 
+from docs.reference import around, bodies, marks, svg
+from docs.reference.of_kinds import OF_KINDS
 from mindlang.explaining.kinds import NOUNS, kind_articles
-from mindlang.explaining.pictures import around, bodies, marks, svg
-from mindlang.explaining.pictures.of_kinds import OF_KINDS
 
 ARTICLES = {(each.noun, each.name): each for each in kind_articles()}
 WITHOUT_PICTURE = {  # a number of their own, or of the environment's

@@ -6,7 +6,7 @@ import mindrun
 import pytest
 
 import mindlang
-from mindlang.explaining.python_reference import python_reference
+from docs.reference.python_reference import python_reference
 from tests.project.sources import ROOT
 
 PUBLISHED = ROOT / "docs" / "python-reference.md"

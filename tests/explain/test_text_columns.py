@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 from rich.console import Console
 from rich.text import Text
 
-from mindlang.cli._text_columns import columns
+from mindlang.cli._terminal import text_columns
 
 WORDS = st.text("abcdefGH+_", min_size=1, max_size=18)
 ROWS = st.lists(st.tuples(WORDS, WORDS, st.lists(WORDS | st.just("\n"), max_size=12)), max_size=5)
@@ -13,7 +13,7 @@ ROWS = st.lists(st.tuples(WORDS, WORDS, st.lists(WORDS | st.just("\n"), max_size
 
 @given(ROWS, st.integers(30, 120))
 def test_whole_and_within_the_edge(rows: list[tuple[str, str, list[str]]], width: int) -> None:
-    found = columns(
+    found = text_columns(
         Console(width=width), [((Text(name), Text(word)), Text(" ".join(body))) for name, word, body in rows]
     ).plain
     words = [word for name, word, body in rows for word in (name, word, *" ".join(body).split())]

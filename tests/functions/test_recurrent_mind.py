@@ -14,10 +14,9 @@ from mindrun.graph.weights import genes
 from mindrun.graph.wiring import SensorWire
 from mindrun.robot.loop import Loop
 from mindrun.robot.rate import Rate
-from mindrun.robot.reading_filter import ReadingFilter
 from mindrun.robot.recording import About, Recorder
 from mindrun.robot.replay import replay
-from mindrun.robot.sampling import Sampler
+from mindrun.robot.sensing import ReadingFilter, Sampler
 from mindrun.sim.commanded_world import World
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace

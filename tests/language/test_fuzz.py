@@ -27,7 +27,7 @@ SEEDS = [RIGHT, *EXAMPLES]
 WORD = re.compile(rb"\w+|\s+|.", re.DOTALL)
 MOST_CALLS = 3_000_000  # what is drawn here takes 300,000 at most: ten times as many is another order of work
 
-relaxed = settings(max_examples=cases(1500), suppress_health_check=list(HealthCheck), database=None, derandomize=True)
+relaxed = settings(max_examples=cases(1000), suppress_health_check=list(HealthCheck), database=None, derandomize=True)
 
 
 def sane(found: Compiled) -> None:
@@ -83,7 +83,7 @@ def insert(data: bytes, rng: Random) -> bytes:
     return data[:at] + rng.choice(odd).encode("utf-8", "surrogatepass") + data[at:]
 
 
-@pytest.mark.parametrize("chunk", range(7))
+@pytest.mark.parametrize("chunk", range(4))
 def test_mutations_of_the_examples(chunk: int, project: Path) -> None:
     path = project / "mutant.mind"
     for seed in range(cases(1000)):
@@ -177,7 +177,7 @@ def test_a_number_of_any_size_stands_anywhere(size: str) -> None:
         sane(compile_source(Source("fuzz.mind", text[: number.start()] + size + text[number.end() :])))
 
 
-@pytest.mark.parametrize("example", ["tour/tour", "sort/sort", "soccer/soccer", "line/line", "light/light"])
+@pytest.mark.parametrize("example", ["tour/tour", "soccer/soccer"])
 @pytest.mark.parametrize("said", ["number broken is nothing", "number broken is 1/0"])
 def test_a_number_that_is_declared_wrongly_stands_anywhere(example: str, said: str) -> None:
     path = TOUR.parents[1] / f"{example}.mind"
@@ -209,7 +209,7 @@ def test_lines_of_one_shape_have_one_tree(code: str) -> None:
     same_as_lark(code)
 
 
-@pytest.mark.parametrize("chunk", range(10))
+@pytest.mark.parametrize("chunk", range(6))
 def test_mutants_of_one_shape_have_one_tree(chunk: int) -> None:
     lines = [line.partition("#")[0] for seed in SEEDS for line in seed.read_text(encoding="utf-8").split("\n")]
     rng = Random(chunk)

@@ -7,7 +7,7 @@ from benchmarks.shapes import SHAPES
 
 LINES, WORDS = 40, 160  # a line of a few words is explained otherwise than a long one
 FEW_CALLS = 1000
-FEW = ("skills that nobody reaches", "one sensor again", "things not there")
+FEW = ("skills that nobody reaches", "things not there")
 ALL = [pytest.param(shape, marks=() if shape in FEW else pytest.mark.slow) for shape in SHAPES]
 ALLOWED = {
     ("actuators", "prove"),  # bounds are proved of each actuator through each skill
@@ -21,7 +21,7 @@ def test_twice_the_lines_are_twice_the_work(shape: str, monkeypatch: pytest.Monk
         "mindlang.compiler.diagnostic.MAX_DIAGNOSTICS", 4
     )  # what is done for the first few lines only is done here, too
     monkeypatch.setattr("mindlang.editing.unified_diff.MAX_COMPARED_LINES", 10)
-    monkeypatch.setattr("mindlang.lint.fixing.MAX_FIX_ROUNDS", 2)
+    monkeypatch.setattr("mindlang.lint.lint.MAX_FIX_ROUNDS", 2)
     first = WORDS if shape.startswith("one long") else LINES
     slow = {}
     for command in COMMANDS:

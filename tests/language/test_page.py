@@ -10,10 +10,8 @@ from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.parse import parse
 from mindlang.compiler.source import Source, Span
 from mindlang.compiler.splice import Splice, spliced
-from mindlang.editing.insertion import declare, text_of, without_declarations
-from mindlang.editing.lines import first_line, insert_below, remove_lines
-from mindlang.editing.naming import refuse_misnamed
-from mindlang.editing.project import EditError
+from mindlang.editing.insertion import declare, first_line, insert_below, remove_lines, text_of, without_declarations
+from mindlang.editing.project import EditError, refuse_misnamed
 from mindlang.editing.unified_diff import unified
 
 lines = st.lists(

@@ -11,11 +11,10 @@ from mindrun.graph.policy import Policy
 from mindrun.graph.weights import genes
 
 from mindlang.lock import Taught, lock_text, read_lock, write_lock
-from mindlang.lock.arrange import arrange
 from mindlang.lock.blobs import digest, record
-from mindlang.lock.lessons import needed_skills
 from mindlang.lock.report import rows, survival
-from mindlang.lock.status import Stale, Trained, Untaught, status, trained_weights
+from mindlang.lock.signature import arrange
+from mindlang.lock.status import Stale, Trained, Untaught, needed_skills, status, trained_weights
 from mindlang.lock.world_changes import changes
 from mindlang.lock.world_facts import Worlds
 from tests.likeness.test_meaning import ALIKE, GO, SCHOOL, TOP, graph, named

@@ -10,11 +10,11 @@ from hypothesis import strategies as st
 from mindrun.kinds.functions.function import Function
 from mindrun.train import RunError
 
-from mindlang.compiler.counterparts import counterparts
+from mindlang.compiler.resolve.curricula import counterparts
 from mindlang.lock import read_lock
-from mindlang.lock.arrange import arrange
+from mindlang.lock.signature import arrange
 from mindlang.training.lesson_choice import TrainOptions, chosen_lessons
-from mindlang.training.origin import origin_weights
+from mindlang.training.subject import origin_weights
 from tests.draws import cases
 from tests.hierarchies import networks
 from tests.likeness.test_lock import teach

@@ -9,10 +9,9 @@ from mindrun.engine.engine import Engine
 from mindrun.train.run_folder import open_run
 
 from mindlang.compiler.compile import load
-from mindlang.editing.apply import apply_edit
+from mindlang.editing.apply import apply_edit, write
 from mindlang.editing.edits.unshare import unshare
 from mindlang.editing.project import open_project
-from mindlang.editing.writing import write
 from mindlang.lock import read_lock
 from mindlang.lock.ready import make_ready
 from mindlang.lock.report import rows

@@ -15,7 +15,7 @@ from tests.lint.examples import whole
 
 SEEDS = range(1, 21)
 WORLDS = [
-    *GOOD,
+    GOOD,
     *BAD,
     BINS.format(100, 60),
     BINS.format(45, 0).replace("  contains rock is obstacle count 0 size 3\n", ""),

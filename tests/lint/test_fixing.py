@@ -5,7 +5,7 @@ import pytest
 from mindlang.compiler.diagnostic import Diagnostic, Fix
 from mindlang.compiler.source import Source
 from mindlang.compiler.splice import Splice
-from mindlang.lint.fixing import fixed
+from mindlang.lint.lint import fixed
 
 TEXT = "abcdef"
 

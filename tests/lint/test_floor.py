@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from mindrun.kinds.things.thing import Rectangle
 
-from mindlang.lint import floor as module
-from mindlang.lint.floor import floor
+from mindlang.lint.rules import walled_off as module
+from mindlang.lint.rules.walled_off import floor
 
 RADIUS, STEP = 0.9, 0.1
 CORNERS = st.integers(-4, 3)

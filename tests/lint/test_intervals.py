@@ -16,7 +16,6 @@ from mindlang.lint.intervals import (
     UNIT_INTERVAL,
     Interval,
     divisors,
-    formula_divisors,
     interval,
     is_constant,
     range_in_words,
@@ -99,8 +98,8 @@ def test_all_that_is_divided_by_is_told() -> None:
         (1, 4)
     ]
     formula = (("reading", "b"), ("number", 4.0), ("/", 0), ("reading", "a"), ("/", 0))
-    assert formula_divisors(formula, READ.__getitem__) == [(4, 4), (-inf, 2)]
-    assert formula_divisors(formula) == [(4, 4), UNIT_INTERVAL]
+    assert divisors(formula, READ.__getitem__) == [(4, 4), (-inf, 2)]
+    assert divisors(formula) == [(4, 4), UNIT_INTERVAL]
 
 
 def test_what_is_made_of_numbers_is_constant() -> None:

@@ -7,8 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mindlang.lint.rules import all_rules
-from mindlang.lint.settings import LintSettings
-from mindlang.lint.settings_file import settings_of
+from mindlang.lint.settings import LintSettings, settings_of
 from tests.calling import RULES, Call
 
 UNREAD = RULES.replace("sensor feeler", "sensor pulse is sine period 2 s\nsensor feeler")

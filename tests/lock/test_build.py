@@ -13,8 +13,8 @@ from mindrun.graph.weights import genes
 
 from mindlang.compiler.compile import load
 from mindlang.lock import Taught, read_lock
-from mindlang.lock.arrange import arrange
 from mindlang.lock.blobs import FOLDER, record
+from mindlang.lock.signature import arrange
 
 SOURCE = """tick 1/60 s
 master Top

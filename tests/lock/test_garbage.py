@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 
 from mindlang.lock import LockError, lock_path
-from mindlang.lock.blobs import blob
-from mindlang.lock.garbage import remove, unnamed
+from mindlang.lock.blobs import blob, remove, unnamed
 from tests.calling import Call
 from tests.edits.taught import recorded, teach
 

@@ -11,8 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mindlang.lint.rules.taught_elsewhere import WORLD
-from mindlang.lock import Entry, Lock, LockError, lock_text, read_lock, write_lock
-from mindlang.lock.merging import merge
+from mindlang.lock import Entry, Lock, LockError, lock_text, merge, read_lock, write_lock
 from mindlang.lock.training_world import TrainingWorld
 from tests.draws import cases
 from tests.lock.test_lock import ENTRIES

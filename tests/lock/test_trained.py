@@ -16,8 +16,8 @@ from mindrun.kinds.functions.procedure import Procedure
 from mindrun.kinds.sensors.range_finder import RangeFinder
 
 from mindlang.lock import LockError, Taught, read_lock
-from mindlang.lock.arrange import arrange
 from mindlang.lock.blobs import FOLDER, digest, record
+from mindlang.lock.signature import arrange
 from mindlang.lock.status import NotLearning, Stale, Trained, Untaught, status, trained_weights
 from tests.draws import cases
 from tests.hierarchies import PROCEDURES, random_graph

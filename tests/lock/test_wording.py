@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from mindrun.graph.graph import Program
 
-from mindlang.lock.wording import infix
+from mindlang.lock.world_facts import infix
 
 OPERATORS = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
 LEAVES = st.sampled_from([(("reading", index),) for index in range(3)] + [(("number", float(n)),) for n in range(4)])

@@ -19,9 +19,8 @@ from mindlang.compiler.compile import compile_source, load
 from mindlang.compiler.source import Source
 from mindlang.lock import Lock, LockError, Taught, lock_path, lock_text, read_lock
 from mindlang.lock.blobs import record
-from mindlang.lock.lessons import last_lesson
 from mindlang.lock.report import rows, survival
-from mindlang.lock.status import Stale, Trained, status
+from mindlang.lock.status import Stale, Trained, last_lesson, status
 from mindlang.lock.training_world import TrainingWorld, world_of
 from mindlang.lock.world_changes import changes
 from mindlang.lock.world_facts import Worlds

@@ -18,10 +18,9 @@ from mindrun.sim.rollouts import rollout_for
 from mindrun.sim.trace import trace
 
 from mindlang.compiler.compile import load
-from mindlang.editing.apply import apply_edit
+from mindlang.editing.apply import apply_edit, write
 from mindlang.editing.edits import edit
 from mindlang.editing.project import open_project
-from mindlang.editing.writing import write
 from mindlang.lock.ready import make_ready
 from mindlang.lock.status import Trained
 from tests.draws import cases

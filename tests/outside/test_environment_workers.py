@@ -79,10 +79,9 @@ def test_the_weights_are_those_of_a_cluster_which_tells_a_step_that_never_ends(
 
 
 def test_many_runs_are_the_same_in_any_number_of_processes(tmp_path: Path) -> None:
-    found = []
+    found, folder = [], project(tmp_path / "line", "tests/Line")
+    assert mindc(folder, "train", "go.mind", "--seed", "1", "-q").returncode == 0
     for words in (("--workers", "1"), ("--workers", "2"), ("--on", "processes:2")):
-        folder = project(tmp_path / "-".join(words).replace(":", ""), "tests/Line")
-        assert mindc(folder, "train", "go.mind", "--seed", "1", "-q").returncode == 0
         done = mindc(folder, "bench", "go.mind", "--runs", "70", "--csv", "runs.csv", *words)
         assert done.returncode == 0, done.stderr
         assert "note: readings beyond their range: place in " in done.stderr
@@ -109,19 +108,17 @@ def test_a_module_beside_the_mind_is_found_from_elsewhere(tmp_path: Path) -> Non
     [
         ("Raising", ("the environment tests.outside.kept:tests/Raising-v0 failed", "in step 3 of the run of seed",
                      "RuntimeError: the motor is hot.")),
-        ("Misshapen", ("failed", "an observation has the shape (3,), and its space says (2,)")),
         ("Blind", ("Go has learnt nothing: on 100 of 100 fresh layouts a reward or a command",)),
-        ("Generous", ("Go has learnt nothing: on 100 of 100 fresh layouts a reward or a command",)),
         ("Dying", ("the environment tests.outside.kept:tests/Dying-v0 has ended its process", "It was in step 3 of the",
                    "SIGABRT", "--resume")),
         ("Hanging", ("the environment tests.outside.kept:tests/Hanging-v0 does not come back from step 3 of the run of",
-                     "in 5 seconds", VARIABLE)),
+                     "in 3 seconds", VARIABLE)),
     ],
 )  # fmt: skip
 def test_what_an_environment_does_wrong_in_a_process_is_one_message(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, world: str, words: tuple[str, ...]
 ) -> None:
-    monkeypatch.setenv(VARIABLE, "5")
+    monkeypatch.setenv(VARIABLE, "3")
     folder = project(tmp_path, f"tests/{world}")
     on = ("--on", "processes:2")
     done = mindc(folder, "train", "go.mind", "--seed", "1", *on)

@@ -15,8 +15,7 @@ from mindrun.graph.policy import Policy
 from mindrun.sim.codes import BROKEN_OFF
 from mindrun.sim.rollout import SLOW_SLICE_TICKS
 from mindrun.sim.rollouts import rollout_for
-from mindrun.sim.takeover import take_over
-from mindrun.sim.trace import trace
+from mindrun.sim.trace import take_over, trace
 
 from tests.outside import minds, worlds
 

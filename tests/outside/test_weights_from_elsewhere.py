@@ -6,8 +6,7 @@ from pathlib import Path
 import pytest
 
 import mindlang
-from mindlang.weights.files import load_genome
-from mindlang.weights.network import network_of
+from mindlang.weights.network import load_genome, network_of
 from tests.calling import Call
 from tests.outside import minds
 

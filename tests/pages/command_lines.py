@@ -12,8 +12,7 @@ from unittest.mock import patch
 
 import click
 from distributed.cli import dask_scheduler, dask_worker
-from mindrun.cli.driving_arguments import driving_parser
-from mindrun.cli.tools import tool_parser, tools
+from mindrun.cli import driving_parser, tool_parser, tools
 
 from mindlang.cli import commands
 from tests.project.sources import ROOT

@@ -14,8 +14,8 @@ import yaml
 from jsonschema import Draft202012Validator
 
 from mindlang.compiler.compile import load
-from mindlang.lint.settings_file import settings_of
-from mindlang.robot.schema import schema
+from mindlang.lint.settings import settings_of
+from mindlang.robot.options import schema
 from mindlang.robot.wire import load_wiring
 from tests.pages.blocks import MADE, TERMINAL, Block, blocks, pages
 from tests.pages.command_lines import PROGRAMS, calls, is_known, program_of, refused, typed

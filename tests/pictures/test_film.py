@@ -11,17 +11,17 @@ from mindrun.graph.graph import Sensor
 from PIL import Image as Pillow
 
 from mindlang.compiler.compile import load
-from mindlang.pictures.canvas import Canvas, text_width
+from mindlang.pictures.canvas import Canvas, Rectangle, text_width
 from mindlang.pictures.ending import ending_words
-from mindlang.pictures.film import Film, Reel
-from mindlang.pictures.film_layout import BELOW_SHARE, BESIDE_SHARE, FILM_HEIGHT, FILM_WIDTH, FilmLayout
+from mindlang.pictures.film import Film
+from mindlang.pictures.film_images import BELOW_SHARE, BESIDE_SHARE, FILM_HEIGHT, FILM_WIDTH, FilmLayout
 from mindlang.pictures.hierarchy_panel import MAX_TEXT_PIXELS, broken, fitting
-from mindlang.pictures.influence_flow import Flow, Link
 from mindlang.pictures.layout import Layout, Place
 from mindlang.pictures.readings_panel import TEXT_PIXELS, fitted, sensors_read, shortened
 from mindlang.pictures.scene import WALL_UNITS
 from mindlang.pictures.theme import NIGHT
-from mindlang.run.layouts import NO_GENOME
+from mindlang.run.edge_flow import Link, edge_flows
+from mindlang.run.many_runs import NO_GENOME
 from mindlang.run.outcome import run_data
 from mindlang.run.recorded_run import record_run
 from mindlang.run.setup import set_up
@@ -60,9 +60,9 @@ def test_the_world_of_a_film_has_the_proportions_of_its_arena(
     layout = FilmLayout.of(ratio)
     assert (layout.world, (layout.width, layout.height)) == (world, size)
     panel = layout.panel
-    assert layout.left <= panel.x <= panel.x + panel.width <= layout.width
-    assert layout.top <= panel.y <= panel.y + panel.height <= layout.height
-    assert panel.x >= world[0] or panel.y >= world[1]
+    assert layout.left <= panel.left <= panel.left + panel.width <= layout.width
+    assert layout.top <= panel.low <= panel.low + panel.height <= layout.height
+    assert panel.left >= world[0] or panel.low >= world[1]
 
 
 def test_a_film_of_a_long_arena_has_no_blank_beside_its_world(mindc: Call, rules: Path) -> None:
@@ -106,7 +106,7 @@ def test_a_name_that_is_too_wide_has_two_lines(name: str, lines: list[str]) -> N
 def test_a_film_that_fails_leaves_the_old_one(mindc: Call, rules: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = rules.with_name("run.mp4")
     path.write_bytes(b"old")
-    monkeypatch.setattr("mindlang.pictures.video_formats._images_in", lambda path: 3)
+    monkeypatch.setattr("mindlang.pictures.film._images_in", lambda path: 3)
     said = mindc("run", rules, "--task", "Roam", "--seed", 3, "--video", path, "--speed", 20)
     assert said.code == 2
     assert said.err.endswith(f"{path} cannot be written: it is not whole: is the disk full?\n")
@@ -119,16 +119,15 @@ def filmed(rules: Path, task: str, speed: float) -> Film:
     setup = set_up(str(rules), load(rules), task, None)
     rollout = setup.rollout()
     outcome = run_data(setup.task, rollout.score(NO_GENOME, [3]))
-    return Film.of(record_run(setup, rollout, 3), {"task": task, "master": setup.master, "seed": 3} | outcome, speed)
+    return Film(record_run(setup, rollout, 3), {"task": task, "master": setup.master, "seed": 3} | outcome, speed)
 
 
 def words(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """A list to which every text is added that is drawn from now on."""
     said: list[str] = []
 
-    def text(canvas: Canvas, x: float, y: float, text: str, *rest: Any, **how: Any) -> float:
+    def text(canvas: Canvas, x: float, y: float, text: str, *rest: Any, **how: Any) -> None:
         said.append(text)
-        return 0.0
 
     monkeypatch.setattr(Canvas, "text", text)
     return said
@@ -142,16 +141,16 @@ def test_the_last_images_say_how_the_run_ended(rules: Path, monkeypatch: pytest.
     rules.write_text(text.replace("at 0.2", "at 0"))
     film = filmed(rules, "Roam", 10.0)
     assert film.run.ticks < film.run.task.ticks
-    reel, said = Reel(film), words(monkeypatch)
-    before = reel[film.moving - 1]
+    said = words(monkeypatch)
+    before = film[film.moving - 1]
     assert "ended by collision" not in said
-    after = reel[film.moving]
+    after = film[film.moving]
     assert "ended by collision" in said
     assert np.abs(before.astype(int) - after).max() > 50
-    assert reel[film.frames - 1] is after
-    assert film.frames - film.moving == 3 * film.format.fps
+    assert film[len(film) - 1] is after
+    assert len(film) - film.moving == 3 * film.format.fps
     with pytest.raises(IndexError):
-        reel[film.frames]
+        film[len(film)]
 
 
 @pytest.mark.parametrize(
@@ -203,7 +202,7 @@ def test_a_film_shows_the_sensors_that_are_read(rules: Path, monkeypatch: pytest
     film = filmed(rules, "Roam", 10.0)
     assert [sensor.name for sensor in sensors_read(film.run)] == ["ball_bearing", "feeler"]
     said = words(monkeypatch)
-    Reel(film)[0]
+    film[0]
     assert {"ball_bearing", "feeler", f"{film.run.readings[0, 0]:.2f}"} <= set(said)
     assert "blind" not in said
 
@@ -222,9 +221,9 @@ def test_as_many_readings_as_fit(rules: Path, ratio: float, count: int) -> None:
     assert hierarchy.width >= (1 - BESIDE_SHARE) * layout.panel.width - 1
     assert hierarchy.height >= (1 - BELOW_SHARE) * layout.panel.height - 1
     for cell in cells:
-        assert room.x <= cell.x < cell.x + cell.width <= room.x + room.width
-        assert room.y <= cell.y - cell.height / 2 < cell.y + cell.height / 2 <= room.y + room.height
-    assert len({(cell.x, cell.y) for cell in cells}) == len(cells)
+        assert room.left <= cell.left < cell.left + cell.width <= room.left + room.width
+        assert room.low <= cell.low - cell.height / 2 < cell.low + cell.height / 2 <= room.low + room.height
+    assert len({(cell.left, cell.low) for cell in cells}) == len(cells)
     if count:
         assert shown
     if count == 1000:
@@ -242,12 +241,12 @@ def test_a_long_name_of_a_sensor_is_cut() -> None:
 def test_what_flows_adds_up_to_the_influence(rules: Path) -> None:
     found = set_up(str(rules), load(rules), "Roam", None)
     story = record_run(found, found.rollout(), 3)
-    flow = Flow(story)
+    flows = edge_flows(found.ready.policy, {}, found.master, story)
     for tick in (1, story.ticks // 2, story.ticks):
         received = np.zeros(len(story.graph.skills))
-        for link, carried in zip(flow.links, flow.at(tick), strict=True):
+        for link, transmitted in zip(flows.links, flows.over(range(tick - 1, tick)).transmitted[0], strict=True):
             if link.target[0] == "skill":
-                received[link.target[1]] += carried.transmitted
+                received[link.target[1]] += transmitted
         received[[skill.name for skill in story.graph.skills].index(found.master)] += 1
         assert received == pytest.approx(story.influence[tick - 1], abs=1e-6)
 
@@ -255,7 +254,7 @@ def test_what_flows_adds_up_to_the_influence(rules: Path) -> None:
 def test_a_link_that_passes_a_row_goes_between_its_boxes() -> None:
     links = [Link(0, ("skill", 1)), Link(0, ("skill", 2)), Link(1, ("skill", 3)), Link(2, ("actuator", 0))]
     links += [Link(3, ("actuator", 0)), Link(0, ("actuator", 1))]
-    layout = Layout.of(links, [0, 1, 2, 3], Place(0.0, 0.0, 400.0, 400.0))
+    layout = Layout.of(links, [0, 1, 2, 3], Rectangle(0.0, 0.0, 400.0, 400.0))
     assert [len(stops) for stops in layout.stops] == [2, 2, 2, 3, 2, 4]
     heights = {sink: place.y for sink, place in layout.boxes.items()}
     assert heights["skill", 0] < heights["skill", 1] == heights["skill", 2] < heights["skill", 3]

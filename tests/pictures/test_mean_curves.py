@@ -11,9 +11,8 @@ from hypothesis import strategies as st
 from mindrun.train.run_folder import create
 from mindrun.train.training import train
 
-from mindlang.pictures.learning_log import Curve, load_curves
-from mindlang.pictures.mean_curves import MeanPoint, by_lesson
-from mindlang.pictures.mean_figure import mean_figure
+from mindlang.pictures.curves import mean_figure
+from mindlang.pictures.learning_log import Curve, MeanPoint, by_lesson, load_curves
 from tests.calling import Call
 from tests.train.climbing import Sphere, lesson, manifest, unwatched
 

@@ -22,7 +22,7 @@ from mindlang.pictures.path import Path as Path_
 from mindlang.pictures.picture import BOTTOM_PIXELS, PICTURE_PIXELS, SIDE_PIXELS, TOP_PIXELS, picture, view_of
 from mindlang.pictures.scene import thing_colours
 from mindlang.pictures.theme import NIGHT, PAPER, Theme, mixed
-from mindlang.run.layouts import NO_GENOME
+from mindlang.run.many_runs import NO_GENOME
 from mindlang.run.outcome import run_data
 from mindlang.run.recorded_run import RecordedRun, record_run
 from mindlang.run.setup import set_up
@@ -120,7 +120,7 @@ def test_the_way_of_a_ball_that_was_pushed_is_drawn(rules: Path) -> None:
         def disc(self, x: float, y: float, *rest: Any, **how: Any) -> None:
             discs.append((x, y))
 
-    draw_former(Spy(blank(100, 100, PAPER.page), Viewport(0.0, 0.0, 1.0)), story, PAPER)
+    draw_former(Spy(blank(100, 100, PAPER.page), Viewport(0.0, 0.0, 1.0)), story)
     assert any(np.array_equal(each, way) for each in drawn)
     assert set(discs) == {(0.0, 0.0)}
 
@@ -209,7 +209,7 @@ def test_the_end_is_marked_and_said(rules: Path, monkeypatch: pytest.MonkeyPatch
 
 @pytest.mark.parametrize("names", [["a"], ["a", "bb", "ccc"] * 4, ["a_name_that_is_long"] * 20])
 def test_a_legend_stays_within_its_lines(names: list[str]) -> None:
-    canvas = Canvas(blank(400, 100, PAPER.page), Viewport(0.0, 0.0, 1.0), down=True)
+    canvas = Canvas.of_page(blank(400, 100, PAPER.page))
     size, places = fitted(canvas, names, 400.0)
     assert len(places) == len(names)
     assert size == MIN_TEXT_PIXELS or max(line for _, line in places) < LEGEND_LINES

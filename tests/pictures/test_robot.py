@@ -10,13 +10,13 @@ import pytest
 from mindrun.kinds.scenes.arena import Arena
 
 from mindlang.compiler.compile import load
-from mindlang.pictures.canvas import Canvas, Viewport, blank, text_width
-from mindlang.pictures.names import NAME_PIXELS, Label, draw_names, free
+from mindlang.pictures.canvas import Canvas, Rectangle, Viewport, blank, text_width
+from mindlang.pictures.labels import NAME_PIXELS, draw_names, free
 from mindlang.pictures.picture import height_of, picture
-from mindlang.pictures.pose import placed
 from mindlang.pictures.robot import draw_robot, steering_angle
+from mindlang.pictures.scene import placed
 from mindlang.pictures.theme import PAPER
-from mindlang.run.layouts import NO_GENOME
+from mindlang.run.many_runs import NO_GENOME
 from mindlang.run.outcome import run_data
 from mindlang.run.recorded_run import RecordedRun, record_run
 from mindlang.run.setup import set_up
@@ -136,10 +136,10 @@ def test_thrusters_throw_away_from_where_they_push(tmp_path: Path) -> None:
 def test_names_of_things_that_are_close_do_not_overlap(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     things = "".join(f"  contains thing_{i} is item size 0.3 at {3 + i * 0.4} {2 + i % 2 * 0.3}\n" for i in range(6))
     run = recorded(tmp_path, CAR.replace("LAMP", "0") + things)
-    said: list[Label] = []
+    said: list[Rectangle] = []
 
     def text(canvas: Canvas, x: float, y: float, text: str, *rest: Any, **how: Any) -> None:
-        said.append(Label(x, y, text_width(text, NAME_PIXELS) / 10, NAME_PIXELS / 10))
+        said.append(Rectangle(x, y, text_width(text, NAME_PIXELS) / 10, NAME_PIXELS / 10))
 
     monkeypatch.setattr(Canvas, "text", text)
     draw_names(Spy(), run, PAPER, run.ticks)
@@ -148,7 +148,7 @@ def test_names_of_things_that_are_close_do_not_overlap(tmp_path: Path, monkeypat
 
 
 def test_a_name_that_finds_no_place_stands_at_its_first() -> None:
-    label, all_of_it = Label(0.0, 0.0, 1.0, 1.0), Label(-9.0, -9.0, 18.0, 18.0)
+    label, all_of_it = Rectangle(0.0, 0.0, 1.0, 1.0), Rectangle(-9.0, -9.0, 18.0, 18.0)
     assert free([label, label._replace(low=3.0)], [all_of_it], all_of_it) == label
     assert free([label, label._replace(low=3.0)], [label], all_of_it).low == 3.0
     assert free([label, label._replace(low=3.0)], [], label._replace(low=3.0)).low == 3.0

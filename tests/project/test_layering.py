@@ -97,13 +97,13 @@ def test_weights_are_put_beside_a_graph_in_few_places() -> None:
     places = {
         "mindlang/lock/ready.py": "arranged here",
         "mindlang/editing/verify.py": "arranged there, before and after an edit",
-        "mindlang/weights/trial.py": "a lesson of a subject, which is arranged",
+        "mindlang/weights/importing.py": "a lesson of a subject, which is arranged",
         "mindlang/training/teaching.py": "a run has those of its subject, which is arranged",
-        "mindlang/view/viewed_champion.py": "a run has those of its mind, which is arranged",
+        "mindlang/view/learning.py": "a run has those of its mind, which is arranged",
         "runtime/mindrun/graph/bundle.py": "a bundle has both, sealed",
         "runtime/mindrun/sim/warmup.py": "none",
         "runtime/mindrun/sim/commanded_lanes.py": "none",
-        "mindlang/environments/agent.py": "none",
+        "mindlang/environments/episodes.py": "none",
         "mindlang/environments/live_view.py": "those of an agent, but for the skill that a program plays",
     }
     made = {
@@ -134,7 +134,6 @@ def test_what_is_imported_is_declared() -> None:
 def test_only_curves_need_matplotlib() -> None:
     assert [file for file, names in foreign(modules(COMPILER)).items() if "matplotlib" in names] == [
         "mindlang/pictures/curves.py",
-        "mindlang/pictures/mean_figure.py",
         "mindlang/pictures/training_plot.py",  # for its type, and once it is asked for
     ]
 

@@ -19,10 +19,10 @@ from mindrun.numbers.arithmetic import sigmoid
 
 from mindlang.compiler.compile import load
 from mindlang.lock.ready import make_ready
-from mindlang.proofs.batch import think, values
 from mindlang.proofs.interval import SIGMOID_ERROR
 from mindlang.proofs.proof import OfActuator, Proof, prove
 from mindlang.proofs.reach import MIN_INFLUENCE, ProvedReach, reach
+from mindlang.proofs.trying import think, values
 from tests.draws import cases
 from tests.hierarchies import PROCEDURES, SCALES, random_graph
 from tests.minds import always, mind, rule, skill

@@ -7,13 +7,12 @@ from mindrun.graph.weights import genes
 from mindrun.kinds.functions.mlp import Mlp
 from mindrun.kinds.functions.procedure import Procedure
 
-from mindlang.proofs import silence_search
-from mindlang.proofs.branch_and_bound import readings_to_try
+from mindlang.proofs import trying
 from mindlang.proofs.paths import Paths
 from mindlang.proofs.proof import OfActuator, prove
 from mindlang.proofs.reach import MIN_INFLUENCE, Bound, Driven
-from mindlang.proofs.recorded import Undriven, _undriven
-from mindlang.proofs.silence_search import Tried, try_out
+from mindlang.proofs.recorded import Undriven, undriven
+from mindlang.proofs.trying import Tried, readings_to_try, try_out
 from tests.minds import CLAW, WHEELS, always, mind, rule, skill
 from tests.proofs.samples import R0, drives, sends, single
 
@@ -134,8 +133,8 @@ def test_as_many_readings_are_tried_as_there_is_time_for(monkeypatch: pytest.Mon
     """64 at least and 4096 at most; a skill takes as long as 100 weights, and its own."""
     graph = mind(skill("Top", Mlp(hidden=0), (0, 1, 2), ("skill", 1), ("actuator", LEFT)), drives("A", 0.5), readings=3)
     tried = []
-    monkeypatch.setattr(silence_search, "MAX_WEIGHT_READINGS", work)
-    monkeypatch.setattr(silence_search, "readings_to_try", lambda *size: tried.append(size) or readings_to_try(*size))
+    monkeypatch.setattr(trying, "MAX_WEIGHT_READINGS", work)
+    monkeypatch.setattr(trying, "readings_to_try", lambda *size: tried.append(size) or readings_to_try(*size))
     assert genes(graph.skills[0]) == 6
     assert try_out(graph, {"Top": np.ones(6, np.float32)})
     assert tried == [(3, rows)]
@@ -167,6 +166,6 @@ def test_what_was_seen_of_an_actuator() -> None:
 
 def test_ticks_without_influence_are_counted() -> None:
     total, commands = np.array([1, 0, 0.5, 0, 0], np.float32), np.array([0.25, 0.5, 0.75, 0.5, 0.5], np.float32)
-    assert _undriven(total, commands) == Undriven(3, 2, (0.25, 0.75))
-    assert _undriven(total[:1], commands[:1]) == Undriven(0, None, (0.25, 0.25))
-    assert _undriven(total[1:2], commands[1:2]) == Undriven(1, 1, (0.5, 0.5))
+    assert undriven(total, commands) == Undriven(3, 2, (0.25, 0.75))
+    assert undriven(total[:1], commands[:1]) == Undriven(0, None, (0.25, 0.25))
+    assert undriven(total[1:2], commands[1:2]) == Undriven(1, 1, (0.5, 0.5))

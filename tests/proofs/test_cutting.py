@@ -10,17 +10,16 @@ from mindrun.kinds.functions.mlp import Mlp
 from mindrun.kinds.functions.procedure import Procedure
 
 from mindlang.proofs import branch_and_bound
-from mindlang.proofs.batch import values
 from mindlang.proofs.branch_and_bound import (
     SHARP_ENOUGH,
     EdgeRange,
     by_itself,
     halves,
     ranges,
-    readings_to_try,
     sway_of,
 )
 from mindlang.proofs.interval import Boxes, SentBounds
+from mindlang.proofs.trying import readings_to_try, values
 from tests.draws import cases
 from tests.hierarchies import random_graph
 from tests.minds import always, rule, skill

@@ -12,8 +12,8 @@ from mindrun.kinds.functions.mlp import Mlp
 from mindrun.kinds.functions.procedure import Procedure
 from mindrun.kinds.functions.rule import Rule
 
-from mindlang.proofs.batch import values
 from mindlang.proofs.interval import SIGMOID_ERROR, Boxes, SentBounds, evaluate, is_known, perceive, sent
+from mindlang.proofs.trying import values
 from tests.minds import always, rule, skill
 
 SHARES = st.floats(0, 1, width=32)

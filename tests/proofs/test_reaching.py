@@ -10,10 +10,10 @@ from mindrun.graph.policy import Policy
 from mindrun.kinds.functions.mlp import Mlp
 from mindrun.kinds.functions.procedure import Procedure
 
-from mindlang.proofs import joint, reach
-from mindlang.proofs.batch import think
+from mindlang.proofs import reach
 from mindlang.proofs.proof import OfActuator, prove
 from mindlang.proofs.reach import ROUNDING_MARGIN, Bound, Driven
+from mindlang.proofs.trying import think
 from tests.draws import cases
 from tests.hierarchies import doubling
 from tests.minds import CLAW, WHEELS, always, mind, rule, skill
@@ -180,34 +180,34 @@ def test_boxes_are_cut_while_there_may_be_more(monkeypatch: pytest.MonkeyPatch) 
             (999, 3 * made, "never"),
             (999, 3 * made - 1, "not excluded"),
         ):
-            monkeypatch.setattr(joint, "MAX_BOXES", boxes)
-            monkeypatch.setattr(joint, "MAX_BOX_SKILLS", work)
+            monkeypatch.setattr(reach, "MAX_BOXES", boxes)
+            monkeypatch.setattr(reach, "MAX_BOX_SKILLS", work)
             found = claim(*bisected(overlap))
             assert (found.neutral, found.driven.total.low > 0) == (answer, answer == "never")
 
 
 def test_so_few_boxes_are_not_begun_with(monkeypatch: pytest.MonkeyPatch) -> None:
     """Where there are so many skills that a few boxes are all, not even the first cut is tried."""
-    for most, answer in ((joint.MIN_BOXES, "never"), (joint.MIN_BOXES - 1, "not excluded")):
-        monkeypatch.setattr(joint, "MAX_BOX_SKILLS", 3 * most)
+    for most, answer in ((reach.MIN_BOXES, "never"), (reach.MIN_BOXES - 1, "not excluded")):
+        monkeypatch.setattr(reach, "MAX_BOX_SKILLS", 3 * most)
         assert claim(*bisected(0.5)).neutral == answer
 
 
 def test_every_box_that_is_cut_counts(monkeypatch: pytest.MonkeyPatch) -> None:
     """r − r + 1e-6 is open everywhere: 1, 3, 7, 15, 31, 63 boxes are made, and then 64 are too many."""
-    looked, flow = [], joint.flow
-    monkeypatch.setattr(joint, "MAX_BOXES", 64)
-    monkeypatch.setattr(joint, "flow", lambda *arguments: looked.append(arguments[1]) or flow(*arguments))
+    looked, flow = [], reach.flow
+    monkeypatch.setattr(reach, "MAX_BOXES", 64)
+    monkeypatch.setattr(reach, "flow", lambda *arguments: looked.append(arguments[1]) or flow(*arguments))
     nearly_nothing = (*R0, *R0, ("-", 0), *number(1e-6), ("+", 0))
     found = claim(rule("Top", sends("skill", 1, nearly_nothing), reads=(0,)), drives("A", 0.5))
     assert found.neutral == "not excluded"
-    assert looked == [1, 2, 4, 8, 16, 32]
+    assert looked == [1, 1, 2, 4, 8, 16, 32]  # the first with each skill by itself
 
 
 def test_only_what_is_open_is_looked_at(monkeypatch: pytest.MonkeyPatch) -> None:
     """Neither what is always driven, nor what nothing drives, nor what was seen without influence."""
     looked = []
-    monkeypatch.setattr(joint, "_least", lambda *arguments: looked.append(arguments[3]) or 0.0)
+    monkeypatch.setattr(reach, "_least", lambda *arguments: looked.append(arguments[3]) or 0.0)
     graph = mind(
         rule("Top", sends("skill", 1, R0), sends("skill", 2, ONE_LESS_R0), always("actuator", RIGHT, 0.5), reads=(0,)),
         drives("A", 0.25),
@@ -223,14 +223,14 @@ def test_boxes_beyond_one_round_are_waited_for(monkeypatch: pytest.MonkeyPatch) 
     """However few are looked at at once."""
     expected = claim(*bisected(0.002))
     for at_once in (1, 2, 3):
-        monkeypatch.setattr(joint, "BOXES_PER_ROUND", at_once)
+        monkeypatch.setattr(reach, "BOXES_PER_ROUND", at_once)
         assert claim(*bisected(0.002)) == expected
 
 
 def test_a_sum_that_can_be_nothing_is_never_claimed(monkeypatch: pytest.MonkeyPatch) -> None:
     """r − 0.3 and 0.3 − r are both 0 at 0.3, which nobody tries; where floats are neighbours, no more is cut."""
-    looked, flow = [], joint.flow
-    monkeypatch.setattr(joint, "flow", lambda *arguments: looked.append(1) or flow(*arguments))
+    looked, flow = [], reach.flow
+    monkeypatch.setattr(reach, "flow", lambda *arguments: looked.append(1) or flow(*arguments))
     found = claim(*bisected(0.0))
     assert len(looked) < 100
     assert found.neutral == "not excluded"
@@ -253,7 +253,7 @@ def test_what_is_known_of_a_skill_anywhere_is_known_in_each_box(monkeypatch: pyt
     hollow = (*number(0.3), *hill, ("-", 0))
     divisor = (*number(0.1), *R0, *R0, *R0, ("*", 0), ("-", 0), ("+", 0))
     quotient = (*number(0.1), *divisor, ("/", 0))
-    monkeypatch.setattr(joint, "MAX_BOXES", joint.MIN_BOXES)
+    monkeypatch.setattr(reach, "MAX_BOXES", reach.MIN_BOXES)
     for program, least in ((hollow, 0.05), (quotient, 0.1 / 0.35)):
         found = claim(*weighed(sends("skill", 3, program)), readings=2)
         assert found.neutral == "never"

@@ -10,9 +10,8 @@ from pathlib import Path
 import pytest
 
 from mindlang.cli._terminal import console
-from mindlang.proofs.data import as_data
 from mindlang.proofs.proof import Proof, prove
-from mindlang.proofs.report import report
+from mindlang.proofs.report import as_data, report
 from tests.hierarchies import doubling
 from tests.minds import always, mind
 from tests.proofs.samples import SAMPLES, Sample
@@ -35,7 +34,7 @@ def is_said(text: str, path: Path) -> None:
 
 def printed(sample: Sample, capsys: pytest.CaptureFixture[str]) -> list[str]:
     """The lines that are printed."""
-    console().print(report(proved(sample), sample.hashes, sample.run))
+    console().print(report(as_data(proved(sample), sample.hashes, sample.run)))
     return capsys.readouterr().out.splitlines()
 
 

@@ -13,6 +13,7 @@ from time import perf_counter
 from typing import Any
 
 import numpy as np
+from mindrun.cli.report import report
 from mindrun.engine.engine import Engine
 from mindrun.files.archive import write_archive
 from mindrun.files.npy import to_npy
@@ -20,12 +21,11 @@ from mindrun.graph.bundle import pack, unpack
 from mindrun.graph.describe import contents, describe
 from mindrun.graph.graph import Graph
 from mindrun.graph.policy import Policy
-from mindrun.graph.recording_header import RecordedWorld, world_row_of
+from mindrun.graph.recording_header import CHECKSUM_FIELD, RecordedWorld, world_row_of
 from mindrun.graph.weights import genes
 from mindrun.robot.guardian import plan
-from mindrun.robot.recording import CHECKSUM_FIELD, About, Recorder
+from mindrun.robot.recording import About, Recorder
 from mindrun.robot.replay import replay
-from mindrun.robot.timing_report import report
 from mindrun.sim.commanded_world import World
 from mindrun.train import checkpoint
 from mindrun.train.manifest import hashes
@@ -41,7 +41,7 @@ from mindlang.lock.blobs import load_weights, record
 from mindlang.lock.report import rows
 from mindlang.lock.world_facts import Worlds
 from mindlang.pictures.learning_log import load_curves
-from mindlang.robot.remote_state import parse_state
+from mindlang.robot.deployment import parse_state
 from tests.engine.bundles import wired
 from tests.engine.resealed import members_of, resealed
 from tests.lock.test_worlds import MIND

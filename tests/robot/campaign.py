@@ -21,8 +21,8 @@ from pathlib import Path
 
 from mindrun.graph.bundle import Bundle, write_bundle
 from mindrun.graph.policy import Policy
-from mindrun.robot.guardian.processes import MAX_REPLACEMENTS
-from mindrun.robot.identity import adopt
+from mindrun.robot.guardian.client import MAX_REPLACEMENTS
+from mindrun.robot.ownership import adopt
 
 from tests.robot.devices import Devices, devices
 from tests.robot.driving import MINDRUN

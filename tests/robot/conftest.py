@@ -8,8 +8,7 @@ from pathlib import Path
 import pytest
 from mindrun.graph.bundle import Bundle, write_bundle
 from mindrun.graph.policy import Policy
-from mindrun.robot.device_locks import DrivenError, hold_devices
-from mindrun.robot.identity import adopt
+from mindrun.robot.ownership import DrivenError, adopt, hold_devices
 
 from tests.robot.driving import children, until, wiring
 from tests.robot.faults import graph

@@ -12,16 +12,8 @@ from pathlib import Path
 from threading import Thread
 
 from mindrun.graph.wiring import ActuatorWire, SensorWire, Wiring
-from mindrun.robot.drivers.simulated import (
-    ANSWER,
-    READ,
-    REQUEST,
-    STATUS,
-    VALUE,
-    WRITE,
-    SimulatedActuator,
-    SimulatedSensor,
-)
+from mindrun.robot.drivers.simulated import VALUE, SimulatedActuator, SimulatedSensor
+from mindrun.robot.simulated_world import ANSWER, READ, REQUEST, STATUS, WRITE
 
 PEER = struct.Struct("3i")
 
@@ -73,7 +65,7 @@ class Devices:
             while len(head := said.read(REQUEST.size)) == REQUEST.size:
                 what, length, value = REQUEST.unpack(head)
                 held = self.held(what, said.read(length).decode(), value, process)
-                client.sendall(ANSWER.pack(True, len(held), time.monotonic()) + held)
+                client.sendall(ANSWER.pack(True, len(held)) + held)
 
     def held(self, what: bytes, name: str, value: float, process: int) -> bytes:
         """What an answer holds."""

@@ -13,8 +13,7 @@ from mindrun.graph.policy import Policy
 from mindrun.graph.wiring import SensorWire
 from mindrun.robot.loop import Loop
 from mindrun.robot.rate import Rate
-from mindrun.robot.reading_filter import ReadingFilter
-from mindrun.robot.sampling import Sampler
+from mindrun.robot.sensing import ReadingFilter, Sampler
 from numpy.typing import NDArray
 
 from tests.sim.minds import compile_text

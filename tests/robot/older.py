@@ -3,7 +3,7 @@
 import zlib
 from pathlib import Path
 
-from mindrun.robot.recording import CHECKSUM_FIELD
+from mindrun.graph.recording_header import CHECKSUM_FIELD
 
 
 def older(path: Path) -> None:

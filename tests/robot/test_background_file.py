@@ -8,10 +8,8 @@ from threading import enumerate as enumerate_threads
 from typing import Any
 
 import pytest
-from mindrun.robot import background_file
-from mindrun.robot.background_file import BackgroundFile
-from mindrun.robot.recording import About, Recorder, RecordingError, read
-from mindrun.robot.temporary_recording import TemporaryRecorder
+from mindrun.robot import recording
+from mindrun.robot.recording import About, BackgroundFile, Recorder, RecordingError, TemporaryRecorder, read
 
 from tests.robot.driving import until
 from tests.robot.faults import graph
@@ -49,7 +47,7 @@ def test_nobody_waits_for_a_slow_card_until_the_end() -> None:
 
 
 def test_a_card_that_takes_nothing_any_more_fails_before_memory_is_full(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(background_file, "MAX_WAITING_BYTES", 1000)
+    monkeypatch.setattr(recording, "MAX_WAITING_BYTES", 1000)
     card = SlowCard()
     file = BackgroundFile(card)
     for _ in range(11):
@@ -67,15 +65,14 @@ def test_a_recording_that_cannot_begin_leaves_nothing_open(tmp_path: Path, monke
     full.symlink_to("/dev/full")
     monkeypatch.setattr(Path, "open", lambda path, mode: open(path, "wb"))  # noqa: PTH123, SIM115  "x" refuses it
     before = {thread.name for thread in enumerate_threads()}, len(os.listdir("/proc/self/fd"))  # noqa: PTH208
-    for at_once in (False, True):
-        with pytest.raises(OSError, match="No space left"):
-            Recorder(full, about(), at_once=at_once)
+    with pytest.raises(OSError, match="No space left"):
+        Recorder(full, about())
     assert ({thread.name for thread in enumerate_threads()}, len(os.listdir("/proc/self/fd"))) == before  # noqa: PTH208
 
 
 def test_what_is_recorded_for_a_viewer_alone_is_given_up_where_there_is_no_room(tmp_path: Path) -> None:
     day, told = tmp_path / "day.rec", list[str]()
-    with TemporaryRecorder(day, about(), told.append, at_once=True) as recorder:
+    with TemporaryRecorder(day, about(), told.append) as recorder:
         recorder.write(tick=0)
         recorder._file.flush()
         full = os.open("/dev/full", os.O_WRONLY)
@@ -95,7 +92,7 @@ def test_what_is_recorded_for_a_viewer_alone_is_given_up_where_there_is_no_room(
 
 def test_each_row_is_seen_without_another_one_after_it(tmp_path: Path) -> None:
     day = tmp_path / "day.rec"
-    with Recorder(day, about(), at_once=True) as recorder:
+    with Recorder(day, about()) as recorder:
         for tick in range(20):
             recorder.write(tick=tick, time=tick / 100)
             until(lambda: sum(map(len, read(day)[1])) == tick + 1)  # noqa: B023  called before the next
@@ -104,7 +101,7 @@ def test_each_row_is_seen_without_another_one_after_it(tmp_path: Path) -> None:
 
 def test_a_full_disk_is_told_and_nothing_is_written_behind_a_gap(tmp_path: Path) -> None:
     day = tmp_path / "day.rec"
-    recorder = Recorder(day, about(), at_once=True)
+    recorder = Recorder(day, about())
     recorder.write(tick=0)
     recorder._file.flush()
     rest, full = os.dup(recorder._file.fileno()), os.open("/dev/full", os.O_WRONLY)
@@ -121,7 +118,7 @@ def test_a_full_disk_is_told_and_nothing_is_written_behind_a_gap(tmp_path: Path)
 
 
 def test_the_loop_hears_that_nothing_is_written_any_more(tmp_path: Path) -> None:
-    recorder = Recorder(tmp_path / "day.rec", about(), at_once=True)
+    recorder = Recorder(tmp_path / "day.rec", about())
     full = os.open("/dev/full", os.O_WRONLY)
     os.dup2(full, recorder._file.fileno())
     os.close(full)

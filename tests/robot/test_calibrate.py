@@ -1,12 +1,12 @@
 """The lines that `mindrun calibrate` prints can stand in robot.yaml."""
 
 import pytest
-from mindrun.cli.tools.calibrate import lines, reading_statistics
+from mindrun.cli.calibrate import lines, reading_statistics
 from mindrun.graph.wiring import SensorWire
 from mindrun.kinds.sensors.compass import Compass
 from mindrun.kinds.sensors.distance import Distance
 from mindrun.kinds.sensors.inertial import Inertial
-from mindrun.robot.sampling import Sample
+from mindrun.robot.sensing import Sample
 
 from tests.robot.faults import Scripted
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from time import sleep
 
 import pytest
-from mindrun.cli.tools.doctor import machine
+from mindrun.cli.doctor import machine
 from mindrun.graph.bundle import Bundle, write_bundle
 from mindrun.graph.policy import Policy
 from mindrun.robot.recording import read
@@ -189,7 +189,7 @@ def test_doctor_says_what_answers(bundle: Path) -> None:
 
 
 def test_what_is_not_there_is_neither_fine_nor_a_fault(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("mindrun.cli.tools.doctor.find_spec", lambda package: None)
+    monkeypatch.setattr("mindrun.cli.doctor.find_spec", lambda package: None)
     marks = {finding.what: (finding.mark.strip(), finding.words) for finding in machine()}
     assert marks["machine"][0] == "ok"
     assert marks["lgpio"] == ("-", "not installed: sudo apt install python3-lgpio")
@@ -258,7 +258,7 @@ def test_a_dry_run_ends_when_its_world_does(bundle: Path, tmp_path: Path) -> Non
     words = [*MINDRUN, bundle, "--dry", "--arm", "--task", "Play", "--record", day]
     process = subprocess.Popen(words, stderr=subprocess.PIPE, text=True, start_new_session=True)
     until(lambda: recorded(day), process)
-    (world,) = children(process.pid, "mindrun.robot.simulated_world")
+    (world,) = children(process.pid, "mindrun.robot.world_server")
     os.kill(world, signal.SIGKILL)
     _, err = process.communicate(timeout=600)
     assert process.returncode == 2

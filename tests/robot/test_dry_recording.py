@@ -14,15 +14,12 @@ import pytest
 from mindrun.engine.engine import Engine
 from mindrun.graph.bundle import Bundle, write_bundle
 from mindrun.graph.policy import Policy
-from mindrun.robot.command import _goes_on
-from mindrun.robot.dry_run import DryRun
+from mindrun.robot.dry_run import MAX_END_TICKS, DryRun, SeenWorld
 from mindrun.robot.recording import read
 from mindrun.robot.replay import replay_recording
-from mindrun.robot.seen_world import SeenWorld
-from mindrun.robot.simulated_world.scene import SimulatedScene
-from mindrun.robot.simulated_world.server import Server, listening
+from mindrun.robot.world_server import Server, SimulatedScene, listening
 from mindrun.sim.commanded_world import World
-from mindrun.terminal.status_line import StatusLine
+from mindrun.terminal.standard_streams import StatusLine
 
 from mindlang.compiler.compile import load
 from mindlang.view.viewed_recording import viewed_recording
@@ -107,18 +104,21 @@ def test_a_run_whose_recording_never_gets_the_end_ends(rules: Path) -> None:
     world = World(graph, "Roam", 3)
     with served(SimulatedScene(world)) as path:
         seen = SeenWorld(world.task, 3, path)
-        run = DryRun(graph, world.task, "Roam", path, StatusLine(lambda sentence: None))
-        run._is_over = True
-        loop, more = SimpleNamespace(engine=Engine(Policy(graph, {}))), iter(range(3))
-        assert [_goes_on(run, seen, more, loop) for _ in range(5)] == [True, True, True, False, False]  # type: ignore[arg-type]
-        assert not _goes_on(run, None, iter(range(3)), loop)  # type: ignore[arg-type]
+        loop, line = SimpleNamespace(engine=Engine(Policy(graph, {}))), StatusLine(lambda sentence: None)
+        recorded, plain = (
+            DryRun(graph, world.task, "Roam", path, line, seen),
+            DryRun(graph, world.task, "Roam", path, line),
+        )
+        recorded._is_over = plain._is_over = True
+        assert [recorded.watch(loop) for _ in range(MAX_END_TICKS + 2)] == [True] * MAX_END_TICKS + [False] * 2  # type: ignore[arg-type]
+        assert not plain.watch(loop)  # type: ignore[arg-type]
         with seen.watched():
             pass
 
 
 def test_a_recorder_waits_for_no_world(rules: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """What was answered last is recorded, however long the world is silent, and what it answers then a row later."""
-    monkeypatch.setattr("mindrun.robot.drivers.simulated.EXCHANGE_SECONDS", PATIENCE)
+    monkeypatch.setattr("mindrun.robot.simulated_world.EXCHANGE_SECONDS", PATIENCE)
     graph = load(rules).graph
     assert graph
     world = World(graph, "Roam", 3)

@@ -16,8 +16,7 @@ from mindrun.robot.dry_run import MAX_THINGS_NAMED, DryRun, beginning, outcome
 from mindrun.robot.recording import read
 from mindrun.sim.commanded_world import World
 from mindrun.sim.rollout import Rollout
-from mindrun.terminal.standard_streams import error_columns
-from mindrun.terminal.status_line import CLEAR, PLAIN_SECONDS, StatusLine
+from mindrun.terminal.standard_streams import CLEAR, PLAIN_SECONDS, StatusLine, error_columns
 
 from mindlang.compiler.compile import load
 from tests.calling import RULES, write_rules
@@ -149,8 +148,8 @@ class Terminal:
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch, columns: int | None, is_read: bool = True) -> None:
         self.now, self.words, self.is_read = 0.0, list[str](), is_read
-        monkeypatch.setattr("mindrun.terminal.status_line.draw", lambda text: self.words.append(text))
-        monkeypatch.setattr("mindrun.terminal.status_line.is_error_read", lambda: self.is_read)
+        monkeypatch.setattr("mindrun.terminal.standard_streams.draw", lambda text: self.words.append(text))
+        monkeypatch.setattr("mindrun.terminal.standard_streams.is_error_read", lambda: self.is_read)
         self.line = StatusLine(self.words.append, clock=lambda: self.now, columns=lambda: columns)
 
 

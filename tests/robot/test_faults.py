@@ -59,7 +59,7 @@ def test_it_goes_on_when_the_sensor_is_back(kind: str) -> None:
     for _ in range(15):
         of.tick()
     assert [moves(commands) for commands in of.sent.commands] == [True] * 5 + [False] * 5 + [True] * 5
-    assert of.loop.faulty == {}
+    assert of.loop.faulty == set()
     assert of.driver.closed == 5, "a device that failed is closed and opened anew"
 
 
@@ -88,7 +88,7 @@ def test_a_reading_can_be_blank(fault: str) -> None:
 def test_nothing_there_is_no_fault() -> None:
     of = robot("range_finder", [lambda count: [0.4, None, 0.6]])
     of.tick()
-    assert of.loop.faulty == {}
+    assert of.loop.faulty == set()
     np.testing.assert_allclose(of.loop.engine.readings[:3], [0.4, 1.0, 0.6])
 
 

@@ -17,7 +17,7 @@ from mindrun.graph.wiring import SensorWire
 from mindrun.kinds.procedure_call import call
 from mindrun.robot.drivers.mock import MockSensor
 from mindrun.robot.drivers.own import CheckedActuatorDevice
-from mindrun.robot.sampling import Sample, checked
+from mindrun.robot.sensing import Sample, checked
 
 
 class Floats:

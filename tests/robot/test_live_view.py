@@ -17,9 +17,9 @@ from mindrun.graph.bundle import Bundle, digest, read_bundle, write_bundle
 from mindrun.graph.policy import Policy
 from mindrun.robot import live_view as live
 from mindrun.robot.drive import DriveOptions, drive
+from mindrun.robot.live_view import breakpoint_mistakes
 from mindrun.robot.loop import Loop
 from mindrun.robot.recording import read
-from mindrun.robot.view_breakpoints import mistakes
 
 from mindlang.view.growing_bytes import remote
 from tests.robot.driving import MINDRUN, PATIENCE, begun, children, mindrun, until, wiring
@@ -272,7 +272,7 @@ def test_what_a_viewer_says_last_moves_no_cursor(monkeypatch: pytest.MonkeyPatch
 
 def test_where_mindc_dies_the_breakpoints_are_not_called_right(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setattr("sys.executable", "false")
-    said = mistakes(tmp_path / "day.break", tmp_path / "ball.bundle", None, None)
+    said = breakpoint_mistakes(tmp_path / "day.break", tmp_path / "ball.bundle", None, None)
     assert said == [f"{tmp_path / 'day.break'} cannot be looked at: mindc ended with 1"]
 
 

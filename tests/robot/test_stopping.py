@@ -46,7 +46,7 @@ def test_what_ends_the_process_is_no_success(bundle: Path, end: str, code: int) 
 
 
 def python(lines: str) -> subprocess.CompletedProcess[str]:
-    before = "import os, signal, time\nfrom mindrun.robot.stop_signals import *\n"
+    before = "import os, signal, time\nfrom mindrun.robot.processes import *\n"
     return subprocess.run([sys.executable, "-c", before + lines], capture_output=True, text=True, timeout=600)
 
 

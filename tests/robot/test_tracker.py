@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from mindrun.robot.ball_detection import (
+from mindrun.robot.camera import (
     Aim,
     Ball,
     BallTarget,

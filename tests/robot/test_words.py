@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from mindrun.robot.recording import read
-from mindrun.terminal.line_writer import LineWriter
+from mindrun.terminal.standard_streams import LineWriter
 
 from tests.robot.driving import MINDRUN, begun, children, mindrun, until, write_procedure
 

@@ -6,7 +6,7 @@ import pytest
 from mindrun.graph.tasks import default_task
 
 from mindlang.compiler.compile import load
-from mindlang.run.setup import master_of
+from mindlang.run.chosen_task import master_of
 from tests.calling import RULES, Call
 
 MIND = """tick 1/60 s

@@ -8,8 +8,7 @@ from mindrun.engine.engine import Engine, procedure_sources
 from mindrun.graph.policy import Policy
 
 from mindlang.attribution.shares import ReplacedInfluenceError, shares
-from mindlang.run.edge_flow import EdgeFlows, Sink, accumulated, edge_flows
-from mindlang.run.sent_values import BLOCK_ROWS
+from mindlang.run.edge_flow import BLOCK_ROWS, EdgeFlows, Sink, accumulated, edge_flows
 from tests.hierarchies import PROCEDURES, Case, random_case
 from tests.minds import always, mind, rule
 from tests.run.test_shares import Thought, flows_of, thought

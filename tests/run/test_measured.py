@@ -21,9 +21,9 @@ from mindrun.robot.recording import read
 
 from mindlang.lock.ready import ReadyMind
 from mindlang.run.recorded_run import RecordedRun, record_run
-from mindlang.run.run_recording import run_bytes
+from mindlang.run.recording import run_bytes
 from mindlang.run.setup import RunSetup
-from mindlang.run.trace_file import trace_bytes, trace_table
+from mindlang.run.tables import trace_bytes, trace_table
 from mindlang.view.viewed_recording import viewed_recording
 from tests.draws import cases
 from tests.hierarchies import PROCEDURES, SCALES

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mindlang.run.conclusion import SCORE, SUCCESS, conclusion
+from mindlang.run.comparison import SCORE, SUCCESS, conclusion
 from mindlang.run.paired_difference import MAX_RUNS, MIN_RUNS, Difference, difference, t_quantile
 
 STUDENT = {1: 12.7062, 2: 4.30265, 4: 2.77645, 9: 2.26216, 30: 2.04227, 199: 1.97196, 10**6: 1.95997}  # any table

@@ -13,8 +13,8 @@ from statistics import mean, stdev
 import pytest
 from mindrun.sim import cache
 
-from mindlang.cli._simulator_compilation import is_compiled
-from mindlang.run.layouts import layouts
+from mindlang.cli._session import is_compiled
+from mindlang.run.many_runs import layouts
 from tests.calling import RULES, Call
 
 RUN_KEYS = {"score", "by_line", "counts", "ticks", "ended_by", "seed", "task", "master"}
@@ -123,7 +123,7 @@ def test_workers_change_nothing(mindc: Call, rules: Path) -> None:
 
 
 def test_a_first_run_says_why_it_takes_so_long(mindc: Call, rules: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("mindlang.cli._simulator_compilation.is_compiled", lambda entries: False)
+    monkeypatch.setattr("mindlang.cli._session.is_compiled", lambda entries: False)
     assert mindc("run", rules, "--seed", 3).err == "compiling the simulator once (about half a minute)…\n"
     assert mindc("run", rules, "--seed", 3, "--quiet").err == ""
 

@@ -20,8 +20,7 @@ from mindrun.robot.replay import replay, replay_recording
 from mindlang.compiler.compile import load
 from mindlang.lock.ready import ReadyMind
 from mindlang.run.recorded_run import RecordedRun, record_run
-from mindlang.run.run_recording import run_bytes, run_of
-from mindlang.run.running_bundle import running_bundle
+from mindlang.run.recording import run_bytes, run_of, running_bundle
 from mindlang.run.setup import RunSetup, set_up
 from mindlang.view.viewed import Viewed
 from mindlang.view.viewed_recording import viewed_recording

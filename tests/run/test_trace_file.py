@@ -16,10 +16,9 @@ from numpy.typing import NDArray
 from pyarrow import parquet
 
 from mindlang.compiler.compile import load
-from mindlang.run.columns import csv_bytes
 from mindlang.run.recorded_run import RecordedRun, record_run
 from mindlang.run.setup import set_up
-from mindlang.run.trace_file import trace_bytes, trace_table
+from mindlang.run.tables import csv_parts, trace_bytes, trace_table
 from tests.calling import Call
 
 
@@ -81,7 +80,7 @@ def test_parquet_says_the_same(rules: Path) -> None:
 def test_the_largest_and_the_smallest_numbers_are_written_shortly(precision: type[np.floating[Any]]) -> None:
     known = np.finfo(precision)
     for number in (known.max, known.tiny, known.smallest_subnormal, -known.smallest_subnormal):
-        text = csv_bytes({"a": np.array([number], precision)}).decode().split("\n")[1]
+        text = b"".join(csv_parts({"a": np.array([number], precision)})).decode().split("\n")[1]
         assert _says(text, number)
         assert not any(_says(shorter, number) for shorter in _shorter(text))
 
@@ -91,7 +90,7 @@ def test_the_largest_and_the_smallest_numbers_are_written_shortly(precision: typ
 def test_a_number_that_is_written_is_read_again(precision: type, data: st.DataObject) -> None:
     width = st.floats(width=32) if precision is np.float32 else st.floats()
     column: NDArray[np.float64] = data.draw(arrays(precision, st.integers(1, 20), elements=width))
-    texts = [row["a"] for row in rows("a,b\n" + csv_bytes({"a": column, "b": column}).decode().partition("\n")[2])]
+    texts = [row["a"] for row in rows(b"".join(csv_parts({"a": column, "b": column})).decode())]
     for text, number in zip(texts, column, strict=True):
         assert (text == "") == (not np.isfinite(number))
         assert text == "" or precision(text).tobytes() == precision(number).tobytes()
@@ -119,7 +118,7 @@ def _shorter(text: str) -> list[str]:
 
 @given(names=st.lists(st.text(min_size=1), min_size=1, max_size=5, unique=True))
 def test_any_name_is_one_column(names: list[str]) -> None:
-    text = csv_bytes({name: np.arange(2) for name in names}).decode()
+    text = b"".join(csv_parts({name: np.arange(2) for name in names})).decode()
     assert next(csv.reader(StringIO(text, newline=""))) == names
 
 

@@ -9,8 +9,8 @@ from mindrun.graph.weights import genes
 
 from mindlang.compiler.compile import load
 from mindlang.lock import Taught, lock_path
-from mindlang.lock.arrange import arrange
 from mindlang.lock.blobs import record
+from mindlang.lock.signature import arrange
 from tests.calling import RULES, Call
 
 LEARNT = (

@@ -15,11 +15,9 @@ from mindlang.compiler.compile import load
 from mindlang.pictures.picture import view_of
 from mindlang.pictures.theme import PAPER
 from mindlang.pictures.two_paths import outcome_words
-from mindlang.run.course import course
-from mindlang.run.recorded_run import RecordedRun
+from mindlang.run.recorded_run import RecordedRun, run_result
 from mindlang.run.setup import RunSetup, set_up
-from mindlang.whatif.another_mind import compare_minds
-from mindlang.whatif.changed_run import compare
+from mindlang.whatif.comparison import compare
 from mindlang.whatif.request import Request, changes_of
 from tests.calling import Call
 
@@ -55,7 +53,7 @@ def test_the_first_tick_that_differs_is_the_first(rules: Path) -> None:
     rollout = setup.rollout()
     graph = setup.ready.policy.graph
     for changes in (silenced(graph, "Turn", 30), change_of(graph, "reading", "ball_bearing", [[0.2]], 17, 20)):
-        compared = compare(setup, rollout, 3, changes)
+        compared = compare((setup, rollout), 3, changes[0].first, changes)
         was, now = compared.was.run, compared.now.run
         ticks = min(was.ticks, now.ticks)
         blocks = ("readings", "influence", "commands")
@@ -68,12 +66,13 @@ def test_the_first_tick_that_differs_is_the_first(rules: Path) -> None:
 
 def test_a_change_may_be_in_the_last_tick_and_no_later(rules: Path) -> None:
     setup = setup_of(rules, "Chase")
-    rollout, graph = setup.rollout(), setup.ready.policy.graph
-    found = compare(setup, rollout, 3, silenced(graph, "Turn", 1199)).differences
+    graph = setup.ready.policy.graph
+    cast = setup, setup.rollout()
+    found = compare(cast, 3, 1199, silenced(graph, "Turn", 1199)).differences
     assert {(each.tick, each.what) for each in found} >= {(1199, "command"), (1200, "robot")}
-    assert {each.tick for each in compare(setup, rollout, 3, silenced(graph, "Turn", 1200)).differences} == {1200}
+    assert {each.tick for each in compare(cast, 3, 1200, silenced(graph, "Turn", 1200)).differences} == {1200}
     with pytest.raises(ChangeError, match=r"over after tick 1,200: there is no tick 1,201"):
-        compare(setup, rollout, 3, silenced(graph, "Turn", 1201))
+        compare(cast, 3, 1201, silenced(graph, "Turn", 1201))
 
 
 def test_a_change_to_what_it_is_anyway_differs_nowhere(mindc: Call, rules: Path) -> None:
@@ -91,7 +90,7 @@ def test_a_setting_is_for_one_tick_and_a_sensor_for_all_that_follow(rules: Path)
     assert [(each.first, each.values) for each in made[0]] == [(10, (value,)) for value in (0.0, 0.5, 1.0, 0.0, 1.0)]
     place = next(sensor for sensor in graph.sensors if sensor.name == "ball_bearing").start
     read = [
-        course(setup, setup.rollout(), 3, changes_of(request, graph, setup.master)).run.readings[:, place] == 0.25
+        run_result(setup, setup.rollout(), 3, changes_of(request, graph, setup.master)).run.readings[:, place] == 0.25
         for request in (Request(10, settings=("ball_bearing=0.25",)), Request(10, sensors=("ball_bearing=0.25",)))
     ]
     assert read[0].nonzero()[0].tolist() == [9]
@@ -126,7 +125,7 @@ def test_a_sensor_reads_what_was_recorded_tick_by_tick_and_then_its_own(
     for ticks, last in ((5, 34), (11, 40), (12, 40)):
         shorter = changes_of(Request(30, ticks, sensors=(f"feeler={short}",)), graph, setup.master, rules)
         assert [(each.last, len(each.values)) for each in shorter] == [(last, last - 29)] * 3
-    now, own = (course(setup, setup.rollout(), 3, made).run.readings[:, columns] for made in (changes, ()))
+    now, own = (run_result(setup, setup.rollout(), 3, made).run.readings[:, columns] for made in (changes, ()))
     assert np.array_equal(now[:29], own[:29])
     assert np.array_equal(now[29:40], recorded[29:40])
     assert not np.array_equal(now[40:60], recorded[40:60])
@@ -211,11 +210,9 @@ def test_what_another_mind_makes_of_a_run_follows_what_was(rules: Path) -> None:
     ours, other = setup_of(rules, "Chase"), rules.with_name("other.mind")
     other.write_text(rules.read_text().replace("Turn", "Spin"))
     theirs = setup_of(other, "Chase")
-    was = course(ours, ours.rollout(), 3).run
+    was = run_result(ours, ours.rollout(), 3).run
     tick = int(np.flatnonzero(was.events[:, 0])[0]) + 2
-    same, renamed = (
-        compare_minds((ours, ours.rollout()), (setup, setup.rollout()), 3, tick, ()) for setup in (ours, theirs)
-    )
+    same, renamed = (compare((ours, ours.rollout()), 3, tick, (), (setup, setup.rollout())) for setup in (ours, theirs))
     for field in {each.name for each in fields(RecordedRun)} - {"setup"}:
         assert np.array_equal(getattr(same.now.run, field), getattr(was, field), equal_nan=True)
     assert same.differences == renamed.differences == []
@@ -259,7 +256,7 @@ def test_a_success_is_said_as_one_in_the_picture() -> None:
 
 def test_the_picture_of_a_plain_scene_has_room_for_both(rules: Path) -> None:
     setup = set_up(str(rules), load(rules), "Chase", None)
-    compared = compare(setup, setup.rollout(), 3, silenced(setup.ready.policy.graph, "Chase"))
+    compared = compare((setup, setup.rollout()), 3, 1, silenced(setup.ready.policy.graph, "Chase"))
     both = [compared.was.run, compared.now.run]
     view = view_of(both[0], 900, 900, both[1])
     places = np.concatenate([run.body[:, :2] for run in both])

@@ -5,10 +5,8 @@ from typing import Any, cast
 import numpy as np
 from rich.console import Group, RenderableType
 
-from mindlang.run.course import Course
-from mindlang.run.recorded_run import RecordedRun
-from mindlang.whatif.changed_run import Compared
-from mindlang.whatif.difference import Difference, first_differences
+from mindlang.run.recorded_run import RecordedRun, RunResult
+from mindlang.whatif.comparison import Compared, Difference, first_differences
 from mindlang.whatif.open_loop import OpenLoop, Sent
 from mindlang.whatif.report import comparison_summary, differences_text, recording_data, recording_summary
 from mindlang.whatif.request import Request
@@ -84,7 +82,7 @@ def text(said: RenderableType) -> str:
 
 def test_two_runs() -> None:
     found = [Difference(20, "influence", "Avoid", 1.0, 0.0), Difference(1200, "reward", "score", 20.0, np.nan)]
-    was, now = (Course(cast(RecordedRun, None), each) for each in (WAS, NOW))
+    was, now = (RunResult(cast(RecordedRun, None), each) for each in (WAS, NOW))
     request = Request(20, without=("Avoid",))
     assert text(comparison_summary(request, Compared(was, now, found))) == RUNS
     assert text(comparison_summary(request, Compared(now, was, []))).endswith(
@@ -93,7 +91,7 @@ def test_two_runs() -> None:
 
 
 def test_a_recording() -> None:
-    sent = [Sent("left_wheel", 1100, 0.123, 1.0, 1200), Sent("right_wheel", 0, 0.0, 0.0, 20)]
+    sent = {"left_wheel": Sent(1100, 0.123, 1.0, 1200), "right_wheel": Sent(0, 0.0, 0.0, None)}
     request, found = Request(20, without=("Avoid",)), OpenLoop("Go", 1200, [], sent)
     assert text(recording_summary(request, "day.rec", found)) == RECORDING
     commands = recording_data(request, found)["commands"]

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from mindlang.server import commands
+from mindlang.server import serve
 from mindlang.server.questions import TERMINAL
 from tests.language.examples import ROOT
 
@@ -43,8 +43,8 @@ def test_it_is_of_this_version_and_licence() -> None:
 def test_its_commands_are_its_own_and_the_server_s() -> None:
     own = {each["command"] for each in PACKAGE["contributes"]["commands"]}
     assert set(re.findall(r'registerCommand\("([\w.]+)"', SCRIPT)) == own | {TERMINAL}
-    assert own.isdisjoint({commands.EDIT, commands.EDITS})  # the client makes those of the server itself
-    assert {commands.EDIT, commands.EDITS} <= set(re.findall(r'"(mind\.\w+)"', SCRIPT))
+    assert own.isdisjoint({serve.EDIT, serve.EDITS})  # the client makes those of the server itself
+    assert {serve.EDIT, serve.EDITS} <= set(re.findall(r'"(mind\.\w+)"', SCRIPT))
 
 
 def test_a_folder_that_is_not_trusted_does_not_say_what_is_run() -> None:

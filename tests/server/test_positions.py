@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 from lsprotocol.types import Position
 from pygls.workspace import PositionCodec
 
-from mindlang.server.lsp_types import TextLines
+from mindlang.server.server import TextLines
 from tests.server.client import offset, position
 
 TEXTS = st.text(st.sampled_from("ab é😀\u2028\x85\x0b#\n\r"), max_size=40)

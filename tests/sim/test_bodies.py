@@ -91,7 +91,7 @@ def moments(graph: Graph, seed: int = 1) -> Iterator[Moment]:
 
 
 @pytest.mark.parametrize("name", ROBOTS)
-@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("seed", range(6))
 def test_every_body_moves_and_touches_as_in_plain_pymunk(name: str, seed: int) -> None:
     """Into obstacles, walls and corners, with and without an item in the claw."""
     graph = robot(name, 5_000)

@@ -14,7 +14,7 @@ from mindrun.sim import cache, warmup
 from mindrun.sim.compiling import compiled, entry
 from numba.core.registry import cpu_target
 
-import mindlang.cli._simulator_compilation as simulator
+import mindlang.cli._session as simulator
 from tests.calling import Call
 from tests.language.examples import ROOT
 

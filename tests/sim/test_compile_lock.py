@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from mindrun.sim import cache, compile_lock
-from mindrun.sim.compile_lock import exclusive
+from mindrun.sim import cache
+from mindrun.sim.cache import exclusive
 from mindrun.sim.compiling import compiled, entry
 from mindrun.sim.numba_internals import callback_of
 from numba import types
@@ -20,7 +20,7 @@ from numba import types
 HOLDS = """
 import sys
 from pathlib import Path
-from mindrun.sim.compile_lock import exclusive
+from mindrun.sim.cache import exclusive
 with exclusive(Path(sys.argv[1])):
     print("has it", flush=True)
     sys.stdin.read()
@@ -72,7 +72,7 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> list[float]:
         def sleep(seconds: float) -> None:
             asked[0] += seconds
 
-    monkeypatch.setattr(compile_lock, "time", Clock)
+    monkeypatch.setattr(cache, "time", Clock)
     return asked
 
 
@@ -102,7 +102,7 @@ def test_one_that_was_killed_keeps_nobody_waiting(lock: Path, asked: list[float]
 
 def test_one_that_never_ends_is_not_waited_for_for_ever(lock: Path, asked: list[float]) -> None:
     with python(HOLDS, lock) as other, exclusive(lock):
-        assert asked[0] == pytest.approx(compile_lock.WAIT_SECONDS, abs=2 * compile_lock.ASK_AGAIN_SECONDS)
+        assert asked[0] == pytest.approx(cache.WAIT_SECONDS, abs=2 * cache.ASK_AGAIN_SECONDS)
         assert other.poll() is None
 
 

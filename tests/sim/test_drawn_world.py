@@ -13,7 +13,7 @@ from mindrun.sim.trace import Trace, trace
 from mindlang.compiler.compile import compile_source
 from mindlang.compiler.model import Task
 from mindlang.compiler.source import Source
-from mindlang.lint.drawn_world import DrawnWorld
+from mindlang.lint.rules.crowded_world import DrawnWorld
 
 ROBOT = """
 tick 1/20 s

@@ -10,8 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from mindrun.kinds.procedure_call import load
 from mindrun.sim.exact import OPERATIONS, exactly
-from mindrun.sim.formula_terms import NoFormulaError
-from mindrun.sim.formulas import formula
+from mindrun.sim.formulas import NoFormulaError, formula
 
 from tests.draws import cases
 

@@ -65,13 +65,12 @@ def world(ticks: int, outcome: str = "") -> Rollout:
 @pytest.mark.parametrize("seed", [*range(3), *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(3, 12))])
 def test_pushes_equal_plain_pymunk(seed: int) -> None:
     """A robot that drives about between walls, obstacles and loose things, which it pushes against all of them."""
-    rollout = world(2_500, ("", "delivered stays", "delivered vanishes")[seed % 3])
+    rollout = world(1_500, ("", "delivered stays", "delivered vanishes")[seed % 3])
     happened = follow(rollout, Engine(Policy(rollout.graph, {})), seed)
     assert happened["Collision"] > 2
 
 
-@pytest.mark.parametrize("outcome", ["moves", "vanishes"])
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize(("outcome", "seed"), [("moves", 0), ("vanishes", 1)])
 def test_what_has_settled_and_is_then_elsewhere_without_a_contact_is_nowhere_else(outcome: str, seed: int) -> None:
     """Reached before it is touched: at the next wall Chipmunk is told where it is, or that it is not there."""
     text = """

@@ -11,8 +11,7 @@ from mindrun.engine.changes import ChangeError
 from mindrun.graph.graph import Graph
 from mindrun.graph.policy import Policy
 from mindrun.sim.rollout import Rollout, scores_of
-from mindrun.sim.takeover import take_over
-from mindrun.sim.trace import trace
+from mindrun.sim.trace import take_over, trace
 
 from tests.draws import cases
 from tests.hierarchies import SCALES

@@ -6,8 +6,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from mindrun.graph.policy import Policy
+from mindrun.sim.lanes.solid import MOST_STRIDES, STRIDE_SHARE
 from mindrun.sim.rollout import Rollout
-from mindrun.sim.strides import MOST_STRIDES, STRIDE_SHARE
 from mindrun.sim.trace import trace
 
 from mindlang.lint.top_speed import step_of

@@ -51,7 +51,7 @@ def world(ticks: int, outcome: str = "", text: str = MIND) -> Rollout:
 
 @pytest.mark.parametrize("seed", range(3))
 def test_walkers_are_where_plain_arithmetic_has_them(seed: int) -> None:
-    rollout = world(3_000, ("", "reached moves", "reached vanishes")[seed % 3])
+    rollout = world(1_500, ("", "reached moves", "reached vanishes")[seed % 3])
     happened = follow(rollout, Engine(Policy(rollout.graph, {})), seed)
     assert happened["Reach"] > 0
 

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from mindrun import processors
 from mindrun.processors import cores, cpu_seconds
 
-from mindlang.diagnosis.checks import machine
+from mindlang.diagnosis import machine
 
 CORES = 64
 LIMITS = st.one_of(st.none(), st.integers(1, 3 * CORES).map(lambda tenths: tenths / 10))  # None is no limit

@@ -5,11 +5,11 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 import pytest
-from mindrun.cli.tools import doctor, run_tool
+from mindrun.cli import doctor, run_tool
 from mindrun.sim import cache, warmup
 
-from mindlang.diagnosis import checks, requirements
-from mindlang.diagnosis.checks import Finding, State
+from mindlang import diagnosis
+from mindlang.diagnosis import Finding
 from tests.calling import Call
 
 
@@ -22,9 +22,9 @@ def without(monkeypatch: pytest.MonkeyPatch, *names: str, **others: str) -> None
         return others.get(name) or version(name)
 
     lines = ["numpy>=1.26", "numba<0.69,>=0.63", 'matplotlib>=3.8; extra == "plot"', 'pytest>=8; extra == "dev"']
-    monkeypatch.setattr(requirements, "version", found)
-    monkeypatch.setattr(requirements, "requires", lambda _: lines)
-    monkeypatch.setattr(requirements, "extras", lambda: ["plot", "dev"])
+    monkeypatch.setattr(diagnosis, "version", found)
+    monkeypatch.setattr(diagnosis, "requires", lambda _: lines)
+    monkeypatch.setattr(diagnosis, "extras", lambda: ["plot", "dev"])
 
 
 def said(mindc: Call) -> tuple[int, dict[str, dict[str, str]]]:
@@ -85,7 +85,7 @@ def test_a_check_that_fails_hides_no_other(mindc: Call, monkeypatch: pytest.Monk
     def packages() -> list[Finding]:
         raise ImportError("numba: undefined symbol\nand more")
 
-    monkeypatch.setattr(checks, "CHECKS", [packages, checks.browser])
+    monkeypatch.setattr(diagnosis, "CHECKS", [packages, diagnosis.browser])
     code, found = said(mindc)
     assert code == 1
     assert found["packages"]["seen"] == "ImportError: numba: undefined symbol"
@@ -94,21 +94,21 @@ def test_a_check_that_fails_hides_no_other(mindc: Call, monkeypatch: pytest.Monk
 
 def test_programs_of_two_versions(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("mindrun.VERSION", "0.0.9")
-    assert [each.state for each in checks.programs()] == [State.FINE, State.WRONG]
+    assert [each.state for each in diagnosis.programs()] == ["ok", "wrong"]
 
 
 def test_little_memory_and_an_old_python(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("mindlang.limits.available", lambda: 100 << 20)
-    assert [each.seen for each in checks.machine() if each.state is State.WRONG] == ["100 MiB free"]
+    assert [each.seen for each in diagnosis.machine() if each.state == "wrong"] == ["100 MiB free"]
     monkeypatch.setattr("platform.python_version", lambda: "3.10.2")
-    assert [each.state for each in checks.python()] == [State.WRONG]
+    assert [each.state for each in diagnosis.python()] == ["wrong"]
 
 
 def test_no_browser(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("PATH", "")
     monkeypatch.setattr("webbrowser._tryorder", [])
     monkeypatch.setattr("webbrowser._browsers", {})
-    assert [each.state for each in checks.browser()] == [State.ABSENT]
+    assert [each.state for each in diagnosis.browser()] == ["absent"]
 
 
 def test_on_a_robot_nothing_that_is_absent_is_ok(

@@ -8,7 +8,7 @@ from itertools import product
 from pathlib import Path
 
 import pytest
-from mindrun.robot.identity import IdentityError, adopt, identity_file
+from mindrun.robot.ownership import IdentityError, adopt, identity_file
 from mindrun.sim import cache
 from mindrun.terminal import standard_streams
 
@@ -38,7 +38,7 @@ def test_a_robots_identity_replaces_no_device(tmp_path: Path, monkeypatch: pytes
     monkeypatch.chdir(tmp_path)
     os.mkfifo("pipe")
     monkeypatch.setenv("MIND_ROBOT", place)
-    monkeypatch.setattr("mindrun.robot.identity.identity", lambda wiring, graph: "0" * 64)
+    monkeypatch.setattr("mindrun.robot.ownership.identity", lambda wiring, graph: "0" * 64)
     before = Path(place).stat().st_mode
 
     class Wiring:

@@ -7,16 +7,14 @@ import numpy as np
 import pytest
 from mindrun.graph.graph import Graph
 from mindrun.graph.policy import Policy
-from mindrun.sim.allocation import empty_state
 from mindrun.sim.rollout import Rollout
+from mindrun.sim.state import empty_state
 
 from mindlang import limits
 from mindlang.compiler.compile import load
 from mindlang.limits import bytes_for, bytes_of
-from mindlang.run.columns import csv_parts
-from mindlang.run.layouts import layouts
-from mindlang.run.many_runs import run_all
-from mindlang.run.runs_table import runs_table
+from mindlang.run.many_runs import layouts, run_all
+from mindlang.run.tables import csv_parts, runs_table
 from tests.calling import Call
 
 RUNS = 30_000

@@ -10,7 +10,7 @@ from pathlib import Path
 import jsonschema
 import pytest
 
-from mindlang.templates.catalogue import robots, tasks
+from mindlang.templates import robots, tasks
 from tests.calling import Call
 
 PROGRAM = (sys.executable, "-c", "from mindlang.cli import main; main()")

@@ -37,7 +37,7 @@ def watched(run: RunFolder, stop_after: int = 10**9, events: EventFiles | None =
     events, silent = events or EventFiles(run), unwatched(1e9, stop_after)
 
     def report(_: object, record: Record) -> None:
-        events.report(record, 0, silent.clock())
+        events.report(record, silent.clock())
 
     train(run, Sphere(), Watch(report, forget, silent.stop, silent.clock, save_every=silent.save_every))
     events.close()
@@ -129,7 +129,7 @@ def test_what_is_not_finite_is_no_event(run: RunFolder) -> None:
     events = EventFiles(run)
 
     def report(_: object, record: Record) -> None:
-        events.report(record, 0, 0.0)
+        events.report(record, 0.0)
 
     silent = unwatched(1e9)
     train(run, Faulty(above=-1e9), Watch(report, forget, silent.stop, silent.clock, save_every=silent.save_every))

@@ -8,8 +8,7 @@ from hypothesis import strategies as st
 
 from mindlang.compiler.compile import compile_source, load
 from mindlang.compiler.source import Source
-from mindlang.lock.lessons import needed_skills
-from mindlang.lock.status import Trained
+from mindlang.lock.status import Trained, needed_skills
 from mindlang.training.lesson_choice import chosen_lessons
 from mindlang.training.subject import open_subject
 from tests.calling import Call

@@ -9,9 +9,7 @@ from mindrun.graph.weights import learners, parts
 
 from mindlang.compiler.compile import load
 from mindlang.lock import Entry, Signature, Taught
-from mindlang.lock.due import is_due
-from mindlang.lock.lessons import last_lesson, subskills
-from mindlang.lock.status import Trained, Untaught
+from mindlang.lock.status import Trained, Untaught, is_due, last_lesson, subskills
 from mindlang.training.subject import open_subject
 
 FOLDER = Path(__file__).parents[2] / "examples" / "collect"

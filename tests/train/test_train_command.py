@@ -49,6 +49,16 @@ TRAIN = (sys.executable, "-c", "from mindlang.cli import main; main()", "train")
 LONG = ("drive.mind", "Go", "--seed", "3", "--generations", "400", "--from-scratch", "--json")
 
 
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory: pytest.TempPathFactory) -> str:
+    """The weights with which the long training ends where nothing interrupts it."""
+    folder = tmp_path_factory.mktemp("undisturbed")
+    (folder / "drive.mind").write_text(MIND)
+    done = subprocess.run([*TRAIN, *LONG], cwd=folder, capture_output=True, text=True, check=True)
+    weights: str = json.loads(done.stdout)["weights"]
+    return weights
+
+
 @pytest.fixture
 def project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
@@ -136,16 +146,18 @@ def test_what_a_procedure_prints_is_talk(project: Path) -> None:
     assert {"begins", "turns"} <= set(taught.stderr.splitlines())
 
 
-def test_ctrl_c_finishes_the_generation_and_the_run_goes_on_as_if_nothing_had_been(train: Call, project: Path) -> None:
-    run, weights = interrupted(train, project)
-    assert json.loads(train("--resume", run, "--json").out)["weights"] == weights
+def test_ctrl_c_finishes_the_generation_and_the_run_goes_on_as_if_nothing_had_been(
+    train: Call, project: Path, whole: str
+) -> None:
+    run = interrupted(project)
+    assert json.loads(train("--resume", run, "--json").out)["weights"] == whole
     once_more = train("--resume", run)
     assert (once_more.code, "has finished already" in once_more.err) == (0, True)
 
 
-def test_the_same_command_goes_on_where_it_was_stopped(train: Call, project: Path) -> None:
-    run, weights = interrupted(train, project)
-    assert json.loads(train(*LONG).out)["weights"] == weights
+def test_the_same_command_goes_on_where_it_was_stopped(train: Call, project: Path, whole: str) -> None:
+    run = interrupted(project)
+    assert json.loads(train(*LONG).out)["weights"] == whole
     assert [str(folder) for folder in (project / "runs" / "Go-on-Reach").iterdir()] == [run]
     train(*LONG, "--generations", "1")
     assert len(list((project / "runs" / "Go-on-Reach").iterdir())) == 2
@@ -157,7 +169,7 @@ def test_a_scale_multiplies_the_generations(train: Call, project: Path) -> None:
 
 
 def test_a_run_whose_source_has_changed_is_refused(train: Call, project: Path) -> None:
-    run, _ = interrupted(train, project)
+    run = interrupted(project)
     comments = MIND.replace("master", "# a comment changes nothing\nmaster")
     (project / "drive.mind").write_text(comments.replace("Go is mlp hidden 1", "Go is mlp hidden 2"))
     refused = train("--resume", run)
@@ -167,9 +179,8 @@ def test_a_run_whose_source_has_changed_is_refused(train: Call, project: Path) -
     assert train("--resume", run).code == 0
 
 
-def interrupted(train: Call, project: Path) -> tuple[str, str]:
-    """A run stopped with Ctrl-C, and the weights with which it would have ended."""
-    whole = json.loads(train(*LONG, "--runs", "undisturbed").out)
+def interrupted(project: Path) -> str:
+    """A run stopped with Ctrl-C."""
     command = [*TRAIN, *LONG]
     with subprocess.Popen(command, cwd=project, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
         logs = project.glob("runs/Go-on-Reach/*/progress.jsonl")
@@ -182,7 +193,7 @@ def interrupted(train: Call, project: Path) -> tuple[str, str]:
     assert process.returncode == 130
     run = str(next(logs).parent)
     assert f"mindc train --resume {run.removeprefix(f'{project}/')}" in talk
-    return run, whole["weights"]
+    return run
 
 
 def test_files_are_called_as_they_are_from_here(train: Call, project: Path) -> None:

@@ -9,14 +9,7 @@ from mindrun.train.attempts import Ahead
 from mindrun.train.lesson_state import Record
 from rich.console import Console
 
-from mindlang.cli._training_progress import (
-    PrintedLines,
-    ProgressBarLine,
-    ProgressLine,
-    ProgressText,
-    Reevaluated,
-    TimeLeft,
-)
+from mindlang.cli._training_progress import LessonDisplay, ProgressLine, ProgressText, TimeLeft
 from mindlang.number_format import rate
 
 SHOWN = {
@@ -96,7 +89,7 @@ def test_founders_are_as_many_generations_as_they_take() -> None:
 
 
 def test_a_score_is_told_with_the_generation_that_it_is_of() -> None:
-    pace = TimeLeft(80, 0.0, attempts=2, reevaluated=Reevaluated(1, 10, 5.97))  # as of a run that goes on
+    pace = TimeLeft(80, 0.0, attempts=2, reevaluated=(1, 10, 5.97))  # as of a run that goes on
     records = [(1, 11, None), (1, 20, 4.0), (1, 21, None), (2, 1, None), (2, 10, 3.0), (2, 11, None)]
     told = [pace.standing(record(*each), each[1], 1.0) for each in records]
     assert [each.reevaluated for each in told] == [
@@ -114,16 +107,16 @@ def test_a_score_is_told_with_the_generation_that_it_is_of() -> None:
 def test_the_bar_goes_away_and_lines_stay() -> None:
     out = StringIO()
     console = Console(file=out, width=80, force_terminal=True, color_system=None)
-    bar = ProgressBarLine(console, "Follow", TimeLeft(40, 0.0))
-    bar.report(record(1, 20), 20, 1.0)
+    pace = TimeLeft(40, 0.0)
+    bar = LessonDisplay(console, "Follow", pace)
+    bar.report(pace.standing(record(1, 20), 20, 1.0), 20, 1.0)
     bar.close()
     assert "generation 20 of 40" in out.getvalue()
     assert out.getvalue().endswith("\x1b[1A\x1b[2K")  # one line up, and empty
-    out = StringIO()
-    lines = PrintedLines(Console(file=out, width=200), "Follow", TimeLeft(40, 0.0))
-    lines.report(record(1, 1, 5.0), 1, 0.5)
-    lines.report(record(1, 2), 2, 1.0)
-    lines.report(record(1, 40), 40, 2.0)
+    out, pace = StringIO(), TimeLeft(40, 0.0)
+    lines = LessonDisplay(Console(file=out, width=200), "Follow", pace)
+    for each, done, now in ((record(1, 1, 5.0), 1, 0.5), (record(1, 2), 2, 1.0), (record(1, 40), 40, 2.0)):
+        lines.report(pace.standing(each, done, now), done, now)
     assert out.getvalue().splitlines() == [
         "Follow: generation 1 of 40, best 6.67, re-evaluated 5.00, 2 k ticks/s, 20 s left",
         "Follow: generation 40 of 40, best 6.67, re-evaluated 5.00 in generation 1, 2 k ticks/s, 0 s left",

@@ -10,15 +10,17 @@ from pathlib import Path
 from threading import Event, Thread
 from typing import Any
 
+import numpy as np
 from websockets.sync.client import ClientConnection, connect
 from websockets.typing import Origin
 
 from mindlang.compiler.compile import load
 from mindlang.run.setup import RunSetup, set_up
+from mindlang.view.learning import Champions
+from mindlang.view.rows import DOUBLE_BYTES, HEADER, ROWS_KIND, SINGLE_BYTES
 from mindlang.view.server import ViewServer
 from mindlang.view.session import Session
 from mindlang.view.viewed import Viewed
-from mindlang.view.viewed_champion import Champions
 from mindlang.view.viewed_run import ViewedRun
 
 ANSWER_SECONDS = 600.0  # at which a test gives up: the simulator may have to be compiled
@@ -155,3 +157,16 @@ def request(view: Served, line: str = "GET / HTTP/1.1", host: str | None = "HOST
     lines = [line, *([] if host is None else [f"Host: {host}"]), *(f"{name}: {headers[name]}" for name in headers)]
     text = ENTERS.join([*lines, "", ""]).replace("HOST", view.host).replace("PORT", str(view.port))
     return text.encode("latin-1")
+
+
+def unpacked(data: bytes, doubles: int, singles: int) -> tuple[int, int, np.ndarray, np.ndarray, np.ndarray]:
+    """The fork, what was asked, the ticks and both blocks of a frame of rows; ValueError where it is none."""
+    if len(data) < HEADER.size or HEADER.unpack_from(data)[0] != ROWS_KIND:
+        raise ValueError("this is no frame of rows")
+    _, fork, first, every, rows, ask = HEADER.unpack_from(data)
+    middle = HEADER.size + DOUBLE_BYTES * doubles * rows
+    if len(data) != middle + SINGLE_BYTES * singles * rows:
+        raise ValueError(f"a frame of {rows} rows has another length than {len(data)} bytes")
+    wide = np.frombuffer(data[HEADER.size : middle], "<f8").reshape(rows, doubles)
+    narrow = np.frombuffer(data[middle:], "<f4").reshape(rows, singles)
+    return fork, ask, first + every * np.arange(rows), wide, narrow

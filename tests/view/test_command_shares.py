@@ -6,8 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mindlang.view.rows import unpacked
-from tests.view.serving import Served, ViewingClient
+from tests.view.serving import Served, ViewingClient, unpacked
 
 TICKS = [1, 2, 77, 664, 1200]
 

@@ -13,8 +13,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 from mindrun.engine.engine import Engine
 from mindrun.graph.bundle import Bundle, digest, write_bundle
-from mindrun.robot.growing_recording import MAX_EMPTY_PARTS, read_growing
-from mindrun.robot.recording import MAX_HEADER_BYTES, About, Recorder, RecordingError, read
+from mindrun.robot.recording import (
+    MAX_EMPTY_PARTS,
+    MAX_HEADER_BYTES,
+    About,
+    Recorder,
+    RecordingError,
+    read,
+    read_growing,
+)
 
 from mindlang.view import growing_bytes as growing
 from mindlang.view.viewed import Viewed
@@ -107,7 +114,7 @@ def test_what_is_no_recording_is_refused(parts: list[bytes]) -> None:
 
 def test_ticks_come_as_they_are_written(tmp_path: Path) -> None:
     day = Growing(tmp_path)
-    with Recorder(day.rec, day.about, at_once=True) as recorder:
+    with Recorder(day.rec, day.about) as recorder:
         write_rows(recorder, day.engine, 0, 7)
         with (
             followed_recording(str(day.rec), day.bundle) as viewed,
@@ -124,7 +131,7 @@ def test_ticks_come_as_they_are_written(tmp_path: Path) -> None:
     grown(whole, TICKS)
     ticks = np.arange(TICKS + 1)
     assert viewed.singles(ticks).tobytes() == whole.singles(ticks).tobytes()
-    assert viewed.blocks.doubles(ticks).tobytes() == whole.blocks.doubles(ticks).tobytes()
+    assert viewed.doubles(ticks).tobytes() == whole.doubles(ticks).tobytes()
 
 
 def test_a_writer_that_is_killed_leaves_what_it_has_written(tmp_path: Path) -> None:
@@ -132,7 +139,7 @@ def test_a_writer_that_is_killed_leaves_what_it_has_written(tmp_path: Path) -> N
     day = Growing(tmp_path)
     code = (
         "import sys; from pathlib import Path; from tests.view.test_following import *\n"
-        "day = Growing(Path(sys.argv[1])); recorder = Recorder(day.rec, day.about, at_once=True)\n"
+        "day = Growing(Path(sys.argv[1])); recorder = Recorder(day.rec, day.about)\n"
         "write_rows(recorder, day.engine, 0, 50); recorder._file.write(b'half a row'); recorder._file.flush()\n"
         "print('written', flush=True); sys.stdin.read()"
     )

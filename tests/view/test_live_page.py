@@ -53,7 +53,7 @@ def live_page(folder: Path, browser: Any, breaks: str = "", ticks: int = 0) -> I
         found = breakpoints_of(Source("day.break", breaks), recording_subject(of, mind))
         return RecordingWatcher(found.breakpoints, of, mind)
 
-    with Recorder(day.rec, day.about, at_once=True) as recorder:
+    with Recorder(day.rec, day.about) as recorder:
         write_rows(recorder, day.engine, 0, ticks)
         with followed_recording(str(day.rec), day.bundle, watching) as viewed, served(viewed) as view:
             while viewed.known < ticks:

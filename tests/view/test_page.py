@@ -8,10 +8,9 @@ from pathlib import Path
 from threading import Event
 from typing import Any
 
-import numpy as np
 import pytest
 
-from mindlang.pictures.influence_flow import Flow
+from mindlang.run.edge_flow import edge_flows
 from mindlang.run.recorded_run import record_run
 from mindlang.view.messages import Change, RefusedError, Why
 from mindlang.view.session import command_shares
@@ -87,19 +86,20 @@ def test_plays_pauses_steps_and_jumps(opened: Opened) -> None:
 
 def test_a_click_on_an_edge_shows_what_the_engine_says_it_transmits(opened: Opened, mind: Path) -> None:
     setup = prepared(mind, "Chase")
-    flow = Flow(record_run(setup, setup.rollout(True), 3))
+    run = record_run(setup, setup.rollout(True), 3)
+    flows = edge_flows(setup.ready.policy, {}, setup.master, run)
     edges = [int(str(each.get_attribute("data-edge"))) for each in opened.page.locator("#hierarchy .edge").all()]
-    assert sorted(edges) == [*range(len(flow.links))]
+    assert sorted(edges) == [*range(len(flows.links))]
     found, engine = [], []
     for tick in (1, 37, 640, 1100):
         opened.jump(tick)
-        for edge, flowing in enumerate(flow.at(tick)):
+        for edge, transmitted in enumerate(flows.over(range(tick - 1, tick)).transmitted[0]):
             opened.page.locator(f"#hierarchy [data-edge='{edge}']").focus()
             opened.page.keyboard.press("Enter")
             opened.wait(f"document.querySelector('#hierarchy .selected')?.dataset.edge === '{edge}'")
             opened.page.evaluate("new Promise(requestAnimationFrame)")
             found.append(float(str(opened.page.get_attribute("#chosen-text", "data-value"))))
-            engine.append(float(np.float32(flowing.transmitted)))
+            engine.append(float(transmitted))
     assert found == engine
     assert any(value > 0 for value in engine)
 

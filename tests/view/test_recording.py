@@ -9,16 +9,15 @@ from mindrun.graph.bundle import Bundle, digest, write_bundle
 from mindrun.graph.policy import Policy
 from mindrun.robot.recording import About, Recorder, RecordingError, read
 
-from mindlang.run.sent_values import BLOCK_ROWS
+from mindlang.run.edge_flow import BLOCK_ROWS
 from mindlang.view.messages import Why
-from mindlang.view.rows import unpacked
 from mindlang.view.session import command_shares
 from mindlang.view.viewed import Viewed
 from mindlang.view.viewed_recording import viewed_recording
 from tests.calling import Call
 from tests.robot.older import older
 from tests.sim.minds import compile_text
-from tests.view.serving import served
+from tests.view.serving import served, unpacked
 
 MIND = """
 tick 1/20 s

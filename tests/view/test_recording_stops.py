@@ -125,7 +125,7 @@ def test_rows_in_parts_of_any_size_stop_where_the_whole_does(
 
 def test_what_grows_stops_the_page_as_it_comes(tmp_path: Path) -> None:
     day = Growing(tmp_path)
-    with Recorder(day.rec, day.about, at_once=True) as recorder:
+    with Recorder(day.rec, day.about) as recorder:
         write_rows(recorder, day.engine, 0, 70)
         with (
             followed_recording(str(day.rec), day.bundle, watching) as viewed,

@@ -6,16 +6,16 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mindlang.pictures.influence_flow import Flow
+from mindlang.run.edge_flow import edge_flows
 from mindlang.run.recorded_run import record_run
-from mindlang.view.rows import Chunk, RowBlocks, unpacked
-from tests.view.serving import Served, prepared
+from mindlang.view.rows import DOUBLE_BLOCK, SINGLE_BLOCK, Chunk, RowBlocks
+from tests.view.serving import Served, prepared, unpacked
 
 
 def test_rows_are_the_run(view: Served, path: Path) -> None:
     setup = prepared(path, "Chase")
     run = record_run(setup, setup.rollout(True), 3)
-    flow = Flow(run)
+    flows = edge_flows(setup.ready.policy, {}, setup.master, run)
     with view.viewer() as viewer:
         about = viewer.hear("about")
         assert viewer.run(1200)["over"]
@@ -36,7 +36,7 @@ def test_rows_are_the_run(view: Served, path: Path) -> None:
         first = group(name)[0]  # before anything is read, thought or sent
         assert (first == 0).all() if name == "influence" else np.isnan(first).all()
     assert group("rewards")[1:].tobytes() == run.lines[ticks[1:] - 1].tobytes()
-    assert np.array_equal(group("flow")[1:], np.float32([[f.transmitted for f in flow.at(t)] for t in ticks[1:]]))
+    assert np.array_equal(group("flow")[1:], flows.walker.transmitted(ticks[1:] - 1))
 
 
 @given(st.lists(st.integers(1, 300), min_size=1, max_size=12), st.data())
@@ -45,11 +45,11 @@ def test_rows_of_any_parts_are_those_of_the_whole(lengths: list[int], data: st.D
     blocks, first = RowBlocks(), 0
     for length in lengths:
         part = whole[first : first + length]
-        blocks.append(Chunk(part, part.astype(np.float32)))
+        blocks.append(Chunk((part, part.astype(np.float32))))
         first += length
     drawn = data.draw(st.tuples(*[st.integers(0, first)] * 2, st.integers(1, 40), st.integers(1, 500)))
     ticks = blocks.ticks(*drawn)
     columns = data.draw(st.lists(st.integers(0, 2), min_size=1))
-    assert np.array_equal(blocks.doubles(ticks), whole[ticks])
-    assert np.array_equal(blocks.doubles(ticks, columns), whole[ticks][:, columns])
-    assert np.array_equal(blocks.singles(ticks, columns), whole[ticks][:, columns])
+    assert np.array_equal(blocks.kept(DOUBLE_BLOCK, ticks), whole[ticks])
+    for block in (DOUBLE_BLOCK, SINGLE_BLOCK):
+        assert np.array_equal(blocks.kept(block, ticks, columns), whole[ticks][:, columns])

@@ -3,7 +3,7 @@
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mindlang.view.texts import SHOWN_CHARACTERS, shown
+from mindlang.view.messages import SHOWN_CHARACTERS, shown
 
 
 @given(st.text())

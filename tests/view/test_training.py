@@ -22,9 +22,8 @@ from mindrun.train.run_folder import open_run
 
 from mindlang.compiler.compile import load
 from mindlang.training.subject import open_subject
-from mindlang.view.learning import open_learning
+from mindlang.view.learning import Champions, open_learning
 from mindlang.view.messages import RefusedError
-from mindlang.view.viewed_champion import Champions
 from tests.calling import Call
 from tests.train.test_train_command import MIND
 from tests.view.browser import WAIT_MILLISECONDS, Opened, chromium

@@ -17,12 +17,22 @@ from websockets.exceptions import ConnectionClosed
 from websockets.frames import Frame, Opcode
 
 from mindlang.view import server
-from mindlang.view.http_answers import SECURITY
 from mindlang.view.messages import AskRows, Change
-from mindlang.view.rows import MAX_FRAME_BYTES, unpacked
+from mindlang.view.rows import MAX_FRAME_BYTES
+from mindlang.view.server import SECURITY
 from mindlang.view.session import Session
 from mindlang.view.viewed import Fork
-from tests.view.serving import ANSWER_SECONDS, UPGRADE, Served, ViewingClient, prepared, request, served, simulated
+from tests.view.serving import (
+    ANSWER_SECONDS,
+    UPGRADE,
+    Served,
+    ViewingClient,
+    prepared,
+    request,
+    served,
+    simulated,
+    unpacked,
+)
 
 CHANGE = {"say": "change", "tick": 200, "what": "reading", "value": 0.25, "lasts": 300}
 

@@ -1,6 +1,7 @@
 """`mindc weights import` and `export`, as their users call them."""
 
 import json
+from dataclasses import replace
 from hashlib import sha256
 from pathlib import Path
 from types import SimpleNamespace
@@ -12,8 +13,7 @@ from mindlang.compiler.compile import load
 from mindlang.lock import Taught, lock_path, read_lock
 from mindlang.training.lock_update import compare
 from mindlang.training.subject import open_subject
-from mindlang.weights.importing import read_incoming
-from mindlang.weights.trial import Trial, open_trial
+from mindlang.weights.importing import Trial, open_trial
 from tests.calling import Call
 from tests.edits.taught import MIND, teach, write_mind
 
@@ -121,23 +121,21 @@ def test_a_skill_that_remembers(mindc: Call, path: Path) -> None:
 def trial_of(path: Path, skill: str) -> Trial:
     """The trial of weights that stand in a file of the skill's name."""
     subject = open_subject(path, load(path))
-    incoming = read_incoming(subject, skill, Path(f"{skill}.safetensors"))
-    return open_trial(subject, incoming.lesson, incoming.network, path)
+    return open_trial(subject, skill, Path(f"{skill}.safetensors"))
 
 
 def test_weights_are_tried_as_those_that_were_taught(mindc: Call, path: Path) -> None:
     """On the first of all runs, which can be recorded, and on the layouts of a training with the seed 0."""
     mindc("weights", "export", path, "Drive", "Drive.safetensors")
     trial = trial_of(path, "Drive")
-    lesson, taught = trial.lesson, open_subject(path, load(path))
-    genome = read_incoming(taught, "Drive", Path("Drive.safetensors")).genome
+    genome = trial.genome
     assert mindc("run", path, "--master", "Drive", "--seed", 1, "--record", "day.rec").code == 0
-    assert np.array_equal(trial.recorded("day.rec"), trial.readings(genome))
-    assert len({column.tobytes() for column in trial.readings(genome).T}) > 1, "which is which is seen"
-    run = SimpleNamespace(manifest=SimpleNamespace(seed=0, lesson=lesson))
+    assert np.array_equal(trial.recorded("day.rec"), trial.readings())
+    assert len({column.tobytes() for column in trial.readings().T}) > 1, "which is which is seen"
+    run = SimpleNamespace(manifest=SimpleNamespace(seed=0, lesson=trial.lesson))
     found = compare(run, trial.rollout, np.stack([genome, genome / 2]))  # type: ignore[arg-type]
-    assert trial.score(genome / 2, genome) == (found.new, found)
-    assert trial.score(genome, None) == (found.old, None)
+    assert replace(trial, genome=genome / 2).score(genome) == (found.new, found)
+    assert trial.score(None) == (found.old, None)
 
 
 def test_only_those_are_told_of_whom_something_changes(mindc: Call, path: Path) -> None:

@@ -12,7 +12,7 @@ from mindrun.errors import WeightsError
 from mindrun.files.printable import visible
 from safetensors.numpy import save
 
-from mindlang.weights.files import from_bytes
+from mindlang.weights.network import from_bytes
 
 WHOLE = save({"a": np.ones((2, 3), np.float32)}, {"mind.reads": "eye:3"})
 

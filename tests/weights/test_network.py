@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from mindrun.errors import WeightsError
 
 from mindlang.compiler.compile import load
-from mindlang.lock.arrange import arrange
+from mindlang.lock.signature import arrange
 from mindlang.weights.comparison import Deviation, compare
 from mindlang.weights.network import Network, Tensors, network_of, to_genome, to_tensors
 from tests.edits.taught import MIND, write_mind

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 import mindlang
 from mindlang.compiler.compile import load
-from mindlang.lock.arrange import arrange
+from mindlang.lock.signature import arrange
 from mindlang.weights.comparison import compare
 from mindlang.weights.network import Network, network_of
 from tests.draws import cases

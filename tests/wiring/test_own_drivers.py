@@ -9,16 +9,16 @@ from pathlib import Path
 from textwrap import dedent
 
 import pytest
-from mindrun.cli.tools.doctor import wired
+from mindrun.cli.doctor import wired
 from mindrun.driver import DeviceError
 from mindrun.errors import BundleError
 from mindrun.graph.bundle import Bundle, fingerprint, pack, read_bundle, unpack
 from mindrun.graph.describe import describe
 from mindrun.robot.drivers.own import OwnActuator, OwnSensor
 from mindrun.robot.guardian.plan import plan_of, to_json
-from mindrun.robot.sampling import Sampler
+from mindrun.robot.sensing import Sampler
 
-from mindlang.robot import own_driver
+from mindlang.robot import driver
 from mindlang.robot.release import make_release
 from tests.calling import Call
 from tests.project.sources import ROOT
@@ -209,7 +209,7 @@ def test_the_same_file_is_the_same_bundle_and_another_is_another(built: Path, mi
 def test_a_file_that_hangs_is_told_on_its_line(
     mindc: Call, rules: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(own_driver, "ANSWER_SECONDS", 1.0)
+    monkeypatch.setattr(driver, "ANSWER_SECONDS", 1.0)
     (tmp_path / "slow.py").write_text("while True:\n    pass\n")
     said = build(mindc, rules, ROBOT.format(sensor="slow.Feelers", actuator="mock"))
     assert said.code == 1

@@ -8,7 +8,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 from mindrun.graph.wiring import SensorWire, reading
 from mindrun.robot.drivers.mock import MockSensor
-from mindrun.robot.reading_filter import median_direction
+from mindrun.robot.sensing import median_direction
 
 FINDER = SensorWire("p", MockSensor(), 0.0, 2.0, blank=1.0, dead_zone=0.1, rest=0.0)
 BEARING = SensorWire("b", MockSensor(), 180.0, -180.0, blank=0.5, dead_zone=0.05, rest=0.5)

@@ -9,8 +9,7 @@ import yaml
 from jsonschema import Draft202012Validator
 
 from mindlang.compiler.compile import load
-from mindlang.robot.options import drivers, own_options
-from mindlang.robot.schema import schema
+from mindlang.robot.options import drivers, own_options, schema
 from mindlang.robot.wire import load_wiring
 from tests.calling import Call
 from tests.project.sources import ROOT

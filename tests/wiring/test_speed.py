@@ -12,8 +12,8 @@ from mindlang.cli._diagnostic_printer import plain
 from mindlang.compiler.compile import load
 from mindlang.compiler.diagnostic import Diagnostic, Findings
 from mindlang.compiler.source import Source, Span
-from mindlang.robot.speed import check_shared
-from mindlang.robot.timing import Timing
+from mindlang.robot.claims import check_shared
+from mindlang.robot.driver_inspection import Timing
 from mindlang.robot.wire import Checked, check_wiring
 
 MIND = """\

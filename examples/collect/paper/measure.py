@@ -17,7 +17,7 @@ from protocol import Case
 from mindlang.compiler.compile import Compiled, load
 from mindlang.lock import lock_path, read_lock
 from mindlang.lock.ready import make_ready
-from mindlang.run.layouts import NO_GENOME, layouts
+from mindlang.run.many_runs import NO_GENOME, layouts
 from mindlang.run.setup import set_up
 
 

@@ -21,10 +21,10 @@ from mindrun.train.lesson_state import heights
 from plan import Plan, keep_plan, read_plan
 from protocol import FILES, FOLDER
 
-from mindlang.cli import _simulator_compilation as simulator_compilation
+from mindlang.cli._session import ensure_compiled
 from mindlang.cli._trainer import Trainer
 from mindlang.number_format import duration
-from mindlang.run.layouts import layouts
+from mindlang.run.many_runs import layouts
 
 RUN_COUNT = 128  # of shipped champions, to see how fast this machine is; fewer would leave lanes empty
 
@@ -143,7 +143,7 @@ def share(rungs: int) -> float:
 def speed(file: str, lesson: Lesson, log: Log, workers: int) -> float:
     """Ticks a second of a lesson on this machine, with the champions that were shipped."""
     rollout = rollout_of(FOLDER, file, lesson, [*log.result["weights"]], workers)
-    simulator_compilation.ensure_compiled(rollout, print)  # before the clock starts
+    ensure_compiled(rollout, print)  # before the clock starts
     begin = perf_counter()
     scores = rollout.score(log.champions, layouts(1, -(-RUN_COUNT // len(log.champions))))
     return float(scores.ticks.sum()) / (perf_counter() - begin)

@@ -93,20 +93,13 @@ def _coded_lines(source: Source) -> Iterator[tuple[Span, str]]:
         offset += len(text) + 1
 
 
-def _is_too_deep(span: Span, code: str, findings: Findings) -> bool:
-    """Whether a line has more parentheses inside one another than can be read; this is reported."""
-    if code.count("(") + code.count("-") <= MAX_NESTING or _depth(code) <= MAX_NESTING:
-        return False
-    hint = f"At most {MAX_NESTING} parentheses and signs may stand inside one another."
-    findings.error("nested-too-deep", span, "This expression is nested too deep.", hint)
-    return True
-
-
 def _line(span: Span, code: str, findings: Findings, start: Start) -> syntax.Line | syntax.Stop | _Unread:
     """What the line says, or after reporting it what can be saved of it."""
     from lark import UnexpectedInput
 
-    if _is_too_deep(span, code, findings):
+    if code.count("(") + code.count("-") > MAX_NESTING and _depth(code) > MAX_NESTING:
+        hint = f"At most {MAX_NESTING} parentheses and signs may stand inside one another."
+        findings.error("nested-too-deep", span, "This expression is nested too deep.", hint)
         return _Unread()
     try:
         return parse_line(code, span.source, span.start, start)

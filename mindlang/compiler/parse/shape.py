@@ -20,7 +20,7 @@ from msgspec.structs import astuple
 from mindlang.compiler import syntax
 from mindlang.compiler.source import Source, Span
 
-if TYPE_CHECKING:
+if TYPE_CHECKING:  # a command that only shows what rules say reads no mind
     from lark import Lark
 
 _PIECE = re.compile(r"(?<!\w)[0-9]+|\w+|[ \t]+|\W")
@@ -137,14 +137,19 @@ def _making(node: Any, places: dict[int, int]) -> Maker:
     match node:
         case Span(_, start, end):
             return _spanning(places[start], places[end])
-        case syntax.Name(text, span) if text != span.text or " " in text:  # blanks of a shape are one
-            return _calling(text, places[span.start], places[span.end])
-        case syntax.Name(_, span):
-            return _naming(places[span.start], places[span.end])
-        case syntax.Amount(sign, _, span, _, name) if name:
-            return _constant(sign, places[span.start], places[span.end])
+        case syntax.Name(text, span):
+            spanned = _spanning(places[span.start], places[span.end])
+            if text != span.text or " " in text:  # `its  reward`, or an argument that goes without saying
+                return lambda line: syntax.Name(text, spanned(line))
+            return lambda line: syntax.Name((its := spanned(line)).text, its)
+        case syntax.Amount(sign, _, span, name=name) if name:
+            spanned = _spanning(places[span.start], places[span.end])
+            return lambda line: syntax.Amount(sign, "", (its := spanned(line)), name=its.text.lstrip("+- \t"))
         case syntax.Amount(_, unit, span, per):
-            return _measuring(unit, per, places[span.start], places[span.end])
+            from mindlang.compiler.parse.build import number
+
+            spanned = _spanning(places[span.start], places[span.end])
+            return lambda line: syntax.Amount(number((its := spanned(line)).text), unit, its, per)
         case tuple():
             makers = [_making(part, places) for part in node]
             return lambda line: tuple([make(line) for make in makers])
@@ -154,38 +159,5 @@ def _making(node: Any, places: dict[int, int]) -> Maker:
     return lambda line: node
 
 
-def _spanning(first: int, end: int) -> Maker:
+def _spanning(first: int, end: int) -> Callable[[_Line], Span]:
     return lambda line: Span(line.source, line.at[first], line.at[end])
-
-
-def _naming(first: int, end: int) -> Maker:
-    def name(line: _Line) -> syntax.Name:
-        start, stop = line.at[first], line.at[end]
-        return syntax.Name(line.source.text[start:stop], Span(line.source, start, stop))
-
-    return name
-
-
-def _calling(text: str, first: int, end: int) -> Maker:
-    """A name that is not what stands there: `its  reward`, or that of an argument which goes without saying."""
-    return lambda line: syntax.Name(text, Span(line.source, line.at[first], line.at[end]))
-
-
-def _constant(sign: float, first: int, end: int) -> Maker:
-    """The name of a number is the last piece of it, after its sign and blanks."""
-
-    def amount(line: _Line) -> syntax.Amount:
-        span = Span(line.source, line.at[first], line.at[end])
-        return syntax.Amount(sign, "", span, name=span.text.lstrip("+- \t"))
-
-    return amount
-
-
-def _measuring(unit: str, per: str, first: int, end: int) -> Maker:
-    from mindlang.compiler.parse.build import number
-
-    def amount(line: _Line) -> syntax.Amount:
-        span = Span(line.source, line.at[first], line.at[end])
-        return syntax.Amount(number(span.text), unit, span, per)
-
-    return amount

@@ -1,27 +1,32 @@
 """Files → Mind: names found, kinds built, units converted, and everything that is wrong reported."""
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TypeVar
 
 from mindrun.kinds.bodies.body import BodyKind
+from mindrun.numbers.quantity import LENGTH_OF_UNIT, TICK, Quantity
 from msgspec.structs import replace
+from networkx import DiGraph
 
 from mindlang.compiler import model
 from mindlang.compiler.diagnostic import Findings, Label
-from mindlang.compiler.expand import expand, numbers
-from mindlang.compiler.hierarchy import check_cycles
+from mindlang.compiler.expand import expand, in_place, numbers
+from mindlang.compiler.hierarchy import refuse_circles
 from mindlang.compiler.names import Names, gather
 from mindlang.compiler.resolve.curricula import lessons
-from mindlang.compiler.resolve.drives import check_drives
 from mindlang.compiler.resolve.outside import body_outside, check_outside, is_outside
-from mindlang.compiler.resolve.parts import parts, sensors
-from mindlang.compiler.resolve.settings import check_versions, master, settings, tick_seconds, unit_metres
+from mindlang.compiler.resolve.parts import check_drives, parts, sensors
+from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.resolve.skills import skills
-from mindlang.compiler.resolve.tasks import RobotFacts, tasks
+from mindlang.compiler.resolve.tasks import tasks
+from mindlang.compiler.resolve.worlds import RobotFacts
 from mindlang.compiler.source import Span
-from mindlang.compiler.syntax import File, Master, Tick
+from mindlang.compiler.syntax import Amount, File, Master, Setting, Tick, Unit, Version, of_form
+
+LANGUAGE_VERSION = 1
 
 D = TypeVar("D", model.Skill, model.Task)
+S = TypeVar("S", bound=Setting)
 
 
 def resolve(files: Sequence[File], findings: Findings) -> model.Mind | None:
@@ -29,15 +34,16 @@ def resolve(files: Sequence[File], findings: Findings) -> model.Mind | None:
     all_read = not findings.diagnostics
     written = gather(files, findings)
     values = numbers(written, findings)
-    tick, unit = tick_seconds(files, values, findings), unit_metres(files, values, findings)
-    check_versions(files, findings)
+    tick = _agreed(files, Tick, TICK, values, findings) or 1.0
+    unit = _agreed(files, Unit, LENGTH_OF_UNIT, values, findings)
+    _check_versions(files, findings)
     names = expand(written, values, tick, findings)
     known_sensors = sensors(names, findings)
     width = dict.fromkeys(names.of("sensor", "memory"), 1) | {each.name: each.width for each in known_sensors}
     memories, actuators = parts("memory", names, findings), parts("actuator", names, findings)
     known_skills = skills(names, width, findings)
     influences = model.influence_graph(known_skills)
-    check_cycles(influences, findings)
+    _check_circles(influences, findings)
     body = body_outside(names, findings) if (outside := is_outside(names)) else _body(names, findings)
     robot = RobotFacts(names, width, tick, files[0].source.folder, body, actuators, known_sensors)
     known_tasks = tasks(robot, findings)
@@ -45,7 +51,7 @@ def resolve(files: Sequence[File], findings: Findings) -> model.Mind | None:
     known_lessons = tuple(lessons(names, known_skills, influences, known_tasks, width, findings))
     if body and not outside:
         check_drives(body, actuators, findings)
-    head = master(files[0], names, findings)
+    head = _master(files[0], names, findings)
     if all_read:
         _check_complete(files, names, known_skills, bool(body), findings)
     if findings.diagnostics or body is None:
@@ -70,16 +76,64 @@ def resolve(files: Sequence[File], findings: Findings) -> model.Mind | None:
 
 def _as_written(declared: Iterable[D], noun: str, names: Names) -> Iterator[D]:
     """Skills or tasks with the declarations that stand in their files: edits change these."""
-    for each in declared:
-        written = names.table[noun][each.name]
-        yield each if each.declaration is written else replace(each, declaration=written)
+    return (replace(each, declaration=names.table[noun][each.name]) for each in declared)
+
+
+def _settings(files: Iterable[File], form: type[S]) -> list[S]:
+    """The settings of one word in some files."""
+    return [setting for file in files for setting in of_form(file.settings, form)]
+
+
+def _agreed(
+    files: Sequence[File],
+    form: type[Tick | Unit],
+    quantity: Quantity,
+    values: Mapping[str, Amount],
+    findings: Findings,
+) -> float | None:
+    """The value of a setting, on which all files agree; None where nothing says it."""
+    word = form.__name__.lower()
+    first: tuple[float, Span] | None = None
+    for setting in _settings(files, form):
+        value = convert(in_place(setting.amount, values), quantity, findings)
+        if value and first and value != first[0]:
+            label = Label(first[1], "first said here")
+            message = f"The {word} differs from the one said before."
+            findings.error(f"{word}-differs", setting.span, message, f"Use one {word}.", label)
+        if value and not first:
+            first = value, setting.span
+    return first[0] if first else None
+
+
+def _master(file: File, names: Names, findings: Findings) -> str:
+    """The master of the main file; those of used files do not count."""
+    found = _settings([file], Master)
+    hint = "Leave one of the two lines out."
+    findings.refuse_again("second-master", [each.span for each in found], "A mind has one master.", hint)
+    for setting in found[:1]:
+        names.find(setting.name, ("skill",), findings)
+    return found[0].name.text if found else ""
+
+
+def _check_versions(files: Sequence[File], findings: Findings) -> None:
+    """Report files that were written for another language than this one."""
+    for setting in _settings(files, Version):
+        amount = setting.amount
+        if (amount.number, amount.unit, amount.per, amount.name) != (LANGUAGE_VERSION, "", "", ""):
+            message = f"This is mind {LANGUAGE_VERSION}, and the file says {setting.span.text.strip()}."
+            hint = f"Write mind {LANGUAGE_VERSION}, or take the mindc for which the file was written."
+            findings.error("other-version", setting.span, message, hint)
+
+
+def _check_circles(influences: DiGraph, findings: Findings) -> None:
+    says = "Skills influence one another in a circle"
+    hint = "Influence flows one way, from the master down: take one of these lines out."
+    refuse_circles("influence-cycle", influences, findings, says, hint, "and from there on")
 
 
 def _body(names: Names, findings: Findings) -> model.Part[BodyKind] | None:
-    declared = list(names.declarations("body"))
-    for _, again in declared[1:]:
-        first = Label(declared[0][1].header.span, "the first one")
-        findings.error("second-body", again.header.span, "A mind has one body.", "Leave one of the two out.", first)
+    declared = [each.header.span for _, each in names.declarations("body")]
+    findings.refuse_again("second-body", declared, "A mind has one body.", "Leave one of the two out.", "the first one")
     return next(iter(parts("body", names, findings)), None)
 
 
@@ -90,8 +144,8 @@ def _check_complete(
     below = {name for skill in known_skills for name in skill.subskills}
     top = next((skill.name for skill in known_skills if skill.name not in below), "SKILL")
     needs = (
-        (any(settings(file, Tick) for file in files), "no-tick", "how long a tick is", "tick 1/60 s"),
-        (bool(settings(files[0], Master)), "no-master", "which skill is the master", f"master {top}"),
+        (bool(_settings(files, Tick)), "no-tick", "how long a tick is", "tick 1/60 s"),
+        (bool(_settings(files[:1], Master)), "no-master", "which skill is the master", f"master {top}"),
         (has_body or bool(names.of("body")), "no-body", "which body the robot has", "body Robot is disc size 2"),
     )
     start = Span(files[0].source, 0, 0)

@@ -1,10 +1,13 @@
-"""Curricula: who is taught what, under which master, for how long."""
+"""Curricula: who is taught what, under which master, for how long, and with whose weights a lesson begins."""
 
-from collections.abc import Iterator, Mapping, Set
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, replace
-from typing import Any, cast
+from typing import TYPE_CHECKING, Any, cast
 
 from mindrun.graph.graph import Need
+from mindrun.kinds.functions.function import Function
 from mindrun.kinds.registry import kinds
 from mindrun.numbers.quantity import GENERATIONS, NUMBER, RATIO, Quantity
 from networkx import DiGraph
@@ -14,10 +17,12 @@ from mindlang.compiler.diagnostic import Findings, listed
 from mindlang.compiler.hierarchy import below
 from mindlang.compiler.names import Names
 from mindlang.compiler.resolve.kinds import Scope, a_name, make, once, overrides
-from mindlang.compiler.resolve.origin import check_origin
-from mindlang.compiler.resolve.parts import refuse_facts, refuse_repeated
+from mindlang.compiler.resolve.parts import refuse_facts
 from mindlang.compiler.resolve.quantities import convert
-from mindlang.compiler.syntax import Argument, Name, Needs, Phrase, Teaches
+from mindlang.compiler.syntax import Argument, Name, Needs, Phrase, Teaches, of_form
+
+if TYPE_CHECKING:
+    from mindrun.numbers.arrays import Layers
 
 # Words that a lesson says beside the arguments of its learner.
 FROM, SCRATCH = "from", "scratch"
@@ -38,82 +43,83 @@ def lessons(
     findings: Findings,
 ) -> Iterator[model.Lesson]:
     """Every lesson of every curriculum that is well said, in order."""
-    by_name = {skill.name: skill for skill in skills}
     hopeless = {each.name for each in tasks if each.declaration.whole and not any(end.succeeds for end in each.ends)}
+    school = _School(names, {skill.name: skill for skill in skills}, influences, hopeless, widths, findings)
     for name, declaration in names.declarations("curriculum"):
-        refuse_facts(declaration, (Teaches,), findings)
+        refuse_facts(declaration, ("teaches",), findings)
         phrase = declaration.header.phrase
         learner = make("curriculum", phrase, Scope(names, None), findings) if phrase else None
-        taught = [fact for fact in declaration.facts if isinstance(fact, Teaches)]
-        heirs = {fact.skill.text: origin.text for fact in taught if (origin := _origin(fact))}
-        curriculum = _Curriculum(name, learner, names, by_name, influences, hopeless, widths, heirs, findings)
-        yield from filter(None, (curriculum.lesson(number, fact) for number, fact in enumerate(taught, 1)))
+        taught = of_form(declaration.facts, Teaches)
+        heirs = {fact.skill.text: origin.text for fact in taught if (origin := _origin(fact.arguments))}
+        for number, fact in enumerate(taught, 1):
+            if lesson := school.lesson(name, number, fact, learner, heirs):
+                yield lesson
 
 
 @dataclass(frozen=True, slots=True)
-class _Curriculum:
-    """What its lessons are held against: its learner, None where that is wrong, and the mind's names and skills.
+class _School:
+    """What lessons are held against. `hopeless` are the tasks that say no success."""
 
-    `hopeless` are the tasks that say no success, `heirs` the skills that begin with another's weights, with the names
-    of these.
-    """
-
-    name: str
-    learner: Any
     names: Names
     skills: Mapping[str, model.Skill]
     influences: DiGraph
     hopeless: Set[str]
     widths: Mapping[str, int]
-    heirs: Mapping[str, str]
     findings: Findings
 
-    def lesson(self, number: int, fact: Teaches) -> model.Lesson | None:
-        """The lesson that a fact says, the `number`th of the curriculum; None after reporting what is wrong with it."""
+    def lesson(
+        self, curriculum: str, number: int, fact: Teaches, learner: Any, heirs: Mapping[str, str]
+    ) -> model.Lesson | None:
+        """The lesson that a fact says, the `number`th of the curriculum; None after reporting what is wrong with it.
+
+        `learner` is the curriculum's, None where that is wrong; `heirs` are the skills that begin with another's
+        weights, with the names of these.
+        """
         before = len(self.findings.diagnostics)
-        found = [self._find(fact.skill, "skill"), self._find(fact.task, "task")]
-        if fact.master:
-            found.append(self._find(fact.master, "skill"))
+        master, origin = fact.master or fact.skill, _origin(fact.arguments)
+        skills = [fact.skill, *([fact.master] if fact.master else []), *([origin] if origin else [])]
+        found = [self.names.find(fact.task, ("task",), self.findings)]
+        found += [self.names.find(name, ("skill",), self.findings) for name in skills]
         generations = convert(fact.generations, GENERATIONS, self.findings)
-        switches = {argument.key.text for argument in fact.arguments if argument.key.text in SWITCHES}
-        _check_switches(fact.arguments, self.findings)
-        learner = self._learner(fact)
-        starts_from = _origin(fact)
-        if starts_from:
-            found.append(self._find(starts_from, "skill"))
-        if found[0]:
+        switches = self._switches(fact.arguments)
+        learner = self._learner(fact, learner)
+        if fact.skill.text in self.skills:
             self._check_learns(fact, "with" in switches)
-        master = fact.master or fact.skill
         if None not in found:
             self._check_reached(fact, master)
-            if starts_from:
-                check_origin(
-                    starts_from, self.skills[fact.skill.text], self.skills, self.widths, self.heirs, self.findings
-                )
+            if origin:
+                self._check_origin(origin, self.skills[fact.skill.text], heirs)
         needs = self._needs(fact)
         if learner is None or generations is None or len(self.findings.diagnostics) > before:
             return None
         return model.Lesson(
-            curriculum=self.name,
+            curriculum=curriculum,
             skill=fact.skill.text,
             task=fact.task.text,
             master=master.text,
             generations=int(generations),
-            from_scratch=FROM in switches and not starts_from,
+            from_scratch=FROM in switches and not origin,
             with_subskills="with" in switches,
             learner=learner,
             number=number,
-            starts_from=starts_from.text if starts_from else "",
+            starts_from=origin.text if origin else "",
             needs=needs,
             fact=fact,
         )
 
-    def _find(self, name: Name, noun: str) -> Any:
-        return self.names.find(name, (noun,), self.findings)
+    def _switches(self, written: Sequence[Argument]) -> set[str]:
+        """The switches that a lesson says; a word after one that is not its own is reported, but for a skill's name."""
+        switches = [argument for argument in written if argument.key.text in SWITCHES]
+        for argument in (each for each in switches if not _origin([each])):
+            word, message = SWITCHES[argument.key.text]
+            if not isinstance(argument.value, Name) or argument.value.text != word:
+                said = f"{argument.key.text} {word}"
+                self.findings.error(said.replace(" ", "-"), argument.span, message, f"Write {said}.")
+        return {argument.key.text for argument in switches}
 
-    def _learner(self, fact: Teaches) -> Any:
+    def _learner(self, fact: Teaches, learner: Any) -> Any:
         """The curriculum's learner, or that of a kind after `using`, with the arguments of the lesson."""
-        learner, said_by = self.learner, "teaches"
+        said_by = "teaches"
         if using := once(USING, fact.arguments, self.findings):
             hint = f"Here stands a kind of curriculum: {listed(sorted(kinds('curriculum')))}."
             if not (kind := a_name(using, hint, self.findings)):
@@ -122,14 +128,15 @@ class _Curriculum:
             learner = make("curriculum", phrase, Scope(self.names, None), self.findings)
         if learner is None:
             return None
-        own = (argument for argument in fact.arguments if argument.key.text not in {*SWITCHES, USING})
+        own = [argument for argument in fact.arguments if argument.key.text not in {*SWITCHES, USING}]
         return replace(learner, **overrides(type(learner), said_by, own, self.findings))
 
     def _needs(self, fact: Teaches) -> tuple[Need, ...]:
         """What a lesson needs, each measure once."""
         for measure in MEASURED:
-            again = [need for need in fact.needs if need.measure.text == measure]
-            refuse_repeated(again, f"What {measure} is needed is said already.", "Say it once.", self.findings)
+            said = [need.span for need in fact.needs if need.measure.text == measure]
+            message = f"What {measure} is needed is said already."
+            self.findings.refuse_again("repeated-fact", said, message, "Say it once.")
         return tuple(filter(None, (self._need(need, fact.task.text) for need in fact.needs)))
 
     def _need(self, need: Needs, task: str) -> Need | None:
@@ -158,9 +165,8 @@ class _Curriculum:
         skill = self.skills[fact.skill.text]
         if skill.like:
             message = f"{skill.name} is like {skill.like}, so it has no weights of its own to be taught."
-            self.findings.error(
-                "taught-by-another", fact.skill.span, message, f"Teach {skill.like}: both learn from that."
-            )
+            hint = f"Teach {skill.like}: both learn from that."
+            self.findings.error("taught-by-another", fact.skill.span, message, hint)
             return
         taught = below(self.influences, [skill.name]) if with_subskills else {skill.name}
         functions = [self.skills[name].function for name in taught]
@@ -179,18 +185,92 @@ class _Curriculum:
             message = f"{master.text} has no influence on {fact.skill.text}, which would learn nothing."
             self.findings.error("out-of-reach", master.span, message, hint)
 
+    def _check_origin(self, origin: Name, learner: model.Skill, heirs: Mapping[str, str]) -> None:
+        """Report weights with which a lesson cannot begin."""
+        other = self.skills[origin.text]
+        if not learner.function or not other.function:
+            return
+        if other.owner == learner.name:
+            hint = f"Leave from {origin.text} out: it begins with its weights."
+            self.findings.error("own-origin", origin.span, f"{learner.name} has these weights already.", hint)
+        elif difference := _difference(learner, other, self.widths, heirs):
+            hint = (
+                "Weights fit the same function. Of its readings and outputs one each may be another, and what is read "
+                "or influenced beside them is new."
+            )
+            message = f"{learner.name} cannot begin with the weights of {other.name}: {difference}."
+            self.findings.error("other-shape", origin.span, message, hint)
 
-def _origin(fact: Teaches) -> Name | None:
+
+def _origin(written: Sequence[Argument]) -> Name | None:
     """The skill with a copy of whose weights a lesson begins."""
-    values = (argument.value for argument in fact.arguments if argument.key.text == FROM)
+    values = (argument.value for argument in written if argument.key.text == FROM)
     return next((value for value in values if isinstance(value, Name) and value.text[0].isupper()), None)
 
 
-def _check_switches(written: tuple[Argument, ...], findings: Findings) -> None:
-    for argument in written:
-        word, message = SWITCHES.get(argument.key.text, ("", ""))
-        if argument.key.text == FROM and isinstance(argument.value, Name) and argument.value.text[0].isupper():
-            continue
-        if word and (not isinstance(argument.value, Name) or argument.value.text != word):
-            said = f"{argument.key.text} {word}"
-            findings.error(said.replace(" ", "-"), argument.span, message, f"Write {said}.")
+def _difference(learner: model.Skill, other: model.Skill, widths: Mapping[str, int], heirs: Mapping[str, str]) -> str:
+    """Why weights of one skill do not fit another; empty where they do."""
+    if not other.function.learns:
+        return f"{other.name} learns nothing"
+    found: dict[str, str] = {}
+    for verb, mine, others in (
+        ("reads", *([f"{name}:{widths.get(name, 1)}" for name in skill.reads] for skill in (learner, other))),
+        ("sends to", *(_sends(skill) for skill in (learner, other))),
+    ):
+        stands = counterparts(mine, others, heirs)
+        if stands is None:
+            return (
+                f"{learner.name} {verb} {_words(mine, others)} where {other.name} {verb} {_words(others, mine)}, and "
+                "which stands for which cannot be told"
+            )
+        found |= stands
+    commands = [edge.target for edge in learner.edges if edge.at is None and edge.to == "actuator"]
+    if driven := [name for name in commands if name not in found]:
+        return f"{learner.name} drives {listed(driven, 'and')}, too, and a command of 0 is one"
+    return "" if _holds(learner, other, widths) else "their functions differ"
+
+
+def _holds(learner: model.Skill, other: model.Skill, widths: Mapping[str, int]) -> bool:
+    """Whether the learner computes what the other does once some of its weights are 0: no layer of it is smaller."""
+    (own, its), (large, small) = zip(*(_sized(skill, widths) for skill in (learner, other)), strict=True)
+    if own == its:
+        return True
+    holds = all(a >= b for more, less in zip(large, small, strict=False) for a, b in zip(more, less, strict=True))
+    return type(own) is type(its) and 0 < len(large) == len(small) and holds
+
+
+def _sized(skill: model.Skill, widths: Mapping[str, int]) -> tuple[Function, Layers]:
+    """Its function with every argument said, and the shapes of the matrices in which its weights lie."""
+    size = sum(widths.get(name, 1) for name in skill.reads), len(_sends(skill))
+    return skill.function.explicit(*size), skill.function.matrix_shapes(*size)
+
+
+def _sends(skill: model.Skill) -> list[str]:
+    return [edge.target for edge in skill.edges if edge.at is None]
+
+
+def _words(names: Sequence[str], but: Sequence[str]) -> str:
+    """The names that are not among the others."""
+    found = [name.partition(":")[0] for name in names if name not in but]
+    return listed(found, "and") if found else "nothing more"
+
+
+def counterparts(of: Sequence[str], among: Sequence[str], heirs: Mapping[str, str]) -> dict[str, str] | None:
+    """For each of these names the other skill's that it stands for, none where it is new; None if it cannot be told.
+
+    The same name stands for itself, and a skill for the one with whose weights it begins (`heirs`). What else only the
+    other one has is stood for by the only one of the same width that the other does not have. Of a width of which
+    nothing is missing then, all that is left is new. Names say their width as in a lock: proximity:10.
+    """
+    found = {name: name for name in of if name in among}
+    found |= {name: heirs[name] for name in of if heirs.get(name) in among and heirs[name] not in found}
+    if len(set(found.values())) < len(found):
+        return None
+    own = [name for name in of if name not in found]
+    for missing in [name for name in among if name not in found.values()]:
+        width = missing.partition(":")[2]
+        standing = [name for name in own if name.partition(":")[2] == width and name not in found]
+        if len(standing) != 1:
+            return None
+        found[standing[0]] = missing
+    return found

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Set
 from dataclasses import dataclass
+from itertools import pairwise
 
 from mindrun.kinds.registry import find_kind, kinds
 from mindrun.numbers.quantity import Quantity
@@ -36,11 +37,9 @@ class Visible:
 
 def resolve(expression: syntax.Expression, visible: Visible, findings: Findings) -> model.Expression:
     """The expression with its names resolved; a term that cannot be is reported and left out."""
-    divided = (
-        right for right, operator in zip(expression.terms, expression.terms[1:], strict=False) if _divides(operator)
-    )
-    for right in divided:
-        if isinstance(right, Amount) and right.number == 0:
+    for right, operator in pairwise(expression.terms):
+        divides = isinstance(operator, Operator) and operator.symbol == "/"
+        if divides and isinstance(right, Amount) and right.number == 0:
             findings.error("division-by-zero", right.span, "This divides by zero.", "Divide by something else.")
     terms = [_term(term, visible, findings) for term in expression.terms]
     return model.Expression(tuple(term for term in terms if term), expression.span)
@@ -56,10 +55,6 @@ def condition(when: syntax.When, visible: Visible, findings: Findings) -> model.
     return model.When(tuple(tuple(map(compared, all_)) for all_ in when.alternatives), when.span)
 
 
-def _divides(term: syntax.Term) -> bool:
-    return isinstance(term, Operator) and term.symbol == "/"
-
-
 def _term(term: syntax.Term, visible: Visible, findings: Findings) -> model.Term | None:
     match term:
         case Operator():
@@ -67,54 +62,45 @@ def _term(term: syntax.Term, visible: Visible, findings: Findings) -> model.Term
         case Amount():
             value = convert(term, PLAIN, findings)
             return None if value is None else model.Number(value, term.span)
-        case Phrase(arguments=()) if term.kind.text == visible.each:
+        case Phrase(kind, ()) if kind.text == visible.each:
             return model.EachReading(term.span)
-        case Phrase(arguments=()) if term.kind.text in visible.readings:
-            return _reading(term, visible, findings)
-        case Phrase(arguments=()) if term.kind.text in visible.commands:
-            return model.Command(term.kind.text, term.span)
-        case Phrase() if visible.measures and find_kind("measure", term.kind.text):
+        case Phrase(kind, ()) if kind.text in visible.readings:
+            width = visible.readings[kind.text]
+            if width == 1:
+                return model.Reading(kind.text, term.span)
+            hint = f"Only a sensor with one reading can stand here, as sensor ahead is reading 1 of {kind.text}."
+            hint = f"Write p instead and add for each p in {kind.text}." if visible.measures else hint
+            message = f"{kind.text} has {width} readings; an expression takes one number."
+            findings.error("wide-reading", term.span, message, hint)
+        case Phrase(kind, ()) if kind.text in visible.commands:
+            return model.Command(kind.text, term.span)
+        case Phrase(kind) if visible.measures and find_kind("measure", kind.text):
             measure = make("measure", term, visible.measures, findings)
             return model.Measured(measure, term.span) if measure else None
-    _unknown(term, visible, findings)
+        case Phrase(kind) if kind.text not in visible.unread:  # there it may have been declared
+            _refuse_unknown(term, visible, findings)
     return None
 
 
-def _reading(term: Phrase, visible: Visible, findings: Findings) -> model.Reading | None:
-    name, width = term.kind.text, visible.readings[term.kind.text]
-    if width == 1:
-        return model.Reading(name, term.span)
-    if visible.measures:
-        hint = f"Write p instead and add for each p in {name}."
-    else:
-        hint = f"Only a sensor with one reading can stand here, as sensor ahead is reading 1 of {name}."
-    findings.error("wide-reading", term.span, f"{name} has {width} readings; an expression takes one number.", hint)
-    return None
-
-
-def _unknown(term: Phrase, visible: Visible, findings: Findings) -> None:
-    name = term.kind.text
-    if name in visible.unread:
-        return  # it may have been declared in a line that could not be read
+def _refuse_unknown(term: Phrase, visible: Visible, findings: Findings) -> None:
+    name, here = term.kind.text, term.kind.span
     if name in TRUTH:
-        message = f"{name} is no reading: every value is a number."
-        findings.error("truth", term.kind.span, message, f"Write {TRUTH[name]}.")
+        findings.error("truth", here, f"{name} is no reading: every value is a number.", f"Write {TRUTH[name]}.")
     elif name in visible.readings:
         findings.error("reading-argument", term.span, f"{name} is a reading and takes no arguments.", f"Write {name}.")
     elif visible.elsewhere and name in visible.elsewhere:
         hint = f"Add the line reads {name}; an expression after at sees the inputs of its own skill."
         findings.error("not-an-input", term.span, f"The skill does not read {name}.", hint)
     elif visible.measures:
+        said = term.span.text
         hint = findings.suggest(name, visible.readings, kinds("measure"))
         if name in kinds("event"):
-            hint = (
-                f"{name} is an event, which stands after on: rewards 1 on {term.span.text}, ends on {term.span.text}."
-            )
+            hint = f"{name} is an event, which stands after on: rewards 1 on {said}, ends on {said}."
         hint = hint or "A reward is made of sensors, memories and measures such as forward or progress toward X."
-        findings.error("unknown-measure", term.kind.span, f"There is no reading or measure called {name}.", hint)
+        findings.error("unknown-measure", here, f"There is no reading or measure called {name}.", hint)
     else:
         hint = findings.suggest(name, visible.readings, visible.elsewhere or ())
         if name in kinds("measure"):
             hint = f"{name} is a measure, which only tasks have; here stand {visible.made_of}."
         hint = hint or f"{visible.where} is made of {visible.made_of}."
-        findings.error("unknown-reading", term.kind.span, f"There is no reading called {name}.", hint)
+        findings.error("unknown-reading", here, f"There is no reading called {name}.", hint)

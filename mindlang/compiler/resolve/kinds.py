@@ -1,6 +1,6 @@
 """Phrases → kinds: the kind found in the registry, its arguments checked and converted."""
 
-from collections.abc import Iterable, Mapping, Set
+from collections.abc import Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -12,12 +12,12 @@ from mindrun.numbers.quantity import SLOT, Quantity, Reference
 
 from mindlang.compiler.diagnostic import Findings, Label, a, did_you_mean, listed
 from mindlang.compiler.names import Names
-from mindlang.compiler.resolve import quantities
 from mindlang.compiler.resolve.maps import text_lines
+from mindlang.compiler.resolve.quantities import SHAPES
 from mindlang.compiler.syntax import VERBS, Argument, Name, Phrase
 
 USER_NOUNS = {"content": "thing", "task": "scene"}  # nouns of the registry in the user's words
-UNKNOWN_KIND_HINTS = {
+MISSING_HINTS = {
     "neutral": "It is what the actuator is sent when nothing influences it and whenever something fails: "
     "a wheel's 0 is full reverse. Write neutral 0.5 for a wheel that stands still."
 }
@@ -54,7 +54,9 @@ def make(noun: str, phrase: Phrase, scope: Scope, findings: Findings) -> Any:
     missing = [key for key, parameter in parameters.items() if parameter.required and parameter.field not in values]
     if scope.whole and all(argument.key.text in parameters for argument in phrase.arguments):
         for key in missing:
-            _missing(phrase, key, findings)
+            kind = phrase.kind.text
+            hint = MISSING_HINTS.get(key, f"Add it and its value: {kind} {key} ….")
+            findings.error("missing-argument", phrase.span, f"{kind} needs {key}.", hint)
     # a number that is declared wrongly is reported there, and has no value
     has_all = not missing and all(value is not None for value in values.values())
     return cls(**values) if has_all and len(findings.diagnostics) == before else None
@@ -70,7 +72,7 @@ def _known_kinds(noun: str, name: str, scope: Scope) -> str:
     return known
 
 
-def overrides(cls: type[Any], kind: str, written: Iterable[Argument], findings: Findings) -> dict[str, Any]:
+def overrides(cls: type[Any], kind: str, written: Sequence[Argument], findings: Findings) -> dict[str, Any]:
     """The fields that arguments give to an instance of `cls`, all of them numbers."""
     parameters = {parameter.key: parameter for parameter in arguments(cls)}
     found = _by_key(kind, written, parameters, findings)
@@ -78,25 +80,26 @@ def overrides(cls: type[Any], kind: str, written: Iterable[Argument], findings: 
 
 
 def _by_key(
-    kind: str, written: Iterable[Argument], parameters: Mapping[str, Parameter], findings: Findings
+    kind: str, written: Sequence[Argument], parameters: Mapping[str, Parameter], findings: Findings
 ) -> dict[str, Argument]:
     found: dict[str, Argument] = {}
     for argument in written:
         key = argument.key.text
         if key not in parameters:
             _unknown(kind, argument.key, parameters, findings)
-        elif key in found:
-            _report_repeated(argument, found[key], findings)
         else:
-            found[key] = argument
+            found.setdefault(key, argument)
+    for key in found:
+        once(key, written, findings)
     return found
 
 
 def once(key: str, written: Iterable[Argument], findings: Findings) -> Argument | None:
     """The first argument of a key, None where none is; others are reported."""
     found = [argument for argument in written if argument.key.text == key]
-    for argument in found[1:]:
-        _report_repeated(argument, found[0], findings)
+    for again in found[1:]:
+        label = Label(found[0].span, "first said here")
+        findings.error("repeated-argument", again.key.span, f"{key} is said twice.", "Leave one out.", label)
     return found[0] if found else None
 
 
@@ -109,12 +112,6 @@ def a_name(argument: Argument, hint: str, findings: Findings) -> Name | None:
     return None
 
 
-def _report_repeated(argument: Argument, first: Argument, findings: Findings) -> None:
-    label = Label(first.span, "first said here")
-    message = f"{argument.key.text} is said twice."
-    findings.error("repeated-argument", argument.key.span, message, "Leave one out.", label)
-
-
 def _unknown(kind: str, key: Name, parameters: Mapping[str, Parameter], findings: Findings) -> None:
     if key.text in VERBS:
         findings.error("two-facts", key.span, "Two facts stand on one line.", f"Begin a new line before {key.text}.")
@@ -123,12 +120,6 @@ def _unknown(kind: str, key: Name, parameters: Mapping[str, Parameter], findings
     takes = f"{kind} takes {listed(named, 'and')}." if named else f"{kind} takes no arguments."
     hint = did_you_mean(key.text, parameters) or takes
     findings.error("unknown-argument", key.span, f"{kind} has no argument called {key.text}.", hint)
-
-
-def _missing(phrase: Phrase, key: str, findings: Findings) -> None:
-    kind = phrase.kind.text
-    hint = UNKNOWN_KIND_HINTS.get(key, f"Add it and its value: {kind} {key} ….")
-    findings.error("missing-argument", phrase.span, f"{kind} needs {key}.", hint)
 
 
 def _value(
@@ -141,33 +132,9 @@ def _value(
     name = a_name(argument, f"Here stands the name of a {parameter.type.noun}.", findings)
     if name is None:
         return None
-    _check(noun, phrase, parameter, name, scope, findings)
-    return name.text
-
-
-def _number(parameter: Parameter, argument: Argument, findings: Findings) -> Any:
-    assert isinstance(parameter.type, Quantity)
-    match parameter.shape:
-        case "one":
-            return quantities.single_value(argument.value, parameter.type, findings)
-        case "list":
-            return quantities.value_list(argument.value, parameter.type, findings)
-        case "extent":
-            return quantities.extent(argument.value, parameter.type, findings)
-        case "place":
-            return quantities.place(argument.value, parameter.type, findings)
-        case "places":
-            return quantities.places(argument.value, parameter.type, findings)
-        case _:
-            return quantities.span(argument.value, parameter.type, findings)
-
-
-def _check(noun: str, phrase: Phrase, parameter: Parameter, name: Name, scope: Scope, findings: Findings) -> None:
-    type_, key = parameter.type, parameter.key
-    assert isinstance(type_, Reference)
-    match type_.noun:
+    match parameter.type.noun:
         case "thing":
-            _check_thing(name, noun, phrase.kind.text, key, scope, findings)
+            _check_thing(name, noun, phrase.kind.text, parameter.key, scope, findings)
         case "sensor":
             scope.names.find(name, ("sensor", "memory"), findings)
         case "environment" | "name of a part of an observation or an action":
@@ -176,9 +143,20 @@ def _check(noun: str, phrase: Phrase, parameter: Parameter, name: Name, scope: S
             if "." not in name.text:
                 hint = f"Write the module and the function: procedure from module.{name.text}."
                 findings.error("no-module", name.span, f"{name.text} does not say in which module it is.", hint)
-        case _ if name.text not in type_.words:
-            hint = did_you_mean(name.text, type_.words) or f"It is {listed(type_.words)}."
-            findings.error(f"unknown-{type_.noun}", name.span, f"There is no {type_.noun} called {name.text}.", hint)
+        case _:
+            _check_word(name, parameter.type, findings)
+    return name.text
+
+
+def _check_word(name: Name, type_: Reference, findings: Findings) -> None:
+    if name.text not in type_.words:
+        hint = did_you_mean(name.text, type_.words) or f"It is {listed(type_.words)}."
+        findings.error(f"unknown-{type_.noun}", name.span, f"There is no {type_.noun} called {name.text}.", hint)
+
+
+def _number(parameter: Parameter, argument: Argument, findings: Findings) -> Any:
+    assert isinstance(parameter.type, Quantity)
+    return SHAPES[parameter.shape](argument.value, parameter.type, findings)
 
 
 def about(noun: str, kind: str, argument: str = "of") -> Set[str]:
@@ -198,10 +176,5 @@ def _check_thing(name: Name, noun: str, kind: str, key: str, scope: Scope, findi
     cls, there = find_kind(noun, kind) or AboutThing, [find_kind("content", each) for each in scope.things[name.text]]
     if all(there) and not any(cls.accepts(key, thing) for thing in there if thing):
         is_ = listed(a(kind) for kind in sorted(scope.things[name.text]))
-        known = listed(a(each) for each in sorted(about(noun, kind, key)))
-        findings.error(
-            "unfit-thing",
-            name.span,
-            f"{kind} cannot be about {name.text}.",
-            f"{name.text} is {is_}; {kind} is about {known}.",
-        )
+        hint = f"{name.text} is {is_}; {kind} is about {listed(a(each) for each in sorted(about(noun, kind, key)))}."
+        findings.error("unfit-thing", name.span, f"{kind} cannot be about {name.text}.", hint)

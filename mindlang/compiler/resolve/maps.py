@@ -1,5 +1,6 @@
-"""Maps drawn in text files: read, and the things that their letters place."""
+"""Maps drawn in text files: read, or recognised in the forms of others, and the things that their letters place."""
 
+import re
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
@@ -13,11 +14,14 @@ from msgspec.structs import replace
 
 from mindlang.compiler.diagnostic import Findings, listed
 from mindlang.compiler.model import Part
-from mindlang.compiler.resolve.foreign_map import recognise_bytes, recognise_text
 from mindlang.compiler.source import MAX_SOURCE_BYTES, decode
 from mindlang.compiler.syntax import Contains, File, Text, Value
 
 MAX_SHOWN_LETTERS = 3  # of those that nothing begins with
+PICTURES = re.compile(rb"P[1-6]\s|\x89PNG|\xff\xd8\xff|GIF8|BM")
+ROS = re.compile(r"^\s*(image|resolution|occupied_thresh)\s*:", re.M)
+DRAWING = re.compile(r"[+o]-{2,}[+o]")  # two posts and the wall between them, as those of micromouse contests have
+SQUARES = f"A map is a text: a line for each row of squares, {WALL} where one is wall and {FLOOR} where it is floor"
 
 Parts = Sequence[Part[Any]]
 
@@ -35,15 +39,25 @@ def text_lines(value: Value, root: Path | None, findings: Findings) -> tuple[str
         return None
     try:
         data = read_regular(path, MAX_SOURCE_BYTES + 1)
-        found = recognise_bytes(data)
-        text = "" if found else decode(data)
+        text = "" if PICTURES.match(data) else decode(data)
     except (OSError, ValueError, RuntimeError) as error:
         why = f": {reason(error)}" if isinstance(error, OSError) else f": it {error}"
         hint = "The path is relative to the file in which it stands; a map is a text of # and . and letters."
         findings.error("unreadable-map", value.span, f"{value.text} cannot be read{why}.", hint)
         return None
-    if found := found or recognise_text(text):
-        findings.error("unreadable-map", value.span, f"{value.text} {found[0]}.", found[1])
+    if PICTURES.match(data):
+        hint = f"{SQUARES}. Make one of its pixels, darker ones {WALL}, and write how wide a pixel is as cell."
+        findings.error("unreadable-map", value.span, f"{value.text} is a picture.", hint)
+        return None
+    if len({found.group(1) for found in ROS.finditer(text)}) > 1:
+        message = f"{value.text} is the YAML file of a map of ROS, and no drawing."
+        hint = f"{SQUARES}. Make one of the pixels of its image, darker ones {WALL}, and write its resolution as cell."
+        findings.error("unreadable-map", value.span, message, hint)
+        return None
+    if DRAWING.search(text):
+        hint = f"Leave out every second column, then let + - | become {WALL} and blanks {FLOOR}:"
+        hint = rf"{hint} sed 's/\(.\)./\1/g; s/[-+o|]/{WALL}/g; s/ /{FLOOR}/g'."
+        findings.error("unreadable-map", value.span, f"{value.text} is a maze drawn with + - |.", hint)
         return None
     return tuple(line.rstrip() for line in text.rstrip().split("\n"))
 
@@ -89,17 +103,12 @@ def _named(
         else:
             unknown.append(letter)
     if unknown and are_all:
-        _refuse(unknown, drawn, findings)
-
-
-def _refuse(letters: Sequence[str], drawn: Part[Any], findings: Findings) -> None:
-    """Report the letters of a map that stand for nothing."""
-    shown = [repr(letter) for letter in letters[:MAX_SHOWN_LETTERS]]
-    more = [f"{len(letters) - len(shown)} more"] if len(letters) > len(shown) else []
-    names = [letter for letter in letters if letter.isalpha() and letter.islower()]
-    add = f"Add contains {names[0]} is item to the task, or write" if names else "Write"
-    message = f"The map has {listed(shown + more, 'and')}, which no thing of the task begins with."
-    findings.error("unknown-letter", drawn.span, message, f"{add} {FLOOR} for floor and {WALL} for wall.")
+        shown = [repr(letter) for letter in unknown[:MAX_SHOWN_LETTERS]]
+        more = [f"{len(unknown) - len(shown)} more"] if len(unknown) > len(shown) else []
+        names = [letter for letter in unknown if letter.isalpha() and letter.islower()]
+        add = f"Add contains {names[0]} is item to the task, or write" if names else "Write"
+        message = f"The map has {listed(shown + more, 'and')}, which no thing of the task begins with."
+        findings.error("unknown-letter", drawn.span, message, f"{add} {FLOOR} for floor and {WALL} for wall.")
 
 
 def _placed(

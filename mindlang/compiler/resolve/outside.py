@@ -14,9 +14,11 @@ from mindlang.compiler.diagnostic import Findings, a
 from mindlang.compiler.model import Part
 from mindlang.compiler.names import Names
 from mindlang.compiler.source import Span
-from mindlang.compiler.syntax import Counts, Starts
+from mindlang.compiler.syntax import Counts, Starts, of_form
 
 ENVIRONMENT = "a gymnasium environment"
+
+Refused = tuple[Span, str, str]  # where, why, and what to do
 
 
 def is_outside(names: Names) -> bool:
@@ -47,47 +49,43 @@ def check_outside(
         for task in known:
             _check_judged(task, findings)
         if not outside:
-            if known:
-                _refuse_outside_parts([*sensors, *actuators], findings)
+            for part in (part for part in (*sensors, *actuators) if part.kind.is_outside and known):
+                message = f"{_kind(part)} belongs to {ENVIRONMENT}, and no task is in one."
+                hint = "Write task Land in gymnasium LunarLanderContinuous-v3."
+                findings.error("foreign-part", part.span, message, hint)
             return
         for task in (task for task in known if not task.scene.environment):
             message = f"{task.name} is in no environment, as {outside[0].name} is."
             hint = "The tasks of a mind are all in gymnasium, or none is: write this one in a file of its own."
             findings.error("mixed-scenes", task.declaration.header.span, message, hint)
-        _refuse_native_parts(sensors, actuators, findings)
-        for task in outside:
-            _refuse_world(task, findings)
+        for span, message, hint in (*_native(sensors, actuators), *_put_in(outside)):
+            findings.error("foreign-part", span, message, hint)
         several = {task.scene.environment: task for task in reversed(outside)}
         for name, task in several.items():
             _check_environment(task, sensors, actuators, f"environment {name}" * (len(several) > 1), findings)
 
 
-def _refuse_outside_parts(parts: Sequence[Part[Any]], findings: Findings) -> None:
-    for part in (part for part in parts if part.kind.is_outside):
-        kind = kind_names()[type(part.kind)]
-        message = f"{a(kind).capitalize()} belongs to {ENVIRONMENT}, and no task is in one."
-        findings.error("foreign-part", part.span, message, "Write task Land in gymnasium LunarLanderContinuous-v3.")
+def _kind(part: Part[Any]) -> str:
+    return a(kind_names()[type(part.kind)]).capitalize()
 
 
-def _refuse_native_parts(sensors: Sequence[Part[Any]], actuators: Sequence[Part[Any]], findings: Findings) -> None:
+def _native(sensors: Sequence[Part[Any]], actuators: Sequence[Part[Any]]) -> Iterator[Refused]:
+    """The parts that measure or move what an environment has not."""
     for sensor in (each for each in sensors if isinstance(each.kind, Physical) and not each.kind.is_outside):
-        kind = kind_names()[type(sensor.kind)]
         hint = f"Write which of its numbers it is: sensor {sensor.name} is observation 0 range -1 to 1."
-        findings.error("foreign-part", sensor.span, f"{a(kind).capitalize()} measures nothing in {ENVIRONMENT}.", hint)
+        yield sensor.span, f"{_kind(sensor)} measures nothing in {ENVIRONMENT}.", hint
     for actuator in (each for each in actuators if each.kind.moves_body or each.kind.can_hold):
-        kind = kind_names()[type(actuator.kind)]
         hint = f"Write what it takes: actuator {actuator.name} is action 0 neutral 0.5, or choice 0."
-        findings.error("foreign-part", actuator.span, f"{a(kind).capitalize()} does nothing in {ENVIRONMENT}.", hint)
+        yield actuator.span, f"{_kind(actuator)} does nothing in {ENVIRONMENT}.", hint
 
 
-def _refuse_world(task: model.Task, findings: Findings) -> None:
-    """Report what a task puts into an environment."""
-    for thing in task.things:
-        message = f"Nothing can be put into {ENVIRONMENT}."
-        findings.error("foreign-part", thing.span, message, "Leave the line out.")
-    for fact in (fact for fact in task.facts if isinstance(fact, Starts)):
-        message = f"{ENVIRONMENT.capitalize()} says itself how a run begins."
-        findings.error("foreign-part", fact.span, message, "Leave the line out.")
+def _put_in(tasks: Sequence[model.Task]) -> Iterator[Refused]:
+    """What tasks put into an environment."""
+    for task in tasks:
+        for thing in task.things:
+            yield thing.span, f"Nothing can be put into {ENVIRONMENT}.", "Leave the line out."
+        for fact in of_form(task.facts, Starts):
+            yield fact.span, f"{ENVIRONMENT.capitalize()} says itself how a run begins.", "Leave the line out."
 
 
 def _check_judged(task: model.Task, findings: Findings) -> None:
@@ -112,7 +110,7 @@ def _judged(task: model.Task) -> Iterator[tuple[Any, Span]]:
         if reward.on and reward.fact.on:
             yield reward.on, reward.fact.on.span
         yield from _measured(reward.expressions)
-    counted = (fact for fact in task.facts if isinstance(fact, Counts))
+    counted = of_form(task.facts, Counts)
     yield from ((event, fact.event.span) for event, fact in zip(task.counts, counted, strict=True) if event)
 
 

@@ -1,64 +1,56 @@
-"""Sensors, memories, actuators and the body; how many readings each sensor has."""
+"""Sensors, memories, actuators and the body: how many readings each sensor has, whether the actuators can move it."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from math import prod
 from typing import Any
 
+from mindrun.kinds.actuators.actuator import ActuatorKind
+from mindrun.kinds.bodies.body import BodyKind
+from mindrun.kinds.registry import kinds
+from mindrun.kinds.registry import names as kind_names
 from mindrun.kinds.sensors.computed import Computed
 from mindrun.numbers.expression import Formula
 from msgspec.structs import replace
 
 from mindlang.compiler.diagnostic import Findings, Label, a, listed
-from mindlang.compiler.hierarchy import circles
+from mindlang.compiler.hierarchy import circles, ends_first
 from mindlang.compiler.model import Expression, Number, Part, Reading, Term, source_graph
 from mindlang.compiler.names import Names
 from mindlang.compiler.resolve.expressions import Visible, resolve
 from mindlang.compiler.resolve.kinds import Scope, make
-from mindlang.compiler.source import Span
-from mindlang.compiler.syntax import Declaration, Fact, Needs, Operator
+from mindlang.compiler.syntax import Declaration, Operator, verb_of
 
 MOST_READINGS = 20_000
 ONE_LINE = "All that there is to say of it stands in its one line; set the fact below the skill or task it belongs to."
 
+Parts = tuple[Part[Any], ...]
 
-def parts(noun: str, names: Names, findings: Findings) -> tuple[Part[Any], ...]:
-    """The parts declared with a noun, as far as their kinds are well said."""
+
+def parts(noun: str, names: Names, findings: Findings) -> Parts:
+    """The parts declared with a noun, as far as their kinds are well said; not those that are computed."""
     things = names.things()
     found = []
     for name, declaration in names.declarations(noun):
         refuse_facts(declaration, (), findings)
-        header = declaration.header
-        if header.at:
-            continue  # `sensors` computes it when all others are known
-        kind = header.phrase and make(noun, header.phrase, Scope(names, things, whole=declaration.whole), findings)
-        if kind:
-            found.append(Part(name, kind, header.name.span))
+        phrase = None if declaration.header.at else declaration.header.phrase
+        if phrase and (kind := make(noun, phrase, Scope(names, things, whole=declaration.whole), findings)):
+            found.append(Part(name, kind, declaration.header.name.span))
     return tuple(found)
 
 
-def refuse_facts(declaration: Declaration, allowed: tuple[type[Fact], ...], findings: Findings) -> None:
-    """Report the facts that a declaration of this noun cannot have.
+def refuse_facts(declaration: Declaration, verbs: Sequence[str], findings: Findings) -> None:
+    """Report the facts of a declaration of this noun that begin with other verbs than these.
 
     A line above them that could not be read may have been the header to which they belong.
     """
-    if not declaration.whole:
-        return
     noun = declaration.header.noun.text
-    for fact in declaration.facts:
-        if not isinstance(fact, allowed):
-            verb = type(fact).__name__.lower()
-            verbs = [form.__name__.lower() for form in allowed]
+    for fact in declaration.facts if declaration.whole else ():
+        if (verb := verb_of(fact)) not in verbs:
             hint = f"Below {noun} {declaration.header.name.text} can stand {listed(verbs)}." if verbs else ONE_LINE
             findings.error("foreign-fact", fact.span, f"{verb} does not belong to {a(noun)}.", hint)
 
 
-def refuse_repeated(facts: Sequence[Fact | Needs], message: str, hint: str, findings: Findings) -> None:
-    """Report all but the first of facts that say the same."""
-    for again in facts[1:]:
-        findings.error("repeated-fact", again.span, message, hint, Label(facts[0].span, "first said here"))
-
-
-def sensors(names: Names, findings: Findings) -> tuple[Part[Any], ...]:
+def sensors(names: Names, findings: Findings) -> Parts:
     """The sensors with their widths, as they are declared; those that are computed from themselves are reported."""
     plain = {sensor.name: sensor for sensor in parts("sensor", names, findings)}
     formulas = {name: header.at for name, each in names.declarations("sensor") if (header := each.header).at}
@@ -68,12 +60,19 @@ def sensors(names: Names, findings: Findings) -> tuple[Part[Any], ...]:
         formula = _formula(resolve(at, visible, findings))
         plain[name] = Part(name, Computed(formula), names.table["sensor"][name].header.name.span)
     found = tuple(replace(plain[name], width=widths[name]) for name in names.of("sensor") if name in plain)
-    _refuse_loops(found, findings)
-    _refuse_too_many(found, findings)
+    for circle in circles(source_graph(found)):
+        message = f"A sensor is derived from itself: {' → '.join([*circle, circle[0]])}."
+        findings.error("derivative-loop", plain[circle[0]].span, message, "Derive one of them from another sensor.")
+    if (readings := sum(sensor.width for sensor in found)) > MOST_READINGS:
+        widest = max(found, key=lambda sensor: sensor.width)
+        message = f"With these {widest.width} the mind has {readings} readings."
+        findings.error("too-many-readings", widest.span, message, f"A mind takes {MOST_READINGS}: leave some out.")
     for sensor in found:
         if sensor.name not in formulas and (flaw := sensor.kind.flaw(widths)):
-            span = _argument_span(names.table["sensor"][sensor.name], flaw.field)
-            findings.error(flaw.code, span, flaw.message, flaw.hint)
+            header = names.table["sensor"][sensor.name].header
+            arguments = header.phrase.arguments if header.phrase else ()
+            said = (each.value.span for each in arguments if each.key.text == flaw.field)
+            findings.error(flaw.code, next(said, header.span), flaw.message, flaw.hint)
     return found
 
 
@@ -93,37 +92,27 @@ def _formula(expression: Expression) -> Formula:
     return tuple(instruction(term) for term in expression.terms)
 
 
-def _argument_span(declaration: Declaration, field: str) -> Span:
-    phrase = declaration.header.phrase
-    found = (argument.value.span for argument in phrase.arguments if argument.key.text == field) if phrase else ()
-    return next(iter(found), declaration.header.span)
-
-
 def _widths(sensors: Mapping[str, Part[Any]], of_one: Iterable[str]) -> dict[str, int]:
     """How many readings each sensor and memory has: one that does not say has as many as its source."""
     shapes = {name: each.kind.shape for name, each in sensors.items()}
     widths = dict.fromkeys(of_one, 1) | {name: prod(shape) for name, shape in shapes.items() if shape is not None}
-    for name in sensors:
-        chain, last = {name: None}, name
-        while last in sensors and last not in widths:
-            last = sensors[last].kind.source
-            if last in chain:
-                break
-            chain[last] = None
-        widths |= dict.fromkeys(chain, widths.get(last, 1))
+    sources_first = (name for name in ends_first(source_graph(sensors.values())) if name in sensors)
+    for name in (*sources_first, *sensors):
+        widths.setdefault(name, widths.get(sensors[name].kind.source, 1))
     return widths
 
 
-def _refuse_loops(sensors: Sequence[Part[Any]], findings: Findings) -> None:
-    """Report sensors that are computed from themselves, each circle once."""
-    for circle in circles(source_graph(sensors)):
-        message = f"A sensor is derived from itself: {' → '.join([*circle, circle[0]])}."
-        span = next(sensor.span for sensor in sensors if sensor.name == circle[0])
-        findings.error("derivative-loop", span, message, "Derive one of them from another sensor.")
-
-
-def _refuse_too_many(sensors: tuple[Part[Any], ...], findings: Findings) -> None:
-    if (readings := sum(sensor.width for sensor in sensors)) > MOST_READINGS:
-        widest = max(sensors, key=lambda sensor: sensor.width)
-        message = f"With these {widest.width} the mind has {readings} readings."
-        findings.error("too-many-readings", widest.span, message, f"A mind takes {MOST_READINGS}: leave some out.")
+def check_drives(body: Part[BodyKind], actuators: Sequence[Part[ActuatorKind]], findings: Findings) -> None:
+    """Report actuators that would do nothing on a body, and a second steering."""
+    is_ = kind_names()[type(body.kind)]
+    for actuator in actuators:
+        drive = actuator.kind.drive
+        if drive is not None and drive not in body.kind.drives:
+            bodies = listed(a(kind) for kind, cls in kinds("body").items() if drive in cls.drives)
+            hint = f"{a(is_).capitalize()} takes {listed(body.kind.drives)}; {drive} belongs to {bodies}."
+            message = f"{a(drive).capitalize()} does nothing on {a(is_)}."
+            findings.error("foreign-drive", actuator.span, message, hint, Label(body.span, "the body"))
+    if "steering" in body.kind.drives:
+        steering = [each.span for each in actuators if each.kind.drive == "steering"]
+        hint = "Leave one of the two out, or let one be a servo."
+        findings.refuse_again("second-steering", steering, "A car has one steering.", hint, "the first one")

@@ -1,7 +1,10 @@
 """Amounts as written → numbers: units converted, ranges and whole numbers checked."""
 
+from collections.abc import Callable, Mapping
 from math import ceil, floor, isfinite
+from typing import Any
 
+from mindrun.kinds.registry import Shape
 from mindrun.numbers.quantity import LEAST_STEP, Extent, Place, Quantity, Span
 
 from mindlang.compiler.diagnostic import Findings, Label, listed
@@ -12,7 +15,10 @@ def convert(amount: Amount, quantity: Quantity, findings: Findings, unit: str = 
     """The value of an amount, `unit` being that of its list, or None after reporting why it has none."""
     written = amount.unit or unit
     if amount.name:
-        _unknown(amount, findings)
+        if amount.name not in findings.numbers:  # one that is declared wrongly has been reported there
+            hint = findings.suggest(amount.name, findings.numbers) or f"Declare it: number {amount.name} is 12."
+            message = f"There is no number called {amount.name}."
+            findings.error("unknown-number", amount.constant.span, message, hint)
         return None
     if amount.per and not (quantity.rate and amount.per in ("s", "tick")):
         _no_rate(amount, quantity, findings)
@@ -51,8 +57,8 @@ def _wrong_unit(amount: Amount, quantity: Quantity, findings: Findings) -> None:
     fit = [unit for unit, value in scaled.items() if quantity.low <= value <= quantity.high]
     units = [f"{bare} {unit}".replace(" %", "%").strip() for unit in fit]
     message = f"The unit {amount.unit} does not fit here." if amount.unit else "This number needs a unit."
-    hint = f"Here stands {quantity.name}: write {listed(units)}." if units else f"Here stands {quantity.name}."
-    hint = hint if units else f"{hint} {_bounds(quantity)}"
+    here = f"Here stands {quantity.name}"
+    hint = f"{here}: write {listed(units)}." if units else f"{here}. {_bounds(quantity)}"
     findings.error("wrong-unit", amount.span, message, hint, *_labels(amount))
 
 
@@ -61,83 +67,63 @@ def _labels(amount: Amount) -> tuple[Label, ...]:
     return (Label(amount.said, f"{amount.span.text.strip('+- ')} is said here"),) if amount.said else ()
 
 
-def _unknown(amount: Amount, findings: Findings) -> None:
-    """Report the name of a number that there is not; one that is declared wrongly has been reported there."""
-    if amount.name not in findings.numbers:
-        hint = findings.suggest(amount.name, findings.numbers) or f"Declare it: number {amount.name} is 12."
-        findings.error("unknown-number", amount.constant.span, f"There is no number called {amount.name}.", hint)
-
-
 def _no_rate(amount: Amount, quantity: Quantity, findings: Findings) -> None:
     if quantity.rate:
         hint = "Write per s or per tick."
         findings.error("wrong-rate", amount.span, f"A rate is not per {amount.per}.", hint, *_labels(amount))
-        return
-    hint = f"Here stands {quantity.name}: leave per {amount.per} out."
-    findings.error("not-a-rate", amount.span, "This number is no rate.", hint, *_labels(amount))
+    else:
+        hint = f"Here stands {quantity.name}: leave per {amount.per} out."
+        findings.error("not-a-rate", amount.span, "This number is no rate.", hint, *_labels(amount))
 
 
 def _bounds(quantity: Quantity, unit: str = "") -> str:
-    """Between what an amount in a unit may be; in the first of its units where that does not fit."""
+    """Between what an amount in a unit may be, without exponents; in the first unit where that one does not fit."""
     unit = unit if unit in quantity.units else next(iter(quantity.units))
-    low, high = (_plain(bound / quantity.units[unit]) for bound in (quantity.low, quantity.high))
+    ends = (bound / quantity.units[unit] for bound in (quantity.low, quantity.high))
+    low, high = (f"{end:.9f}".rstrip("0").rstrip(".") for end in ends)
     return f"Write at least {low} and at most {f'{high} {unit}'.strip()}.".replace(" %", "%")
-
-
-def _plain(number: float) -> str:
-    """A number as it can be written: without an exponent."""
-    return f"{number:.9f}".rstrip("0").rstrip(".")
 
 
 def single_value(value: Value, quantity: Quantity, findings: Findings) -> float | int | None:
     """The value of an argument that takes one number."""
     match value:
-        case Numbers(amounts=(amount,)):
+        case Numbers((amount,)):
             return convert(amount, quantity, findings)
-        case Numbers() | Range():
-            hint = f"Here stands {quantity.name}, for example {_example(value)}."
+        case Numbers((first, *_)) | Range(first):
+            hint = f"Here stands {quantity.name}, for example {first.span.text}."
             findings.error("one-number", value.span, "Only one number can stand here.", hint)
+        case Name(text) if text in findings.numbers:
+            pass  # one that is declared wrongly, which has been reported there
         case _:
-            _not_a_number(value, quantity, findings)
+            hint = findings.suggest(value.text, findings.numbers) if isinstance(value, Name) else ""
+            hint = hint or f"Here stands {quantity.name}."
+            findings.error("not-a-number", value.span, f"{value.span.text} is not a number.", hint)
     return None
-
-
-def _not_a_number(value: Value, quantity: Quantity, findings: Findings) -> None:
-    if isinstance(value, Name) and value.text in findings.numbers:
-        return  # one that is declared wrongly, which has been reported there
-    hint = findings.suggest(value.text, findings.numbers) if isinstance(value, Name) else ""
-    hint = hint or f"Here stands {quantity.name}."
-    findings.error("not-a-number", value.span, f"{value.span.text} is not a number.", hint)
-
-
-def _example(value: Numbers | Range) -> str:
-    return (value.amounts[0] if isinstance(value, Numbers) else value.first).span.text
 
 
 def value_list(value: Value, quantity: Quantity, findings: Findings) -> tuple[float | int, ...] | None:
     """The values of an argument that takes a list; the last unit goes for all that have none."""
     match value:
-        case Numbers(amounts=amounts):
-            last = convert(amounts[-1], quantity, findings)
-            if last is None:  # its unit goes for all: one message will do
+        case Numbers((*most, last)):
+            end = convert(last, quantity, findings)
+            if end is None:  # its unit goes for all: one message will do
                 return None
-            numbers = [convert(amount, quantity, findings, amounts[-1].unit) for amount in amounts[:-1]]
-            return (*(n for n in numbers if n is not None), last) if None not in numbers else None
+            numbers = [convert(amount, quantity, findings, last.unit) for amount in most]
+            return (*(n for n in numbers if n is not None), end) if None not in numbers else None
         case Range():
-            findings.error(
-                "no-range", value.span, "A list cannot be a range.", "Write each number, with spaces between."
-            )
+            hint = "Write each number, with spaces between."
+            findings.error("no-range", value.span, "A list cannot be a range.", hint)
         case _:
-            _not_a_number(value, quantity, findings)
+            single_value(value, quantity, findings)
     return None
 
 
 def extent(value: Value, quantity: Quantity, findings: Findings) -> Extent | None:
     """The value of an argument that takes one number, or a width and a depth."""
     match value:
-        case Numbers(amounts=(_, _)):
+        case Numbers((_, _)):
             return place(value, quantity, findings)
-        case Numbers(amounts=(_, _, third, *_)):
+        case Numbers((_, _, third, *_)):
             hint = "Write one number for a square, or two: the width and the depth."
             findings.error("too-many-numbers", third.span, "Here stand one number or two.", hint)
             return None
@@ -154,7 +140,7 @@ def places(value: Value, quantity: Quantity, findings: Findings) -> tuple[Place,
 def place(value: Value, quantity: Quantity, findings: Findings) -> Place | None:
     """The value of two numbers."""
     match value:
-        case Numbers(amounts=(_, _)):
+        case Numbers((_, _)):
             both = value_list(value, quantity, findings)
             return (both[0], both[1]) if both else None
         case Numbers() | Range() | Points():
@@ -181,3 +167,8 @@ def span(value: Value, quantity: Quantity, findings: Findings) -> Span | None:
         findings.error("range-backwards", value.span, "This range ends below its beginning.", hint)
         return None
     return Span(first, last, by)
+
+
+SHAPES: Mapping[Shape, Callable[[Value, Quantity, Findings], Any]] = {  # of the values of arguments
+    "one": single_value, "list": value_list, "extent": extent, "place": place, "places": places, "span": span,
+}  # fmt: skip

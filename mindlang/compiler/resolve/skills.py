@@ -1,137 +1,210 @@
-"""Skills: what they read, what they drive and influence, and that their function fits."""
+"""Skills: what they read, what they drive and influence, that their function fits, and those that are like others."""
 
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, TypeVar
 
 from mindrun.graph.graph import Receiver
 from mindrun.kinds.functions.function import Function
 from mindrun.numbers.quantity import RATIO
+from msgspec.structs import replace
+from networkx import DiGraph
 
-from mindlang.compiler import model, syntax
-from mindlang.compiler.diagnostic import Findings, Label
+from mindlang.compiler import model
+from mindlang.compiler.diagnostic import Findings, listed
+from mindlang.compiler.hierarchy import ends_first, refuse_circles
 from mindlang.compiler.names import Names
 from mindlang.compiler.resolve.expressions import Visible, condition, resolve
 from mindlang.compiler.resolve.kinds import Scope, make
-from mindlang.compiler.resolve.likeness import alike
 from mindlang.compiler.resolve.parts import refuse_facts
 from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.source import Span
-from mindlang.compiler.syntax import Declaration, Drives, Influences, Reads, Stays
+from mindlang.compiler.syntax import Declaration, Drives, Influences, Reads, Sends, Stays, of_form, rebuilt
+
+F = TypeVar("F", bound=Reads | Sends)
 
 
 def skills(names: Names, widths: Mapping[str, int], findings: Findings) -> tuple[model.Skill, ...]:
-    """Every skill, without the lines that are reported."""
+    """Every skill, without the lines that are reported; one that is not well said has no function."""
     declared = dict(names.declarations("skill"))
-    own = {
+    known = {
         name: _skill(name, declaration, names, widths, findings)
         for name, declaration in declared.items()
         if not declaration.header.like
     }
-    known = own | alike(own, names, widths, findings)
-    return tuple(known[name] for name in declared)
+    like = {name: each.header.like.text for name, each in declared.items() if each.header.like}
+    hint = "Say of one of them what it is: skill NAME is mlp hidden 2."
+    for name in (name for name, other in like.items() if name == other):
+        findings.error("like-circle", declared[name].header.span, f"{name} is like itself.", hint)
+    graph = DiGraph()
+    graph.add_nodes_from(like)
+    others = ((name, other, {"span": declared[name].header.span}) for name, other in like.items())
+    graph.add_edges_from(edge for edge in others if edge[0] != edge[1])
+    says = "Skills are like one another in a circle"
+    refuse_circles("like-circle", graph, findings, says, hint, "and from there on")
+    for name in (each for each in ends_first(graph) if each in like):
+        known[name] = _alike(declared[name], known.get(like[name]), names, widths, findings)
+    return tuple(known.get(name) or _unsaid(each) for name, each in declared.items())
+
+
+def _unsaid(declaration: Declaration) -> model.Skill:
+    function: Any = None
+    return model.Skill(declaration.header.name.text, function, (), (), False, declaration)
 
 
 def _skill(
     name: str, declaration: Declaration, names: Names, widths: Mapping[str, int], findings: Findings
 ) -> model.Skill:
-    refuse_facts(declaration, (Reads, Drives, Influences, Stays), findings)
+    refuse_facts(declaration, ("reads", "drives", "influences", "stays"), findings)
     phrase = declaration.header.phrase
     function: Any = make("skill", phrase, Scope(names, None), findings) if phrase else None
     reads = _reads(declaration, names, findings)
     # A line that could not be read may have been an input.
-    all_read = declaration.whole and len(reads) == sum(isinstance(fact, Reads) for fact in declaration.facts)
+    all_read = declaration.whole and len(reads) == len(of_form(declaration.facts, Reads))
     visible = Visible(
         {read: widths[read] for read in reads} if all_read else widths, elsewhere=widths, unread=names.unread
     )
     edges = _edges(declaration, names, visible, findings)
-    if function:
-        _check(declaration, function, reads, edges, findings)
+    if function and declaration.whole:
+        _check_works(declaration, function, edges, findings)
     return model.Skill(name, function, reads, edges, _is_frozen(declaration, findings), declaration)
 
 
 def _reads(declaration: Declaration, names: Names, findings: Findings) -> tuple[str, ...]:
-    found: dict[str, Span] = {}
-    for fact in declaration.facts:
-        if isinstance(fact, Reads) and fact.stands_for:
+    known = []
+    for fact in of_form(declaration.facts, Reads):
+        if fact.stands_for:
             message = f"{declaration.header.name.text} is like no other skill, so nothing stands for an input of it."
             findings.error("for-without-like", fact.stands_for.span, message, f"Write reads {fact.name.text}.")
-        if isinstance(fact, Reads) and names.find(fact.name, ("sensor", "memory"), findings):
-            _once(found, fact.name.text, fact.span, "reads", findings)
-    return tuple(found)
+        if names.find(fact.name, ("sensor", "memory"), findings):
+            known.append(fact)
+    return tuple(_once(known, findings))
+
+
+def _once(facts: Iterable[F], findings: Findings) -> dict[str, F]:
+    """The first fact of each name; others are reported."""
+    by_name: dict[str, list[F]] = {}
+    for fact in facts:
+        by_name.setdefault(fact.name.text, []).append(fact)
+    for name, same in by_name.items():
+        message = f"The skill already {type(same[0]).__name__.lower()} {name}."
+        _refuse_again([fact.span for fact in same], message, findings)
+    return {name: same[0] for name, same in by_name.items()}
 
 
 def _edges(declaration: Declaration, names: Names, visible: Visible, findings: Findings) -> tuple[model.Edge, ...]:
-    edges = []
-    seen: dict[str, Span] = {}
+    edges: list[model.Edge] = []
     to: Receiver | None
-    for fact in declaration.facts:
-        match fact:
-            case Drives():
-                to = names.find(fact.name, ("actuator", "memory"), findings)
-            case Influences():
-                to = names.find(fact.name, ("skill",), findings)
-            case _:
-                continue
+    for fact in (fact for fact in declaration.facts if isinstance(fact, Drives | Influences)):
+        gate, cuts = None, None
+        if isinstance(fact, Drives):
+            to = names.find(fact.name, ("actuator", "memory"), findings)
+        else:
+            to = names.find(fact.name, ("skill",), findings)
+            cuts = convert(fact.cuts, RATIO, findings) if fact.cuts else None
         at = resolve(fact.at, visible, findings) if fact.at else None
-        gate = _gate(fact.gate, visible, findings) if fact.gate else None
-        cuts = convert(fact.cuts, RATIO, findings) if isinstance(fact, Influences) and fact.cuts else None
-        verb = type(fact).__name__.lower()
-        if to and _once(seen, fact.name.text, fact.span, verb, findings):
+        if fact.gate:
+            otherwise = resolve(fact.gate.otherwise, visible, findings) if fact.gate.otherwise else None
+            gate = model.Gate(condition(fact.gate.when, visible, findings), otherwise)
+        if to:
             edges.append(model.Edge(to, fact.name.text, at, fact, gate, cuts or 0.0))
-    return tuple(edges)
+    first = _once((edge.fact for edge in edges), findings)
+    return tuple(edge for edge in edges if first[edge.target] is edge.fact)
 
 
-def _gate(gate: syntax.Gate, visible: Visible, findings: Findings) -> model.Gate:
-    otherwise = resolve(gate.otherwise, visible, findings) if gate.otherwise else None
-    return model.Gate(condition(gate.when, visible, findings), otherwise)
+def _refuse_again(spans: Sequence[Span], message: str, findings: Findings) -> None:
+    findings.refuse_again("repeated-fact", spans, message, "Leave one of the two lines out.")
 
 
 def _is_frozen(declaration: Declaration, findings: Findings) -> bool:
-    seen: dict[str, Span] = {}
-    for fact in declaration.facts:
-        if isinstance(fact, Stays) and fact.how.text != "frozen":
-            hint = "Write stays frozen, or leave the line out."
-            findings.error("unknown-state", fact.how.span, f"A skill cannot stay {fact.how.text}.", hint)
-        elif isinstance(fact, Stays):
-            _once(seen, "frozen", fact.span, "stays", findings)
-    return bool(seen)
+    stays = of_form(declaration.facts, Stays)
+    for how in (fact.how for fact in stays if fact.how.text != "frozen"):
+        hint = "Write stays frozen, or leave the line out."
+        findings.error("unknown-state", how.span, f"A skill cannot stay {how.text}.", hint)
+    frozen = [fact.span for fact in stays if fact.how.text == "frozen"]
+    _refuse_again(frozen, "The skill already stays frozen.", findings)
+    return bool(frozen)
 
 
-def _once(seen: dict[str, Span], name: str, span: Span, verb: str, findings: Findings) -> bool:
-    if name in seen:
-        first = Label(seen[name], "first said here")
-        findings.error(
-            "repeated-fact", span, f"The skill already {verb} {name}.", "Leave one of the two lines out.", first
-        )
-        return False
-    seen[name] = span
-    return True
-
-
-def _check(
-    declaration: Declaration,
-    function: Function,
-    reads: tuple[str, ...],
-    edges: tuple[model.Edge, ...],
-    findings: Findings,
-) -> None:
+def _check_works(declaration: Declaration, function: Function, edges: Sequence[model.Edge], findings: Findings) -> None:
     """Report a function that has nothing to work on; lines that are missing because they are wrong count as there."""
-    if not declaration.whole:
-        return
     name = declaration.header.name
-    if not any(isinstance(fact, Drives | Influences) for fact in declaration.facts):
+    sent = of_form(declaration.facts, Sends)
+    if not sent:
         hint = "Add drives and an actuator, or influences and a skill."
         findings.error("idle-skill", name.span, f"{name.text} drives nothing and influences nothing.", hint)
     elif not function.has_outputs:
-        for edge in edges:
-            if edge.at is None:
-                hint = "A rule has no function of its own: write at and the value, for example at 1."
-                findings.error("missing-at", edge.fact.span, "This line of a rule does not say its value.", hint)
-    elif all(fact.at for fact in declaration.facts if isinstance(fact, Drives | Influences)):
+        for edge in (each for each in edges if each.at is None):
+            hint = "A rule has no function of its own: write at and the value, for example at 1."
+            findings.error("missing-at", edge.fact.span, "This line of a rule does not say its value.", hint)
+    elif all(fact.at for fact in sent):
         hint = f"Write skill {name.text} is rule, or leave at out of a line."
-        findings.error(
-            "no-outputs", name.span, f"Every line of {name.text} says its value, so its function has none.", hint
-        )
-    if function.learns and not any(isinstance(fact, Reads) for fact in declaration.facts):
+        message = f"Every line of {name.text} says its value, so its function has none."
+        findings.error("no-outputs", name.span, message, hint)
+    if function.learns and not of_form(declaration.facts, Reads):
         hint = "Add reads and a sensor, or make it a rule with at on every line."
         findings.error("no-inputs", name.span, f"{name.text} reads nothing, so it has nothing to learn from.", hint)
+
+
+def _alike(
+    own: Declaration, other: model.Skill | None, names: Names, widths: Mapping[str, int], findings: Findings
+) -> model.Skill:
+    """A skill that is like another, None where there is no such one: the same function, which reads something else."""
+    name, like = own.header.name.text, own.header.like
+    if other is None and like:
+        names.find(like, ("skill",), findings)
+    if other is None or not other.function or not like:
+        return _unsaid(own)
+    if not other.function.learns:
+        message = f"{other.name} learns nothing, so it has no weights that {name} could share."
+        hint = f"Say what {name} is, and repeat the lines of {other.name}."
+        findings.error("like-no-learner", like.span, message, hint)
+        return _unsaid(own)
+    for more in (fact for fact in own.facts if not isinstance(fact, Reads)):
+        message = f"{name} is like {other.name}, so it only says what it reads in place of that."
+        hint = f"Take this line out, or say it of {other.name}: it holds for both."
+        findings.error("like-says-more", more.span, message, hint)
+    lines = of_form(own.facts, Reads)
+    instead: dict[str, list[Reads]] = {}
+    for fact in lines:
+        if names.find(fact.name, ("sensor", "memory"), findings) and _stands(fact, other, names, widths, findings):
+            instead.setdefault(fact.stands_for.text if fact.stands_for else "", []).append(fact)
+    for input_, same in instead.items():
+        _refuse_again([fact.span for fact in same], f"Something stands for {input_} already.", findings)
+    read = {input_: same[-1].name.text for input_, same in instead.items()}
+    reads = tuple(read.get(each, each) for each in other.reads)
+    if twice := next((fact for fact in lines if reads.count(fact.name.text) > 1), None):
+        message = f"{name} would read {twice.name.text} twice."
+        findings.error("repeated-input", twice.span, message, "Let it read something else here.")
+
+    def reading(node: Any) -> Any:
+        is_read = isinstance(node, model.Reading)
+        return replace(node, name=read.get(node.name, node.name)) if is_read else node
+
+    edges = tuple(replace(edge, at=rebuilt(edge.at, reading), gate=rebuilt(edge.gate, reading)) for edge in other.edges)
+    return model.Skill(name, other.function, reads, edges, False, own, other.owner)
+
+
+def _stands(fact: Reads, other: model.Skill, names: Names, widths: Mapping[str, int], findings: Findings) -> bool:
+    """Whether a line says for which input of the other skill its own stands, and has as many readings."""
+    name = fact.name.text
+    reads = f"{other.name} reads {listed(other.reads, 'and') if other.reads else 'nothing'}."
+    if fact.stands_for is None:
+        message = f"It is not said for which input of {other.name} {name} stands."
+        findings.error("stands-for-nothing", fact.span, message, f"Write reads {name} for INPUT: {reads}")
+        return False
+    replaced = fact.stands_for.text
+    if replaced not in other.reads:
+        if replaced not in names.unread and other.declaration.whole:
+            message = f"{other.name} does not read {replaced}."
+            findings.error("no-such-input", fact.stands_for.span, message, reads)
+        return False
+    own, width = widths.get(name, 1), widths.get(replaced, 1)
+    if own != width:
+        message = f"{name} has {_readings(own)}, {replaced} has {_readings(width)}."
+        hint = f"The weights of {other.name} fit a sensor with {_readings(width)} in its place."
+        findings.error("other-width", fact.name.span, message, hint)
+    return own == width
+
+
+def _readings(width: int) -> str:
+    return "one reading" if width == 1 else f"{width} readings"

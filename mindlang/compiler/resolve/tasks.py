@@ -1,105 +1,27 @@
 """Tasks: their worlds, their ends, their rewards."""
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
-from pathlib import Path
-from typing import Any, TypeVar
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
 
-from mindrun.kinds.actuators.gripper import REACH_UNITS
-from mindrun.kinds.bodies.body import BodyKind
-from mindrun.kinds.scenes.scene import SceneKind
-from mindrun.kinds.things.thing import MAX_OBSTACLES, ThingKind
 from mindrun.numbers.quantity import SECONDS, TICKS, Quantity
 
 from mindlang.compiler import model
-from mindlang.compiler.beginning import beginning
+from mindlang.compiler.beginning import beginning, hint_apart
 from mindlang.compiler.diagnostic import Findings, Label
-from mindlang.compiler.names import Names, things_of
-from mindlang.compiler.resolve.decided import check_decided
 from mindlang.compiler.resolve.expressions import Visible, condition, resolve
-from mindlang.compiler.resolve.kinds import Scope, make
-from mindlang.compiler.resolve.maps import with_places
-from mindlang.compiler.resolve.parts import refuse_facts, refuse_repeated
-from mindlang.compiler.resolve.places import check_places, start_of
+from mindlang.compiler.resolve.kinds import make
+from mindlang.compiler.resolve.parts import refuse_facts
 from mindlang.compiler.resolve.quantities import convert
-from mindlang.compiler.resolve.variations import Variable, failures, variations
-from mindlang.compiler.syntax import (
-    Contains,
-    Counts,
-    Declaration,
-    Ends,
-    Fact,
-    Fails,
-    Lasts,
-    Phrase,
-    Rewards,
-    Starts,
-    Succeeds,
-    Varies,
-)
+from mindlang.compiler.resolve.worlds import RobotFacts, World, refuse_repeated, world_of
+from mindlang.compiler.syntax import Counts, Declaration, Ends, Lasts, Phrase, Rewards, Succeeds, of_form
 
 MAX_RUN_TICKS = 10_000_000  # of a run
 TIMES = Quantity("how many times", {"": 1.0}, low=1, high=MAX_RUN_TICKS, whole=True)
 LASTS = replace(TICKS, low=1.0, high=MAX_RUN_TICKS)
 
-TASK_FACTS: tuple[type[Fact], ...] = (Contains, Starts, Varies, Fails, Lasts, Ends, Succeeds, Rewards, Counts)
-SCENE_FACTS: tuple[type[Fact], ...] = (
-    Contains,
-    Starts,
-    Varies,
-    Fails,
-)  # what the world is, not what is to be done in it
-
-F = TypeVar("F", bound=Fact)
-
-
-@dataclass(frozen=True, slots=True)
-class RobotFacts:
-    """What tasks need to know of the rest of the mind."""
-
-    names: Names
-    widths: Mapping[str, int]
-    tick: float
-    root: Path
-    body: model.Part[Any] | None
-    actuators: tuple[model.Part[Any], ...]
-    sensors: tuple[model.Part[Any], ...]
-
-    @property
-    def body_kind(self) -> BodyKind | None:
-        """The body; None where none is well said."""
-        return self.body.kind if self.body else None
-
-    @property
-    def claw(self) -> float:
-        """How far ahead of the body things come into reach, with a claw or without."""
-        return next((each.kind.reach for each in self.actuators if each.kind.reach is not None), REACH_UNITS)
-
-    @property
-    def has_battery(self) -> bool:
-        """Whether any sensor reads one."""
-        return any(sensor.kind.battery for sensor in self.sensors)
-
-
-@dataclass(frozen=True, slots=True)
-class World:
-    """What a task says of its world: what its events and measures can be about."""
-
-    scene: Any  # a SceneKind; None where it is not well said
-    things: tuple[model.Part[Any], ...]
-    scope: Scope
-    has_battery: bool
-    can_succeed: bool
-
-    @property
-    def kinds(self) -> list[ThingKind]:
-        """The kinds of the things that are well said."""
-        return [thing.kind for thing in self.things if thing.kind]
-
-    def variable(self, robot: RobotFacts) -> Variable:
-        """What can differ from run to run in it."""
-        parts = {"body": (robot.body,) if robot.body else (), "actuator": robot.actuators, "sensor": robot.sensors}
-        return Variable(robot.names, {**parts, "thing": self.things}, self.scope.place)
+SCENE_FACTS = ("contains", "starts", "varies", "fails")  # what the world is, not what is to be done in it
+TASK_FACTS = (*SCENE_FACTS, "lasts", "ends", "succeeds", "rewards", "counts")
 
 
 def tasks(robot: RobotFacts, findings: Findings) -> tuple[model.Task, ...]:
@@ -107,86 +29,40 @@ def tasks(robot: RobotFacts, findings: Findings) -> tuple[model.Task, ...]:
     for _, scene in robot.names.declarations("scene"):
         with findings.each_once():
             refuse_facts(scene, SCENE_FACTS, findings)
-            world = _world(scene, robot, findings)
-            start_of(scene, world.scene, world.things, robot.body_kind, findings)
-            variations(scene, world.variable(robot), findings)
-            failures(scene, world.variable(robot), findings)
+            world_of(scene, robot, findings)
     found = []
-    for name, declaration in robot.names.declarations("task"):
+    for _, declaration in robot.names.declarations("task"):
         with findings.each_once():
-            found.append(_task(name, declaration, robot, findings))
+            found.append(_task(declaration, robot, findings))
     return tuple(found)
 
 
-def _world(declaration: Declaration, robot: RobotFacts, findings: Findings) -> World:
-    """What a task or a scene says of the world."""
-    noun, name = declaration.header.noun.text, declaration.header.name.text
-    things = things_of(declaration) if declaration.whole else None
-    scope = Scope(robot.names, things, f"{noun} {name}", root=robot.root)
-    phrase = declaration.header.phrase
-    scene: Any = make("task", phrase, scope, findings) if phrase else None
-    succeeds = not declaration.whole or any(isinstance(fact, Succeeds) for fact in declaration.facts)
-    return World(scene, _things(declaration, scene, scope, findings), scope, robot.has_battery, succeeds)
-
-
-def _task(name: str, declaration: Declaration, robot: RobotFacts, findings: Findings) -> model.Task:
+def _task(declaration: Declaration, robot: RobotFacts, findings: Findings) -> model.Task:
     refuse_facts(declaration, TASK_FACTS, findings)
-    world = _world(declaration, robot, findings)
-    start = start_of(declaration, world.scene, world.things, robot.body_kind, findings)
-    ends = _ends(declaration, world, robot, findings)
-    begun = beginning(world.scene, world.things, start, robot.body_kind, robot.claw)
-    check_decided(ends, begun, [sensor.kind for sensor in robot.sensors], findings)
+    world = world_of(declaration, robot, findings)
+    commands = frozenset(robot.names.of("actuator"))
+    visible = Visible(robot.widths, world.scope, unread=robot.names.unread, commands=commands)
+    ends = _ends(declaration, world, visible, findings)
+    _check_decided(ends, world, robot, findings)
     return model.Task(
-        name,
+        declaration.header.name.text,
         world.scene,
         world.things,
-        start,
-        variations(declaration, world.variable(robot), findings),
-        failures(declaration, world.variable(robot), findings),
+        world.start,
+        world.varies,
+        world.fails,
         _ticks(declaration, robot.tick, findings),
         ends,
-        tuple(_reward(fact, world, robot, findings) for fact in _facts(declaration, Rewards)),
-        tuple(event_in(fact.event, world, findings) for fact in _facts(declaration, Counts)),
+        tuple(_reward(fact, world, visible, robot, findings) for fact in of_form(declaration.facts, Rewards)),
+        tuple(event_in(fact.event, world, findings) for fact in of_form(declaration.facts, Counts)),
         declaration.facts,
         declaration,
     )
 
 
-def _facts(declaration: Declaration, form: type[F]) -> Iterator[F]:
-    return (fact for fact in declaration.facts if isinstance(fact, form))
-
-
-def _things(declaration: Declaration, scene: Any, scope: Scope, findings: Findings) -> tuple[model.Part[Any], ...]:
-    found: dict[str, model.Part[Any]] = {}
-    obstacles = 0
-    for fact in _facts(declaration, Contains):
-        name = fact.name.text
-        kind = make("content", fact.phrase, scope, findings)
-        if name in found:
-            first = Label(found[name].span, "first said here")
-            message = f"The {declaration.header.noun.text} already contains something called {name}."
-            findings.error("duplicate-thing", fact.name.span, message, "Give one of the two another name.", first)
-        if kind:
-            _check_obstacles(kind, scene, obstacles, fact.phrase, findings)
-            obstacles += min(kind.obstacles(scene), MAX_OBSTACLES)  # as if there were few where there are too many
-        found.setdefault(name, model.Part(name, kind, fact.name.span))
-    is_task = declaration.header.noun.text == "task"  # which has all that a scene lacks
-    things = with_places(tuple(found.values()), scene, is_task, findings)
-    check_places(things, scene, findings)
-    return things
-
-
-def _check_obstacles(kind: ThingKind, scene: SceneKind | None, before: int, phrase: Phrase, findings: Findings) -> None:
-    """What a thing needs of its scene, and how many obstacles there is room for with those `before`."""
-    if found := kind.mistake(scene):
-        findings.error(found.code, phrase.span, found.message, found.hint)
-    elif before <= MAX_OBSTACLES < (made := before + kind.obstacles(scene)):
-        message = f"With those above, that makes {made} obstacles."
-        findings.error("too-many-obstacles", phrase.span, message, f"A world takes {MAX_OBSTACLES} in all.")
-
-
 def _ticks(declaration: Declaration, tick: float, findings: Findings) -> int:
-    lasts = list(_facts(declaration, Lasts))
+    """How many ticks a task lasts; 1 where that is wrong."""
+    lasts = of_form(declaration.facts, Lasts)
     name = declaration.header.name
     if not lasts:
         if declaration.whole:
@@ -210,13 +86,13 @@ def event_in(written: Phrase, world: World, findings: Findings) -> Any:
     return event
 
 
-def _ends(declaration: Declaration, world: World, robot: RobotFacts, findings: Findings) -> tuple[model.End, ...]:
+def _ends(declaration: Declaration, world: World, visible: Visible, findings: Findings) -> tuple[model.End, ...]:
     """What ends a run, in the order of the source; of two that come in one tick the first one counts."""
     ends = []
     for fact in (fact for fact in declaration.facts if isinstance(fact, Ends | Succeeds)):
         times = convert(fact.times, TIMES, findings) if fact.times else 1
         event = event_in(fact.event, world, findings) if fact.event else None
-        when = condition(fact.when, _visible(world, robot), findings) if fact.when else None
+        when = condition(fact.when, visible, findings) if fact.when else None
         if fact.event and event and event.is_of_success and world.can_succeed:
             hint = "Write what a success is: succeeds on 5 delivery of red."
             findings.error("own-success", fact.event.span, "A success ends the run by itself.", hint)
@@ -224,14 +100,18 @@ def _ends(declaration: Declaration, world: World, robot: RobotFacts, findings: F
     return tuple(ends)
 
 
-def _visible(world: World, robot: RobotFacts) -> Visible:
-    """What the expressions of a task can see."""
-    commands = frozenset(robot.names.of("actuator"))
-    return Visible(robot.widths, world.scope, unread=robot.names.unread, commands=commands)
+def _check_decided(ends: Sequence[model.End], world: World, robot: RobotFacts, findings: Findings) -> None:
+    """Report an event that ends every run in its first tick."""
+    begun = beginning(world.scene, world.things, world.start, robot.body_kind, robot.claw)
+    sensors = [sensor.kind for sensor in robot.sensors]
+    for end in ends:
+        if end.event and begun.happenings(end.event, sensors) >= end.times:
+            there = (Label(each.span, "this one") for each in world.things if each.name == end.event.thing)
+            message = "This ends every run in its first tick."
+            findings.error("decided-start", end.fact.span, message, hint_apart(end.event), *there)
 
 
-def _reward(fact: Rewards, world: World, robot: RobotFacts, findings: Findings) -> model.Reward:
-    visible = _visible(world, robot)
+def _reward(fact: Rewards, world: World, visible: Visible, robot: RobotFacts, findings: Findings) -> model.Reward:
     each = None
     if fact.each:
         visible = replace(visible, each=fact.each.name.text)

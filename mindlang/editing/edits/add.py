@@ -20,11 +20,11 @@ from mindlang.editing.insertion import (
     commented,
     declare,
     number_lines,
+    owners,
     text_of,
 )
-from mindlang.editing.owners import owners
 from mindlang.editing.project import EditError, MindChange, Project, facts
-from mindlang.lock.lessons import needed_skills
+from mindlang.lock.status import needed_skills
 
 
 def add(

@@ -5,8 +5,7 @@ from typing import Annotated
 from mindlang.compiler.diagnostic import a
 from mindlang.compiler.syntax import Drives, Influences, Reads
 from mindlang.editing.insertion import below_siblings
-from mindlang.editing.naming import refuse_lines
-from mindlang.editing.project import EditError, MindChange, Project
+from mindlang.editing.project import EditError, MindChange, Project, refuse_lines
 
 Verb = type[Reads] | type[Drives] | type[Influences]
 VERBS: dict[str, Verb] = {"skill": Influences, "actuator": Drives, "memory": Drives, "sensor": Reads}

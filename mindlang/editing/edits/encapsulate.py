@@ -3,8 +3,7 @@
 from typing import Annotated
 
 from mindlang.editing.insertion import INDENT, declare, instead
-from mindlang.editing.naming import refuse_lines, refuse_misnamed
-from mindlang.editing.project import MindChange, Project, Replaced, influence
+from mindlang.editing.project import MindChange, Project, Replaced, influence, refuse_lines, refuse_misnamed
 
 
 def encapsulate(

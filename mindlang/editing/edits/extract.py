@@ -5,8 +5,16 @@ from typing import Annotated
 from mindlang.compiler.diagnostic import did_you_mean
 from mindlang.compiler.syntax import Declaration, Influences, Reads
 from mindlang.editing.insertion import declare_below, indentation, instead_of_line, line_of, without_fact
-from mindlang.editing.naming import refuse_lines, refuse_misnamed
-from mindlang.editing.project import EditError, MindChange, Project, facts, influence, kind_of
+from mindlang.editing.project import (
+    EditError,
+    MindChange,
+    Project,
+    facts,
+    influence,
+    kind_of,
+    refuse_lines,
+    refuse_misnamed,
+)
 
 
 def extract(

@@ -5,9 +5,7 @@ from typing import Annotated
 from mindlang.compiler.diagnostic import Label, did_you_mean
 from mindlang.compiler.splice import Splice
 from mindlang.compiler.syntax import NOUNS, Declaration
-from mindlang.editing.insertion import without_declarations, without_fact
-from mindlang.editing.lines import first_line, remove_lines
-from mindlang.editing.owners import owners
+from mindlang.editing.insertion import first_line, owners, remove_lines, without_declarations, without_fact
 from mindlang.editing.project import EditError, MindChange, Project, suggestion
 
 

@@ -11,13 +11,13 @@ from mindlang.compiler.diagnostic import Label, a, listed
 from mindlang.compiler.references import VALUE_NOUNS, Mention, introductions
 from mindlang.compiler.syntax import NOUNS, Rewards
 from mindlang.editing.insertion import instead
-from mindlang.editing.naming import refuse_misnamed
 from mindlang.editing.project import (
     EditError,
     MindChange,
     Project,
     Renamed,
     facts,
+    refuse_misnamed,
     refuse_no_noun,
     suggestion,
 )

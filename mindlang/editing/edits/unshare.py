@@ -6,8 +6,7 @@ from mindlang.compiler.model import Skill
 from mindlang.compiler.references import names_in
 from mindlang.compiler.splice import Splice
 from mindlang.compiler.syntax import Fact, Reads
-from mindlang.editing.insertion import indentation, instead, instead_of_line, without_fact
-from mindlang.editing.lines import first_line, insert_below
+from mindlang.editing.insertion import first_line, indentation, insert_below, instead, instead_of_line, without_fact
 from mindlang.editing.project import EditError, MindChange, Project, Unshared
 
 

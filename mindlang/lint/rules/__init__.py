@@ -1,4 +1,4 @@
-"""Lint rules, one a file: docstring = explanation, GOOD and BAD = examples and tests, `check` = the rule."""
+"""Lint rules, one a file: docstring = explanation, GOOD and BAD = one example or several, `check` = the rule."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -34,4 +34,5 @@ def all_rules() -> dict[str, Rule]:
 def _rule(name: str) -> Rule:
     module = import_module(f"{__name__}.{name}")
     text, elsewhere = (module.__doc__ or "").strip(), getattr(module, "ELSEWHERE", False)
-    return Rule(name.replace("_", "-"), text, module.GOOD, module.BAD, module.check, elsewhere)
+    good, bad = ((minds,) if isinstance(minds, str) else minds for minds in (module.GOOD, module.BAD))
+    return Rule(name.replace("_", "-"), text, good, bad, module.check, elsewhere)

@@ -6,7 +6,6 @@ long as one of them has the thing.
 """
 
 from mindlang.compiler.diagnostic import Label, listed
-from mindlang.compiler.model import Lesson
 from mindlang.lint.study import Finding, Found, Study
 
 SEEK = """
@@ -27,7 +26,7 @@ GOOD = (
     f"{SEEK}  teaches Go on Seek for 10 generations\n",
     f"{SEEK}  teaches Go on Empty for 10 generations\n  teaches Go on Seek for 10 generations\n",
 )
-BAD = (f"{SEEK}  teaches Go on Empty for 10 generations\n",)
+BAD = f"{SEEK}  teaches Go on Empty for 10 generations\n"
 
 Readers = dict[str, tuple[str, str]]  # by thing: a skill and the sensor about the thing that it reads
 
@@ -35,13 +34,18 @@ Readers = dict[str, tuple[str, str]]  # by thing: a skill and the sensor about t
 def check(study: Study) -> Found:
     """Lessons whose world lacks a thing that a skill below their master senses, and so do all of that skill's."""
     readers = _readers(study) if study.mind.lessons else {}
+    things = {task.name: {thing.name for thing in task.things} for task in study.mind.tasks}
     known: dict[str, set[str]] = {}
     for lesson in study.mind.lessons:
-        known.setdefault(lesson.skill, set()).update(thing.name for thing in study.tasks[lesson.task].things)
+        known.setdefault(lesson.skill, set()).update(things[lesson.task])
     for lesson in study.mind.lessons:
         for thing, (skill, sensor) in readers[lesson.master].items():
             if thing not in known[lesson.skill]:
-                yield _finding(study, lesson, thing, skill, sensor)
+                having = [task for task, there in things.items() if thing in there]
+                hint = f"Teach it on {listed(having[:3])}, or let {lesson.task} contain {thing}, too."
+                message = f"{skill} reads {sensor}, but {lesson.task} contains no {thing}."
+                label = Label(study.tasks[lesson.task].span, "this world")
+                yield Finding(lesson.fact.task.span, message, hint, (label,))
 
 
 def _readers(study: Study) -> dict[str, Readers]:
@@ -51,16 +55,6 @@ def _readers(study: Study) -> dict[str, Readers]:
         own: Readers = {}
         for name in skill.subskills:
             own |= found[name]
-        for sensor in skill.reads:
-            if sensor in study.senses:
-                own[study.senses[sensor]] = skill.name, sensor
+        own |= {study.senses[sensor]: (skill.name, sensor) for sensor in skill.reads if sensor in study.senses}
         found[skill.name] = own
     return found
-
-
-def _finding(study: Study, lesson: Lesson, thing: str, skill: str, sensor: str) -> Finding:
-    having = [task.name for task in study.mind.tasks if thing in {part.name for part in task.things}]
-    hint = f"Teach it on {listed(having[:3])}, or let {lesson.task} contain {thing}, too."
-    label = Label(study.tasks[lesson.task].declaration.header.name.span, "this world")
-    message = f"{skill} reads {sensor}, but {lesson.task} contains no {thing}."
-    return Finding(lesson.fact.task.span, message, hint, (label,))

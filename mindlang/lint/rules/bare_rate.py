@@ -6,35 +6,31 @@ that it is meant so.
 """
 
 from collections.abc import Iterator
-from pathlib import Path
 
 from mindrun.kinds.registry import arguments, kinds
 from mindrun.numbers.quantity import Quantity
 
 from mindlang.compiler.diagnostic import Label
-from mindlang.compiler.syntax import Amount, Argument, Declaration, Name, Numbers, Tick, Use
+from mindlang.compiler.syntax import Amount, Argument, Declaration, Name, Numbers, Tick, Use, of_form
 from mindlang.lint.study import Finding, Found, Study
 
 PARTS = "-- parts.mind --\nsensor battery is battery drain {}\n"
 USE = 'use "parts.mind"\nskill Go is rule\n  reads battery\n  drives left_wheel at battery\n'
 GOOD = (USE + PARTS.format("0.003 per s"), USE + PARTS.format("0.00005 per tick"))
-BAD = (USE + PARTS.format("0.00005"),)
+BAD = USE + PARTS.format("0.00005")
 
 
 def check(study: Study) -> Found:
     """Lines that use a file with rates that do not say for how long they are."""
     main, *others = study.mind.files
-    for file in (file for file in others if not any(isinstance(setting, Tick) for setting in file.settings)):
-        use = next((use for use in main.settings if isinstance(use, Use) and _path(use) == file.source.path), None)
+    uses = {(use.span.source.folder / use.path).resolve(): use for use in reversed(of_form(main.settings, Use))}
+    for file in (file for file in others if not of_form(file.settings, Tick)):
+        use = uses.get(file.source.path)
         bare = [rate for each in file.declarations for rate in _rates(each) if not _tells_time(study, rate)]
         if use and bare:
             labels = (Label(argument.span, "for each tick, however long that is") for argument in bare)
             hint = "Write there how much it is in a second, such as drain 0.003 per s, or add per tick."
             yield Finding(use.span, f"What {use.path} says for each tick depends on the tick here.", hint, (*labels,))
-
-
-def _path(use: Use) -> Path:
-    return (use.span.source.folder / use.path).resolve()
 
 
 def _rates(declaration: Declaration) -> Iterator[Argument]:

@@ -7,11 +7,12 @@ every run it would be an error; what has no place of its own is put where it is 
 
 from collections.abc import Iterator
 from dataclasses import replace
+from itertools import chain
 
-from mindlang.compiler.beginning import Beginning, beginning
+from mindlang.compiler.beginning import Beginning
 from mindlang.compiler.diagnostic import Label
 from mindlang.compiler.source import Span
-from mindlang.lint.study import Finding, Found, Study
+from mindlang.lint.study import Finding, Found, Study, first_of_each
 
 HALL = """
 task Hall in arena size 40
@@ -37,16 +38,13 @@ BAD = (
 )
 
 
+START = "Write another place for the robot, or which way it faces: starts at 0 0 facing 90 deg."
+
+
 def check(study: Study) -> Found:
     """What is in one place with the largest sizes, off its place as far as can be, or facing some way."""
-    told: set[tuple[Span, Span]] = set()
-    for task in study.mind.tasks:
-        begun = beginning(task.scene, task.things, task.start, study.mind.body.kind, study.graph.claw_reach)
-        for finding in _met(replace(begun, may=True), task.declaration.header.name.span):
-            key = finding.span, finding.labels[0].span if finding.labels else finding.span
-            if key not in told:  # several tasks have it from one line
-                told.add(key)
-                yield finding
+    met = (_met(replace(study.beginning(task), may=True), task.span) for task in study.mind.tasks)
+    return first_of_each(chain.from_iterable(met), lambda each: (each.span, *(label.span for label in each.labels)))
 
 
 def _met(begun: Beginning, here: Span) -> Iterator[Finding]:
@@ -58,6 +56,3 @@ def _met(begun: Beginning, here: Span) -> Iterator[Finding]:
         yield Finding(thing.span, f"The robot starts in {thing.name} in some runs.", START, (Label(here, "here"),))
     if not begun.is_inside:
         yield Finding(here, "The robot starts in the border in some runs, as it happens to face.", START)
-
-
-START = "Write another place for the robot, or which way it faces: starts at 0 0 facing 90 deg."

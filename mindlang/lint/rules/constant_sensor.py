@@ -5,7 +5,6 @@ without drain stays as it is, and what never changes has no derivative. Whoever 
 """
 
 from mindlang.lint.study import Finding, Found, Study
-from mindlang.lint.worlds import any_world
 
 BALL = """
 sensor holding is held of ball
@@ -30,8 +29,7 @@ BAD = (
 
 def check(study: Study) -> Found:
     """Sensors that are constant even in a world in which there is everything."""
-    place = any_world(study)
     for part in study.mind.sensors:
-        constant = place.constant(part.name)
+        constant = study.any_world.constant(part.name)
         if constant is not None:
             yield Finding(part.span, f"{part.name} always reads {constant:g}.", f"{part.kind.remedy}, or take it out.")

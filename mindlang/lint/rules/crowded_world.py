@@ -6,14 +6,24 @@ and nothing says so. Worlds of the task are drawn here as training draws them.
 """
 
 from collections import Counter
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from itertools import product
+from math import cos, hypot, inf, pi, sin
 from random import Random
 
-from mindlang.compiler.model import Task
-from mindlang.compiler.source import Span
-from mindlang.compiler.syntax import Contains
-from mindlang.lint.drawn_world import ROBOT, DrawnWorld
-from mindlang.lint.study import Finding, Found, Study
+from mindrun.graph.beginning import meets_robot
+from mindrun.kinds.bodies.body import BodyKind
+from mindrun.kinds.scenes.scene import SceneKind
+from mindrun.kinds.things.thing import Rectangle, ThingKind
+from mindrun.numbers.quantity import Place, Span
 
+from mindlang.compiler.model import Task
+from mindlang.compiler.syntax import Contains, of_form
+from mindlang.lint.study import Finding, Found, Study, first_of_each
+
+MAX_TRIES = 200  # for one thing; the lanes try 1000 times
+ROBOT = "the robot"
 MAX_WORLDS, MAX_LOOKS = 100, 200_000  # as many worlds as cost no more than that
 
 BINS = """
@@ -24,26 +34,27 @@ task Sort in arena size {}
   lasts 9 s
   rewards 10 on reach of bin
 """
-GOOD = (BINS.format(60, 10),)
+GOOD = BINS.format(60, 10)
 BAD = (BINS.format(30, 10), BINS.format(60, 100))
+
+
+HINT = "Make the arena larger, or what is in it smaller or fewer, or say where it stands: at 10 -5."
 
 
 def check(study: Study) -> Found:
     """Tasks of which some worlds that are drawn lack a place for something."""
-    told: set[Span] = set()
+    return first_of_each(_found(study))
+
+
+def _found(study: Study) -> Found:
     for task in study.mind.tasks:
         lacking, worlds = _lacking(study, task)
-        if not lacking:
-            continue
-        name = lacking.most_common(1)[0][0]
-        span = _span(task, name)
-        if span not in told:  # several tasks have it from one line
-            told.add(span)
-            message = f"{name} finds no place in {lacking[name]} of {worlds} worlds of {task.name} that were drawn."
-            yield Finding(span, message[0].upper() + message[1:] if name == ROBOT else message, HINT)
-
-
-HINT = "Make the arena larger, or what is in it smaller or fewer, or say where it stands: at 10 -5."
+        if lacking:
+            name = lacking.most_common(1)[0][0]
+            said = f"{name[0].upper()}{name[1:]}" if name == ROBOT else name
+            message = f"{said} finds no place in {lacking[name]} of {worlds} worlds of {task.name} that were drawn."
+            things = (fact.name.span for fact in of_form(task.facts, Contains) if fact.name.text == name)
+            yield Finding(next(things, task.span), message, HINT)
 
 
 def _lacking(study: Study, task: Task) -> tuple[Counter[str], int]:
@@ -60,7 +71,118 @@ def _lacking(study: Study, task: Task) -> tuple[Counter[str], int]:
     return found, MAX_WORLDS
 
 
-def _span(task: Task, name: str) -> Span:
-    """Where a thing of a task is declared; of the robot, the task."""
-    facts = (fact.name for fact in task.facts if isinstance(fact, Contains) and fact.name.text == name)
-    return next(facts, task.declaration.header.name).span
+@dataclass(slots=True)
+class DrawnWorld:
+    """A world drawn as `mindrun.sim.lanes.placement` draws it, in plain Python: does everything find a place?
+
+    What stands already: what is solid, all other things, and the robot, which is as wide as twice its radius.
+
+    The robot never begins where it has reached one of the `goals`, with a claw that reaches so far ahead of it. `looks`
+    counts how often two things were held against each other: what drawing costs.
+    """
+
+    scene: SceneKind
+    body: BodyKind
+    claw: float
+    goals: frozenset[str]
+    random: Random
+    solid: list[Rectangle] = field(default_factory=list)
+    things: list[Rectangle] = field(default_factory=list)
+    robot: Place = (0.0, 0.0)
+    looks: int = 0
+
+    def draw(self, task: Task) -> str:
+        """Put everything down, in the order of the lanes; the name of what finds no place, empty where all do."""
+        for thing in task.things:
+            self.solid += [*thing.kind.walls, *(self._grid(thing.kind) if thing.kind.is_obstacle else ())]
+        if not self._start(task):
+            return ROBOT
+        obstacles, others = ([each for each in task.things if each.kind.is_obstacle is one] for one in (True, False))
+        for kind in (each.kind for each in others):
+            self.things += [_square(place, kind.largest / 2) for place in kind.places[: kind.copies]]
+        for name, kind in ((each.name, each.kind) for each in obstacles):
+            for _ in range(sum(int(row["count"]) for row in kind.rows(self.scene))):
+                half = self._size(kind.size) / 2
+                if not self._put(self.solid, name, kind, half, half + 3 * self.radius):
+                    return name
+        for name, kind in ((each.name, each.kind) for each in others if not each.kind.places):
+            for _ in range(kind.copies):
+                if not self._put(self.things, name, kind, self._size(kind.size) / 2, 0.0):
+                    return name
+        return ""
+
+    @property
+    def radius(self) -> float:
+        """That of the circle around the robot."""
+        return self.body.radius
+
+    def _grid(self, kind: ThingKind) -> Iterator[Rectangle]:
+        """The obstacles of a kind that stand at places, each off by its jitter."""
+        for row in kind.rows(self.scene):
+            columns, rows, spacing = int(row["columns"]), int(row["rows"]), row["grid"]
+            for line, column in product(range(rows), range(columns)) if not row["count"] else ():
+                x = row["x"] + (column - (columns - 1) / 2) * spacing + row["jitter"] * self.random.uniform(-1, 1)
+                y = row["y"] + (line - (rows - 1) / 2) * spacing + row["jitter"] * self.random.uniform(-1, 1)
+                yield _square((x, y), self._size(kind.size) / 2)
+
+    def _start(self, task: Task) -> bool:
+        """Put the robot where its task says, or in the middle of a plain scene, or where it touches nothing."""
+        if task.start.at or not self.scene.is_bounded:
+            self.robot = task.start.at or self.robot
+            return True
+        placed = [(each, place) for each in task.things for place in each.kind.places[: each.kind.copies]]
+        loose = [_square(place, each.kind.largest / 2) for each, place in placed if each.kind.is_loose]
+        apart = [(each, place) for each, place in placed if not each.kind.is_obstacle]
+        for _ in range(MAX_TRIES):
+            self.robot = self._anywhere(3 * self.radius, self.radius)
+            if self._is_clear([*self.solid, *loose], self.robot, self.radius) and not any(
+                self._meets(each.name, each.kind, each.kind.begins[1], place) for each, place in apart
+            ):
+                return True
+        return False
+
+    def _meets(self, name: str, kind: ThingKind, size: float, place: Place) -> bool:
+        """Whether a thing at a place is in the robot, or is a goal that it has reached."""
+        dx, dy = place[0] - self.robot[0], place[1] - self.robot[1]
+        reach, is_goal = self.body.front + self.claw, name in self.goals
+        return meets_robot(kind.is_area, kind.is_round, is_goal, size, dx, dy, self.radius, reach)
+
+    def _put(self, where: list[Rectangle], name: str, kind: ThingKind, half: float, room: float) -> bool:
+        """Put a thing down, at least `room` from the robot along one of the axes; False where no try succeeds."""
+        low, high = kind.distances(self.scene)
+        for _ in range(MAX_TRIES):
+            place = self._anywhere(half + 2 * self.radius) if self.scene.is_bounded else self._around(low, high)
+            x, y = place[0] - self.robot[0], place[1] - self.robot[1]
+            is_far = low <= hypot(x, y) + 1e-9 and hypot(x, y) <= high + 1e-9 and max(abs(x), abs(y)) >= room
+            is_apart = is_far and (kind.is_obstacle or not self._meets(name, kind, 2 * half, place))
+            clear = is_apart and self._is_clear(self.solid, place, half + 2 * self.radius)
+            if clear and self._is_clear(self.things, place, half):
+                where.append(_square(place, half))
+                return True
+        return False
+
+    def _anywhere(self, margin: float, least: float = inf) -> Place:
+        """A place in an arena, so far from its walls; where it is too small for that, at the `least` so far."""
+        halves = [side / 2 for side in self.scene.sides]
+        x, y = (half - margin if half > margin else max(half - least, 0.0) for half in halves)
+        return self.random.uniform(-x, x), self.random.uniform(-y, y)
+
+    def _around(self, low: float, high: float) -> Place:
+        """A place in a plain scene, so far from the robot."""
+        angle, far = self.random.uniform(0.0, 2 * pi), self.random.uniform(low, high)
+        return self.robot[0] + far * cos(angle), self.robot[1] + far * sin(angle)
+
+    def _is_clear(self, of: Sequence[Rectangle], place: Place, margin: float) -> bool:
+        """Whether none of these comes within a margin of a place, along the axes."""
+        x, y = place
+        self.looks += len(of)
+        return not any(abs(x - each.x) < each.half_x + margin and abs(y - each.y) < each.half_y + margin for each in of)
+
+    def _size(self, of: Span) -> float:
+        """A size: drawn where it is, and of a schedule the largest."""
+        is_drawn = of.by is None and of.first != of.last
+        return self.random.uniform(of.first, of.last) if is_drawn else max(of.first, of.last)
+
+
+def _square(place: Place, half: float) -> Rectangle:
+    return Rectangle(*place, half, half)

@@ -5,13 +5,9 @@ nor is what moves away as soon as it is reached, and a battery without drain nev
 more than any reading says. The task goes on to the end of its time, and the count stays 0.
 """
 
-from mindlang.compiler.diagnostic import Fix
-from mindlang.compiler.source import Span
-from mindlang.compiler.syntax import Counts, Ends, Succeeds
-from mindlang.editing.insertion import without_fact
-from mindlang.lint.conditions import why_never
-from mindlang.lint.study import Finding, Found, Study
-from mindlang.lint.worlds import world
+from mindlang.compiler.syntax import Counts, of_form
+from mindlang.lint.intervals import why_never
+from mindlang.lint.study import Finding, Found, Study, removal
 
 GOOD = (
     "task Course in arena\n  lasts 9 s\n  ends on collision\n  counts collision\n",
@@ -29,19 +25,12 @@ BAD = (
 def check(study: Study) -> Found:
     """Events after `ends on`, `succeeds on` and `counts` that the world of their task prevents; conditions, too."""
     for task in study.mind.tasks:
-        place = world(study, task)
-        counts = (fact for fact in task.facts if isinstance(fact, Counts))
-        counted = ((fact, fact.event, event) for fact, event in zip(counts, task.counts, strict=True))
-        ending = ((end.fact, end.fact.event, end.event) for end in task.ends)
-        for fact, written, event in (*ending, *counted):
-            if written and event and (why := event.prevented(place)):
-                yield _finding(fact, written.span, f"{why[0]}.", why[1])
+        world = study.worlds[task.name]
+        counted = zip(of_form(task.facts, Counts), task.counts, strict=True)
+        for fact, event in (*((end.fact, end.event) for end in task.ends), *counted):
+            if fact.event and event and (why := event.prevented(world)):
+                yield Finding(fact.event.span, f"This never happens: {why[0]}.", why[1], fix=removal(fact))
         for end in task.ends:
-            if end.when and end.fact.when and (why_not := why_never(end.when, place.range_of)):
+            if end.when and (never := why_never(end.when, world.range_in(end))):
                 hint = "Compare with something that is reached, or take the line out."
-                yield _finding(end.fact, end.fact.when.span, f"{why_not}.", hint)
-
-
-def _finding(fact: Ends | Succeeds | Counts, span: Span, why: str, hint: str) -> Finding:
-    fix = Fix("Remove the line", (without_fact(fact),), is_safe=False)
-    return Finding(span, f"This never happens: {why}", hint, fix=fix)
+                yield Finding(end.when.span, f"This never happens: {never}.", hint, fix=removal(end.fact))

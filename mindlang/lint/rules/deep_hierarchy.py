@@ -21,7 +21,7 @@ def _choices(names: str) -> str:
 
 
 GOOD = (_choices("AB"), _choices("ABCDEF"))
-BAD = (_choices("ABCDEFG"),)
+BAD = _choices("ABCDEFG")
 
 
 def check(study: Study) -> Found:
@@ -33,6 +33,6 @@ def check(study: Study) -> Found:
             choices.add_edges_from((skill.name, target) for target in learnt)
     way = dag_longest_path(choices)
     if len(way) - 1 > MAX_CHOICES:
-        name = study.skills[way[0]].declaration.header.name.span
         message = f"{len(way) - 1} choices that are learnt stand one below the other: {' → '.join(way)}."
-        yield Finding(name, message, "mindc prove says how much of a command their leaks can take.")
+        hint = "mindc prove says how much of a command their leaks can take."
+        yield Finding(study.skills[way[0]].span, message, hint)

@@ -14,8 +14,7 @@ from mindrun.kinds.sensors.sensor import directions
 from mindrun.numbers.expression import fold
 
 from mindlang.compiler.model import Comparison, Expression, Number, Reading, Term, When
-from mindlang.lint.conditions import OPPOSITES, STRICT, TURNED, UPPER
-from mindlang.lint.intervals import words
+from mindlang.lint.intervals import OPPOSITES, STRICT, TURNED, UPPER, words
 from mindlang.lint.study import Finding, Found, Study
 
 SENSORS = "sensor north is compass\nsensor off is computed at greatest of north (1 - north)\n"
@@ -54,14 +53,11 @@ def check(study: Study) -> Found:
             hint = f"Take how far it is off: computed at greatest of {of} (1 - {of}) is 0.5 ahead and 1 behind."
             yield Finding(sensor.span, message, hint)
     decaying = {memory.name for memory in study.mind.memories if memory.kind.decay > 0}
-    for skill in (each for each in study.mind.skills if not each.like):
-        for edge in skill.edges:
-            yield from _compared(edge.gate.when if edge.gate else None, known)
-            if edge.to == "memory" and edge.target in decaying:
-                yield from _mixed(edge.values, edge.target, known)
-    for task in study.mind.tasks:
-        for when in [*(reward.when for reward in task.rewards), *(end.when for end in task.ends)]:
-            yield from _compared(when, known)
+    for edge in (edge for _, edge in study.edges if edge.to == "memory" and edge.target in decaying):
+        yield from _mixed(edge.values, edge.target, known)
+    for when in (condition.when for condition in study.conditions):
+        yield from _one_sided(when, known)
+        yield from _of_two(when, known)
 
 
 def _mixed(values: Sequence[Expression], memory: str, known: Set[str]) -> Iterator[Finding]:
@@ -73,10 +69,9 @@ def _mixed(values: Sequence[Expression], memory: str, known: Set[str]) -> Iterat
             yield Finding(reading.span, message, hint)
 
 
-def _compared(when: When | None, known: Set[str]) -> Iterator[Finding]:
-    """Comparisons of directions that are wrong behind the robot."""
-    yield from _one_sided(when, known)
-    for each in (each for all_ in (when.alternatives if when else ()) for each in all_):
+def _of_two(when: When, known: Set[str]) -> Iterator[Finding]:
+    """Comparisons of two directions."""
+    for each in (each for all_ in when.alternatives for each in all_):
         form = _linear(each.left, each.right)
         if form and len(form.of) > 1 and form.of.keys() <= known:
             one, other = [*form.of][:2]
@@ -139,21 +134,20 @@ def _sum(of: Expression) -> _Linear | None:
     return fold(words(of), leaf, negated, combined)
 
 
-def _one_sided(when: When | None, known: Set[str]) -> Iterator[Finding]:
+def _one_sided(when: When, known: Set[str]) -> Iterator[Finding]:
     """The directions of which a condition asks for one side of what is behind and nothing else, or for all but that."""
-    sides = [[side for each in all_ if (side := _side(each, known))] for all_ in (when.alternatives if when else ())]
+    sides = [[side for each in all_ if (side := _side(each, known))] for all_ in when.alternatives]
     asked = Counter(reading.name for all_ in sides for reading, *_ in all_)
     for reading, compare, number in (side for all_ in sides for side in all_):
         if asked[reading.name] > 1:
             continue
+        other = f"{reading.name} {TURNED[compare]} {1 - number:g}"
         if _is_behind(OPPOSITES[compare], number):
             message = f"{reading.name} is a direction, and this leaves out what is behind on one side alone."
-            other = f"{reading.name} {TURNED[compare]} {1 - number:g}"
             yield Finding(reading.span, message, f"Leave out the other side as well: and {other}.")
         elif _is_behind(compare, number):
             is_left = compare in UPPER
             here, there = ("left", "right") if is_left else ("right", "left")
-            other = f"{reading.name} {TURNED[compare]} {1 - number:g}"
             same = f"{reading.name} {'>= 0' if is_left else '<= 1'}"
             message = f"{reading.name} is a direction, and this is behind on the {here} alone, not on the {there}."
             yield Finding(reading.span, message, f"Add or {other}, or, where one side is meant, and {same}.")

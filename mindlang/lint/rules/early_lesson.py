@@ -4,7 +4,8 @@ A lesson runs the whole hierarchy below its master, and a skill that has not bee
 lesson begin `from` a skill without weights. `mindc train` teaches these first where it can, so say it in this order.
 """
 
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Mapping, Sequence
 
 from mindlang.compiler.diagnostic import Label
 from mindlang.compiler.hierarchy import below
@@ -44,8 +45,6 @@ BAD = (
     HIERARCHY.replace("task Course", f"{BESIDE_GO}task Course") + LESSON_FROM_GO + FIRST_LESSON,
 )
 
-Latest = dict[str, tuple[int, str]]
-
 
 def check(study: Study) -> Found:
     """Lessons below whose master a skill is taught for the first time later on."""
@@ -53,13 +52,10 @@ def check(study: Study) -> Found:
     for lesson in study.mind.lessons:
         courses.setdefault(lesson.curriculum, []).append(lesson)
     firsts = {curriculum: _firsts(study, lessons) for curriculum, lessons in courses.items()}
-    taught_in: dict[str, int] = {}
-    for skill in (skill for first in firsts.values() for skill in first):
-        taught_in[skill] = taught_in.get(skill, 0) + 1
+    taught_in = Counter(skill for first in firsts.values() for skill in first)
     for curriculum, lessons in courses.items():
-        if len(lessons) > 1:
-            first = {skill: place for skill, place in firsts[curriculum].items() if taught_in[skill] == 1}
-            yield from _early(study, lessons, first)
+        first = {skill: place for skill, place in firsts[curriculum].items() if taught_in[skill] == 1}
+        yield from _early(study, lessons, first)
 
 
 def _firsts(study: Study, lessons: Sequence[Lesson]) -> dict[str, int]:
@@ -76,17 +72,10 @@ def _firsts(study: Study, lessons: Sequence[Lesson]) -> dict[str, int]:
     return found
 
 
-def _latest(study: Study, first: dict[str, int]) -> Latest:
-    """For each skill the last of those first lessons that it and the skills below it have, and whose that is."""
-    found: Latest = {}
-    for skill in study.children_first:
-        below = [found[name] for name in skill.subskills]
-        found[skill.name] = max([(first.get(skill.owner, -1), skill.owner), *below])
-    return found
-
-
-def _early(study: Study, lessons: Sequence[Lesson], first: dict[str, int]) -> Found:
-    latest = _latest(study, first)
+def _early(study: Study, lessons: Sequence[Lesson], first: Mapping[str, int]) -> Found:
+    latest: dict[str, tuple[int, str]] = {}  # of the first lessons of a skill and those below it, the last, and whose
+    for each in study.children_first:
+        latest[each.name] = max([(first.get(each.owner, -1), each.owner), *(latest[name] for name in each.subskills)])
     for place, lesson in enumerate(lessons):
         needed, skill = latest[lesson.master]
         role = "acts in this lesson"

@@ -4,10 +4,8 @@ A skill without influence does not act at all (Eq. 2), so the line says the same
 another matter: 0 is a command as any other.
 """
 
-from mindlang.compiler.diagnostic import Fix
-from mindlang.editing.insertion import without_fact
 from mindlang.lint.intervals import interval
-from mindlang.lint.study import Finding, Found, Study
+from mindlang.lint.study import Finding, Found, Study, removal
 
 HIERARCHY = """
 master Live
@@ -20,7 +18,7 @@ skill Live is rule
   reads eye
   influences Go at eye
 """
-GOOD = (f"{HIERARCHY}  influences Back at 1 - eye\n",)
+GOOD = f"{HIERARCHY}  influences Back at 1 - eye\n"
 BAD = (
     f"{HIERARCHY}  influences Back at 0\n",
     f"{HIERARCHY}  influences Back at 1/2 - 0.5\n",
@@ -30,10 +28,8 @@ BAD = (
 
 def check(study: Study) -> Found:
     """Influences whose value lies at 0 or below, where it is clamped to 0."""
-    for skill in (each for each in study.mind.skills if not each.like):
-        for edge in skill.edges:
-            if edge.to == "skill" and edge.at and all(interval(value)[1] <= 0 for value in edge.values):
-                removal = Fix("Remove the line", (without_fact(edge.fact),), is_safe=False)
-                message = f"{skill.name} never has influence on {edge.target}: this is always 0."
-                hint = "Give it a value above 0, or take the line out."
-                yield Finding(edge.at.span, message, hint, fix=removal if len(skill.edges) > 1 else None)
+    for skill, edge in study.edges:
+        if edge.to == "skill" and edge.at and all(interval(value)[1] <= 0 for value in edge.values):
+            message = f"{skill.name} never has influence on {edge.target}: this is always 0."
+            hint = "Give it a value above 0, or take the line out."
+            yield Finding(edge.at.span, message, hint, fix=removal(edge.fact) if len(skill.edges) > 1 else None)

@@ -4,12 +4,10 @@ A frozen skill keeps its weights, and training passes such a lesson over. Take `
 learn again, or the lesson if it is not.
 """
 
-from mindlang.compiler.diagnostic import Fix
-from mindlang.editing.insertion import without_fact
-from mindlang.lint.study import Finding, Found, Study
+from mindlang.compiler.hierarchy import below
+from mindlang.lint.study import Finding, Found, Study, removal
 
-GOOD = (
-    """
+GOOD = """
 sensor eye is range_finder at 0 deg
 skill Go is mlp
   reads eye
@@ -19,27 +17,17 @@ task Course in arena
   rewards forward per tick
 curriculum School is genetic
   teaches Go on Course for 10 generations
-""",
-)
-BAD = (GOOD[0].replace("  reads eye", "  stays frozen\n  reads eye"),)
+"""
+BAD = GOOD.replace("  reads eye", "  stays frozen\n  reads eye")
 
 
 def check(study: Study) -> Found:
     """Lessons whose learners are all frozen."""
-    can_learn = _can_learn(study) if any(lesson.with_subskills for lesson in study.mind.lessons) else set()
     for lesson in study.mind.lessons:
-        if lesson.skill not in (can_learn if lesson.with_subskills else study.learning):
+        taught = below(study.mind.influences, [lesson.skill]) if lesson.with_subskills else {lesson.skill}
+        if taught.isdisjoint(study.learning):
             also = " and so do all that learn below it" * lesson.with_subskills
-            fix = Fix("Remove the lesson", (without_fact(lesson.fact),), is_safe=False)
             hint = f"{study.main.edit('unfreeze', lesson.skill)} lets it learn again; else take the lesson out."
             message = f"{lesson.skill} stays frozen{also}: this lesson teaches nobody."
+            fix = removal(lesson.fact, "Remove the lesson")
             yield Finding(lesson.fact.skill.span, message, hint, fix=fix)
-
-
-def _can_learn(study: Study) -> set[str]:
-    """The skills that learn or have one below them that does."""
-    found = set(study.learning)
-    for skill in study.children_first:
-        if any(name in found for name in skill.subskills):
-            found.add(skill.name)
-    return found

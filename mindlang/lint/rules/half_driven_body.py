@@ -50,12 +50,11 @@ def check(study: Study) -> Found:
             if drive not in there:
                 yield Finding(moving[0].span, f"{moving[0].name} {message}", hint)
     elif body.drives == ("thruster",) and moving and not _is_planar(study, moving):
-        message = (
-            f"{moving[-1].name} and all other thrusters push along one line, and {study.mind.body.name} stays on it."
-        )
+        last, name = moving[-1], study.mind.body.name
+        message = f"{last.name} and all other thrusters push along one line, and {name} stays on it."
         if len(moving) == 1:
-            message = f"{moving[-1].name} is the only thruster, and {study.mind.body.name} moves along one line alone."
-        yield Finding(moving[-1].span, message, "Add a thruster that is facing elsewhere, or turn one: facing 90 deg.")
+            message = f"{last.name} is the only thruster, and {name} moves along one line alone."
+        yield Finding(last.span, message, "Add a thruster that is facing elsewhere, or turn one: facing 90 deg.")
 
 
 def _is_planar(study: Study, thrusters: list[Part[ActuatorKind]]) -> bool:

@@ -8,22 +8,19 @@ from mindrun.kinds.registry import arguments, kinds
 
 from mindlang.lint.study import Finding, Found, Study
 
-GOOD = (
-    """
+GOOD = """
 sensor ahead is range_finder at 0 deg
 task Course in arena
   lasts 9 s
   rewards forward + ahead per tick
-""",
-)
-BAD = (GOOD[0].replace("ahead", "forward"),)
+"""
+BAD = GOOD.replace("ahead", "forward")
 
 
 def check(study: Study) -> Found:
     """Sensors and memories called as a measure that is said in a single word."""
     measures = {name for name, kind in kinds("measure").items() if not any(a.required for a in arguments(kind))}
-    for name, declaration in (*study.mind.names.declarations("sensor"), *study.mind.names.declarations("memory")):
-        if name in measures:
-            hint = f"Give it another name: {study.main.edit('rename', name, 'NAME')}"
-            span = declaration.header.name.span
-            yield Finding(span, f"{name} hides the measure of that name in rewards.", hint)
+    parts = [*study.mind.names.declarations("sensor"), *study.mind.names.declarations("memory")]
+    for name in (declaration.header.name for name, declaration in parts if name in measures):
+        hint = f"Give it another name: {study.main.edit('rename', name.text, 'NAME')}"
+        yield Finding(name.span, f"{name.text} hides the measure of that name in rewards.", hint)

@@ -6,8 +6,9 @@ influence on it is an output that costs weights and blurs the learning of the ot
 another skill drive the actuator as well.
 """
 
+from collections import Counter
+
 from mindlang.compiler.diagnostic import Fix
-from mindlang.compiler.model import Edge, Skill
 from mindlang.editing.insertion import instead
 from mindlang.lint.study import Finding, Found, Study
 
@@ -29,47 +30,33 @@ skill Live is mlp
   influences Go
   influences Shy
 """
-GOOD = (f"{HIERARCHY}  influences Grab at 1\n",)
-BAD = (f"{HIERARCHY}  influences Grab\n",)
+GOOD = f"{HIERARCHY}  influences Grab at 1\n"
+BAD = f"{HIERARCHY}  influences Grab\n"
 
 
 def check(study: Study) -> Found:
     """Learned influences below which no actuator or memory has a second driver."""
-    only = _only_drivers(study)
-    alone = _alone(study, only)
-    for skill in (each for each in study.mind.skills if not each.like):
-        if skill.name in study.active:
-            for edge in skill.edges:
-                if edge.to == "skill" and edge.at is None and edge.target in alone:
-                    yield _finding(skill, edge, alone[edge.target])
+    alone = _alone(study)
+    for skill, edge in study.edges:
+        if skill.name not in study.active or edge.to != "skill" or edge.at is not None or edge.target not in alone:
+            continue
+        message = f"How much influence {skill.name} has on {edge.target} makes no difference, only whether it has any."
+        unless = "unless it is to learn when it is on and when off (# noqa)"
+        mend, fix = "let another skill drive it, too", None
+        if sum(other.at is None for other in skill.edges) > 1:
+            mend = f"write influences {edge.target} at 1"
+            fix = Fix("Write at 1", (instead(edge.fact.span, f"{edge.fact.span.text} at 1"),), is_safe=False)
+        hint = f"Nobody else drives {alone[edge.target]}, so its command is the same (Eq. 3): {mend}, {unless}."
+        yield Finding(edge.fact.span, message, hint, fix=fix)
 
 
-def _only_drivers(study: Study) -> set[str]:
-    """The actuators and memories that a single active skill drives."""
-    drivers: dict[str, int] = {}
-    for name in study.active:
-        for edge in study.skills[name].edges:
-            if edge.to != "skill":
-                drivers[edge.target] = drivers.get(edge.target, 0) + 1
-    return {name for name, count in drivers.items() if count == 1}
-
-
-def _alone(study: Study, only: set[str]) -> dict[str, str]:
-    """The skills that move nothing that others move too, each with something that it moves."""
+def _alone(study: Study) -> dict[str, str]:
+    """The skills that move nothing that other active skills move too, each with something that it moves."""
+    sent = (edge for name in study.active for edge in study.skills[name].edges)
+    drivers = Counter(edge.target for edge in sent if edge.to != "skill")
     found: dict[str, str] = {}
     for skill in study.children_first:
-        moved = [found.get(edge.target) if edge.to == "skill" else edge.target for edge in skill.edges]
-        if all(name in only for name in moved):
-            found[skill.name] = moved[0] or ""
+        moved = [found.get(edge.target, "") if edge.to == "skill" else edge.target for edge in skill.edges]
+        if all(drivers[name] == 1 for name in moved):
+            found[skill.name] = moved[0]
     return found
-
-
-def _finding(skill: Skill, edge: Edge, moved: str) -> Finding:
-    learned = sum(other.at is None for other in skill.edges)
-    fix = Fix("Write at 1", (instead(edge.fact.span, f"{edge.fact.span.text} at 1"),), is_safe=False)
-    message = f"How much influence {skill.name} has on {edge.target} makes no difference, only whether it has any."
-    same = f"Nobody else drives {moved}, so its command is the same (Eq. 3)"
-    hint = f"{same}: write influences {edge.target} at 1, unless it is to learn when it is on and when off (# noqa)."
-    if learned == 1:
-        hint = f"{same}: let another skill drive it, too, unless it is to learn when it is on and when off (# noqa)."
-    return Finding(edge.fact.span, message, hint, fix=fix if learned > 1 else None)

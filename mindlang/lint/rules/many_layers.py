@@ -16,16 +16,13 @@ skill Go is mlp hidden {}
   drives right_wheel
 """
 GOOD = (GO.format("1 width 8"), GO.format(MOST_LAYERS), GO.format("8 width 5"))
-BAD = (GO.format(8),)
+BAD = GO.format(8)
 
 
 def check(study: Study) -> Found:
     """Skills with many hidden layers that do not say how wide they are."""
-    declarations = study.mind.names.declarations("skill")
-    for name, declaration in declarations:
-        skill = study.skills[name]
+    for skill in study.mind.skills:
         hidden = getattr(skill.function, "hidden", 0)
         if hidden > MOST_LAYERS and "width" in skill.function.derived and not skill.like:
             hint = f"Write hidden 1 width {hidden} for one layer of so many neurons; hidden 2 does for most."
-            message = f"{name} has {hidden} hidden layers one behind the other."
-            yield Finding(declaration.header.name.span, message, hint)
+            yield Finding(skill.span, f"{skill.name} has {hidden} hidden layers one behind the other.", hint)

@@ -9,16 +9,14 @@ from mindrun.kinds.registry import kinds
 from mindlang.lint.study import Finding, Found, Study, words
 
 EVERYDAY = {"arena", "battery", "cell", "contact", "disc", "genetic", "held", "inside", "item", "plain", "rule", "zone"}
-GOOD = (
-    """
+GOOD = """
 sensor charge is battery
 sensor battery_drift is derivative of charge
 skill Go is rule
   reads battery_drift
   drives left_wheel at battery_drift
-""",
-)
-BAD = (GOOD[0].replace("battery_drift", "battery_bearing"),)
+"""
+BAD = GOOD.replace("battery_drift", "battery_bearing")
 
 
 def check(study: Study) -> Found:

@@ -37,5 +37,4 @@ def check(study: Study) -> Found:
     for written, task in zip(study.mind.tasks, study.graph.tasks, strict=True):
         masters = {lesson.master for lesson in study.mind.lessons if lesson.task == task.name} or {study.mind.master}
         if all(is_one_world(study.graph, task, master) for master in masters):
-            message = f"Nothing is drawn in {task.name}: all of its runs are one."
-            yield Finding(written.declaration.header.name.span, message, HINT)
+            yield Finding(written.span, f"Nothing is drawn in {task.name}: all of its runs are one.", HINT)

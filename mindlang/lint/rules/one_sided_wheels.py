@@ -6,13 +6,11 @@ Such a robot can only turn on the spot: most often a line was copied and its `si
 from mindlang.compiler.diagnostic import Label
 from mindlang.lint.study import Finding, Found, Study
 
-GOOD = (
-    """
+GOOD = """
 actuator left_wheel is wheel side left neutral 0.5
 actuator right_wheel is wheel side right neutral 0.5
-""",
-)
-BAD = (GOOD[0].replace("side right", "side left"),)
+"""
+BAD = GOOD.replace("side right", "side left")
 
 
 def check(study: Study) -> Found:

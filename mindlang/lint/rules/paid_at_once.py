@@ -12,13 +12,10 @@ from math import pi
 
 from mindrun.kinds.events.event import EventKind
 
-from mindlang.compiler.beginning import Beginning, beginning
+from mindlang.compiler.beginning import Beginning, hint_apart
 from mindlang.compiler.model import Task
-from mindlang.compiler.resolve.decided import happens_at_once, hint_apart
-from mindlang.compiler.source import Span
-from mindlang.lint.conditions import why_always
-from mindlang.lint.intervals import UNIT_INTERVAL, Interval, formula_interval, interval
-from mindlang.lint.study import Finding, Found, Study
+from mindlang.lint.intervals import UNIT_INTERVAL, Interval, interval, why_always
+from mindlang.lint.study import Finding, Found, Study, first_of_each
 
 LEAST_SHARE = 0.01  # of runs that are worth a word
 
@@ -60,13 +57,8 @@ BAD = (
 
 def check(study: Study) -> Found:
     """Ends and rewards of events and conditions that have come in the first tick."""
-    told: set[Span] = set()
-    for task in study.mind.tasks:
-        begun = beginning(task.scene, task.things, task.start, study.mind.body.kind, study.graph.claw_reach)
-        for finding in _FirstTick(study, task, begun).found():
-            if finding.span not in told:  # several tasks have it from one line
-                told.add(finding.span)
-                yield finding
+    ticks = (_FirstTick(study, task, study.beginning(task)) for task in study.mind.tasks)
+    return first_of_each(finding for tick in ticks for finding in tick.found())
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,9 +88,9 @@ class _FirstTick:
     def _often(self, event: EventKind, times: int) -> str:
         """In how many runs an event happens so many times in the first tick, where the robot's place is said."""
         sensors = [*self.study.sensors.values()]
-        if happens_at_once(event, self.begun, sensors) >= times:
+        if self.begun.happenings(event, sensors) >= times:
             return "every run"
-        return "some runs" if happens_at_once(event, replace(self.begun, may=True), sensors) >= times else ""
+        return "some runs" if replace(self.begun, may=True).happenings(event, sensors) >= times else ""
 
     def _often_drawn(self, event: EventKind) -> str:
         """The share of runs in which the robot's place, which is drawn, is in what is rewarded, and no goal."""
@@ -119,7 +111,7 @@ class _FirstTick:
         """What a sensor or a memory reads in the first tick, as far as that is known."""
         if kind := self.study.sensors.get(name):
             if kind.formula:
-                low, high = formula_interval(kind.formula, self.first)
+                low, high = interval(kind.formula, self.first)
                 return max(0.0, min(low, 1.0)), max(0.0, min(high, 1.0))
             return kind.first(self) or UNIT_INTERVAL
         start = next((each.kind.start for each in self.study.mind.memories if each.name == name), None)

@@ -20,8 +20,8 @@ skill Search is rule
   reads eye
   influences Go at eye
 """
-GOOD = (f"{HIERARCHY}skill Live is rule\n  influences Search at 1\n",)
-BAD = (f"{HIERARCHY}skill Live is rule\n  influences Search at 1\n  influences Go at 0.5\n",)
+GOOD = f"{HIERARCHY}skill Live is rule\n  influences Search at 1\n"
+BAD = f"{HIERARCHY}skill Live is rule\n  influences Search at 1\n  influences Go at 0.5\n"
 
 
 def check(study: Study) -> Found:
@@ -34,6 +34,5 @@ def check(study: Study) -> Found:
         if not reduced.has_edge(skill, target) and not study.skills[skill].like:
             way = " → ".join(shortest_path(reduced, skill, target))
             message = f"{skill} influences {target} itself, and on the way {way}: influence adds up (Eq. 2)."
-            yield Finding(
-                span, message, "Leave this line out, or say # noqa: redundant-influence where both are meant."
-            )
+            hint = "Leave this line out, or say # noqa: redundant-influence where both are meant."
+            yield Finding(span, message, hint)

@@ -27,7 +27,7 @@ curriculum School is genetic
 """
 TURN = "  teaches Turn on Course under Go for 10 generations\n"
 GO = "  teaches Go on Course for 10 generations\n"
-GOOD = (SCHOOL + GO + TURN + GO + TURN,)
+GOOD = SCHOOL + GO + TURN + GO + TURN
 BAD = (SCHOOL + GO + GO, SCHOOL + GO + TURN + GO.replace("\n", " from scratch\n"))
 
 Said = tuple[str, str, str, str, bool, Learner]
@@ -40,14 +40,11 @@ def check(study: Study) -> Found:
     for lesson in study.mind.lessons:
         said = (lesson.curriculum, lesson.skill, lesson.task, lesson.master, lesson.with_subskills, lesson.learner)
         earlier = first.setdefault(said, lesson)
-        if earlier is not lesson and (lesson.from_scratch or lesson.starts_from or said == before):
-            yield _finding(lesson, earlier)
+        anew = lesson.from_scratch or lesson.starts_from
+        if earlier is not lesson and (anew or said == before):
+            message = f"This curriculum has taught {lesson.skill} on {lesson.task} already."
+            hint = "Leave one of the two out, and give the other the generations of both."
+            if anew:
+                hint = "Leave one of the two out: this one throws away what the first has taught."
+            yield Finding(lesson.fact.span, message, hint, (Label(earlier.fact.span, "first taught here"),))
         before = said
-
-
-def _finding(lesson: Lesson, earlier: Lesson) -> Finding:
-    message = f"This curriculum has taught {lesson.skill} on {lesson.task} already."
-    hint = "Leave one of the two out, and give the other the generations of both."
-    if lesson.from_scratch or lesson.starts_from:
-        hint = "Leave one of the two out: this one throws away what the first has taught."
-    return Finding(lesson.fact.span, message, hint, (Label(earlier.fact.span, "first taught here"),))

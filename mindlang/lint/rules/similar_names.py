@@ -5,7 +5,6 @@ writes one and means the other, and everything compiles.
 """
 
 import re
-from collections.abc import Iterator
 
 from mindlang.compiler.diagnostic import Label
 from mindlang.compiler.references import introductions
@@ -13,7 +12,7 @@ from mindlang.compiler.syntax import Name
 from mindlang.lint.study import Finding, Found, Study
 
 ALIKE = str.maketrans("0O1I\u0430\u0435\u043e\u0440\u0441\u0445\u0443\u03bf", "oollaeopcxyo")
-GOOD = ("sensor eye_1 is range_finder at 0 deg\nsensor eye_2 is range_finder at 30 deg\n",)
+GOOD = "sensor eye_1 is range_finder at 0 deg\nsensor eye_2 is range_finder at 30 deg\n"
 BAD = (
     "sensor front_eye is range_finder at 0 deg\nsensor fronteye is range_finder at 30 deg\n",
     "sensor eye0 is range_finder at 0 deg\nsensor eyeO is range_finder at 30 deg\n",
@@ -21,21 +20,15 @@ BAD = (
 
 
 def check(study: Study) -> Found:
-    """Names of one noun that look the same as one before them."""
+    """Names of one noun that look the same as one before them: those that others see come before the main file's."""
     seen: dict[tuple[str, str], Name] = {}
-    for noun, name in _names(study):
-        firsts = [seen.setdefault((noun, look), name) for look in _looks(name.text)]
+    for mention in introductions([*study.mind.files[1:], study.mind.files[0]]):
+        name = mention.name
+        firsts = [seen.setdefault((mention.noun, look), name) for look in _looks(name.text)]
         for first in [first for first in firsts if first.text != name.text][:1]:
             label = Label(first.span, f"{first.text} is declared here")
             hint = "Give one of the two another name: mindc edit rename."
             yield Finding(name.span, f"{name.text} looks almost like {first.text}.", hint, (label,))
-
-
-def _names(study: Study) -> Iterator[tuple[str, Name]]:
-    """Every name where it is declared, those that others see before those of the main file."""
-    for file in (*study.mind.files[1:], study.mind.files[0]):
-        for mention in introductions([file]):
-            yield mention.noun, mention.name
 
 
 def _looks(name: str) -> tuple[str, str]:

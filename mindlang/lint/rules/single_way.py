@@ -7,7 +7,8 @@ is always influenced (`at 1`, without a condition) is never the cause.
 
 from networkx import immediate_dominators
 
-from mindlang.compiler.model import Edge, Node, Number
+from mindlang.compiler.model import Node
+from mindlang.lint.intervals import is_constant
 from mindlang.lint.study import Finding, Found, Study
 
 PARTS = """
@@ -26,7 +27,7 @@ skill Live is rule
   reads eye
 """
 GOOD = (f"{PARTS}  influences Look at 1\n", f"{PARTS}  influences Look at eye\n  influences Up at 0.1\n")
-BAD = (f"{PARTS}  influences Look at eye\n",)
+BAD = f"{PARTS}  influences Look at eye\n"
 
 
 def check(study: Study) -> Found:
@@ -39,11 +40,8 @@ def check(study: Study) -> Found:
         if gate == master or graph.in_degree(actuator) < 2 or graph.has_edge(gate, actuator):
             continue
         edges = [edge for skill in study.mind.skills for edge in skill.edges if edge.target == gate.name]
-        if len(edges) == 1 and not _is_always(edges[0]):
+        is_always = edges and edges[0].gate is None and edges[0].at and is_constant(edges[0].at)
+        if len(edges) == 1 and not is_always:
             message = f"All that drives {actuator.name} stands below {gate.name}, which is influenced here alone."
             hint = f"Let another skill drive {actuator.name}, or say # noqa: single-way if it may rest at its neutral."
             yield Finding(edges[0].fact.span, message, hint)
-
-
-def _is_always(edge: Edge) -> bool:
-    return edge.gate is None and edge.at is not None and all(isinstance(each, Number) for each in edge.at.terms)

@@ -7,7 +7,6 @@ benchmark needs no rewards.
 from mindlang.compiler.diagnostic import Label
 from mindlang.lint.rules.dead_reward import why_never_paid
 from mindlang.lint.study import Finding, Found, Study
-from mindlang.lint.worlds import world
 
 COURSE = """
 sensor eye is range_finder at 0 deg
@@ -27,9 +26,8 @@ def check(study: Study) -> Found:
     """Lessons whose task has no reward that could be paid."""
     for lesson in study.mind.lessons:
         task = study.tasks[lesson.task]
-        place = world(study, task)
-        if all(why_never_paid(place, reward) for reward in task.rewards):
-            label = Label(task.declaration.header.name.span, "declared here")
+        if all(why_never_paid(study.worlds[task.name], reward) for reward in task.rewards):
+            label = Label(task.span, "declared here")
             rewards = "never pays a reward" if task.rewards else "rewards nothing"
             message = f"{task.name} {rewards}, so {lesson.skill} has nothing to learn for."
             hint = f"Add for example rewards 0.01 * forward per tick to {task.name}."

@@ -48,18 +48,17 @@ task Course in plain
 curriculum School is genetic population 9
   teaches Go on Course for 9 generations
 """
-GOOD = (f"sensor eye is range_finder at 0 deg range 12\n{LEARNS}{LOCK}",)
-BAD = (f"sensor eye is range_finder at 0 deg range 3\n{LEARNS}{LOCK}",)
+GOOD = f"sensor eye is range_finder at 0 deg range 12\n{LEARNS}{LOCK}"
+BAD = f"sensor eye is range_finder at 0 deg range 3\n{LEARNS}{LOCK}"
 
 
 def check(study: Study) -> Found:
     """Skills that were taught in a world that the lock knows and the mind no longer has."""
     for name, state in status(study.graph, study.lock, study.main.folder).items():
         if isinstance(state, Trained) and state.is_elsewhere and not study.skills[name].like:
-            span = study.mind.names.table["skill"][name].header.name.span
             message = f"{name} was taught elsewhere: {'; '.join(state.changes)}."
             accept = command_line("mindc", "status", Path(study.main.path.name), "--accept", name)
             hint = f"mindc train teaches it again; {accept} leaves it as it is."
             if not state.outdated:
                 hint = f"No lesson teaches {name} in this world: write one, or take back what has changed."
-            yield Finding(span, message, hint)
+            yield Finding(study.skills[name].span, message, hint)

@@ -4,9 +4,7 @@ Influence flows from the master down. A skill that neither the mind's master nor
 straight or through others, never acts and never learns; and whoever reads the file will think that it does.
 """
 
-from mindlang.compiler.diagnostic import Fix
-from mindlang.editing.insertion import without_declarations
-from mindlang.lint.study import Finding, Found, Study
+from mindlang.lint.study import Finding, Found, Study, removal
 
 ELSEWHERE = True
 GOOD = (
@@ -31,22 +29,18 @@ curriculum School is genetic
   teaches Learn on Course for 10 generations
 """,
 )
-BAD = (
-    """
+BAD = """
 skill Go is rule
   drives left_wheel at 1
 skill Rest is rule
   drives left_wheel at 0.5
-""",
-)
+"""
 
 
 def check(study: Study) -> Found:
     """Skills that are not active; one that nobody names can be taken out."""
     for skill in study.mind.skills:
         if skill.name not in study.acting:
-            is_named = skill.name in study.used.get("skill", set())
-            removal = Fix(f"Remove {skill.name}", without_declarations([skill.declaration]), is_safe=False)
+            fix = None if ("skill", skill.name) in study.used else removal(skill.declaration)
             hint = f"Write influences {skill.name} below a skill that acts, or take {skill.name} out."
-            span = skill.declaration.header.name.span
-            yield Finding(span, f"No master reaches {skill.name}.", hint, fix=None if is_named else removal)
+            yield Finding(skill.span, f"No master reaches {skill.name}.", hint, fix=fix)

@@ -4,9 +4,7 @@ It is computed in every tick and comes to nothing; and whoever reads the file wi
 read by skills, by other sensors (`derivative of`) and by rewards.
 """
 
-from mindlang.compiler.diagnostic import Fix
-from mindlang.editing.insertion import without_declarations
-from mindlang.lint.study import Finding, Found, Study
+from mindlang.lint.study import Finding, Found, Study, removal
 
 ELSEWHERE = True
 GOOD = (
@@ -23,20 +21,18 @@ task Rest in plain
   rewards charge per tick
 """,
 )
-BAD = (
-    """
+BAD = """
 sensor eye is range_finder at 0 deg
 skill Go is rule
   drives left_wheel at 1
-""",
-)
+"""
 
 
 def check(study: Study) -> Found:
     """Sensors that stand in no line but their own."""
-    for name, declaration in study.mind.names.declarations("sensor"):
-        is_needed = study.is_exhausted and study.sensors[name].battery
-        if name not in study.used.get("sensor", set()) and not is_needed:
-            fix = Fix(f"Remove {name}", without_declarations([declaration]))
-            hint = f"Add reads {name} to a skill, or take the sensor out."
-            yield Finding(declaration.header.name.span, f"Nobody reads {name}.", hint, fix=fix)
+    for part in study.mind.sensors:
+        is_needed = study.is_exhausted and part.kind.battery
+        if ("sensor", part.name) not in study.used and not is_needed:
+            fix = removal(study.mind.names.table["sensor"][part.name], is_safe=True)
+            hint = f"Add reads {part.name} to a skill, or take the sensor out."
+            yield Finding(part.span, f"Nobody reads {part.name}.", hint, fix=fix)

@@ -4,8 +4,6 @@ It has no weights, so no hierarchy with it can run. Give it a lesson, or let a l
 subskills`; one that has been taught elsewhere and is not to change `stays frozen`.
 """
 
-from collections.abc import Sequence
-
 from mindlang.compiler.diagnostic import listed
 from mindlang.compiler.hierarchy import below
 from mindlang.compiler.model import Skill
@@ -32,36 +30,25 @@ skill Go is mlp
   drives left_wheel
 """,
 )
-BAD = (LEARNS,)
+BAD = LEARNS
 
 
 def check(study: Study) -> Found:
     """Active skills that learn and are in no lesson; where there is no lesson at all this is said once."""
-    taught = _taught(study)
-    names = (study.learning & study.acting) - taught - study.lock.keys()
-    untaught = [skill for skill in study.mind.skills if skill.name in names]
-    if not study.mind.lessons:
-        own = [skill for skill in untaught if skill.declaration.header.span.source is study.main]
-        yield from [_no_lessons(study, own)] if own else []
-        return
-    for skill in untaught:
-        hint = f"Add {_lesson(study, skill)} to a curriculum, or let it stay frozen."
-        yield Finding(skill.declaration.header.name.span, f"No lesson teaches {skill.name}.", hint)
-
-
-def _taught(study: Study) -> set[str]:
     lessons = study.mind.lessons
     jointly = below(study.mind.influences, {lesson.skill for lesson in lessons if lesson.with_subskills})
-    return {study.skills[name].owner for name in jointly} | {lesson.skill for lesson in lessons}
-
-
-def _no_lessons(study: Study, untaught: Sequence[Skill]) -> Finding:
-    names = [skill.name for skill in untaught]
-    some = names if len(names) < 4 else [*names[:2], f"{len(names) - 2} others"]
-    learn = "learns" if len(names) == 1 else "learn"
-    hint = f"Add a curriculum: {_lesson(study, untaught[0])}."
-    message = f"There is no lesson, but {listed(some, 'and')} {learn}."
-    return Finding(untaught[0].declaration.header.name.span, message, hint)
+    taught = {study.skills[name].owner for name in jointly} | {lesson.skill for lesson in lessons}
+    names = (study.learning & study.acting) - taught - study.lock.keys()
+    untaught = [skill for skill in study.mind.skills if skill.name in names]
+    if lessons:
+        for skill in untaught:
+            hint = f"Add {_lesson(study, skill)} to a curriculum, or let it stay frozen."
+            yield Finding(skill.span, f"No lesson teaches {skill.name}.", hint)
+    elif own := [skill for skill in untaught if skill.span.source is study.main]:
+        some = [skill.name for skill in own]
+        some = some if len(some) < 4 else [*some[:2], f"{len(some) - 2} others"]
+        message = f"There is no lesson, but {listed(some, 'and')} {'learns' if len(own) == 1 else 'learn'}."
+        yield Finding(own[0].span, message, f"Add a curriculum: {_lesson(study, own[0])}.")
 
 
 def _lesson(study: Study, skill: Skill) -> str:

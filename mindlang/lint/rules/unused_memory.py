@@ -4,12 +4,7 @@ What nobody reads is remembered in vain, and what nobody drives stays what it wa
 One that starts above 0 and decays is a clock, and needs no driver. With `decay 1` all of it is kept, and nothing added.
 """
 
-from collections.abc import Iterator
-
-from mindlang.compiler.diagnostic import Fix
-from mindlang.compiler.model import Expression, Reading
-from mindlang.editing.insertion import without_declarations
-from mindlang.lint.study import Finding, Found, Study
+from mindlang.lint.study import Finding, Found, Study, readings, removal
 
 ELSEWHERE = True
 GOOD = (
@@ -61,14 +56,14 @@ skill Go is rule
 
 def check(study: Study) -> Found:
     """Memories that nobody reads or nobody drives; one that neither happens to is taken out safely."""
-    read = {*_read(study)}
+    read = _read(study)
     driven = {edge.target for skill in study.mind.skills for edge in skill.edges if edge.to == "memory"}
     for part in study.mind.memories:
         name, cell = part.name, part.kind
         if name not in read:
-            removal = Fix(f"Remove {name}", without_declarations([study.mind.names.table["memory"][name]]))
+            fix = None if name in driven else removal(study.mind.names.table["memory"][name], is_safe=True)
             hint = f"Add reads {name} to a skill, or take the memory out."
-            yield Finding(part.span, f"Nobody reads {name}.", hint, fix=None if name in driven else removal)
+            yield Finding(part.span, f"Nobody reads {name}.", hint, fix=fix)
         elif name not in driven and (cell.start == 0 or cell.decay == 1):
             hint = f"Add drives {name} to a skill, or take the memory out."
             yield Finding(part.span, f"Nobody drives {name}, so it is always {cell.start:g}.", hint)
@@ -77,21 +72,14 @@ def check(study: Study) -> Found:
             yield Finding(part.span, f"With decay 1 no command changes {name}, so it is always {cell.start:g}.", hint)
 
 
-def _read(study: Study) -> Iterator[str]:
-    """The readings that skills, sensors and rewards look at."""
-    for skill in study.mind.skills:
-        yield from skill.reads
-    for kind in study.sensors.values():
-        yield from kind.sources
-    for task in study.mind.tasks:
-        for reward in task.rewards:
-            yield from [reward.each] if reward.each else []
-            for expression in reward.expressions:
-                yield from _readings(expression)
-        for condition in (end.when for end in task.ends if end.when):
-            for expression in condition.expressions:
-                yield from _readings(expression)
-
-
-def _readings(of: Expression) -> Iterator[str]:
-    return (term.name for term in of.terms if isinstance(term, Reading))
+def _read(study: Study) -> set[str]:
+    """The readings that skills, sensors, rewards and ends look at."""
+    rewards = [reward for task in study.mind.tasks for reward in task.rewards]
+    ends = [end.when for task in study.mind.tasks for end in task.ends if end.when]
+    return {
+        *(name for skill in study.mind.skills for name in skill.reads),
+        *(name for kind in study.sensors.values() for name in kind.sources),
+        *(reward.each for reward in rewards if reward.each),
+        *readings(expression for reward in rewards for expression in reward.expressions),
+        *readings(expression for when in ends for expression in when.expressions),
+    }

@@ -5,9 +5,8 @@ use may be there for them.
 """
 
 from mindlang.compiler.diagnostic import Fix
-from mindlang.editing.insertion import without_declarations
-from mindlang.editing.lines import first_line, remove_lines
-from mindlang.lint.study import Finding, Found, Study
+from mindlang.editing.insertion import first_line, remove_lines
+from mindlang.lint.study import Finding, Found, Study, removal
 
 ELSEWHERE = True
 GOOD = (
@@ -20,12 +19,12 @@ BAD = ("number far is 12\n", "scene Rocks is arena\ntask Course in arena\n  last
 def check(study: Study) -> Found:
     """Names of numbers and scenes that stand nowhere but where they are declared."""
     for name, number in study.mind.names.numbers.items():
-        if name not in study.used.get("number", ()):
+        if ("number", name) not in study.used:
             line = first_line(number.span)
             fix = Fix(f"Remove {name}", (remove_lines(line, line),))
             yield Finding(number.name.span, f"Nothing says {name}.", "Say it somewhere, or take it out.", fix=fix)
     for name, scene in study.mind.names.declarations("scene"):
-        if name not in study.used.get("scene", ()):
-            fix = Fix(f"Remove {name}", without_declarations([scene]))
+        if ("scene", name) not in study.used:
             hint = f"Write task NAME in {name}, or take it out."
+            fix = removal(scene, is_safe=True)
             yield Finding(scene.header.name.span, f"No task is in {name}.", hint, fix=fix)

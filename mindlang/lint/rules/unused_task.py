@@ -4,9 +4,7 @@ Nobody learns there, and it counts nothing: a task that counts is for benchmarks
 runs in its tasks. Both are fine.
 """
 
-from mindlang.compiler.diagnostic import Fix
-from mindlang.editing.insertion import without_declarations
-from mindlang.lint.study import Finding, Found, Study
+from mindlang.lint.study import Finding, Found, Study, removal
 
 ELSEWHERE = True
 COURSE = """
@@ -24,7 +22,7 @@ task Other in arena
   rewards forward per tick
 """
 GOOD = (f"{COURSE}  counts collision\n", "task Course in arena\n  lasts 9 s\n  rewards forward per tick\n")
-BAD = (COURSE,)
+BAD = COURSE
 
 
 def check(study: Study) -> Found:
@@ -32,6 +30,5 @@ def check(study: Study) -> Found:
     used = {lesson.task for lesson in study.mind.lessons}
     for task in study.mind.tasks if used else ():
         if task.name not in used and not task.counts:
-            fix = Fix(f"Remove {task.name}", without_declarations([task.declaration]), is_safe=False)
             hint = f"Add teaches SKILL on {task.name} for 1000 generations to a curriculum, or take the task out."
-            yield Finding(task.declaration.header.name.span, f"No lesson is on {task.name}.", hint, fix=fix)
+            yield Finding(task.span, f"No lesson is on {task.name}.", hint, fix=removal(task.declaration))

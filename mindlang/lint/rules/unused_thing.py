@@ -6,15 +6,12 @@ Obstacles are of use by standing in the way, a power by charging the battery, an
 
 from mindrun.kinds.things.thing import ThingKind
 
-from mindlang.compiler.diagnostic import Fix
 from mindlang.compiler.source import Source, Span
-from mindlang.compiler.syntax import Contains
-from mindlang.editing.insertion import without_fact
-from mindlang.lint.study import Finding, Found, Study
+from mindlang.compiler.syntax import Contains, of_form
+from mindlang.lint.study import Finding, Found, Study, removal
 
 ELSEWHERE = True
-GOOD = (
-    """
+GOOD = """
 sensor ball_bearing is bearing of ball
 task Carry in arena
   contains ball is item
@@ -22,9 +19,8 @@ task Carry in arena
   contains rock is obstacle count 5
   lasts 9 s
   counts delivery of ball
-""",
-)
-BAD = ("task Carry in arena\n  contains ball is item\n  lasts 9 s\n",)
+"""
+BAD = "task Carry in arena\n  contains ball is item\n  lasts 9 s\n"
 
 
 def check(study: Study) -> Found:
@@ -36,7 +32,7 @@ def check(study: Study) -> Found:
     for task in study.mind.tasks:
         delivers = any(thing.kind.can_be_delivered for thing in task.things)
         about = {name for fact in task.facts for name in named.get(_place(fact.span), ())} | sensed
-        facts = {fact.name.text: fact for fact in task.facts if isinstance(fact, Contains)}
+        facts = {fact.name.text: fact for fact in of_form(task.facts, Contains)}
         for thing in task.things:
             if thing.name in about or _is_of_use(thing.kind, charges, delivers):
                 used.add(thing.span)
@@ -44,20 +40,15 @@ def check(study: Study) -> Found:
                 idle[thing.span] = facts[thing.name]
     for span, fact in idle.items():
         if span not in used:  # by another task that has it from the same line
-            yield _finding(fact)
-
-
-def _finding(fact: Contains) -> Finding:
-    name = fact.name.text
-    fix = Fix(f"Remove {name}", (without_fact(fact),), is_safe=False)
-    hint = f"Reward or count something about {name}, let a sensor tell of it, or take it out."
-    return Finding(fact.name.span, f"No sensor, reward or event is about {name}.", hint, fix=fix)
+            name = fact.name.text
+            hint = f"Reward or count something about {name}, let a sensor tell of it, or take it out."
+            fix = removal(fact, f"Remove {name}")
+            yield Finding(span, f"No sensor, reward or event is about {name}.", hint, fix=fix)
 
 
 def _named(study: Study) -> dict[tuple[Source, int], list[str]]:
     """The things that a line of a task is about, by the place of the line; not the one that it contains."""
-    facts = (fact for task in study.mind.tasks for fact in task.facts)
-    own = {fact.name.span for fact in facts if isinstance(fact, Contains)}
+    own = {fact.name.span for task in study.mind.tasks for fact in of_form(task.facts, Contains)}
     found: dict[tuple[Source, int], list[str]] = {}
     for mention in study.mentions:
         if mention.noun == "thing" and mention.name.span not in own:

@@ -5,9 +5,9 @@ Every influence and command is clamped to 0..1. A value that is only sometimes o
 """
 
 from mindlang.compiler.diagnostic import Fix
-from mindlang.compiler.model import Edge, Expression
+from mindlang.compiler.model import Edge
 from mindlang.editing.insertion import instead
-from mindlang.lint.intervals import Interval, interval, is_constant, range_in_words
+from mindlang.lint.intervals import interval, is_constant, range_in_words
 from mindlang.lint.study import Finding, Found, Study
 
 READS = """
@@ -26,23 +26,17 @@ BAD = (
 
 def check(study: Study) -> Found:
     """Values outside of 0..1, and those that read something and never get inside."""
-    for skill in (each for each in study.mind.skills if not each.like):
-        for value in (value for edge in skill.edges if not _is_zero_influence(edge) for value in edge.values):
-            found = interval(value)
-            is_outside = found[0] > 1 or found[1] < 0
-            if is_outside or (not is_constant(value) and (found[0] == 1 or found[1] == 0)):
-                yield _finding(value, found)
+    for value in (value for _, edge in study.edges if not _is_zero_influence(edge) for value in edge.values):
+        low, high = interval(value)
+        if low > 1 or high < 0 or (not is_constant(value) and (low == 1 or high == 0)):
+            clamped = 1 if low >= 1 else 0
+            share = f", or {low:g}% if that is meant" if low == high and 1 < low <= 100 else ""
+            message = f"This value is {range_in_words((low, high))}, which is clamped to {clamped}."
+            hint = f"Write {clamped}{share or ', or a value that gets between 0 and 1'}."
+            fix = Fix(f"Write {clamped}", (instead(value.span, str(clamped)),))
+            yield Finding(value.span, message, hint, fix=fix)
 
 
 def _is_zero_influence(edge: Edge) -> bool:
     """Whether this is for edge_at_zero to tell."""
     return edge.to == "skill" and bool(edge.at) and all(interval(value)[1] <= 0 for value in edge.values)
-
-
-def _finding(value: Expression, found: Interval) -> Finding:
-    clamped = 1 if found[0] >= 1 else 0
-    fix = Fix(f"Write {clamped}", (instead(value.span, str(clamped)),))
-    message = f"This value is {range_in_words(found)}, which is clamped to {clamped}."
-    share = f", or {found[0]:g}% if that is meant" if found[0] == found[1] and 1 < found[0] <= 100 else ""
-    hint = f"Write {clamped}{share or ', or a value that gets between 0 and 1'}."
-    return Finding(value.span, message, hint, fix=fix)

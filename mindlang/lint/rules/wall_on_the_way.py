@@ -4,16 +4,11 @@ It touches nothing and goes on in a straight line, so that the robot meets someb
 follow. Lead the way around it, place by place.
 """
 
-from collections.abc import Iterator
+from itertools import product
 
-from mindrun.kinds.things.thing import ThingKind
-from mindrun.numbers.quantity import Place
-
+from mindlang.compiler.beginning import Outline, meet, rectangle
 from mindlang.compiler.diagnostic import Label
-from mindlang.compiler.model import Part
-from mindlang.compiler.outline import Outline, meet, rectangle
-from mindlang.compiler.source import Span
-from mindlang.lint.study import Finding, Found, Study
+from mindlang.lint.study import Finding, Found, Study, first_of_each
 
 HALL = """
 task Hall in arena size 40
@@ -28,19 +23,16 @@ BAD = (HALL.format("0 -5 to 0 5"), HALL.format("0 -5 to 15 -5 to 15 5"), HALL.fo
 
 def check(study: Study) -> Found:
     """Stretches of ways, the last of which leads back to the first place, that are in what is fixed."""
-    told: set[Span] = set()
+    return first_of_each(_found(study))
+
+
+def _found(study: Study) -> Found:
     for task in study.mind.tasks:
-        fixed = [(each, [*each.kind.standing(task.scene)]) for each in task.things]
-        for thing in (each for each in task.things if each.kind.walks and each.span not in told):
-            swept = [Outline(stretch, thing.kind.begins[0] / 2) for stretch in _stretches(thing)]
-            wall = next((each for each, its in fixed if any(meet(a, rectangle(b)) for a in swept for b in its)), None)
+        fixed = [(each, [rectangle(wall) for wall in each.kind.standing(task.scene)]) for each in task.things]
+        for thing in (each for each in task.things if each.kind.walks and not each.kind.wanders):
+            places, radius = thing.kind.places, thing.kind.begins[0] / 2
+            way = [Outline(stretch, radius) for stretch in zip(places, (*places[1:], *places[:1]), strict=True)]
+            wall = next((each for each, its in fixed if any(meet(*both) for both in product(way, its))), None)
             if wall:
-                told.add(thing.span)
                 message = f"The way of {thing.name} leads through {wall.name}."
                 yield Finding(thing.span, message, "Name places around it.", (Label(wall.span, "this one"),))
-
-
-def _stretches(thing: Part[ThingKind]) -> Iterator[tuple[Place, Place]]:
-    """The places of a way by two, if it is one: whoever wanders has none."""
-    way = thing.kind.places if not thing.kind.wanders else ()
-    return zip(way, (*way[1:], *way[:1]), strict=True)

@@ -5,18 +5,23 @@ may be. Where the robot starts or a thing appears is drawn anywhere: in some run
 nobody can succeed. Open the wall, widen the passage, or fill with `#` what nobody is to enter.
 """
 
-from collections.abc import Iterator, Sequence
+from bisect import bisect_left, bisect_right
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
 from math import inf
 
 from mindrun.kinds.things.thing import Rectangle, ThingKind
+from mindrun.numbers.quantity import Place
 
-from mindlang.compiler.beginning import PLAIN_START, beginning
+from mindlang.compiler.beginning import PLAIN_START
 from mindlang.compiler.model import Task
-from mindlang.compiler.source import Span
-from mindlang.lint.floor import Floor, floor
-from mindlang.lint.study import Finding, Found, Study
+from mindlang.lint.study import Finding, Found, Study, first_of_each
 
 LEAST_SHARE = 0.01  # of the floor that is worth a word
+MAX_CELLS = 250_000
+ROOM_UNITS = 1e-6  # that a passage is wider than it is
+CHAMFER_SHARE = 0.7071  # half of the side of a square in a disc of radius 1, and a little less
 
 HALL = """
 task Hall in arena size 40
@@ -75,12 +80,7 @@ HINT = "Open a wall or widen a passage, or fill with wall what nobody is to ente
 
 def check(study: Study) -> Found:
     """Tasks in which no way leads from where the robot starts to all of the floor, or to a thing with a place."""
-    told: set[Span] = set()
-    for task in study.mind.tasks:
-        for finding in _of_task(study, task):
-            if finding.span not in told:
-                told.add(finding.span)
-                yield finding
+    return first_of_each(finding for task in study.mind.tasks for finding in _of_task(study, task))
 
 
 def _of_task(study: Study, task: Task) -> Iterator[Finding]:
@@ -112,10 +112,9 @@ def _sides(task: Task, walls: Sequence[Rectangle], beyond: float) -> tuple[float
     return 2 * (x + beyond), 2 * (y + beyond)
 
 
-def _findings(study: Study, task: Task, whole: Floor, no_way: str) -> Iterator[Finding]:
+def _findings(study: Study, task: Task, whole: "Floor", no_way: str) -> Iterator[Finding]:
     """What is said of a floor in parts: of a thing that is out of reach, of a part that something may be drawn in."""
-    begun = beginning(task.scene, task.things, task.start, study.mind.body.kind, study.graph.claw_reach)
-    at = begun.at or (None if task.scene.is_bounded else PLAIN_START)
+    at = study.beginning(task).at or (None if task.scene.is_bounded else PLAIN_START)
     there = whole.parts_near(at, 0.0) if at else {*range(len(whole.areas))}
     origin = " from where the robot starts" if at else ""
     reach = study.mind.body.kind.front + study.graph.claw_reach
@@ -126,13 +125,97 @@ def _findings(study: Study, task: Task, whole: Floor, no_way: str) -> Iterator[F
     is_drawn = at is None or any(not each.kind.places for each in task.things if not each.kind.is_obstacle)
     if is_drawn and (part := _part_without_way(task, whole, there if at else None)):
         message = f"{no_way} leads{origin or ' from the rest'} to {part}, where something may be drawn."
-        yield Finding(task.declaration.header.name.span, message, HINT)
+        yield Finding(task.span, message, HINT)
 
 
-def _part_without_way(task: Task, whole: Floor, there: set[int] | None) -> str:
+def _part_without_way(task: Task, whole: "Floor", there: set[int] | None) -> str:
     """What no way leads to from some parts, or from the largest; empty where that is hardly anything."""
     if not task.scene.is_bounded:
         return "" if there is None or whole.parts[0][0] in there else "what lies outside of the walls"
     there = {max(range(len(whole.areas)), key=whole.areas.__getitem__, default=0)} if there is None else there
     share = 1 - sum(whole.areas[part] for part in there) / (sum(whole.areas) or inf)
     return f"{share:.0%} of the floor of {task.name}" if share >= LEAST_SHARE and whole.areas else ""
+
+
+@dataclass(frozen=True, slots=True)
+class Floor:
+    """The floor on which a robot can be, in parts between which no way leads.
+
+    Every wall grows by the robot's radius, and the robot is a point. The floor is cut along all of their edges into
+    cells, each of which is free or not, and free cells side by side are one part. A corner grows less than it would, so
+    that no part is told apart that a robot could come into; a passage as wide as the robot is open.
+
+    Edges of the cells along x and y, the part [row][column] that each belongs to, -1 where a wall is, and areas.
+    """
+
+    xs: Sequence[float]
+    ys: Sequence[float]
+    parts: Sequence[Sequence[int]]
+    areas: Sequence[float]
+
+    def parts_near(self, place: Place, half: float) -> set[int]:
+        """The parts that come so near to a place, along both axes."""
+        (x, y), found = place, set[int]()
+        columns, rows = _cells(self.xs, x - half, x + half), _cells(self.ys, y - half, y + half)
+        for row in rows:
+            found |= {self.parts[row][column] for column in columns}
+        return found - {-1}
+
+
+def _cells(edges: Sequence[float], low: float, high: float) -> range:
+    """The cells that a stretch lies in or touches: both where it is a point on the edge between two."""
+    return range(max(0, bisect_left(edges, low) - 1), min(bisect_right(edges, high), len(edges) - 1))
+
+
+def floor(sides: tuple[float, float], walls: Iterable[Rectangle], radius: float) -> Floor | None:
+    """The floor of an arena with walls for a robot of that radius; None where it has too many cells to be looked at."""
+    r, chamfer = radius - ROOM_UNITS, radius * CHAMFER_SHARE
+    grown = [
+        (wall.x - wall.half_x - a, wall.y - wall.half_y - b, wall.x + wall.half_x + a, wall.y + wall.half_y + b)
+        for wall in walls
+        for a, b in ((r, 0.0), (0.0, r), (chamfer, chamfer))
+    ]
+    half_x, half_y = (side / 2 - r for side in sides)
+    xs = _edges(half_x, (x for box in grown for x in box[::2]))
+    ys = _edges(half_y, (y for box in grown for y in box[1::2]))
+    if len(xs) < 2 or len(ys) < 2 or len(xs) * len(ys) > MAX_CELLS:
+        return None
+    free = [bytearray(b"\1" * (len(xs) - 1)) for _ in ys[1:]]
+    for left, low, right, high in grown:
+        first, last = bisect_left(xs, left), bisect_left(xs, right)
+        for row in free[bisect_left(ys, low) : bisect_left(ys, high)]:
+            row[first:last] = bytes(max(0, last - first))
+    return _parted(xs, ys, free)
+
+
+def _edges(half: float, inner: Iterable[float]) -> list[float]:
+    return sorted({-half, half, *(x for x in inner if -half < x < half)}) if half > 0 else []
+
+
+def _parted(xs: Sequence[float], ys: Sequence[float], free: Sequence[bytearray]) -> Floor:
+    """The free cells by parts, the largest first."""
+    parts = [[-1] * len(row) for row in free]
+    areas: list[float] = []
+    for row, cells in enumerate(free):
+        for column in range(len(cells)):
+            if free[row][column] and parts[row][column] < 0:
+                areas.append(_fill(xs, ys, free, parts, (row, column), len(areas)))
+    return Floor(xs, ys, parts, areas)
+
+
+def _fill(
+    xs: Sequence[float], ys: Sequence[float], free: Sequence[bytearray], parts: list[list[int]], start: tuple[int, int],
+    number: int,
+) -> float:  # fmt: skip
+    """Mark all cells that a way leads to with the number of their part; its area."""
+    wide, high = ([b - a for a, b in pairwise(edges)] for edges in (xs, ys))
+    waiting, area = [start], 0.0
+    parts[start[0]][start[1]] = number
+    while waiting:
+        row, column = waiting.pop()
+        area += wide[column] * high[row]
+        for r, c in ((row + 1, column), (row - 1, column), (row, column + 1), (row, column - 1)):
+            if 0 <= r < len(free) and 0 <= c < len(wide) and free[r][c] and parts[r][c] < 0:
+                parts[r][c] = number
+                waiting.append((r, c))
+    return area

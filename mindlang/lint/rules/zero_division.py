@@ -6,17 +6,14 @@ is enough, in which a range finder touches something. A number that is added bel
 condition, `1 / ahead per tick when ahead > 0.05`; that is looked at for readings and numbers alone.
 """
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from functools import partial
+from collections.abc import Iterator, Sequence
 from math import inf, nextafter
 
 from msgspec.structs import replace
 
 from mindlang.compiler.model import Comparison, Expression, Reading, When
-from mindlang.lint.conditions import OPPOSITES, TURNED, UPPER
-from mindlang.lint.intervals import UNIT_INTERVAL, Interval, divisors, formula_divisors, interval, is_constant
-from mindlang.lint.study import Finding, Found, Study
-from mindlang.lint.worlds import AnalysedWorld, any_world, world
+from mindlang.lint.intervals import OPPOSITES, TURNED, UPPER, Interval, divisors, interval, is_constant
+from mindlang.lint.study import AnalysedWorld, Conditional, Finding, Found, Study
 
 READS = """
 sensor eye is range_finder at 0 deg
@@ -48,49 +45,29 @@ HINT = "Add a little to it, as in 1 / (ahead + 0.01), or say when: 1 / ahead per
 
 def check(study: Study) -> Found:
     """Divisions in sensors, in what skills send, and in rewards and ends."""
-    place = any_world(study)
     for part in study.mind.sensors:
-        if _has_zero(formula_divisors(part.kind.formula, place.reading) if part.kind.formula else ()):
+        if part.kind.formula and _has_zero(divisors(part.kind.formula, study.any_world.reading)):
             yield Finding(part.span, MESSAGE, HINT)
-    for each in [*_of_skills(study, place), *_of_tasks(study)]:
-        yield Finding(each.span, MESSAGE, HINT)
+    for value, when, of, world in _values(study):
+        if _divides_by_zero(value, when, of, world):
+            yield Finding(value.span, MESSAGE, HINT)
 
 
-def _of_skills(study: Study, place: AnalysedWorld) -> Iterator[Expression]:
-    for edge in (edge for skill in study.mind.skills if not skill.like for edge in skill.edges):
-        when = edge.gate.when if edge.gate else None
-        if edge.at and _divides_by_zero(edge.at, place, when):
-            yield edge.at
-        if (
-            edge.gate
-            and edge.gate.otherwise
-            and _divides_by_zero(edge.gate.otherwise, place, _opposite(edge.gate.when))
-        ):
-            yield edge.gate.otherwise
-        yield from _of_condition(when, place)
-
-
-def _of_tasks(study: Study) -> Iterator[Expression]:
+def _values(study: Study) -> Iterator[tuple[Expression, When | None, Conditional, AnalysedWorld]]:
+    """What skills send, what rewards pay and what conditions compare, each with a condition under which that counts."""
+    for _, edge in study.edges:
+        if edge.at:
+            yield edge.at, edge.gate.when if edge.gate else None, edge, study.any_world
+        if edge.gate and edge.gate.otherwise:
+            yield edge.gate.otherwise, _opposite(edge.gate.when), edge, study.any_world
     for task in study.mind.tasks:
-        place = world(study, task)
         for reward in task.rewards:
-            each = place.each(reward)
-            if _divides_by_zero(reward.amount, place, reward.when, each):
-                yield reward.amount
-            yield from _of_condition(reward.when, place, each)
-        for end in task.ends:
-            yield from _of_condition(end.when, place)
-
-
-def _of_condition(when: When | None, place: AnalysedWorld, each: Interval = UNIT_INTERVAL) -> Iterator[Expression]:
-    """What a condition compares that can be a division by 0 while the comparisons beside it hold."""
-    if when is None:
-        return
-    for all_ in when.alternatives:
-        for comparison in all_:
+            yield reward.amount, reward.when, reward, study.worlds[task.name]
+    for when, of, world in study.conditions:
+        for all_, comparison in ((each, one) for each in when.alternatives for one in each):
             beside = replace(when, alternatives=(tuple(other for other in all_ if other is not comparison),))
-            sides = (comparison.left, comparison.right)
-            yield from (side for side in sides if _divides_by_zero(side, place, beside, each))
+            yield comparison.left, beside, of, world
+            yield comparison.right, beside, of, world
 
 
 def _opposite(when: When) -> When | None:
@@ -101,40 +78,38 @@ def _opposite(when: When) -> When | None:
     return None
 
 
-def _divides_by_zero(
-    of: Expression, place: AnalysedWorld, when: When | None = None, each: Interval = UNIT_INTERVAL
-) -> bool:
+def _divides_by_zero(value: Expression, when: When | None, of: Conditional, world: AnalysedWorld) -> bool:
     """Whether something in it is divided by what can be 0 while a condition holds."""
     for all_ in when.alternatives if when else ((),):
-        ranges = _narrowed(place, all_)
+        ranges = _narrowed(world, all_)
+
+        def reading(name: str, ranges: dict[str, Interval] = ranges) -> Interval:
+            return ranges.get(name, world.reading(name))
+
         can_hold = all(low <= high for low, high in ranges.values())
-        if can_hold and _has_zero(divisors(of, partial(_reading, place, ranges), each)):
+        if can_hold and _has_zero(divisors(value, reading, world.each(of))):
             return True
     return False
 
 
-def _has_zero(found: Iterable[Interval]) -> bool:
+def _has_zero(found: Sequence[Interval]) -> bool:
     return any(low <= 0 <= high for low, high in found)
 
 
-def _reading(place: AnalysedWorld, ranges: Mapping[str, Interval], name: str) -> Interval:
-    return ranges.get(name, place.reading(name))
-
-
-def _narrowed(place: AnalysedWorld, all_: Sequence[Comparison]) -> dict[str, Interval]:
+def _narrowed(world: AnalysedWorld, all_: Sequence[Comparison]) -> dict[str, Interval]:
     """The ranges of readings of which these comparisons say something by a number, while all of them hold.
 
     Where they never do, one ends before it begins.
     """
     found: dict[str, Interval] = {}
-    for comparison in all_:
+    for each in all_:
         for side, number, compare in (
-            (comparison.left, comparison.right, comparison.compare),
-            (comparison.right, comparison.left, TURNED[comparison.compare]),
+            (each.left, each.right, each.compare),
+            (each.right, each.left, TURNED[each.compare]),
         ):
             match side.terms:
                 case (Reading(name),) if is_constant(number):
-                    found[name] = _within(found.get(name, place.reading(name)), compare, interval(number)[0])
+                    found[name] = _within(found.get(name, world.reading(name)), compare, interval(number)[0])
     return found
 
 

@@ -3,6 +3,7 @@
 Plain functions, which `mindrun.sim.arithmetic` compiles: the kinds of sensors say in their terms what they read.
 """
 
+from dis import get_instructions
 from types import FunctionType
 from typing import Any
 
@@ -117,19 +118,47 @@ def bearing(x: Any, y: Any) -> Any:
     return HALF - angle * PER_TURN
 
 
+def place_of(things: Any, i: Any, p: Any) -> Any:
+    """Where thing i is in the world of lane p: its x and y. Whatever reads or moves things does it by these four."""
+    return things[THING_ROWS * i + X, p], things[THING_ROWS * i + Y, p]
+
+
+def put_thing(things: Any, i: Any, x: Any, y: Any, p: Any) -> None:
+    """Thing i to a place in the world of lane p."""
+    things[THING_ROWS * i + X, p], things[THING_ROWS * i + Y, p] = x, y
+
+
+def size_of(things: Any, i: Any, p: Any) -> Any:
+    """The side or the diameter of thing i in the world of lane p."""
+    return things[THING_ROWS * i + SIZE, p]
+
+
+def distance_of(things: Any, i: Any, p: Any) -> Any:
+    """How far the robot of lane p was from thing i as the tick began."""
+    return things[THING_ROWS * i + DISTANCE, p]
+
+
+def box_of(boxes: Any, b: Any, p: Any) -> Any:
+    """The middle of box b in the world of lane p, and half of its sides: x, y, along x, along y."""
+    box = BOX_COLUMNS * b
+    return boxes[p, box + X], boxes[p, box + Y], boxes[p, box + HALF_X], boxes[p, box + HALF_Y]
+
+
 def in_claw(body: Any, heading: Any, things: Any, front: Any, reach: Any, i: Any, p: Any) -> Any:
     """Whether thing i is ahead of the claw, `front` ahead of the body's middle, and its rim within reach, in lane p."""
-    dx, dy = things[THING_ROWS * i + X, p] - body[X, p], things[THING_ROWS * i + Y, p] - body[Y, p]
+    x, y = place_of(things, i, p)
+    dx, dy = x - body[X, p], y - body[Y, p]
     ahead = heading[COSINE, p] * dx + heading[SINE, p] * dy - front
     aside = heading[COSINE, p] * dy - heading[SINE, p] * dx
-    far = reach + things[THING_ROWS * i + SIZE, p] / 2
+    far = reach + size_of(things, i, p) / 2
     return (ahead >= 0) & (ahead * ahead + aside * aside <= far * far)  # no branch: lanes side by side
 
 
 def inside(things: Any, i: Any, x: Any, y: Any, p: Any) -> Any:
     """Whether a point is inside the square of thing i, in lane p."""
-    half = things[THING_ROWS * i + SIZE, p] / 2
-    return (abs(things[THING_ROWS * i + X, p] - x) <= half) & (abs(things[THING_ROWS * i + Y, p] - y) <= half)
+    its_x, its_y = place_of(things, i, p)
+    half = size_of(things, i, p) / 2
+    return (abs(its_x - x) <= half) & (abs(its_y - y) <= half)
 
 
 def nearest(s: Any, sensor: Any, n: Any) -> Any:
@@ -143,20 +172,19 @@ def nearest(s: Any, sensor: Any, n: Any) -> Any:
         return s.nearest
     if sensor.things == 1:
         return s.things[THING_ROWS * sensor.thing : THING_ROWS * (sensor.thing + 1)]
-    found, first = s.nearest, THING_ROWS * sensor.thing
+    found = s.nearest
     if s.nearest_of[0] == sensor.thing:
         return found
     s.nearest_of[0] = sensor.thing
     for p in range(n):  # lane by lane: in numbers, not in rows
-        x, y = s.things[first + X, p], s.things[first + Y, p]
-        size, far = s.things[first + SIZE, p], s.things[first + DISTANCE, p]
+        x, y = place_of(s.things, sensor.thing, p)
+        size, far = size_of(s.things, sensor.thing, p), distance_of(s.things, sensor.thing, p)
         for i in range(sensor.thing + 1, sensor.thing + sensor.things):
-            one = THING_ROWS * i
-            closer = (s.things[one + DISTANCE, p] < far) | (far != far)
-            x = s.things[one + X, p] if closer else x
-            y = s.things[one + Y, p] if closer else y
-            size = s.things[one + SIZE, p] if closer else size
-            far = s.things[one + DISTANCE, p] if closer else far
+            its_x, its_y = place_of(s.things, i, p)
+            closer = (distance_of(s.things, i, p) < far) | (far != far)
+            x, y = its_x if closer else x, its_y if closer else y
+            size = size_of(s.things, i, p) if closer else size
+            far = distance_of(s.things, i, p) if closer else far
         found[X, p], found[Y, p], found[SIZE, p], found[DISTANCE, p] = x, y, size, far
     return found
 
@@ -173,10 +201,10 @@ def find_nearest_point(s: Any, sensor: Any, n: Any) -> None:
     for p in range(n):
         x, y, least, to_x, to_y = s.body[X, p], s.body[Y, p], np.inf, np.nan, np.nan
         for b in range(sensor.box, sensor.box + sensor.boxes):
-            box = BOX_COLUMNS * b
-            low, high = s.boxes[p, box + X] - s.boxes[p, box + HALF_X], s.boxes[p, box + X] + s.boxes[p, box + HALF_X]
+            its_x, its_y, wide, tall = box_of(s.boxes, b, p)
+            low, high = its_x - wide, its_x + wide
             near_x = low if x < low else (high if x > high else x)
-            low, high = s.boxes[p, box + Y] - s.boxes[p, box + HALF_Y], s.boxes[p, box + Y] + s.boxes[p, box + HALF_Y]
+            low, high = its_y - tall, its_y + tall
             near_y = low if y < low else (high if y > high else y)
             dx, dy = near_x - x, near_y - y
             square = dx * dx + dy * dy
@@ -236,9 +264,7 @@ def sigmoids(values: Any) -> Any:
 
 
 def terms(function: FunctionType) -> dict[str, Any]:
-    """What the names in a function of a kind's file stand for: what that file has, else what stands here.
-
-    And what attributes in it would stand for, were they names.
-    """
+    """What the names in a function of a kind's file stand for: what that file has, else what stands here."""
     known = globals() | function.__globals__
-    return {name: known[name] for name in function.__code__.co_names if name in known}
+    names = {each.argval for each in get_instructions(function) if each.opname == "LOAD_GLOBAL"}
+    return {name: known[name] for name in names & known.keys()}

@@ -1,27 +1,190 @@
-"""A camera that a thread of its own watches, and turns after a ball, so that one that hangs holds up nobody."""
+"""A camera that looks for a luminous ball, and turns after it, watched by a thread of its own: one that hangs holds up
+nobody.
+
+A frame is an array [row, column, blue green red] of bytes. Angles are in degrees, to the left and upwards positive.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
+from math import atan2, degrees, hypot, pi, radians, tan
 from pathlib import Path
-from threading import Condition, Event
+from threading import Condition, Event, Thread
 from time import monotonic, sleep
 from typing import TYPE_CHECKING, Any, Protocol
 
 from mindrun.driver import ActuatorDevice, DeviceError
-from mindrun.robot.ball_detection import Aim, Ball, BallTarget, PanTiltLimits, blindness, find_ball, follow
 from mindrun.robot.driver_support import library
 
 if TYPE_CHECKING:
     from mindrun.numbers.arrays import Frame
 
+STILL_IMAGE_STRIDE = 8  # every so many pixels are compared with the frame before
 FRAME_SECONDS = 1 / 30  # of most cameras
 STALE_SECONDS = 0.2  # for which the same frame may come
 RETRY_SECONDS = 0.02  # between two questions to a camera that has no frame
+LETTING_GO = 1.0  # seconds that the thread may need to end
+BLACK_BRIGHTNESS = 12  # a brightness at and below which there is no light
+WHITE_BRIGHTNESS = 250  # a brightness from which there is only light
+BLIND_SHARES = 0.005, 0.6  # shares of the frame: at least so much must not be black, at most so much may be white
+OVEREXPOSED_BRIGHTNESS = 245  # a brightness from which a colour may be gone
+ROUNDNESS_TOLERANCE = 0.14  # how far a blob's area may be off a round one's
+MAX_STREAK_RATIO = 2.8  # length of a streak to its width
+
+
+@dataclass(frozen=True, slots=True)
+class BallTarget:
+    """What a ball looks like: its hue (0 red, 120 green, 240 blue), how strong its colour and how bright it is.
+
+    `diameter` is the least, in pixels. `view` is how much the camera sees from left to right.
+    """
+
+    hue: float = 120.0
+    tolerance: float = 25.0
+    colour: float = 0.4
+    brightness: float = 0.5
+    diameter: float = 5.0
+    view: float = 60.0
+
+
+@dataclass(frozen=True, slots=True)
+class Ball:
+    """A ball in a frame: where it is, seen from the camera, how big, and how sure that is (0 to 1)."""
+
+    bearing: float
+    elevation: float
+    diameter: float
+    confidence: float
+
+
+@dataclass(frozen=True, slots=True)
+class Blob:
+    """Something of the right colour: its centre and diameter in pixels, and how round it is."""
+
+    x: float
+    y: float
+    diameter: float
+    roundness: float
+
+
+def blindness(frame: Frame) -> str:
+    """Why nothing could be seen in a frame, "" where something could."""
+    cv2, (least, most) = library("cv2"), BLIND_SHARES
+    brightness = cv2.cvtColor(frame, cv2.COLOR_BGR2GRAY)
+    if (brightness > BLACK_BRIGHTNESS).sum() < least * brightness.size:
+        return "black"
+    return "all white" if (brightness >= WHITE_BRIGHTNESS).sum() > most * brightness.size else ""
+
+
+def find_ball(frame: Frame, target: BallTarget) -> Ball | None:
+    """The largest round thing that is bright and of the right colour, None where there is none."""
+    height, width = frame.shape[:2]
+    if blindness(frame):
+        return None
+    candidates = (blob for blob in blobs(frame, target) if blob.diameter >= target.diameter and blob.roundness > 0)
+    best = max(candidates, key=lambda blob: blob.diameter, default=None)
+    if best is None:
+        return None
+    focus = focal_length(width, target.view)
+    aside, up = (width - 1) / 2 - best.x, (height - 1) / 2 - best.y
+    bearing, elevation = degrees(atan2(aside, focus)), degrees(atan2(up, hypot(focus, aside)))
+    return Ball(bearing, elevation, best.diameter, best.roundness)
+
+
+def distance(diameter: float, size: float, width: int, view: float) -> float:
+    """How far a ball of that size is when it is so many pixels wide in a frame of that width, in the unit of size."""
+    return size * focal_length(width, view) / diameter
+
+
+def focal_length(width: int, view: float) -> float:
+    """The focal length of the camera, in pixels."""
+    return width / 2 / tan(radians(view) / 2)
+
+
+def blobs(frame: Frame, target: BallTarget) -> list[Blob]:
+    """Everything bright that has the colour, or is overexposed and has it around its rim."""
+    cv2 = library("cv2")
+    hsv = cv2.cvtColor(cv2.GaussianBlur(frame, (5, 5), 0), cv2.COLOR_BGR2HSV)
+    coloured = in_colour(hsv, target)
+    glare = cv2.inRange(hsv, (0, 0, OVEREXPOSED_BRIGHTNESS), (180, round(target.colour * 255), 255))
+    mask = cv2.morphologyEx(coloured | glare, cv2.MORPH_OPEN, cv2.getStructuringElement(cv2.MORPH_RECT, (3, 3)))
+    contours, _ = cv2.findContours(mask, cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE)
+    large = [contour for contour in contours if len(contour) >= 2 * target.diameter]
+    return [blob(contour, mask.shape) for contour in large if is_coloured(contour, coloured)]
+
+
+def in_colour(hsv: Frame, target: BallTarget) -> Frame:
+    """Which pixels are bright and of the colour; hues go round, and OpenCV counts them in steps of two degrees."""
+    cv2, floor = library("cv2"), (round(target.colour * 255), round(target.brightness * 255))
+    first, last = round((target.hue - target.tolerance) / 2) % 180, round((target.hue + target.tolerance) / 2) % 180
+    if first <= last:
+        mask: Frame = cv2.inRange(hsv, (first, *floor), (last, 255, 255))
+    else:
+        mask = cv2.inRange(hsv, (0, *floor), (last, 255, 255)) | cv2.inRange(hsv, (first, *floor), (180, 255, 255))
+    return mask
+
+
+def is_coloured(contour: Any, coloured: Frame) -> bool:
+    """Whether most of a contour has the colour: a white lamp has it nowhere, an overexposed ball around its rim."""
+    x, y = contour[:, 0].T
+    return bool((coloured[y, x] > 0).mean() > 0.6)
+
+
+def blob(contour: Any, shape: tuple[int, int]) -> Blob:
+    """The measures of a contour; one that moved while the shutter was open is a streak with round ends."""
+    cv2 = library("cv2")
+    (x, y), (one, other), _ = cv2.minAreaRect(contour)
+    short, long = min(one, other) + 1, max(one, other) + 1
+    area = cv2.contourArea(contour) + len(contour) / 2 + 1  # the contour runs through the middles of its pixels
+    left, top, width, height = cv2.boundingRect(contour)
+    if left == 0 or top == 0 or left + width == shape[1] or top + height == shape[0]:  # partly out of the frame
+        convex = cv2.contourArea(cv2.convexHull(contour)) + len(contour) / 2 + 1
+        return Blob(x, y, long, 0.5 if area / convex > 0.85 and long <= MAX_STREAK_RATIO * short else 0.0)
+    stretch = long / short
+    off = abs(area / (short * long) - (stretch - 1 + pi / 4) / stretch) / (ROUNDNESS_TOLERANCE + 1 / short)
+    return Blob(x, y, short, max(0.0, 1 - off) if stretch <= MAX_STREAK_RATIO else 0.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Aim:
+    """Where the camera points, seen from the robot, and for how long there has been no ball."""
+
+    pan: float = 0.0
+    tilt: float = 0.0
+    alone: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class PanTiltLimits:
+    """How a camera is turned: by up to `pan` and `tilt` to either side, `speed` degrees a second at most."""
+
+    pan: float = 90.0
+    tilt: float = 45.0
+    speed: float = 120.0
+    gain: float = 6.0  # a second: how fast it goes towards a ball that is a degree off
+    patience: float = 1.0  # seconds without a ball until it looks straight ahead again
+
+
+def follow(aim: Aim, ball: Ball | None, seconds: float, limits: PanTiltLimits) -> Aim:
+    """Where the camera should point so many seconds later."""
+    if ball is None and aim.alone + seconds < limits.patience:
+        return Aim(aim.pan, aim.tilt, aim.alone + seconds)
+    pan, tilt = (ball.bearing, ball.elevation) if ball else (-aim.pan, -aim.tilt)
+    share, most = min(1.0, limits.gain * seconds), limits.speed * seconds
+    return Aim(
+        clamp(aim.pan + clamp(share * pan, most), limits.pan),
+        clamp(aim.tilt + clamp(share * tilt, most), limits.tilt),
+        0.0 if ball else aim.alone + seconds,
+    )
+
+
+def clamp(value: float, most: float) -> float:
+    """A value that is at most so far from 0."""
+    return max(-most, min(most, value))
+
+
 AHEAD = Aim()
-STILL_IMAGE_STRIDE = 8  # every so many pixels are compared with the frame before
 
 
 class Camera(Protocol):
@@ -48,7 +211,6 @@ class RecordedFilm:
         return found
 
     def release(self) -> None:
-        """Close the file."""
         self.capture.release()
 
 
@@ -108,6 +270,15 @@ class TrackingCamera:
     changed: float = field(default_factory=monotonic)
     news: Condition = field(default_factory=Condition)
     stop: Event = field(default_factory=Event)
+    thread: Thread = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.thread = Thread(target=self.watch, name="camera", daemon=True)
+
+    def close(self) -> None:
+        """Tell the thread to end; it lets go of the camera, at the latest when that answers."""
+        self.stop.set()
+        self.thread.join(LETTING_GO)
 
     def watch(self) -> None:
         """Look at one frame after another until told to stop, then let go of everything."""
@@ -118,20 +289,16 @@ class TrackingCamera:
                     self.stop.wait(RETRY_SECONDS)
                     continue  # who waits for a frame notices that none comes
                 self.publish(self.see(frame))
-            except DeviceError as error:
-                self.publish(BallSighting(aim=self.aim, error=error))
             except Exception as error:  # whatever OpenCV raises must reach who waits, not end the thread
-                self.publish(BallSighting(aim=self.aim, error=DeviceError(f"the camera failed: {error}")))
+                known = error if isinstance(error, DeviceError) else DeviceError(f"the camera failed: {error}")
+                self.publish(BallSighting(aim=self.aim, error=known))
         self.let_go()
 
     def see(self, frame: Frame) -> BallSighting:
         """What is in a frame; turns the camera after it."""
-        import numpy as np
-
-        now = monotonic()
-        sample = frame[::STILL_IMAGE_STRIDE, ::STILL_IMAGE_STRIDE]
-        if self.sample is None or not np.array_equal(sample, self.sample):
-            self.sample, self.changed = sample.copy(), now
+        now, sample = monotonic(), frame[::STILL_IMAGE_STRIDE, ::STILL_IMAGE_STRIDE].copy()
+        if self.sample is None or sample.tobytes() != self.sample.tobytes():
+            self.sample, self.changed = sample, now
         if now - self.changed > STALE_SECONDS:
             raise DeviceError("the camera repeats the same frame")
         if reason := blindness(frame):
@@ -143,13 +310,12 @@ class TrackingCamera:
 
     def point(self) -> None:
         """Turn the camera to where it should point."""
-        if self.pan:
-            self.pan.point(self.aim.pan)
-        if self.tilt:
-            self.tilt.point(self.aim.tilt)
+        for joint, angle in ((self.pan, self.aim.pan), (self.tilt, self.aim.tilt)):
+            if joint:
+                joint.point(angle)
 
     def publish(self, sighting: BallSighting) -> None:
-        """Publish a sighting to everybody who waits for a frame."""
+        """Tell everybody who waits for a frame."""
         with self.news:
             self.sighting = replace(sighting, number=self.sighting.number + 1)
             self.news.notify_all()
@@ -166,8 +332,8 @@ class TrackingCamera:
 
     def let_go(self) -> None:
         """Let go of the camera and of the servos, which stay where they are."""
-        release: list[Callable[[], None]] = [self.camera.release]
-        release += [joint.servo.close for joint in (self.pan, self.tilt) if joint]
-        for close in release:
-            with suppress(Exception):  # closing never raises
-                close()
+        with suppress(Exception):  # closing never raises
+            self.camera.release()
+        for joint in (self.pan, self.tilt):
+            if joint:
+                joint.servo.close()

@@ -1,7 +1,12 @@
-"""A bundle in charge of its robot: opened, run until somebody says stop, and brought to neutral whatever happens."""
+"""`mindrun FILE.bundle` on a robot, or with --dry in a simulated world.
 
+A bundle in charge of its robot: opened, run until somebody says stop, and brought to neutral whatever happens.
+"""
+
+import argparse
 import os
 import socket
+import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, ExitStack, contextmanager, nullcontext, suppress
 from dataclasses import dataclass, replace
@@ -9,22 +14,27 @@ from pathlib import Path
 from time import monotonic, sleep
 
 import mindrun.robot.drivers  # noqa: F401  every driver is known once this is imported
+from mindrun.driver import DeviceError
 from mindrun.engine.engine import Engine
 from mindrun.errors import MindError
-from mindrun.graph.bundle import Bundle
-from mindrun.graph.graph import Graph
-from mindrun.graph.wiring import Wiring, read_by
+from mindrun.graph.bundle import Bundle, digest, read_bundle
+from mindrun.graph.graph import Graph, Task
+from mindrun.graph.tasks import default_task
+from mindrun.graph.wiring import Wiring, read_by, still
+from mindrun.robot.drivers.mock import MockActuator
+from mindrun.robot.dry_run import DryRun, SeenWorld, beginning, dry, outcome, refuse_environment
 from mindrun.robot.guardian.client import Guardian
 from mindrun.robot.guardian.plan import plan_of
+from mindrun.robot.live_view import breakpoint_mistakes, live_view
 from mindrun.robot.loop import Loop, TickResult
+from mindrun.robot.ownership import IdentityError, hold_devices, is_adopted
+from mindrun.robot.processes import Stop, refuse_success, stopping
 from mindrun.robot.rate import Rate
-from mindrun.robot.reading_filter import ReadingFilter
-from mindrun.robot.recording import About, Recorder
-from mindrun.robot.sampling import Sampler
-from mindrun.robot.seen_world import SeenWorld
-from mindrun.robot.stop_signals import Stop, stopping
-from mindrun.robot.sudden_end import refuse_success
-from mindrun.robot.temporary_recording import TemporaryRecorder
+from mindrun.robot.recording import About, Recorder, TemporaryRecorder, temporary_recording
+from mindrun.robot.sensing import ReadingFilter, Sampler
+from mindrun.robot.simulated_world import simulated, status
+from mindrun.terminal.command_line import command_line
+from mindrun.terminal.standard_streams import StatusLine
 
 FIRST_READING_SECONDS = 10.0  # for every sensor to have been measured once
 STOP_SECONDS = 2.0  # or ticks where these are longer, in which a tick has to end once a signal has come
@@ -53,9 +63,112 @@ class DriveOptions:
     is_kept: bool = True
 
 
+def run(options: argparse.Namespace) -> int:
+    """Drive until a signal comes; the exit code."""
+    bundle = read_bundle(options.bundle)
+    line = StatusLine(lambda sentence: None, columns=lambda: None) if options.quiet else StatusLine(_print_error)
+    _refuse_wrong_breakpoints(options, bundle.graph)
+    if not options.arm:
+        line.tell("nothing will move: --arm lets it")
+    with _seen(options, line.tell) as (record, view):
+        drive_options = DriveOptions(
+            options.arm, record, options.ticks, options.master, view, is_kept=bool(options.record)
+        )
+        loop = (_dry if options.dry else _wired)(options, bundle, drive_options, line)
+    line.tell(_summary(loop))
+    return 0
+
+
+def _refuse_wrong_breakpoints(options: argparse.Namespace, graph: Graph) -> None:
+    """MindError where a line of the file of --break is wrong, before anything moves; the mistakes have been printed."""
+    if options.breaks is None:
+        return
+    task = _task(graph, options.task)[0].name if options.dry else None
+    if found := breakpoint_mistakes(options.breaks, options.bundle, task, options.master):
+        for sentence in found:
+            _print_error(sentence)
+        raise MindError("nothing moves: the page cannot pause where that file says", "mend it, or leave --break out")
+
+
+@contextmanager
+def _seen(
+    options: argparse.Namespace, tell: Callable[[str], None]
+) -> Iterator[tuple[Path | None, AbstractContextManager[None] | None]]:
+    """Where to record to, and the page of that recording, if one is asked for; its address is told in any case."""
+    if not options.view:
+        yield options.record, None
+        return
+    with nullcontext(options.record) if options.record else temporary_recording(tell) as record:
+        yield (
+            record,
+            live_view(
+                record, options.bundle, options.view_port, _print_error if options.quiet else tell, options.breaks
+            ),
+        )
+
+
+def _wired(options: argparse.Namespace, bundle: Bundle, drive_options: DriveOptions, line: StatusLine) -> Loop:
+    if bundle.wiring is None:
+        raise MindError("this bundle is wired to no robot", "mindc build … --robot robot.yaml, or try it with --dry")
+    wiring = bundle.wiring
+    if not is_adopted(wiring, bundle.graph):
+        remedy = f"if it is wired as this bundle has it: {command_line('mindrun', 'adopt', options.bundle)}"
+        if drive_options.armed:
+            raise IdentityError("nothing may move yet: this robot has not said how it is wired", remedy)
+        line.tell("this robot has not said how it is wired: no actuator is opened")
+        wiring = replace(wiring, actuators=tuple(replace(wire, driver=MockActuator()) for wire in wiring.actuators))
+    if not drive_options.armed:
+        wiring = replace(wiring, sensors=tuple(map(still, wiring.sensors)))
+    with hold_devices(wiring) as held:
+        return drive(bundle, digest(options.bundle), wiring, drive_options, line.tell, held)
+
+
+def _dry(options: argparse.Namespace, bundle: Bundle, drive_options: DriveOptions, line: StatusLine) -> Loop:
+    task, why = _task(bundle.graph, options.task)
+    refuse_environment(task)
+    master = options.master or bundle.graph.master
+    for sentence in (*filter(None, [why]), *beginning(bundle.graph, task, master, options.seed)):
+        line.tell(sentence)
+    with simulated(options.bundle, task.name, options.seed, options.master or "") as socket:
+        seen = SeenWorld(task, options.seed, socket) if drive_options.record else None
+        run = DryRun(bundle.graph, task, master, socket, line, seen)
+        wiring, watched = dry(bundle.graph, socket, master), replace(drive_options, world=seen)
+        with run.shown(), seen.watched() if seen else nullcontext():
+            loop = drive(bundle, digest(options.bundle), wiring, watched, line.tell, watch=run.watch)
+        with suppress(DeviceError):  # the run was as good without it
+            for sentence in outcome(task, master, status(socket)):
+                line.tell(sentence)
+        return loop
+
+
+def _task(graph: Graph, name: str | None) -> tuple[Task, str]:
+    """The task of that name, or the default one, and why it is that one where this needs saying."""
+    if not graph.tasks:
+        raise MindError(
+            "this mind has no task, and so no world to be simulated in", "add one: task Play in arena size 40"
+        )
+    if name is None:
+        return default_task(graph)
+    tasks = {task.name: task for task in graph.tasks}
+    if name not in tasks:
+        raise MindError(f"this mind has no task {name or 'without a name'}", f"it has {', '.join(tasks)}")
+    return tasks[name], ""
+
+
+def _summary(loop: Loop) -> str:
+    faults = f", {loop.engine.faults} outputs not sent because a number was not finite" if loop.engine.faults else ""
+    held = "; ".join(f"{count}: {why}" for why, count in loop.held.items())
+    by_guardian = f", {loop.held.total()} because of the guardian ({held})" if held else ""
+    return f"{loop.pace}; {loop.stopped} at neutral because of a fault{by_guardian}{faults}"
+
+
+def _print_error(sentence: str) -> None:
+    print(sentence, file=sys.stderr, flush=True)
+
+
 def drive(
     bundle: Bundle,
-    digest: str,
+    identity: str,
     wiring: Wiring,
     options: DriveOptions,
     tell: Callable[[str], None],
@@ -67,13 +180,14 @@ def drive(
     `tell` gets sentences for people; the guardian inherits the descriptors `held`; `watch` sees the loop after each
     tick, and says whether it goes on. MindError where something fails; then every actuator is at neutral, too.
     """
-    graph = bundle.graph
+    graph, master = bundle.graph, options.master or bundle.graph.master
     engine = Engine(bundle.policy, bundle.procedures, options.master)
-    _refuse_blind(graph, options.master or graph.master, wiring)
+    if missing := read_by(graph, master) - {wire.sensor for wire in wiring.sensors}:
+        raise DriveError(f"{master} reads {', '.join(sorted(missing))}, which is not wired", "add it to robot.yaml")
     neutrals = {actuator.name: actuator.kind.neutral for actuator in graph.actuators}
     with ExitStack() as stack:
         stop = stack.enter_context(stopping(STOP_SECONDS * max(1.0, graph.tick)))
-        about = About.of(graph, digest, options.master or graph.master, tuple(wire.sensor for wire in wiring.sensors))
+        about = About.of(graph, identity, master, tuple(wire.sensor for wire in wiring.sensors))
         recorder = stack.enter_context(_recorder(options, about, tell))
         stack.enter_context(options.view or nullcontext())
         stack.enter_context(refuse_success("; every actuator comes to neutral"))
@@ -101,18 +215,12 @@ def _recorder(
         about, latest = replace(about, world=world.about), world.latest
     try:
         if not options.is_kept:
-            return TemporaryRecorder(path, about, tell, at_once=True, world=latest)
-        return Recorder(path, about, at_once=options.view is not None, world=latest)
+            return TemporaryRecorder(path, about, tell, world=latest)
+        return Recorder(path, about, world=latest)
     except FileExistsError:
         raise DriveError(f"{path} exists already", "record to another file, or delete it") from None
     except OSError as error:
         raise DriveError(f"{path} cannot be written: {error.strerror}") from error
-
-
-def _refuse_blind(graph: Graph, master: str, wiring: Wiring) -> None:
-    """DriveError where a skill below the master reads what is not wired."""
-    if missing := read_by(graph, master) - {wire.sensor for wire in wiring.sensors}:
-        raise DriveError(f"{master} reads {', '.join(sorted(missing))}, which is not wired", "add it to robot.yaml")
 
 
 def _goes_on(tick: TickResult, ticks: int, stop: Stop) -> bool:

@@ -1,14 +1,13 @@
-"""What drivers share: quantities of their options, packages imported when needed, and I2C transfers that always end."""
+"""What drivers share: quantities of their options, packages imported when needed, and GPIO pins."""
 
 import os
 import warnings
-from collections.abc import Iterator
-from contextlib import contextmanager, suppress
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
 from importlib import import_module
-from threading import RLock
-from time import monotonic, sleep
-from typing import Any, Protocol
+from threading import Lock
+from typing import Any, Generic, Literal, Protocol, TypeVar, get_args
 
 from mindrun.driver import DeviceError
 from mindrun.numbers.quantity import Quantity, Reference
@@ -24,14 +23,13 @@ PWM_HERTZ = Quantity("a rate of pulses", {"Hz": 1.0, "kHz": 1000.0}, low=10.0, h
 DEGREES = Quantity("an angle", {"deg": 1.0}, low=-360.0, high=360.0)
 PATH = Reference("path")
 SWITCH = Reference("switch", ("true", "false"))
+Face = Literal["up", "down"]
+FACE = Reference("face", get_args(Face))
+Pull = Literal["up", "down"]
+PULL = Reference("pull", get_args(Pull))
 
 INSTALL = "pip install 'mindrun[robot]'"
 INSTALL_PINS = "sudo apt install python3-lgpio, or in a virtual environment: pip install lgpio"
-MAX_TRIES = 3
-RETRY_SECONDS = 0.002  # between two tries
-TRANSFER_SECONDS = 0.1  # seconds after which a transfer that failed is not tried again
-I2C_BYTE_SECONDS = 9 / 100_000  # seconds of a byte with its acknowledgement, at the usual 100 kHz
-I2C_TIMEOUT, KERNEL_TICKS = 0x0702, 5  # <linux/i2c-dev.h>; in units of 10 ms: for how long a part may hold the clock
 
 
 def library(module: str, install: str = INSTALL) -> Any:
@@ -52,6 +50,66 @@ def share(value: float) -> float:
     return float(value)
 
 
+class Closes(Protocol):
+    def close(self) -> None: ...
+
+
+Opened = TypeVar("Opened", bound=Closes)
+Key = TypeVar("Key")
+
+
+def answering(device: Opened, ask: Callable[[], object]) -> Opened:
+    """A device that was just opened, once it has answered; where it does not, it is closed again."""
+    try:
+        ask()
+    except Exception:
+        device.close()
+        raise
+    return device
+
+
+class SharedParts(Generic[Key, Opened]):
+    """Parts that several devices use together: opened for the first of them, closed with the last."""
+
+    def __init__(self) -> None:
+        self._lock = Lock()
+        self._parts: dict[Key, tuple[Opened, int]] = {}  # and how many use it
+
+    def take(self, key: Key, opened: Callable[[], Opened]) -> Opened:
+        """The part of this key, which was `opened` when it was taken first."""
+        with self._lock:
+            part, users = self._parts.get(key) or (opened(), 0)
+            self._parts[key] = part, users + 1
+            return part
+
+    def give_back(self, key: Key) -> None:
+        """Use it no longer."""
+        with self._lock:
+            part, users = self._parts.pop(key)
+            if users > 1:
+                self._parts[key] = part, users - 1
+            else:
+                part.close()
+
+    def close(self) -> None:
+        for part, _ in self._parts.values():
+            part.close()
+
+
+class Ranging:
+    """What the drivers of range finders have in common: metres, from touching to clear within the `range`."""
+
+    __slots__ = ()
+    range: float
+    unit = "m"
+
+    @property
+    def usual(self) -> tuple[float, float]:
+        return 0.0, self.range
+
+    possible = usual
+
+
 @contextmanager
 def pins(what: str) -> Iterator[None]:
     """A context in which every error of GPIO pins becomes a DeviceError."""
@@ -63,115 +121,58 @@ def pins(what: str) -> Iterator[None]:
         raise DeviceError(f"{what}: {error}", INSTALL_PINS) from error
 
 
-class Bus(Protocol):
-    """An I2C bus that is open."""
-
-    def transfer(self, address: int, out: bytes, count: int) -> bytes:
-        """Write `out`, then read `count` bytes, as one transfer; OSError where the part does not acknowledge."""
-        ...
-
-    def close(self) -> None: ...
+def open_pins(*parts: tuple[str, str, Mapping[str, Any]]) -> list[Any]:
+    """For each part, which is what messages call it, a class of gpiozero, and its arguments, the object; or no pin."""
+    gpiozero = library("gpiozero")
+    with ExitStack() as opened:
+        made = []
+        for what, name, arguments in parts:
+            with pins(f"{what} cannot be opened"):
+                made.append(opened.enter_context(getattr(gpiozero, name)(**arguments)))
+        opened.pop_all()
+    return made
 
 
 @dataclass(frozen=True, slots=True)
-class LinuxBus:
-    """The I2C bus of a Raspberry Pi."""
+class InputPins:
+    """A sensor of inputs of gpiozero, a reading of each; `what` is wired to them."""
 
-    smbus: Any
-    message: Any
+    what: str
+    inputs: list[Any]
 
-    def transfer(self, address: int, out: bytes, count: int) -> bytes:
-        """One transfer, with a repeated start between writing and reading."""
-        writing = [self.message.write(address, out)] if out else []
-        reading = [self.message.read(address, count)] if count else []
-        self.smbus.i2c_rdwr(*writing, *reading)
-        return b"".join(bytes(message) for message in reading)
+    def read(self) -> tuple[float, ...]:
+        """The value of each: 1 for one that is active, else 0; of analogue ones a share of the reference."""
+        with pins(f"{self.what} cannot be read"):
+            return tuple(float(each.value) for each in self.inputs)
 
     def close(self) -> None:
-        """Let go of it."""
-        self.smbus.close()
+        for each in self.inputs:
+            each.close()
 
 
-def open_bus(number: int) -> Bus:
-    """The I2C bus of that number; tests put a bus of their own here."""
-    smbus2, fcntl = library("smbus2"), library("fcntl", "robots run Linux")
-    try:
-        smbus = smbus2.SMBus(number)
-    except OSError as error:
-        hint = "turn it on with: sudo raspi-config nonint do_i2c 0"
-        raise DeviceError(f"I2C bus {number} cannot be opened: {error}", hint) from error
-    with suppress(OSError):  # not every adapter can be told how long to wait
-        fcntl.ioctl(smbus.fd, I2C_TIMEOUT, KERNEL_TICKS)
-    return LinuxBus(smbus, smbus2.i2c_msg)
+def digital_inputs(what: str, numbers: tuple[int, ...], **options: Any) -> InputPins:
+    """The pins of these numbers as inputs, all with these `options` of gpiozero's DigitalInputDevice."""
+    parts = ((f"{what} on GPIO {number}", "DigitalInputDevice", {"pin": number, **options}) for number in numbers)
+    return InputPins(what, open_pins(*parts))
 
 
-def on_bus(number: int, address: int) -> str:
-    """The name of an I2C device that only one process may drive, `/dev/i2c-1 0x40`."""
-    return f"/dev/i2c-{number} {address:#04x}"
+@dataclass(frozen=True, slots=True)
+class OutputPin:
+    """An actuator that is one output of gpiozero, whose value for a command 0 is `low`, and 1 for 1."""
+
+    what: str
+    output: Any
+    low: float = 0.0
+
+    def write(self, value: float) -> None:
+        command = share(value)
+        with pins(f"{self.what} cannot be driven"):
+            self.output.value = self.low + command * (1 - self.low)
+
+    def close(self) -> None:
+        self.output.close()
 
 
 def on_pin(number: int) -> str:
     """The name of a GPIO pin that only one process may drive, `GPIO 12`."""
     return f"GPIO {number}"
-
-
-_turns: dict[tuple[int, int], RLock] = {}  # by bus and address
-
-
-@dataclass(slots=True)
-class I2cDevice:
-    """One part on an I2C bus. Every transfer ends, after up to `MAX_TRIES` tries, in an answer or a DeviceError."""
-
-    name: str
-    number: int
-    address: int
-    bus: Bus = field(init=False)
-    closed: bool = False
-
-    def __post_init__(self) -> None:
-        self.bus = open_bus(self.number)
-
-    @property
-    def turn(self) -> RLock:
-        """What a device holds while it asks its chip for something and waits for that: others ask the same chip."""
-        return _turns.setdefault((self.number, self.address), RLock())
-
-    def write(self, *out: int) -> None:
-        """Write bytes, of which the first is a register or a command; returns when all are acknowledged."""
-        self.transfer(bytes(out))
-
-    def read(self, register: int, count: int) -> bytes:
-        """Read from a register on."""
-        return self.transfer(bytes((register,)), count)
-
-    def transfer(self, out: bytes, count: int = 0) -> bytes:
-        """Write, then read."""
-        if self.closed:
-            raise self.error("is closed")
-        begin, failure = monotonic(), "no answer"
-        for _ in range(MAX_TRIES):
-            try:
-                answer = self.bus.transfer(self.address, out, count)
-                if len(answer) == count:
-                    return answer
-                failure = f"it gave {len(answer)} bytes, not {count}"
-            except OSError as error:
-                failure = str(error)
-            if monotonic() - begin > TRANSFER_SECONDS:
-                break
-            sleep(RETRY_SECONDS)
-        raise self.error(f"does not answer: {failure}")
-
-    def error(self, what: str) -> DeviceError:
-        """An error that says which part it is about, and how to look for it."""
-        return DeviceError(
-            f"{self.name} at 0x{self.address:02x} on I2C bus {self.number} {what}",
-            f"look whether it is there with: i2cdetect -y {self.number}",
-        )
-
-    def close(self) -> None:
-        """Let go of the bus; never raises, and again does nothing."""
-        if not self.closed:
-            self.closed = True
-            with suppress(OSError):
-                self.bus.close()

@@ -1,7 +1,7 @@
-"""A dry run in words: what it is when it begins, how it stands while it drives, and what came of it."""
+"""A dry run: a robot that is wired to a simulated world; in words, how it begins, stands and ends; and recorded."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from math import isfinite
 from threading import Event, Thread
 from typing import Any
@@ -12,16 +12,43 @@ from numpy.typing import NDArray
 from mindrun.driver import DeviceError
 from mindrun.errors import MindError
 from mindrun.graph.graph import Graph, Task
+from mindrun.graph.named_readings import physical
+from mindrun.graph.recording_header import BOX_COLUMNS, GOES_ON, RecordedWorld, world_row_of
 from mindrun.graph.skill_sets import driving, movers
-from mindrun.robot.drivers.simulated import status
+from mindrun.graph.wiring import ActuatorWire, SensorWire, Wiring, read_by
+from mindrun.robot.drivers.simulated import SimulatedActuator, SimulatedSensor
 from mindrun.robot.loop import Loop
-from mindrun.terminal.status_line import StatusLine
+from mindrun.robot.simulated_world import BOXES, WORLD, WorldConnection, status
+from mindrun.terminal.standard_streams import StatusLine
 from mindrun.terminal.tick_count import ticks as in_words
 
 SHOW_SECONDS = 0.25  # from one state of the line to the next
 MAX_SILENT_QUESTIONS = 8  # in a row, after which the world is gone
 MAX_THINGS_NAMED = 6
+MAX_END_TICKS = 20  # in which a recording gets the end of its run; one that cannot be written gets none
 MAX_ACTING_NAMED, LEAST_ACTING_INFLUENCE = 2, 0.01
+
+
+def dry(graph: Graph, path: str, master: str) -> Wiring:
+    """A robot whose actuators, and the sensors that are read below the master, are those of the world at a socket.
+
+    Each sensor is read twice a tick, so that what the loop sees is never much more than half a tick older than in
+    training.
+    """
+    read = read_by(graph, master)
+    rate = min(max(2 / graph.tick, 0.01), 1000.0)
+    max_age = min(max(0.25, 5 * graph.tick), 3600.0)  # a computer that simulates has other things to do, too
+    return Wiring(
+        robot="simulated",
+        sensors=tuple(
+            SensorWire(name, SimulatedSensor(path, name, sensor.width), 0.0, 1.0, rate=rate, max_age=max_age)
+            for name, sensor in physical(graph).items()
+            if name in read
+        ),
+        actuators=tuple(
+            ActuatorWire(actuator.name, SimulatedActuator(path, actuator.name)) for actuator in graph.actuators
+        ),
+    )
 
 
 def refuse_environment(task: Task) -> None:
@@ -33,25 +60,17 @@ def refuse_environment(task: Task) -> None:
 
 def beginning(graph: Graph, task: Task, master: str, seed: int) -> list[str]:
     """What is run, in which world, that nothing real moves, and what ends it."""
-    seconds = task.ticks * graph.tick
+    scene, seconds = task.scene, task.ticks * graph.tick
+    size = f"of {' x '.join(f'{side:g}' for side in scene.sides)}" if scene.is_bounded else "without walls"
+    things = list(dict.fromkeys(thing.name for thing in task.things))
+    if (more := len(things) - MAX_THINGS_NAMED) > 0:
+        things[MAX_THINGS_NAMED:] = [f"{more} more"]
+    contents = f" with {', '.join(things)}" if things else ""
     return [
-        f"dry run: {task.name} with {master} in charge, in {_scene(task)}{_contents(task)}, seed {seed}",
+        f"dry run: {task.name} with {master} in charge, in a world {size}{contents}, seed {seed}",
         "no device is touched: the world is simulated, in real time",
         f"it ends with its run, after {in_words(task.ticks)} ({seconds:,.0f} s) at the latest; Ctrl-C ends it now",
     ]
-
-
-def _scene(task: Task) -> str:
-    if not task.scene.is_bounded:
-        return "a world without walls"
-    return "a world of " + " x ".join(f"{side:g}" for side in task.scene.sides)
-
-
-def _contents(task: Task) -> str:
-    known = list(dict.fromkeys(thing.name for thing in task.things))
-    more = len(known) - MAX_THINGS_NAMED
-    shown = [*known[:MAX_THINGS_NAMED], *([f"{more} more"] if more > 0 else [])]
-    return f" with {', '.join(shown)}" if shown else ""
 
 
 class DryRun:
@@ -60,20 +79,25 @@ class DryRun:
     The loop only leaves the influence of its last tick here: it waits neither for the world nor for a terminal.
     """
 
-    def __init__(self, graph: Graph, task: Task, master: str, socket: str, line: StatusLine) -> None:
-        self._graph, self._task, self._socket, self._line = graph, task, socket, line
+    def __init__(
+        self, graph: Graph, task: Task, master: str, socket: str, line: StatusLine, seen: "SeenWorld | None" = None
+    ) -> None:
+        self._graph, self._task, self._socket, self._line, self._seen = graph, task, socket, line, seen
         self._acting_skills = movers(graph, master) or driving(graph, master, range(len(graph.actuators)))
         self._influence: NDArray[np.float32] | None = None
-        self._is_over = False
+        self._is_over, self._end_ticks = False, 0
         self._lost: DeviceError | None = None
         self._stop = Event()
 
     def watch(self, loop: Loop) -> bool:
-        """After each tick: whether the run in the world goes on; DeviceError where there is no world any more."""
+        """After each tick: whether the run goes on, or its recording waits for its end; DeviceError without a world."""
         self._influence = loop.engine.influence
         if self._lost:
             raise self._lost
-        return not self._is_over
+        if not self._is_over:
+            return True
+        self._end_ticks += 1
+        return self._seen is not None and not self._seen.has_ended and self._end_ticks <= MAX_END_TICKS
 
     @contextmanager
     def shown(self) -> Iterator[None]:
@@ -154,3 +178,57 @@ def _aligned(rows: Sequence[tuple[str, str]]) -> list[str]:
     """A line per row, the first column to the right."""
     width = max(len(first) for first, _ in rows)
     return [f"{first:>{width}}  {second}" for first, second in rows]
+
+
+class SeenWorld:
+    """How a simulated world stands, for a recording: `about` as it was first, `latest` when a thread asked last.
+
+    It asks beside the loop, which waits for nobody.
+    """
+
+    def __init__(self, task: Task, seed: int, socket: str) -> None:
+        self._row, self._link = world_row_of(task), WorldConnection(socket)
+        self._latest = self._recorded = self._asked()
+        self._wanted, self._is_over = Event(), False
+        boxes = np.frombuffer(self._link.ask(BOXES), "<f8").reshape(-1, BOX_COLUMNS)
+        begin = [*self._latest["pose"][0], *self._latest["things"][0].ravel()]
+        self.about = RecordedWorld.of(task, seed, boxes, begin)
+
+    def latest(self) -> NDArray[Any]:
+        """The row of it [1] that was asked for when this was called last: a tick ago. Never waits.
+
+        The thread asks anew at once, while the loop has nothing to do until its next tick.
+        """
+        self._wanted.set()
+        self._recorded = self._latest
+        return self._recorded
+
+    @property
+    def has_ended(self) -> bool:
+        """Whether the row that `latest` returned last says how the run has ended."""
+        return bool(self._recorded["ended"][0] != GOES_ON)
+
+    @contextmanager
+    def watched(self) -> Iterator[None]:
+        """Let the thread ask as long as this lasts."""
+        thread = Thread(target=self._watch, name="seen_world", daemon=True)
+        thread.start()
+        try:
+            yield
+        finally:
+            self._is_over = True
+            self._wanted.set()
+            thread.join()
+            self._link.close()
+
+    def _watch(self) -> None:
+        while self._wanted.wait() and not self._is_over:
+            self._wanted.clear()
+            with suppress(DeviceError):  # it answers next time; the loop says where it does not at all
+                self._latest = self._asked()
+
+    def _asked(self) -> NDArray[Any]:
+        held = self._link.ask(WORLD)
+        if len(held) != self._row.itemsize:
+            raise DeviceError(f"the simulated world has {len(held)} bytes to be recorded, not {self._row.itemsize}")
+        return np.frombuffer(held, self._row)

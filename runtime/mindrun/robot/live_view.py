@@ -16,7 +16,7 @@ from threading import Event, Thread
 
 from mindrun.errors import reason
 from mindrun.files.printable import visible
-from mindrun.robot.device_locks import DrivenError, bound_address
+from mindrun.robot.ownership import DrivenError, bound_address
 from mindrun.terminal.command_line import command_line
 
 PAGE_PORT = 8123  # tried first, so that the tunnel to a robot is the same each time
@@ -25,7 +25,7 @@ SERVER_ADDRESS = 2  # of the words of SSH_CONNECTION: client, its port, server, 
 VIEWER_NICENESS = 10
 END_SECONDS = 1.0  # for a viewer that was killed: one that waits for a disk ends later, by itself
 PROGRAM = (
-    "import signal, sys; from mindrun.robot.parent_process import end_with_parent; "
+    "import signal, sys; from mindrun.robot.processes import end_with_parent; "
     "from mindrun.processors import give_way; "
     f"end_with_parent(int(sys.argv.pop(1)), signal.SIGKILL); give_way({VIEWER_NICENESS}); "
     "from mindlang.cli import main; main()"
@@ -63,10 +63,13 @@ def _usual_port() -> Iterator[int | None]:
     with ExitStack() as stack:
         try:
             stack.enter_context(bound_address(f"port {PAGE_PORT}"))
+            with socket.socket() as listener:
+                listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+                listener.bind(("127.0.0.1", PAGE_PORT))
         except (DrivenError, OSError):
             yield None
         else:
-            yield PAGE_PORT if _is_free(PAGE_PORT) else None
+            yield PAGE_PORT
 
 
 @contextmanager
@@ -110,19 +113,15 @@ def _listen(viewer: "subprocess.Popen[str]", ending: Event, tell: Callable[[str]
     with viewer.stdout as lines:
         while line := lines.readline(MAX_LINE_CHARACTERS):
             if line.startswith("http://"):
-                _tell_address(line.strip(), tell)
+                tell(f"seen live at {line.strip()}")
+                if "SSH_CONNECTION" in os.environ:
+                    port = line.removeprefix("http://127.0.0.1:").partition("/")[0].strip()
+                    tell(f"your browser gets there through: ssh -N -L {port}:127.0.0.1:{port} {_host()}")
             elif line.strip() and not line.startswith(" "):  # but hints, and where an exception came from
                 why = line.strip()
     code = viewer.wait()
     if not ending.is_set():
         tell(f"the view has ended, and the robot drives on: {visible(why) or f'exit {code}'}")
-
-
-def _tell_address(address: str, tell: Callable[[str], None]) -> None:
-    tell(f"seen live at {address}")
-    if "SSH_CONNECTION" in os.environ:
-        port = address.removeprefix("http://127.0.0.1:").partition("/")[0]
-        tell(f"your browser gets there through: ssh -N -L {port}:127.0.0.1:{port} {_host()}")
 
 
 def _host() -> str:
@@ -133,11 +132,28 @@ def _host() -> str:
     return f"{user}@" * bool(user) + (words[SERVER_ADDRESS] if is_reached else socket.gethostname())
 
 
-def _is_free(port: int) -> bool:
-    with socket.socket() as listener:
-        listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        try:
-            listener.bind(("127.0.0.1", port))
-        except OSError:
-            return False
-        return True
+def breakpoint_mistakes(breaks: Path, bundle: Path, task: str | None, master: str | None) -> list[str]:
+    """The lines that mindc has to say of a file of breakpoints where something is wrong in it, before a robot starts.
+
+    `task` is that of a dry run. Nothing where mindlang is not installed: then the page is served elsewhere, and the
+    file is looked at there.
+    """
+    if not find_spec("mindlang"):
+        return []
+    for path, suffix in ((breaks, ".break"), (bundle, ".bundle")):
+        if path.suffix != suffix:
+            return [f"{path} must end in {suffix}: mindc knows by that what it is"]
+    options = [*(("--task", task) if task else ()), *(("--master", master) if master else ())]
+    # -P: a file of the user's folder that is named like a module must not be imported.
+    command = [sys.executable, "-P", "-c", "from mindlang.cli import main; main()", "check", *options]
+    done = subprocess.run(
+        [*command, "--", str(breaks), str(bundle)],
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
+        errors="replace",
+        check=False,
+    )
+    if not done.returncode:
+        return []
+    return (done.stderr.rstrip() or f"{breaks} cannot be looked at: mindc ended with {done.returncode}").split("\n")

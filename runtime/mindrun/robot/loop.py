@@ -1,34 +1,22 @@
 """The control loop: sense, think, send, at a fixed rate. Whatever goes wrong in it, the guardian stops the robot."""
 
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.engine.engine import Engine
 from mindrun.graph.recording_header import BY_LOOP, NOT_STOPPED, by_guardian
+from mindrun.robot.guardian.client import Guardian
 from mindrun.robot.guardian.guard import failing
 from mindrun.robot.rate import Rate
-from mindrun.robot.reading_filter import FilteredReadings, ReadingFilter
 from mindrun.robot.recording import Recorder
+from mindrun.robot.sensing import FilteredReadings, ReadingFilter
 
 MISSED_TICKS_LIMIT = 3  # ticks in a row that were missed, after which every actuator is neutral until one is not
 MAX_THINKING_TICKS = 2  # that thinking may take
-
-
-class Sends(Protocol):
-    """Takes the commands of a tick; MindError where nobody is there to obey them.
-
-    `holds` says why every actuator is held at neutral all the same, and nothing where none is.
-    """
-
-    @property
-    def holds(self) -> str: ...
-
-    def send(self, commands: Sequence[float], armed: bool) -> None: ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,12 +44,12 @@ class Loop:
 
     engine: Engine
     senses: ReadingFilter
-    guardian: Sends
+    guardian: Guardian
     pace: Rate
     armed: bool = False
     recorder: Recorder | None = None
     tell: Callable[[str], None] = lambda sentence: None
-    faulty: dict[str, str] = field(default_factory=dict)
+    faulty: set[str] = field(default_factory=set)
     ticks: int = 0
     stopped: int = 0
     held: Counter[str] = field(default_factory=Counter)
@@ -78,7 +66,12 @@ class Loop:
         time = self.pace.wait()
         behind = self.pace.missed - missed >= MISSED_TICKS_LIMIT
         sensed = self.senses.now(time)
-        self._report_faults(sensed)
+        for name, why in sensed.why.items():
+            if name not in self.faulty:
+                self.tell(f"{name} {why}")
+        for name in self.faulty - sensed.why.keys():
+            self.tell(f"{name} is fine again")
+        self.faulty = {*sensed.why}
         commands = self.engine.tick(sensed.readings)
         too_old = self.pace.clock() - time >= MAX_THINKING_TICKS * self.pace.tick  # to act on what was sensed then
         stopped = sensed.must_stop or behind or too_old
@@ -86,7 +79,8 @@ class Loop:
         self.guardian.send(sent.tolist(), self.armed and not stopped)  # unarmed, neutral is not slowed down by slew
         held = self.guardian.holds if self.armed and not stopped else ""
         done = TickResult(self.ticks, time, sensed, commands, sent, stopped, held)
-        self._record(done)
+        if self.recorder:
+            self._record(self.recorder, done)
         self.ticks += 1
         self.stopped += stopped
         self.held.update([held] * bool(held))
@@ -97,25 +91,12 @@ class Loop:
         """The neutral command of each actuator."""
         return np.array([actuator.kind.neutral for actuator in self.engine.graph.actuators], np.float32)
 
-    def _report_faults(self, sensed: FilteredReadings) -> None:
-        """Sentences for sensors that begin to be faulty, or no longer are."""
-        for name, why in sensed.why.items():
-            if name not in self.faulty:
-                self.tell(f"{name} {why}")
-        for name in self.faulty.keys() - sensed.why.keys():
-            self.tell(f"{name} is fine again")
-        self.faulty = dict(sensed.why)
-
-    def _stopped_by(self, done: TickResult) -> int:
+    def _record(self, recorder: Recorder, done: TickResult) -> None:
+        stopped_by = BY_LOOP if done.stopped else NOT_STOPPED
         if done.held:
-            return by_guardian(failing(done.held, [actuator.name for actuator in self.engine.graph.actuators]))
-        return BY_LOOP if done.stopped else NOT_STOPPED
-
-    def _record(self, done: TickResult) -> None:
-        if self.recorder:
-            readings = np.where(self.senses.measured, self.engine.readings, np.float32(np.nan))
-            self.recorder.write(
-                tick=done.number, time=done.time, stopped=self._stopped_by(done), armed=self.armed,
-                faults=done.sensed.faults, ages=done.sensed.ages, readings=readings, influence=self.engine.influence,
-                commands=done.commands, sent=done.sent,
-            )  # fmt: skip
+            stopped_by = by_guardian(failing(done.held, [actuator.name for actuator in self.engine.graph.actuators]))
+        recorder.write(
+            tick=done.number, time=done.time, stopped=stopped_by, armed=self.armed, faults=done.sensed.faults,
+            ages=done.sensed.ages, readings=np.where(self.senses.measured, self.engine.readings, np.float32(np.nan)),
+            influence=self.engine.influence, commands=done.commands, sent=done.sent,
+        )  # fmt: skip

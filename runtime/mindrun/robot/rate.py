@@ -52,7 +52,6 @@ class Rate:
         return (min(place, LATENESS_BINS - 1) + 1) * self.tick / 100
 
     def __str__(self) -> str:
-        """A sentence."""
         if not self.ticks:
             return f"no tick of {self.tick * 1e3:.1f} ms"
         half, most = self.late(0.5) * 1e3, self.late(0.99) * 1e3

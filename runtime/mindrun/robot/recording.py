@@ -4,62 +4,112 @@ A line of JSON says what the columns are; then rows of fixed size follow. Line a
 oldest version has none. A row that was cut off at the end is no row.
 """
 
+import errno
 import os
 import zlib
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import suppress
-from math import inf
+from contextlib import contextmanager, suppress
+from itertools import chain
 from pathlib import Path
+from queue import SimpleQueue
+from tempfile import TemporaryDirectory
 from threading import Event, Thread
 from types import TracebackType
-from typing import Any, Self
+from typing import Any, BinaryIO, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.files.regular_files import open_regular
-from mindrun.graph.recording_header import CHECKSUM_FIELD as CHECKSUM_FIELD
-from mindrun.graph.recording_header import MAX_HEADER_BYTES as MAX_HEADER_BYTES
+from mindrun.graph.recording_header import MAX_HEADER_BYTES, about_of_line, line_of
 from mindrun.graph.recording_header import About as About
 from mindrun.graph.recording_header import RecordingError as RecordingError
-from mindrun.graph.recording_header import about_of_line, line_of
-from mindrun.robot.background_file import BackgroundFile
 
-READ_BYTES = 1 << 22  # of rows at once, or one row where that is more
+READ_BYTES = 1 << 22  # at once
+MAX_EMPTY_PARTS = 20  # in a row, before there is a first line
+MAX_WAITING_BYTES = 1 << 26  # that a card has not taken yet
+
+
+class BackgroundFile:
+    """Brings to a file at once what is written. An error of the file is that of whatever is written or flushed next.
+
+    A file that takes nothing for so long that memory would fill is one that cannot be written.
+    """
+
+    def __init__(self, file: BinaryIO) -> None:
+        self._file = file
+        self._queue: SimpleQueue[bytes | Event | None] = SimpleQueue()  # an event is set when all before it is written
+        self._failure: OSError | None = None
+        self._given, self._taken = 0, 0  # bytes; only who writes counts the first, only the thread the second
+        self._writing = Thread(target=self._run, name="background_file", daemon=True)
+        self._writing.start()
+
+    def write(self, data: bytes) -> None:
+        """Leave bytes to the thread; returns at once."""
+        self._raise_failure()
+        if self._given - self._taken > MAX_WAITING_BYTES:
+            raise OSError(errno.ETIMEDOUT, os.strerror(errno.ETIMEDOUT))
+        self._given += len(data)
+        self._queue.put(data)
+
+    def flush(self) -> None:
+        """Wait until everything is in the file."""
+        written = Event()
+        self._queue.put(written)
+        written.wait()
+        self._raise_failure()
+
+    def fileno(self) -> int:
+        return self._file.fileno()
+
+    def close(self) -> None:
+        """Write what is left, and close the file; an error that was told is not told again."""
+        self._queue.put(None)
+        self._writing.join()
+        with suppress(OSError):
+            self._file.close()
+
+    def _raise_failure(self) -> None:
+        if self._failure:
+            raise self._failure
+
+    def _run(self) -> None:
+        while (item := self._queue.get()) is not None:
+            if isinstance(item, Event):
+                item.set()
+            elif not self._failure:  # what follows would have a gap before it
+                try:
+                    self._file.write(item)
+                    self._file.flush()
+                    self._taken += len(item)
+                except OSError as error:
+                    self._failure = error
 
 
 class Recorder:
     """Writes a recording; a context manager. OSError where the file is there already, or cannot be written.
 
-    Rows are brought to the disk `every` so many seconds. Others see them as late, or `at_once`, which a thread does.
-    Where there is a world, `world` says what its columns are now.
+    Others see each row at once; rows are brought to the disk `every` so many seconds. Where there is a world, `world`
+    says what its columns are now.
     """
 
     def __init__(
-        self,
-        path: Path,
-        about: About,
-        every: float = 1.0,
-        at_once: bool = False,
-        world: Callable[[], NDArray[Any]] | None = None,
+        self, path: Path, about: About, every: float = 1.0, world: Callable[[], NDArray[Any]] | None = None
     ) -> None:
         line = line_of(about)
         self._world = world
         self._row = np.zeros(1, about.row)
         self._path = path
-        file = path.open("xb")
-        self._file = BackgroundFile(file) if at_once else file
+        self._file = BackgroundFile(path.open("xb"))
         try:
             self._file.write(line)
             self._file.flush()  # somebody may follow it already
         except OSError:
-            with suppress(OSError):  # it would say the same again
-                self._file.close()
+            self._file.close()
             raise
         self._ending = Event()
         self._syncing = Thread(target=self._sync, args=(every,), name="recording", daemon=True)
         self._syncing.start()
-        self._flush_every, self._flushed = inf if at_once else every, 0.0
 
     def write(self, **columns: Any) -> None:
         """A row, which is on the disk a second or two later; RecordingError where it cannot be."""
@@ -67,34 +117,31 @@ class Recorder:
             self._row[name][0] = value
         if self._world:
             self._row["world"] = self._world()
-        self._row["check"] = 0
-        self._row["check"] = zlib.crc32(self._row.tobytes())
-        time = float(self._row["time"][0])
-        try:
-            self._file.write(self._row.tobytes())
-            if time - self._flushed >= self._flush_every:
-                self._file.flush()
-                self._flushed = time
-        except OSError as error:
-            raise RecordingError(f"{self._path} cannot be written: {error.strerror}") from error
+        with self._told():
+            self._file.write(_sealed(self._row).tobytes())
 
     def close(self) -> None:
         """Bring the rest to the disk."""
         self._ending.set()
         self._syncing.join()
         try:
-            self._file.flush()
-            os.fsync(self._file.fileno())
+            with self._told():
+                self._file.flush()
+                os.fsync(self._file.fileno())
+        finally:
+            self._file.close()
+
+    @contextmanager
+    def _told(self) -> Iterator[None]:
+        try:
+            yield
         except OSError as error:
             raise RecordingError(f"{self._path} cannot be written: {error.strerror}") from error
-        finally:
-            with suppress(OSError):  # it has said so already
-                self._file.close()
 
     def _sync(self, every: float) -> None:
         """Bring to the disk what has been written, beside the loop: a slow card must not hold a tick."""
         while not self._ending.wait(every):
-            with suppress(OSError, ValueError):  # the writer hears of it; or the file is closed
+            with suppress(OSError):  # the writer hears of it
                 os.fsync(self._file.fileno())
 
     def __enter__(self) -> Self:
@@ -104,32 +151,97 @@ class Recorder:
         self.close()
 
 
+@contextmanager
+def temporary_recording(tell: Callable[[str], None]) -> Iterator[Path]:
+    """A path for a recording that is there for a viewer alone, and goes away at the end."""
+    with TemporaryDirectory(prefix="mind-") as folder:
+        tell("recorded for the view alone, and deleted at the end: --record FILE keeps it")
+        yield Path(folder) / "live.rec"
+
+
+class TemporaryRecorder(Recorder):
+    """A recording that is no reason for a robot to stop: where it cannot be written, `tell` gets one sentence."""
+
+    def __init__(self, path: Path, about: About, tell: Callable[[str], None], **how: Any) -> None:
+        super().__init__(path, about, **how)
+        self._tell, self._has_failed = tell, False
+
+    def write(self, **columns: Any) -> None:
+        """A row, where there is room for it."""
+        if self._has_failed:
+            return
+        try:
+            super().write(**columns)
+        except RecordingError as error:
+            self._has_failed = True
+            self._tell(f"nothing more is seen, and the robot drives on: {error}")
+
+    def _sync(self, every: float) -> None:
+        """It need not survive a power cut: no card is worn by it."""
+
+    def close(self) -> None:
+        """Let go of it; what was not written is missed by nobody."""
+        with suppress(RecordingError):
+            super().close()
+
+
 def recording_bytes(about: About, rows: NDArray[Any]) -> bytes:
     """A recording of these rows [ticks] of `about.row`, whose checksums are filled in."""
-    for row in rows:
-        row["check"] = 0
-        row["check"] = zlib.crc32(row.tobytes())
-    return line_of(about) + rows.tobytes()
+    return line_of(about) + _sealed(rows).tobytes()
+
+
+def _sealed(rows: NDArray[Any]) -> NDArray[Any]:
+    """The rows, with their checksums."""
+    rows["check"] = 0
+    rows["check"] = [zlib.crc32(row.tobytes()) for row in rows]
+    return rows
 
 
 def read(path: Path) -> tuple[About, Iterator[NDArray[Any]]]:
-    """What a recording is of, and its rows in parts, as `whole_rows`; RecordingError where it is none."""
+    """What a recording is of, and its rows in parts; RecordingError where it is none.
+
+    From the rows, too, where one is damaged, behind all that are before it. A last row that is not whole is no row.
+    """
     try:
-        with open(open_regular(path), "rb") as file:  # noqa: PTH123
-            about = about_of_line(file.readline(MAX_HEADER_BYTES), path)
-            return about, whole_rows(path, about, _parts(path, file.tell(), about.row.itemsize))
+        return read_growing(path, _parts(path))
     except OSError as error:
         raise RecordingError(f"cannot read {path}: {error.strerror}") from error
 
 
-def _parts(path: Path, offset: int, row_bytes: int) -> Iterator[bytes]:
-    with open(open_regular(path), "rb") as file:  # noqa: PTH123
-        file.seek(offset)
-        while data := file.read(row_bytes * max(1, READ_BYTES // row_bytes)):
+def _parts(path: Path) -> Iterator[bytes]:
+    with open(open_regular(path), "rb", buffering=0) as file:  # noqa: PTH123
+        while data := file.read(READ_BYTES):
             yield data
 
 
-def whole_rows(path: Path, about: About, parts: Iterable[bytes]) -> Iterator[NDArray[Any]]:
+def read_growing(path: Path, parts: Iterator[bytes]) -> tuple[About, Iterator[NDArray[Any]]]:
+    """What a recording is of, and its rows as they come: no row for a part with none, as an empty one.
+
+    RecordingError where it is no recording; from the rows, where one is damaged, behind all that are before it. A last
+    row that is not whole waits for the rest of it. `path` is what messages call it.
+    """
+    line, waiting = _first_line(path, parts)
+    about = about_of_line(line, path)
+    return about, _whole_rows(path, about, chain([waiting], parts))
+
+
+def _first_line(path: Path, parts: Iterator[bytes]) -> tuple[bytes, bytes]:
+    """The first line, and what has come behind it."""
+    waiting, empty, end = bytearray(), 0, -1
+    for part in parts:
+        empty = 0 if part else empty + 1
+        before = len(waiting)
+        waiting += part
+        end = waiting.find(b"\n", before)
+        if end >= 0 or len(waiting) >= MAX_HEADER_BYTES:
+            break
+        if empty == MAX_EMPTY_PARTS:
+            raise RecordingError(f"{path} has no first line yet", "is it still written?")
+    end = min(end + 1 if end >= 0 else len(waiting), MAX_HEADER_BYTES)
+    return bytes(waiting[:end]), bytes(waiting[end:])
+
+
+def _whole_rows(path: Path, about: About, parts: Iterable[bytes]) -> Iterator[NDArray[Any]]:
     """The rows of a recording whose bytes come in parts, however they are cut: those that are whole with each part.
 
     RecordingError where one is damaged, behind all that are before it. A last row that is not whole is no row.
@@ -140,16 +252,10 @@ def whole_rows(path: Path, about: About, parts: Iterable[bytes]) -> Iterator[NDA
         whole = len(waiting) // size * size
         rows = np.frombuffer(bytes(waiting[:whole]), about.row)
         del waiting[:whole]
-        good = [_is_whole(row) for row in rows]
-        if not all(good):
-            yield rows[: good.index(False)]
-            raise RecordingError(f"{path} is damaged at row {number + good.index(False)}")
+        good = _sealed(rows.copy())["check"] == rows["check"]
+        if not good.all():
+            first = int(np.argmin(good))
+            yield rows[:first]
+            raise RecordingError(f"{path} is damaged at row {number + first}")
         number += len(rows)
         yield rows
-
-
-def _is_whole(row: Any) -> bool:
-    """Whether a row is what its checksum is of."""
-    bare = row.copy()
-    bare["check"] = 0
-    return bool(zlib.crc32(bare.tobytes()) == row["check"])

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from types import FunctionType
 from typing import Any
 
-from mindrun.numbers import arithmetic
+from mindrun.numbers import arithmetic, stack_machine
 from mindrun.numbers.arithmetic import HALF as HALF
 from mindrun.numbers.arithmetic import ONE as ONE
 from mindrun.numbers.arithmetic import ZERO as ZERO
@@ -12,25 +12,13 @@ from mindrun.numbers.arithmetic import F as F
 from mindrun.sim import vector
 from mindrun.sim.compiling import compiled, inlined
 
-bearing, clamp = inlined(arithmetic.bearing), inlined(arithmetic.clamp)
-finite, sine_cosine = inlined(arithmetic.finite), inlined(arithmetic.sine_cosine)
-wrapped, short_way = inlined(arithmetic.wrapped), inlined(arithmetic.short_way)
-in_claw, inside = compiled(arithmetic.in_claw), compiled(arithmetic.inside)
+_INLINED = ("bearing", "clamp", "finite", "sine_cosine", "wrapped", "short_way")
+_CALLED = ("place_of", "put_thing", "size_of", "distance_of", "box_of")
+_VECTORS = ("splat", "broadcast", "load", "store", "sigmoids")
 _COMPILED: dict[Any, Callable[..., Any]] = {
-    arithmetic.bearing: bearing,
-    arithmetic.clamp: clamp,
-    arithmetic.finite: finite,
-    arithmetic.wrapped: wrapped,
-    arithmetic.short_way: short_way,
-    arithmetic.sine_cosine: sine_cosine,
-    arithmetic.in_claw: in_claw,
-    arithmetic.inside: inside,
-    arithmetic.find_nearest_point: compiled(arithmetic.find_nearest_point),
-    arithmetic.splat: vector.splat,
-    arithmetic.broadcast: vector.broadcast,
-    arithmetic.load: vector.load,
-    arithmetic.store: vector.store,
-    arithmetic.sigmoids: vector.sigmoids,
+    **{getattr(arithmetic, name): inlined(getattr(arithmetic, name)) for name in _INLINED},
+    **{getattr(arithmetic, name): compiled(getattr(arithmetic, name)) for name in _CALLED},
+    **{getattr(arithmetic, name): getattr(vector, name) for name in _VECTORS},
 }
 
 
@@ -52,4 +40,8 @@ def _calling_compiled(function: Any) -> FunctionType:
     return plain
 
 
+bearing, clamp, finite, sine_cosine, wrapped, short_way = (_COMPILED[getattr(arithmetic, name)] for name in _INLINED)
+place_of, put_thing, size_of, distance_of, box_of = (_COMPILED[getattr(arithmetic, name)] for name in _CALLED)
+in_claw, inside = compiled_lane(arithmetic.in_claw), compiled_lane(arithmetic.inside)
 nearest = _COMPILED[arithmetic.nearest] = inlined(_calling_compiled(arithmetic.nearest))  # which no call can return
+evaluate = compiled_lane(stack_machine.evaluate)

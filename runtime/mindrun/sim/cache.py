@@ -5,22 +5,24 @@ types), so one that stands there fits, and begins with a hash, so one that is da
 """
 
 import atexit
+import fcntl
 import pickle
 import shutil
 import sys
 import tempfile
-from contextlib import AbstractContextManager, nullcontext, suppress
+import time
+from collections.abc import Iterator
+from contextlib import AbstractContextManager, ExitStack, contextmanager, nullcontext, suppress
 from functools import cache
 from hashlib import sha256
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 import llvmlite
 import numba
 from llvmlite.binding import get_host_cpu_features, get_host_cpu_name
 
 from mindrun.files.user_cache import user_cache
-from mindrun.sim.compile_lock import exclusive
 from mindrun.sim.numba_internals import KeptCode, made_for, packed, unpacked
 
 SIM_FOLDER = Path(__file__).parent
@@ -28,6 +30,10 @@ SHIPPED = SIM_FOLDER / "compiled"  # in the wheel
 # The kinds of processors for which wheels have machine code, and what one must have to run it, as LLVM writes it.
 PROCESSORS = {"x86-64-v3": "+avx,+avx2,+bmi,+bmi2,+f16c,+fma,+lzcnt,+movbe,+popcnt,+sse4.2", "generic": "+neon"}
 HASH_BYTES = 32
+# Of several processes that lack the same code one compiles it, and the others wait so long. Then each compiles for
+# itself: the other may be stopped, or its machine be gone while a shared disk keeps its lock.
+WAIT_SECONDS = 600.0
+ASK_AGAIN_SECONDS = 0.05
 KINDS = "../kinds/sensors/*.py", "../kinds/functions/*.py"
 
 
@@ -143,3 +149,28 @@ def _write(path: Path, data: bytes) -> None:
     with tempfile.NamedTemporaryFile(dir=path.parent, delete=False) as file:
         file.write(sha256(data).digest() + data)
     Path(file.name).replace(path)
+
+
+@contextmanager
+def exclusive(path: Path) -> Iterator[None]:
+    """One process at a time is in this block for a `path`; where it cannot be locked, or not for so long, any are.
+
+    A POSIX lock: it ends with its process, and processes forked meanwhile do not have it. Of threads it knows nothing.
+    """
+    with ExitStack() as held:
+        with suppress(OSError):
+            _lock(held.enter_context(path.open("ab")))
+        yield
+
+
+def _lock(file: IO[bytes]) -> None:
+    """Wait for it; OSError after WAIT_SECONDS."""
+    patience = time.monotonic() + WAIT_SECONDS
+    while True:
+        try:
+            fcntl.lockf(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            return
+        except (BlockingIOError, PermissionError):  # both mean that another process has it
+            if time.monotonic() > patience:
+                raise
+        time.sleep(ASK_AGAIN_SECONDS)

@@ -5,8 +5,7 @@ sensor said. Influence is replaced after all above a skill have sent theirs and 
 """
 
 from collections.abc import Callable, Mapping, Sequence
-
-import numpy as np
+from itertools import pairwise
 
 from mindrun.engine.changes import Change, Changed, calm_ticks, in_tick
 from mindrun.sim.lanes.stages import after, before, run_skills
@@ -15,6 +14,7 @@ from mindrun.sim.state import Jobs, State
 from mindrun.sim.tables import Tables
 
 Advance = Callable[[Tile, Jobs, int], int]
+STAGES = before, run_skills, after  # what such ticks call, but for procedures that run in Python
 
 
 def changed(rollout: Rollout, changes: Sequence[Change]) -> Advance:
@@ -33,15 +33,6 @@ def changed(rollout: Rollout, changes: Sequence[Change]) -> Advance:
     return advance
 
 
-def compile_stages(rollout: Rollout) -> None:
-    """Compile what such ticks take, where no cache has it: up to a minute, otherwise under a second."""
-    tile = rollout.tile(1)
-    jobs = rollout.jobs(np.zeros((0, rollout.genome_length), np.float32), np.zeros(0, np.uint64))
-    before(rollout.tables, tile.state, jobs)
-    run_skills(rollout.tables, tile.state, np.int64(0), 0, 0)
-    after(rollout.tables, tile.state, jobs, rollout.interrupt)
-
-
 def _tick(rollout: Rollout, tile: Tile, jobs: Jobs, made: Changed) -> int:
     """One tick with what is changed in it; ProcedureError where a procedure fails."""
     readings = tile.state.mind.readings
@@ -55,24 +46,14 @@ def _tick(rollout: Rollout, tile: Tile, jobs: Jobs, made: Changed) -> int:
 
 
 def _sense(tables: Tables, state: State, jobs: Jobs, replaced: Mapping[int, float]) -> None:
-    """The first half of a tick, in parts of the table of sensors: each ends with one that is replaced."""
-    begin = 0
-    for end in _ends(tables, replaced):
-        before(tables._replace(sensors=tables.sensors[begin:end]), state, jobs)
-        for sensor in tables.sensors[begin:end]:
-            for row in range(int(sensor["start"]), int(sensor["start"] + sensor["width"])):
-                if row in replaced:
-                    state.mind.readings[row, 0] = replaced[row]
-        begin = end
-
-
-def _ends(tables: Tables, replaced: Mapping[int, float]) -> list[int]:
-    """Behind which sensors of the table to stop: those that are replaced, and the last."""
+    """The first half of a tick, in parts of the table of sensors: each ends with one that is replaced, or the last."""
     starts, widths = tables.sensors["start"], tables.sensors["width"]
-    found = {len(tables.sensors)}
-    for row in replaced:
-        found |= {int(i) + 1 for i in ((starts <= row) & (row < starts + widths)).nonzero()[0]}
-    return sorted(found)
+    ends = {int(i) + 1 for row in replaced for i in ((starts <= row) & (row < starts + widths)).nonzero()[0]}
+    for begin, end in pairwise([0, *sorted({*ends, len(tables.sensors)})]):
+        before(tables._replace(sensors=tables.sensors[begin:end]), state, jobs)
+        for start, width in zip(starts[end - 1 : end], widths[end - 1 : end], strict=True):
+            for row in {*range(start, start + width)} & replaced.keys():
+                state.mind.readings[row, 0] = replaced[row]
 
 
 def _think(rollout: Rollout, tile: Tile, jobs: Jobs, replaced: Mapping[int, float]) -> None:

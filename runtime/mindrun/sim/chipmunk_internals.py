@@ -8,14 +8,12 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from llvmlite import ir
 from numba import types
-from numba.extending import intrinsic
 from pymunk import _chipmunk
 
 from mindrun.errors import MindError
 from mindrun.kinds.bodies.body import FRICTION_COEFFICIENT, BodyKind
-from mindrun.sim.compiling import callback
+from mindrun.sim.compiling import call, callback
 from mindrun.sim.versions import remedy
 
 ffi, lib = _chipmunk.ffi, _chipmunk.lib
@@ -84,21 +82,6 @@ def library() -> Any:
     refuse_another()
     addresses = [int(ffi.cast("uintptr_t", ffi.addressof(lib, name))) for name in FUNCTIONS]
     return np.array([*addresses, _count.address], np.uint64)
-
-
-@intrinsic
-def call(typingctx, address, *arguments):
-    """Call the C function at an address with whole numbers, pointers and doubles; its result as a uint64."""
-    given = tuple(types.float64 if isinstance(a, types.Float) else types.uint64 for a in arguments)
-    signature = types.uint64(types.uint64, types.StarArgTuple(given))
-
-    def generate(context, builder, _signature, values):
-        double, whole = ir.DoubleType(), ir.IntType(64)
-        kinds = [double if kind is types.float64 else whole for kind in given]
-        function = builder.inttoptr(values[0], ir.FunctionType(whole, kinds).as_pointer())
-        return builder.call(function, [builder.extract_value(values[1], i) for i in range(len(given))])
-
-    return signature, generate
 
 
 @callback(types.void(types.uint64, types.uint64, types.CPointer(types.int64)))

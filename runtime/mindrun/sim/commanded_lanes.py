@@ -15,13 +15,12 @@ from mindrun.graph.policy import Policy
 from mindrun.graph.recording_header import GOES_ON
 from mindrun.graph.run_scores import score_of
 from mindrun.kinds.functions.rule import Rule
-from mindrun.numbers.arithmetic import ANGLE, BOX_COLUMNS, SIZE, THING_ROWS
+from mindrun.numbers.arithmetic import ANGLE, BOX_COLUMNS
 from mindrun.sim.codes import GOING_ON, LOST
 from mindrun.sim.lanes.stages import after, before, begin_again, send, wake
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.state import Jobs, State
-from mindrun.sim.tables import Tables
-from mindrun.sim.ticks import turned
+from mindrun.sim.trace import things_in, turned_in
 
 BY_LANE_FIRST = {"boxes"}  # [lane, column], where all others that are sensed are [row, lane] or [lane]
 ENDLESS_TICKS = 1 << 62
@@ -36,9 +35,11 @@ class CommandedLanes:
         self.state: State = self.tile.state
         genome = np.zeros((1, rollout.genome_length), np.float32)
         self.jobs: Jobs = rollout.jobs(genome, np.zeros(lanes, np.uint64))
-        self._endless = _endless(rollout.tables)
+        world = rollout.tables.world.copy()
+        world["ticks"] = ENDLESS_TICKS  # a run that has lasted its time stays, and what it reads then can be asked
+        self._endless = rollout.tables._replace(world=world)
         self._aside: State | None = None
-        self._compile()
+        rollout.compile(before, after, begin_again, wake, send)  # now, not in the first ticks
         rollout.fill(self.tile, self.jobs)
         self._lost = np.zeros(lanes, np.bool_)
 
@@ -92,20 +93,17 @@ class CommandedLanes:
     @property
     def terminated(self) -> NDArray[np.bool_]:
         """In which lanes an end was met, or the robot is beyond all places."""
-        met: NDArray[np.bool_] = (self.state.run.met != GOING_ON) | self._lost
-        return met
+        return np.asarray((self.state.run.met != GOING_ON) | self._lost)
 
     @property
     def timed_out(self) -> NDArray[np.bool_]:
         """In which lanes the run has lasted its time."""
-        late: NDArray[np.bool_] = self.state.world.tick >= self.rollout.task.ticks
-        return late
+        return np.asarray(self.state.world.tick >= self.rollout.task.ticks)
 
     @property
     def ended_by(self) -> NDArray[np.int64]:
         """The end that each run has met, as `Scores.ended_by`: GOING_ON where none, also when time is up."""
-        found: NDArray[np.int64] = np.where(self._lost, LOST, self.state.run.met)
-        return found
+        return np.asarray(np.where(self._lost, LOST, self.state.run.met))
 
     @property
     def lines(self) -> NDArray[np.float64]:
@@ -118,8 +116,7 @@ class CommandedLanes:
     @property
     def scores(self) -> NDArray[np.float64]:
         """What all reward lines have paid in each run [lanes]."""
-        paid: NDArray[np.float64] = score_of(self.lines)
-        return paid
+        return np.asarray(score_of(self.lines))
 
     @property
     def counts(self) -> NDArray[np.int64]:
@@ -131,13 +128,12 @@ class CommandedLanes:
 
     def world_columns(self, lane: int) -> dict[str, Any]:
         """The world of a lane after its last tick, by the columns that a recording has of it."""
-        world, here = self.state.world, slice(lane, lane + 1)
-        things = world.things[: THING_ROWS * len(self.rollout.tables.things), lane].reshape(-1, THING_ROWS)
-        angles = turned(self.rollout, world.loose[:, here].T, world.direction[:, here].T)[0]
+        world = self.state.world
+        things, angles = (columns(self.rollout, self.state, lane) for columns in (things_in, turned_in))
         is_over = self.terminated[lane] or self.timed_out[lane]
         return {
             "pose": world.body[: ANGLE + 1, lane],
-            "things": np.column_stack([things[:, : SIZE + 1], angles]),
+            "things": np.column_stack([things, angles]),
             "battery": world.battery[lane],
             "rewards": self.lines[lane, : len(self.rollout.task.rewards)],
             "events": self.counts[lane],
@@ -148,18 +144,7 @@ class CommandedLanes:
 
     def boxes(self, lane: int) -> NDArray[np.float64]:
         """The obstacles of a lane [boxes, 4] as x, y and half of both sides."""
-        standing: NDArray[np.float64] = self.state.world.boxes[lane].reshape(-1, BOX_COLUMNS)
-        return standing.copy()
-
-    def _compile(self) -> None:
-        """Compile the stages now, not in the first ticks: no lane is at work yet."""
-        tables, state, jobs = self.rollout.tables, self.state, self.jobs
-        before(tables, state, jobs)
-        after(tables, state, jobs, False)
-        begin_again(tables, state, jobs, np.zeros(self.count, np.bool_))
-        if len(tables.skills):
-            wake(tables, state, 0, 0)
-            send(tables, state, 0, 0, 0, 0)
+        return np.array(self.state.world.boxes[lane].reshape(-1, BOX_COLUMNS))
 
 
 def commanded_lanes(graph: Graph, task: str, master: str, lanes: int = 1) -> CommandedLanes:
@@ -170,13 +155,6 @@ def commanded_lanes(graph: Graph, task: str, master: str, lanes: int = 1) -> Com
     """
     silent = replace(graph, skills=tuple(replace(skill, function=Rule()) for skill in graph.skills))
     return CommandedLanes(Rollout(Policy(silent, {}), task, master), lanes)
-
-
-def _endless(tables: Tables) -> Tables:
-    """The same with no last tick: a run that has lasted its time stays, and what it reads then can be asked."""
-    world = tables.world.copy()
-    world["ticks"] = ENDLESS_TICKS
-    return tables._replace(world=world)
 
 
 def _copy(source: Any, lanes: NDArray[np.int64], target: Any, count: int) -> None:

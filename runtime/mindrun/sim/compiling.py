@@ -8,6 +8,9 @@ from collections.abc import Callable
 from typing import Any
 
 import numba
+from llvmlite import ir
+from numba import types
+from numba.extending import intrinsic
 
 from mindrun.sim.cache import MachineCode
 from mindrun.sim.numba_internals import Inner, Outer, callback_of, keep_code
@@ -25,7 +28,8 @@ part_of_tick: Decorator = numba.njit(
 
 
 def entry(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Compiled too, and alone can be called from Python; its machine code is kept."""
+    """Compiled too, even what is a part of others, and alone can be called from Python; its machine code is kept."""
+    function = getattr(function, "py_func", function)
     dispatcher: Any = numba.njit(pipeline_class=Outer, **OPTIONS)(function)
     keep_code(dispatcher, _code_of(function))
     return dispatcher  # type: ignore[no-any-return]
@@ -34,6 +38,21 @@ def entry(function: Callable[..., Any]) -> Callable[..., Any]:
 def callback(signature: Any) -> Callable[[Callable[..., Any]], Any]:
     """A function for C, which calls its `address`; its machine code is kept."""
     return lambda function: callback_of(function, signature, _code_of(function))
+
+
+@intrinsic  # type: ignore[untyped-decorator]
+def call(typingctx: Any, address: Any, *arguments: Any) -> Any:
+    """Call the C function at an address with whole numbers, pointers and doubles; its result as a uint64."""
+    given = tuple(types.float64 if isinstance(a, types.Float) else types.uint64 for a in arguments)
+    signature = types.uint64(types.uint64, types.StarArgTuple(given))
+
+    def generate(context: Any, builder: Any, _signature: Any, values: Any) -> Any:
+        double, whole = ir.DoubleType(), ir.IntType(64)
+        kinds = [double if kind is types.float64 else whole for kind in given]
+        function = builder.inttoptr(values[0], ir.FunctionType(whole, kinds).as_pointer())
+        return builder.call(function, [builder.extract_value(values[1], i) for i in range(len(given))])
+
+    return signature, generate
 
 
 def _code_of(function: Callable[..., Any]) -> MachineCode:

@@ -1,35 +1,134 @@
 """Procedures that are formulas: arithmetic with floats, which compiled code can do as Python does, to the last bit.
 
 A formula is written anew for numba from its text; only the sign of a zero may differ, which nothing in it can tell.
-Nothing in it can raise or reach beyond its numbers: where Python
-would raise, the new one sets `wrong[0]` and goes on, and whoever sees that asks Python for the reason. Whatever is more
-than a formula is no formula here, and runs in Python.
+Nothing in it can raise or reach beyond its numbers: where Python would raise, the new one sets `wrong[0]` and goes on,
+and whoever sees that asks Python for the reason. What is more than a formula is none here, and runs in Python.
 """
 
 import ast
 import builtins
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from enum import Enum
 from types import BuiltinFunctionType, FunctionType
-from typing import Any
+from typing import Any, NoReturn
 
 from mindrun.sim import exact
-from mindrun.sim.formula_terms import (
-    COMPARISONS,
-    Kind,
-    NoFormulaError,
-    Term,
-    are_truths,
-    binary,
-    constant,
-    either,
-    has_truth,
-    named,
-    number_of,
-    refuse,
-    unary,
-)
+
+EXACT_INTEGERS = 2**53  # whole numbers up to here are floats
+MAX_POWER = 64
+OPERATORS: Mapping[type[ast.operator], str] = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*"}
+COMPARISONS: Mapping[type[ast.cmpop], str] = {
+    ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "==", ast.NotEq: "!=",
+}  # fmt: skip
+
+
+class NoFormulaError(Exception):
+    """A procedure is more than arithmetic with floats; the text says where."""
+
+
+class Kind(Enum):
+    """What Python makes of a term: a float, a whole number or a float, a truth."""
+
+    FLOAT, NUMBER, TRUTH = range(3)
+
+
+@dataclass(frozen=True, slots=True)
+class Term:
+    """A term of the new text. Where it is a whole number, it is at most `size` from 0; `whole` is which, if known."""
+
+    text: str
+    kind: Kind
+    size: int = 1
+    whole: int | None = None
+
+    @property
+    def number(self) -> str:
+        """The term as a float."""
+        return f"(1.0 if {self.text} else 0.0)" if self.kind is Kind.TRUTH else self.text
+
+    @property
+    def truth(self) -> str:
+        """The term as a truth."""
+        return self.text if self.kind is Kind.TRUTH else f"({self.text} != 0.0)"
+
+
+def named(name: str) -> str:
+    """The name of a variable in the new text."""
+    return f"v_{name}"
+
+
+def refuse(node: ast.AST) -> NoReturn:
+    """NoFormulaError, which says what is more than arithmetic."""
+    text = ast.unparse(node).split("\n")[0]
+    said = text if len(text) <= 40 else f"{text[:39]}…"
+    raise NoFormulaError(f"`{said}` in line {getattr(node, 'lineno', '?')} is more than arithmetic with floats")
+
+
+def constant(value: Any, node: ast.expr) -> Term:
+    """A number or a truth that is known."""
+    match value:
+        case bool():
+            return Term(str(value), Kind.TRUTH)
+        case int() if abs(value) <= EXACT_INTEGERS:
+            return Term(f"({float(value)!r})", Kind.NUMBER, abs(value), value)
+        case float():
+            return Term({"inf": "INF", "-inf": "(-INF)", "nan": "NAN"}.get(repr(value), f"({value!r})"), Kind.FLOAT)
+    return refuse(node)
+
+
+def number_of(term: Term) -> Term:
+    """A term that is calculated with: a truth is 1 or 0."""
+    return Term(term.number, Kind.NUMBER) if term.kind is Kind.TRUTH else term
+
+
+def unary(op: ast.unaryop, term: Term, node: ast.expr) -> Term:
+    """A sign, or not."""
+    match op:
+        case ast.Not():
+            return Term(f"(not {term.truth})", Kind.TRUTH)
+        case ast.USub() | ast.UAdd():
+            sign, number = "-" if isinstance(op, ast.USub) else "+", number_of(term)
+            whole = None if term.whole is None else -term.whole if sign == "-" else term.whole
+            return replace(number, text=f"({sign}{number.text})", whole=whole)
+    return refuse(node)
+
+
+def binary(op: ast.operator, left: Term, right: Term, node: ast.expr) -> Term:
+    """An operation on two numbers; whole ones must stay exact."""
+    a, b = number_of(left), number_of(right)
+    if isinstance(op, ast.Pow):
+        if b.whole is None or abs(b.whole) > MAX_POWER:
+            refuse(node)
+        text, size = f"power(wrong, {a.text}, {b.text})", a.size ** abs(b.whole)
+        if a.kind is Kind.FLOAT or b.whole < 0:
+            return Term(text, Kind.FLOAT)
+        return Term(text, Kind.NUMBER, size) if size <= EXACT_INTEGERS else refuse(node)
+    if isinstance(op, ast.Div):
+        return Term(f"divide(wrong, {a.text}, {b.text})", Kind.FLOAT)
+    if isinstance(op, ast.Mod):
+        text, size = f"modulo(wrong, {a.text}, {b.text})", b.size
+    elif type(op) in OPERATORS:
+        text = f"({a.text} {OPERATORS[type(op)]} {b.text})"
+        size = a.size * b.size if isinstance(op, ast.Mult) else a.size + b.size
+    else:
+        refuse(node)
+    if Kind.FLOAT in (a.kind, b.kind):
+        return Term(text, Kind.FLOAT)
+    return Term(text, Kind.NUMBER, size) if size <= EXACT_INTEGERS else refuse(node)
+
+
+def alike(terms: Sequence[Term]) -> list[str]:
+    """Terms any of which may be taken: as truths where all are, else as numbers."""
+    return [term.text if all(each.kind is Kind.TRUTH for each in terms) else term.number for term in terms]
+
+
+def either(text: str, *terms: Term) -> Term:
+    """One of several terms, whichever it is."""
+    kinds = {term.kind for term in terms}
+    return Term(text, kinds.pop() if len(kinds) == 1 else Kind.NUMBER, max(term.size for term in terms))
+
 
 Known = dict[str, Term]  # the variables that surely have a value
 
@@ -121,21 +220,18 @@ class Translation:
         if then is None or otherwise is None:
             return lines, then if otherwise is None else otherwise
         both = [(name, term, otherwise[name]) for name, term in then.items() if name in otherwise]
-        return lines, {name: either(a.text, a, b) for name, a, b in both if (a.kind is b.kind) or not has_truth(a, b)}
+        return lines, {
+            name: either(a.text, a, b) for name, a, b in both if a.kind is b.kind or Kind.TRUTH not in (a.kind, b.kind)
+        }
 
     def _assigned(self, target: ast.expr, value: ast.expr, known: Known) -> str:
-        match target, value:
-            case ast.Name(id=name), _:
-                term = self._term(value, known)
-                known[name] = replace(term, text=named(name), whole=None)
-                return f"{named(name)} = {term.text}"
-            case ast.Tuple(elts=targets), ast.Tuple(elts=values) if len(targets) == len(values):
-                names = [each.id if isinstance(each, ast.Name) else refuse(target) for each in targets]
-                terms = [self._term(each, known) for each in values]
-                for name, term in zip(names, terms, strict=True):
-                    known[name] = replace(term, text=named(name), whole=None)
-                return f"{', '.join(map(named, names))}, = {', '.join(term.text for term in terms)},"
-        return refuse(target)
+        targets, values = [target], [value]
+        if isinstance(target, ast.Tuple) and isinstance(value, ast.Tuple) and len(target.elts) == len(value.elts):
+            targets, values = target.elts, value.elts
+        names = [each.id if isinstance(each, ast.Name) else refuse(target) for each in targets]
+        terms = [self._term(each, known) for each in values]
+        known |= {name: replace(term, text=named(name), whole=None) for name, term in zip(names, terms, strict=True)}
+        return f"{', '.join(map(named, names))}, = {', '.join(term.text for term in terms)},"
 
     def _returned(self, value: ast.expr, known: Known) -> str:
         parts = value.elts if isinstance(value, ast.Tuple | ast.List) else [value]
@@ -161,16 +257,14 @@ class Translation:
             case ast.BoolOp(op=op, values=values):
                 word = " and " if isinstance(op, ast.And) else " or "
                 terms = [self._term(value, known) for value in values]
-                texts = [term.text if are_truths(terms) else term.number for term in terms]
-                return either(f"({word.join(texts)})", *terms)
+                return either(f"({word.join(alike(terms))})", *terms)
             case ast.Compare(left=left, ops=ops, comparators=others) if all(type(op) in COMPARISONS for op in ops):
                 first, *rest = (self._term(each, known).number for each in (left, *others))
                 compared = (f" {COMPARISONS[type(op)]} {text}" for op, text in zip(ops, rest, strict=True))
                 return Term(f"({first}{''.join(compared)})", Kind.TRUTH)
             case ast.IfExp(test=test, body=body, orelse=orelse):
                 condition, *both = (self._term(each, known) for each in (test, body, orelse))
-                texts = [term.text if are_truths(both) else term.number for term in both]
-                return either(f"({texts[0]} if {condition.truth} else {texts[1]})", *both)
+                return either(f"({f' if {condition.truth} else '.join(alike(both))})", *both)
             case ast.Call(func=func, args=args, keywords=[]):
                 return self._call(self._object(func), [self._term(each, known) for each in args], node)
         return refuse(node)

@@ -1,43 +1,41 @@
-"""The mind's rows of the tables: skills and their edges, actuators, memories."""
+"""The mind's rows of the tables: programs, skills and their edges, actuators, memories."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.graph.graph import Edge, Graph, Skill
+from mindrun.graph.graph import Edge, Graph, Program, Skill
 from mindrun.graph.weights import NO_WEIGHTS, genes, weights_of
 from mindrun.kinds.registry import names
-from mindrun.sim.codes import ACTUATOR, ACTUATOR_CODES, EDGE, MEMORY, SKILL, function_codes
+from mindrun.numbers.stack_machine import COMMAND, NEGATE, NUMBER, OPERATIONS
+from mindrun.sim.codes import ACTUATOR, ACTUATOR_CODES, EDGE, MEMORY, SKILL, Row, function_codes, records
 from mindrun.sim.parameter_rows import SAME_IN_EVERY_RUN, Parameters
-from mindrun.sim.programs import Programs
-from mindrun.sim.records import Row, records
 
 Array = NDArray[Any]
 Floats = NDArray[np.float32]
 VARYING_COLUMNS = {"thrust": "thrust", "noise": "noise", "slip": "slip", "turn": "range"}  # arguments that may vary
 
 
-@dataclass(frozen=True, slots=True)
-class Skills:
-    """Rows of SKILL and EDGE, the inputs of all skills one after the other, the weights of those that do not learn.
+@dataclass(slots=True)
+class Programs:
+    """Collects postfix programs: `rows` of (operation, argument, number), and the `depth` of the stack they need."""
 
-    `state` is how many numbers all of them remember, `scratch` how many rows one of them computes in at most.
-    """
+    rows: list[tuple[int, int, float]] = field(default_factory=list)
+    depth: int = 1
 
-    rows: Array
-    edges: Array
-    inputs: NDArray[np.int64]
-    weights: Floats
-    state: int
-    scratch: int
-
-    @property
-    def most_inputs(self) -> int:
-        """How many numbers go into a skill at most: its inputs, and what it remembers."""
-        return max(1, int(np.max(self.rows["inputs"] + np.diff(self.rows["state"], append=self.state))))
+    def add(self, program: Program) -> tuple[int, int]:
+        """Where the program begins, and how long it is."""
+        first, depth = len(self.rows), 0
+        for name, value in program:
+            op = OPERATIONS[name]
+            depth += 1 if op <= COMMAND else 0 if op == NEGATE else -1
+            self.depth = max(self.depth, depth)
+            number = float(value) if op == NUMBER else 0.0
+            self.rows.append((op, 0 if op == NUMBER else int(value), number))
+        return first, len(self.rows) - first
 
 
 def skill_rows(
@@ -47,11 +45,11 @@ def skill_rows(
     learners: Sequence[str],
     addresses: Mapping[str, int],
     codes: Programs,
-) -> Skills:
-    """What the tables say of the skills that a master reaches.
+) -> tuple[dict[str, Array], dict[str, int]]:
+    """The tables of the skills that a master reaches, their edges, inputs and weights, and the most of what any needs.
 
     A learner's weights begin at a place in the genome, the others' at one in what is shared. Skills that are like one
-    another have one place.
+    another have one place. What a skill remembers goes in as its inputs do, and comes out as a layer.
     """
     lengths = {skill.owner: genes(skill) for skill in reached}
     starts = dict(zip(learners, np.cumsum([0, *(lengths.get(name, 0) for name in learners)]), strict=False))
@@ -60,23 +58,27 @@ def skill_rows(
     edges: list[Row] = []
     inputs: list[int] = []
     shared, places = _shared_weights([skill for skill in reached if skill.owner not in starts], weights)
+    most_inputs = scratch = 1
     state = 0
     for skill in reached:
         function, count, outputs = skill.function, len(skill.inputs), skill.outputs
-        own = skill.owner in starts
-        rows.append({
+        own, remembered = skill.owner in starts, function.state_length(count, outputs)
+        row: Row = {
             "kind": kinds[names()[type(function)]], "index": numbers[skill.name],
             "input": len(inputs), "inputs": count, "outputs": outputs,
             "weights": int(starts[skill.owner]) if own else places[skill.owner], "own": own,
             "edge": len(edges), "edges": len(skill.edges), "address": addresses.get(skill.name, 0), "state": state,
             **function.row(count, outputs),
-        })  # fmt: skip
+        }  # fmt: skip
+        rows.append(row)
         inputs.extend(skill.inputs)
         edges.extend(_edge(graph, edge, codes) for edge in skill.edges)
-        state += function.state_length(count, outputs)
+        most_inputs = max(most_inputs, count + remembered)
+        scratch = max(scratch, function.scratch(count, outputs))
+        state += remembered
     all_inputs = np.array(inputs, np.int64)
-    scratch = max(skill.function.scratch(len(skill.inputs), skill.outputs) for skill in reached)
-    return Skills(records(rows, SKILL), records(edges, EDGE), all_inputs, shared, state, max(1, scratch))
+    tables = {"skills": records(rows, SKILL), "edges": records(edges, EDGE), "inputs": all_inputs, "weights": shared}
+    return tables, {"inputs": most_inputs, "scratch": scratch, "recurrent": state}
 
 
 def _shared_weights(skills: Sequence[Skill], weights: Mapping[str, Floats]) -> tuple[Floats, dict[str, int]]:
@@ -113,7 +115,6 @@ def actuator_rows(graph: Graph, parameters: Parameters) -> tuple[Array, int]:
             "kind": ACTUATOR_CODES[names()[type(kind)]], "neutral": kind.neutral, "delay": kind.delay, "ring": ring,
             "is_noisy": is_noisy, "is_slipping": own.get("slip", 0.0) > 0.0,
             "is_rough": is_noisy or fails != SAME_IN_EVERY_RUN, "fails": fails,
-            "is_late": parameters.varies("actuator", actuator.name, "delay"),
         }  # fmt: skip
         values = {column: getattr(actuator.kind, key) for column, key in VARYING_COLUMNS.items() if column in own}
         varying = {
@@ -129,7 +130,5 @@ def actuator_rows(graph: Graph, parameters: Parameters) -> tuple[Array, int]:
 def memory_rows(graph: Graph) -> Array:
     """Rows of MEMORY."""
     rows = [(memory.start, memory.kind) for memory in graph.memories]
-    return records(
-        [{"row": row, "decay": cell.decay, "rest": 1.0 - cell.decay, "start": cell.start} for row, cell in rows],
-        MEMORY,
-    )
+    cells = [{"row": row, "decay": cell.decay, "rest": 1.0 - cell.decay, "start": cell.start} for row, cell in rows]
+    return records(cells, MEMORY)

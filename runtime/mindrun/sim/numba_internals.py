@@ -5,9 +5,8 @@ what is more is in numba's documentation, above all `numba.extending`.
 """
 
 import gc
-from abc import abstractmethod
 from collections.abc import Callable, Iterator
-from contextlib import AbstractContextManager, contextmanager
+from contextlib import contextmanager
 from typing import Any
 
 from llvmlite.binding import Linkage, ModulePassManager, create_new_module_pass_manager
@@ -130,10 +129,6 @@ class KeptCode(_Cache):  # type: ignore[misc]
     def disable(self) -> None:
         """It never is."""
 
-    @abstractmethod
-    def exclusive(self, sig: Any, target_context: Any) -> AbstractContextManager[None]:
-        """For looking and, where nothing is found, compiling: no other process compiles the same meanwhile."""
-
 
 @contextmanager
 def rare_collections() -> Iterator[None]:
@@ -146,7 +141,7 @@ def rare_collections() -> Iterator[None]:
         gc.set_threshold(*before)
 
 
-def keep_code(dispatcher: Any, code: KeptCode) -> None:
+def keep_code(dispatcher: Any, code: Any) -> None:
     """A compiled function asks `code`, and is compiled by one process at a time."""
     dispatcher._cache = code
     find_or_compile = dispatcher.compile
@@ -164,7 +159,7 @@ def code_of(dispatcher: Any) -> Any:
     return dispatcher._cache
 
 
-def callback_of(function: Callable[..., Any], signature: Any, code: KeptCode) -> Any:
+def callback_of(function: Callable[..., Any], signature: Any, code: Any) -> Any:
     """A function for C, which calls its `address`."""
     made: Any = CFunc(function, normalize_signature(signature), locals={}, options={})
     made._cache = code

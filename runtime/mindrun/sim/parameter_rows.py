@@ -3,7 +3,6 @@
 Each is a row of `world.numbers` [row, lane], the same in every lane where nothing varies.
 """
 
-from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any, TypeVar
 
@@ -12,21 +11,21 @@ from numpy.typing import NDArray
 from mindrun.graph.graph import Graph, Task
 from mindrun.graph.tasks import varied_kind
 from mindrun.kinds.variation import Variation, Varying, varied_quantity
-from mindrun.sim.codes import CONSTANT, DAMPING, DRAWN, DRAWN_WHOLE, FAILING, INVERSE, OVER, PARAMETER, TIMES
-from mindrun.sim.records import Row, records
+from mindrun.sim.codes import CONSTANT, DAMPING, DRAWN, DRAWN_WHOLE, FAILING, INVERSE, OVER, PARAMETER, Row, records
 
 K = TypeVar("K")
 
 SAME_IN_EVERY_RUN = -1  # in place of a row
-Step = tuple[int, float]  # one of STEPS, and the number that it takes beside the one before
+Step = tuple[int, float]  # TIMES, OVER, INVERSE or DAMPING, and the number that it takes beside the one before
 
-# As `lanes/parameters.py` computes them.
-STEPS: Mapping[int, Callable[[float, float], float]] = {
-    TIMES: lambda x, by: x * by,
-    OVER: lambda x, by: x / by,
-    INVERSE: lambda x, by: by / x,
-    DAMPING: lambda x, by: 1.0 / (1.0 + by * x),
-}
+
+def computed(form: int, x: float, by: float) -> float:
+    """What a step makes of a number; compiled, too."""
+    if form == DAMPING:
+        return 1.0 / (1.0 + by * x)
+    if form == INVERSE:
+        return by / x
+    return x / by if form == OVER else x * by
 
 
 class Parameters:
@@ -36,27 +35,22 @@ class Parameters:
         self._rows: list[Row] = []
         self._drawn: dict[tuple[str, str, str], tuple[int, Variation]] = {}
         for each in task.varies:
-            kind = varied_kind(graph, task, each)
-            quantity = varied_quantity(kind, each.argument)
+            quantity = varied_quantity(varied_kind(graph, task, each), each.argument)
             form = DRAWN_WHOLE if quantity and quantity.whole else DRAWN
-            row = self._add({"form": form, "low": each.low, "high": each.high})
+            row = self._add(form, low=each.low, high=each.high)
             self._drawn[each.noun, each.of, each.argument] = row, each
-        self._failing = {each.actuator: self._add({"form": FAILING, "low": 1.0 - each.rate}) for each in task.fails}
+        self._failing = {each.actuator: self._add(FAILING, low=1.0 - each.rate) for each in task.fails}
 
     def row(self, noun: Varying, of: str, argument: str, value: float, *steps: Step) -> int:
         """The row of an argument that is `value` where it does not vary, or of what steps make of it."""
-        if not self.varies(noun, of, argument):
+        if (noun, of, argument) not in self._drawn:
             for form, by in steps:
-                value = STEPS[form](value, by)
-            return self._add({"form": CONSTANT, "low": value})
+                value = computed(form, value, by)
+            return self._add(CONSTANT, low=value)
         row, _ = self._drawn[noun, of, argument]
         for form, by in steps:
-            row = self._add({"form": form, "of": row, "low": by})
+            row = self._add(form, of=row, low=by)
         return row
-
-    def varies(self, noun: Varying, of: str, argument: str) -> bool:
-        """Whether an argument does."""
-        return (noun, of, argument) in self._drawn
 
     def failing(self, actuator: str) -> int:
         """The row of the tick from which an actuator is stuck; SAME_IN_EVERY_RUN where it never is."""
@@ -72,6 +66,6 @@ class Parameters:
         """Rows of PARAMETER."""
         return records(self._rows, PARAMETER)
 
-    def _add(self, row: Row) -> int:
-        self._rows.append(row)
+    def _add(self, form: int, **numbers: float) -> int:
+        self._rows.append({"form": form, **numbers})
         return len(self._rows) - 1

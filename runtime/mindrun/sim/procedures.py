@@ -5,15 +5,13 @@ lane, the run stops, and Python is asked for the reason: the same call fails on 
 """
 
 from collections.abc import Callable
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import numba
 import numpy as np
-from llvmlite import ir
 from numba import types
-from numba.core import cgutils
-from numba.extending import intrinsic
 from numba.np.unsafe.ndarray import to_fixed_tuple
 from numpy.typing import NDArray
 
@@ -21,43 +19,25 @@ from mindrun.engine.engine import procedure_sources
 from mindrun.errors import ProcedureError
 from mindrun.graph.graph import Graph, Skill
 from mindrun.graph.weights import reachable
-from mindrun.kinds.procedure_call import call as ask
+from mindrun.kinds import procedure_call
 from mindrun.kinds.procedure_call import load
 from mindrun.kinds.procedure_text import module_of
 from mindrun.sim.arithmetic import F
-from mindrun.sim.compiling import compiled
+from mindrun.sim.compiling import call, compiled
 from mindrun.sim.exact import exactly
-from mindrun.sim.formula_terms import NoFormulaError
-from mindrun.sim.formulas import formula
+from mindrun.sim.formulas import NoFormulaError, formula
 
 # the lane in which it fails or −1; inputs, outputs, lanes, the distance between rows in floats
 SIGNATURE = types.intp(types.CPointer(types.float32), types.CPointer(types.float32), types.intp, types.intp)
 
 
-@intrinsic
-def call_address(typingctx, address, inputs, outputs, lanes, stride):
-    """Call a C function with the type of SIGNATURE that stands at an address."""
-    signature = types.intp(types.uint64, types.uintp, types.uintp, types.intp, types.intp)
-
-    def generate(context, builder, _signature, arguments):
-        address, inputs, outputs, lanes, stride = arguments
-        pointer = cgutils.voidptr_t
-        whole = context.get_value_type(types.intp)
-        function_type = ir.FunctionType(whole, [pointer, pointer, whole, whole])
-        function = builder.inttoptr(address, function_type.as_pointer())
-        given = [builder.inttoptr(inputs, pointer), builder.inttoptr(outputs, pointer), lanes, stride]
-        return builder.call(function, given)
-
-    return signature, generate
-
-
 @compiled
-def call(address, gathered, hidden, n):
+def call_procedure(address, gathered, hidden, n):
     """Run a compiled procedure over the gathered inputs; its outputs are the first rows of `hidden`.
 
     The first lane in which it fails, or −1.
     """
-    return call_address(address, gathered.ctypes.data, hidden.ctypes.data, n, gathered.shape[1])
+    return np.int64(call(address, gathered.ctypes.data, hidden.ctypes.data, n, gathered.shape[1]))
 
 
 def compile_formula(function: Callable[..., Any], inputs: int, outputs: int) -> Any:
@@ -116,7 +96,7 @@ class Procedures:
         """Why a compiled procedure failed: what Python says of the same inputs."""
         calls = self.calls[skill]
         try:
-            ask(calls, self.function(skill), self._outputs[skill], inputs)
+            procedure_call.call(calls, self.function(skill), self._outputs[skill], inputs)
         except ProcedureError as error:
             return error
         said = f"procedure {calls} fails for {inputs.tolist()} where it is compiled, and not in Python"
@@ -135,3 +115,33 @@ class Procedures:
         else:
             self._kept.append(found)
             self.addresses[skill.name] = found.address
+
+
+@dataclass(frozen=True, slots=True)
+class Memories:
+    """The procedures of every run that goes on: each has modules of its own, as on a robot that has just started.
+
+    What a procedure remembers is of its run alone, whatever runs beside it, before it or after it.
+    """
+
+    procedures: Procedures
+    functions: dict[tuple[str, int], Callable[..., Any]] = field(default_factory=dict)
+
+    def run(self, skill: str, row: Any, state: Any, count: int) -> None:
+        """Call a skill's function for what `count` lanes have gathered; its outputs are the first rows of `hidden`."""
+        mind, outputs = state.mind, int(row["outputs"])
+        for k in range(count):
+            inputs = mind.gathered[: row["inputs"], k]
+            if np.isfinite(inputs).all():
+                function = self._of(skill, int(state.run.job[mind.active[k]]))
+                mind.hidden[:outputs, k] = procedure_call.call(self.procedures.calls[skill], function, outputs, inputs)
+
+    def forget(self, but: set[int]) -> None:
+        """Forget the runs that are over."""
+        for key in [key for key in self.functions if key[1] not in but]:
+            del self.functions[key]
+
+    def _of(self, skill: str, job: int) -> Callable[..., Any]:
+        if (skill, job) not in self.functions:
+            self.functions[skill, job] = self.procedures.function(skill)
+        return self.functions[skill, job]

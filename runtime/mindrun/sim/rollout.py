@@ -1,11 +1,12 @@
 """Rollouts: genomes on layouts, scored in lanes on every core. A result depends on its genome and its seed alone."""
 
 from collections.abc import Callable, Sequence
+from concurrent.futures import FIRST_EXCEPTION, Future, wait
 from copy import copy
 from dataclasses import dataclass
 from pathlib import Path
-from threading import Event
-from typing import Any, Self
+from threading import Event, Thread
+from typing import Any, Self, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,18 +17,17 @@ from mindrun.graph.policy import Policy
 from mindrun.graph.run_scores import Scores, score_of
 from mindrun.graph.tasks import is_one_world
 from mindrun.sim import chipmunk_internals as chipmunk
-from mindrun.sim.allocation import empty_state
 from mindrun.sim.codes import ITEM
 from mindrun.sim.lanes.advance import advance
 from mindrun.sim.lanes.runs import fill
-from mindrun.sim.lanes.stages import after
-from mindrun.sim.procedures import Procedures
-from mindrun.sim.python_procedures import Memories, advance_slowly, think_slowly
-from mindrun.sim.state import FAILED_COLUMN, FAILED_SKILL, Jobs, State, unbegun
-from mindrun.sim.tables import Sizes, Tables, build, genome_length
-from mindrun.sim.threads import in_threads
+from mindrun.sim.lanes.stages import act, after, before, begin_again, conclude, run_skills, send, wake
+from mindrun.sim.procedures import Memories, Procedures
+from mindrun.sim.state import FAILED_COLUMN, FAILED_SKILL, Jobs, State, empty_state, unbegun, whole_vectors
+from mindrun.sim.tables import build, genome_length
 
 Array = NDArray[Any]
+T = TypeVar("T")
+R = TypeVar("R")
 DEFAULT_LANES = 256
 SLICE_TICKS, SLOW_SLICE_TICKS = 1000, 20  # ticks between two looks at whether to stop; where procedures run in Python
 
@@ -72,8 +72,6 @@ class Rollout:
         named, learners = {skill.name: skill for skill in graph.skills}, [*dict.fromkeys(learners)]
         self.learners = tuple(named[name] for name in learners)
         self.genome_length = genome_length(graph, learners)
-        self.tables: Tables
-        self.sizes: Sizes
         self.slice_ticks = SLOW_SLICE_TICKS if self.procedures.slow else SLICE_TICKS
         addresses = self.procedures.addresses
         library = chipmunk.library()
@@ -96,7 +94,7 @@ class Rollout:
         workers = max(1, min(self.workers, len(jobs.genome)))
         shares = [np.arange(worker, len(jobs.genome), workers) for worker in range(workers)]
         stop = Event()
-        parts = in_threads(lambda share: self._run(jobs, share, stop, ran), shares, stop)
+        parts = _in_threads(lambda share: self._run(jobs, share, stop, ran), shares, stop)
         return _scores(parts, shares, (len(genomes), len(seeds)), self.task.counts)
 
     def on(self, workers: int) -> Self:
@@ -121,12 +119,21 @@ class Rollout:
         """The compiled functions that its runs call."""
         return (advance,)
 
-    def compile(self) -> None:
-        """Compile the lanes where no cache has them: up to a minute, otherwise under a second."""
+    def compile(self, *entries: Any) -> None:
+        """Compile these functions, or what its runs call, where no cache has them: up to a minute, else under a second.
+
+        What runs around procedures in Python is compiled in the first tick.
+        """
         jobs = self.jobs(np.zeros((0, self.genome_length), np.float32), np.zeros(0, np.uint64))
-        tile = self.tile(1)
-        self.fill(tile, jobs)
-        self.advance(tile, jobs, 0)
+        state, none = self.tile(1).state, np.int64(0)
+        arguments: dict[Any, tuple[Any, ...]] = {
+            advance: (jobs, 0, self.interrupt), fill: (jobs, 1), before: (jobs,), run_skills: (none, 0, 0),
+            after: (jobs, self.interrupt), act: (none,), conclude: (jobs, self.interrupt), wake: (0, 0),
+            send: (0, 0, 0, 0), begin_again: (jobs, np.zeros(0, np.bool_)),
+        }  # fmt: skip
+        own = () if self.simulates and self.procedures.slow else self.entries
+        for entry in entries or (fill, *own):
+            entry(self.tables, state, *arguments[entry])
 
     def tile(self, lanes: int) -> Tile:
         """Room for so many lanes."""
@@ -155,11 +162,18 @@ class Rollout:
 
     def advance(self, tile: Tile, jobs: Jobs, ticks: int) -> int:
         """Run so many ticks; how many lanes are still at work. ProcedureError where a procedure fails."""
-        if self.procedures.slow:
-            advance_slowly(self.graph, tile.memories, self.tables, tile.state, jobs, ticks, self.interrupt)
-        else:
+        if self.simulates and not self.procedures.slow:
             advance(self.tables, tile.state, jobs, ticks, self.interrupt)
-        self._explain(tile)
+            self._explain(tile)
+            return int(jobs.lanes[0])
+        for _ in range(ticks):
+            if jobs.lanes[0] == 0:
+                break
+            self.observe(tile, jobs)
+            before(self.tables, tile.state, jobs)
+            self.think(tile, jobs, 0, len(self.tables.skills))
+            self.conclude(tile, jobs)
+        self.forget(tile, {*tile.state.run.job[: jobs.lanes[0]].tolist()})
         return int(jobs.lanes[0])
 
     @property
@@ -177,18 +191,35 @@ class Rollout:
         """The second half of a tick, after `think`."""
         after(self.tables, tile.state, jobs, self.interrupt)
 
+    def forget(self, tile: Tile, working: set[int]) -> None:
+        """Forget all jobs but those."""
+        tile.memories.forget(working)
+
     def think(self, tile: Tile, jobs: Jobs, first: int, last: int) -> None:
         """Run the skills first..last of the table, between both halves of a tick; ProcedureError where one fails."""
-        think_slowly(self.graph, tile.memories, self.tables, tile.state, int(jobs.lanes[0]), first, last)
-        self._explain(tile)
+        tables, state, lanes = self.tables, tile.state, np.int64(jobs.lanes[0])
+        if not self.procedures.slow:
+            run_skills(tables, state, lanes, first, last)
+            self._explain(tile)
+            return
+        for row in range(first, last):
+            if (name := self._skill(row)) not in self.procedures.slow:
+                run_skills(tables, state, lanes, row, row + 1)
+                self._explain(tile)
+            elif count := wake(tables, state, lanes, row):
+                tile.memories.run(name, tables.skills[row], state, count)
+                send(tables, state, row, 0, count, lanes)
 
     def _explain(self, tile: Tile) -> None:
         """ProcedureError where a procedure has failed."""
         failed = tile.state.run.failed
-        if failed[FAILED_SKILL] >= 0:
-            skill = self.tables.skills[failed[FAILED_SKILL]]
-            inputs = tile.state.mind.gathered[: int(skill["inputs"]), failed[FAILED_COLUMN]]
-            raise self.procedures.explain(self.graph.skills[int(skill["index"])].name, inputs)
+        if (row := failed[FAILED_SKILL]) >= 0:
+            inputs = tile.state.mind.gathered[: int(self.tables.skills[row]["inputs"]), failed[FAILED_COLUMN]]
+            raise self.procedures.explain(self._skill(row), inputs)
+
+    def _skill(self, row: int) -> str:
+        """The name of a skill in the tables."""
+        return self.graph.skills[int(self.tables.skills[row]["index"])].name
 
 
 def scores_of(jobs: Jobs, task: Task) -> Scores:
@@ -198,9 +229,8 @@ def scores_of(jobs: Jobs, task: Task) -> Scores:
 
 def lanes_for(jobs: int, most: int) -> int:
     """Lanes for so many jobs: no more than `most`, few rounds, whole vectors of 16."""
-    rounds = -(-jobs // most)
-    lanes = -(-jobs // max(1, rounds))
-    return max(1, min(most, -(-lanes // 16) * 16 if lanes > 1 else 1))
+    lanes = -(-jobs // max(1, -(-jobs // most)))
+    return max(1, min(most, whole_vectors(lanes) if lanes > 1 else 1))
 
 
 def _scores(parts: Sequence[Jobs], shares: Sequence[Array], shape: tuple[int, int], counted: Sequence[int]) -> Scores:
@@ -223,3 +253,27 @@ def _scores(parts: Sequence[Jobs], shares: Sequence[Array], shape: tuple[int, in
         met=joined("met"),
         faults=joined("faults") + broken,
     )
+
+
+def _in_threads(work: Callable[[T], R], items: Sequence[T], stop: Event) -> list[R]:
+    """What `work` makes of each item, each in a thread of its own, for which the caller's thread only waits.
+
+    So Ctrl-C reaches it whatever compiled code does, and a program that ends waits for none. `stop` is set where
+    anything fails; of several errors the one of the first item is raised.
+    """
+    results: list[Future[R]] = [Future() for _ in items]
+
+    def run(result: Future[R], item: T) -> None:
+        try:
+            result.set_result(work(item))
+        except BaseException as error:
+            result.set_exception(error)
+
+    try:
+        for result, item in zip(results, items, strict=True):
+            Thread(target=run, args=(result, item), daemon=True).start()
+        wait(results, return_when=FIRST_EXCEPTION)
+    finally:
+        stop.set()
+    wait(results)
+    return [result.result() for result in results]

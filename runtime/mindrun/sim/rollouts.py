@@ -1,11 +1,10 @@
 """Which rollout a task takes: the one place that knows."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 
 from mindrun.graph.policy import Policy
+from mindrun.sim.outside.rollout import EnvironmentRollout
 from mindrun.sim.rollout import Rollout
 
 
@@ -25,6 +24,4 @@ def rollout_for(
     """
     if not next(each for each in policy.graph.tasks if each.name == task).scene.environment:
         return Rollout(policy, task, master, learners, procedures=procedures, interrupt=interrupt, workers=workers)
-    from mindrun.sim.outside.rollout import EnvironmentRollout
-
     return EnvironmentRollout(policy, task, master, learners, procedures=procedures, interrupt=interrupt)

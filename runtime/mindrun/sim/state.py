@@ -1,137 +1,181 @@
 """What the lanes change: the state of every world in parts, the jobs to run and their results.
 
-Arrays are [row, lane] where nothing else is said, and [lane] where they have one row. What stands under "for this tick"
-is computed anew in each.
+Every array is declared with its room: `rows` [row, lane], `columns` [lane, column], `each` [lane]; what no lane has for
+itself says its `shape`. What stands under "for this tick" is computed anew in each.
 """
 
-from typing import Any, NamedTuple
+from collections.abc import Callable, Mapping
+from dataclasses import asdict
+from typing import Annotated, Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mindrun.kinds.sensors.inertial import TRAIL_TICKS
+from mindrun.numbers.arithmetic import BOX_COLUMNS, LOOSE_ROWS, THING_ROWS, X, Y
+from mindrun.sim import chipmunk_internals as chipmunk
+from mindrun.sim.codes import AWAY, PUSH_ROWS
+from mindrun.sim.tables import Sizes, Tables
+from mindrun.sim.vector import VECTOR_LANES
+
 Array = NDArray[Any]
+Count = int | str  # of rows: a number, or what they are of, by the length of its table, among the Sizes or in `_counts`
+Room = Callable[[Mapping[str, int], int], Array]  # zeros for so many lanes
+Part = TypeVar("Part")
 PLACE_ROWS = 2  # x and y
 SIGHT_COSINE, SIGHT_SINE, SIGHT_X, SIGHT_Y, FIRST_RAY = range(5)  # rows of `sight`
 LEFT, RIGHT, LOW, HIGH, SIDES = range(5)  # rows of a box in `sides`, and how many
 LOOSE_COSINE, LOOSE_SINE, LOOSE_X, LOOSE_Y, LOOSE_HALF, FRAME_ROWS = range(6)  # of the frame of a loose thing
 FAILED_SKILL, FAILED_COLUMN = range(2)  # of `failed`
 BEGIN_X, BEGIN_Y, FROM_X, FROM_Y, FROM_ANGLE, TO_X, TO_Y, HALF, WAY = range(9)  # columns of each way in `ways`
+F4, F8, I8, U1, U8 = np.float32, np.float64, np.int64, np.uint8, np.uint64
+
+
+def rows(count: Count, times: int = 1, kind: Any = F8) -> Room:
+    """[row, lane], and at least one row: whole vectors of lanes, as the perceptrons take sixteen at a time."""
+    return lambda n, lanes: np.zeros((max(1, times * _number(count, n)), whole_vectors(lanes)), kind)
+
+
+def columns(count: Count, times: int = 1, kind: Any = F8) -> Room:
+    """[lane, column]."""
+    return lambda n, lanes: np.zeros((lanes, times * _number(count, n)), kind)
+
+
+def each(kind: Any = I8) -> Room:
+    """[lane]."""
+    return lambda n, lanes: np.zeros(lanes, kind)
+
+
+def shape(*counts: Count, kind: Any = I8) -> Room:
+    """An array that no lane has for itself."""
+    return lambda n, lanes: np.zeros([_number(count, n) for count in counts], kind)
+
+
+def whole_vectors(lanes: int) -> int:
+    """So many lanes, rounded up to whole vectors."""
+    return -(-lanes // VECTOR_LANES) * VECTOR_LANES
+
+
+def _number(count: Count, n: Mapping[str, int]) -> int:
+    return n[count] if isinstance(count, str) else count
 
 
 class World(NamedTuple):
     """Where everything is, and how it moves."""
 
-    body: Array  # [6] float64: x, y, angle, their velocities
-    heading: Array  # [2] float64: cosine and sine of the angle
-    boxes: Array  # [lane, BOX_COLUMNS·boxes] float64: x, y, half of both sides of each
-    things: Array  # [THING_ROWS·things] float64: x, y, size, distance to the robot when the tick began
-    loose: Array  # [LOOSE_ROWS·loose] float64: how far each loose thing has turned, its velocity and spin
-    still: Array  # [loose] int64: for how many ticks each has not moved, up to SETTLED_TICKS
-    restless: Array  # int64: how many have not settled
-    direction: Array  # [walkers] float64: in which each wanders
-    goal: Array  # [walkers] int64: the place of its way that each goes to
-    held: Array  # int64: the thing that the claw holds, or −1
-    reached: Array  # [things] uint8: bit 0 while it is in reach, bit 1 if it was in the tick before
-    delivered: Array  # [things] uint8: the same of items that were carried into a zone and have not left
-    battery: Array  # float64
-    random: Array  # uint64: the generator
-    random_aside: Array  # uint64: the generator of what no skill reads
-    tick: Array  # int64: how many the run has lasted
-    numbers: Array  # [parameters] float64: what may differ from run to run
-    trail: Array  # [PLACE_ROWS·TRAIL_TICKS] float64: where the robot was in the last ticks
+    body: Annotated[Array, rows(6)]  # x, y, angle, their velocities
+    heading: Annotated[Array, rows(2)]  # cosine and sine of the angle
+    boxes: Annotated[Array, columns("boxes", BOX_COLUMNS)]  # x, y, half of both sides of each
+    things: Annotated[Array, rows("things", THING_ROWS)]  # x, y, size, distance to the robot when the tick began
+    loose: Annotated[Array, rows("loose", LOOSE_ROWS)]  # how far each loose thing has turned, its velocity and spin
+    still: Annotated[Array, rows("loose", kind=I8)]  # for how many ticks each has not moved, up to SETTLED_TICKS
+    restless: Annotated[Array, each()]  # how many have not settled
+    direction: Annotated[Array, rows("walkers")]  # in which each wanders
+    goal: Annotated[Array, rows("walkers", kind=I8)]  # the place of its way that each goes to
+    held: Annotated[Array, each()]  # the thing that the claw holds, or −1
+    reached: Annotated[Array, rows("things", kind=U1)]  # bit 0 while it is in reach, bit 1 if it was in the tick before
+    delivered: Annotated[Array, rows("things", kind=U1)]  # the same of items that lie in a zone
+    battery: Annotated[Array, each(F8)]
+    random: Annotated[Array, each(U8)]  # the generator
+    random_aside: Annotated[Array, each(U8)]  # the generator of what no skill reads
+    tick: Annotated[Array, each()]  # how many the run has lasted
+    numbers: Annotated[Array, rows("parameters")]  # what may differ from run to run
+    trail: Annotated[Array, rows(TRAIL_TICKS, PLACE_ROWS)]  # where the robot was in the last ticks
     # for this tick
-    push: Array  # [PUSH_ROWS] float64: force along the heading, torque, the force's x and y, force to the left
-    acting: Array  # [actuators] float32: the commands of what is rough, with its noise
-    grip: Array  # [actuators] float64: the share of its force that each keeps that slips
-    begun_at: Array  # [PLACE_ROWS] float64: where the robot was when the tick began
+    push: Annotated[Array, rows(PUSH_ROWS)]  # force along the heading, torque, the force's x and y, force to the left
+    acting: Annotated[Array, rows("actuators", kind=F4)]  # the commands of what is rough, with its noise
+    grip: Annotated[Array, rows("actuators")]  # the share of its force that each keeps
+    begun_at: Annotated[Array, rows(PLACE_ROWS)]  # where the robot was when the tick began
 
 
 class Sight(NamedTuple):
     """What each robot can see or touch, and how far its rays go."""
 
-    nearby: Array  # [BOX_COLUMNS·boxes] float64: the boxes that a lane's rays or robot can meet, the others AWAY
-    nearby_count: Array  # int64
-    nearby_most: Array  # [1] int64: of any lane
-    anchor: Array  # [PLACE_ROWS] float64: where they were chosen
+    nearby: Annotated[Array, rows("boxes", BOX_COLUMNS)]  # what its rays or robot can meet; others are AWAY
+    nearby_count: Annotated[Array, each()]
+    nearby_most: Annotated[Array, shape(1)]  # of any lane
+    anchor: Annotated[Array, rows(PLACE_ROWS)]  # where they were chosen
     # for this tick
-    sides: Array  # [SIDES·boxes] float32: those of the boxes nearby, relative to the robot
-    nearest: Array  # [THING_ROWS] float64: of several things of one name
-    nearest_of: Array  # [1] int64: the first row of these, −2 − the first box, −1 before any sensor has asked
-    frame: Array  # [FRAME_ROWS] float32: of the thing that is looked at: how it is turned, where it is, its size
-    sight: Array  # [FIRST_RAY + rays] float32: heading and place, then how far each ray goes
+    sides: Annotated[Array, rows("boxes", SIDES, kind=F4)]  # those of the boxes nearby, relative to the robot
+    nearest: Annotated[Array, rows(THING_ROWS)]  # of several things of one name
+    nearest_of: Annotated[Array, shape(1)]  # the first row of these, −2 − the first box, −1 before any sensor has asked
+    frame: Annotated[Array, rows(FRAME_ROWS, kind=F4)]  # of the thing that is looked at
+    sight: Annotated[Array, rows("sight", kind=F4)]  # heading and place, then how far each ray goes
 
 
 class Mind(NamedTuple):
     """What is read, remembered and sent."""
 
-    readings: Array  # [readings] float32
-    before: Array  # [what virtual sensors remember] float32: of a derivative what its source read before
-    measured: Array  # [rough readings] float32: what was measured last
-    rings: Array  # [rough readings · delay] float32: what was measured and is not seen yet
-    genome: Array  # [weights] float32, of the learner
-    recurrent: Array  # [numbers that skills remember] float32
-    influence: Array  # [skills] float32
-    command_sums: Array  # [actuators + memories] float32: of the commands times the influence behind them
-    influence_sums: Array  # [actuators + memories] float32: of this influence
-    commands: Array  # [actuators] float32, as they act
-    late: Array  # [delays] float32: commands that wait
+    readings: Annotated[Array, rows("readings", kind=F4)]
+    before: Annotated[Array, rows("before", kind=F4)]  # of a derivative what its source read before
+    measured: Annotated[Array, rows("rough", kind=F4)]  # what was measured last
+    rings: Annotated[Array, rows("rings", kind=F4)]  # what was measured and is not seen yet
+    genome: Annotated[Array, rows("genome", kind=F4)]  # of the learner
+    recurrent: Annotated[Array, rows("recurrent", kind=F4)]  # what skills remember
+    influence: Annotated[Array, rows("skills", kind=F4)]
+    command_sums: Annotated[Array, rows("sinks", kind=F4)]  # of the commands times the influence behind them
+    influence_sums: Annotated[Array, rows("sinks", kind=F4)]  # of this influence
+    commands: Annotated[Array, rows("actuators", kind=F4)]  # as they act
+    late: Annotated[Array, rows("delays", kind=F4)]  # commands that wait
     # for this tick, of one skill: side by side for the lanes in which it has influence
-    active: Array  # uint64: which lanes these are
-    gathered: Array  # [inputs] float32
-    sound: Array  # float32: 0 where all inputs are finite, else NaN
-    hidden: Array  # [scratch] float32
-    stack: Array  # [depth] float64, of expressions
-    values: Array  # float32: of an edge with `at`
-    opened: Array  # float32: of an edge with `when`, 1 where that holds
-    other: Array  # float32: what it sends otherwise
-    gated: Array  # float32: which of the two it sends
-    sent: Array  # float32: the values of an edge, −1 where nothing is sent
+    active: Annotated[Array, each(U8)]  # which lanes these are
+    gathered: Annotated[Array, rows("inputs", kind=F4)]
+    sound: Annotated[Array, each(F4)]  # 0 where all inputs are finite, else NaN
+    hidden: Annotated[Array, rows("scratch", kind=F4)]
+    stack: Annotated[Array, rows("depth")]  # of expressions
+    values: Annotated[Array, each(F4)]  # of an edge with `at`
+    opened: Annotated[Array, each(F4)]  # of an edge with `when`, 1 where that holds
+    other: Annotated[Array, each(F4)]  # what it sends otherwise
+    gated: Annotated[Array, each(F4)]  # which of the two it sends
+    sent: Annotated[Array, each(F4)]  # the values of an edge, −1 where nothing is sent
 
 
 class Contact(NamedTuple):
     """What Chipmunk has to do with a lane."""
 
-    near: Array  # int64: ticks for which it still steps this lane
-    touching: Array  # int64: bit 0 while something touches, bit 1 if something did in the tick before
-    handles: Array  # [lane, …] uint64: space, body, robot's shape, held shapes, boxes' shapes, walls' shapes
-    loose: Array  # [lane, LOOSE_HANDLES·loose] uint64: body and shape of each loose thing
-    sizes: Array  # [lane, loose] float64: of which size these are
-    placed: Array  # [lane, loose] uint8: 1 where a body stands still just where its settled thing does
-    last: Array  # float64: the seconds of Chipmunk's last step, infinitely many where nothing can have touched
+    near: Annotated[Array, each()]  # ticks for which it still steps this lane
+    touching: Annotated[Array, each()]  # bit 0 while something touches, bit 1 if something did in the tick before
+    handles: Annotated[Array, columns("handles", kind=U8)]  # space, body, shapes: robot, held, boxes, walls
+    loose: Annotated[Array, columns("loose", chipmunk.LOOSE_HANDLES, kind=U8)]  # body and shape of each loose thing
+    sizes: Annotated[Array, columns("loose")]  # of which size these are
+    placed: Annotated[Array, columns("loose", kind=U1)]  # 1 where a body stands still just where its settled thing does
+    last: Annotated[Array, each(F8)]  # seconds of its last step, infinitely many where nothing can have touched
     # for this tick
-    gap: Array  # float64: to what is nearest after it
-    swift: Array  # int64: 1 where something is so fast that it could pass something, until the tick is made
-    ways: Array  # [lane, WAY·(2 + loose)] float64: where what moves was and is (lanes/hold_back)
-    floats: Array  # [lane, …] float64: a body's state on its way to Chipmunk and back
-    batch: Array  # [lane, …] int64: pymunk's structures that point at `floats`
-    tally: Array  # [lane, TALLY_WORDS] int64: contacts of the last step, and what it takes to count them
+    gap: Annotated[Array, each(F8)]  # to what is nearest after it
+    swift: Annotated[Array, each()]  # 1 where something is so fast that it could pass something, until the tick is made
+    ways: Annotated[Array, columns("movers", WAY)]  # where what moves was and is (lanes/solid)
+    floats: Annotated[Array, columns(chipmunk.BODY_FLOATS)]  # a body's state on its way to Chipmunk and back
+    batch: Annotated[Array, columns(chipmunk.BATCH_WORDS, kind=I8)]  # pymunk's structures that point at `floats`
+    tally: Annotated[Array, columns(chipmunk.TALLY_WORDS, kind=I8)]  # of contacts in the last step
 
 
 class Judge(NamedTuple):
     """What a task notices and pays."""
 
-    last_commands: Array  # [actuators] float32: of the tick before
-    left_changes: Array  # [changes] float64: how much the left wheel's command changed
-    right_changes: Array
-    visited: Array  # [lane, patches] uint8
-    arrived: Array  # [items by event] uint8: as `delivered`, of zones of one name
-    lines: Array  # [rewards] float64: the sum of each reward line
-    counts: Array  # [events] int64: how often each happened in this run
+    last_commands: Annotated[Array, rows("actuators", kind=F4)]  # of the tick before
+    left_changes: Annotated[Array, rows("changes")]  # how much the left wheel's command changed
+    right_changes: Annotated[Array, rows("changes")]
+    visited: Annotated[Array, columns("board", kind=U1)]
+    arrived: Annotated[Array, rows("arrivals", kind=U1)]  # as `delivered`, of zones of one name
+    lines: Annotated[Array, rows("rewards")]  # the sum of each reward line
+    counts: Annotated[Array, rows("events", kind=I8)]  # how often each happened in this run
     # for this tick
-    measures: Array  # [measures] float64
-    events: Array  # [events] float64: how often it happened
-    happened: Array  # [events] int64: in how many lanes
-    paid: Array  # float64: whether a reward line pays, or an end has come; before that, room for a measure
+    measures: Annotated[Array, rows("measures")]
+    events: Annotated[Array, rows("events")]  # how often it happened
+    happened: Annotated[Array, shape("happened")]  # in how many lanes
+    paid: Annotated[Array, each(F8)]  # whether a line pays, or an end has come; before that, room for a measure
 
 
 class Run(NamedTuple):
     """How the run of each lane stands."""
 
-    job: Array  # int64: which it is, −1 for none
-    ended: Array  # int64: what ended it, by its place among the task's ends, or GOING_ON, or LOST
-    met: Array  # int64: the end that came first, or GOING_ON; where nothing interrupts, the run goes on
-    faults: Array  # int64: values that were not sent
-    failed: Array  # [2] int64: the skill whose procedure failed, −1 where none did, and the column of `gathered`
+    job: Annotated[Array, each()]  # which it is, −1 for none
+    ended: Annotated[Array, each()]  # what ended it, by its place among the task's ends, or GOING_ON, or LOST
+    met: Annotated[Array, each()]  # the end that came first, or GOING_ON; where nothing interrupts, the run goes on
+    faults: Annotated[Array, each()]  # values that were not sent
+    failed: Annotated[
+        Array, shape(2)
+    ]  # the skill whose procedure failed, −1 where none did, and the column of `gathered`
 
 
 class State(NamedTuple):
@@ -176,38 +220,67 @@ class Jobs(NamedTuple):
     seeds: Array  # uint64
     genome: Array  # [jobs] index
     seed: Array  # [jobs] index
-    next: Array  # [1]: the next job to start
-    lanes: Array  # [1]: how many lanes are at work
-    clock: Array  # [1]: ticks since the beginning, for the rings
-    lines: Array  # [jobs, lines]
-    counts: Array  # [jobs, events]
-    ticks: Array
-    ended: Array
-    met: Array  # the end that came first, which is not what ended the run where nothing interrupts one
-    faults: Array
-    doubles: Array  # [ticks, columns] float64: the first lane after each tick, in as many as there is room for
-    singles: Array  # [ticks, columns] float32: its mind (lanes/record)
-    recorded: Array  # [1]: how many ticks have been written down
+    next: Annotated[Array, shape(1)]  # the next job to start
+    lanes: Annotated[Array, shape(1)]  # how many lanes are at work
+    clock: Annotated[Array, shape(1)]  # ticks since the beginning, for the rings
+    lines: Annotated[Array, shape("jobs", "lines", kind=F8)]
+    counts: Annotated[Array, shape("jobs", "events")]
+    ticks: Annotated[Array, shape("jobs")]
+    ended: Annotated[Array, shape("jobs")]
+    met: Annotated[Array, shape("jobs")]  # the end that came first, whatever ended the run
+    faults: Annotated[Array, shape("jobs")]
+    doubles: Annotated[Array, shape(0, 0, kind=F8)]  # the first lane after each tick, in as many as there is room for
+    singles: Annotated[Array, shape(0, 0, kind=F4)]  # its mind (lanes/advance)
+    recorded: Annotated[Array, shape(1)]  # how many ticks have been written down
+
+
+def empty_state(tables: Tables, sizes: Sizes, lanes: int) -> State:
+    """Room for so many lanes, all idle."""
+    n = _counts(tables, sizes)
+    state = State(
+        _empty(World, n, lanes), _empty(Sight, n, lanes), _empty(Mind, n, lanes),
+        _empty(Contact, n, lanes), _empty(Judge, n, lanes), _empty(Run, n, lanes),
+    )  # fmt: skip
+    nearby = state.sight.nearby
+    nearby[X::BOX_COLUMNS] = nearby[Y::BOX_COLUMNS] = AWAY
+    state.mind.readings[: len(sizes.measured)][~sizes.measured] = np.nan  # the lanes write none of these
+    state.run.failed[:] = -1
+    return state
 
 
 def unbegun(genomes: Array, seeds: Array, genome: Array, seed: Array, lines: int, events: int) -> Jobs:
     """Jobs that have not begun: a genome and a seed of each, by their numbers."""
-    count = len(genome)
-    return Jobs(
-        genomes=genomes,
-        seeds=seeds,
-        genome=np.ascontiguousarray(genome, np.int64),
-        seed=np.ascontiguousarray(seed, np.int64),
-        next=np.zeros(1, np.int64),
-        lanes=np.zeros(1, np.int64),
-        clock=np.zeros(1, np.int64),
-        lines=np.zeros((count, max(1, lines))),
-        counts=np.zeros((count, events), np.int64),
-        ticks=np.zeros(count, np.int64),
-        ended=np.zeros(count, np.int64),
-        met=np.zeros(count, np.int64),
-        faults=np.zeros(count, np.int64),
-        doubles=np.zeros((0, 0)),
-        singles=np.zeros((0, 0), np.float32),
-        recorded=np.zeros(1, np.int64),
+    n = {"jobs": len(genome), "lines": max(1, lines), "events": events}
+    genome, seed = np.ascontiguousarray(genome, I8), np.ascontiguousarray(seed, I8)
+    return _empty(Jobs, n, 0, genomes=genomes, seeds=seeds, genome=genome, seed=seed)
+
+
+def recorded(state: State) -> tuple[tuple[Array, ...], tuple[Array, ...]]:
+    """The arrays whose rows are the columns of `jobs.doubles`, and those of `jobs.singles`."""
+    world, mind, judge = state.world, state.mind, state.judge
+    return (
+        (world.body, world.things, world.loose, world.direction, world.grip, judge.lines, judge.events),
+        (mind.readings, mind.influence, mind.commands, world.acting),
     )
+
+
+def _empty(part: type[Part], n: Mapping[str, int], lanes: int, **known: Array) -> Part:
+    """A part of the state, or jobs: zeros in all that is not known."""
+    return part(**{
+        name: known[name] if name in known else kind.__metadata__[0](n, lanes)
+        for name, kind in part.__annotations__.items()
+    })  # fmt: skip
+
+
+def _counts(tables: Tables, sizes: Sizes) -> dict[str, int]:
+    """How many there are of what arrays have rows or columns of."""
+    n = {name: len(table) for name, table in tables._asdict().items()} | asdict(sizes)
+    shapes = n["things"] + n["boxes"] + chipmunk.WALL_COUNT
+    return n | {
+        "sinks": n["actuators"] + n["memories"],
+        "sight": FIRST_RAY + n["ray_row"],
+        "handles": chipmunk.FIRST_HELD + shapes,
+        "movers": 2 + n["loose"],
+        "board": max(1, n["patches"]),
+        "happened": max(1, n["events"]),
+    }

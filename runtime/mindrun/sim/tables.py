@@ -10,32 +10,11 @@ from numpy.typing import NDArray
 from mindrun.graph.graph import Graph, Task
 from mindrun.graph.measured import rows_of, used_sensors
 from mindrun.graph.weights import genes, reachable
-from mindrun.sim.codes import (
-    CODE,
-    END,
-    EVENT,
-    MEASURES,
-    OBSTACLE,
-    REWARD,
-    THING,
-)  # fmt: skip
-from mindrun.sim.loose_rows import loose_rows
-from mindrun.sim.mind_rows import actuator_rows, memory_rows, skill_rows
+from mindrun.sim import task_rows
+from mindrun.sim.codes import CODE
+from mindrun.sim.mind_rows import Programs, actuator_rows, memory_rows, skill_rows
 from mindrun.sim.parameter_rows import Parameters
-from mindrun.sim.programs import Programs
 from mindrun.sim.sensor_rows import sensor_rows
-from mindrun.sim.task_rows import (
-    box_count,
-    end_row,
-    event_rows,
-    measure_rows,
-    obstacle_rows,
-    reward_row,
-    thing_rows,
-    wall_rows,
-    world_row,
-)  # fmt: skip
-from mindrun.sim.walker_rows import walker_rows, way_rows
 
 Array = NDArray[Any]
 Floats = NDArray[np.float32]
@@ -104,34 +83,28 @@ def build(
     library: Array,
 ) -> tuple[Tables, Sizes]:
     """The tables of a task under a master; `addresses` are those of the compiled procedures, by skill."""
-    codes, parameters = Programs(), Parameters(graph, task)
+    programs, parameters = Programs(), Parameters(graph, task)
     reached = reachable(graph, master)
-    skills = skill_rows(graph, reached, weights, learners, addresses, codes)
-    rewards = [reward_row(reward, codes) for reward in task.rewards]
-    ends = [end_row(end, codes) for end in task.ends]
+    skills, most = skill_rows(graph, reached, weights, learners, addresses, programs)
+    rewards, ends = task_rows.reward_rows(task, programs), task_rows.end_rows(task, programs)
     used = used_sensors(graph, reached, task)
-    sensed = sensor_rows(graph, used, task, codes, parameters)
+    sensors, remembered = sensor_rows(graph, used, task, programs, parameters)
     driven, delays = actuator_rows(graph, parameters)
-    measured, changes = measure_rows(task)
-    noticed, patches, arrivals = event_rows(task)
+    measures, changes = task_rows.measure_rows(task)
+    events, patches, arrivals = task_rows.event_rows(task)
     tables = Tables(
-        world=world_row(graph, task, parameters, len(sensed.ray_row), used.all, master),
-        sensors=sensed.rows, rays=sensed.rays, rims=sensed.rims, ray_row=sensed.ray_row,
-        passes=sensed.passes, numbers=sensed.numbers,
-        skills=skills.rows, inputs=skills.inputs, edges=skills.edges, weights=skills.weights,
-        codes=np.array(codes.rows, CODE), actuators=driven, memories=memory_rows(graph),
-        things=np.array(thing_rows(graph, task), THING), loose=loose_rows(task, graph.tick, parameters),
-        walkers=walker_rows(task, graph.tick), ways=way_rows(task),
-        obstacles=np.array(obstacle_rows(task), OBSTACLE), walls=wall_rows(task),
-        measures=np.array(measured, MEASURES), events=np.array(noticed, EVENT),
-        ends=np.array(ends, END), rewards=np.array(rewards, REWARD),
+        **sensors, **skills, **task_rows.walker_rows(task, graph.tick),
+        world=task_rows.world_row(graph, task, parameters, len(sensors["ray_row"]), used.all, master),
+        codes=np.array(programs.rows, CODE), actuators=driven, memories=memory_rows(graph),
+        things=task_rows.thing_rows(graph, task), loose=task_rows.loose_rows(task, graph.tick, parameters),
+        obstacles=task_rows.obstacle_rows(task), walls=task_rows.wall_rows(task),
+        measures=measures, events=events, ends=ends, rewards=rewards,
         library=library, parameters=parameters.table(),  # last: all others add to them
     )  # fmt: skip
     return tables, Sizes(
-        readings=max(1, graph.width), before=sensed.derived, rough=sensed.rough, rings=sensed.rings,
-        skills=len(graph.skills), inputs=skills.most_inputs, scratch=skills.scratch, recurrent=skills.state,
-        genome=genome_length(graph, learners), depth=codes.depth, delays=delays,
-        changes=changes, patches=patches, arrivals=arrivals, boxes=box_count(task), measured=rows_of(graph, used.all),
+        **remembered, **most, readings=max(1, graph.width), measured=rows_of(graph, used.all),
+        skills=len(graph.skills), genome=genome_length(graph, learners), depth=programs.depth, delays=delays,
+        changes=changes, patches=patches, arrivals=arrivals, boxes=task_rows.box_count(task),
     )  # fmt: skip
 
 

@@ -7,29 +7,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.graph.graph import End, Graph, Reward, Sensor, Task, Thing
+from mindrun.graph.graph import Graph, Sensor, Task, Thing
 from mindrun.graph.tasks import goals
 from mindrun.kinds.registry import names
 from mindrun.kinds.sensors.battery import Battery
 from mindrun.kinds.things.thing import OUTCOMES, STAYS, ThingKind
-from mindrun.numbers.arithmetic import BOX_COLUMNS, NAN
-from mindrun.sim.codes import (
-    DAMPING,
-    EVENT,
-    EVENT_CODES,
-    INVERSE,
-    MEASURE_CODES,
-    MEASURES,
-    OBSTACLE,
-    OVER,
-    THING,
-    THING_CODES,
-    TIMES,
-    WORLD,
-)  # fmt: skip
+from mindrun.numbers.arithmetic import BOX_COLUMNS
+from mindrun.sim import codes
+from mindrun.sim.codes import DAMPING, HALF_DIAGONAL, INVERSE, OVER, TIMES, Row, records
+from mindrun.sim.mind_rows import Programs
 from mindrun.sim.parameter_rows import Parameters, Step
-from mindrun.sim.programs import Programs
-from mindrun.sim.records import Row, records
 
 Array = NDArray[Any]
 MIN_CELL_UNITS = 20.0  # the side of a cell of Chipmunk's hash, in which what is large takes only so many
@@ -38,7 +25,6 @@ SLOP_UNITS = float(np.float32(0.1))  # how deep Chipmunk lets things stand in ea
 SLOP_SHARE = 0.25  # of their least half side is the most
 LEAST_SOLID_UNITS = 1e-3  # half a side that is smaller counts as this
 MIN_NEAR_UNITS = 1.0  # beyond the body's rim
-HALF_DIAGONAL = 0.7072  # of a square with side 1, and a little more
 NOWHERE = range(-1, -1)  # rows of a thing that the task does not contain
 
 
@@ -89,13 +75,12 @@ def thing_rows(graph: Graph, task: Task) -> Array:
         if kind.is_loose:  # not in the robot
             low = max(low, graph.body.radius + kind.largest * HALF_DIAGONAL)
         row: dict[str, float] = {
-            "kind": THING_CODES[names()[type(kind)]], "first": size.first, "last": size.last, "by": size.by or 0.0,
-            "low": low, "high": high, "hold": graph.body.front + kind.largest / 2,
-            "drawn": size.by is None and size.first != size.last, "is_fixed": bool(kind.places), "x": x, "y": y,
-            "is_round": kind.is_round,
-            "is_area": kind.is_area, "loose": next(loose) if kind.is_loose else -1,
-            "settles": kind.is_loose and zones_stay, "walker": next(walkers) if kind.walks else -1,
-            "is_goal": thing.name in never,
+            "kind": codes.THING_CODES[names()[type(kind)]], "first": size.first, "last": size.last,
+            "by": size.by or 0.0, "drawn": size.by is None and size.first != size.last, "low": low, "high": high,
+            "hold": graph.body.front + kind.largest / 2, "is_fixed": bool(kind.places), "x": x, "y": y,
+            "is_round": kind.is_round, "is_area": kind.is_area, "is_goal": thing.name in never,
+            "loose": next(loose) if kind.is_loose else -1, "settles": kind.is_loose and zones_stay,
+            "walker": next(walkers) if kind.walks else -1,
         }  # fmt: skip
         for what in ("reached", "delivered"):
             outcome = kind.outcomes.get(what, STAYS)
@@ -103,7 +88,7 @@ def thing_rows(graph: Graph, task: Task) -> Array:
             row[f"is_{what}"] = outcome != STAYS or (what, thing.name) in asked
         row["is_delivered"] = row["is_delivered"] and bool(zones)  # elsewhere nobody looks for zones
         rows.append(row)
-    return records(rows, THING)
+    return records(rows, codes.THING)
 
 
 def obstacle_rows(task: Task) -> Array:
@@ -113,7 +98,7 @@ def obstacle_rows(task: Task) -> Array:
         low, high = kind.distances(task.scene)
         row = {"first": kind.size.first, "last": kind.size.last, "low": low, "high": high}
         rows.extend({**row, **own} for own in kind.rows(task.scene))
-    return records(rows, OBSTACLE)
+    return records(rows, codes.OBSTACLE)
 
 
 def wall_rows(task: Task) -> Array:
@@ -122,18 +107,51 @@ def wall_rows(task: Task) -> Array:
     return np.array(walls, np.float64).reshape(-1, BOX_COLUMNS)
 
 
+def loose_rows(task: Task, dt: float, parameters: Parameters) -> Array:
+    """Rows of LOOSE: what can be pushed, in the order of the things that they are rows of."""
+    rows: list[Row] = []
+    for i, thing in enumerate(things_of(task)):
+        kind: Any = thing.kind
+        if kind.is_loose:
+            rows.append({
+                "thing": i, "is_round": kind.is_round,
+                "density": parameters.row("thing", thing.name, "density", kind.density),
+                "friction": parameters.row("thing", thing.name, "friction", kind.friction),
+                "slower": parameters.row("thing", thing.name, "damping", kind.damping, (DAMPING, dt)),
+            })  # fmt: skip
+    return records(rows, codes.LOOSE)
+
+
+def walker_rows(task: Task, dt: float) -> dict[str, Array]:
+    """Rows of WALKING, in the order of the things that they are rows of, and the places of their ways, one by one.
+
+    A direction that drifts by up to √(3·dt)·turning either way in each tick has drifted by `turning` in a second, in
+    the root of the mean square. The second of several on one way begins at its second place.
+    """
+    rows: list[Row] = []
+    ways: list[tuple[float, float]] = []
+    places = rows_by_name(task)
+    for i, thing in enumerate(things_of(task)):
+        kind: Any = thing.kind
+        if kind.walks:
+            count, copy = len(kind.along), i - places[thing.name].start
+            row = {"thing": i, "step": kind.speed * dt, "turn": kind.turning * np.sqrt(3 * dt)}
+            rows.append({**row, "first": len(ways), "places": count, "begins": (copy + 1) % max(1, count)})
+            ways += kind.along if i + 1 == places[thing.name].stop else ()
+    return {"walkers": records(rows, codes.WALKING), "ways": np.array(ways, np.float64).reshape(-1, 2)}
+
+
 def measure_rows(task: Task) -> tuple[Array, int]:
     """Rows of MEASURES, and how many changes of thrust are remembered."""
     places = rows_by_name(task)
     rows: list[Row] = []
     ring = 0
     for measure in task.measures:
-        code, over = MEASURE_CODES[names()[type(measure)]], measure.remembered
-        about = places[measure.thing]
+        code, over, about = codes.MEASURE_CODES[names()[type(measure)]], measure.remembered, places[measure.thing]
         row = {"kind": code, "thing": about.start, "things": len(about), "over": over, "ring": ring if over else 0}
         rows.append({**row, **measure.row()})
         ring += over
-    return records(rows, MEASURES), ring
+    return records(rows, codes.MEASURES), ring
 
 
 def event_rows(task: Task) -> tuple[Array, int, int]:
@@ -142,91 +160,100 @@ def event_rows(task: Task) -> tuple[Array, int, int]:
     rows: list[Row] = []
     board = arrivals = 0
     for event in task.events:
-        own, code = event.row(task.scene), EVENT_CODES[names()[type(event)]]
+        own, code = event.row(task.scene), codes.EVENT_CODES[names()[type(event)]]
         about, into = places[event.thing], places[getattr(event, "to", "")]
-        row = {
-            "kind": code,
-            "thing": about.start,
-            "things": len(about),
-            "to": into.start,
-            "tos": len(into),
-            "patch": 1.0,
-            "board": board,
-        }
-        rows.append({**row, **own, "arrival": arrivals})
+        rows.append({
+            "kind": code, "thing": about.start, "things": len(about), "to": into.start, "tos": len(into),
+            "patch": 1.0, "board": board, **own, "arrival": arrivals,
+        })  # fmt: skip
         board += int(own.get("columns", 0) * own.get("rows", 0))
         arrivals += len(about) if into else 0
-    return records(rows, EVENT), board, arrivals
+    return records(rows, codes.EVENT), board, arrivals
 
 
-def end_row(end: End, codes: Programs) -> tuple[int, ...]:
-    """A row of END; its condition goes to `codes`."""
-    return -1 if end.event is None else end.event, end.times, *codes.add(end.when or ()), end.succeeds
+def end_rows(task: Task, programs: Programs) -> Array:
+    """Rows of END; their conditions go to `programs`."""
+    rows: list[Row] = []
+    for end in task.ends:
+        when, whens = programs.add(end.when or ())
+        event = -1 if end.event is None else end.event
+        rows.append({"event": event, "times": end.times, "when": when, "whens": whens, "succeeds": end.succeeds})
+    return records(rows, codes.END)
 
 
-def reward_row(reward: Reward, codes: Programs) -> tuple[int, ...]:
-    """A row of REWARD; its programs go to `codes`."""
-    first, length = codes.add(reward.amount)
-    each, eachs = reward.each or (0, 0)
-    return first, length, -1 if reward.on is None else reward.on, each, eachs, *codes.add(reward.when or ())
+def reward_rows(task: Task, programs: Programs) -> Array:
+    """Rows of REWARD; what they pay, and where, goes to `programs`."""
+    rows: list[Row] = []
+    for reward in task.rewards:
+        code, length = programs.add(reward.amount)
+        when, whens = programs.add(reward.when or ())
+        each, eachs = reward.each or (0, 0)
+        rows.append({
+            "code": code, "length": length, "on": -1 if reward.on is None else reward.on,
+            "each": each, "eachs": eachs, "when": when, "whens": whens,
+        })  # fmt: skip
+    return records(rows, codes.REWARD)
 
 
 def world_row(
     graph: Graph, task: Task, parameters: Parameters, rays: int, used: Sequence[Sensor], master: str
 ) -> Array:
     """The numbers of the body, the battery and the scene."""
-    body, dt, scene, begin = graph.body, graph.tick, task.scene, task.start
-    index = [skill.name for skill in graph.skills].index(master)
+    body, scene, begin = graph.body, task.scene, task.start
+    start_x, start_y = begin.at or (0.0, 0.0)
+    half_x, half_y = (side / 2 for side in scene.sides)
     battery = next((s.kind.battery for s in graph.sensors if s.kind.battery), Battery().battery)
     powered = any(event.is_of_battery for event in task.events) or any(s.kind.battery for s in used)
     held = [thing.kind.largest for thing in task.things if thing.kind.can_be_held]
     # How far the rays reach, or the item in the claw.
     near = body.radius + max([MIN_NEAR_UNITS, *held, *(sensor.kind.reach for sensor in used)])
-    solid = [thing.kind.largest for thing in task.things if thing.kind.is_solid]
-    walls = [2 * max(wall.half_x, wall.half_y) for thing in task.things for wall in thing.kind.walls]
-    spread = max([*walls, *(scene.sides if scene.is_bounded else ()), 0.0]) / CELLS_PER_WALL
-    cell = max([MIN_CELL_UNITS, spread, *(size / CELLS_PER_SHAPE for size in (2 * body.radius, *held, *solid))])
-    row = (
-        dt, *_body_rows(graph, parameters), body.radius, body.front, body.side, *_solidity(graph, task),
-        not body.outline, body.axle_distance, *(side / 2 for side in scene.sides),
-        begin.at is not None, *(begin.at or (0.0, 0.0)), begin.facing is not None, begin.facing or 0.0, task.ticks,
-        battery.start if powered else NAN, battery.drain, battery.charge, rays, near, index, graph.claw_reach, powered,
-        cell,
-    )  # fmt: skip
-    return np.array([row], WORLD)
+    row = {
+        "dt": graph.tick, **_body_rows(graph, parameters), "radius": body.radius, "front": body.front,
+        "side": body.side, **_solidity(graph, task), "is_round": not body.outline, "axles": body.axle_distance,
+        "half_x": half_x, "half_y": half_y, "is_placed": begin.at is not None, "start_x": start_x, "start_y": start_y,
+        "is_faced": begin.facing is not None, "facing": begin.facing or 0.0, "ticks": task.ticks,
+        "start": battery.start if powered else np.nan, "drain": battery.drain, "charge": battery.charge, "rays": rays,
+        "near": near, "master": graph.skill_numbers[master], "claw": graph.claw_reach, "battery": powered,
+    }  # fmt: skip
+    return records([row], codes.WORLD)
 
 
-def _solidity(graph: Graph, task: Task) -> tuple[float, float, float]:
-    """How far from the robot's middle its turns swing anything, the least half side of it or of what it can hold, and
-    how deep Chipmunk lets things stand in each other: less than by itself where something that moves is small.
+def _solidity(graph: Graph, task: Task) -> Row:
+    """How far from its middle the robot's turns swing anything, the least half side of it or of what it can hold.
+
+    How deep Chipmunk lets things stand in each other: less than by itself where something that moves is small. And the
+    side of a cell of its hash.
     """
-    body, loose = graph.body, [thing.kind for thing in task.things if thing.kind.is_loose]
-    held = [thing.kind for thing in task.things if thing.kind.can_be_held]
+    body, kinds = graph.body, [thing.kind for thing in task.things]
+    held, loose = [kind for kind in kinds if kind.can_be_held], [kind for kind in kinds if kind.is_loose]
     arm = max([body.radius if body.outline else 0.0, *(body.front + kind.largest / 2 for kind in held)])
-    least = min([body.front, body.side, *(_half(kind) for kind in held)])
-    least_of_all = max(min([least, *(_half(kind) for kind in loose)]), LEAST_SOLID_UNITS)
-    return arm, least, min(SLOP_UNITS, SLOP_SHARE * least_of_all)
+    least = min([body.front, body.side, *map(_half, held)])
+    least_of_all = max(min([least, *map(_half, loose)]), LEAST_SOLID_UNITS)
+    walls = [2 * max(wall.half_x, wall.half_y) for kind in kinds for wall in kind.walls]
+    spread = max([*walls, *(task.scene.sides if task.scene.is_bounded else ()), 0.0]) / CELLS_PER_WALL
+    sizes = [2 * body.radius, *(kind.largest for kind in kinds if kind.can_be_held or kind.is_solid)]
+    cell = max([MIN_CELL_UNITS, spread, *(size / CELLS_PER_SHAPE for size in sizes)])
+    return {"arm": arm, "least": least, "slop": min(SLOP_UNITS, SLOP_SHARE * least_of_all), "cell": cell}
 
 
 def _half(kind: ThingKind) -> float:
     return min(kind.size.first, kind.size.last) / 2
 
 
-def _body_rows(graph: Graph, parameters: Parameters) -> tuple[int, ...]:
+def _body_rows(graph: Graph, parameters: Parameters) -> Row:
     """The rows of how a body is damped, of its friction, its mass and its moment of inertia, and one over both."""
     body, slows = graph.body, (DAMPING, graph.tick)
     mass: tuple[Step, ...] = tuple((TIMES, length) for length in body.area)
     moment: tuple[Step, ...] = (*mass, (TIMES, body.gyration[0]), (OVER, body.gyration[1]))
-
-    def of_density(*steps: Step) -> int:
-        return parameters.row("body", "", "density", body.density, *steps)
-
-    return (
-        parameters.row("body", "", "linear_damping", body.linear_damping, slows),
-        parameters.row("body", "", "angular_damping", body.angular_damping, slows),
-        parameters.row("body", "", "friction", body.friction),
-        of_density(*mass),
-        of_density(*moment),
-        of_density(*mass, (INVERSE, 1.0)),
-        of_density(*moment, (INVERSE, 1.0)),
-    )
+    of_density: dict[str, tuple[Step, ...]] = {
+        "mass": mass,
+        "moment": moment,
+        "mass_inv": (*mass, (INVERSE, 1.0)),
+        "moment_inv": (*moment, (INVERSE, 1.0)),
+    }
+    return {
+        "linear": parameters.row("body", "", "linear_damping", body.linear_damping, slows),
+        "angular": parameters.row("body", "", "angular_damping", body.angular_damping, slows),
+        "friction": parameters.row("body", "", "friction", body.friction),
+        **{key: parameters.row("body", "", "density", body.density, *steps) for key, steps in of_density.items()},
+    }

@@ -1,18 +1,56 @@
-"""One run, tick by tick: what the pictures, the videos and the tests look at."""
+"""One run, tick by tick, as the lanes write it down: what the pictures, the videos and the tests look at."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.engine.changes import Change
-from mindrun.numbers.arithmetic import ANGLE, BOX_COLUMNS, SIZE, THING_ROWS
+from mindrun.engine.changes import Change, ChangeError
+from mindrun.numbers.arithmetic import ANGLE, BOX_COLUMNS, LOOSE_ROWS, SIZE, THING_ROWS, TURN
 from mindrun.numbers.short_repr import ShortRepr
 from mindrun.sim.changed_ticks import Advance, changed
+from mindrun.sim.procedures import Memories
 from mindrun.sim.rollout import Rollout, Tile
-from mindrun.sim.state import Jobs
-from mindrun.sim.ticks import Ticks, turned, with_room, written
+from mindrun.sim.state import Jobs, State, empty_state, recorded
+
+Array = NDArray[Any]
+CHUNK_TICKS, CHUNK_BYTES = 256, 1 << 22  # of a run at once, or fewer where a tick is large
+SCALAR_COLUMNS = 3  # held, battery and touching, after the doubles
+REMEMBERED = ("readings", "before", "measured", "rings", "late", "commands")  # by sensors, memories and actuators
+PARTS = ("tick", "body", "sensors", "memories", "actuators")  # of a graph
+SENSED = ("kind", "start", "width", "before", "held", "ring", "ray", "number", "is_aside")  # what says where it stands
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Ticks(ShortRepr):
+    """The world and the mind after each of some ticks; every array has a row for each.
+
+    `body` [6] is x, y, angle and their velocities; `things` [things, 3] is x, y and size of each, and `turned` [things]
+    how far each has turned, counterclockwise in radians, or the direction of one that wanders; `held` the number of the
+    thing in the claw or −1; `readings` as the skills read them, NaN of sensors that are not measured; `influence` NaN
+    of skills that are not below the master; `battery` NaN where nobody asks for it; `acting` the commands with the
+    noise of their actuators, and `grip` the share of its force that each kept; `events` how often each event happened
+    in the tick; `lines` the sum of each reward line so far.
+    """
+
+    body: NDArray[np.float64]
+    things: NDArray[np.float64]
+    turned: NDArray[np.float64]
+    held: NDArray[np.int64]
+    battery: NDArray[np.float64]
+    touching: NDArray[np.bool_]
+    readings: NDArray[np.float32]
+    influence: NDArray[np.float32]
+    commands: NDArray[np.float32]
+    acting: NDArray[np.float32]
+    grip: NDArray[np.float64]
+    events: NDArray[np.int64]
+    lines: NDArray[np.float64]
+
+    def __len__(self) -> int:
+        return len(self.body)
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -57,23 +95,68 @@ def trace(
     rollout: Rollout, seed: int, genome: NDArray[np.float32] | None = None, changes: Sequence[Change] = ()
 ) -> Trace:
     """The run that `rollout.score` would make of that genome and seed; with changes, what had become of it then."""
-    advance = changed(rollout, changes) if changes else rollout.advance
     genomes = np.zeros((1, 0), np.float32) if genome is None else genome[None].astype(np.float32)
-    tile = rollout.tile(1)
-    jobs = with_room(rollout.jobs(genomes, np.array([seed], np.uint64)), tile.state)
+    tile, jobs = _begun(rollout, genomes, seed)
+    return _traced(rollout, tile, jobs, changes)
+
+
+def take_over(rollout: Rollout, seed: int, tick: int, other: Rollout, changes: Sequence[Change] = ()) -> Trace:
+    """The run of a seed from a tick on, counted from 1, in which `other` has the robot; its outcome is of the whole.
+
+    Memory cells and what is derived of readings go on, and what skills remember where all are declared as before. What
+    procedures remember begins anew. ChangeError where the other mind does not fit, or the run is over before.
+    """
+    _refuse_another_world(rollout, other)
+    tile, jobs = _begun(rollout, np.zeros((1, 0), np.float32), seed)
+    if tick > 1 and rollout.advance(tile, jobs, tick - 1) == 0:
+        raise ChangeError(f"the run is over before tick {tick:,}", "say an earlier one")
+    ours, theirs = tile.state.mind, empty_state(other.tables, other.sizes, 1).mind
+    for name in (*REMEMBERED, *(("recurrent",) if rollout.graph.skills == other.graph.skills else ())):
+        getattr(theirs, name)[:] = getattr(ours, name)
+    taken = Tile(tile.state._replace(mind=theirs), Memories(other.procedures), tile.kept)
+    return _traced(other, taken, jobs, changes)
+
+
+def joined(chunks: Iterable[Ticks]) -> Ticks:
+    """All ticks of some chunks."""
+    each = list(chunks)
+    columns = {name: [getattr(ticks, name) for ticks in each] for name in Ticks.__slots__}
+    return Ticks(**{name: np.concatenate(parts) for name, parts in columns.items()})
+
+
+def things_in(rollout: Rollout, state: State, lane: int) -> NDArray[np.float64]:
+    """The x, y and size of each thing in a lane's world [things, 3]."""
+    things: NDArray[np.float64] = state.world.things[: THING_ROWS * len(rollout.tables.things), lane]
+    return things.reshape(-1, THING_ROWS)[:, : SIZE + 1].copy()
+
+
+def turned_in(rollout: Rollout, state: State, lane: int) -> NDArray[np.float64]:
+    """How far each thing in a lane's world has turned [things]."""
+    here, world = slice(lane, lane + 1), state.world
+    found: NDArray[np.float64] = _turned(rollout, world.loose[:, here].T, world.direction[:, here].T)[0]
+    return found
+
+
+def _begun(rollout: Rollout, genomes: NDArray[np.float32], seed: int) -> tuple[Tile, Jobs]:
+    """A tile of one lane in which a run begins."""
+    tile, jobs = rollout.tile(1), rollout.jobs(genomes, np.array([seed], np.uint64))
     rollout.fill(tile, jobs)
-    return traced(rollout, tile, jobs, advance)
+    return tile, jobs
 
 
-def traced(rollout: Rollout, tile: Tile, jobs: Jobs, advance: Advance) -> Trace:
-    """The run of a tile of one lane from where it is; its jobs have room to be written down."""
-    world, things = tile.state.world, len(rollout.tables.things)
-    chunks = _chunks(rollout, advance, tile, jobs)
+def _traced(rollout: Rollout, tile: Tile, jobs: Jobs, changes: Sequence[Change]) -> Trace:
+    """The run of a tile of one lane from where it is, written down from now on."""
+    world = tile.state.world
+    wide, narrow = (sum(map(len, arrays)) for arrays in recorded(tile.state))
+    wide += SCALAR_COLUMNS
+    ticks = max(1, min(CHUNK_TICKS, CHUNK_BYTES // (8 * wide + 4 * narrow)))
+    jobs = jobs._replace(doubles=np.zeros((ticks, wide)), singles=np.zeros((ticks, narrow), np.float32))
+    chunks = _chunks(rollout, changed(rollout, changes) if changes else rollout.advance, tile, jobs)
     return Trace(
         boxes=world.boxes[0].reshape(-1, BOX_COLUMNS).copy(),
         begin=world.body[: ANGLE + 1, 0].copy(),
-        things=world.things[: THING_ROWS * things, 0].reshape(-1, THING_ROWS)[:, : SIZE + 1].copy(),
-        turned=turned(rollout, world.loose[:, :1].T, world.direction[:, :1].T)[0],
+        things=things_in(rollout, tile.state, 0),
+        turned=turned_in(rollout, tile.state, 0),
         drawn=world.numbers[: len(rollout.task.varies) + len(rollout.task.fails), 0].copy(),
         chunks=chunks,
         moments=_moments(chunks, int(world.tick[0])),
@@ -88,7 +171,7 @@ def _chunks(rollout: Rollout, advance: Advance, tile: Tile, jobs: Jobs) -> Itera
             working = advance(tile, jobs, len(jobs.singles))
         finally:
             if jobs.recorded[0]:  # where a procedure fails, too: what was before that happened
-                yield written(rollout, tile.state, jobs)
+                yield _written(rollout, tile.state, jobs)
 
 
 def _moments(chunks: Iterator[Ticks], number: int) -> Iterator[Moment]:
@@ -99,3 +182,61 @@ def _moments(chunks: Iterator[Ticks], number: int) -> Iterator[Moment]:
             row = {name: getattr(ticks, name)[i] for name in Ticks.__slots__}
             scalars = {"held": int(row["held"]), "battery": float(row["battery"]), "touching": bool(row["touching"])}
             yield Moment(tick=number, **row | scalars)
+
+
+def _written(rollout: Rollout, state: State, jobs: Jobs) -> Ticks:
+    """What has been written down since this was asked last."""
+    count, tables = int(jobs.recorded[0]), rollout.tables
+    jobs.recorded[0] = 0
+    wide, narrow = recorded(state)
+    body, things, loose, direction, grip, lines, events, scalars = _split(jobs.doubles[:count], wide)
+    readings, influence, commands, acting, _ = _split(jobs.singles[:count], narrow)
+    held, battery, touching = scalars.T.copy()
+    actuators = len(tables.actuators)
+    reached = np.isin(np.arange(influence.shape[1]), tables.skills["index"])
+    rough, slipping = (tables.actuators[name].astype(bool) for name in ("is_rough", "is_slipping"))
+    each_thing = things[:, : THING_ROWS * len(tables.things)].reshape(count, len(tables.things), THING_ROWS)
+    return Ticks(
+        body=body,
+        things=each_thing[:, :, : SIZE + 1],
+        turned=_turned(rollout, loose, direction),
+        held=held.astype(np.int64),
+        battery=battery,
+        touching=touching.astype(bool),
+        readings=readings,
+        influence=np.where(reached, influence, np.float32(np.nan)),
+        commands=commands[:, :actuators],
+        acting=np.where(rough, acting[:, :actuators], commands[:, :actuators]),
+        grip=np.where(slipping, grip[:, :actuators], 1.0),
+        events=events[:, : len(rollout.task.events)].astype(np.int64),
+        lines=lines[:, : len(rollout.task.rewards)],
+    )
+
+
+def _split(columns: Array, arrays: Sequence[Array]) -> list[Array]:
+    """The columns [ticks, rows] of each array, one after the other, and those behind them."""
+    return np.split(columns.copy(), np.cumsum([len(array) for array in arrays]), axis=1)
+
+
+def _turned(rollout: Rollout, loose: Array, direction: Array) -> NDArray[np.float64]:
+    """How far each thing has turned [ticks, things], from the rows of what is loose and of what wanders."""
+    found = np.zeros((len(loose), len(rollout.tables.things)))
+    found[:, rollout.tables.loose["thing"]] = loose[:, TURN::LOOSE_ROWS][:, : len(rollout.tables.loose)]
+    found[:, rollout.tables.walkers["thing"]] = direction[:, : len(rollout.tables.walkers)]
+    return found
+
+
+def _refuse_another_world(rollout: Rollout, other: Rollout) -> None:
+    """ChangeError where two minds have not the same body, sensors, memories, actuators and task."""
+    unlike = [name for name in PARTS if getattr(rollout.graph, name) != getattr(other.graph, name)]
+    unlike += [f"task {other.task.name}"] if rollout.task != other.task else []
+    ours, theirs = rollout.tables, other.tables
+    if unlike:
+        said = f"its {unlike[0]} {'are others' if unlike[0].endswith('s') else 'is another'}"
+    elif any(ours.sensors[name].tolist() != theirs.sensors[name].tolist() for name in SENSED):
+        said = "its skills read other sensors"
+    else:
+        return
+    raise ChangeError(
+        f"the other mind cannot take over in the middle: {said}", "leave out --tick: let it begin the run"
+    )

@@ -92,18 +92,25 @@ def store(typingctx, array, row, lane, value):
     return types.void(array, types.intp, types.intp, vector), generate
 
 
-def _operation(make: Callable[[Any, Any, Any], Any]) -> Any:
+def _operation(make: Callable[[Any, Any, Any], Any], sign: Any = None) -> Any:
+    """An operation on two vectors; compiled code may write it as `sign`."""
+
     @intrinsic
     def operate(typingctx, left, right):
         return vector(vector, vector), lambda context, builder, signature, args: make(builder, *args)
 
+    def choose(left, right):
+        return (lambda left, right: operate(left, right)) if left is vector and right is vector else None
+
+    if sign:
+        overload(sign)(choose)
     return operate
 
 
-ADD = _operation(lambda builder, a, b: builder.fadd(a, b))
-MULTIPLY = _operation(lambda builder, a, b: builder.fmul(a, b))
-DIVIDE = _operation(lambda builder, a, b: builder.fdiv(a, b))
-SUBTRACT = _operation(lambda builder, a, b: builder.fsub(a, b))
+_operation(lambda builder, a, b: builder.fadd(a, b), operator.add)
+_operation(lambda builder, a, b: builder.fmul(a, b), operator.mul)
+_operation(lambda builder, a, b: builder.fdiv(a, b), operator.truediv)
+_operation(lambda builder, a, b: builder.fsub(a, b), operator.sub)
 LOWEST = _operation(lambda builder, a, b: builder.select(builder.fcmp_ordered("<", a, b), a, b))
 HIGHEST = _operation(lambda builder, a, b: builder.select(builder.fcmp_ordered(">", a, b), a, b))
 
@@ -116,34 +123,6 @@ def where_ordered(typingctx, low, high, yes, no):
         return builder.select(builder.fcmp_ordered("<=", args[0], args[1]), args[2], args[3])
 
     return vector(vector, vector, vector, vector), generate
-
-
-@overload(operator.add)
-def _add(left, right):
-    if left is vector and right is vector:
-        return lambda left, right: ADD(left, right)
-    return None
-
-
-@overload(operator.sub)
-def _subtract(left, right):
-    if left is vector and right is vector:
-        return lambda left, right: SUBTRACT(left, right)
-    return None
-
-
-@overload(operator.mul)
-def _multiply(left, right):
-    if left is vector and right is vector:
-        return lambda left, right: MULTIPLY(left, right)
-    return None
-
-
-@overload(operator.truediv)
-def _divide(left, right):
-    if left is vector and right is vector:
-        return lambda left, right: DIVIDE(left, right)
-    return None
 
 
 @compiled

@@ -7,8 +7,6 @@ import sys
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-import numpy as np
-
 from mindrun.graph.graph import Actuator, Graph, Reward, Skill, Task
 from mindrun.graph.policy import Policy
 from mindrun.kinds.actuators.wheel import Wheel
@@ -17,22 +15,14 @@ from mindrun.kinds.functions.rule import Rule
 from mindrun.kinds.scenes.plain import Plain
 from mindrun.processors import give_way
 from mindrun.sim import cache
-from mindrun.sim.changed_ticks import compile_stages
-from mindrun.sim.commanded_lanes import CommandedLanes
-from mindrun.sim.lanes import stages
 from mindrun.sim.lanes.advance import advance
+from mindrun.sim.lanes.runs import fill
+from mindrun.sim.lanes.stages import act, after, before, begin_again, conclude, run_skills, send, wake
 from mindrun.sim.numba_internals import code_of
 from mindrun.sim.rollout import Rollout
-from mindrun.sim.state import Jobs
 
 IN_BACKGROUND = "behind"
 LOWEST_NICENESS = 19  # how little a process matters that works while others wait for nothing
-
-
-def code_of_stages() -> cache.MachineCode:
-    """What is kept and shipped of the stages of a tick one by one."""
-    found: cache.MachineCode = code_of(stages.after)
-    return found
 
 
 def is_there(entries: Iterable[Any]) -> bool:
@@ -57,18 +47,7 @@ def start(*words: str) -> "subprocess.Popen[bytes]":
 def warm_up() -> None:
     """Compile every way in that is not kept yet."""
     rollout = Rollout(Policy(_smallest(), {}), "Nothing", "Rest")
-    rollout.compile()
-    tables, state = rollout.tables, rollout.tile(1).state
-    compile_stages(rollout)
-    stages.wake(tables, state, 0, 0)
-    stages.send(tables, state, 0, 0, 0, 0)
-    CommandedLanes(rollout, 1)
-    stages.act(tables, state, 0, 0)
-    stages.conclude(tables, state, _no_jobs(rollout), True)
-
-
-def _no_jobs(rollout: Rollout) -> Jobs:
-    return rollout.jobs(np.zeros((0, rollout.genome_length), np.float32), np.zeros(0, np.uint64))
+    rollout.compile(fill, advance, before, run_skills, after, wake, send, begin_again, act, conclude)
 
 
 def main(words: Sequence[str]) -> None:

@@ -1,25 +1,82 @@
 """The standard streams, such that no program ends by them: there, in any encoding, and never an exception.
 
 What cannot be told is dropped, since it must not change what is done; what standard output does not take is
-remembered: a document that is not whole is no success.
+remembered: a document that is not whole is no success. Where a robot drives, nobody waits for a reader either: a
+terminal that is paused must not keep a wheel turning.
 """
 
 import os
 import sys
-from collections.abc import Iterator
+from collections import deque
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, redirect_stdout
 from ctypes import CDLL
+from dataclasses import dataclass, field
 from io import BufferedWriter, FileIO, RawIOBase, TextIOWrapper
 from select import select
+from threading import Condition, Lock, Thread
+from time import monotonic
 from typing import Any, TextIO
 
 from mindrun.errors import reason
 from mindrun.files.printable import visible
-from mindrun.terminal.line_writer import LineWriter
 
 OUTPUT_DESCRIPTOR, ERROR_DESCRIPTOR = 1, 2
 USUAL_COLUMNS = 80  # of a terminal that does not say
+MAX_WAITING_PIECES = 1000  # pieces that wait for a reader; the oldest go first
+PLAIN_SECONDS = 10.0  # from one status to the next, where there is no terminal that could rewrite a line
+CLEAR = "\r\033[K"  # back to the beginning of the line, and nothing behind it
 DRAIN_SECONDS = 1.0  # in which what a thread writes to standard error must be taken
+
+
+class LineWriter(RawIOBase):
+    """Writes to a file descriptor from a thread of its own; what nobody takes is dropped."""
+
+    def __init__(self, descriptor: int, prefix: str = "") -> None:
+        super().__init__()
+        self._descriptor = descriptor
+        self._prefix = prefix
+        self._waiting: deque[bytes] = deque(maxlen=MAX_WAITING_PIECES)
+        self._idle = True
+        self._change = Condition()
+        Thread(target=self._run, name="line_writer", daemon=True).start()
+
+    def __call__(self, line: str) -> None:
+        """Say a line, of which only what can be printed is said as it is; returns at once."""
+        self.write(f"{self._prefix}{visible(' '.join(line.split()))}\n".encode(errors="replace"))
+
+    def writable(self) -> bool:
+        return True
+
+    def write(self, data: Any) -> int:
+        """Queue bytes as they are; their number, at once."""
+        with self._change:
+            self._waiting.append(bytes(data))
+            self._change.notify_all()
+        return memoryview(data).nbytes
+
+    def drain(self, seconds: float) -> bool:
+        """Wait until everything is written, but no longer than so many seconds; whether it is."""
+        with self._change:
+            return self._change.wait_for(lambda: self._idle and not self._waiting, seconds)
+
+    def _run(self) -> None:
+        while True:
+            with self._change:
+                self._idle = True
+                self._change.notify_all()
+                self._change.wait_for(lambda: self._waiting)
+                data, self._idle = self._waiting.popleft(), False
+            self._say(data)
+
+    def _say(self, data: bytes) -> None:
+        while data:
+            try:
+                data = data[os.write(self._descriptor, data) :]
+            except BlockingIOError:  # another program has left it not blocking
+                select([], [self._descriptor], [])
+            except (OSError, ValueError):  # nobody listens, or the disk is full: perhaps not for ever
+                return
 
 
 class Stream(FileIO):
@@ -78,7 +135,7 @@ def flush_standard_error() -> None:
 def is_error_read() -> bool:
     """Whether standard error has taken all that has been told so far."""
     raw = _raw(sys.stderr)
-    return raw.is_idle if isinstance(raw, LineWriter) else True
+    return raw.drain(0.0) if isinstance(raw, LineWriter) else True
 
 
 def error_columns() -> int | None:
@@ -139,6 +196,49 @@ def talk() -> Iterator[None]:
         CDLL(None).fflush(None)  # C keeps back what does not go to a terminal
         os.dup2(kept, OUTPUT_DESCRIPTOR)
         os.close(kept)
+
+
+@dataclass(slots=True)
+class StatusLine:
+    """A line on standard error that is rewritten, below sentences that `say` prints. Any thread may tell or show."""
+
+    say: Callable[[str], None]
+    clock: Callable[[], float] = monotonic
+    columns: Callable[[], int | None] = error_columns
+    _is_shown: bool = False
+    _last: float = field(default=float("-inf"))
+    _lock: Lock = field(default_factory=Lock, repr=False)
+
+    def tell(self, sentence: str) -> None:
+        """Print a sentence that stays."""
+        with self._lock:
+            self._erase()
+            self.say(sentence)
+
+    def show(self, line: str) -> None:
+        """Rewrite the line, cut where the terminal ends; on no terminal print it, but not often.
+
+        A terminal that is paused gets no more of them: sentences that wait would be lost.
+        """
+        columns = self.columns()
+        with self._lock:
+            if columns is None:
+                if self.clock() - self._last >= PLAIN_SECONDS:
+                    self._last = self.clock()
+                    self.say(line)
+            elif is_error_read():
+                draw(CLEAR + visible(line)[: columns - 1])
+                self._is_shown = True
+
+    def clear(self) -> None:
+        """Remove the line."""
+        with self._lock:
+            self._erase()
+
+    def _erase(self) -> None:
+        if self._is_shown:
+            draw(CLEAR)
+            self._is_shown = False
 
 
 def _occupy(number: int) -> None:

@@ -108,6 +108,12 @@ class Record:
     """One generation in the log; attempts and generations count from 1.
 
     `reevaluated` is the champion's score where it was tried on fresh layouts, `verdict` its score at the attempt's end.
+
+    >>> seen = []
+    >>> options = mindlang.TrainOptions(generations=2, attempts=1)
+    >>> [result] = mind.train("GoToObject", options=options, on_generation=seen.append)
+    >>> [record.generation for record in seen]
+    [1, 2]
     """
 
     attempt: int

@@ -8,7 +8,7 @@ from time import sleep
 import cv2
 import numpy as np
 from mindrun.numbers.arrays import Frame
-from mindrun.robot.ball_detection import focal_length
+from mindrun.robot.camera import focal_length
 
 WIDTH, HEIGHT, VIEW, GREEN = 320, 240, 60.0, 120
 FINER = 8  # drawn so many times larger

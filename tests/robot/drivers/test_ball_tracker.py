@@ -12,8 +12,8 @@ from mindrun.driver import DeviceError
 from mindrun.graph.wiring import SensorWire, reading
 from mindrun.numbers.arrays import Frame
 from mindrun.robot import camera as watched
-from mindrun.robot import driver_support
-from mindrun.robot.ball_detection import Aim, focal_length
+from mindrun.robot import driver_support, i2c
+from mindrun.robot.camera import Aim, focal_length
 from mindrun.robot.drivers import ball_tracker
 from mindrun.robot.drivers.ball_tracker import BallTracker
 
@@ -29,7 +29,7 @@ Install = Callable[[Draw], FakeCamera]
 @pytest.fixture
 def camera(monkeypatch: pytest.MonkeyPatch) -> Iterator[Install]:
     """Puts a camera there that draws its frames."""
-    monkeypatch.setattr(ball_tracker, "_cameras", {})
+    monkeypatch.setattr(ball_tracker, "cameras", driver_support.SharedParts())
 
     def install(draw: Draw) -> FakeCamera:
         made = FakeCamera(draw)
@@ -37,7 +37,7 @@ def camera(monkeypatch: pytest.MonkeyPatch) -> Iterator[Install]:
         return made
 
     yield install
-    ball_tracker._end_all()
+    ball_tracker.cameras.close()
 
 
 def at(angle: float, diameter: float = 24.0, up: float = 0.0) -> Draw:
@@ -147,7 +147,7 @@ def test_a_camera_that_never_starts_is_told(camera: Install, monkeypatch: pytest
 def test_the_neck_follows_and_the_bearing_stays(camera: Install, monkeypatch: pytest.MonkeyPatch) -> None:
     card = FakePca9685()
     bus = FakeBus({0x40: card})
-    monkeypatch.setattr(driver_support, "open_bus", lambda number: bus)
+    monkeypatch.setattr(i2c, "open_bus", lambda number: bus)
     monkeypatch.setattr(ball_tracker, "CENTRING_SECONDS", 0.05)
     driver = BallTracker(pan=0, tilt=1, travel=180.0, tilt_travel=-90.0)
 
@@ -174,7 +174,7 @@ def test_the_neck_follows_and_the_bearing_stays(camera: Install, monkeypatch: py
 def test_a_neck_that_is_not_there_is_told_and_lets_the_camera_go(
     camera: Install, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(driver_support, "open_bus", lambda number: FakeBus({}))
+    monkeypatch.setattr(i2c, "open_bus", lambda number: FakeBus({}))
     made = camera(at(0.0))
     with pytest.raises(DeviceError, match="servo card"):
         BallTracker(pan=0).open()

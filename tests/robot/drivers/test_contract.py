@@ -29,7 +29,7 @@ def world(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> It
     """The fake of a part."""
     worlds = SENSORS if "sensor" in request.node.name else ACTUATORS
     yield worlds[request.param](monkeypatch)
-    ball_tracker._end_all()
+    ball_tracker.cameras.close()
 
 
 sensors = pytest.mark.parametrize("world", SENSORS, indirect=True)

@@ -3,7 +3,7 @@
 import pytest
 from mindrun.driver import DeviceError
 from mindrun.graph.wiring import SensorWire, reading
-from mindrun.robot import driver_support
+from mindrun.robot import i2c
 from mindrun.robot.drivers.ads1115 import Ads1115
 from mindrun.robot.drivers.lsm9ds1_compass import MagneticCompass
 from mindrun.robot.drivers.lsm9ds1_motion import Motion
@@ -16,7 +16,7 @@ MS2, MILLIGAUSS = 0.061e-3 * 9.80665, 0.14
 
 def on_bus(patch: pytest.MonkeyPatch, address: int, part: object) -> None:
     """Put a part on the bus."""
-    patch.setattr(driver_support, "open_bus", lambda number: FakeBus({address: part}))
+    patch.setattr(i2c, "open_bus", lambda number: FakeBus({address: part}))
 
 
 @pytest.fixture

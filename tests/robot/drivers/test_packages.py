@@ -6,7 +6,7 @@ from types import SimpleNamespace
 
 import pytest
 from mindrun.driver import DeviceError
-from mindrun.robot import driver_support
+from mindrun.robot import i2c
 from mindrun.robot.drivers.switch import Switch
 
 WITHOUT = """
@@ -44,7 +44,7 @@ def test_pins_that_nobody_can_drive_say_what_to_install(monkeypatch: pytest.Monk
     def nothing(pin: int, pull_up: bool) -> None:
         raise gpiozero.BadPinFactory("Unable to load any default pin factory!")
 
-    monkeypatch.setattr(gpiozero, "Button", nothing)
+    monkeypatch.setattr(gpiozero, "DigitalInputDevice", nothing)
     with pytest.raises(DeviceError, match="GPIO 17 cannot be opened") as caught:
         Switch(17).open()
     assert "python3-lgpio" in caught.value.hint
@@ -63,7 +63,7 @@ def test_a_transfer_is_one_message_each_way(monkeypatch: pytest.MonkeyPatch) -> 
     kinds = {kind: lambda *what, kind=kind: Message([kind, *what]) for kind in ("write", "read")}
     message = SimpleNamespace(**kinds)
     monkeypatch.setitem(sys.modules, "smbus2", SimpleNamespace(SMBus=lambda number: bus, i2c_msg=message))
-    wire = driver_support.I2cDevice("it", 1, 0x40)
+    wire = i2c.I2cDevice("it", 1, 0x40)
     assert wire.read(0x05, 2) == b"\x11\x22"
     wire.write(0x06, 7)
     assert wire.transfer(b"", 2) == b"\x11\x22"
@@ -80,12 +80,12 @@ def test_a_transfer_is_one_message_each_way(monkeypatch: pytest.MonkeyPatch) -> 
 def test_smbus2_is_used_as_it_is() -> None:
     import smbus2
 
-    bus = driver_support.LinuxBus(SimpleNamespace(i2c_rdwr=lambda *messages: None), smbus2.i2c_msg)
+    bus = i2c.Bus(SimpleNamespace(i2c_rdwr=lambda *messages: None), smbus2.i2c_msg)
     assert bus.transfer(0x40, b"\x05", 3) == b"\0\0\0"
     assert bus.transfer(0x40, b"\x05\x01", 0) == b""
 
 
 def test_a_bus_that_is_off_says_how_to_turn_it_on() -> None:
     with pytest.raises(DeviceError, match="I2C bus 97 cannot be opened") as caught:
-        driver_support.open_bus(97)
+        i2c.open_bus(97)
     assert "raspi-config" in caught.value.hint

@@ -5,7 +5,7 @@ from time import monotonic
 
 import pytest
 from mindrun.driver import DeviceError
-from mindrun.robot import driver_support
+from mindrun.robot import i2c
 from mindrun.robot.drivers.grove_ultrasonic import GroveUltrasonic
 from mindrun.robot.drivers.ultrasonic import Ultrasonic, firing_order
 
@@ -74,7 +74,7 @@ def test_pins_must_make_pairs(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_a_port_with_no_ranger_is_a_fault(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(driver_support, "open_bus", lambda number: FakeBus({4: FakeGrovePi({4: 35})}))
+    monkeypatch.setattr(i2c, "open_bus", lambda number: FakeBus({4: FakeGrovePi({4: 35})}))
     assert GroveUltrasonic((4,)).open().read() == (0.35,)
     with pytest.raises(DeviceError, match="no ranger on port D5"):
         GroveUltrasonic((4, 5)).open().read()
@@ -82,7 +82,7 @@ def test_a_port_with_no_ranger_is_a_fault(monkeypatch: pytest.MonkeyPatch) -> No
 
 def test_a_board_that_is_busy_for_ever_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
     board = FakeGrovePi({4: 35})
-    monkeypatch.setattr(driver_support, "open_bus", lambda number: FakeBus({4: board}))
+    monkeypatch.setattr(i2c, "open_bus", lambda number: FakeBus({4: board}))
     device = GroveUltrasonic((4,)).open()
     board.takes = inf
     with pytest.raises(DeviceError, match="does not finish"):

@@ -2,7 +2,7 @@
 
 import pytest
 from mindrun.driver import DeviceError
-from mindrun.robot import driver_support
+from mindrun.robot import i2c
 from mindrun.robot.drivers.pca9685 import COUNT, Pca9685
 
 from tests.robot.drivers.fakes import FakeBus, FakePca9685
@@ -12,7 +12,7 @@ from tests.robot.drivers.fakes import FakeBus, FakePca9685
 def card(monkeypatch: pytest.MonkeyPatch) -> FakePca9685:
     """A servo card that has just been turned on."""
     found = FakePca9685()
-    monkeypatch.setattr(driver_support, "open_bus", lambda number: FakeBus({0x40: found}))
+    monkeypatch.setattr(i2c, "open_bus", lambda number: FakeBus({0x40: found}))
     return found
 
 

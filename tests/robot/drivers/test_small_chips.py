@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from mindrun.driver import DeviceError
-from mindrun.robot import driver_support
+from mindrun.robot import i2c
 from mindrun.robot.drivers import ads1115, grove_ultrasonic
 from mindrun.robot.drivers.ads1115 import Ads1115
 from mindrun.robot.drivers.ball_eye import along_ray
@@ -23,7 +23,7 @@ def test_what_asks_one_chip_waits_for_its_turn(monkeypatch: pytest.MonkeyPatch) 
     monkeypatch.setattr(grove_ultrasonic, "ANSWERED_IN", 600.0)
     monkeypatch.setattr(ads1115, "DONE_IN", 600.0)
     parts = {0x04: FakeGrovePi({4: 40, 2: 20}), 0x48: FakeAds1115(1.0)}
-    monkeypatch.setattr(driver_support, "open_bus", lambda number: FakeBus(parts))
+    monkeypatch.setattr(i2c, "open_bus", lambda number: FakeBus(parts))
     drivers = [GroveUltrasonic((4,)), GroveUltrasonic((2,)), Ads1115(0, 2.0), Ads1115(1, 2.0)]
     found: list[set[object]] = [set() for _ in drivers]
 
@@ -42,7 +42,7 @@ def test_what_asks_one_chip_waits_for_its_turn(monkeypatch: pytest.MonkeyPatch) 
 
 def on_bus(patch: pytest.MonkeyPatch, address: int, part: object) -> None:
     """A part on a bus of its own."""
-    patch.setattr(driver_support, "open_bus", lambda number: FakeBus({address: part}))
+    patch.setattr(i2c, "open_bus", lambda number: FakeBus({address: part}))
 
 
 @pytest.mark.parametrize(("metres", "expected"), [(0.0, 0.0), (0.8, 0.8), (0.81, None), (None, None)])

@@ -5,7 +5,7 @@ from random import Random
 
 import pytest
 from mindrun.driver import DeviceError
-from mindrun.robot import driver_support
+from mindrun.robot import driver_support, i2c
 from mindrun.robot.drivers import grove_motor
 from mindrun.robot.drivers.grove_motor import GroveMotor, MotorDevice
 
@@ -23,8 +23,8 @@ def bus(monkeypatch: pytest.MonkeyPatch) -> FakeBus:
         found.open += 1
         return found
 
-    monkeypatch.setattr(driver_support, "open_bus", open_bus)
-    monkeypatch.setattr(grove_motor, "_boards", {})
+    monkeypatch.setattr(i2c, "open_bus", open_bus)
+    monkeypatch.setattr(grove_motor, "boards", driver_support.SharedParts())
     return found
 
 

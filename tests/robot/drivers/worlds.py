@@ -6,9 +6,8 @@ from math import inf
 from typing import Any
 
 import pytest
-from mindrun.robot import camera, driver_support
-from mindrun.robot.ball_detection import focal_length
-from mindrun.robot.driver_code import of_file
+from mindrun.robot import camera, driver_support, i2c
+from mindrun.robot.camera import focal_length
 from mindrun.robot.drivers import ball_tracker as tracking
 from mindrun.robot.drivers import grove_motor as motors
 from mindrun.robot.drivers.ads1115 import Ads1115
@@ -28,7 +27,7 @@ from mindrun.robot.drivers.mcp3008 import Mcp3008
 from mindrun.robot.drivers.mock import MockActuator, MockSensor
 from mindrun.robot.drivers.mpu6050 import Mpu6050
 from mindrun.robot.drivers.own import KIND as OWN_KIND
-from mindrun.robot.drivers.own import OwnActuator, OwnSensor
+from mindrun.robot.drivers.own import OwnActuator, OwnSensor, of_file
 from mindrun.robot.drivers.pca9685 import Pca9685
 from mindrun.robot.drivers.servo import PinServo
 from mindrun.robot.drivers.switch import Switch
@@ -73,7 +72,7 @@ def on_bus(patch: pytest.MonkeyPatch, address: int, part: Any, **world: Any) -> 
         bus.open += 1
         return bus
 
-    patch.setattr(driver_support, "open_bus", open_bus)
+    patch.setattr(i2c, "open_bus", open_bus)
     return World(bus=bus, parts=[part], fail=lambda: setattr(bus, "failing", 1.0), **world)
 
 
@@ -168,7 +167,7 @@ def filmed(patch: pytest.MonkeyPatch, driver: Any, expected: tuple[float | None,
     x = frames.column(12.0)
     fake = frames.FakeCamera(lambda count: frames.taken(frames.ball(frames.room(), x, 100, 25), seed=count))
     patch.setattr(camera, "open_camera", lambda path, width, height: fake)
-    patch.setattr(tracking, "_cameras", {})
+    patch.setattr(tracking, "cameras", driver_support.SharedParts())
     return World(driver, expected, within, parts=[fake], fail=fake.stopped.set)
 
 
@@ -253,7 +252,7 @@ def pca9685(patch: pytest.MonkeyPatch) -> World:
 
 def grove_motor(patch: pytest.MonkeyPatch) -> World:
     part = FakeGroveMotor()
-    patch.setattr(motors, "_boards", {})
+    patch.setattr(motors, "boards", driver_support.SharedParts())
     return on_bus(
         patch,
         0x0F,

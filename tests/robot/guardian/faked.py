@@ -1,12 +1,13 @@
 """A guardian without threads, devices or time: a test is all three."""
 
+import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from unittest.mock import patch
 
 from mindrun.driver import DeviceError
-from mindrun.robot.guardian.frames import pack
+from mindrun.robot.guardian.messages import pack
 from mindrun.robot.guardian.plan import Channel, Plan
 from mindrun.robot.guardian.process import Process
 
@@ -102,4 +103,5 @@ def faked(*channels: Channel, devices: tuple[Device, ...] = ()) -> Iterator[Fake
             found.write()
             yield found
         finally:
-            process.hang_up()
+            for each in (process._woken, process.wake):
+                os.close(each)

@@ -13,7 +13,7 @@ from math import inf
 from pathlib import Path
 
 from mindrun.robot.guardian.client import Guardian
-from mindrun.robot.guardian.frames import pack
+from mindrun.robot.guardian.messages import pack
 from mindrun.robot.guardian.plan import to_json
 
 from tests.robot.guardian.driven import LOGGED, PATIENCE, PLAN, TICK

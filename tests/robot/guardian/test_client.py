@@ -13,9 +13,9 @@ from termios import FIONREAD
 from typing import Any
 
 import pytest
-from mindrun.robot import child_processes
+from mindrun.robot import processes
 from mindrun.robot.guardian.client import Guardian, GuardianError
-from mindrun.robot.guardian.frames import Frame, Reader, size
+from mindrun.robot.guardian.messages import Frame, Reader, size
 from mindrun.robot.guardian.plan import from_json
 
 from tests.robot.guardian.driven import PLAN
@@ -93,7 +93,7 @@ def start(tmp_path: Path) -> Iterator[Start]:
 def unhurried(monkeypatch: pytest.MonkeyPatch) -> None:
     """A guardian of a busy machine has time, unless a test is about just that."""
     monkeypatch.setattr("mindrun.robot.guardian.client.HANG_SECONDS", PATIENCE)
-    monkeypatch.setattr("mindrun.robot.guardian.processes.WORDS_SECONDS", PATIENCE)
+    monkeypatch.setattr("mindrun.robot.guardian.client.WORDS_SECONDS", PATIENCE)
 
 
 @pytest.fixture
@@ -176,12 +176,12 @@ def test_one_that_is_never_ready_is_made_to_end(start: Start, monkeypatch: pytes
         begun.append(popen(*given, **named))
         return begun[-1]
 
-    before, popen = set(child_processes._let_go), subprocess.Popen
+    before, popen = set(processes._let_go), subprocess.Popen
     monkeypatch.setattr(subprocess, "Popen", begin)
     with pytest.raises(GuardianError) as caught:
         start("starting", then, patience=0.3)
     assert str(caught.value) == f"the guardian is not ready after 0.3 s; {BROUGHT[ALL]}"
-    assert child_processes._let_go == before
+    assert processes._let_go == before
     assert [process.wait(PATIENCE) for process in begun] == [-signal.SIGKILL, 1]
 
 
@@ -247,7 +247,7 @@ def test_one_that_has_said_that_all_rests_is_not_replaced(start: Start, tmp_path
         guardian.send(MOVING, armed=True)
     assert str(caught.value) == "the guardian is gone: it has ended, with every actuator at neutral"
     guardian.close()
-    assert guardian._processes.let_go not in child_processes._let_go
+    assert guardian._processes.let_go not in processes._let_go
     assert not (tmp_path / "log-neutral").exists()
 
 
@@ -279,7 +279,7 @@ def test_one_that_does_not_end_goes_on_alone(start: Start, tmp_path: Path) -> No
     assert str(caught.value) == f"an actuator is not at neutral after 0.3 s; process {guardian.pid} goes on trying"
     assert caught.value.hint == "cut the actuators' power"
     assert guardian._processes.first.poll() is None
-    assert guardian._processes.let_go not in child_processes._let_go
+    assert guardian._processes.let_go not in processes._let_go
 
 
 @pytest.mark.parametrize("ends", BROUGHT)
@@ -290,7 +290,7 @@ def test_what_came_of_replacing_it_is_told_and_not_tried_again(
     guardian._processes.first.kill()
     guardian._processes.first.wait()
     if ends == "hangs":
-        monkeypatch.setattr("mindrun.robot.guardian.processes.WORDS_SECONDS", 0.0)
+        monkeypatch.setattr("mindrun.robot.guardian.client.WORDS_SECONDS", 0.0)
     with pytest.raises(GuardianError) as caught:
         guardian.send(MOVING, armed=True)
     assert str(caught.value) == f"the guardian is gone: {BROUGHT[ends]}"

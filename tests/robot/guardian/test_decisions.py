@@ -5,8 +5,8 @@ from dataclasses import dataclass, field
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mindrun.robot.drivers.mock import MockActuator
-from mindrun.robot.guardian.frames import Frame
 from mindrun.robot.guardian.guard import Guard, Move, Order, Rest
+from mindrun.robot.guardian.messages import Frame
 from mindrun.robot.guardian.plan import Channel, Plan
 
 from tests.draws import cases

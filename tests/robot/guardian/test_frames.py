@@ -1,13 +1,13 @@
 """Only what is exactly a frame is one."""
 
+import struct
 from math import inf, nan
-from struct import pack as pack_floats
 from zlib import crc32
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from mindrun.robot.guardian.frames import CHECK, HEAD, MAX_COMMANDS, FrameError, Reader, pack, size
+from mindrun.robot.guardian.messages import CHECK, HEAD, MAX_COMMANDS, FrameError, Reader, pack, size
 
 SHARES = st.floats(0, 1, width=32)
 
@@ -49,7 +49,7 @@ def test_a_command_that_is_no_share_is_refused(value: float) -> None:
 
 def sealed(magic: bytes = b"MIND", version: int = 2, armed: int = 1, count: int = 1, number: int = 0) -> bytes:
     """A frame of one command whose check is right, whatever else it says."""
-    data = HEAD.pack(magic, version, armed, count, number, 0) + pack_floats("<f", 0.5)
+    data = struct.pack(f"{HEAD}f", magic, version, armed, count, number, 0, 0.5)
     return data + CHECK.pack(crc32(data))
 
 

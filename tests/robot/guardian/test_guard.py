@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from mindrun.robot.drivers.mock import MockActuator
-from mindrun.robot.guardian.frames import Frame, pack
 from mindrun.robot.guardian.guard import FOLLOWING, LATCHED, MAX_FAILURES, NEUTRAL
+from mindrun.robot.guardian.messages import Frame, pack
 from mindrun.robot.guardian.plan import Channel
 
 from tests.robot.guardian.faked import TICK, Faked, faked

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 import pytest
 from mindrun.robot.guardian import __main__ as main
-from mindrun.robot.guardian import rescue
+from mindrun.robot.guardian import watch
 
 from tests.robot.guardian.driven import PLAN
 
@@ -71,8 +71,8 @@ def woken(monkeypatch: pytest.MonkeyPatch) -> list[int]:
 @pytest.fixture
 def time(monkeypatch: pytest.MonkeyPatch) -> Time:
     clock = Time()
-    monkeypatch.setattr(rescue, "monotonic", clock.monotonic)
-    monkeypatch.setattr(rescue, "sleep", clock.sleep)
+    monkeypatch.setattr(watch, "monotonic", clock.monotonic)
+    monkeypatch.setattr(watch, "sleep", clock.sleep)
     return clock
 
 
@@ -122,7 +122,7 @@ def test_an_error_of_its_own_ends_at_neutral(monkeypatch: pytest.MonkeyPatch, wo
 def brought(process: Asked, seconds: float) -> list[str]:
     """What is reported."""
     reports: list[str] = []
-    assert rescue.bring(process, reports.append, seconds) == ("claw",)  # type: ignore[arg-type,comparison-overlap]
+    assert watch.bring(process, reports.append, seconds) == ("claw",)  # type: ignore[arg-type,comparison-overlap]
     return reports
 
 
@@ -142,7 +142,7 @@ def test_what_cannot_be_opened_in_time_is_told_and_the_others_are_brought(time: 
     process = Asked(wrong=iter([["left is missing", "claw is missing"]] * 99))
     assert brought(process, 1.0) == ["left is missing", "claw is missing"]
     assert process.asked.count("open") in (21, 22)  # every 0.05 s
-    assert process.asked[-2:] == ["settle", rescue.RETRY_SECONDS]
+    assert process.asked[-2:] == ["settle", watch.RETRY_SECONDS]
 
 
 def test_what_is_not_at_neutral_in_time_is_told(time: Time) -> None:

@@ -13,8 +13,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from mindrun.driver import DeviceError
 from mindrun.robot.drivers.mock import MockActuator
-from mindrun.robot.guardian.frames import pack
 from mindrun.robot.guardian.guard import FOLLOWING
+from mindrun.robot.guardian.messages import pack
 from mindrun.robot.guardian.output import ActuatorOutput
 from mindrun.robot.guardian.plan import Channel
 

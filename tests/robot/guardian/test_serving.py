@@ -8,7 +8,7 @@ from select import select
 
 import pytest
 from mindrun.driver import DeviceError
-from mindrun.robot.guardian.frames import pack
+from mindrun.robot.guardian.messages import pack
 from mindrun.robot.guardian.plan import Channel, Plan
 from mindrun.robot.guardian.process import Process
 
@@ -117,7 +117,8 @@ def closed(monkeypatch: pytest.MonkeyPatch) -> Iterator[Robot]:
     robot = Robot()
     monkeypatch.setattr("mindrun.robot.guardian.process.select", robot.select)
     yield robot
-    robot.process.hang_up()
+    for each in (robot.process._woken, robot.process.wake):
+        os.close(each)
     os.close(robot.reading)
 
 

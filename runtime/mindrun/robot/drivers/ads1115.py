@@ -1,12 +1,12 @@
 """A battery's voltage by an ADS1115 (Texas Instruments, 4 inputs of 16 bits; data sheet SBAS444)."""
 
 from dataclasses import dataclass
-from time import monotonic, sleep
 from typing import Annotated
 
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import Quantity
-from mindrun.robot.driver_support import ADDRESS, BUS, I2C_BYTE_SECONDS, I2cDevice, on_bus
+from mindrun.robot.driver_support import ADDRESS, BUS, answering
+from mindrun.robot.i2c import I2C_BYTE_SECONDS, I2cDevice, on_bus
 
 INPUT = Quantity("an input", {"": 1.0}, low=0, high=3, whole=True)
 RATIO_OF_DIVIDER = Quantity("how many times more than the input gets", {"": 1.0}, low=1.0, high=100.0)
@@ -17,7 +17,7 @@ TOO_MUCH = 0x7FFF
 DONE_IN = 0.05  # seconds; at 128 a second it takes 8 ms
 
 
-@dataclass(slots=True)
+@dataclass(frozen=True, slots=True)
 class VoltageDevice:
     """One input of the converter."""
 
@@ -29,27 +29,15 @@ class VoltageDevice:
         """The battery's voltage, measured now."""
         with self.wire.turn:
             self.wire.write(CONFIG, (self.config | START) >> 8, self.config & 0xFF)
-            self.wait()
+            found = self.wire.wait(CONFIG, START, DONE_IN, "does not finish measuring", count=2)
+            if found & ~START != self.config:
+                raise self.wire.error(f"has settings nobody gave it (0x{found:04x})")
             count = int.from_bytes(self.wire.read(CONVERSION, 2), "big", signed=True)
         if count >= TOO_MUCH:
             raise self.wire.error("has more than 4.096 V on its input; the divider is wrong or open")
         return (max(count, 0) * VOLTS_PER_COUNT * self.divider,)
 
-    def wait(self) -> None:
-        """Return when the measurement is done."""
-        begin = monotonic()
-        while True:
-            found = int.from_bytes(self.wire.read(CONFIG, 2), "big")
-            if found & ~START != self.config:
-                raise self.wire.error(f"has settings nobody gave it (0x{found:04x})")
-            if found & START:
-                return
-            if monotonic() - begin > DONE_IN:
-                raise self.wire.error("does not finish measuring")
-            sleep(0.002)
-
     def close(self) -> None:
-        """Let go."""
         self.wire.close()
 
 
@@ -80,12 +68,6 @@ class Ads1115:
         return on_bus(self.bus, self.address)
 
     def open(self) -> VoltageDevice:
-        """The converter."""
         config = FROM_GROUND | self.channel << 12 | RANGE_4V | ONCE | RATE_128 | NO_COMPARATOR
         device = VoltageDevice(I2cDevice("the voltage converter", self.bus, self.address), config, self.divider)
-        try:
-            device.read()
-        except Exception:
-            device.close()
-            raise
-        return device
+        return answering(device, device.read)

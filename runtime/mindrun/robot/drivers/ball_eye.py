@@ -6,9 +6,8 @@ from typing import Annotated
 
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import COUNT, RATIO
-from mindrun.robot.ball_detection import distance
-from mindrun.robot.camera import FRAME_SECONDS
-from mindrun.robot.driver_support import DEGREES, METRES, PATH
+from mindrun.robot.camera import FRAME_SECONDS, distance
+from mindrun.robot.driver_support import DEGREES, METRES, PATH, Ranging
 from mindrun.robot.drivers.ball_tracker import HUE, TOLERANCE, VIEW, BallTracker, BallTrackerDevice
 
 
@@ -29,7 +28,6 @@ class BallEyeDevice:
         return tuple(found if found is not None and found <= driver.range else None for found in rays)
 
     def close(self) -> None:
-        """Let go."""
         self.tracker.close()
 
 
@@ -43,7 +41,7 @@ def along_ray(angle: float, metres: float, radius: float) -> float | None:
 
 @kind("sensor driver", "ball_eye")
 @dataclass(frozen=True, slots=True)
-class BallEye:
+class BallEye(Ranging):
     """A camera that looks for a ball as `ball_tracker` does, for an `eye`: metres to it along each of some `angles`.
 
     They are those of the sensor, to the left positive; a ray that misses the ball of diameter `size`, or finds it
@@ -63,25 +61,12 @@ class BallEye:
     colour: Annotated[float, RATIO] = 0.4
     brightness: Annotated[float, RATIO] = 0.5
 
-    unit = "m"
     seconds = FRAME_SECONDS
 
     @property
     def readings(self) -> int:
-        """One of each ray."""
         return len(self.angles)
 
-    @property
-    def usual(self) -> tuple[float, float]:
-        """Touching, and as far as it looks."""
-        return 0.0, self.range
-
-    @property
-    def possible(self) -> tuple[float, float]:
-        """What is not nonsense."""
-        return self.usual
-
     def open(self) -> BallEyeDevice:
-        """The camera, which gives frames."""
         said = {name: getattr(self, name) for name in self.__dataclass_fields__ if name not in ("angles", "range")}
         return BallEyeDevice(self, BallTracker(**said).open())

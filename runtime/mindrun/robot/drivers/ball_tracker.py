@@ -2,7 +2,6 @@
 
 import atexit
 from dataclasses import dataclass, replace
-from threading import Lock, Thread
 from time import sleep
 from typing import Annotated, Literal, get_args
 
@@ -10,10 +9,20 @@ from mindrun.driver import DeviceError
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import COUNT, RATIO, Quantity, Reference
 from mindrun.robot import camera
-from mindrun.robot.ball_detection import BallTarget, PanTiltLimits, distance
-from mindrun.robot.camera import FRAME_SECONDS, BallSighting, Joint, TrackingCamera
-from mindrun.robot.driver_support import ADDRESS, BUS, CHANNEL, DEGREES, METRES, MICROSECONDS, PATH, on_bus
+from mindrun.robot.camera import FRAME_SECONDS, BallSighting, BallTarget, Joint, PanTiltLimits, TrackingCamera, distance
+from mindrun.robot.driver_support import (
+    ADDRESS,
+    BUS,
+    CHANNEL,
+    DEGREES,
+    METRES,
+    MICROSECONDS,
+    PATH,
+    SharedParts,
+    answering,
+)
 from mindrun.robot.drivers.pca9685 import Pca9685
+from mindrun.robot.i2c import on_bus
 
 Measure = Literal["bearing", "elevation", "distance"]
 MEASURE = Reference("measure", get_args(Measure))
@@ -23,23 +32,9 @@ VIEW = Quantity("an angle of view", {"deg": 1.0}, low=5.0, high=170.0)
 MAX_FRAME_AGE_SECONDS = 0.2  # seconds without a frame that are a fault
 FIRST_FRAME_SECONDS = 5.0  # until the first frame: cameras take their time to start
 CENTRING_SECONDS = 0.4  # seconds that servos need to the middle
-LETTING_GO = 1.0  # seconds that the thread may need to end
 
-_cameras: dict["BallTracker", tuple[TrackingCamera, Thread, int]] = {}  # of each, how many look through it
-_opening = Lock()
-
-
-def _end(tracking: TrackingCamera, thread: Thread) -> None:
-    """Tell a thread to end; it lets go of its camera, at the latest when that answers."""
-    tracking.stop.set()
-    thread.join(LETTING_GO)
-
-
-@atexit.register
-def _end_all() -> None:
-    """End all threads: Python must not, while they are inside OpenCV."""
-    for tracking, thread, _ in _cameras.values():
-        _end(tracking, thread)
+cameras = SharedParts["BallTracker", TrackingCamera]()
+atexit.register(cameras.close)  # Python must not end threads while they are inside OpenCV
 
 
 @dataclass(slots=True)
@@ -52,8 +47,16 @@ class BallTrackerDevice:
     closed: bool = False
 
     def read(self) -> tuple[float | None]:
-        """It, in the newest frame that was not read before; None where there is no ball in that."""
-        return (self.measured(self.sighting()),)
+        """It, in the newest frame that was not read before, degrees or metres; None where there is no ball in that."""
+        sighting, driver = self.sighting(), self.driver
+        if sighting.ball is None:
+            return (None,)
+        match driver.measure:
+            case "bearing":
+                return ((sighting.aim.pan + sighting.ball.bearing + 180) % 360 - 180,)
+            case "elevation":
+                return (sighting.aim.tilt + sighting.ball.elevation,)
+        return (distance(sighting.ball.diameter, driver.size, sighting.width, driver.view),)
 
     def sighting(self) -> BallSighting:
         """What is in the newest frame that was not read before."""
@@ -61,29 +64,12 @@ class BallTrackerDevice:
         self.number = sighting.number
         return sighting
 
-    def measured(self, sighting: BallSighting) -> float | None:
-        """The measure, in degrees or metres."""
-        if sighting.ball is None:
-            return None
-        match self.driver.measure:
-            case "bearing":
-                return (sighting.aim.pan + sighting.ball.bearing + 180) % 360 - 180
-            case "elevation":
-                return sighting.aim.tilt + sighting.ball.elevation
-        return distance(sighting.ball.diameter, self.driver.size, sighting.width, self.driver.view)
-
     def close(self) -> None:
         """Let go; the last one who looks through a camera turns it off."""
         if self.closed:
             return
         self.closed = True
-        with _opening:
-            key = self.driver.camera_alone()
-            tracking, thread, users = _cameras.pop(key)
-            if users > 1:
-                _cameras[key] = tracking, thread, users - 1
-                return
-            _end(tracking, thread)
+        cameras.give_back(self.driver.camera_alone())
 
 
 @kind("sensor driver", "ball_tracker")
@@ -124,7 +110,6 @@ class BallTracker:
 
     @property
     def unit(self) -> str:
-        """Of what is measured."""
         return "m" if self.measure == "distance" else "deg"
 
     @property
@@ -134,7 +119,6 @@ class BallTracker:
 
     @property
     def possible(self) -> tuple[float, float]:
-        """What is not nonsense."""
         return (0.0, 100.0) if self.measure == "distance" else (-180.0, 180.0)
 
     def camera_alone(self) -> "BallTracker":
@@ -152,23 +136,8 @@ class BallTracker:
         return replace(self, pan=None, tilt=None)
 
     def open(self) -> BallTrackerDevice:
-        """The camera, which gives frames."""
-        key = self.camera_alone()
-        with _opening:
-            if key not in _cameras:
-                tracking = self.open_tracking()
-                thread = Thread(target=tracking.watch, name=f"camera {self.camera}", daemon=True)
-                _cameras[key] = tracking, thread, 0
-                thread.start()
-            tracking, thread, users = _cameras[key]
-            _cameras[key] = tracking, thread, users + 1
-        device = BallTrackerDevice(self, tracking)
-        try:
-            tracking.after(0, FIRST_FRAME_SECONDS)
-        except Exception:
-            device.close()
-            raise
-        return device
+        tracking = cameras.take(self.camera_alone(), self.open_tracking)
+        return answering(BallTrackerDevice(self, tracking), lambda: tracking.after(0, FIRST_FRAME_SECONDS))
 
     def open_tracking(self) -> TrackingCamera:
         """The camera, and its servos, in the middle."""
@@ -177,10 +146,8 @@ class BallTracker:
             camera.open_camera(self.camera, self.width, self.height), target, PanTiltLimits(pan=0.0, tilt=0.0)
         )
         try:
-            if self.pan is not None:
-                tracking.pan = self.joint(self.pan, self.travel)
-            if self.tilt is not None:
-                tracking.tilt = self.joint(self.tilt, self.tilt_travel)
+            tracking.pan = self.joint(self.pan, self.travel)
+            tracking.tilt = self.joint(self.tilt, self.tilt_travel)
             tracking.point()
         except Exception:
             tracking.let_go()
@@ -189,10 +156,13 @@ class BallTracker:
             sleep(CENTRING_SECONDS)
         reach = [abs(joint.travel) / 2 if joint else 0.0 for joint in (tracking.pan, tracking.tilt)]
         tracking.limits = PanTiltLimits(*reach)
+        tracking.thread.start()
         return tracking
 
-    def joint(self, channel: int, travel: float) -> Joint:
-        """A servo of the neck."""
+    def joint(self, channel: int | None, travel: float) -> Joint | None:
+        """A servo of the neck, where it has one."""
+        if channel is None:
+            return None
         if not travel:
             raise DeviceError(f"the servo on channel {channel} has no travel")
         servo = Pca9685(channel, self.shortest, self.longest, self.bus, self.address)

@@ -4,9 +4,7 @@ from dataclasses import dataclass
 from typing import Annotated
 
 from mindrun.kinds.registry import kind
-from mindrun.robot.digital_inputs import DigitalInputsDevice, open_inputs
-from mindrun.robot.driver_support import PIN
-from mindrun.robot.drivers.switch import PULL, Pull
+from mindrun.robot.driver_support import PIN, PULL, InputPins, Pull, digital_inputs
 
 
 @kind("sensor driver", "bumper")
@@ -28,9 +26,7 @@ class Bumper:
 
     @property
     def readings(self) -> int:
-        """One of each switch."""
         return len(self.pins)
 
-    def open(self) -> DigitalInputsDevice:
-        """All switches."""
-        return open_inputs("the bumper", self.pins, pull_up=self.pull == "up")
+    def open(self) -> InputPins:
+        return digital_inputs("the bumper", self.pins, pull_up=self.pull == "up")

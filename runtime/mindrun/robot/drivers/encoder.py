@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal, get_args
 
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import Quantity, Reference
-from mindrun.robot.driver_support import METRES, PIN, library, pins
+from mindrun.robot.driver_support import METRES, PIN, open_pins, pins
 
 Measure = Literal["speed", "distance", "angle"]
 MEASURE = Reference("measure", get_args(Measure))
@@ -43,7 +43,6 @@ class EncoderDevice:
         return (speed,)
 
     def close(self) -> None:
-        """Let go of both pins."""
         self.rotary.close()
 
 
@@ -80,7 +79,6 @@ class Encoder:
 
     @property
     def unit(self) -> str:
-        """Of what is measured."""
         return {"distance": "m", "speed": "m/s", "angle": "deg"}[self.measure]
 
     @property
@@ -90,6 +88,6 @@ class Encoder:
 
     def open(self) -> EncoderDevice:
         """The encoder, which counts from now on."""
-        gpiozero = library("gpiozero")
-        with pins(f"the encoder on GPIO {self.a} and {self.b} cannot be opened"):
-            return EncoderDevice(self, gpiozero.RotaryEncoder(self.a, self.b, max_steps=0), 0, monotonic())
+        options = {"a": self.a, "b": self.b, "max_steps": 0}
+        [rotary] = open_pins((f"the encoder on GPIO {self.a} and {self.b}", "RotaryEncoder", options))
+        return EncoderDevice(self, rotary, 0, monotonic())

@@ -9,7 +9,8 @@ from typing import Annotated
 from mindrun.driver import DeviceError
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import Quantity
-from mindrun.robot.driver_support import ADDRESS, BUS, I2C_BYTE_SECONDS, I2cDevice, on_bus, share
+from mindrun.robot.driver_support import ADDRESS, BUS, SharedParts, answering, share
+from mindrun.robot.i2c import I2C_BYTE_SECONDS, I2cDevice, on_bus
 
 MOTOR = Quantity("a motor of the board", {"": 1.0}, low=1, high=2, whole=True)
 SPEED, FREQUENCY, DIRECTION = 0x82, 0x84, 0xAA
@@ -19,16 +20,12 @@ COMMAND_GAP_SECONDS = 0.004  # seconds that the board needs for a command; what 
 DIRECTION_REFRESH_SECONDS = 1.0  # seconds after which directions are sent again: a board that lost power forgets them
 FULL_SPEED = 255
 
-_boards: dict[tuple[int, int], "Board"] = {}
-_opening = Lock()
-
 
 @dataclass(slots=True, eq=False)
 class Board:
     """Both motors of a board: their speeds travel in one command, their directions in another."""
 
     wire: I2cDevice
-    users: int = 0
     speeds: list[int] = field(default_factory=lambda: [0, 0])  # signed, −255..255
     sent: int = -1  # the directions
     sent_at: float = 0.0
@@ -57,6 +54,9 @@ class Board:
             self.send(SPEED, *(abs(value) for value in wanted))
             self.speeds = wanted
 
+    def close(self) -> None:
+        self.wire.close()
+
     def send(self, *command: int) -> None:
         """Send a command when the board is done with the one before."""
         sleep(max(0.0, self.free_at - monotonic()))
@@ -64,6 +64,9 @@ class Board:
             self.wire.write(*command)
         finally:
             self.free_at = monotonic() + COMMAND_GAP_SECONDS
+
+
+boards = SharedParts[tuple[int, int], Board]()  # by bus and address
 
 
 @dataclass(slots=True)
@@ -88,11 +91,7 @@ class MotorDevice:
         self.closed = True
         with suppress(DeviceError):  # closing never raises; neutral was sent before by who commands the motors
             self.board.drive(self.motor, 0)
-        with _opening:
-            self.board.users -= 1
-            if not self.board.users:
-                self.board.wire.close()
-                _boards.pop((self.board.wire.number, self.board.wire.address), None)
+        boards.give_back((self.board.wire.number, self.board.wire.address))
 
 
 @kind("actuator driver", "grove_motor")
@@ -114,20 +113,13 @@ class GroveMotor:
 
     @property
     def device(self) -> str:
-        """What only one process may drive."""
         return on_bus(self.bus, self.address)
 
     def open(self) -> MotorDevice:
         """The motor; the first that is opened stops both."""
-        key = (self.bus, self.address)
-        with _opening:
-            board = _boards.get(key) or Board(I2cDevice("the motor board", self.bus, self.address))
-            if not board.users:
-                try:
-                    board.start()
-                except Exception:
-                    board.wire.close()
-                    raise
-            board.users += 1
-            _boards[key] = board
-        return MotorDevice(board, self.motor - 1)
+
+        def opened() -> Board:
+            board = Board(I2cDevice("the motor board", self.bus, self.address))
+            return answering(board, board.start)
+
+        return MotorDevice(boards.take((self.bus, self.address), opened), self.motor - 1)

@@ -6,7 +6,8 @@ from typing import Annotated
 
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import Quantity
-from mindrun.robot.driver_support import ADDRESS, BUS, I2C_BYTE_SECONDS, METRES, I2cDevice, on_bus
+from mindrun.robot.driver_support import ADDRESS, BUS, METRES, Ranging, answering
+from mindrun.robot.i2c import I2C_BYTE_SECONDS, I2cDevice, on_bus
 
 PORT = Quantity("a digital port of the GrovePi", {"": 1.0}, low=2, high=8, whole=True)
 RANGER_COMMAND, VERSION_COMMAND = 7, 8  # commands
@@ -55,13 +56,12 @@ class GroveUltrasonicDevice:
             raise self.wire.error("does not finish measuring")
 
     def close(self) -> None:
-        """Let go."""
         self.wire.close()
 
 
 @kind("sensor driver", "grove_ultrasonic")
 @dataclass(frozen=True, slots=True)
-class GroveUltrasonic:
+class GroveUltrasonic(Ranging):
     """Grove ultrasonic rangers on the digital ports of a GrovePi board: metres to an echo.
 
     `ports` lists the numbers of the ports (4 for D4) in the order of the sensor's angles; not two neighbours in a row.
@@ -73,11 +73,8 @@ class GroveUltrasonic:
     bus: Annotated[int, BUS] = 1
     address: Annotated[int, ADDRESS] = 0x04
 
-    unit = "m"
-
     @property
     def readings(self) -> int:
-        """How many there are."""
         return len(self.ports)
 
     @property
@@ -95,22 +92,6 @@ class GroveUltrasonic:
         """The board: it listens to one ranger at a time."""
         return on_bus(self.bus, self.address)
 
-    @property
-    def usual(self) -> tuple[float, float]:
-        """Touching, and clear within the range."""
-        return 0.0, self.range
-
-    @property
-    def possible(self) -> tuple[float, float]:
-        """What is not nonsense."""
-        return self.usual
-
     def open(self) -> GroveUltrasonicDevice:
-        """All of them."""
         device = GroveUltrasonicDevice(I2cDevice("the GrovePi", self.bus, self.address), self.ports, self.range)
-        try:
-            device.ask(VERSION_COMMAND, count=4)
-        except Exception:
-            device.close()
-            raise
-        return device
+        return answering(device, lambda: device.ask(VERSION_COMMAND, count=4))

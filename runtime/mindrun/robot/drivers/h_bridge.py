@@ -3,9 +3,8 @@
 from dataclasses import dataclass
 from typing import Annotated, Any
 
-from mindrun.driver import DeviceError
 from mindrun.kinds.registry import kind
-from mindrun.robot.driver_support import PIN, PWM_HERTZ, library, on_pin, pins, share
+from mindrun.robot.driver_support import PIN, PWM_HERTZ, on_pin, open_pins, pins, share
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,7 +31,6 @@ class HBridgeDevice:
             self.enable.value = abs(speed)
 
     def close(self) -> None:
-        """Stop the motor, and let go."""
         for pin in (self.enable, self.forward, self.backward):
             if pin is not None:
                 pin.close()
@@ -57,23 +55,17 @@ class HBridge:
 
     @property
     def device(self) -> str:
-        """What only one process may drive."""
         return on_pin(self.forward)
 
     def open(self) -> HBridgeDevice:
         """The motor, stopped."""
-        gpiozero, made = library("gpiozero"), dict[str, Any]()
-        speeds = ("enable",) if self.enable is not None else ("forward", "backward")
-        try:
-            for name in ("enable", "forward", "backward"):
-                number = getattr(self, name)
-                with pins(f"the H-bridge's {name} pin, GPIO {number}, cannot be opened"):
-                    if name in speeds:
-                        made[name] = gpiozero.PWMOutputDevice(number, frequency=self.frequency)
-                    elif number is not None:
-                        made[name] = gpiozero.OutputDevice(number)
-        except DeviceError:
-            for pin in made.values():
-                pin.close()
-            raise
-        return HBridgeDevice(**made)
+        numbers = {"enable": self.enable, "forward": self.forward, "backward": self.backward}
+        there = {name: number for name, number in numbers.items() if number is not None}
+        parts = []
+        for name, number in there.items():
+            what = f"the H-bridge's {name} pin, GPIO {number},"
+            if name == "enable" or self.enable is None:
+                parts.append((what, "PWMOutputDevice", {"pin": number, "frequency": self.frequency}))
+            else:
+                parts.append((what, "OutputDevice", {"pin": number}))
+        return HBridgeDevice(**dict(zip(there, open_pins(*parts), strict=True)))

@@ -1,27 +1,10 @@
 """A lamp on a GPIO pin."""
 
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Annotated
 
 from mindrun.kinds.registry import kind
-from mindrun.robot.driver_support import PIN, PWM_HERTZ, library, on_pin, pins, share
-
-
-@dataclass(frozen=True, slots=True)
-class LampDevice:
-    """A lamp."""
-
-    led: Any
-
-    def write(self, value: float) -> None:
-        """Command a brightness: 0 off, 1 all of it."""
-        brightness = share(value)
-        with pins("the lamp cannot be driven"):
-            self.led.value = brightness
-
-    def close(self) -> None:
-        """Turn it off, and let go."""
-        self.led.close()
+from mindrun.robot.driver_support import PIN, PWM_HERTZ, OutputPin, on_pin, open_pins
 
 
 @kind("actuator driver", "lamp")
@@ -37,11 +20,9 @@ class Lamp:
 
     @property
     def device(self) -> str:
-        """What only one process may drive."""
         return on_pin(self.pin)
 
-    def open(self) -> LampDevice:
+    def open(self) -> OutputPin:
         """The lamp, off."""
-        gpiozero = library("gpiozero")
-        with pins(f"the lamp on GPIO {self.pin} cannot be opened"):
-            return LampDevice(gpiozero.PWMLED(self.pin, frequency=self.frequency))
+        [led] = open_pins((f"the lamp on GPIO {self.pin}", "PWMLED", {"pin": self.pin, "frequency": self.frequency}))
+        return OutputPin("the lamp", led)

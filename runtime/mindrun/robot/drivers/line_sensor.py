@@ -4,8 +4,7 @@ from dataclasses import dataclass
 from typing import Annotated
 
 from mindrun.kinds.registry import kind
-from mindrun.robot.digital_inputs import DigitalInputsDevice, open_inputs
-from mindrun.robot.driver_support import PIN, SWITCH
+from mindrun.robot.driver_support import PIN, SWITCH, InputPins, digital_inputs
 
 
 @kind("sensor driver", "line_sensor")
@@ -27,9 +26,8 @@ class LineSensor:
 
     @property
     def readings(self) -> int:
-        """One of each sensor."""
         return len(self.pins)
 
-    def open(self) -> DigitalInputsDevice:
-        """All sensors; they drive their pins both ways, so nothing pulls at these."""
-        return open_inputs("the line sensor", self.pins, pull_up=None, active_state=not self.inverted)
+    def open(self) -> InputPins:
+        # Sensors drive their pins both ways, so nothing pulls at these.
+        return digital_inputs("the line sensor", self.pins, pull_up=None, active_state=not self.inverted)

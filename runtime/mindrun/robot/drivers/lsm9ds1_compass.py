@@ -6,20 +6,9 @@ from typing import Annotated
 
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import Quantity
-from mindrun.robot.driver_support import ADDRESS, BUS, DEGREES, I2cDevice
-from mindrun.robot.lsm9ds1 import (
-    BUS_SECONDS,
-    FACE,
-    MAGNETIC_CHIP_ID,
-    MAGNETOMETER_ON,
-    MILLIGAUSS_PER_COUNT,
-    OUT_MAGNETOMETER,
-    STATUS_MAGNETIC,
-    Chip,
-    Face,
-    NineDofDevice,
-    opened,
-)
+from mindrun.robot.driver_support import ADDRESS, BUS, DEGREES, FACE, Face
+from mindrun.robot.i2c import ChipDevice, I2cDevice, open_chip
+from mindrun.robot.lsm9ds1 import BUS_SECONDS, MILLIGAUSS_PER_COUNT, magnetometer
 
 MILLIGAUSS_OFFSET = Quantity("a magnetic field in milligauss", {"": 1.0}, low=-4000.0, high=4000.0)
 
@@ -49,12 +38,10 @@ class MagneticCompass:
     seconds = 1 / 80
     bus_seconds = BUS_SECONDS
 
-    def open(self) -> NineDofDevice:
-        """The magnetometer."""
+    def open(self) -> ChipDevice:
         wire = I2cDevice("the compass", self.bus, self.address)
-        chip = Chip(wire, MAGNETIC_CHIP_ID, MAGNETOMETER_ON, STATUS_MAGNETIC, 0x08, 0x00, OUT_MAGNETOMETER)
 
-        def bearing(counts: tuple[int, int, int]) -> float:
+        def bearing(counts: tuple[int, ...]) -> float:
             x, y, z = (count * MILLIGAUSS_PER_COUNT for count in counts)
             if hypot(x, y, z) < 50:  # the earth's is 250 to 650
                 raise wire.error("feels no magnetic field")
@@ -62,4 +49,4 @@ class MagneticCompass:
             angle = degrees(atan2(y, x - self.x)) + self.turn
             return (angle + 180) % 360 - 180
 
-        return opened(chip, bearing)
+        return open_chip(magnetometer(wire), bearing)

@@ -1,56 +1,52 @@
 """Whether the robot moves, felt by the accelerometer of an LSM9DS1."""
 
 from collections import deque
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from math import hypot, sqrt
-from statistics import fmean
+from statistics import pvariance
 from time import monotonic
 from typing import Annotated
 
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import Quantity
-from mindrun.robot.driver_support import ADDRESS, BUS, I2cDevice
-from mindrun.robot.lsm9ds1 import (
-    ACCELERATION_PER_COUNT,
-    ACCELEROMETER_ON,
-    BUS_SECONDS,
-    INERTIAL_CHIP_ID,
-    OUT_ACCELEROMETER,
-    STANDARD_GRAVITY,
-    STATUS_INERTIAL,
-    Chip,
-    NineDofDevice,
-    opened,
-)
+from mindrun.robot.driver_support import ADDRESS, BUS, answering
+from mindrun.robot.i2c import I2cDevice, MeasuringChip
+from mindrun.robot.lsm9ds1 import ACCELERATION_PER_COUNT, BUS_SECONDS, STANDARD_GRAVITY, accelerometer
 
 WINDOW = Quantity("a time", {"s": 1.0}, low=0.2, high=10.0)
 MIN_VALUES = 5  # until a deviation means something
-Vector = tuple[float, float, float]
+READ_IN = 0.5  # seconds until there must be enough of them
 
 
 @dataclass(slots=True)
-class Shaking:
+class MotionDevice:
     """How much an acceleration varies: the root of the mean square of its deviation from its mean over a time."""
 
-    error: Callable[[str], Exception]
+    chip: MeasuringChip
     window: float
-    kept: deque[tuple[float, Vector]] = field(default_factory=deque)
+    kept: deque[tuple[float, tuple[float, ...]]] = field(default_factory=deque)
 
-    def __call__(self, counts: tuple[int, int, int]) -> float | None:
-        """The variation with this value, m/s²; None until there are enough."""
+    def read(self) -> tuple[float]:
+        """The variation with the next values, m/s²."""
+        begin = monotonic()
+        while monotonic() - begin < READ_IN:
+            self.keep(tuple(count * ACCELERATION_PER_COUNT for count in self.chip.measure()))
+            if len(self.kept) >= MIN_VALUES:
+                axes = zip(*(vector for _, vector in self.kept), strict=True)
+                return (sqrt(sum(map(pvariance, axes))),)
+        raise self.chip.wire.error("measures too slowly")
+
+    def keep(self, vector: tuple[float, ...]) -> None:
+        """Take another acceleration into the window, and leave out what is too old for it."""
+        if not 0.3 * STANDARD_GRAVITY < hypot(*vector) < 3 * STANDARD_GRAVITY:
+            raise self.chip.wire.error("feels no gravity")
         now = monotonic()
-        x, y, z = (count * ACCELERATION_PER_COUNT for count in counts)
-        if not 0.3 * STANDARD_GRAVITY < hypot(x, y, z) < 3 * STANDARD_GRAVITY:
-            raise self.error("feels no gravity")
-        self.kept.append((now, (x, y, z)))
+        self.kept.append((now, vector))
         while self.kept[0][0] < now - self.window:
             self.kept.popleft()
-        if len(self.kept) < MIN_VALUES:
-            return None
-        axes = [*zip(*(vector for _, vector in self.kept), strict=True)]
-        means = [fmean(axis) for axis in axes]
-        return sqrt(sum(fmean((value - mean) ** 2 for value in axis) for axis, mean in zip(axes, means, strict=True)))
+
+    def close(self) -> None:
+        self.chip.wire.close()
 
 
 @kind("sensor driver", "lsm9ds1_motion")
@@ -75,8 +71,6 @@ class Motion:
     seconds = 1 / 119
     bus_seconds = BUS_SECONDS
 
-    def open(self) -> NineDofDevice:
-        """The accelerometer."""
-        wire = I2cDevice("the accelerometer", self.bus, self.address)
-        chip = Chip(wire, INERTIAL_CHIP_ID, ACCELEROMETER_ON, STATUS_INERTIAL, 0x01, 0x80, OUT_ACCELEROMETER)
-        return opened(chip, Shaking(wire.error, self.window))
+    def open(self) -> MotionDevice:
+        device = MotionDevice(accelerometer(I2cDevice("the accelerometer", self.bus, self.address)), self.window)
+        return answering(device, device.read)

@@ -5,20 +5,9 @@ from typing import Annotated
 
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import NUMBER
-from mindrun.robot.driver_support import ADDRESS, BUS, I2cDevice
-from mindrun.robot.lsm9ds1 import (
-    BUS_SECONDS,
-    DEGREES_PER_SECOND_PER_COUNT,
-    FACE,
-    GYROSCOPE_ON,
-    INERTIAL_CHIP_ID,
-    OUT_GYROSCOPE,
-    STATUS_INERTIAL,
-    Chip,
-    Face,
-    NineDofDevice,
-    opened,
-)
+from mindrun.robot.driver_support import ADDRESS, BUS, FACE, Face
+from mindrun.robot.i2c import ChipDevice, I2cDevice, open_chip
+from mindrun.robot.lsm9ds1 import BUS_SECONDS, DEGREES_PER_SECOND_PER_COUNT, gyroscope
 
 
 @kind("sensor driver", "lsm9ds1_turn")
@@ -41,9 +30,6 @@ class Turn:
     seconds = 1 / 119
     bus_seconds = BUS_SECONDS
 
-    def open(self) -> NineDofDevice:
-        """The gyroscope."""
-        wire = I2cDevice("the gyroscope", self.bus, self.address)
-        sign = 1 if self.face == "up" else -1
-        chip = Chip(wire, INERTIAL_CHIP_ID, GYROSCOPE_ON, STATUS_INERTIAL, 0x02, 0x80, OUT_GYROSCOPE)
-        return opened(chip, lambda counts: sign * (counts[2] * DEGREES_PER_SECOND_PER_COUNT) - self.still)
+    def open(self) -> ChipDevice:
+        chip, sign = gyroscope(I2cDevice("the gyroscope", self.bus, self.address)), 1 if self.face == "up" else -1
+        return open_chip(chip, lambda counts: sign * (counts[2] * DEGREES_PER_SECOND_PER_COUNT) - self.still)

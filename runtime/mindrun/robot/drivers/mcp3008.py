@@ -1,31 +1,13 @@
 """Analogue sensors on an MCP3008 (Microchip, 8 inputs of 10 bits on SPI; data sheet DS21295)."""
 
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Annotated
 
-from mindrun.driver import DeviceError
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import Quantity
-from mindrun.robot.driver_support import CHIP, library, pins
+from mindrun.robot.driver_support import CHIP, InputPins, open_pins
 
 INPUT = Quantity("an input", {"": 1.0}, low=0, high=7, whole=True)
-
-
-@dataclass(frozen=True, slots=True)
-class AnalogueDevice:
-    """Some inputs of the converter."""
-
-    inputs: tuple[Any, ...]
-
-    def read(self) -> tuple[float, ...]:
-        """The voltage of each, as a share of the reference."""
-        with pins("the analogue converter cannot be read"):
-            return tuple(float(each.value) for each in self.inputs)
-
-    def close(self) -> None:
-        """Let go of all of them."""
-        for each in self.inputs:
-            each.close()
 
 
 @kind("sensor driver", "mcp3008")
@@ -48,17 +30,9 @@ class Mcp3008:
 
     @property
     def readings(self) -> int:
-        """One of each input."""
         return len(self.inputs)
 
-    def open(self) -> AnalogueDevice:
-        """All inputs."""
-        gpiozero, opened = library("gpiozero"), list[Any]()
-        try:
-            for number in self.inputs:
-                with pins(f"input {number} of the analogue converter cannot be opened"):
-                    opened.append(gpiozero.MCP3008(channel=number, port=0, device=self.chip))
-        except DeviceError:
-            AnalogueDevice(tuple(opened)).close()
-            raise
-        return AnalogueDevice(tuple(opened))
+    def open(self) -> InputPins:
+        what, where = "the analogue converter", {"port": 0, "device": self.chip}
+        inputs = ((f"input {number} of {what}", "MCP3008", {"channel": number, **where}) for number in self.inputs)
+        return InputPins(what, open_pins(*inputs))

@@ -15,7 +15,6 @@ class MockSensorDevice:
     values: tuple[float, ...]
 
     def read(self) -> tuple[float, ...]:
-        """What it was told."""
         return self.values
 
     def close(self) -> None:
@@ -29,7 +28,6 @@ class MockActuatorDevice:
     value: float | None = None
 
     def write(self, value: float) -> None:
-        """Nothing moves."""
         self.value = share(value)
 
     def close(self) -> None:
@@ -49,11 +47,9 @@ class MockSensor:
 
     @property
     def readings(self) -> int:
-        """How many values it reads."""
         return self.count
 
     def open(self) -> MockSensorDevice:
-        """The device."""
         return MockSensorDevice((self.value,) * self.count)
 
 
@@ -65,5 +61,4 @@ class MockActuator:
     device = ""
 
     def open(self) -> MockActuatorDevice:
-        """The device."""
         return MockActuatorDevice()

@@ -1,13 +1,12 @@
 """How fast the robot turns, by the gyroscope of an MPU-6050 (InvenSense; register map RM-MPU-6000A)."""
 
 from dataclasses import dataclass
-from time import monotonic, sleep
 from typing import Annotated
 
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import NUMBER
-from mindrun.robot.driver_support import ADDRESS, BUS, I2C_BYTE_SECONDS, I2cDevice
-from mindrun.robot.lsm9ds1 import FACE, Face
+from mindrun.robot.driver_support import ADDRESS, BUS, FACE, Face
+from mindrun.robot.i2c import I2C_BYTE_SECONDS, ChipDevice, I2cDevice, MeasuringChip, open_chip
 
 WHO_AM_I, CHIP_ID = 0x75, 0x68  # 4.32
 STATUS, DATA_READY, NEVER_SET = 0x3A, 0x01, 0xE6  # 4.16; free fall and the like, which are off
@@ -20,56 +19,7 @@ SETTINGS = (
     (0x38, 0x01),  # INT_ENABLE: the status says that there is a new value
 )
 COUNTS_PER_DEGREE_PER_SECOND = 65.5  # at ±500 °/s, 4.19
-SATURATED_COUNT = 32767
 MEASURED_IN = 0.2  # seconds until a new value must be there; they come every 10 ms, the first after 30
-
-
-@dataclass(slots=True)
-class GyroscopeDevice:
-    """The gyroscope's third axis."""
-
-    wire: I2cDevice
-    sign: int
-    still: float
-    ready: bool = False
-
-    def read(self) -> tuple[float]:
-        """The next turn rate that was not read before."""
-        try:
-            count = self.measure()
-        except Exception:
-            self.ready = False  # after a brown-out it sleeps
-            raise
-        return (self.sign * count / COUNTS_PER_DEGREE_PER_SECOND - self.still,)
-
-    def measure(self) -> int:
-        """It, in counts."""
-        found = self.wire.read(WHO_AM_I, 1)[0]
-        if found != CHIP_ID:
-            raise self.wire.error(f"is no MPU-6050 (it says 0x{found:02x}, not 0x{CHIP_ID:02x})")
-        if not self.ready:
-            for register, value in SETTINGS:
-                self.wire.write(register, value)
-            self.ready = True
-        self.wait()
-        count = int.from_bytes(self.wire.read(OUT_Z, 2), "big", signed=True)
-        if abs(count) >= SATURATED_COUNT:
-            raise self.wire.error("measures more than it can")
-        return count
-
-    def wait(self) -> None:
-        """Return when there is a new value: a chip that sleeps must not look like a robot that goes straight."""
-        begin = monotonic()
-        while not (status := self.wire.read(STATUS, 1)[0]) & DATA_READY:
-            if monotonic() - begin > MEASURED_IN:
-                raise self.wire.error("does not measure anything new")
-            sleep(0.002)
-        if status & NEVER_SET:
-            raise self.wire.error(f"has an impossible status (0x{status:02x})")
-
-    def close(self) -> None:
-        """Let go."""
-        self.wire.close()
 
 
 @kind("sensor driver", "mpu6050")
@@ -93,13 +43,9 @@ class Mpu6050:
     seconds = 0.01
     bus_seconds = 13 * I2C_BYTE_SECONDS  # who it is, whether there is a value, and the value
 
-    def open(self) -> GyroscopeDevice:
+    def open(self) -> ChipDevice:
         """The gyroscope, awake."""
-        wire = I2cDevice("the gyroscope", self.bus, self.address)
-        device = GyroscopeDevice(wire, 1 if self.face == "up" else -1, self.still)
-        try:
-            device.read()
-        except Exception:
-            device.close()
-            raise
-        return device
+        wire, sign = I2cDevice("the gyroscope", self.bus, self.address), 1 if self.face == "up" else -1
+        status = STATUS, DATA_READY, NEVER_SET
+        chip = MeasuringChip(wire, "MPU-6050", (WHO_AM_I, CHIP_ID), SETTINGS, status, OUT_Z, ">h", MEASURED_IN)
+        return open_chip(chip, lambda counts: sign * counts[0] / COUNTS_PER_DEGREE_PER_SECOND - self.still)

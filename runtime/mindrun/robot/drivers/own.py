@@ -1,62 +1,148 @@
-"""Drivers that a user brings: a class in a file beside robot.yaml, or in an installed package.
+"""Drivers that a user brings: a class in a file beside robot.yaml, or in an installed package, each named by its hash.
 
-What the compiler has asked of the class stands here as data, so that a bundle is read without running it.
+What the compiler has asked of the class stands here as data, so that a bundle is read without running it: that is done
+where a device is opened, and where a bundle is built.
 """
 
 import json
+import sys
+from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from typing import Annotated, Any, Protocol
+from hashlib import sha256
+from importlib.metadata import Distribution, EntryPoint, PackageNotFoundError, distribution
+from importlib.util import find_spec
+from pathlib import Path
+from threading import Lock
+from types import ModuleType
+from typing import Annotated, Any
 
 from mindrun.driver import ActuatorDevice, DeviceError, SensorDevice
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import NUMBER, Quantity, Reference
-from mindrun.robot.driver_code import DriverCode, load_class
 from mindrun.robot.driver_support import SWITCH, share
 
 TEXT = Reference("text")
 READINGS = Quantity("a number of readings", {"": 1.0}, low=1, high=1000, whole=True)
 KIND = "of one's own"  # no word of robot.yaml: there stands the name of the class
+ENTRY_POINTS = "mindrun.drivers"  # the group under which a package says its drivers
+REBUILD = "build the bundle again where that package is, or install that version here"
+
+_loading = Lock()  # sensors are opened in threads of their own
 
 
-class OwnDriver(Protocol):
-    """What both nouns have in common: the code by its hash, and the options as JSON."""
+@dataclass(frozen=True, slots=True)
+class DriverCode:
+    """Where a driver's class comes from: `name` is FILE.CLASS, or PACKAGE.NAME of an entry point.
+
+    `lines` are those of the file, whose SHA-256 is `digest`. Where it has none, `package` is the name and version of an
+    installed package, and `digest` that of all of its modules.
+    """
+
+    name: Annotated[str, TEXT]
+    digest: Annotated[str, TEXT]
+    lines: Annotated[tuple[str, ...], TEXT]
+    package: Annotated[str, TEXT]
 
     @property
-    def name(self) -> str: ...
+    def origin(self) -> str:
+        """What to call the file or the package."""
+        return self.package or f"{self.name.split('.')[0]}.py"
 
     @property
-    def digest(self) -> str: ...
+    def text(self) -> str:
+        """The file."""
+        return "\n".join(self.lines)
 
     @property
-    def lines(self) -> tuple[str, ...]: ...
-
-    @property
-    def package(self) -> str: ...
-
-    @property
-    def options(self) -> str: ...
+    def is_whole(self) -> bool:
+        """Whether the text of a file is the one that the hash names."""
+        return bool(self.package) or sha256(self.text.encode()).hexdigest() == self.digest
 
 
-def code_of(driver: OwnDriver) -> DriverCode:
-    """The code of a driver."""
-    return DriverCode(driver.name, driver.digest, driver.lines, driver.package)
+def of_file(name: str, text: str) -> DriverCode:
+    """The code of a class in a file with this text."""
+    return DriverCode(name, sha256(text.encode()).hexdigest(), tuple(text.split("\n")), "")
 
 
-def check_whole(driver: OwnDriver) -> None:
-    """Refuse a text that is not the one that its hash names."""
-    if not code_of(driver).is_whole:
-        raise ValueError("its text is not the one that its hash names")
+def of_package(name: str) -> DriverCode | None:
+    """The code that an installed package offers under PACKAGE.NAME; None where there is none. Nothing of it is run."""
+    found = _offered(name)
+    if found is None:
+        return None
+    package, entry = found
+    return DriverCode(name, _package_digest(entry), (), f"{package.name} {package.version}")
 
 
-def made(driver: OwnDriver) -> Any:
-    """The user's driver itself; DeviceError where its code does not run."""
+def load_class(code: DriverCode) -> Any:
+    """Run the code, once in a process, and give what it calls by the driver's name.
+
+    DeviceError where it is not the code that was meant; AttributeError where it has no such name; whatever it raises.
+    """
+    if code.package:
+        return _package_class(code)
+    if not code.is_whole:
+        raise DeviceError(f"the text of {code.origin} is not the one that its hash names")
+    return getattr(module_of(code), code.name.split(".")[1])
+
+
+def module_of(code: DriverCode) -> ModuleType:
+    """The module of a file, which is run unless it has been."""
+    name = f"mindrun_driver_{code.digest}"
+    with _loading:
+        if name in sys.modules:
+            return sys.modules[name]
+        module = ModuleType(name)
+        sys.modules[name] = module  # dataclasses look their module up while it is run
+        try:
+            exec(compile(code.text, code.origin, "exec"), module.__dict__)
+        except BaseException:
+            del sys.modules[name]
+            raise
+        return module
+
+
+def _package_class(code: DriverCode) -> Any:
+    found = _offered(code.name)
+    if found is None:
+        install = f"pip install '{code.package.replace(' ', '==')}'"
+        raise DeviceError(f"{code.package} is not installed, or has no driver {code.name}", install)
+    package, entry = found
+    if _package_digest(entry) != code.digest:
+        here = f"{package.name} {package.version}"
+        raise DeviceError(f"{here} is installed, and its code is not that of {code.package} in the bundle", REBUILD)
+    with _loading:
+        return entry.load()
+
+
+def _offered(name: str) -> tuple[Distribution, EntryPoint] | None:
+    package, _, driver = name.partition(".")
     try:
-        return load_class(code_of(driver))(**decoded(driver.options))
-    except DeviceError:
-        raise
-    except Exception as error:  # a user's code may raise anything, and the robot has to know
-        raise DeviceError(f"the driver {driver.name} does not run: {type(error).__name__}: {error}") from error
+        found = distribution(package)
+    except (PackageNotFoundError, ValueError):
+        return None
+    entries = found.entry_points.select(group=ENTRY_POINTS, name=driver)
+    return next(((found, entry) for entry in entries), None)
+
+
+def _package_digest(entry: EntryPoint) -> str:
+    """The SHA-256 of the names and contents of all modules beside the one of an entry point."""
+    digest = sha256()
+    for name, content in _modules(entry.module.split(".")[0]):
+        digest.update(f"{name} {sha256(content).hexdigest()}\n".encode())
+    return digest.hexdigest()
+
+
+def _modules(name: str) -> Iterator[tuple[str, bytes]]:
+    """The files of a package, or of a module alone, by their names in it; found without running any."""
+    spec = find_spec(name)
+    if spec is None:
+        return
+    for folder in spec.submodule_search_locations or ():
+        for path in sorted(Path(folder).rglob("*.py")):
+            yield path.relative_to(folder).as_posix(), path.read_bytes()
+    if not spec.submodule_search_locations and spec.origin:
+        yield Path(spec.origin).name, Path(spec.origin).read_bytes()
 
 
 def encoded(options: dict[str, Any]) -> str:
@@ -82,21 +168,35 @@ class CheckedActuatorDevice:
             raise DeviceError("its write is async, or yields, and has done nothing yet", "write a plain method")
 
     def close(self) -> None:
-        """Let go."""
         with suppress(Exception):
             self.device.close()
 
 
+@dataclass(frozen=True, slots=True)
+class OwnDriver(DriverCode):
+    """A driver of a user: its code by the hash, and its options as JSON."""
+
+    options: Annotated[str, TEXT]
+
+    def __post_init__(self) -> None:
+        if not self.is_whole:
+            raise ValueError("its text is not the one that its hash names")
+
+    def made(self) -> Any:
+        """The user's driver itself; DeviceError where its code does not run."""
+        try:
+            return load_class(self)(**decoded(self.options))
+        except DeviceError:
+            raise
+        except Exception as error:  # a user's code may raise anything, and the robot has to know
+            raise DeviceError(f"the driver {self.name} does not run: {type(error).__name__}: {error}") from error
+
+
 @kind("sensor driver", KIND)
 @dataclass(frozen=True, slots=True)
-class OwnSensor:
+class OwnSensor(OwnDriver):
     """A sensor's driver of a user, with what its class says of the options: unit, readings, and what they mean."""
 
-    name: Annotated[str, TEXT]
-    digest: Annotated[str, TEXT]
-    lines: Annotated[tuple[str, ...], TEXT]
-    package: Annotated[str, TEXT]
-    options: Annotated[str, TEXT]
     unit: Annotated[str, TEXT]
     readings: Annotated[int, READINGS]
     usual: Annotated[tuple[float, float], NUMBER]
@@ -105,36 +205,23 @@ class OwnSensor:
     device: Annotated[str, TEXT]
     is_still: Annotated[bool, SWITCH] = False
 
-    def __post_init__(self) -> None:
-        check_whole(self)
-
     @property
     def motionless(self) -> "OwnSensor":
         """This driver without anything that it would move, where the user's class knows of that."""
         return replace(self, is_still=True)
 
     def open(self) -> SensorDevice:
-        """The user's device."""
-        driver = made(self)
+        driver = self.made()
         device: SensorDevice = (getattr(driver, "motionless", driver) if self.is_still else driver).open()
         return device
 
 
 @kind("actuator driver", KIND)
 @dataclass(frozen=True, slots=True)
-class OwnActuator:
+class OwnActuator(OwnDriver):
     """An actuator's driver of a user."""
 
-    name: Annotated[str, TEXT]
-    digest: Annotated[str, TEXT]
-    lines: Annotated[tuple[str, ...], TEXT]
-    package: Annotated[str, TEXT]
-    options: Annotated[str, TEXT]
     device: Annotated[str, TEXT]
 
-    def __post_init__(self) -> None:
-        check_whole(self)
-
     def open(self) -> CheckedActuatorDevice:
-        """The user's device."""
-        return CheckedActuatorDevice(made(self).open())
+        return CheckedActuatorDevice(self.made().open())

@@ -5,7 +5,8 @@ from time import sleep
 from typing import Annotated
 
 from mindrun.kinds.registry import kind
-from mindrun.robot.driver_support import ADDRESS, BUS, CHANNEL, I2C_BYTE_SECONDS, MICROSECONDS, I2cDevice, on_bus, share
+from mindrun.robot.driver_support import ADDRESS, BUS, CHANNEL, MICROSECONDS, answering, share
+from mindrun.robot.i2c import I2C_BYTE_SECONDS, I2cDevice, on_bus
 
 MODE1, MODE2, LED0, ALL_OFF_HIGH, PRESCALE = 0x00, 0x01, 0x06, 0xFD, 0xFE  # table 4
 RESTART, AUTO_INCREMENT, SLEEP = 0x80, 0x20, 0x10  # bits of MODE1, table 5
@@ -56,8 +57,8 @@ class ServoDevice:
 
     def is_prepared(self) -> bool:
         """Whether it is awake and at our rate."""
-        mode = self.wire.read(MODE1, 1)[0] & ~RESTART
-        return mode == AUTO_INCREMENT and self.wire.read(PRESCALE, 1)[0] == PRESCALE_50_HZ
+        mode = self.wire.byte(MODE1) & ~RESTART
+        return mode == AUTO_INCREMENT and self.wire.byte(PRESCALE) == PRESCALE_50_HZ
 
     def close(self) -> None:
         """Let go; the card repeats the last pulse, so that a claw keeps what it holds."""
@@ -84,16 +85,10 @@ class Pca9685:
 
     @property
     def device(self) -> str:
-        """What only one process may drive."""
         return on_bus(self.bus, self.address)
 
     def open(self) -> ServoDevice:
         """The servo, which does not move until it is commanded."""
         wire = I2cDevice("the servo card", self.bus, self.address)
         device = ServoDevice(wire, self.channel, self.shortest, self.longest)
-        try:
-            device.prepare()
-        except Exception:
-            device.close()
-            raise
-        return device
+        return answering(device, device.prepare)

@@ -1,29 +1,12 @@
 """A servo on a GPIO pin."""
 
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Annotated
 
 from mindrun.kinds.registry import kind
-from mindrun.robot.driver_support import MICROSECONDS, PIN, library, on_pin, pins, share
+from mindrun.robot.driver_support import MICROSECONDS, PIN, OutputPin, on_pin, open_pins
 
 FRAME_SECONDS = 0.02  # between two pulses
-
-
-@dataclass(frozen=True, slots=True)
-class PinServoDevice:
-    """One servo."""
-
-    servo: Any
-
-    def write(self, value: float) -> None:
-        """Command the pulse for a share of the travel."""
-        travelled = share(value)
-        with pins("the servo cannot be driven"):
-            self.servo.value = 2 * travelled - 1
-
-    def close(self) -> None:
-        """End the pulses, and let go."""
-        self.servo.close()
 
 
 @kind("actuator driver", "servo")
@@ -42,12 +25,13 @@ class PinServo:
 
     @property
     def device(self) -> str:
-        """What only one process may drive."""
         return on_pin(self.pin)
 
-    def open(self) -> PinServoDevice:
+    def open(self) -> OutputPin:
         """The servo, which does not move until it is commanded."""
-        gpiozero = library("gpiozero")
-        with pins(f"the servo on GPIO {self.pin} cannot be opened"):
-            widths = {"min_pulse_width": self.shortest * 1e-6, "max_pulse_width": self.longest * 1e-6}
-            return PinServoDevice(gpiozero.Servo(self.pin, initial_value=None, frame_width=FRAME_SECONDS, **widths))
+        pulses = {
+            "initial_value": None, "frame_width": FRAME_SECONDS,
+            "min_pulse_width": self.shortest * 1e-6, "max_pulse_width": self.longest * 1e-6,
+        }  # fmt: skip
+        [servo] = open_pins((f"the servo on GPIO {self.pin}", "Servo", {"pin": self.pin, **pulses}))
+        return OutputPin("the servo", servo, low=-1.0)

@@ -1,30 +1,10 @@
 """A switch between a GPIO pin and ground, or 3.3 V."""
 
 from dataclasses import dataclass
-from typing import Annotated, Any, Literal, get_args
+from typing import Annotated
 
 from mindrun.kinds.registry import kind
-from mindrun.numbers.quantity import Reference
-from mindrun.robot.driver_support import PIN, library, pins
-
-Pull = Literal["up", "down"]
-PULL = Reference("pull", get_args(Pull))
-
-
-@dataclass(frozen=True, slots=True)
-class SwitchDevice:
-    """A switch."""
-
-    button: Any
-
-    def read(self) -> tuple[float]:
-        """1 while it is closed, else 0."""
-        with pins("the switch cannot be read"):
-            return (1.0 if self.button.is_pressed else 0.0,)
-
-    def close(self) -> None:
-        """Let go."""
-        self.button.close()
+from mindrun.robot.driver_support import PIN, PULL, InputPins, Pull, digital_inputs
 
 
 @kind("sensor driver", "switch")
@@ -44,8 +24,5 @@ class Switch:
     possible = (0.0, 1.0)
     near = 1.0
 
-    def open(self) -> SwitchDevice:
-        """The switch."""
-        gpiozero = library("gpiozero")
-        with pins(f"the switch on GPIO {self.pin} cannot be opened"):
-            return SwitchDevice(gpiozero.Button(self.pin, pull_up=self.pull == "up"))
+    def open(self) -> InputPins:
+        return digital_inputs("the switch", (self.pin,), pull_up=self.pull == "up")

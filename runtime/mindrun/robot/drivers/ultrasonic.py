@@ -8,7 +8,7 @@ from typing import Annotated, Any
 
 from mindrun.driver import DeviceError
 from mindrun.kinds.registry import kind
-from mindrun.robot.driver_support import METRES, PIN, library, pins
+from mindrun.robot.driver_support import METRES, PIN, Ranging, open_pins, pins
 
 SOUND_METRES_PER_SECOND = 343.2  # metres a second, at 20 °C
 TRIGGER_SECONDS = 10e-6  # seconds, HC-SR04 data sheet
@@ -44,7 +44,11 @@ class Pair:
 
     def measure(self, reach: float) -> float | None:
         """Metres to what echoed, None where nothing did within `reach`."""
-        self.wait_for_silence()
+        begin = monotonic()
+        while self.echo.pin.state:
+            if monotonic() - begin > ECHO_END_SECONDS:
+                raise DeviceError(f"{self} holds its echo line high", "is it broken, or wired to another pin?")
+            sleep(0.001)
         self.risen.clear()
         self.fallen.clear()
         self.trigger.on()
@@ -61,19 +65,10 @@ class Pair:
         metres = float(self.echo.pin_factory.ticks_diff(self.fell, self.rose)) * SOUND_METRES_PER_SECOND / 2
         return metres if metres <= reach else None
 
-    def wait_for_silence(self) -> None:
-        """Return when the echo line is low."""
-        begin = monotonic()
-        while self.echo.pin.state:
-            if monotonic() - begin > ECHO_END_SECONDS:
-                raise DeviceError(f"{self} holds its echo line high", "is it broken, or wired to another pin?")
-            sleep(0.001)
-
     def __str__(self) -> str:
         return f"the range finder on {self.trigger.pin} and {self.echo.pin}"
 
     def close(self) -> None:
-        """Let go of both pins."""
         self.trigger.close()
         self.echo.close()
 
@@ -96,7 +91,6 @@ class UltrasonicDevice:
         return tuple(found[index] for index in range(len(self.pairs)))
 
     def close(self) -> None:
-        """Let go of all pins."""
         for pair in self.pairs:
             pair.close()
 
@@ -112,7 +106,7 @@ def firing_order(count: int) -> list[int]:
 
 @kind("sensor driver", "ultrasonic")
 @dataclass(frozen=True, slots=True)
-class Ultrasonic:
+class Ultrasonic(Ranging):
     """Ultrasonic range finders with a trigger and an echo pin each (HC-SR04, US-100, RCWL-1601): metres to an echo.
 
     `trigger` and `echo` list the GPIO numbers in the order of the sensor's angles. Echo is 5 V on an HC-SR04: bring it
@@ -124,11 +118,8 @@ class Ultrasonic:
     echo: Annotated[tuple[int, ...], PIN]
     range: Annotated[float, METRES] = 1.0
 
-    unit = "m"
-
     @property
     def readings(self) -> int:
-        """How many there are."""
         return len(self.trigger)
 
     @property
@@ -136,26 +127,13 @@ class Ultrasonic:
         """For how long all of them are listened to."""
         return len(self.trigger) * 2 * self.range / SOUND_METRES_PER_SECOND
 
-    @property
-    def usual(self) -> tuple[float, float]:
-        """Touching, and clear within the range."""
-        return 0.0, self.range
-
-    @property
-    def possible(self) -> tuple[float, float]:
-        """What is not nonsense."""
-        return self.usual
-
     def open(self) -> UltrasonicDevice:
-        """All of them."""
         if len(self.trigger) != len(self.echo) or not self.trigger:
             raise DeviceError(f"{len(self.trigger)} trigger pins and {len(self.echo)} echo pins make no pairs")
-        gpiozero, pairs = library("gpiozero"), []
-        try:
-            for trigger, echo in zip(self.trigger, self.echo, strict=True):
-                with pins(f"the range finder on GPIO {trigger} and {echo} cannot be opened"):
-                    pairs.append(Pair(gpiozero.OutputDevice(trigger), gpiozero.InputDevice(echo, pull_up=False)))
-        except DeviceError:
-            UltrasonicDevice(tuple(pairs), self.range).close()
-            raise
-        return UltrasonicDevice(tuple(pairs), self.range)
+        parts = []
+        for trigger, echo in zip(self.trigger, self.echo, strict=True):
+            what = f"the range finder on GPIO {trigger} and {echo}"
+            parts.append((what, "OutputDevice", {"pin": trigger}))
+            parts.append((what, "InputDevice", {"pin": echo, "pull_up": False}))
+        made = open_pins(*parts)
+        return UltrasonicDevice(tuple(map(Pair, made[::2], made[1::2])), self.range)

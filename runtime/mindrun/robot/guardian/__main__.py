@@ -3,48 +3,59 @@
 With `--neutral FILE`, bring them to neutral once, and end: for systemd, after the robot has stopped.
 """
 
-import argparse
 import os
 from collections.abc import Callable
 from pathlib import Path
 
 from mindrun.errors import MindError, text_of
+from mindrun.robot.guardian.messages import OVER, REST, say
 from mindrun.robot.guardian.plan import DRIVERS, MAX_PLAN_BYTES, Plan, from_json, read_plan
-from mindrun.robot.guardian.printing import printing_never_waits
 from mindrun.robot.guardian.process import Process
-from mindrun.robot.guardian.realtime import import_little, set_realtime, wake_on_signals
-from mindrun.robot.guardian.status import OVER, REST, say
-from mindrun.robot.guardian.watch import rescued, watch
-from mindrun.terminal.line_writer import LineWriter
+from mindrun.robot.guardian.realtime import import_little, printing_never_waits, set_realtime, wake_on_signals
+from mindrun.robot.guardian.watch import ERROR_DESCRIPTOR, report, rescued, watch
+from mindrun.terminal.arguments import parser
+from mindrun.terminal.standard_streams import LineWriter
 
 OK, FAILED, USAGE, UNAVAILABLE, BROKEN = 0, 1, 64, 69, 70  # as in sysexits.h
-INPUT_DESCRIPTOR, OUTPUT_DESCRIPTOR, ERROR_DESCRIPTOR = 0, 1, 2
+INPUT_DESCRIPTOR, OUTPUT_DESCRIPTOR = 0, 1
 NOBODY = -1  # in place of a descriptor
 
 
 def main() -> None:
     """Guard, and end without waiting for anything that hangs."""
-    options = _options()
-    if options.neutral in (None, "-"):  # a bundle needs all drivers to be read
-        import_little(DRIVERS)
+    known = parser("guardian", __doc__)
+    known.add_argument(
+        "--neutral", default="", metavar="FILE", help="bring all actuators of this bundle or plan to neutral, and end"
+    )
+    known.add_argument("--within", metavar="SECONDS", type=float, default=5.0, help="for --neutral (default: 5)")
+    options = known.parse_args()
     set_realtime()
     status = os.dup(OUTPUT_DESCRIPTOR)
     with printing_never_waits():  # what a driver prints is no status
-        code = _done(status, options)
+        code = _done(status, options.neutral, options.within)
     os._exit(code)
 
 
-def _done(status: int, options: argparse.Namespace) -> int:
-    """Do what is asked for; the exit code."""
+def _done(status: int, neutral: str, seconds: float) -> int:
+    """Guard, or bring the actuators of a bundle or plan to neutral once, in so many seconds; the exit code."""
+    is_heard = neutral in ("", "-")
+    if is_heard:  # a bundle needs all drivers to be read
+        import_little(DRIVERS)
     try:
-        plan = _plan(options.neutral or "-")
+        plan = _plan() if is_heard else read_plan(Path(neutral))
     except MindError as error:
-        return _refused(status, str(error))
-    if options.neutral not in (None, "-"):  # nobody hears it, and a terminal must stay as it is
+        say(status, "failed", " ".join(str(error).split()))
+        report(str(error))
+        return USAGE
+    if not is_heard:  # a terminal must stay as it is
         os.close(status)
-        return _brought(plan, NOBODY, options.within)
+        return FAILED if rescued(plan, NOBODY, seconds) else OK
     os.set_blocking(status, False)
-    return _brought(plan, status, options.within) if options.neutral else _guarded(plan, status)
+    if not neutral:
+        return _guarded(plan, status)
+    moving = rescued(plan, status, seconds)
+    say(status, OVER)
+    return FAILED if moving else OK
 
 
 def guard(
@@ -97,36 +108,10 @@ def _guarded(plan: Plan, status: int) -> int:
     return watch(plan, frames, status, work)
 
 
-def _brought(plan: Plan, status: int, seconds: float) -> int:
-    """Bring all to neutral once; whether that was all, and in time."""
-    moving = rescued(plan, status, seconds)
-    say(status, OVER)
-    return FAILED if moving else OK
-
-
-def _refused(status: int, why: str) -> int:
-    say(status, "failed", " ".join(why.split()))
-    errors = LineWriter(ERROR_DESCRIPTOR, "guardian: ")
-    errors(why)
-    errors.drain(0.2)
-    return USAGE
-
-
-def _plan(path: str) -> Plan:
-    """The plan in a file, or on standard input up to the end of the first line: what follows are frames."""
-    if path != "-":
-        return read_plan(Path(path))
+def _plan() -> Plan:
+    """The plan on standard input, up to the end of the first line: what follows are frames."""
     with open(INPUT_DESCRIPTOR, "rb", buffering=0, closefd=False) as file:
         return from_json(file.readline(MAX_PLAN_BYTES))
-
-
-def _options() -> argparse.Namespace:
-    parser = argparse.ArgumentParser("guardian", description=__doc__, allow_abbrev=False)
-    parser.add_argument(
-        "--neutral", metavar="FILE", help="bring all actuators of this bundle or plan to neutral, and end"
-    )
-    parser.add_argument("--within", metavar="SECONDS", type=float, default=5.0, help="for --neutral (default: 5)")
-    return parser.parse_args()
 
 
 if __name__ == "__main__":

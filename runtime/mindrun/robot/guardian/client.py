@@ -2,6 +2,8 @@
 
 import fcntl
 import os
+import signal
+import subprocess
 import sys
 from array import array
 from collections.abc import Iterable, Sequence
@@ -9,21 +11,119 @@ from contextlib import suppress
 from termios import FIONREAD
 from time import monotonic, monotonic_ns, sleep
 from types import TracebackType
+from typing import IO
 
 from mindrun.errors import MindError
-from mindrun.robot.child_processes import keep_from_children, keep_no_longer
-from mindrun.robot.guardian.frames import pack
 from mindrun.robot.guardian.guard import FOLLOWING, LATCHED, MOVES_ON, NEUTRAL, NOT_ARMED, STARTED
-from mindrun.robot.guardian.plan import Plan
-from mindrun.robot.guardian.processes import Processes
+from mindrun.robot.guardian.messages import Heard, pack
+from mindrun.robot.guardian.plan import Plan, to_json
+from mindrun.robot.guardian.watch import RESCUE_SECONDS
+from mindrun.robot.processes import end_in_child, keep_from_children, keep_no_longer
 
 # -P: a file of the user's folder that is named like a module must not be imported.
 PROGRAM = (sys.executable, "-P", "-m", "mindrun.robot.guardian")
 PIPE_BYTES = 4096  # that can wait in the pipe
-FORKED_EXIT_CODE = 70  # exit code of a forked process that took itself for the controller
 POLL_SECONDS = 0.002
 HANG_SECONDS = 0.5  # in which the guardian has not once read all that was there
+MAX_REPLACEMENTS = 3  # of a guardian, where these are killed as well
+WORDS_SECONDS = RESCUE_SECONDS + 1.0  # in which all is said of what is brought to neutral in place of a guardian
+KILL_SECONDS = 0.5  # for a process to end that is killed; one that waits for a device does not hear it
 CUT = "cut the actuators' power"
+
+
+class Processes:
+    """The process that was started, what it and its own processes have said, and how another is started."""
+
+    def __init__(self, plan: Plan, program: Sequence[str], inherited: Sequence[int]) -> None:
+        self.plan = f"{to_json(plan)}\n".encode()
+        self.is_replaced = False
+        self._names = [channel.actuator for channel in plan.channels]
+        self._program, self._inherited = program, inherited
+        self.first = self._begun(subprocess.PIPE)
+        assert self.first.stdin
+        assert self.first.stdout
+        self.input, self.output = self.first.stdin, self.first.stdout
+        self.heard = Heard(self.output.fileno())
+
+    @property
+    def worker(self) -> int:
+        """The number of the process that opens the actuators."""
+        return self.heard.worker or self.first.pid
+
+    def replace(self) -> str:
+        """Bring the actuators to neutral in place of a guardian that no longer can; what came of it.
+
+        It is the process that watches the worker which does it or, where that is lost as well, another.
+        """
+        heard = self.heard
+        heard.listen()
+        if not heard.rests and self.first.poll() is None:
+            with suppress(ProcessLookupError):
+                os.kill(self.worker, signal.SIGKILL)
+            heard.wait(lambda heard: heard.is_over, WORDS_SECONDS)
+        if not heard.rests and not heard.is_over:
+            self._kill()
+            self._start_others()
+        self.is_replaced = True  # not before: a signal may have interrupted it, and then it is tried again
+        return self._outcome()
+
+    def end(self, seconds: float) -> None:
+        """Wait for the end of what has no more to do, but not for ever."""
+        try:
+            self.first.wait(seconds)
+        except subprocess.TimeoutExpired:
+            self._kill()
+
+    def let_go(self) -> None:
+        """Neither speak to it nor hear it, nor keep it alive."""
+        with suppress(OSError):
+            self.input.close()
+        with suppress(OSError):
+            self.output.close()
+
+    def _kill(self) -> None:
+        """End all of its processes."""
+        for group in (self.first.pid, self.worker):
+            with suppress(ProcessLookupError):
+                os.killpg(group, signal.SIGKILL)
+        with suppress(subprocess.TimeoutExpired):
+            self.first.wait(KILL_SECONDS)
+
+    def _start_others(self) -> None:
+        for _ in range(MAX_REPLACEMENTS):
+            another = self.another()
+            assert another.stdout
+            with another.stdout:
+                heard = Heard(another.stdout.fileno(), at_rest=self.heard.at_rest)
+                in_time = heard.wait(lambda heard: heard.is_over, WORDS_SECONDS)
+            if heard.is_over or not in_time:  # it may still come to it
+                return
+
+    def another(self) -> "subprocess.Popen[bytes]":
+        """Another, which brings everything to neutral and ends, whatever becomes of this process meanwhile."""
+        with open(os.memfd_create("plan"), "w+b", buffering=0) as plan:  # noqa: PTH123  whole before there is a reader
+            plan.write(self.plan)
+            plan.seek(0)
+            return self._begun(plan, "--neutral", "-")
+
+    def _begun(self, plan: IO[bytes] | int, *words: str) -> "subprocess.Popen[bytes]":
+        """A guardian, in a session of its own: no key of a terminal reaches it, neither Ctrl-C nor Ctrl-Z."""
+        process = subprocess.Popen(
+            [*self._program, *words], stdin=plan, stdout=subprocess.PIPE, bufsize=0, start_new_session=True,
+            pass_fds=self._inherited,
+        )  # fmt: skip
+        assert process.stdout
+        os.set_blocking(process.stdout.fileno(), False)
+        return process
+
+    def _outcome(self) -> str:
+        at_rest = [name for name in self._names if self.heard.rests or name in self.heard.at_rest]
+        moving = [name for name in self._names if name not in at_rest]
+        if self.heard.rests:
+            return "it has ended, with every actuator at neutral"
+        if not moving:
+            return "another has brought the actuators to neutral"
+        return f"{', '.join(moving)} may still move; at neutral: {', '.join(at_rest) or 'none'}"
 
 
 class GuardianError(MindError):
@@ -84,7 +184,7 @@ class Guardian:
 
         GuardianError where the guardian has latched, hangs or is gone; then others have tried to bring all to neutral.
         """
-        self._end_in_children()
+        end_in_child(self._controller)  # a procedure may have forked it
         self._heard.listen()
         if self.state == LATCHED:
             if MOVES_ON in self.why:
@@ -106,7 +206,7 @@ class Guardian:
 
         So it is where the guardian has been lost, or hangs; then others have tried.
         """
-        self._end_in_children()
+        end_in_child(self._controller)  # a procedure may have forked it
         heard = self._heard
         hangs = self.state in (NEUTRAL, FOLLOWING) and not heard.is_lost and not self._hears()
         with suppress(OSError):
@@ -166,18 +266,15 @@ class Guardian:
         try:
             os.write(self._frames, pack(self._number, monotonic_ns(), False, self._rest))
             self._read_at = monotonic()
-            while self._unread() and not self._is_gone():
+            while self._unread() and not (self._heard.is_lost or self._heard.has_ended):
                 sleep(POLL_SECONDS)
                 self._see_it_read()
+                self._heard.listen()
         except BlockingIOError:
             return False
         except OSError:
             return True
         return True
-
-    def _is_gone(self) -> bool:
-        self._heard.listen()
-        return self._heard.is_lost or self._heard.has_ended
 
     def _unread(self) -> int:
         """How many bytes wait in the pipe."""
@@ -189,11 +286,6 @@ class Guardian:
         """What to raise of a guardian that is lost, once others have brought to neutral what they could."""
         done = self._processes.replace()
         return GuardianError(f"the guardian {how}: {done}", CUT if "may still move" in done else "")
-
-    def _end_in_children(self) -> None:
-        """End a process that a procedure has forked and that has come back from it: it is no controller."""
-        if os.getpid() != self._controller:
-            os._exit(FORKED_EXIT_CODE)
 
     def _abandon(self) -> str:
         """It never was of use: let it end by itself if it does, since that is at neutral, or replace it; what came."""

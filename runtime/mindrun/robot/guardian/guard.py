@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from math import inf
 
-from mindrun.robot.guardian.frames import Frame
+from mindrun.robot.guardian.messages import Frame
 from mindrun.robot.guardian.plan import Channel, Plan
 
 NEUTRAL, FOLLOWING, LATCHED = "neutral", "following", "latched"
@@ -68,14 +68,21 @@ class Guard:
         if frame.sent > now + self._plan.tick:
             return self.broken("a frame from the future")
         if not frame.armed:
-            return self._unarmed(settled)
+            if self.state == FOLLOWING:
+                return self._neutral(NOT_ARMED)
+            self.why = NOT_ARMED if settled else self.why
+            return None
         if self.state == NEUTRAL:
             if not settled:
                 self.why = NOT_YET if self.why in (STARTED, NOT_ARMED) else self.why
                 return None
             self.state, self.why = FOLLOWING, ""
         self.deadline = frame.sent + self.limit
-        return self._move(frame.commands, now)
+        seconds = min(now - self._then, self._plan.tick)  # after a rest the first step is as small as any other
+        wanted = zip(self._plan.channels, frame.commands, self._values, strict=True)
+        self._values = tuple(moved(channel, command, before, seconds) for channel, command, before in wanted)
+        self._then = now
+        return Move(tuple(map(turned, self._plan.channels, self._values)))
 
     def passed(self, now: float) -> Order:
         """Time has passed without a frame; `now` is the monotonic clock in seconds."""
@@ -105,24 +112,10 @@ class Guard:
         self.state = LATCHED
         return order
 
-    def _unarmed(self, settled: bool) -> Order:
-        if self.state == FOLLOWING:
-            return self._neutral(NOT_ARMED)
-        self.why = NOT_ARMED if settled else self.why
-        return None
-
     def _neutral(self, why: str) -> Rest:
         self.state, self.why, self.deadline = NEUTRAL, why, inf
         self._values, self._then = self._rest, -inf
         return Rest()
-
-    def _move(self, commands: tuple[float, ...], now: float) -> Move:
-        # No more than a tick: after a rest the first step is as small as any other.
-        seconds = min(now - self._then, self._plan.tick)
-        wanted = zip(self._plan.channels, commands, self._values, strict=True)
-        self._values = tuple(moved(channel, command, before, seconds) for channel, command, before in wanted)
-        self._then = now
-        return Move(tuple(map(turned, self._plan.channels, self._values)))
 
 
 def moved(channel: Channel, command: float, before: float, seconds: float) -> float:

@@ -12,16 +12,10 @@ from threading import Condition, Thread
 from time import monotonic
 
 from mindrun.driver import ActuatorDevice, failure
+from mindrun.robot.processes import end_in_child
 
-FORKED_EXIT_CODE = 70  # exit code of a process that a driver has forked and that has come back from it
 MIN_RETRY_SECONDS, MAX_RETRY_SECONDS = 0.002, 0.05  # seconds between two tries: at first, and in the end
 BOOT_SECONDS = 5.0  # for a device that was opened anew to acknowledge its first command
-
-
-def end_in_child(process: int) -> None:
-    """End a process that a driver has forked and that has come back from it: only `process` drives."""
-    if os.getpid() != process:
-        os._exit(FORKED_EXIT_CODE)
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,7 +24,6 @@ class Wanted:
 
     value: float
     neutral: bool
-    given: float
 
 
 class ActuatorOutput:
@@ -56,7 +49,7 @@ class ActuatorOutput:
         self._opened = opened
         self._patience = patience
         self._clock = clock
-        self._wanted = Wanted(rest, True, clock())
+        self._wanted = Wanted(rest, True)
         self._waiting: float | None = clock()  # since when nothing has been acknowledged that should have been
         self._closing = False
         self._process = os.getpid()
@@ -147,9 +140,9 @@ class ActuatorOutput:
 
     def _want(self, value: float, neutral: bool) -> None:
         with self._change:
-            self._wanted = Wanted(value, neutral, self._clock())
+            self._wanted = Wanted(value, neutral)
             if self._waiting is None:
-                self._waiting = self._wanted.given
+                self._waiting = self._clock()
             self._change.notify()
 
     def _run(self) -> None:

@@ -16,7 +16,7 @@ from mindrun.errors import MindError
 from mindrun.files.regular_files import read_regular
 from mindrun.graph.codec import Options, decode, encode
 from mindrun.numbers.quantity import RATIO, SECONDS, Quantity
-from mindrun.robot.guardian.frames import MAX_COMMANDS
+from mindrun.robot.guardian.messages import MAX_COMMANDS
 
 if TYPE_CHECKING:
     from mindrun.graph.wiring import Wiring  # which needs numpy
@@ -92,10 +92,8 @@ def read_plan(path: Path) -> Plan:
         data = read_regular(path, MAX_PLAN_BYTES)
     except OSError as error:
         raise PlanError(f"cannot read {path}: {error.strerror}") from error
-    return _of_bundle(path) if data.startswith(b"PK") else from_json(data)
-
-
-def _of_bundle(path: Path) -> Plan:
+    if not data.startswith(b"PK"):
+        return from_json(data)
     from mindrun.graph.bundle import read_bundle  # which needs numpy
 
     bundle = read_bundle(path)

@@ -10,7 +10,6 @@ from time import monotonic
 
 from mindrun.driver import ActuatorDevice
 from mindrun.errors import text_of
-from mindrun.robot.guardian.frames import FrameError, Reader
 from mindrun.robot.guardian.guard import (
     FAILED,
     FOLLOWING,
@@ -23,8 +22,10 @@ from mindrun.robot.guardian.guard import (
     Order,
     Rest,
 )
-from mindrun.robot.guardian.output import ActuatorOutput, end_in_child
+from mindrun.robot.guardian.messages import FrameError, Reader
+from mindrun.robot.guardian.output import ActuatorOutput
 from mindrun.robot.guardian.plan import Channel, Plan
+from mindrun.robot.processes import end_in_child
 
 REPORT_SECONDS = 1.0  # between two reports on an actuator that is not at neutral
 CLOSE_SECONDS = 0.5  # that a device may take to close
@@ -33,14 +34,10 @@ Say = Callable[[str], None]
 Clock = Callable[[], float]
 
 
-def quiet(line: str) -> None:
-    """Drop a message."""
-
-
 class Process:
     """All outputs, the guard that decides about them, and the two pipes that wake them."""
 
-    def __init__(self, plan: Plan, frames: int, report: Say, status: Say = quiet, clock: Clock = monotonic) -> None:
+    def __init__(self, plan: Plan, frames: int, report: Say, status: Say, clock: Clock = monotonic) -> None:
         self._clock = clock
         self._plan = plan
         self._frames = frames
@@ -90,21 +87,33 @@ class Process:
             output.rest()
 
     def settle(self, seconds: float = float("inf")) -> bool:
-        """Wait until every actuator has acknowledged neutral; False where that takes more than so many seconds."""
+        """Wait until every actuator has acknowledged neutral; False where that takes more than so many seconds.
+
+        Says once a second which has not.
+        """
         until = self._clock() + seconds
         while not self._settled():
             left = until - self._clock()
             if left <= 0:
                 return False
             self._wait([], min(left, REPORT_SECONDS))
-            self._complain(self._clock())
+            now = self._clock()
+            if self.guard.state == FOLLOWING or now - self._told < REPORT_SECONDS:
+                continue
+            for output in self._opened:
+                if output.late(now) >= REPORT_SECONDS:
+                    self._told = now
+                    late = ceil(output.late(now))
+                    self._report(f"{output.name} is not at neutral after {late} s: {output.error or SILENT}")
         return True
 
     def serve(self) -> None:
         """Do what the frames say, until they end or a signal comes."""
         while not self._ending:
-            data = None
-            if self._frames in self._wait([self._frames], self._patience(self._clock())):
+            data, patience = None, None if self._settled() else REPORT_SECONDS
+            if self.guard.state == FOLLOWING:
+                patience = max(self.guard.deadline - self._clock(), 0.0)
+            if self._frames in self._wait([self._frames], patience):
                 data = os.read(self._frames, 1 << 16)
                 if not data:
                     if self.guard.state == FOLLOWING:
@@ -128,11 +137,6 @@ class Process:
         for output in self._opened:
             output.close(CLOSE_SECONDS)
 
-    def hang_up(self) -> None:
-        """Close the pipe that wakes it up, where the program goes on after it."""
-        os.close(self._woken)
-        os.close(self.wake)
-
     def _take(self, data: bytes) -> Order:
         if self.guard.state == LATCHED:
             return None
@@ -148,20 +152,16 @@ class Process:
         is_lost = output.late(now) > self.guard.limit
         if is_lost and (self.guard.state == FOLLOWING or output.name not in self._lost):
             self._lost.add(output.name)
-            self._lose(output.name, output.error or SILENT)
+            said = f"{output.name} {FAILED}: {output.error or SILENT}"
+            if self.guard.failed(output.name, output.error or SILENT):
+                self.rest()
+                said = self.guard.why
+            self._report(f"all actuators to neutral, but {output.name} may still move: {said}")
         elif not is_lost and output.name in self._lost:
             self._lost.remove(output.name)
             self._report(f"{output.name} is fine again")
         if self.guard.state == NEUTRAL and output.hangs(now) > REPORT_SECONDS:
             self._obey(self.guard.broken(f"{output.name} {MOVES_ON}: {SILENT}"))
-
-    def _lose(self, name: str, why: str) -> None:
-        """Bring all to neutral because of an actuator that may not come there itself."""
-        said = f"{name} {FAILED}: {why}"
-        if self.guard.failed(name, why):
-            self.rest()
-            said = self.guard.why
-        self._report(f"all actuators to neutral, but {name} may still move: {said}")
 
     def _opened_anew(self, channel: Channel) -> ActuatorDevice:
         """The device of an actuator that has failed; called in the thread of its output, before it is at neutral."""
@@ -180,16 +180,6 @@ class Process:
                 if self.guard.why != NOT_ARMED:  # the controller has said why
                     self._report(f"all actuators to neutral: {self.guard.why}")
 
-    def _complain(self, now: float) -> None:
-        """Say once a second which actuator is not at neutral but should be."""
-        if self.guard.state == FOLLOWING or now - self._told < REPORT_SECONDS:
-            return
-        for output in self._opened:
-            if output.late(now) >= REPORT_SECONDS:
-                self._told = now
-                late = ceil(output.late(now))
-                self._report(f"{output.name} is not at neutral after {late} s: {output.error or SILENT}")
-
     @property
     def at_rest(self) -> list[str]:
         """The names of the actuators that have acknowledged neutral."""
@@ -197,11 +187,6 @@ class Process:
 
     def _settled(self) -> bool:
         return all(output.settled for output in self._opened)
-
-    def _patience(self, now: float) -> float | None:
-        if self.guard.state == FOLLOWING:
-            return max(self.guard.deadline - now, 0.0)
-        return None if self._settled() else REPORT_SECONDS
 
     def _wait(self, descriptors: list[int], seconds: float | None) -> list[int]:
         ready = select([self._woken, *descriptors], [], [], seconds)[0]

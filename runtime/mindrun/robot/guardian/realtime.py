@@ -1,4 +1,4 @@
-"""Real-time settings of a process: few imports, SCHED_FIFO, locked memory, the last to be killed for memory."""
+"""Settings of a process for real time: few imports, SCHED_FIFO, locked memory, signals, prints that never wait."""
 
 import ctypes
 import gc
@@ -7,13 +7,18 @@ import resource
 import signal
 import sys
 import threading
-from contextlib import suppress
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from importlib.util import find_spec, module_from_spec
 from pathlib import Path
+
+from mindrun.terminal.standard_streams import LineWriter
 
 FIFO_PRIORITY = 20
 LOCK_ALL_MEMORY = 1 | 2  # MCL_CURRENT | MCL_FUTURE
 STACK_BYTES = 256 << 10  # for each thread: locked memory is not for stacks that nobody uses
+OUTPUT_DESCRIPTOR, ERROR_DESCRIPTOR = 1, 2
+PIECE_BYTES, LAST_SECONDS = 1 << 16, 0.3  # that are read at once; for what is left in the end
 IGNORED_SIGNALS = ("SIGINT", "SIGTSTP", "SIGTTIN", "SIGTTOU", "SIGPIPE", "SIGUSR1", "SIGUSR2", "SIGALRM")
 ENDING_SIGNALS = ("SIGTERM", "SIGHUP", "SIGQUIT")
 
@@ -56,3 +61,32 @@ def wake_on_signals(descriptor: int) -> None:
     signal.set_wakeup_fd(descriptor, warn_on_full_buffer=False)
     for name in ENDING_SIGNALS:
         signal.signal(signal.Signals[name], lambda number, frame: None)
+
+
+@contextmanager
+def printing_never_waits() -> Iterator[None]:
+    """Meanwhile a thread of this process passes on to standard error what it and those it forks print, or drops it.
+
+    So a `print` of a driver never fails, and keeps no motor running, whoever reads it. They hold the reading end as
+    well: where this process is gone, a pipe takes what they print.
+    """
+    errors = os.dup(ERROR_DESCRIPTOR)
+    reading, writing = os.pipe()
+    for descriptor in (OUTPUT_DESCRIPTOR, ERROR_DESCRIPTOR):
+        os.dup2(writing, descriptor)
+    os.close(writing)
+    writer = LineWriter(errors)
+
+    def pass_on() -> None:
+        while piece := os.read(reading, PIECE_BYTES):
+            writer.write(piece)
+
+    thread = threading.Thread(target=pass_on, name="printing", daemon=True)
+    thread.start()
+    try:
+        yield
+    finally:
+        for descriptor in (OUTPUT_DESCRIPTOR, ERROR_DESCRIPTOR):
+            os.dup2(errors, descriptor)  # the last of the writing ends, but for those of forked processes that hang
+        thread.join(LAST_SECONDS)
+        writer.drain(LAST_SECONDS)

@@ -1,18 +1,28 @@
-"""The guardian's first process: it opens no device, and does what is left to do when the one that does has ended."""
+"""The guardian's first process: it opens no device, and does what is left to do when the one that does has ended.
+
+Then each device is brought to neutral from a process of its own: a driver that ends that takes no other along.
+"""
 
 import os
 import signal
 from collections.abc import Callable
 from contextlib import suppress
+from dataclasses import dataclass, replace
+from select import select
+from time import monotonic, sleep
 
-from mindrun.robot.guardian.plan import Plan
-from mindrun.robot.guardian.realtime import ENDING_SIGNALS, IGNORED_SIGNALS, ignore
-from mindrun.robot.guardian.rescue import ERROR_DESCRIPTOR, rescue
-from mindrun.robot.guardian.status import OVER, REST, WORKER, say
-from mindrun.robot.parent_process import end_with_parent
-from mindrun.terminal.line_writer import LineWriter
+from mindrun.robot.guardian.messages import OVER, REST, WORKER, say
+from mindrun.robot.guardian.plan import Channel, Plan
+from mindrun.robot.guardian.process import Process
+from mindrun.robot.guardian.realtime import ENDING_SIGNALS, IGNORED_SIGNALS, ignore, wake_on_signals
+from mindrun.robot.processes import end_with_parent
+from mindrun.terminal.standard_streams import LineWriter
 
 RESCUE_SECONDS = 5.0
+MAX_TRIES = 3  # of an actuator: processes that end without a word
+RETRY_SECONDS = 0.05  # between two tries to open what could not be
+GRACE_SECONDS = 0.3  # in which a process that gives up says why
+ERROR_DESCRIPTOR = 2
 
 
 def watch(plan: Plan, frames: int, status: int, work: Callable[[int], int]) -> int:
@@ -22,17 +32,22 @@ def watch(plan: Plan, frames: int, status: int, work: Callable[[int], int]) -> i
     """
     words, word = os.pipe()
     ignore(*IGNORED_SIGNALS)
-    worker = _begun(work, words, word)
+    worker = forked(lambda: work(word), signal.SIGTERM)
     os.close(frames)
     os.close(word)
     say(status, WORKER, worker)
+
+    def pass_on(number: int, _frame: object) -> None:
+        with suppress(ProcessLookupError):
+            os.kill(worker, number)
+
     for name in ENDING_SIGNALS:
-        signal.signal(signal.Signals[name], lambda number, frame: _pass_on(worker, number))
+        signal.signal(signal.Signals[name], pass_on)
     os.waitid(os.P_PID, worker, os.WEXITED | os.WSTOPPED | os.WNOWAIT)
     ignore(*ENDING_SIGNALS)
     os.kill(worker, signal.SIGKILL)  # where it was stopped
     code = os.waitstatus_to_exitcode(os.waitpid(worker, 0)[1])
-    if _is_at_rest(words):
+    if _said(words) == [REST]:
         say(status, REST)
     else:
         how = f"by signal {-code}" if code < 0 else f"with exit code {code}"
@@ -42,16 +57,6 @@ def watch(plan: Plan, frames: int, status: int, work: Callable[[int], int]) -> i
     return abs(code)
 
 
-def rescued(plan: Plan, status: int, seconds: float) -> list[str]:
-    """Bring all to neutral, saying which are; the names of those that are not known to be, which are reported."""
-    ignore(*IGNORED_SIGNALS, *ENDING_SIGNALS)  # whoever tells it to end is told that it does, when it is done
-    at_rest = rescue(plan, lambda name: say(status, REST, name), seconds)
-    missing = [channel.actuator for channel in plan.channels if channel.actuator not in at_rest]
-    if missing:
-        report(f"not known to be at neutral: {', '.join(missing)}; cut the actuators' power")
-    return missing
-
-
 def report(line: str) -> None:
     """Say a line on standard error, as far as it is read."""
     errors = LineWriter(ERROR_DESCRIPTOR, "guardian: ")
@@ -59,27 +64,103 @@ def report(line: str) -> None:
     errors.drain(0.2)
 
 
-def _begun(work: Callable[[int], int], words: int, word: int) -> int:
-    watcher, code = os.getpid(), 1
-    worker = os.fork()
-    if not worker:
-        try:
-            os.close(words)
-            os.setsid()  # a driver may end its whole process group, which the watcher is not in
-            end_with_parent(watcher, signal.SIGTERM)
-            code = work(word)
-        finally:
-            os._exit(code)
-    return worker
+def forked(work: Callable[[], int], by: signal.Signals) -> int:
+    """The number of a process that does that and ends, without coming back, or gets this signal when this one ends."""
+    parent = os.getpid()
+    if child := os.fork():
+        return child
+    code = 1
+    try:
+        os.setsid()  # a driver may end its whole process group, which the parent is not in
+        end_with_parent(parent, by)
+        code = work()
+    finally:
+        os._exit(code)
 
 
-def _pass_on(worker: int, number: int) -> None:
-    with suppress(ProcessLookupError):
-        os.kill(worker, number)
-
-
-def _is_at_rest(words: int) -> bool:
-    os.set_blocking(words, False)  # who was forked may hold the other end
+def _said(words: int) -> list[str]:
+    """The words on a pipe that have come since; who was forked may hold its other end, so nobody waits for that."""
+    os.set_blocking(words, False)
     with suppress(BlockingIOError):
-        return os.read(words, 1 << 10) == f"{REST}\n".encode()
-    return False
+        return os.read(words, 1 << 16).decode(errors="replace").split()
+    return []
+
+
+@dataclass(frozen=True, slots=True)
+class Attempt:
+    """A process that brings these actuators to neutral; `number` counts from 1, `handle` is readable when it ends."""
+
+    channels: tuple[Channel, ...]
+    number: int
+    process: int
+    handle: int
+    words: int  # the pipe on which it says the name of each that is at neutral
+
+    def end(self) -> None:
+        """End it, if it has not ended, and let go of it."""
+        os.kill(self.process, signal.SIGKILL)
+        os.waitpid(self.process, 0)
+        os.close(self.handle)
+        os.close(self.words)
+
+
+def rescued(plan: Plan, status: int, seconds: float) -> list[str]:
+    """Bring all to neutral, saying which are; the names of those that are not known to be, which are reported.
+
+    What ends its process is tried again, then without the others of its device.
+    """
+    ignore(*IGNORED_SIGNALS, *ENDING_SIGNALS)  # whoever tells it to end is told that it does, when it is done
+    until, at_rest = monotonic() + seconds, set[str]()
+
+    def begun(channels: list[Channel], number: int) -> Attempt:
+        some, left = replace(plan, channels=tuple(channels)), max(until - monotonic(), 0.0)
+        reading, writing = os.pipe()
+        child = forked(lambda: _bring(some, writing, left), signal.SIGKILL)
+        os.close(writing)
+        return Attempt(some.channels, number, child, os.pidfd_open(child), reading)
+
+    devices: dict[str, list[Channel]] = {}  # one process has to drive all actuators of a device together
+    for channel in plan.channels:
+        devices.setdefault(channel.driver.device or f"only {channel.actuator}", []).append(channel)
+    running = [begun(channels, 1) for channels in devices.values()]
+    while running and (left := until + GRACE_SECONDS - monotonic()) > 0:
+        ready = select([file for each in running for file in (each.handle, each.words)], [], [], left)[0]
+        for attempt in [*running]:
+            for name in _said(attempt.words):
+                at_rest.add(name)
+                say(status, REST, name)
+            if attempt.handle in ready:
+                attempt.end()
+                running.remove(attempt)
+                missing = [channel for channel in attempt.channels if channel.actuator not in at_rest]
+                if attempt.number < MAX_TRIES and monotonic() < until:
+                    running += [begun([channel], attempt.number + 1) for channel in missing]
+    for attempt in running:
+        attempt.end()
+    lost = [channel.actuator for channel in plan.channels if channel.actuator not in at_rest]
+    if lost:
+        report(f"not known to be at neutral: {', '.join(lost)}; cut the actuators' power")
+    return lost
+
+
+def bring(process: Process, report: Callable[[str], None], seconds: float) -> list[str]:
+    """Bring all that can be opened to neutral, in time; the names of those that are, and what is wrong reported."""
+    until = monotonic() + seconds
+    while (wrong := process.open()) and monotonic() < until:  # a bus that is busy is free again
+        sleep(RETRY_SECONDS)
+    if not process.settle(max(until - monotonic(), RETRY_SECONDS)):
+        wrong.append(f"not everything was at neutral after {seconds:g} s")
+    for line in wrong:
+        report(line)
+    return process.at_rest
+
+
+def _bring(plan: Plan, words: int, seconds: float) -> int:
+    errors = LineWriter(ERROR_DESCRIPTOR, "guardian: ")
+    process = Process(plan, -1, errors, lambda line: None)
+    wake_on_signals(process.wake)
+    for name in bring(process, errors, seconds):
+        say(words, name)
+    process.close()
+    errors.drain(0.2)
+    return 0

@@ -10,10 +10,10 @@ is the same in all of them stands in `tables`: a row for each sensor, skill, edg
 | stage | what it does | to which parts of the state |
 |---|---|---|
 | sense | readings, from where the robots and the things are | sight, mind |
-| think | influence down the hierarchy (Eq. 2), what the skills send (Eq. 1): `evaluate` for expressions | mind |
+| think | influence down the hierarchy (Eq. 2), what the skills send (Eq. 1) | mind |
 | act | commands (Eq. 3), the claw | mind, world |
 | step | physics: free flight, and `chipmunk` where something could touch | world, contact |
-| judge | measures, events, rewards; `reach`, and `placement` of what was reached | judge, world, run |
+| judge | measures, what is reached, events, rewards; `placement` of what was reached | judge, world, run |
 | recall | memories, as they are read in the next tick | mind |
 
 A stage is handed the whole `state`, what it calls the parts that it reads and writes. A skill runs only in the lanes in

@@ -1,7 +1,7 @@
 """Act: the commands that the influence makes (Eq. 3), their delays, and the claw; the memory cells when all is done."""
 
-from mindrun.numbers.arithmetic import COSINE, SINE, SIZE, THING_ROWS, X, Y
-from mindrun.sim.arithmetic import HALF, ONE, ZERO, F, clamp, finite, in_claw
+from mindrun.numbers.arithmetic import COSINE, SINE, X, Y
+from mindrun.sim.arithmetic import HALF, ONE, ZERO, F, clamp, finite, in_claw, place_of, put_thing, size_of
 from mindrun.sim.codes import GRIPPER, ITEM
 from mindrun.sim.compiling import compiled, part_of_tick
 from mindrun.sim.lanes.placement import uniform
@@ -11,20 +11,20 @@ UNDRIVEN = F(-1)
 
 
 @part_of_tick
-def act(tables, state, lanes, clock):
+def act(tables, state, lanes):
     """Commands as they act in this tick, and what the claw holds."""
     mind, world, faults = state.mind, state.world, state.run.faults
     for i in range(len(tables.actuators)):
         actuator, commands = tables.actuators[i], mind.commands[i]
         means(mind.command_sums[i], mind.influence_sums[i], actuator.neutral, commands, faults, lanes)
-        if actuator.is_late:
-            wait_each(commands, mind.late, actuator.ring, world.numbers[actuator.wait], world.tick, lanes)
-        elif actuator.delay > 0:
-            wait(commands, mind.late[actuator.ring + clock % actuator.delay], lanes)
+        if actuator.delay > 0:
+            wait(commands, mind.late, actuator.ring, world.numbers[actuator.wait], world.tick, lanes)
         if actuator.is_rough:
             disturb(world, actuator, commands, world.acting[i], lanes)
         if actuator.is_slipping:
-            slide(world.random, world.numbers[actuator.slip], world.grip[i], lanes)
+            for lane in range(lanes):
+                slip = world.numbers[actuator.slip, lane]
+                world.grip[i, lane] = 1.0 - slip * uniform(world.random, lane, 0.0, 1.0)
         if actuator.kind == GRIPPER:
             acting = world.acting[i] if actuator.is_rough else commands
             grip(acting, tables, world, actuator.reach, lanes)
@@ -32,11 +32,17 @@ def act(tables, state, lanes, clock):
 
 @compiled
 def recall(tables, mind, run, lanes):
-    """The memory cells as they are read in the next tick: a reward of this one has them as its skills had."""
+    """The memory cells as they are read in the next tick: a reward of this one has them as its skills had.
+
+    decay·cell + (1 − decay)·command where a skill drives a cell, else decay·cell.
+    """
     for i in range(len(tables.memories)):
         memory, sink = tables.memories[i], len(tables.actuators) + i
         means(mind.command_sums[sink], mind.influence_sums[sink], UNDRIVEN, mind.sent, run.faults, lanes)
-        remember(mind.readings[memory.row], mind.sent, memory.decay, memory.rest, lanes)
+        cell, decay, rest = mind.readings[memory.row], memory.decay, memory.rest
+        for lane in range(lanes):
+            kept = decay * cell[lane]
+            cell[lane] = kept + rest * mind.sent[lane] if mind.sent[lane] >= ZERO else kept
 
 
 @compiled
@@ -54,14 +60,7 @@ def means(total, weight, neutral, out, faults, lanes):
 
 
 @compiled
-def wait(commands, late, lanes):
-    """Exchange each command with the one that has waited its turn in the ring."""
-    for lane in range(lanes):
-        commands[lane], late[lane] = late[lane], commands[lane]
-
-
-@compiled
-def wait_each(commands, late, ring, delays, tick, lanes):
+def wait(commands, late, ring, delays, tick, lanes):
     """Exchange each command with one that has waited in the ring, as long as the delay of its own lane says."""
     for lane in range(lanes):
         delay = int(delays[lane])
@@ -83,21 +82,6 @@ def disturb(world, actuator, commands, acting, lanes):
 
 
 @compiled
-def slide(random, slip, kept, lanes):
-    """The share of its force that an actuator keeps in this tick."""
-    for lane in range(lanes):
-        kept[lane] = 1.0 - slip[lane] * uniform(random, lane, 0.0, 1.0)
-
-
-@compiled
-def remember(cell, command, decay, rest, lanes):
-    """decay·cell + (1 − decay)·command where a skill drives the cell, else decay·cell."""
-    for lane in range(lanes):
-        kept = decay * cell[lane]
-        cell[lane] = kept + rest * command[lane] if command[lane] >= ZERO else kept
-
-
-@compiled
 def grip(commands, tables, world, reach, lanes):
     """Close above 0.5 on the first item in reach that can come into the claw; open and the item stays where it is."""
     held, body, heading, things, front = world.held, world.body, world.heading, world.things, tables.world[0].front
@@ -116,8 +100,8 @@ def grip(commands, tables, world, reach, lanes):
 def has_room(tables, world, i, lane):
     """Whether nothing solid is between the robot and the rim of item i in its claw, or in the item's way there."""
     hold, cosine, sine = tables.things[i].hold, world.heading[COSINE, lane], world.heading[SINE, lane]
-    x, y = world.things[THING_ROWS * i + X, lane], world.things[THING_ROWS * i + Y, lane]
-    half, own_x, own_y = world.things[THING_ROWS * i + SIZE, lane] / 2, world.body[X, lane], world.body[Y, lane]
+    x, y = place_of(world.things, i, lane)
+    half, own_x, own_y = size_of(world.things, i, lane) / 2, world.body[X, lane], world.body[Y, lane]
     to_x, to_y = own_x + cosine * hold, own_y + sine * hold
     for from_x, from_y in ((own_x, own_y), (x, y)):
         if is_barred(world.boxes, tables.world[0], from_x, from_y, to_x, to_y, CLOSED_UNITS, lane):
@@ -134,9 +118,9 @@ def has_room(tables, world, i, lane):
 @compiled
 def carry(world, kinds, lanes):
     """A held item moves with the claw."""
-    body, heading, things = world.body, world.heading, world.things
+    body, heading = world.body, world.heading
     for lane in range(lanes):
         if world.held[lane] >= 0:
-            thing, ahead = THING_ROWS * world.held[lane], kinds[world.held[lane]].hold
-            things[thing + X, lane] = body[X, lane] + heading[COSINE, lane] * ahead
-            things[thing + Y, lane] = body[Y, lane] + heading[SINE, lane] * ahead
+            ahead = kinds[world.held[lane]].hold
+            x, y = body[X, lane] + heading[COSINE, lane] * ahead, body[Y, lane] + heading[SINE, lane] * ahead
+            put_thing(world.things, world.held[lane], x, y, lane)

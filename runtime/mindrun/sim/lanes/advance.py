@@ -1,17 +1,18 @@
 """Many ticks of many worlds, each in two halves: between them, a mind's procedures may run in Python."""
 
-from mindrun.numbers.arithmetic import ANGLE, X, Y
+from mindrun.numbers.arithmetic import X, Y
 from mindrun.sim.codes import GOING_ON
-from mindrun.sim.compiling import compiled, entry, part_of_tick
+from mindrun.sim.compiling import compiled, entry, inlined, part_of_tick
 from mindrun.sim.lanes.act import act, recall
 from mindrun.sim.lanes.judge import judge
-from mindrun.sim.lanes.places import within
-from mindrun.sim.lanes.record import record
 from mindrun.sim.lanes.runs import end
 from mindrun.sim.lanes.sense import sense
+from mindrun.sim.lanes.solid import is_lost
 from mindrun.sim.lanes.step import step
 from mindrun.sim.lanes.think import begin, think
-from mindrun.sim.state import FAILED_SKILL
+from mindrun.sim.state import FAILED_SKILL, recorded
+
+recorded_arrays = inlined(recorded)
 
 
 @entry
@@ -38,7 +39,7 @@ def before(tables, state, jobs):
 def after(tables, state, jobs, interrupt):
     """The second half of a tick: act, step, judge, recall."""
     lanes, world = jobs.lanes[0], state.world
-    act(tables, state, lanes, jobs.clock[0])
+    act(tables, state, lanes)
     for lane in range(lanes):
         world.begun_at[X, lane], world.begun_at[Y, lane] = world.body[X, lane], world.body[Y, lane]
     step(tables, state, lanes)
@@ -69,6 +70,34 @@ def going_on(body, ended, tick, ticks, lanes):
     """In how many lanes the run is not over: most often in all of them, and then nothing else looks."""
     count = 0
     for lane in range(lanes):
-        placed = within(body[X, lane], body[Y, lane], body[ANGLE, lane])
-        count += 1 if placed & (ended[lane] == GOING_ON) & (tick[lane] < ticks) else 0
+        over = is_lost(body, lane) | (ended[lane] != GOING_ON) | (tick[lane] >= ticks)
+        count += 0 if over else 1
     return count
+
+
+@compiled
+def record(state, jobs):
+    """Write a row of what the first lane's world and mind are after a tick, where there is room for one.
+
+    Before the memory cells recall: a row has them as the skills read them.
+    """
+    if jobs.recorded[0] == len(jobs.singles):
+        return
+    wide, narrow = recorded_arrays(state)
+    row = jobs.doubles[jobs.recorded[0]]
+    at = 0
+    for rows in wide:
+        at = copy(rows, row, at)
+    row[at], row[at + 1], row[at + 2] = state.world.held[0], state.world.battery[0], state.contact.touching[0] & 1
+    at = 0
+    for rows in narrow:
+        at = copy(rows, jobs.singles[jobs.recorded[0]], at)
+    jobs.recorded[0] += 1
+
+
+@compiled
+def copy(rows, target, at):
+    """The first lane of all rows, from `at` on; where the next ones begin."""
+    for row in range(len(rows)):
+        target[at + row] = rows[row, 0]
+    return at + len(rows)

@@ -1,24 +1,21 @@
-"""Judge: measures and events of the tick, the rewards they earn, and what becomes of what was reached."""
+"""Judge: measures, reached and delivered things, events of the tick, the rewards they earn, and what becomes of things.
+
+What is reached does not depend on whether a line of the task names the event: what measures changes nothing.
+"""
+
+import numpy as np
 
 from mindrun.kinds.sensors.inertial import TRAIL_TICKS
-from mindrun.numbers.arithmetic import X, Y
-from mindrun.sim.arithmetic import inside
-from mindrun.sim.codes import (
-    COLLISION,
-    DELIVERY,
-    EXHAUSTION,
-    GOING_ON,
-    ITS_END,
-    POWER,
-    REACH,
-    SUCCESS,
-    VISIT,
-)
+from mindrun.numbers.arithmetic import COSINE, SINE, X, Y
+from mindrun.sim import codes
+from mindrun.sim.arithmetic import distance_of, evaluate, in_claw, inside, place_of
+from mindrun.sim.codes import DELIVERY, GOING_ON, MOVES, STAYS, VANISHES, ZONE
 from mindrun.sim.compiling import compiled, part_of_tick
-from mindrun.sim.lanes.evaluate import evaluate
-from mindrun.sim.lanes.measure import take_measures
-from mindrun.sim.lanes.reach import arrivals, become, begun_of, meet
+from mindrun.sim.lanes.loose import SETTLED_TICKS
+from mindrun.sim.lanes.placement import succeed, vanish
 from mindrun.sim.state import PLACE_ROWS
+
+REACH_BEGUN = 1  # in this tick and not in the one before
 
 
 @part_of_tick
@@ -33,8 +30,8 @@ def judge(tables, state, lanes, clock, interrupt):
         out = judged.events[i]
         judged.happened[i] = notice(tables, world, state.contact, judged, tables.events[i], out, lanes)
     for i in range(len(tables.events)):
-        if judged.happened[i] > 0:
-            tally(judged.events[i], judged.counts[i], lanes)
+        for lane in range(lanes if judged.happened[i] > 0 else 0):
+            judged.counts[i, lane] += int(judged.events[i, lane])
     for i in range(len(tables.ends)):
         meet_end(tables, state, tables.ends[i], i, lanes, interrupt)
     for i in range(len(tables.rewards)):
@@ -54,7 +51,7 @@ def drain(tables, world, lanes):
     for lane in range(lanes):
         charged = False
         for i in range(len(tables.things)):
-            if tables.things[i].kind == POWER:
+            if tables.things[i].kind == codes.POWER:
                 charged = charged or inside(world.things, i, world.body[X, lane], world.body[Y, lane], lane)
         left = world.battery[lane] + charge if charged else world.battery[lane] - drained
         world.battery[lane] = min(1.0, max(0.0, left))
@@ -63,22 +60,22 @@ def drain(tables, world, lanes):
 @compiled
 def notice(tables, world, contact, judged, event, out, lanes):
     """How often the event happened in this tick, per lane; returns in how many."""
-    if event.kind == REACH:
+    if event.kind == codes.REACH:
         begun_of(out, world.reached, event, lanes)
     elif event.kind == DELIVERY and event.tos == 0:
         begun_of(out, world.delivered, event, lanes)
     elif event.kind == DELIVERY:
         for lane in range(lanes):
             out[lane] = arrivals(world, judged.arrived, event, lane)
-    elif event.kind == VISIT:
+    elif event.kind == codes.VISIT:
         visit(out, tables.world[0], world.body, judged.visited, event, lanes)
-    elif event.kind == COLLISION:
+    elif event.kind == codes.COLLISION:
         for lane in range(lanes):
             out[lane] = 1 if contact.touching[lane] == 1 else 0
-    elif event.kind == EXHAUSTION:
+    elif event.kind == codes.EXHAUSTION:
         for lane in range(lanes):
             out[lane] = 1 if world.battery[lane] == 0.0 else 0
-    elif event.kind != ITS_END:  # which stands there already
+    elif event.kind != codes.ITS_END:  # which stands there already
         out[:lanes] = 0  # a success comes later in the tick
     count = 0
     for lane in range(lanes):
@@ -141,13 +138,6 @@ def value(tables, mind, measures, first, length, each, lanes):
 
 
 @compiled
-def tally(happened, counts, lanes):
-    """Count an event."""
-    for lane in range(lanes):
-        counts[lane] += int(happened[lane])
-
-
-@compiled
 def meet_end(tables, state, end, i, lanes, interrupt):
     """End the runs to which end number i has come before any other."""
     judged, run = state.judge, state.run
@@ -170,16 +160,181 @@ def meet_end(tables, state, end, i, lanes, interrupt):
         else:
             judged.paid[lane] = 0.0
     if met > 0 and end.succeeds:
-        succeed(tables, judged, lanes)
+        mark_success(tables, judged, lanes)
 
 
 @compiled
-def succeed(tables, judged, lanes):
+def mark_success(tables, judged, lanes):
     """The event of a success happens where a run has succeeded in this tick."""
     for i in range(len(tables.events)):
-        if tables.events[i].kind == SUCCESS:
+        if tables.events[i].kind == codes.SUCCESS:
             for lane in range(lanes):
                 if judged.paid[lane] > 0.0:
                     judged.events[i, lane] = 1.0
                     judged.counts[i, lane] += 1
                     judged.happened[i] += 1
+
+
+@compiled
+def take_measures(tables, world, commands, judged, lanes, clock):
+    """The measures of the tick."""
+    for i in range(len(tables.measures)):
+        measure, out = tables.measures[i], judged.measures[i]
+        if measure.kind == codes.CHANGE:
+            change(tables, commands, judged, measure, out, lanes, clock)
+        elif measure.kind == codes.FORWARD:
+            forward(out, world.body, world.heading, world.begun_at, lanes)
+        elif measure.kind != codes.ITS_REWARD:  # which stands there already
+            progress(out, judged.paid, world.body, world.things, measure, lanes)
+
+
+@compiled
+def progress(out, now, body, things, measure, lanes):
+    """The distance to the nearest of the things that this tick closed, or its positive or negative part.
+
+    0 where all have vanished. `now` is room for the square of what is left of the distance.
+    """
+    before = out
+    for lane in range(lanes):
+        before[lane], now[lane] = np.nan, np.nan
+    for i in range(measure.thing, measure.thing + measure.things):
+        for lane in range(lanes):
+            x, y = place_of(things, i, lane)
+            dx, dy = x - body[X, lane], y - body[Y, lane]
+            away, here, least, less = distance_of(things, i, lane), dx * dx + dy * dy, before[lane], now[lane]
+            before[lane] = away if (away < least) | (least != least) else least
+            now[lane] = here if (here < less) | (less != less) else less
+    for lane in range(lanes):
+        closed = before[lane] - np.sqrt(now[lane])
+        if measure.kind == codes.ADVANCE:
+            closed = closed if closed > 0.0 else 0.0
+        elif measure.kind == codes.RETREAT:
+            closed = -closed if closed < 0.0 else 0.0
+        out[lane] = 0.0 if np.isnan(closed) else closed
+
+
+@compiled
+def forward(out, body, heading, begun_at, lanes):
+    """1 where the robot moved forward in this tick."""
+    for lane in range(lanes):
+        dx, dy = body[X, lane] - begun_at[X, lane], body[Y, lane] - begun_at[Y, lane]
+        along = dx * heading[COSINE, lane] + dy * heading[SINE, lane]
+        out[lane] = 1.0 if along > 1e-6 else 0.0
+
+
+@compiled
+def change(tables, commands, judged, measure, out, lanes, clock):
+    """How much each side's wheel command changed over the last ticks, beyond a share: ΣΔ of the paper's Table 5."""
+    now = measure.ring + clock % measure.over
+    for lane in range(lanes):
+        judged.left_changes[now, lane] = 0.0
+        judged.right_changes[now, lane] = 0.0
+        out[lane] = 0.0
+    for i in range(len(tables.actuators)):
+        actuator = tables.actuators[i]
+        if actuator.kind == codes.PUSH:
+            changes = judged.right_changes[now] if actuator.is_right else judged.left_changes[now]
+            for lane in range(lanes):
+                changes[lane] += abs(np.float64(commands[i, lane]) - np.float64(judged.last_commands[i, lane]))
+    varied = judged.paid  # which has nothing in it yet
+    for changes in (judged.left_changes, judged.right_changes):
+        for lane in range(lanes):
+            varied[lane] = 0.0
+        for k in range(measure.ring, measure.ring + measure.over):
+            for lane in range(lanes):
+                varied[lane] += changes[k, lane]
+        for lane in range(lanes):
+            out[lane] += max(0.0, varied[lane] - measure.beyond)
+
+
+@compiled
+def meet(tables, world, lanes):
+    """Note which things are in reach and which are delivered, those of which anything depends on it.
+
+    How many begin to be so, in all lanes.
+    """
+    body, things, begun = world.body, world.things, 0
+    front, claw = tables.world[0].front, tables.world[0].claw
+    for i in range(len(tables.things)):
+        thing = tables.things[i]
+        if thing.is_reached and not thing.is_area:
+            for lane in range(lanes):
+                now = in_claw(body, world.heading, things, front, claw, i, lane)
+                begun += note(world.reached, i, lane, now)
+        elif thing.is_reached:
+            for lane in range(lanes):
+                begun += note(world.reached, i, lane, inside(things, i, body[X, lane], body[Y, lane], lane))
+        if thing.is_delivered:
+            for lane in range(lanes):
+                if thing.settles and world.still[thing.loose, lane] >= SETTLED_TICKS:
+                    continue  # neither it nor any zone has moved since it was looked at
+                carried = thing.loose >= 0 or world.delivered[i, lane] & 1 == 1 or world.held[lane] == i
+                begun += note(world.delivered, i, lane, carried and in_zone(tables, things, i, lane))
+    return begun
+
+
+@compiled
+def note(rows, i, lane, now):
+    """One more tick of thing i; 1 where it begins to be so."""
+    rows[i, lane] = (rows[i, lane] & 1) << 1 | (1 if now else 0)
+    return 1 if rows[i, lane] == REACH_BEGUN else 0
+
+
+@compiled
+def in_zone(tables, things, i, lane):
+    """Whether the middle of thing i is inside any zone."""
+    x, y = place_of(things, i, lane)
+    found = False
+    for zone in range(len(tables.things)):
+        found = found or (tables.things[zone].kind == ZONE and inside(things, zone, x, y, lane))
+    return found
+
+
+@compiled
+def begun_of(out, rows, event, lanes):
+    """How many of the things that an event is about begin to be reached, or delivered."""
+    out[:lanes] = 0
+    for i in range(event.thing, event.thing + event.things):
+        for lane in range(lanes):
+            out[lane] += 1 if rows[i, lane] == REACH_BEGUN else 0
+
+
+@compiled
+def begins(row, lanes):
+    """In how many lanes a thing begins to be reached, or delivered."""
+    count = 0
+    for lane in range(lanes):
+        count += 1 if row[lane] == REACH_BEGUN else 0
+    return count
+
+
+@compiled
+def arrivals(world, arrived, event, lane):
+    """How many of the items that an event is about begin to be delivered into one of its zones."""
+    things, begun = world.things, 0
+    for k in range(event.things):
+        found = False
+        x, y = place_of(things, event.thing + k, lane)
+        for zone in range(event.to, event.to + event.tos):
+            found = found or inside(things, zone, x, y, lane)
+        begun += note(arrived, event.arrival + k, lane, found and world.delivered[event.thing + k, lane] & 1 == 1)
+    return begun
+
+
+@compiled
+def become(tables, world, lanes):
+    """What has been reached or delivered moves or vanishes where its kind says so; once, where it was both."""
+    for i in range(len(tables.things)):
+        thing = tables.things[i]
+        if thing.reached == STAYS and thing.delivered == STAYS:
+            continue
+        if begins(world.reached[i], lanes) + begins(world.delivered[i], lanes) == 0:
+            continue
+        for lane in range(lanes):
+            outcome = thing.reached if world.reached[i, lane] == REACH_BEGUN else STAYS
+            if world.delivered[i, lane] == REACH_BEGUN:
+                outcome = max(outcome, thing.delivered)
+            if outcome == MOVES:
+                succeed(tables, world, i, lane)
+            elif outcome == VANISHES:
+                vanish(tables, world, i, lane)

@@ -1,4 +1,4 @@
-"""Places drawn at random: the obstacles, where the robot starts, where things appear and reappear.
+"""Places drawn at random: the obstacles, where the robot starts, where things appear and reappear; and what varies.
 
 Every world has its own generator (SplitMix64), seeded by the layout alone, so that all genomes of a generation meet
 the same world. Everything is placed clear of everything else, with room for the robot between.
@@ -6,13 +6,16 @@ the same world. Everything is placed clear of everything else, with room for the
 
 import numpy as np
 
+from mindrun.graph.beginning import meets_robot
 from mindrun.numbers.arithmetic import ANGLE, BOX_COLUMNS, HALF_X, HALF_Y, SIZE, THING_ROWS, X, Y
-from mindrun.sim.arithmetic import sine_cosine
-from mindrun.sim.codes import FAR
+from mindrun.sim import parameter_rows
+from mindrun.sim.arithmetic import place_of, put_thing, sine_cosine, size_of
+from mindrun.sim.codes import CONSTANT, DRAWN, DRAWN_WHOLE, FAILING, FAR
 from mindrun.sim.compiling import compiled
-from mindrun.sim.lanes.clear_places import clear, clear_of_all, clear_of_things, is_open, stands_on
 from mindrun.sim.lanes.loose import stand
+from mindrun.sim.lanes.solid import is_clear, put_box
 
+meets, computed = compiled(meets_robot), compiled(parameter_rows.computed)
 GOLDEN, MIX_1, MIX_2 = np.uint64(0x9E3779B97F4A7C15), np.uint64(0xBF58476D1CE4E5B9), np.uint64(0x94D049BB133111EB)
 S30, S27, S31, S11 = np.uint64(30), np.uint64(27), np.uint64(31), np.uint64(11)
 UNIFORM_STEP = 2.0**-53
@@ -37,60 +40,41 @@ def draw(tables, world, lane):
 
     Of each the first in the source come first.
     """
-    clear_away(world, lane)
-    box = draw_walls(world, tables.walls, lane)
+    boxes, walls, box = world.boxes[lane], tables.walls, len(tables.walls)
+    for b in range(len(boxes) // BOX_COLUMNS):
+        put_box(boxes, b, FAR, FAR, 0.0, 0.0)
+    for b in range(len(walls)):
+        put_box(boxes, b, walls[b, X], walls[b, Y], walls[b, HALF_X], walls[b, HALF_Y])
+    world.things[:, lane] = FAR
     for i in range(len(tables.obstacles)):
         box = draw_grid(world, tables.obstacles[i], box, lane)
     start(tables, world, lane)
     for i in range(len(tables.things)):
         if tables.things[i].is_fixed:
-            draw_size(tables, world, i, lane)
-            put_at(tables, world, i, tables.things[i].x, tables.things[i].y, lane)
+            appear(tables, world, i, lane)
     for i in range(len(tables.obstacles)):
         obstacle = tables.obstacles[i]
         for _ in range(obstacle.count):
             size = uniform(world.random, lane, obstacle.first, obstacle.last)
             room = size / 2 + 3 * tables.world[0].radius
             x, y = find(tables, world, obstacle.low, obstacle.high, room, size / 2, -1, lane)
-            put_box(world.boxes, box, x, y, size / 2, lane)
+            put_box(boxes, box, x, y, size / 2, size / 2)
             box += 1
     for i in range(len(tables.things)):
         if not tables.things[i].is_fixed:
-            draw_size(tables, world, i, lane)
-            put(tables, world, i, lane)
+            appear(tables, world, i, lane)
 
 
 @compiled
-def draw_size(tables, world, i, lane):
-    """The size that thing i begins with."""
+def appear(tables, world, i, lane):
+    """Thing i in the size that it begins with, in its place or somewhere."""
     thing = tables.things[i]
     size = uniform(world.random, lane, thing.first, thing.last) if thing.drawn else thing.first
     world.things[THING_ROWS * i + SIZE, lane] = size
-
-
-@compiled
-def clear_away(world, lane):
-    """No box and no thing is anywhere near."""
-    for b in range(world.boxes.shape[1] // BOX_COLUMNS):
-        put_box(world.boxes, b, FAR, FAR, 0.0, lane)
-    world.things[:, lane] = FAR
-
-
-@compiled
-def draw_walls(world, walls, lane):
-    """What stands in the same places in every run; the number of the next box."""
-    for b in range(walls.shape[0]):
-        for i in range(BOX_COLUMNS):
-            world.boxes[lane, BOX_COLUMNS * b + i] = walls[b, i]
-    return walls.shape[0]
-
-
-@compiled
-def put_box(boxes, b, x, y, half, lane):
-    """A square, box number b, stands at a place."""
-    box = BOX_COLUMNS * b
-    boxes[lane, box + X], boxes[lane, box + Y] = x, y
-    boxes[lane, box + HALF_X], boxes[lane, box + HALF_Y] = half, half
+    if thing.is_fixed:
+        put_at(tables, world, i, thing.x, thing.y, lane)
+    else:
+        put(tables, world, i, lane)
 
 
 @compiled
@@ -103,7 +87,7 @@ def draw_grid(world, obstacle, box, lane):
             x = obstacle.x + (column - middle_x) * obstacle.grid + uniform(random, lane, -jitter, jitter)
             y = obstacle.y + (row - middle_y) * obstacle.grid + uniform(random, lane, -jitter, jitter)
             size = uniform(random, lane, obstacle.first, obstacle.last)
-            put_box(world.boxes, box, x, y, size / 2, lane)
+            put_box(world.boxes[lane], box, x, y, size / 2, size / 2)
             box += 1
     return box
 
@@ -167,7 +151,7 @@ def find(tables, world, low, high, room, extent, but, lane):
         fits = 0
         if far > low - 1e-9 and far < high + 1e-9 and max(abs(dx), abs(dy)) >= room:
             fits = 1
-            if clear(world.boxes, x, y, margin, lane):
+            if is_clear(world.boxes, x, y, margin, lane):
                 fits = 3 if clear_of_things(world.things, x, y, extent, but, lane) else 2
             if but < 0 or not stands_on(tables, but, 2 * extent, dx, dy):
                 fits += 3
@@ -181,15 +165,15 @@ def find(tables, world, low, high, room, extent, but, lane):
 @compiled
 def put(tables, world, i, lane):
     """Thing i somewhere else."""
-    thing, rows = tables.things[i], THING_ROWS * i
-    x, y = find(tables, world, thing.low, thing.high, 0.0, world.things[rows + SIZE, lane] / 2, i, lane)
+    thing = tables.things[i]
+    x, y = find(tables, world, thing.low, thing.high, 0.0, size_of(world.things, i, lane) / 2, i, lane)
     put_at(tables, world, i, x, y, lane)
 
 
 @compiled
 def put_at(tables, world, i, x, y, lane):
     """Thing i at a place."""
-    world.things[THING_ROWS * i + X, lane], world.things[THING_ROWS * i + Y, lane] = x, y
+    put_thing(world.things, i, x, y, lane)
     if tables.things[i].loose >= 0:
         stand(world, tables.things[i].loose, lane)
     if tables.things[i].walker >= 0:
@@ -200,7 +184,7 @@ def put_at(tables, world, i, x, y, lane):
 def succeed(tables, world, i, lane):
     """Thing i moves: it takes the next step of its schedule and appears elsewhere, let go and not yet reached."""
     thing = tables.things[i]
-    size = world.things[THING_ROWS * i + SIZE, lane]
+    size = size_of(world.things, i, lane)
     if thing.drawn:
         size = uniform(world.random, lane, thing.first, thing.last)
     elif thing.first > thing.last:
@@ -224,3 +208,74 @@ def forget(world, i, lane):
     """Thing i is let go, and where it has been reached or delivered does not count any more."""
     world.held[lane] = -1 if world.held[lane] == i else world.held[lane]
     world.reached[i, lane], world.delivered[i, lane] = 0, 0
+
+
+@compiled
+def clear_of_all(tables, world, x, y, margin, lane):
+    """Whether no obstacle, and no box or ball with a place of its own, comes within `margin` of a point."""
+    if not is_clear(world.boxes, x, y, margin, lane):
+        return False
+    for i in range(len(tables.loose)):
+        thing = tables.things[tables.loose[i].thing]
+        gap = max(thing.first, thing.last) / 2 + margin
+        if thing.is_fixed and abs(thing.x - x) < gap and abs(thing.y - y) < gap:
+            return False
+    return True
+
+
+@compiled
+def clear_of_things(things, x, y, extent, but, lane):
+    """Whether something of that half size would cover no thing at a place, thing number `but` aside."""
+    for i in range(things.shape[0] // THING_ROWS):
+        its_x, its_y = place_of(things, i, lane)
+        gap = extent + size_of(things, i, lane) / 2
+        if i != but and abs(its_x - x) < gap and abs(its_y - y) < gap:
+            return False
+    return True
+
+
+@compiled
+def is_open(tables, x, y):
+    """Whether nothing with a place of its own keeps a robot from beginning at a point."""
+    for i in range(len(tables.things)):
+        thing = tables.things[i]
+        size = max(thing.first, thing.last) if thing.drawn else thing.first
+        if thing.is_fixed and stands_on(tables, i, size, thing.x - x, thing.y - y):
+            return False
+    return True
+
+
+@compiled
+def stands_on(tables, i, size, dx, dy):
+    """Whether the robot, so far from the middle of thing i, would be in it, or would have reached it as a goal."""
+    thing, constants = tables.things[i], tables.world[0]
+    is_area, is_round, is_goal = thing.is_area == 1, thing.is_round == 1, thing.is_goal == 1
+    return meets(is_area, is_round, is_goal, size, dx, dy, constants.radius, constants.front + constants.claw)
+
+
+@compiled
+def set_numbers(tables, world, lane):
+    """The numbers of a lane whose world has been drawn: it is the same world whatever varies in it."""
+    numbers, random = world.numbers, world.random
+    for i in range(len(tables.parameters)):
+        row = tables.parameters[i]
+        if row.form == CONSTANT:
+            numbers[i, lane] = row.low
+        elif row.form == DRAWN:
+            numbers[i, lane] = uniform(random, lane, row.low, row.high)
+        elif row.form == DRAWN_WHOLE:
+            numbers[i, lane] = min(np.floor(uniform(random, lane, row.low, row.high + 1.0)), row.high)
+        elif row.form == FAILING:
+            numbers[i, lane] = fails_at(uniform(random, lane, 0.0, 1.0), row.low, tables.world[0].ticks)
+        else:
+            numbers[i, lane] = computed(row.form, numbers[row.of, lane], row.low)
+
+
+@compiled
+def fails_at(chance, keep, ticks):
+    """The tick in which something fails that lasts through each with a probability of `keep`; `chance` is in 0..1."""
+    tick, left = 0, keep
+    while left > chance and tick < ticks:
+        left *= keep
+        tick += 1
+    return tick

@@ -10,9 +10,8 @@ from mindrun.sim.codes import GOING_ON, LOST, VISIT
 from mindrun.sim.compiling import compiled, entry
 from mindrun.sim.lanes.chipmunk import close_space
 from mindrun.sim.lanes.judge import patch_of
-from mindrun.sim.lanes.parameters import set_numbers
-from mindrun.sim.lanes.placement import draw
-from mindrun.sim.lanes.step import is_lost
+from mindrun.sim.lanes.placement import draw, set_numbers
+from mindrun.sim.lanes.solid import is_lost
 from mindrun.sim.state import PLACE_ROWS
 
 MEASURED_ASIDE = np.uint64(0xD1B54A32D192ED03)  # what no skill reads draws from a generator of its own
@@ -134,46 +133,34 @@ def finish(tables, state, jobs, lane):
 @compiled
 def move(state, source, target):
     """A lane takes the place of one whose run is over. What is of this tick stays; the circles go with their Space."""
-    move_world(state.world, source, target)
-    mind, sight, judge, contact, run = state.mind, state.sight, state.judge, state.contact, state.run
-    for rows in (mind.readings, mind.before, mind.measured, mind.rings, mind.genome, mind.recurrent):
+    world, mind, sight, judge = state.world, state.mind, state.sight, state.judge
+    contact, run = state.contact, state.run
+    for rows in (world.body, world.heading, world.things, world.trail, world.loose, world.numbers, world.direction):
         copy_lane(rows, source, target)
-    for rows in (mind.late, mind.commands, judge.last_commands):
+    for rows in (world.reached, world.delivered, judge.arrived):
+        copy_lane(rows, source, target)
+    for rows in (world.still, world.goal, judge.counts):
+        copy_lane(rows, source, target)
+    for rows in (mind.readings, mind.before, mind.measured, mind.rings, mind.genome, mind.recurrent, mind.late):
+        copy_lane(rows, source, target)
+    for rows in (mind.commands, judge.last_commands):
         copy_lane(rows, source, target)
     for rows in (sight.nearby, sight.anchor, judge.left_changes, judge.right_changes, judge.lines):
         copy_lane(rows, source, target)
-    copy_lane(judge.counts, source, target)
-    copy_lane(judge.arrived, source, target)
-    copy_row(judge.visited, source, target)
-    for numbers in (sight.nearby_count, contact.near, contact.touching, run.job, run.ended, run.met, run.faults):
+    for columns in (world.boxes, contact.sizes):
+        copy_row(columns, source, target)
+    for columns in (judge.visited, contact.placed):
+        copy_row(columns, source, target)
+    for numbers in (world.restless, world.held, world.tick, sight.nearby_count, contact.near, contact.touching):
         numbers[target] = numbers[source]
+    for numbers in (run.job, run.ended, run.met, run.faults):
+        numbers[target] = numbers[source]
+    world.battery[target], contact.last[target] = world.battery[source], contact.last[source]
+    world.random[target], world.random_aside[target] = world.random[source], world.random_aside[source]
     for handles in (contact.handles, contact.loose):
         for i in range(handles.shape[1]):
             handles[source, i], handles[target, i] = handles[target, i], handles[source, i]
-    copy_row(contact.sizes, source, target)
-    copy_row(contact.placed, source, target)
-    contact.last[target] = contact.last[source]
     contact.tally[target, FIXED_BODY] = contact.tally[source, FIXED_BODY]
-
-
-@compiled
-def move_world(world, source, target):
-    """The world of one lane becomes that of the other."""
-    for rows in (world.body, world.heading, world.things, world.trail, world.loose, world.numbers):
-        copy_lane(rows, source, target)
-    for rows in (world.reached, world.delivered):
-        copy_lane(rows, source, target)
-    copy_lane(world.still, source, target)
-    copy_lane(world.direction, source, target)
-    copy_lane(world.goal, source, target)
-    copy_row(world.boxes, source, target)
-    world.restless[target] = world.restless[source]
-    world.held[target], world.tick[target], world.battery[target] = (
-        world.held[source],
-        world.tick[source],
-        world.battery[source],
-    )
-    world.random[target], world.random_aside[target] = world.random[source], world.random_aside[source]
 
 
 @compiled

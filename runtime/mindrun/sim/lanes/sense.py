@@ -12,30 +12,32 @@ from mindrun.numbers.arithmetic import (
     DISTANCE,
     HALF_X,
     HALF_Y,
+    LOOSE_ROWS,
     MAX_FLOAT32,
     SINE,
     THING_ROWS,
+    TURN,
     X,
     Y,
 )
-from mindrun.sim.arithmetic import ONE, ZERO, F, clamp, compiled_lane, wrapped
+from mindrun.sim import state as parts
+from mindrun.sim.arithmetic import (
+    ONE,
+    ZERO,
+    F,
+    box_of,
+    clamp,
+    compiled_lane,
+    place_of,
+    sine_cosine,
+    size_of,
+    wrapped,
+)
 from mindrun.sim.codes import AWAY, sensor_codes
 from mindrun.sim.compiling import compiled, part_of_tick
-from mindrun.sim.lanes.loose_sight import look_at_loose
 from mindrun.sim.lanes.placement import uniform
-from mindrun.sim.state import (
-    FIRST_RAY,
-    HIGH,
-    LEFT,
-    LOW,
-    RIGHT,
-    SIDES,
-    SIGHT_COSINE,
-    SIGHT_SINE,
-    SIGHT_X,
-    SIGHT_Y,
-    Senses,
-)
+from mindrun.sim.lanes.solid import put_box
+from mindrun.sim.state import FIRST_RAY, HIGH, LEFT, LOW, RIGHT, SIDES, SIGHT_COSINE, SIGHT_SINE, SIGHT_X, SIGHT_Y
 from mindrun.sim.vector import HIGHEST, LOWEST, VECTOR_LANES, load, splat, store, where_ordered
 
 CULLING_SLACK_UNITS = 2.0  # how far a robot may move before the boxes near it are chosen anew
@@ -75,27 +77,12 @@ def sense(tables, state, lanes, clock):
         look(tables, world, sight, lanes)
         look_at_loose(tables, world, sight, lanes)
     sight.nearest_of[0] = -1
-    senses = Senses(
-        readings=mind.readings,
-        before=mind.before,
-        body=world.body,
-        heading=world.heading,
-        things=world.things,
-        held=world.held,
-        battery=world.battery,
-        tick=world.tick,
-        trail=world.trail,
-        loose=world.loose,
-        nearest=sight.nearest,
-        nearest_of=sight.nearest_of,
-        frame=sight.frame,
-        sight=sight.sight,
-        boxes=world.boxes,
-        nearby=sight.nearby,
-        nearby_count=sight.nearby_count,
-        stack=mind.stack,
-        active=mind.active,
-    )
+    senses = parts.Senses(
+        readings=mind.readings, before=mind.before, body=world.body, heading=world.heading, things=world.things,
+        held=world.held, battery=world.battery, tick=world.tick, trail=world.trail, loose=world.loose,
+        nearest=sight.nearest, nearest_of=sight.nearest_of, frame=sight.frame, sight=sight.sight, boxes=world.boxes,
+        nearby=sight.nearby, nearby_count=sight.nearby_count, stack=mind.stack, active=mind.active,
+    )  # fmt: skip
     for i in range(len(tables.sensors)):
         sensor = tables.sensors[i]
         read(tables, senses, lanes, clock, sensor)
@@ -142,10 +129,10 @@ def measure(random, numbers, sensor, true, before, lane):
 def measure_distances(body, things, count, lanes):
     """The distance of every thing when the tick begins."""
     for i in range(count):
-        thing = THING_ROWS * i
         for lane in range(lanes):
-            dx, dy = things[thing + X, lane] - body[X, lane], things[thing + Y, lane] - body[Y, lane]
-            things[thing + DISTANCE, lane] = np.sqrt(dx * dx + dy * dy)
+            x, y = place_of(things, i, lane)
+            dx, dy = x - body[X, lane], y - body[Y, lane]
+            things[THING_ROWS * i + DISTANCE, lane] = np.sqrt(dx * dx + dy * dy)
 
 
 @compiled
@@ -206,19 +193,15 @@ def choose(world, sight, reach, lanes):
 @compiled
 def choose_in(boxes, sight, reach, lane):
     """The boxes around the anchor of a lane."""
-    nearby, x, y = sight.nearby, sight.anchor[X, lane], sight.anchor[Y, lane]
+    nearby, x, y = sight.nearby[:, lane], sight.anchor[X, lane], sight.anchor[Y, lane]
     found = 0
     for b in range(boxes.shape[1] // BOX_COLUMNS):
-        box = BOX_COLUMNS * b
-        wide, high = boxes[lane, box + HALF_X] + reach, boxes[lane, box + HALF_Y] + reach
-        if abs(boxes[lane, box + X] - x) < wide and abs(boxes[lane, box + Y] - y) < high:
-            for i in range(BOX_COLUMNS):
-                nearby[BOX_COLUMNS * found + i, lane] = boxes[lane, box + i]
+        its_x, its_y, wide, high = box_of(boxes, b, lane)
+        if abs(its_x - x) < wide + reach and abs(its_y - y) < high + reach:
+            put_box(nearby, found, its_x, its_y, wide, high)
             found += 1
     for k in range(found, sight.nearby_count[lane]):
-        box = BOX_COLUMNS * k
-        nearby[box + X, lane], nearby[box + Y, lane] = AWAY, AWAY
-        nearby[box + HALF_X, lane], nearby[box + HALF_Y, lane] = 0.0, 0.0
+        put_box(nearby, k, AWAY, AWAY, 0.0, 0.0)
     sight.nearby_count[lane] = found
 
 
@@ -230,3 +213,72 @@ def place(body, box, sides, lanes):
         half_x, half_y = F(box[HALF_X, lane]), F(box[HALF_Y, lane])
         sides[LEFT, lane], sides[RIGHT, lane] = dx - half_x, dx + half_x
         sides[LOW, lane], sides[HIGH, lane] = dy - half_y, dy + half_y
+
+
+@compiled
+def look_at_loose(tables, world, sight, lanes):
+    """Shorten every ray that meets a loose thing, but for one of those that its own sensor looks for."""
+    rows, frame = sight.sight, sight.frame
+    for i in range(len(tables.loose)):
+        enter_frame(tables, world, frame, i, lanes)
+        thing = tables.loose[i].thing
+        for ray in range(len(tables.ray_row)):
+            cosine, sine, out = tables.rays[COSINE, ray], tables.rays[SINE, ray], rows[FIRST_RAY + ray]
+            if (tables.passes[0, ray] <= thing) & (thing < tables.passes[1, ray]):
+                continue
+            if tables.loose[i].is_round:
+                meet_ball(rows, frame, cosine, sine, out, lanes)
+            else:
+                meet_box(rows, frame, cosine, sine, out, lanes)
+
+
+@compiled
+def enter_frame(tables, world, frame, i, lanes):
+    """Where loose thing i is as it sees it itself: its middle from the robot, in axes that turn with it."""
+    body, thing = world.body, tables.loose[i].thing
+    for lane in range(lanes):
+        x, y = place_of(world.things, thing, lane)
+        dx, dy = F(x - body[X, lane]), F(y - body[Y, lane])
+        sine, cosine = sine_cosine(world.loose[LOOSE_ROWS * i + TURN, lane])
+        s, c = F(sine), F(cosine)
+        frame[parts.LOOSE_COSINE, lane], frame[parts.LOOSE_SINE, lane] = c, s
+        frame[parts.LOOSE_X, lane], frame[parts.LOOSE_Y, lane] = c * dx + s * dy, c * dy - s * dx
+        frame[parts.LOOSE_HALF, lane] = F(size_of(world.things, thing, lane) / 2)
+
+
+@compiled
+def meet_ball(rows, frame, cosine, sine, out, lanes):
+    """A ray of each lane, and the disc around its frame's middle."""
+    for lane in range(lanes):
+        c, s = direction(rows, frame, cosine, sine, lane)
+        x, y, radius = frame[parts.LOOSE_X, lane], frame[parts.LOOSE_Y, lane], frame[parts.LOOSE_HALF, lane]
+        aside = x * s - y * c
+        room = radius * radius - aside * aside
+        enter = x * c + y * s - np.sqrt(room if room > ZERO else ZERO)
+        hit = (room >= ZERO) & (enter >= ZERO) & (enter < out[lane])
+        out[lane] = enter if hit else out[lane]
+
+
+@compiled
+def meet_box(rows, frame, cosine, sine, out, lanes):
+    """A ray of each lane, and the square around its frame's middle (the slab method)."""
+    for lane in range(lanes):
+        c, s = direction(rows, frame, cosine, sine, lane)
+        x, y, half = frame[parts.LOOSE_X, lane], frame[parts.LOOSE_Y, lane], frame[parts.LOOSE_HALF, lane]
+        ix, iy = ONE / c, ONE / s
+        left, right, low, high = (x - half) * ix, (x + half) * ix, (y - half) * iy, (y + half) * iy
+        first_x, last_x = left if left < right else right, right if left < right else left
+        first_y, last_y = low if low < high else high, high if low < high else low
+        enter = first_x if first_x > first_y else first_y
+        leave = last_x if last_x < last_y else last_y
+        hit = (enter >= ZERO) & (enter <= leave) & (enter < out[lane])
+        out[lane] = enter if hit else out[lane]
+
+
+@compiled
+def direction(rows, frame, cosine, sine, lane):
+    """Cosine and sine of a ray's direction in a lane's frame."""
+    ahead, aside = rows[SIGHT_COSINE, lane], rows[SIGHT_SINE, lane]
+    c, s = ahead * cosine - aside * sine, aside * cosine + ahead * sine
+    turned_c, turned_s = frame[parts.LOOSE_COSINE, lane], frame[parts.LOOSE_SINE, lane]
+    return c * turned_c + s * turned_s, s * turned_c - c * turned_s

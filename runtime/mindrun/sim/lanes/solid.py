@@ -1,9 +1,85 @@
-"""Solid: whether a straight way leads through what stands in it."""
+"""Solid: what a straight way leads through, how far that is, and that nothing passes anything within a tick.
 
-from mindrun.numbers.arithmetic import BOX_COLUMNS, HALF_X, HALF_Y, SIZE, THING_ROWS, X, Y
-from mindrun.sim.compiling import compiled
+A lane in which something is so swift that a tick takes it by more than SWIFT_SHARE of its least half side makes its
+tick in several **strides**: in each everything moves by at most STRIDE_SHARE of that, or by what is free around it.
+
+Chipmunk's solver lets what is pressed between heavy things give way by and by. What a step of it has brought through
+something solid is **held back**: it goes back to where it was, and stands. And what goes round a corner within one tick
+is stopped there: the straight way of a middle from tick to tick never leads through what is solid. `ways` has the
+middle of everything that moves: the robot, what it holds, each loose thing.
+"""
+
+import numpy as np
+
+from mindrun.numbers.arithmetic import (
+    ANGLE,
+    BOX_COLUMNS,
+    HALF_X,
+    HALF_Y,
+    LOOSE_ROWS,
+    PUSHED_SPIN,
+    PUSHED_X,
+    PUSHED_Y,
+    SPEED_X,
+    SPEED_Y,
+    SPIN,
+    TURN,
+    X,
+    Y,
+)
+from mindrun.sim.arithmetic import box_of, place_of, put_thing, sine_cosine, size_of
+from mindrun.sim.codes import FAR, HALF_DIAGONAL
+from mindrun.sim.compiling import compiled, part_of_tick
+from mindrun.sim.state import BEGIN_X, BEGIN_Y, FROM_ANGLE, FROM_X, FROM_Y, HALF, TO_X, TO_Y, WAY
 
 CLOSED_UNITS = 1e-6  # so much larger is everything here: what stands corner to corner leaves no way between
+SWIFT_SHARE, STRIDE_SHARE = 0.75, 0.5  # of a least half side: beyond which there are strides, and how far one may go
+MOST_STRIDES = 100  # in one tick; what time is left then is lost
+HELD, FIRST_LOOSE = WAY, 2 * WAY  # where they stand in `ways`; the robot comes first
+DEEPEST_SHARE = 0.5  # of the smaller's half side: so deep in one another come two that move
+
+
+@compiled
+def within(x, y, angle):
+    """Whether Chipmunk can say anything of such a place; not where it is no number."""
+    return (abs(x) <= FAR) & (abs(y) <= FAR) & (abs(angle) <= FAR)
+
+
+@compiled
+def is_lost(body, lane):
+    """Whether a lane's robot is where no world is."""
+    return not within(body[X, lane], body[Y, lane], body[ANGLE, lane])
+
+
+@compiled
+def put_box(boxes, b, x, y, wide, high):
+    """Box number b of a lane: its middle, and half of its sides."""
+    box = BOX_COLUMNS * b
+    boxes[box + X], boxes[box + Y], boxes[box + HALF_X], boxes[box + HALF_Y] = x, y, wide, high
+
+
+@compiled
+def is_clear(boxes, x, y, margin, lane):
+    """Whether no obstacle comes within `margin` of a point, along the axes."""
+    for b in range(boxes.shape[1] // BOX_COLUMNS):
+        its_x, its_y, wide, high = box_of(boxes, b, lane)
+        if abs(its_x - x) < wide + margin and abs(its_y - y) < high + margin:
+            return False
+    return True
+
+
+@compiled
+def is_free(tables, world, x, y, half, lane):
+    """Whether what reaches so far to each side of a point meets no wall and no obstacle."""
+    half_x, half_y = tables.world[0].half_x, tables.world[0].half_y
+    return half_x - abs(x) >= half and half_y - abs(y) >= half and is_clear(world.boxes, x, y, half, lane)
+
+
+@compiled
+def extent_of(tables, world, i, lane):
+    """How far loose thing i reaches from its middle."""
+    body = tables.loose[i]
+    return size_of(world.things, body.thing, lane) * (0.5 if body.is_round else HALF_DIAGONAL)
 
 
 @compiled
@@ -17,9 +93,8 @@ def is_barred(boxes, constants, x, y, to_x, to_y, half, lane):
         return True
     dx, dy = to_x - x, to_y - y
     for b in range(boxes.shape[1] // BOX_COLUMNS):
-        box = BOX_COLUMNS * b
-        wide, high = boxes[lane, box + HALF_X] + half, boxes[lane, box + HALF_Y] + half
-        if meets(boxes[lane, box + X] - x, boxes[lane, box + Y] - y, dx, dy, wide, high):
+        its_x, its_y, wide, high = box_of(boxes, b, lane)
+        if meets(its_x - x, its_y - y, dx, dy, wide + half, high + half):
             return True
     return False
 
@@ -29,10 +104,9 @@ def is_walled(boxes, x, y, to_x, to_y, lane):
     """Whether an obstacle lies wholly within the way between two places: neither is in it."""
     dx, dy = to_x - x, to_y - y
     for b in range(boxes.shape[1] // BOX_COLUMNS):
-        box = BOX_COLUMNS * b
-        wide, high = boxes[lane, box + HALF_X], boxes[lane, box + HALF_Y]
-        ends_in = abs(boxes[lane, box + X] - to_x) < wide and abs(boxes[lane, box + Y] - to_y) < high
-        if not ends_in and meets(boxes[lane, box + X] - x, boxes[lane, box + Y] - y, dx, dy, wide, high):
+        its_x, its_y, wide, high = box_of(boxes, b, lane)
+        ends_in = abs(its_x - to_x) < wide and abs(its_y - to_y) < high
+        if not ends_in and meets(its_x - x, its_y - y, dx, dy, wide, high):
             return True
     return False
 
@@ -41,9 +115,9 @@ def is_walled(boxes, x, y, to_x, to_y, lane):
 def is_blocked(tables, world, x, y, to_x, to_y, lane):
     """Whether the way between two places leads through a loose thing, as large as half its least side around it."""
     for i in range(len(tables.loose)):
-        place = THING_ROWS * tables.loose[i].thing
-        half, dx, dy = world.things[place + SIZE, lane] / 2, to_x - x, to_y - y
-        if meets(world.things[place + X, lane] - x, world.things[place + Y, lane] - y, dx, dy, half, half):
+        its_x, its_y = place_of(world.things, tables.loose[i].thing, lane)
+        half = size_of(world.things, tables.loose[i].thing, lane) / 2
+        if meets(its_x - x, its_y - y, to_x - x, to_y - y, half, half):
             return True
     return False
 
@@ -55,3 +129,181 @@ def meets(x, y, dx, dy, wide, high):
         return False
     beside = abs(x - dx / 2) < wide + abs(dx) / 2 and abs(y - dy / 2) < high + abs(dy) / 2
     return beside and abs(x * dy - y * dx) < wide * abs(dy) + high * abs(dx)
+
+
+@compiled
+def find_swift(tables, world, swift, lanes):
+    """In how many lanes something may be swift; which of them have to make strides into `swift`, where any may be.
+
+    Who makes a lane's tick sets it back to 0.
+    """
+    body, held, constants, count = world.body, world.held, tables.world[0], 0
+    own_arm, own_least = 0.0 if constants.is_round else constants.radius, min(constants.front, constants.side)
+    arm, least, dt = constants.arm, constants.least, constants.dt
+    for lane in range(lanes):
+        spin = abs(body[SPIN, lane]) * (own_arm if held[lane] < 0 else arm)
+        speed = abs(body[SPEED_X, lane]) + abs(body[SPEED_Y, lane]) + spin
+        count += speed * dt > SWIFT_SHARE * (own_least if held[lane] < 0 else least)
+    for i in range(len(tables.loose)):
+        for lane in range(lanes):
+            size = size_of(world.things, tables.loose[i].thing, lane)
+            count += speed_of_loose(tables, world, i, lane) * dt > SWIFT_SHARE * size / 2
+    for lane in range(lanes if count > 0 else 0):
+        swift[lane] = 1 if stride(tables, world, lane) < dt else 0
+    return count
+
+
+@compiled
+def speed_of_loose(tables, world, i, lane):
+    """How far any point of loose thing i may come in a second."""
+    row, arm = LOOSE_ROWS * i, 0.0 if tables.loose[i].is_round else extent_of(tables, world, i, lane)
+    speed = abs(world.loose[row + PUSHED_X, lane]) + abs(world.loose[row + PUSHED_Y, lane])
+    return speed + abs(world.loose[row + PUSHED_SPIN, lane]) * arm
+
+
+@compiled
+def stride(tables, world, lane):
+    """For how many seconds a lane may go on at once; infinitely many where nothing in it is swift."""
+    body, constants, held = world.body, tables.world[0], world.held[lane]
+    half, reach = min(constants.front, constants.side), constants.radius
+    arm = 0.0 if constants.is_round else reach
+    if held >= 0:
+        own, hold = size_of(world.things, held, lane) / 2, tables.things[held].hold
+        half, arm, reach = min(half, own), max(arm, hold), max(reach, hold + own)
+    x, y, longest = body[X, lane], body[Y, lane], np.inf
+    speed = abs(body[SPEED_X, lane]) + abs(body[SPEED_Y, lane]) + abs(body[SPIN, lane]) * arm
+    if speed * constants.dt > SWIFT_SHARE * half:
+        longest = max(STRIDE_SHARE * half, room_around(tables, world, x, y, reach, -1, lane)) / speed
+    for i in range(len(tables.loose)):
+        longest = min(longest, stride_of(tables, world, i, x, y, reach, lane))
+    return longest
+
+
+@compiled
+def stride_of(tables, world, i, x, y, reach, lane):
+    """For how many seconds loose thing i may go on at once beside a robot that reaches so far around its middle."""
+    thing, speed = tables.loose[i].thing, speed_of_loose(tables, world, i, lane)
+    half, extent = size_of(world.things, thing, lane) / 2, extent_of(tables, world, i, lane)
+    if not speed * tables.world[0].dt > SWIFT_SHARE * half:
+        return np.inf
+    its_x, its_y = place_of(world.things, thing, lane)
+    room = room_around(tables, world, its_x, its_y, extent, i, lane)
+    room = min(room, (max(abs(its_x - x), abs(its_y - y)) - reach - extent) / 2)
+    return max(STRIDE_SHARE * half, room) / speed
+
+
+@compiled
+def room_around(tables, world, x, y, extent, but, lane):
+    """How far what reaches so far around a point may move in any direction before it meets something.
+
+    Of what is free between it and a loose thing, thing number `but` aside, half is its own.
+    """
+    boxes, constants = world.boxes, tables.world[0]
+    room = min(constants.half_x - abs(x), constants.half_y - abs(y)) - extent
+    for b in range(boxes.shape[1] // BOX_COLUMNS):
+        its_x, its_y, wide, high = box_of(boxes, b, lane)
+        room = min(room, max(abs(its_x - x) - wide, abs(its_y - y) - high) - extent)
+    for j in range(len(tables.loose)):
+        its_x, its_y = place_of(world.things, tables.loose[j].thing, lane)
+        if j != but and not np.isnan(its_x):
+            far = max(abs(its_x - x), abs(its_y - y)) - extent_of(tables, world, j, lane)
+            room = min(room, (far - extent) / 2)
+    return room
+
+
+@part_of_tick
+def note_begin(tables, world, ways, lane):
+    """Where everything that moves is when a tick begins, and half its least side; NaN where nothing is held."""
+    constants, held = tables.world[0], world.held[lane]
+    ways[BEGIN_X], ways[BEGIN_Y] = world.body[X, lane], world.body[Y, lane]
+    ways[HALF] = min(constants.front, constants.side)
+    if held >= 0:
+        # Not yet in the claw, where it has just been taken.
+        ways[HELD + BEGIN_X], ways[HELD + BEGIN_Y] = place_of(world.things, held, lane)
+        ways[HELD + HALF] = size_of(world.things, held, lane) / 2
+    for i in range(len(tables.loose)):
+        way, thing = FIRST_LOOSE + WAY * i, tables.loose[i].thing
+        ways[way + BEGIN_X], ways[way + BEGIN_Y] = place_of(world.things, thing, lane)
+        ways[way + HALF] = size_of(world.things, thing, lane) / 2
+
+
+@part_of_tick
+def note_places(tables, world, ways, x, y, lane):
+    """Where everything that moves is before a step of Chipmunk, or after it: into columns `x` and `y` of its way."""
+    ways[x], ways[y] = world.body[X, lane], world.body[Y, lane]
+    ways[HELD + x], ways[HELD + y] = np.nan, np.nan
+    if world.held[lane] >= 0:
+        hold = tables.things[world.held[lane]].hold
+        sine, cosine = sine_cosine(world.body[ANGLE, lane])
+        ways[HELD + x], ways[HELD + y] = ways[x] + cosine * hold, ways[y] + sine * hold
+    for i in range(len(tables.loose)):
+        way = FIRST_LOOSE + WAY * i
+        ways[way + x], ways[way + y] = place_of(world.things, tables.loose[i].thing, lane)
+
+
+@part_of_tick
+def note_before(tables, world, ways, lane):
+    """Where everything that moves is before a step, and how it is turned."""
+    note_places(tables, world, ways, FROM_X, FROM_Y, lane)
+    ways[FROM_ANGLE] = world.body[ANGLE, lane]
+    for i in range(len(tables.loose)):
+        ways[FIRST_LOOSE + WAY * i + FROM_ANGLE] = world.loose[LOOSE_ROWS * i + TURN, lane]
+
+
+@compiled
+def hold_back(tables, world, ways, lane):
+    """Put back what has passed something since the tick began, and then what passes that."""
+    note_places(tables, world, ways, TO_X, TO_Y, lane)
+    way, last = 0, FIRST_LOOSE + WAY * len(tables.loose)
+    while way < last:
+        if passes(tables, world, ways, way, last, lane):
+            put_back(tables, world, ways, way, lane)
+            way = 0
+        else:
+            way += WAY
+
+
+@compiled
+def passes(tables, world, ways, way, last, lane):
+    """Whether something that this step has moved has come through what never moves, or through what does."""
+    x, y, to_x, to_y = ways[way + BEGIN_X], ways[way + BEGIN_Y], ways[way + TO_X], ways[way + TO_Y]
+    if np.isnan(to_x) or (to_x == ways[way + FROM_X] and to_y == ways[way + FROM_Y]):
+        return False
+    if is_barred(world.boxes, tables.world[0], x, y, to_x, to_y, CLOSED_UNITS, lane):
+        return True
+    for other in range(FIRST_LOOSE if way < FIRST_LOOSE else 0, last, WAY):
+        if other != way and not np.isnan(ways[other + TO_X]):
+            near = ways[way + HALF] + ways[other + HALF] - DEEPEST_SHARE * min(ways[way + HALF], ways[other + HALF])
+            its_dx, its_dy = ways[other + TO_X] - ways[other + BEGIN_X], ways[other + TO_Y] - ways[other + BEGIN_Y]
+            dx, dy = to_x - x - its_dx, to_y - y - its_dy
+            if comes_nearer(ways[other + BEGIN_X] - x, ways[other + BEGIN_Y] - y, dx, dy, near):
+                return True
+    return False
+
+
+@compiled
+def comes_nearer(x, y, dx, dy, near):
+    """Whether a way by (dx, dy) leads nearer to a place (x, y) than that, and than where it begins."""
+    along, length = x * dx + y * dy, dx * dx + dy * dy
+    if along <= 0.0 or length == 0.0:
+        return False
+    share = min(1.0, along / length)
+    aside_x, aside_y = x - share * dx, y - share * dy
+    return aside_x * aside_x + aside_y * aside_y < near * near
+
+
+@compiled
+def put_back(tables, world, ways, way, lane):
+    """Something, the robot with what it holds, to where it was before the step, without any speed."""
+    if way < FIRST_LOOSE:
+        world.body[X, lane], world.body[Y, lane], world.body[ANGLE, lane] = ways[FROM_X], ways[FROM_Y], ways[FROM_ANGLE]
+        world.body[SPEED_X, lane], world.body[SPEED_Y, lane], world.body[SPIN, lane] = 0.0, 0.0, 0.0
+        for each in (0, HELD):
+            ways[each + TO_X], ways[each + TO_Y] = ways[each + FROM_X], ways[each + FROM_Y]
+        return
+    i = (way - FIRST_LOOSE) // WAY
+    row = LOOSE_ROWS * i
+    ways[way + TO_X], ways[way + TO_Y] = ways[way + FROM_X], ways[way + FROM_Y]
+    put_thing(world.things, tables.loose[i].thing, ways[way + FROM_X], ways[way + FROM_Y], lane)
+    world.loose[row : row + LOOSE_ROWS, lane] = 0.0
+    world.loose[row + TURN, lane] = ways[way + FROM_ANGLE]

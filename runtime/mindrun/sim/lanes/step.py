@@ -1,4 +1,9 @@
-"""Step: one tick of physics. Free flight is plain arithmetic in Chipmunk's order; Chipmunk steps what could touch."""
+"""Step: one tick of physics. Free flight is plain arithmetic in Chipmunk's order; Chipmunk steps what could touch.
+
+What walks by itself touches nothing: plain arithmetic is all there is to it.
+"""
+
+import numpy as np
 
 from mindrun.numbers.arithmetic import (
     ANGLE,
@@ -7,25 +12,22 @@ from mindrun.numbers.arithmetic import (
     HALF_X,
     HALF_Y,
     SINE,
-    SIZE,
     SPEED_X,
     SPEED_Y,
     SPIN,
-    THING_ROWS,
     X,
     Y,
 )
-from mindrun.sim.arithmetic import sine_cosine
+from mindrun.sim.arithmetic import place_of, put_thing, sine_cosine, size_of
 from mindrun.sim.chipmunk_internals import PERSISTENCE_TICKS
 from mindrun.sim.codes import FORCE, FORCE_ASIDE, FORCE_X, FORCE_Y, PUSH, STEERING, TORQUE
 from mindrun.sim.compiling import compiled, part_of_tick
 from mindrun.sim.lanes.act import carry
+from mindrun.sim.lanes.chipmunk import make_tick
 from mindrun.sim.lanes.loose import approach_loose, could_touch, slide, slow_down
-from mindrun.sim.lanes.places import within
+from mindrun.sim.lanes.placement import uniform
 from mindrun.sim.lanes.sense import CULLING_SLACK_UNITS
-from mindrun.sim.lanes.strides import find_swift
-from mindrun.sim.lanes.ticks import make_tick
-from mindrun.sim.lanes.walk import walk
+from mindrun.sim.lanes.solid import CLOSED_UNITS, find_swift, is_barred, is_free, within
 
 CONTACT_MARGIN_UNITS = 0.01  # beyond the rounding of any distance here
 CONTACT_TICKS = PERSISTENCE_TICKS + 2  # for which Chipmunk goes on with a lane in which something could have touched
@@ -68,46 +70,27 @@ def thrust(tables, world, commands, lanes):
         if actuator.kind == PUSH:
             acting = world.acting[i] if actuator.is_rough else commands[i]
             strength = world.numbers[actuator.thrust]
-            if actuator.is_slipping or actuator.aside != 0.0:
-                drive_anywhere(acting, actuator, strength, world.grip[i], push, lanes)
-                is_aside |= actuator.aside != 0.0
-            else:
-                drive(acting, actuator, strength, push[FORCE], push[TORQUE], lanes)
+            drive(acting, actuator, strength, world.grip[i], push, lanes)
+            is_aside |= actuator.aside != 0.0
     linear, angular = world.numbers[constants.linear], world.numbers[constants.angular]
     damp(world.body, world.heading, push, linear, angular, lanes)
-    if is_aside:
-        push_aside(world.heading, push, lanes)
+    for lane in range(lanes if is_aside else 0):
+        push[FORCE_X, lane] -= push[FORCE_ASIDE, lane] * world.heading[SINE, lane]
+        push[FORCE_Y, lane] += push[FORCE_ASIDE, lane] * world.heading[COSINE, lane]
     if constants.axles > 0.0:
         roll(tables, world, commands, lanes)
 
 
 @compiled
-def drive(commands, actuator, strength, force, torque, lanes):
-    """(2v − 1)·thrust along the heading at a point of the body: a wheel's on its rim."""
-    ahead, arm = actuator.ahead, actuator.arm
+def drive(commands, actuator, strength, kept, push, lanes):
+    """(2v − 1)·thrust, less what slips, in the actuator's direction at a point of the body: a wheel's on its rim."""
+    ahead, aside, arm, slips = actuator.ahead, actuator.aside, actuator.arm, actuator.is_slipping
     for lane in range(lanes):
         pushed = (2.0 * commands[lane] - 1.0) * strength[lane]
-        force[lane] += ahead * pushed
-        torque[lane] += arm * pushed
-
-
-@compiled
-def drive_anywhere(commands, actuator, strength, kept, push, lanes):
-    """(2v − 1)·thrust in any direction, less what slips."""
-    for lane in range(lanes):
-        pushed = (2.0 * commands[lane] - 1.0) * strength[lane]
-        pushed *= kept[lane] if actuator.is_slipping else 1.0
-        push[FORCE, lane] += actuator.ahead * pushed
-        push[FORCE_ASIDE, lane] += actuator.aside * pushed
-        push[TORQUE, lane] += actuator.arm * pushed
-
-
-@compiled
-def push_aside(heading, push, lanes):
-    """The force to the left of the heading turned into the world."""
-    for lane in range(lanes):
-        push[FORCE_X, lane] -= push[FORCE_ASIDE, lane] * heading[SINE, lane]
-        push[FORCE_Y, lane] += push[FORCE_ASIDE, lane] * heading[COSINE, lane]
+        pushed *= kept[lane] if slips else 1.0
+        push[FORCE, lane] += ahead * pushed
+        push[FORCE_ASIDE, lane] += aside * pushed
+        push[TORQUE, lane] += arm * pushed
 
 
 @compiled
@@ -193,8 +176,10 @@ def find_near(tables, world, sight, contact, lanes):
         leap = away > CULLING_SLACK_UNITS * CULLING_SLACK_UNITS  # away from the boxes it knows
         near[lane] = CONTACT_TICKS if leap | (gap[lane] < reach) else max(0, near[lane] - 1)
     for lane in range(lanes):
-        if world.held[lane] >= 0 and gap[lane] < reach_of(tables, world, lane):
-            near[lane] = CONTACT_TICKS
+        held = world.held[lane]
+        if held >= 0:  # how far from the robot's centre that could touch something
+            reach = tables.things[held].hold + size_of(world.things, held, lane) / 2 + CONTACT_MARGIN_UNITS
+            near[lane] = CONTACT_TICKS if gap[lane] < reach else near[lane]
     for lane in range(lanes if len(tables.loose) > 0 else 0):
         if world.restless[lane] > 0 and could_touch(tables, world, lane):
             near[lane] = CONTACT_TICKS
@@ -205,19 +190,6 @@ def find_near(tables, world, sight, contact, lanes):
     if find_swift(tables, world, contact.swift, lanes) > 0:
         for lane in range(lanes):
             near[lane] = CONTACT_TICKS if contact.swift[lane] > 0 else near[lane]
-
-
-@compiled
-def reach_of(tables, world, lane):
-    """How far from a robot's centre what it holds could touch something."""
-    held = world.held[lane]
-    return tables.things[held].hold + world.things[THING_ROWS * held + SIZE, lane] / 2 + CONTACT_MARGIN_UNITS
-
-
-@compiled
-def is_lost(body, lane):
-    """Whether a lane's robot is where no world is."""
-    return not within(body[X, lane], body[Y, lane], body[ANGLE, lane])
 
 
 @compiled
@@ -237,3 +209,61 @@ def approach(box, body, dt, gap, lanes):
         y = abs(body[Y, lane] + body[SPEED_Y, lane] * dt - box[Y, lane]) - box[HALF_Y, lane]
         far = x if x > y else y
         gap[lane] = far if far < gap[lane] else gap[lane]
+
+
+@compiled
+def walk(tables, world, lanes):
+    """Every walker that has not vanished takes its step."""
+    for i in range(len(tables.walkers)):
+        for lane in range(lanes):
+            x, y = place_of(world.things, tables.walkers[i].thing, lane)
+            if np.isnan(x):
+                continue
+            if tables.walkers[i].places > 0:
+                go_along(tables, world, i, x, y, lane)
+            else:
+                wander(tables, world, i, x, y, lane)
+
+
+@compiled
+def wander(tables, world, i, x, y, lane):
+    """A step ahead, and its direction drifts; where that is not free it stands, and faces anywhere."""
+    sine, cosine = sine_cosine(world.direction[i, lane])
+    walker = tables.walkers[i]
+    step, half = walker.step, size_of(world.things, walker.thing, lane) / 2
+    to_x, to_y = x + cosine * step, y + sine * step
+    if may_step(tables, world, step, x, y, to_x, to_y, half, lane):
+        put_thing(world.things, walker.thing, to_x, to_y, lane)
+        world.direction[i, lane] += uniform(world.random, lane, -walker.turn, walker.turn)
+    else:
+        world.direction[i, lane] = uniform(world.random, lane, 0.0, 2 * np.pi)
+
+
+@compiled
+def may_step(tables, world, step, x, y, to_x, to_y, half, lane):
+    """Whether nothing is in the way of a square of that half side; of its middle alone where it has no room already.
+
+    What steps by no more than a quarter of its side passes nothing where it arrives free.
+    """
+    boxes, constants = world.boxes, tables.world[0]
+    if not (within(x, y, 0.0) and is_free(tables, world, x, y, half, lane)):
+        return not is_barred(boxes, constants, x, y, to_x, to_y, CLOSED_UNITS, lane)
+    if not (within(to_x, to_y, 0.0) and is_free(tables, world, to_x, to_y, half, lane)):
+        return False
+    return step <= half / 2 or not is_barred(boxes, constants, x, y, to_x, to_y, half, lane)
+
+
+@compiled
+def go_along(tables, world, i, x, y, lane):
+    """A step towards the next place of its way; where it would come past that it stops there for this tick."""
+    walker = tables.walkers[i]
+    goal = walker.first + world.goal[i, lane]
+    to_x, to_y = tables.ways[goal, X], tables.ways[goal, Y]
+    dx, dy = to_x - x, to_y - y
+    far = np.sqrt(dx * dx + dy * dy)
+    if far <= walker.step:
+        put_thing(world.things, walker.thing, to_x, to_y, lane)
+        world.goal[i, lane] = (world.goal[i, lane] + 1) % walker.places
+    else:
+        share = walker.step / far
+        put_thing(world.things, walker.thing, x + dx * share, y + dy * share, lane)

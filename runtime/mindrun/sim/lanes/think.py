@@ -5,11 +5,10 @@ from typing import Any
 
 from mindrun.kinds.registry import kinds
 from mindrun.numbers.arithmetic import NAN
-from mindrun.sim.arithmetic import ONE, ZERO, F, clamp, compiled_lane, finite
+from mindrun.sim.arithmetic import ONE, ZERO, F, clamp, compiled_lane, evaluate, finite
 from mindrun.sim.codes import function_codes
 from mindrun.sim.compiling import compiled, part_of_tick
-from mindrun.sim.lanes.evaluate import evaluate
-from mindrun.sim.procedures import call
+from mindrun.sim.procedures import call_procedure
 from mindrun.sim.state import FAILED_COLUMN, FAILED_SKILL
 
 NOT_SENT = F(-1)
@@ -51,13 +50,13 @@ def think(tables, state, lanes, first, last):
     """
     mind, failed = state.mind, state.run.failed
     for row in range(first, last):
-        count = wake(tables, mind, lanes, row)
+        count = wake(tables, state, lanes, row)
         if count > 0:
             skill, out = tables.skills[row], 0
             if skill.address == 0:
                 out = compute(tables, mind, skill, count)
             else:
-                failed[FAILED_COLUMN] = call(skill.address, mind.gathered, mind.hidden, count)
+                failed[FAILED_COLUMN] = call_procedure(skill.address, mind.gathered, mind.hidden, count)
                 if failed[FAILED_COLUMN] >= 0:
                     failed[FAILED_SKILL] = row
                     return
@@ -65,9 +64,9 @@ def think(tables, state, lanes, first, last):
 
 
 @compiled
-def wake(tables, mind, lanes, row):
+def wake(tables, state, lanes, row):
     """Gather the inputs of a skill in the lanes where it has influence; how many those are."""
-    skill = tables.skills[row]
+    skill, mind = tables.skills[row], state.mind
     count = awake(mind.influence[skill.index], mind.active, lanes, skill.own)
     if count > 0:
         rows = tables.inputs[skill.input : skill.input + skill.inputs]
@@ -110,7 +109,7 @@ def gather(rows, readings, gathered, active, sound, count, everywhere):
 def send(tables, state, row, out, count, lanes):
     """Every edge's value, times the skill's influence, to where it goes; a value that is not finite is not sent."""
     skill, mind, everywhere = tables.skills[row], state.mind, count == lanes
-    influence = mind.influence[skill.index]
+    influence, sent = mind.influence[skill.index], mind.sent
     for e in range(skill.edge, skill.edge + skill.edges):
         edge = tables.edges[e]
         if edge.output >= 0:
@@ -122,16 +121,18 @@ def send(tables, state, row, out, count, lanes):
         if edge.whens > 0:
             gate(tables, mind, state.judge.measures, edge, values, count, everywhere)
             values = mind.gated
-        check(values, mind.sound, mind.sent, mind.active, state.run.faults, influence, count)
+        check(values, mind.sound, sent, mind.active, state.run.faults, influence, count)
         if edge.whens > 0 and edge.others == 0:
-            close(mind.opened, mind.sound, mind.sent, count)
-        if edge.cuts > ZERO:
-            cut(mind.sent, influence, mind.active, edge.cuts, count)
+            for k in range(count):  # nothing is sent where a condition does not hold, and that is no fault
+                sent[k] = NOT_SENT if mind.opened[k] == ZERO and mind.sound[k] == ZERO else sent[k]
+        for k in range(count if edge.cuts > ZERO else 0):
+            if sent[k] >= ZERO:  # nothing is sent where the influence that arrives would be smaller than the least
+                sent[k] = NOT_SENT if sent[k] * influence[mind.active[k]] < edge.cuts else sent[k]
         if edge.to_skill:
-            spread(mind.sent, influence, mind.influence[edge.target], mind.active, count, everywhere)
+            spread(sent, influence, mind.influence[edge.target], mind.active, count, everywhere)
         else:
-            spread(mind.sent, influence, mind.command_sums[edge.target], mind.active, count, everywhere)
-            weigh(mind.sent, influence, mind.influence_sums[edge.target], mind.active, count, everywhere)
+            spread(sent, influence, mind.command_sums[edge.target], mind.active, count, everywhere)
+            weigh(sent, influence, mind.influence_sums[edge.target], mind.active, count, everywhere)
 
 
 @compiled
@@ -154,21 +155,6 @@ def gate(tables, mind, measures, edge, values, count, everywhere):
     for k in range(count):
         is_open, is_closed = mind.opened[k] > ZERO, mind.opened[k] == ZERO
         mind.gated[k] = values[k] if is_open else other[k] if is_closed else NAN
-
-
-@compiled
-def close(opened, sound, sent, count):
-    """Nothing is sent where a condition does not hold, and that is no fault."""
-    for k in range(count):
-        sent[k] = NOT_SENT if opened[k] == ZERO and sound[k] == ZERO else sent[k]
-
-
-@compiled
-def cut(sent, influence, active, least, count):
-    """Nothing is sent where the influence that arrives would be smaller than the least."""
-    for k in range(count):
-        if sent[k] >= ZERO:
-            sent[k] = NOT_SENT if sent[k] * influence[active[k]] < least else sent[k]
 
 
 @compiled

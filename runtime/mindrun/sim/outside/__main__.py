@@ -19,9 +19,9 @@ import numpy as np
 
 from mindrun.errors import MindError
 from mindrun.sim.outside import making
-from mindrun.sim.outside.channel import REACHED, Channel
 from mindrun.sim.outside.parts import Spaces
 from mindrun.sim.outside.stepper import LocalStepper, Run
+from mindrun.sim.outside.subprocess_stepper import REACHED, Channel
 
 
 class Server:

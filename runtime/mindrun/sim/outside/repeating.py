@@ -7,7 +7,8 @@ import numpy as np
 
 from mindrun.errors import MindError
 from mindrun.sim.outside.parts import Floats, Place
-from mindrun.sim.outside.stepper import Run, Stepper
+from mindrun.sim.outside.stepper import Run
+from mindrun.sim.outside.subprocess_stepper import Stepper
 
 CHECKED_TICKS = 1000  # of a run: what is the same so far is taken to stay so
 CHECKED_SECONDS = 20.0  # for all that is done again

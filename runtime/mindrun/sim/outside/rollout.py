@@ -16,8 +16,8 @@ from mindrun.sim.codes import BROKEN_OFF
 from mindrun.sim.lanes.stages import act, before, conclude, run_skills
 from mindrun.sim.outside.making import GAVE_NO_NUMBER
 from mindrun.sim.outside.repeating import CHECKED_TICKS, RecordingStepper, SlowError
-from mindrun.sim.outside.stepper import REWARD_COLUMN, TERMINATED_COLUMN, Run, Stepper
-from mindrun.sim.outside.subprocess_stepper import SilentEnvironmentError, stepper_for
+from mindrun.sim.outside.stepper import REWARD_COLUMN, TERMINATED_COLUMN, Run
+from mindrun.sim.outside.subprocess_stepper import SilentEnvironmentError, Stepper, stepper_for
 from mindrun.sim.outside.wiring import Wiring, wiring_of
 from mindrun.sim.rollout import SLOW_SLICE_TICKS, Rollout, Tile
 from mindrun.sim.state import Jobs, State
@@ -41,10 +41,9 @@ class Episodes:
 class EnvironmentRollout(Rollout):
     """Runs a task in an environment, as `Rollout` does one in its own world: a run of a seed begins with `reset(seed)`.
 
-    Every run has an environment of its own, and this thread has all of them stepped, in the process that
-    `steppers` says. `clipped` counts for each observed
-    sensor how many of the `observed` numbers were beyond its range, and `unreal` how many were no number at all; behind
-    these stands how many rewards were not finite.
+    Every run has an environment of its own, and this thread has all of them stepped, in the process that `steppers`
+    says. `clipped` counts for each observed sensor how many of the `observed` numbers were beyond its range, and
+    `unreal` how many were no number at all; behind these stands how many rewards were not finite.
     """
 
     simulates = False
@@ -126,33 +125,15 @@ class EnvironmentRollout(Rollout):
         """The compiled stages of a tick that its runs call."""
         return before, run_skills, act, conclude
 
-    def compile(self) -> None:
-        """Compile the stages where no cache has them."""
-        jobs = self.jobs(np.zeros((0, self.genome_length), np.float32), np.zeros(0, np.uint64))
-        state, none = self.tile(1).state, np.int64(0)
-        before(self.tables, state, jobs)
-        run_skills(self.tables, state, none, 0, 0)
-        act(self.tables, state, none, none)
-        conclude(self.tables, state, jobs, self.interrupt)
-
     def tile(self, lanes: int) -> Tile:
         """Room for so many lanes, and for their environments."""
         tile = super().tile(lanes)
         return Tile(tile.state, tile.memories, Episodes(tile.kept, self._stepper))
 
-    def advance(self, tile: Tile, jobs: Jobs, ticks: int) -> int:
-        """Run so many ticks; how many lanes are still at work."""
-        for _ in range(ticks):
-            if jobs.lanes[0] == 0:
-                break
-            self.observe(tile, jobs)
-            before(self.tables, tile.state, jobs)
-            self.think(tile, jobs, 0, len(self.tables.skills))
-            self.conclude(tile, jobs)
-        working = tile.state.run.job[: jobs.lanes[0]].tolist()
-        tile.memories.forget({*working})
-        self._release(tile.kept, {*working})
-        return len(working)
+    def forget(self, tile: Tile, working: set[int]) -> None:
+        """Forget all jobs but those, and give back their environments."""
+        super().forget(tile, working)
+        self._release(tile.kept, working)
 
     def observe(self, tile: Tile, jobs: Jobs) -> None:
         """What the environments observe becomes readings; those of runs that begin are reset."""
@@ -171,7 +152,7 @@ class EnvironmentRollout(Rollout):
     def conclude(self, tile: Tile, jobs: Jobs) -> None:
         """The second half of a tick: commands, a step of every environment, and what it was worth."""
         state, lanes = tile.state, int(jobs.lanes[0])
-        act(self.tables, state, np.int64(lanes), jobs.clock[0])
+        act(self.tables, state, np.int64(lanes))
         episodes = self._episodes(tile, jobs)
         tile.kept.stepper.step(episodes, self.wiring.actions(self._commands(state, lanes)))
         judge, ended = state.judge, state.run.ended
@@ -180,9 +161,8 @@ class EnvironmentRollout(Rollout):
         judge.measures[self._rewards, :lanes] = rewards
         self.unreal[-1] += np.count_nonzero(~np.isfinite(rewards)) if self._rewards else 0
         judge.events[self._ends, :lanes] = rows[:, TERMINATED_COLUMN] != 0
-        ended[:lanes][(rows[:, TERMINATED_COLUMN:] != 0).any(axis=1)] = (
-            BROKEN_OFF  # unless one of the task's ends comes
-        )
+        is_over = (rows[:, TERMINATED_COLUMN:] != 0).any(axis=1)
+        ended[:lanes][is_over] = BROKEN_OFF  # unless one of the task's ends comes
         conclude(self.tables, state, jobs, self.interrupt)
 
     def _commands(self, state: State, lanes: int) -> NDArray[np.float32]:

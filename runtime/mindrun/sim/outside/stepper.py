@@ -1,12 +1,11 @@
-"""Steppers of environments: what each of them does, and that of environments in this process."""
+"""Environments stepped in this process."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
 from functools import cached_property
 from numbers import Real
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 from weakref import finalize
 
 import numpy as np
@@ -38,68 +37,18 @@ class Run:
         return place_of(self.seed, self.steps)
 
 
-class Stepper(Protocol):
-    """Steps environments of one name; BrokenEnvironmentError where one does what none may do."""
-
-    environment: str
-
-    @property
-    def spaces(self) -> Spaces:
-        """What they observe and take."""
-
-    def begin(self, places: Sequence[Place], seeds: Sequence[int], is_seen: bool = False) -> list[Run]:
-        """A new environment for the run of each seed, of which the numbers at these places are read, one a slot."""
-
-    def reset(self, runs: Sequence[Run]) -> None:
-        """Begin runs again, each in its environment."""
-
-    def step(self, runs: Sequence[Run], actions: Floats) -> None:
-        """Step each run: the numbers of its action, part after part [runs, numbers]."""
-
-    def image(self, run: Run) -> NDArray[Any]:
-        """What is seen of a run now [height, width, 3], red first; another array where it draws nothing."""
-
-    def close(self, runs: Sequence[Run]) -> None:
-        """Give back what runs hold."""
-
-
-@dataclass(frozen=True, slots=True)
-class Made:
-    """An environment that is made, and where the numbers are that are read of it."""
-
-    environment: Any
-    sources: Sequence[Source]
-
-    def reset(self, run: Run) -> None:
-        """Begin a run in it."""
-        run.row[:], run.steps = 0.0, 0
-        observation, _ = self.environment.reset(seed=run.seed % SEED_LIMIT)
-        self._read(observation, run)
-
-    def step(self, run: Run, action: Any) -> None:
-        """Step it."""
-        observation, reward, terminated, truncated, _ = self.environment.step(action)
-        self._read(observation, run)
-        run.row[REWARD_COLUMN] = number_of("the reward", reward)
-        run.row[TERMINATED_COLUMN] = truth_of("terminated", terminated)
-        run.row[TRUNCATED_COLUMN] = truth_of("truncated", truncated)
-
-    def _read(self, observation: Any, run: Run) -> None:
-        for source in self.sources:
-            source.read(observation, run.row)
-
-
 class LocalStepper:
     """Steps environments of a name in this process; a module before it is looked for in `folder` first.
 
-    `reached` is told before each environment of a question which of them is asked now.
+    BrokenEnvironmentError where one does what none may do. `reached` is told before each environment of a question
+    which of them is asked now.
     """
 
     def __init__(
         self, environment: str, folder: Path | None = None, reached: Callable[[int], object] = lambda number: None
     ) -> None:
         self.environment, self._folder, self._reached = environment, folder, reached
-        self._open: dict[Run, Made] = {}
+        self._open: dict[Run, tuple[Any, Sequence[Source]]] = {}  # its environment, and what is read of it
         self._at = Run(0, 0)  # the run of which the environment is asked
         finalize(self, _close, self._open)
 
@@ -123,10 +72,11 @@ class LocalStepper:
         runs = [Run(seed, len(places)) for seed in seeds]
         try:
             for run in self._each(runs):
-                self._open[run] = made = Made(making.make(self.environment, self._folder, is_seen), sources)
+                environment = making.make(self.environment, self._folder, is_seen)
+                self._open[run] = environment, sources
                 with self._blaming():
-                    self._refuse_other_spaces(made.environment, run)
-                    made.reset(run)
+                    self._refuse_other_spaces(environment, run)
+                    self._reset(run)
         except BaseException:
             self.close(runs)
             raise
@@ -136,7 +86,7 @@ class LocalStepper:
         """Begin runs again, each in its environment."""
         with self._blaming():
             for run in self._each(runs):
-                self._open[run].reset(run)
+                self._reset(run)
 
     def step(self, runs: Sequence[Run], actions: Floats) -> None:
         """Step each run: the numbers of its action, part after part [runs, numbers]."""
@@ -144,19 +94,32 @@ class LocalStepper:
         with self._blaming():
             for run, action in zip(self._each(runs), actions_of(acted, self.spaces.acted, actions), strict=True):
                 run.steps += 1
-                self._open[run].step(run, action)
+                environment, sources = self._open[run]
+                observation, reward, terminated, truncated, _ = environment.step(action)
+                for source in sources:
+                    source.read(observation, run.row)
+                run.row[REWARD_COLUMN] = number_of("the reward", reward)
+                run.row[TERMINATED_COLUMN] = truth_of("terminated", terminated)
+                run.row[TRUNCATED_COLUMN] = truth_of("truncated", truncated)
 
     def image(self, run: Run) -> NDArray[Any]:
         """What is seen of a run now [height, width, 3], red first; another array where it draws nothing."""
         with self._blaming():
             self._at = run
-            return np.asarray(self._open[run].environment.render())
+            return np.asarray(self._open[run][0].render())
 
     def close(self, runs: Sequence[Run]) -> None:
         """Give back what runs hold; those that have not begun hold nothing."""
         for run in self._each(runs):
-            if (made := self._open.pop(run, None)) is not None:
-                making.close(made.environment)
+            if run in self._open:
+                making.close(self._open.pop(run)[0])
+
+    def _reset(self, run: Run) -> None:
+        environment, sources = self._open[run]
+        run.row[:], run.steps = 0.0, 0
+        observation, _ = environment.reset(seed=run.seed % SEED_LIMIT)
+        for source in sources:
+            source.read(observation, run.row)
 
     def _each(self, runs: Sequence[Run]) -> Iterator[Run]:
         for number, run in enumerate(runs):
@@ -209,6 +172,6 @@ def truth_of(what: str, value: Any) -> bool:
     raise TypeError(f"{what} is {value!r:.40}, which is neither true nor false")
 
 
-def _close(opened: Mapping[Run, Made]) -> None:
-    for made in opened.values():
-        making.close(made.environment)
+def _close(opened: Mapping[Run, tuple[Any, Sequence[Source]]]) -> None:
+    for environment, _ in opened.values():
+        making.close(environment)

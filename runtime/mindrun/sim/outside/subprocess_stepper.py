@@ -5,15 +5,17 @@ time, whether it sleeps, holds the interpreter or is stopped, its process is kil
 """
 
 import os
+import pickle
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from functools import cache, cached_property
 from itertools import count
 from mmap import mmap
 from pathlib import Path
 from signal import Signals
-from socket import socketpair
+from socket import socket, socketpair
+from struct import Struct
 from subprocess import PIPE, Popen, TimeoutExpired
 from tempfile import TemporaryFile
 from threading import Lock
@@ -24,16 +26,56 @@ from numpy.typing import NDArray
 
 from mindrun.errors import MindError
 from mindrun.sim.outside import making
-from mindrun.sim.outside.channel import REACHED, Channel
 from mindrun.sim.outside.making import BrokenEnvironmentError
 from mindrun.sim.outside.parts import Floats, Place, Spaces
-from mindrun.sim.outside.stepper import LocalStepper, Run, Stepper, place_of
+from mindrun.sim.outside.stepper import LocalStepper, Run, place_of
 
 STEP_SECONDS, VARIABLE = 60, "MIND_STEP_SECONDS"  # that an environment has for an answer; what says another number
 START_SECONDS = 60  # until its process takes questions
 LOOK_SECONDS = 0.5  # between two looks at whether it comes any further
 SLOW = f"One that needs longer is given it by {VARIABLE}=600, before the command."
 STANDARD_ERROR = 2
+LENGTH = Struct("<Q")  # of a message, before it
+REACHED = Struct("<I")  # which environment of a question is asked, in memory that outlives the process
+MAX_READ_BYTES = 1 << 20  # at once
+
+
+class Channel:
+    """One end of a connected pair of sockets, on which questions and answers alternate: plain data, pickled.
+
+    `look` is called whenever a wait has taken the socket's time limit.
+    """
+
+    def __init__(self, end: socket, look: Callable[[], object] = lambda: None) -> None:
+        self._socket, self._look = end, look
+
+    def send(self, message: Any) -> None:
+        """Send a message; OSError where nobody is left to take it."""
+        data = pickle.dumps(message, pickle.HIGHEST_PROTOCOL)
+        rest = memoryview(LENGTH.pack(len(data)) + data)
+        while rest:
+            try:
+                rest = rest[self._socket.send(rest) :]
+            except TimeoutError:
+                self._look()
+
+    def receive(self) -> Any:
+        """The next message; EOFError where the other end is closed."""
+        data = bytearray()
+        while len(data) < LENGTH.size or len(data) < LENGTH.size + LENGTH.unpack_from(data)[0]:
+            try:
+                part = self._socket.recv(MAX_READ_BYTES)
+            except TimeoutError:
+                self._look()
+                continue
+            if not part:
+                raise EOFError
+            data += part
+        return pickle.loads(memoryview(data)[LENGTH.size :])
+
+    def close(self) -> None:
+        """Close this end."""
+        self._socket.close()
 
 
 class LostError(Exception):
@@ -227,6 +269,9 @@ class SubprocessStepper:
             return BrokenEnvironmentError(message, f"It has ended the process that asked it ({lost.how}).")
         why = f"It was in {where}, and the fault is the environment's: {lost.how}."
         return BrokenEnvironmentError(f"the environment {name} has ended its process", why, why)
+
+
+Stepper = LocalStepper | SubprocessStepper
 
 
 def stepper_for(environment: str, folder: Path | None = None) -> Stepper:

@@ -1,8 +1,9 @@
 """How a mind is wired to an environment: whether its sensors and actuators fit, and what its commands are there."""
 
+from collections import defaultdict
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
-from itertools import takewhile
+from itertools import accumulate
 from typing import NamedTuple
 
 import numpy as np
@@ -155,22 +156,31 @@ def wiring_of(graph: Graph, spaces: Spaces) -> Wiring:
     actuators = {actuator.name: slot for actuator in graph.actuators if (slot := actuator.kind.slot)}
     for misfit in misfits(spaces, sensors, actuators):
         raise MindError(f"{misfit.name}: {misfit.message}".removeprefix(": "), misfit.hint)
-    ends = np.array([_ends(slot) for slot in sensors.values()], np.float64).reshape(-1, 2)
-    driving = [(row, slot) for row, each in enumerate(graph.actuators) if (slot := each.kind.slot)]
-    numbers = [(row, slot) for row, slot in driving if slot.chosen is None]
-    given = np.array([_driven_ends(slot, spaces.acted) for _, slot in numbers], np.float64).reshape(-1, 2)
+    sizes = [len(part.low) for part in spaces.acted.values()]
+    firsts = dict(zip(spaces.acted, accumulate([0, *sizes]), strict=False))
+    driven, chosen = list[tuple[float, ...]](), defaultdict[int, list[tuple[int, int]]](list)
+    for row, each in enumerate(graph.actuators):
+        if slot := each.kind.slot:
+            name, place = _place(spaces.acted, slot)
+            part, to = spaces.acted[name], firsts[name] + place
+            if slot.chosen is None:
+                driven.append((row, to, *(_ends(slot) if slot.range else (part.low[place], part.high[place]))))
+            else:
+                chosen[to].append((row, slot.chosen))
+    low, high = np.array([_ends(slot) for slot in sensors.values()], np.float64).reshape(-1, 2).T
+    rows, places, least, most = np.array(driven, np.float64).reshape(-1, 4).T
     return Wiring(
-        np.array([sensor.start for sensor in graph.sensors if sensor.name in sensors], np.int64),
-        tuple(sensors),
-        ends[:, 0],
-        ends[:, 1],
-        tuple(_place(spaces.observed, slot) for slot in sensors.values()),
-        sum(len(part.low) for part in spaces.acted.values()),
-        np.array([row for row, _ in numbers], np.int64),
-        np.array([_place_of_action(slot, spaces.acted) for _, slot in numbers], np.int64),
-        given[:, 0],
-        given[:, 1],
-        tuple(_choices([(row, slot) for row, slot in driving if slot.chosen is not None], spaces.acted)),
+        rows=np.array([sensor.start for sensor in graph.sensors if sensor.name in sensors], np.int64),
+        names=tuple(sensors),
+        low=low,
+        high=high,
+        places=tuple(_place(spaces.observed, slot) for slot in sensors.values()),
+        action_numbers=sum(sizes),
+        driven=rows.astype(np.int64),
+        to=places.astype(np.int64),
+        least=least,
+        most=most,
+        choices=tuple(Choice(to, *np.array(pairs, np.int64).T) for to, pairs in chosen.items()),
     )
 
 
@@ -179,25 +189,6 @@ def _place(parts: Mapping[str, Part], slot: Slot) -> Place:
     place = part.place(index) if part else None
     assert place is not None
     return name, place
-
-
-def _place_of_action(slot: Slot, acted: Mapping[str, Part]) -> int:
-    """Where the number of a slot stands among those of an action."""
-    name, place = _place(acted, slot)
-    return place + sum(len(acted[each].low) for each in takewhile(lambda each: each != name, acted))
-
-
-def _choices(driving: Collection[tuple[int, Slot]], acted: Mapping[str, Part]) -> Iterator[Choice]:
-    places = [_place_of_action(slot, acted) for _, slot in driving]
-    for place in dict.fromkeys(places):
-        there = [each for each, own in zip(driving, places, strict=True) if own == place]
-        rows, numbers = ([row for row, _ in there], [slot.chosen for _, slot in there])
-        yield Choice(place, np.array(rows, np.int64), np.array(numbers, np.int64))
-
-
-def _driven_ends(slot: Slot, acted: Mapping[str, Part]) -> tuple[float, float]:
-    name, place = _place(acted, slot)
-    return _ends(slot) if slot.range else (acted[name].low[place], acted[name].high[place])
 
 
 def _ends(slot: Slot) -> tuple[float, float]:

@@ -1,0 +1,186 @@
+"""What commands that simulate share: a run set up, the simulator compiled, progress shown, recordings refused."""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import AbstractContextManager, contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from mindrun.errors import MindError, ProcedureError
+from mindrun.graph.run_scores import Scores
+from mindrun.robot.replay import DifferenceError
+from mindrun.sim import warmup
+from mindrun.sim.changed_ticks import STAGES
+from mindrun.sim.lanes.advance import advance
+from mindrun.sim.rollout import Rollout
+from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
+
+from mindlang.breakpoints.breakpoint import Breakpoint
+from mindlang.breakpoints.resolve import load_breakpoints
+from mindlang.breakpoints.subject import Subject
+from mindlang.cli import _terminal as terminal
+from mindlang.cli._diagnostic_printer import print_report
+from mindlang.cli._options import RunChoice
+from mindlang.compiler.compile import Compiled
+from mindlang.executors import Where, scorer_on
+from mindlang.executors.job_scorer import JobScorer
+from mindlang.limits import refuse_too_large, refuse_too_many
+from mindlang.run.chosen_task import SetupError
+from mindlang.run.many_runs import NO_GENOME, run_timed
+from mindlang.run.recorded_run import RunResult, run_result
+from mindlang.run.setup import RunSetup, set_up
+
+COMPILING_STAGES = "compiling the stages of a tick once (about a minute)…"
+COMPILING = "compiling the simulator once (about half a minute)…"
+Cast = tuple[RunSetup, Rollout]  # who plays what, in the simulator
+
+
+def is_compiled(entries: Iterable[Any] = (advance,)) -> bool:
+    """Whether there is compiled code of these functions that numba would take: of these very files, kept or shipped."""
+    return warmup.is_there(entries)
+
+
+def prepare(rollout: Rollout) -> None:
+    """Compile the simulator for a rollout, on standard error, before what needs it begins."""
+    ensure_compiled(rollout, terminal.complain)
+
+
+def ensure_compiled(rollout: Rollout, say: Callable[[str], None]) -> None:
+    """Compile the simulator if need be, and say so."""
+    had = is_compiled(rollout.entries)
+    if not had:
+        say(COMPILING)
+    with _ended_by_ctrl_c():
+        rollout.compile()
+    if had and not warmup.is_native(rollout.entries):  # it was shipped, for any processor of its kind
+        warmup.start(warmup.IN_BACKGROUND)
+
+
+def ensure_stages_compiled(rollout: Rollout, say: Callable[[str], None]) -> None:
+    """Compile the stages of a tick one by one if need be, which runs with changes take, and say so."""
+    if not is_compiled(STAGES):
+        say(COMPILING_STAGES)
+    with _ended_by_ctrl_c():
+        rollout.compile(*STAGES)
+
+
+@contextmanager
+def _ended_by_ctrl_c() -> Iterator[None]:
+    """Let Ctrl-C end the program at once, because numba may swallow it while it compiles."""
+    before = signal.signal(signal.SIGINT, lambda number, frame: os._exit(terminal.INTERRUPTED))
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+@dataclass(frozen=True, slots=True)
+class RunSession:
+    """Talks on stderr, unless it is to be quiet; what is wrong ends the program with one message."""
+
+    quiet: bool
+
+    def prepare(self, file: str, chosen: RunChoice, workers: int = 1, runs: int = 1) -> Cast:
+        """The cast of a run, in the simulator."""
+        found = self.cast(file, terminal.load_compiled(file), chosen)
+        return found, self.simulator(found, chosen.interrupt, workers, runs)
+
+    @terminal.procedures_talk()
+    def cast(self, file: str, compiled: Compiled, chosen: RunChoice) -> RunSetup:
+        """Who plays what."""
+        with refusing_setups():
+            found = set_up(file, compiled, chosen.task, chosen.master)
+        self.say(*(f"note: {note}" for note in (*found.ready.notes, found.note) if note))
+        return found
+
+    @terminal.procedures_talk()
+    def simulator(self, setup: RunSetup, interrupt: bool, workers: int = 1, runs: int = 1) -> Rollout:
+        """A cast in the simulator, which is compiled for it."""
+        with refusing_setups():
+            refuse_too_many(setup.task, runs)
+            rollout = setup.rollout(interrupt, workers)
+            refuse_too_large(rollout, 1, runs)
+            ensure_compiled(rollout, self.say)
+        for skill, reason in rollout.procedures.slow.items():
+            self.say(f"{skill} runs in Python, which is slow: {reason}")
+        return rollout
+
+    def scorer(
+        self, cast: Cast, interrupt: bool, where: Where | None, workers: int
+    ) -> AbstractContextManager[Rollout | JobScorer]:
+        """Who makes many runs: so many `workers` of this machine, or as --on says."""
+        setup, rollout = cast
+        return scorer_on(where, rollout, lambda: setup.assignment(interrupt), workers, self.say)
+
+    @terminal.procedures_talk()
+    def score(self, scorer: Rollout | JobScorer, seeds: Sequence[int], whose: str = "") -> tuple[Scores, float, float]:
+        """All runs, the seconds that they took, and those of processors here; notes say `whose` they are."""
+        with self.progress() as progress:
+            bar = progress.add_task(f"{scorer.task.name}", total=len(seeds))
+            found = run_timed(scorer, seeds, lambda runs: progress.advance(bar, runs))
+        self.say(*(f"note: {whose}{note}" for note in scorer.notes))
+        return found
+
+    @terminal.procedures_talk()
+    def record(self, setup: RunSetup, rollout: Rollout, seed: int) -> RunResult:
+        """A run written down tick by tick, and what came of it."""
+        rollout.make_again(NO_GENOME[0], seed)
+        made = run_result(setup, rollout, seed)
+        self.say(*(f"note: {note}" for note in rollout.notes))
+        return made
+
+    def say(self, *lines: str) -> None:
+        """Print lines on stderr."""
+        terminal.tell(*lines, quiet=self.quiet)
+
+    def progress(self) -> Progress:
+        """A bar on stderr, where somebody looks at it."""
+        columns = (TextColumn("{task.description}", markup=False), BarColumn(30), TaskProgressColumn())
+        talk = terminal.console(stderr=True)
+        hidden = self.quiet or not talk.is_terminal
+        return Progress(*columns, TimeRemainingColumn(), console=talk, transient=True, disable=hidden)
+
+
+@contextmanager
+def refusing_setups(prefix: str = "") -> Iterator[None]:
+    """End the program with one message where a run cannot begin: with 1 where the mind is not ready for it."""
+    try:
+        yield
+    except SetupError as error:
+        *first, last = f"{prefix}{error}".split("\n")
+        for line in first:
+            terminal.complain(line)
+        terminal.fail(last, error.hint, terminal.MISUSE if error.misuse else terminal.FINDINGS)
+    except MindError as error:
+        terminal.fail(f"{prefix}{error}", error.hint, terminal.MISUSE)
+
+
+@contextmanager
+def refusing_recordings() -> Iterator[None]:
+    """End the program with one message: where a recording is not what its bundle computes with 1, else with 2."""
+    try:
+        with terminal.procedures_talk():
+            yield
+    except MindError as error:
+        is_found = isinstance(error, (DifferenceError, ProcedureError))
+        terminal.fail(str(error), error.hint, terminal.FINDINGS if is_found else terminal.MISUSE)
+
+
+def breakpoints_of_run(path: Path, compiled: Compiled, setup: RunSetup) -> tuple[Breakpoint, ...]:
+    """The breakpoints of a run that is set up, in the .break file at `path`."""
+    assert compiled.mind
+    return read_breakpoints(path, Subject.of_run(compiled.mind.names, setup))
+
+
+def read_breakpoints(path: Path, subject: Subject) -> tuple[Breakpoint, ...]:
+    """The breakpoints of a .break file; a mistake in it is reported, and ends the program before anything runs."""
+    found = load_breakpoints(path, subject)
+    print_report(found.diagnostics, terminal.console(stderr=True))
+    if found.diagnostics:
+        sys.exit(terminal.FINDINGS if all(each.span for each in found.diagnostics) else terminal.MISUSE)
+    return found.breakpoints

@@ -1,0 +1,280 @@
+"""What a task or a scene says of its world: things, where they and the robot begin, what differs from run to run."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, TypeVar
+
+from mindrun.graph.graph import Start
+from mindrun.kinds.actuators.gripper import REACH_UNITS
+from mindrun.kinds.bodies.body import BodyKind
+from mindrun.kinds.registry import arguments
+from mindrun.kinds.registry import names as kind_names
+from mindrun.kinds.scenes.scene import SceneKind
+from mindrun.kinds.things.thing import MAX_OBSTACLES, MAX_THINGS, ThingKind
+from mindrun.kinds.variation import VARIED_NOUNS, Failure, Variation, Varying, varied_quantity
+from mindrun.numbers.quantity import ANGLE, COORDINATE, RATE, Place
+
+from mindlang.compiler.beginning import Beginning, beginning
+from mindlang.compiler.diagnostic import Findings, Label, did_you_mean, listed
+from mindlang.compiler.model import Part
+from mindlang.compiler.names import Names, things_of
+from mindlang.compiler.resolve.kinds import Scope, make
+from mindlang.compiler.resolve.maps import with_places
+from mindlang.compiler.resolve.quantities import convert
+from mindlang.compiler.source import Span
+from mindlang.compiler.syntax import Contains, Declaration, Fact, Fails, Name, Phrase, Starts, Succeeds, Varies, of_form
+
+NAMES = "Name the body, an actuator, a sensor or a thing of the task."
+
+F = TypeVar("F", bound=Fact)
+
+
+@dataclass(frozen=True, slots=True)
+class RobotFacts:
+    """What tasks need to know of the rest of the mind."""
+
+    names: Names
+    widths: Mapping[str, int]
+    tick: float
+    root: Path
+    body: Part[Any] | None
+    actuators: tuple[Part[Any], ...]
+    sensors: tuple[Part[Any], ...]
+
+    @property
+    def body_kind(self) -> BodyKind | None:
+        """The body; None where none is well said."""
+        return self.body.kind if self.body else None
+
+    @property
+    def claw(self) -> float:
+        """How far ahead of the body things come into reach, with a claw or without."""
+        return next((each.kind.reach for each in self.actuators if each.kind.reach is not None), REACH_UNITS)
+
+
+@dataclass(frozen=True, slots=True)
+class World:
+    """A scene, None where it is not well said, and its things; how runs in it begin, and what differs between them."""
+
+    scene: Any
+    things: tuple[Part[Any], ...]
+    scope: Scope
+    has_battery: bool
+    can_succeed: bool
+    start: Start = field(default_factory=Start)
+    varies: tuple[Variation, ...] = ()
+    fails: tuple[Failure, ...] = ()
+
+    @property
+    def kinds(self) -> list[ThingKind]:
+        """The kinds of the things that are well said."""
+        return [thing.kind for thing in self.things if thing.kind]
+
+
+def refuse_repeated(facts: Sequence[Fact], message: str, hint: str, findings: Findings) -> None:
+    """Report all but the first of facts that say the same."""
+    findings.refuse_again("repeated-fact", [fact.span for fact in facts], message, hint)
+
+
+def world_of(declaration: Declaration, robot: RobotFacts, findings: Findings) -> World:
+    """What a task or a scene says of the world, without the lines that are reported."""
+    noun, name = declaration.header.noun.text, declaration.header.name.text
+    scope = Scope(robot.names, things_of(declaration) if declaration.whole else None, f"{noun} {name}", root=robot.root)
+    phrase = declaration.header.phrase
+    scene = make("task", phrase, scope, findings) if phrase else None
+    things = _things(declaration, scene, scope, findings)
+    parts = {"body": (robot.body,) if robot.body else (), "actuator": robot.actuators, "sensor": robot.sensors}
+    variable = _Variable(robot.names, {**parts, "thing": things}, scope.place, findings)
+    return World(
+        scene,
+        things,
+        scope,
+        any(sensor.kind.battery for sensor in robot.sensors),
+        not declaration.whole or bool(of_form(declaration.facts, Succeeds)),
+        _start(declaration, scene, things, robot.body_kind, findings),
+        tuple(variable.variations(declaration)),
+        tuple(variable.failures(declaration)),
+    )
+
+
+def _things(declaration: Declaration, scene: Any, scope: Scope, findings: Findings) -> tuple[Part[Any], ...]:
+    found: dict[str, Part[Any]] = {}
+    obstacles = 0
+    for fact in of_form(declaration.facts, Contains):
+        name = fact.name.text
+        kind = make("content", fact.phrase, scope, findings)
+        if name in found:
+            first = Label(found[name].span, "first said here")
+            message = f"The {declaration.header.noun.text} already contains something called {name}."
+            findings.error("duplicate-thing", fact.name.span, message, "Give one of the two another name.", first)
+        if kind:
+            _check_obstacles(kind, scene, obstacles, fact.phrase, findings)
+            obstacles += min(kind.obstacles(scene), MAX_OBSTACLES)  # as if there were few where there are too many
+        found.setdefault(name, Part(name, kind, fact.name.span))
+    is_task = declaration.header.noun.text == "task"  # which has all that a scene lacks
+    things = with_places(tuple(found.values()), scene, is_task, findings)
+    _check_places(things, scene, findings)
+    return things
+
+
+def _check_obstacles(kind: ThingKind, scene: SceneKind | None, before: int, phrase: Phrase, findings: Findings) -> None:
+    """What a thing needs of its scene, and how many obstacles there is room for with those `before`."""
+    if found := kind.mistake(scene):
+        findings.error(found.code, phrase.span, found.message, found.hint)
+    elif before <= MAX_OBSTACLES < (made := before + kind.obstacles(scene)):
+        message = f"With those above, that makes {made} obstacles."
+        findings.error("too-many-obstacles", phrase.span, message, f"A world takes {MAX_OBSTACLES} in all.")
+
+
+def _check_places(things: Sequence[Part[Any]], scene: SceneKind | None, findings: Findings) -> None:
+    """Report one thing too many, and what stands where something else stands in every run."""
+    apart = [
+        thing.span
+        for thing in things
+        if not (thing.kind and thing.kind.is_obstacle)
+        for _ in range(thing.kind.copies if thing.kind else 1)
+    ]
+    if len(apart) > MAX_THINGS:
+        hint = f"A world takes {MAX_THINGS} beside its obstacles: leave some out."
+        findings.error("too-many-things", apart[MAX_THINGS], f"That is thing number {MAX_THINGS + 1}.", hint)
+    met: dict[str, tuple[Part[Any], Part[Any]]] = {}
+    for thing, other in Beginning(scene, things, None, None, None, 0.0).meeting():
+        met.setdefault(thing.name, (thing, other))
+    for thing, other in met.values():
+        hint, there = f"Write another place for {thing.name} or {other.name}.", Label(other.span, "this one")
+        if thing is other:
+            hint = "Write places that are farther apart, or a smaller size."
+            findings.error("same-place", thing.span, f"Two of {thing.name} are in one another.", hint)
+        elif other.kind.is_obstacle:
+            findings.error("inside-obstacle", thing.span, "An obstacle stands there.", hint, there)
+        else:
+            findings.error("same-place", thing.span, f"It is in {other.name} when a run begins.", hint, there)
+
+
+def _start(
+    declaration: Declaration, scene: SceneKind | None, things: Sequence[Part[Any]], body: Any, findings: Findings
+) -> Start:
+    """Where the robot starts, as the last line of a task or scene that says so has it; `body` is None if not known."""
+    start, said = Start(), of_form(declaration.facts, Starts)
+    for fact in said:
+        facing = convert(fact.facing, ANGLE, findings) if fact.facing else None
+        start = Start(_place(fact, findings), facing)
+    message = f"The {declaration.header.noun.text} already says where the robot starts."
+    refuse_repeated(said, message, "Write both on one line: starts at 0 0 facing 90 deg.", findings)
+    is_left_open = declaration.header.noun.text == "scene" and not said  # to the tasks in it
+    if scene and not is_left_open and not (said and said[-1].place and not start.at):
+        begun = beginning(scene, things, start, body, 0.0)
+        _check_start(declaration.header.name.span, said[-1].span if start.at else None, begun, findings)
+    return start
+
+
+def _place(fact: Starts, findings: Findings) -> Place | None:
+    """The place that a line names, None where it names none or after reporting what is wrong with it."""
+    x, y = (convert(amount, COORDINATE, findings) for amount in fact.place) if fact.place else (None, None)
+    return None if x is None or y is None else (x, y)
+
+
+def _check_start(here: Span, said: Span | None, begun: Beginning, findings: Findings) -> None:
+    """Report a robot that starts in the border of its arena or in a thing, or has no room at all.
+
+    `here` is the name of the task, `said` where it says the robot's place.
+    """
+    if not begun.is_inside and said is None:
+        message = "The robot does not fit into it."
+        findings.error("outside-arena", here, message, "Write a larger arena, or a smaller body.")
+        return
+    if not begun.is_inside and said:
+        hint = "Write a place that is in it with all of the robot; 0 0 is the middle."
+        findings.error("outside-arena", said, "That is not inside the arena.", hint)
+    if not (thing := begun.on_robot()):
+        return
+    if said is None:
+        hint = f"Write another place for {thing.name}, or starts at and a place for the robot."
+        message = "The robot starts there: in the middle of a plain scene."
+        findings.error("inside-obstacle", thing.span, message, hint)
+        return
+    hint, there = f"Write another place for the robot or {thing.name}.", Label(thing.span, "this one")
+    if thing.kind.is_solid:
+        findings.error("inside-obstacle", said, "Something solid stands there.", hint, there)
+    else:
+        findings.error("same-place", said, f"The robot starts in {thing.name}.", hint, there)
+
+
+@dataclass(frozen=True, slots=True)
+class _Variable:
+    """What can differ from run to run, by noun: the parts of the robot, and the things of a place."""
+
+    names: Names
+    parts: Mapping[str, Sequence[Part[Any]]]
+    place: str
+    findings: Findings
+
+    def variations(self, declaration: Declaration) -> Iterator[Variation]:
+        """What a task or a scene says that varies."""
+        facts = {
+            fact: f"how {fact.argument.text} of {fact.of.text} varies" for fact in of_form(declaration.facts, Varies)
+        }
+        return filter(None, map(self._variation, self._once(facts)))
+
+    def failures(self, declaration: Declaration) -> Iterator[Failure]:
+        """What a task or a scene says that fails."""
+        for fact in self._once({fact: f"how {fact.name.text} fails" for fact in of_form(declaration.facts, Fails)}):
+            actuator = self.names.find(fact.name, ("actuator",), self.findings)
+            rate = convert(fact.rate, RATE, self.findings)
+            if actuator and rate is not None:
+                yield Failure(fact.name.text, rate)
+
+    def _once(self, facts: Mapping[F, str]) -> Iterator[F]:
+        """The facts, each of which says something, without those that say again what one before has said."""
+        by_meaning: dict[str, list[F]] = {}
+        for fact, says in facts.items():
+            by_meaning.setdefault(says, []).append(fact)
+        for says, same in by_meaning.items():
+            refuse_repeated(same, f"The task already says {says}.", "Leave one out.", self.findings)
+            yield same[0]
+
+    def _variation(self, fact: Varies) -> Variation | None:
+        of, key = self._find(fact.of), fact.argument
+        if of is None:
+            return None
+        noun, kind = of
+        known = {each.key: each.field for each in arguments(type(kind))}
+        field = known.get(key.text, "")
+        quantity = varied_quantity(kind, field)
+        if quantity is None:
+            varying = [word for word, each in known.items() if each in kind.varying]
+            can = (
+                f"Of {fact.of.text} can vary {listed(varying)}." if varying else f"Nothing of {fact.of.text} can vary."
+            )
+            if field:
+                message = f"{key.text} of {fact.of.text} is the same in every run."
+                self.findings.error("cannot-vary", key.span, message, can)
+            else:
+                message = f"{kind_names()[type(kind)]} has no argument called {key.text}."
+                self.findings.error("unknown-argument", key.span, message, did_you_mean(key.text, varying) or can)
+            return None
+        high = convert(fact.high, quantity, self.findings)
+        low = None if high is None else convert(fact.low, quantity, self.findings, fact.high.unit)
+        if low is None or high is None:
+            return None
+        if low > high:
+            where = Span(fact.span.source, fact.low.span.start, fact.high.span.end)
+            message = "This range ends below its beginning."
+            self.findings.error("range-backwards", where, message, "Write the smaller number first.")
+            return None
+        return Variation(noun, "" if noun == "body" else fact.of.text, field, float(low), float(high))
+
+    def _find(self, name: Name) -> tuple[Varying, Any] | None:
+        """What a name is of, and its kind; None after reporting that there is nothing of it, or where that is wrong."""
+        noun: Varying = self.names.noun_of(name.text, VARIED_NOUNS) or "thing"
+        if found := [part for part in self.parts[noun] if part.name == name.text]:
+            return (noun, found[0].kind) if found[0].kind else None
+        if self.names.noun_of(name.text, ("memory",)):
+            self.findings.error("cannot-vary", name.span, "A memory is the same in every run.", NAMES)
+        elif noun == "thing" and name.text not in self.names.unread:
+            known = [*self.names.of(*VARIED_NOUNS), *(thing.name for thing in self.parts["thing"])]
+            hint = self.findings.suggest(name.text, known) or NAMES
+            message = f"There is no part of the robot and nothing in {self.place} called {name.text}."
+            self.findings.error("unknown-part", name.span, message, hint)
+        return None

@@ -1,1 +1,0 @@
-"""The checks of `mindc doctor`: what is installed on this machine, and the line that mends what is missing."""

@@ -1,0 +1,67 @@
+"""Pictures of a run in an environment: some images of it in the order of time, as the environment draws them."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from mindrun.errors import MindError
+from mindrun.sim.outside.seen import UNKNOWN_FAILURES, SeenEpisode
+
+from mindlang.pictures.canvas import Image, fitted, pasted
+from mindlang.pictures.caption import SMALL_PIXELS, draw_title
+from mindlang.pictures.picture import PICTURE_PIXELS, SCALE_FACTOR, SIDE_PIXELS, TOP_PIXELS, empty_page, reduced
+from mindlang.pictures.theme import PAPER
+from mindlang.run.recorded_run import RecordedRun
+
+SHEET_COLUMNS, SHEET_ROWS = 4, 3  # of images
+GAP_PIXELS, LABEL_PIXELS = 12, 24  # between images, and for the time below each
+SAID_PIXELS = 14.0
+
+
+def seen_run(run: RecordedRun, seed: int) -> SeenEpisode:
+    """The images of a run of that seed; MindError where its environment cannot be made to be seen."""
+    acting = run.commands if run.acting is None else run.acting
+    if run.task.fails and run.acting is None:
+        raise MindError(UNKNOWN_FAILURES, "mindc run --picture and --video draw such a run")
+    environment, folder = run.task.scene.environment, run.setup.folder
+    return SeenEpisode(run.graph, environment, folder, seed, lambda first, last: acting[first:last])
+
+
+def environment_picture(run: RecordedRun, found: dict[str, Any]) -> Image:
+    """The run with the outcome `found`, from beginning to end; MindError where its environment draws nothing."""
+    return _sheet(run, found, _ticks(0, run.ticks, SHEET_COLUMNS * SHEET_ROWS), "")
+
+
+def environment_pictures(both: Sequence[tuple[RecordedRun, dict[str, Any]]], words: str, tick: int) -> Image:
+    """Two runs and what came of them, one below the other; the second is changed, as `words` say, from a tick on."""
+    return np.concatenate([
+        _sheet(run, found, _ticks(min(tick - 1, run.ticks), run.ticks, 2 * SHEET_COLUMNS), title)
+        for (run, found), title in zip(both, ("as it was", words), strict=True)
+    ])  # fmt: skip
+
+
+def _ticks(first: int, last: int, count: int) -> Sequence[int]:
+    found: list[int] = np.unique(np.linspace(first, last, count).round().astype(int)).tolist()
+    return found
+
+
+def _sheet(run: RecordedRun, found: dict[str, Any], ticks: Sequence[int], said: str) -> Image:
+    """A page with the title of the run, what is said of it, and these ticks of it."""
+    seen = seen_run(run, found["seed"])
+    high, wide, _ = seen.image(0).shape
+    width = (PICTURE_PIXELS - 2 * SIDE_PIXELS - (SHEET_COLUMNS - 1) * GAP_PIXELS) // SHEET_COLUMNS
+    height = max(1, round(width * high / wide))
+    rows = -(-len(ticks) // SHEET_COLUMNS)
+    page = empty_page(TOP_PIXELS + rows * (height + LABEL_PIXELS + GAP_PIXELS) + GAP_PIXELS)
+    right = PICTURE_PIXELS - SIDE_PIXELS
+    draw_title(page, run, found, SIDE_PIXELS, 34, right)
+    page.text(right, 34, said, SAID_PIXELS, PAPER.ink, align="right")
+    for number, tick in enumerate(ticks):
+        row, column = divmod(number, SHEET_COLUMNS)
+        x = SIDE_PIXELS + column * (width + GAP_PIXELS)
+        y = TOP_PIXELS + row * (height + LABEL_PIXELS + GAP_PIXELS)
+        image = fitted(seen.image(tick), SCALE_FACTOR * width, SCALE_FACTOR * height, PAPER.page)
+        pasted(page.image, image, SCALE_FACTOR * x, SCALE_FACTOR * y)
+        label = f"tick {tick:,} ({tick * run.graph.tick:.1f} s)" if tick else "beginning"
+        page.text(x, y + height + 17, label, SMALL_PIXELS, PAPER.faint)
+    return reduced(page)

@@ -1,0 +1,146 @@
+"""What is sent for readings that are tried, many at once: by the engine's operations in its order, to the bit.
+
+Readings for which nothing influences an actuator are looked for by trying, so that one that is found is a proof.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from mindrun.graph.graph import Gate, Graph, Program, Skill
+from mindrun.graph.weights import Weights, genes, reachable
+from mindrun.numbers.evaluation import OPERATORS
+from mindrun.numbers.expression import fold
+from mindrun.numbers.network import running
+
+from mindlang.proofs.interval import Doubles, Singles, is_known, perceptron
+
+TRIED_READINGS, MAX_WEIGHT_READINGS = 4096, 20_000_000  # readings, and weights times readings
+
+
+@dataclass(frozen=True, slots=True)
+class Thoughts:
+    """Influence [rows, skills], Σ influence [rows, actuators] of each actuator and its command where that is not 0."""
+
+    influence: Singles
+    total: Singles
+    command: Singles
+
+
+def think(graph: Graph, weights: Mapping[str, Weights], readings: Singles) -> Thoughts:
+    """Equations 2 and 3 for readings [rows, graph.width], as `mindrun.engine.think` has them; no procedures."""
+    places = graph.skill_numbers
+    influence = np.zeros((len(readings), len(graph.skills)), np.float32)
+    influence[:, places[graph.master]] = 1
+    sums, totals = np.zeros((2, len(readings), len(graph.actuators)), np.float32)
+    with np.errstate(all="ignore"):
+        for skill in reachable(graph, graph.master):
+            own = influence[:, places[skill.name]].copy()
+            for edge, value in zip(skill.edges, values(skill, weights.get(skill.owner), readings).T, strict=True):
+                sound = np.isfinite(value)
+                share = np.where(sound, np.clip(value, 0, 1), 0) * own
+                if edge.to == "skill":
+                    influence[:, edge.target] += np.where(share < np.float32(edge.cuts), np.float32(0), share)
+                elif edge.to == "actuator":
+                    sums[:, edge.target] += share
+                    totals[:, edge.target] += np.where(sound, own, 0)
+        return Thoughts(influence, totals, np.clip(sums / totals, 0, 1))
+
+
+def values(skill: Skill, weights: Weights | None, readings: Singles) -> Singles:
+    """What a skill sends [rows, edges] before the clamp; NaN where a gate is closed and nothing is sent."""
+    outputs = _outputs(skill, weights, readings)
+    found = np.empty((len(readings), len(skill.edges)), np.float32)
+    with np.errstate(all="ignore"):
+        for number, edge in enumerate(skill.edges):
+            found[:, number] = _evaluate(edge.value, readings) if edge.output is None else outputs[:, edge.output]
+            if edge.gate:
+                found[:, number] = _gated(edge.gate, found[:, number], readings)
+    return found
+
+
+def _gated(gate: Gate, value: Singles, readings: Singles) -> Singles:
+    holds = _evaluate(gate.when, readings)
+    otherwise = np.float32(np.nan) if gate.otherwise is None else _evaluate(gate.otherwise, readings)
+    found: Singles = np.where(holds > 0, value, np.where(holds == 0, otherwise, np.float32(np.nan)))
+    return found
+
+
+def _outputs(skill: Skill, weights: Weights | None, readings: Singles) -> Singles:
+    layers = perceptron(skill, weights)
+    if not layers:
+        return np.zeros((len(readings), skill.outputs), np.float32)
+    with np.errstate(all="ignore"):
+        return running(skill.function.forward, layers, 0)(readings[:, list(skill.inputs)])
+
+
+def _evaluate(program: Program, readings: Singles) -> Singles:
+    def leaf(word: str, operand: float | int) -> Doubles:
+        if word == "reading":
+            return readings[:, int(operand)].astype(np.float64)
+        return np.full(len(readings), operand, np.float64)
+
+    def combined(operator: str, left: Doubles, right: Doubles) -> Doubles:
+        found: Doubles = OPERATORS[operator](left, right)
+        return found
+
+    found: Singles = fold(program, leaf, np.negative, combined).astype(np.float32)
+    return found
+
+
+@dataclass(frozen=True, slots=True)
+class Tried:
+    """What was seen of an actuator: its commands, and readings without influence on it.
+
+    `still` are the skills that then have influence and pass none on towards the actuator.
+    """
+
+    commands: tuple[float, float] | None
+    readings: Singles | None
+    still: tuple[str, ...]
+
+
+def try_out(graph: Graph, weights: Mapping[str, Weights]) -> list[Tried] | None:
+    """What each actuator is sent for the readings that are tried; None where a skill below the master is not known."""
+    skills = reachable(graph, graph.master)
+    if not all(is_known(skill, weights.get(skill.owner)) for skill in skills):
+        return None
+    rows = max(64, min(TRIED_READINGS, MAX_WEIGHT_READINGS // sum(genes(skill) + 100 for skill in skills)))
+    readings = readings_to_try(graph.width, rows)
+    thoughts = think(graph, weights, readings)
+    return [_of(graph, readings, thoughts, actuator) for actuator in range(len(graph.actuators))]
+
+
+def _of(graph: Graph, readings: Singles, thoughts: Thoughts, actuator: int) -> Tried:
+    driven = (thoughts.total[:, actuator] > 0) & np.isfinite(thoughts.command[:, actuator])
+    sent = thoughts.command[driven, actuator]
+    commands = (float(sent.min()), float(sent.max())) if len(sent) else None
+    if driven.all():
+        return Tried(commands, None, ())
+    row = int(np.argmin(driven))  # the first: corners come first, and read best
+    return Tried(commands, readings[row], _still(graph, thoughts.influence[row], actuator))
+
+
+def _still(graph: Graph, influence: Singles, actuator: int) -> tuple[str, ...]:
+    """The skills that have influence and could lead to the actuator, none of whose subskills does both."""
+    leading = [False] * len(graph.skills)
+    for place in reversed(range(len(graph.skills))):
+        leading[place] = any(
+            edge.target == actuator if edge.to == "actuator" else edge.to == "skill" and leading[edge.target]
+            for edge in graph.skills[place].edges
+        )
+    awake = [here and found > 0 for here, found in zip(leading, influence.tolist(), strict=True)]
+    return tuple(
+        skill.name
+        for skill, here in zip(graph.skills, awake, strict=True)
+        if here and not any(edge.to == "skill" and awake[edge.target] for edge in skill.edges)
+    )
+
+
+def readings_to_try(width: int, rows: int) -> Singles:
+    """Readings [rows, width]: first corners of the box, then points inside, the same ones every time."""
+    rng = np.random.default_rng(1)
+    corners = rng.integers(0, 2, (rows // 2, width)).astype(np.float32)
+    return np.concatenate([corners, rng.random((rows - rows // 2, width), np.float32)])

@@ -1,0 +1,151 @@
+"""Two minds on the same layouts: how much they differ, and a sentence that says no more than its interval does."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import ceil, floor, log10
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from mindrun.graph.graph import Task
+from mindrun.train.scoring import succeeded
+from numpy.typing import NDArray
+
+from mindlang.number_format import score
+from mindlang.run.outcome import events
+from mindlang.run.paired_difference import CONFIDENCE_LEVEL, Difference, difference
+
+if TYPE_CHECKING:
+    from mindrun.graph.run_scores import Scores
+
+SCORE, SUCCESS = "score", "success"  # the figures that are no events
+PERCENT = f"{CONFIDENCE_LEVEL:.0%}".replace("%", " %")
+MIN_DIGITS = 2  # behind the point
+
+
+@dataclass(frozen=True, slots=True)
+class Benched:
+    """A mind that has run: what it is called beside the other, its task, and what came of each layout."""
+
+    name: str
+    task: Task
+    scores: Scores
+
+    def figures(self) -> dict[str, NDArray[np.float64]]:
+        """What each run came to [runs], by name."""
+        counted = {events(self.task)[event]: self.scores.by_event[0, :, event] for event in self.task.counts}
+        success = {SUCCESS: succeeded(self.task, self.scores)[0]} if self.task.can_succeed else {}
+        found = {SCORE: self.scores.total[0], **success, **counted}
+        return {name: np.asarray(figure, np.float64) for name, figure in found.items()}
+
+
+@dataclass(frozen=True, slots=True)
+class Comparison:
+    """Two minds, and how much the second differs from the first in each figure by name; the first one decides."""
+
+    first: Benched
+    second: Benched
+    differences: Mapping[str, Difference]
+    is_one_world: bool = False
+
+    @property
+    def conclusion(self) -> str:
+        """What may be said, in a sentence."""
+        said = one_world_conclusion if self.is_one_world else conclusion
+        return said(self.first.name, self.second.name, self.second.task.name, self.differences)
+
+    def data(self) -> dict[str, Any]:
+        """What `mindc bench --json` says of two minds beside what it says of each."""
+        plain = {name: found.data() for name, found in self.differences.items()}
+        by_event = {name: plain.pop(name) for name in list(plain) if name not in (SCORE, SUCCESS)}
+        differences = {**plain, "by_event": by_event}
+        return {"confidence": CONFIDENCE_LEVEL, "differences": differences, "conclusion": self.conclusion}
+
+
+def compare(first: Benched, second: Benched, is_one_world: bool = False) -> Comparison:
+    """The differences in what both say in the same words; of the score only where it is paid for the same.
+
+    In one world, where nothing is drawn for either, each has made its only run.
+    """
+    ours, theirs = first.figures(), second.figures()
+    if _paid_for(first.task) != _paid_for(second.task):
+        del ours[SCORE]
+    both = [name for name in ours if name in theirs]
+    return Comparison(first, second, {name: difference(ours[name], theirs[name]) for name in both}, is_one_world)
+
+
+def differing_tasks(file: str, ours: Task, theirs: Task) -> list[str]:
+    """What must be known where a task is another in a second file."""
+    if ours == theirs:
+        return []
+    notes = [f"task {theirs.name} is another in {file}; one seed need not give one world"]
+    if _paid_for(ours) != _paid_for(theirs):
+        notes.append(f"the scores are not compared: in {file} {theirs.name} has other rewards")
+    return notes
+
+
+def _paid_for(task: Task) -> list[str]:
+    return [reward.text for reward in task.rewards]
+
+
+def conclusion(first: str, second: str, task: str, differences: Mapping[str, Difference]) -> str:
+    """Which of two minds does better on a task, by the first of the figures."""
+    if not differences:
+        return "There is no figure that both have: they are paid for other rewards, and count other events."
+    name, found = next(iter(differences.items()))
+    runs = "1 run" if found.runs == 1 else f"{found.runs:,} runs"
+    if found.not_finite:
+        faulty = "1 run" if found.not_finite == 1 else f"{found.not_finite:,} runs"
+        return f"In {faulty} the {name} is not a finite number, so that nothing can be said."
+    if not found.differing:
+        return (
+            f"{first} and {second} come to the same {name} in {runs}: they differ on at most "
+            f"{100 * found.most_that_differ:.2g} % of the layouts of {task} ({PERCENT} confidence)."
+        )
+    if found.low is None or found.high is None:
+        return f"A single run says nothing of other layouts of {task}."
+    verb, of_what = _words(name)
+    unseen = f"but for what happens on less than 1 layout in {ceil(1 / found.most_that_differ)}"
+    if not found.leaves_zero_out:
+        low, high = amount(name, -found.low, found), amount(name, found.high, found)
+        return (
+            f"{runs} do not tell {second} from {first}: on layouts of {task}, {second} {verb} from {low} less "
+            f"to {high} more{of_what} on average ({PERCENT} confidence), {unseen}."
+        )
+    better, worse, bounds = (second, first, (found.low, found.high))
+    if found.high < 0:
+        better, worse, bounds = first, second, (-found.high, -found.low)
+    mean, least, most = (amount(name, value, found) for value in (abs(found.mean or 0.0), *bounds))
+    return (
+        f"On layouts of {task}, {better} {verb} {mean} more{of_what} than {worse} on average, and with {PERCENT} "
+        f"confidence {least} to {most} more, {unseen}."
+    )
+
+
+def one_world_conclusion(first: str, second: str, task: str, differences: Mapping[str, Difference]) -> str:
+    """Which of two minds does better where nothing is drawn: each has one run, and that says it all."""
+    name, found = next(iter(differences.items()), ("", None))
+    if found is None:
+        return conclusion(first, second, task, differences)
+    if found.mean is None:
+        return f"The {name} is not a finite number, so that nothing can be said."
+    if not found.differing:
+        return f"{first} and {second} come to the same {name} in the one world of {task}."
+    better, worse = (second, first) if found.mean > 0 else (first, second)
+    verb, of_what = _words(name)
+    more = amount(name, abs(found.mean), found)
+    return f"In the one world of {task}, {better} {verb} {more} more{of_what} than {worse}."
+
+
+def amount(name: str, value: float, found: Difference) -> str:
+    """A difference, or one of its bounds, with as many digits as its standard error has a use for."""
+    if name == SUCCESS:
+        return f"{100 * value:.1f} percentage points"
+    error = found.standard_error
+    return score(value, max(MIN_DIGITS, 1 - floor(log10(error))) if error else MIN_DIGITS)
+
+
+def _words(name: str) -> tuple[str, str]:
+    """The verb of a figure, and what there is more of."""
+    return {SCORE: ("scores", ""), SUCCESS: ("succeeds", " often")}.get(name, ("counts", f" ({name})"))

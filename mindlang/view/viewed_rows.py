@@ -1,0 +1,168 @@
+"""Rows of a recording as a page sees them, whoever makes them: a simulator now, a robot, or one who wrote them down."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from mindrun.engine.think import hierarchy
+from mindrun.graph.bundle import Bundle
+from mindrun.graph.graph import Task
+from mindrun.graph.recording_header import GOES_ON, POSE_COLUMNS, THING_COLUMNS, About
+from numpy.typing import NDArray
+
+from mindlang.run import outcome
+from mindlang.view.about import Texts, about_data, robot_events, world_events
+from mindlang.view.messages import shown
+from mindlang.view.rows import DOUBLE_BLOCK, FLOW, Chunk, Columns, Doubles, Singles
+from mindlang.view.viewed import Viewed, drawing_of
+
+if TYPE_CHECKING:
+    from mindlang.breakpoints.watch import Stop
+
+Rows = NDArray[Any]
+Filled = tuple[Rows, Singles]  # rows, and their readings with those that a robot computes
+Watch = Callable[[Rows, Singles], Sequence["Stop"]]  # finds where breakpoints stop the rows that follow
+NOTHING_HELD = -1
+BEGIN_COLUMN = 1  # of the events of a robot: stopped, began anew, and a fault of each sensor
+RUN = "simulation"  # the source of a run that is simulated while it is seen
+UNKNOWN_AT_FIRST = "readings", "commands", "sent"
+
+
+def viewed_rows(
+    title: str,
+    source: str,
+    of: About,
+    mind: Bundle,
+    task: Task | None,
+    folder: Path,
+    rows: Iterator[Filled],
+    of_ticks: int | None,
+    watch: Watch | None = None,
+    texts: Texts | None = None,
+) -> Viewed:
+    """The rows of a mind of this folder, of which there will be so many; None where they still come, unasked.
+
+    The rows of a task have its world. `texts` are what the edges say.
+    """
+    ready = hierarchy(mind.policy, mind.procedures, of.master)
+    skills = [mind.graph.skills[skill.index] for skill in ready.skills]
+    columns = columns_of(of, mind, source == RUN, sum(len(skill.edges) for skill in skills))
+    drawing = drawing_of(mind.graph, task, folder, of.world.seed) if of.world else None
+    happens = [*([] if source == RUN else robot_events(of)), *(world_events(task) if task else [])]
+    about = {
+        "title": shown(title),
+        "source": source,
+        "of_ticks": of_ticks,
+        "drawn": drawing is not None,
+        "events": happens,
+        **about_data(of, mind.graph, task, skills, columns, texts or {}),
+    }
+    begins: set[int] = set()  # filled while the rows come
+    chunks = _chunks(rows, of, task, columns, len(happens), begins, watch)
+    return Viewed(about, columns, chunks, mind.graph, ready, begins, drawing, of_ticks is None)
+
+
+def columns_of(of: About, mind: Bundle, is_run: bool, edges: int) -> Columns:
+    """The columns of rows; of a run that is simulated while it is seen, those that differ from tick to tick."""
+    doubles: dict[str, int] = {} if is_run else {"time": 1}
+    singles: dict[str, int] = {}
+    commands = len(of.actuators)
+    if of.world:
+        doubles |= {"robot": POSE_COLUMNS, "things": THING_COLUMNS * of.world.things}
+        doubles |= {"battery": 1, "rewards": of.world.rewards}
+        singles |= {"held": 1, "touching": 1}
+    singles |= {"readings": mind.graph.width, "influence": len(of.skills), "commands": commands}
+    if not is_run:
+        singles |= {"sent": commands, "stopped": 1, "armed": 1, "faults": len(of.sensors)}
+    return Columns.of(doubles, {**singles, FLOW: edges})
+
+
+def _chunks(
+    parts: Iterator[Filled],
+    of: About,
+    task: Task | None,
+    columns: Columns,
+    events: int,
+    begins: set[int],
+    watch: Watch | None,
+) -> Iterator[Chunk]:
+    """The rows with what happened in them; `begins` gets the ticks in which the mind was begun anew."""
+    yield Chunk(_beginning(columns, of))
+    is_run = "time" not in columns.groups
+    number, start, before = 0, 0.0, np.zeros((1, events), np.uint64)
+    for rows, readings in parts:
+        doubles, singles = _blocks(rows, columns, readings)
+        if not len(rows):  # nothing has come for a while
+            yield Chunk((doubles, singles))
+            continue
+        begins |= {number + 1 + int(row) for row in np.flatnonzero(rows["tick"] == 0)}
+        levels = _levels(rows, is_run, task)[:, :events]
+        if not is_run:
+            start = start if number else float(rows["time"][0])
+            levels[0, BEGIN_COLUMN] *= number > 0  # the first beginning is no event
+            with np.errstate(invalid="ignore", over="ignore"):  # a recording may hold any number
+                doubles[:, columns["time"].first] -= start
+        happened = np.argwhere(levels > np.concatenate([before, levels[:-1]]))
+        ended = int(rows["world"]["ended"][-1]) if task else GOES_ON
+        by = outcome.ended_by(task, ended) if task else None
+        yield Chunk(
+            (doubles, singles),
+            [(number + 1 + int(row), int(event)) for row, event in happened],
+            [
+                (stop.tick, shown(f"line {stop.breakpoint.line}: {stop.breakpoint.text}"))
+                for stop in (watch(rows, readings) if watch else ())
+            ],
+            by and shown(by),
+            is_run and ended != GOES_ON,
+        )
+        number, before = number + len(rows), levels[-1:]
+
+
+def _levels(rows: Rows, is_run: bool, task: Task | None) -> NDArray[np.uint64]:
+    """What happens where it rises [ticks, events]: states of the robot, counts of the world, and touching."""
+    robot = [] if is_run else [rows["stopped"] != 0, rows["tick"] == 0, rows["faults"] != 0]
+    world = [rows["world"]["events"], rows["world"]["touching"] != 0] if task else []
+    return np.column_stack([*robot, *world]).astype(np.uint64)
+
+
+def _beginning(columns: Columns, of: About) -> tuple[Doubles, Singles]:
+    """The row of tick 0, in which nothing has been read, thought or sent."""
+    doubles = np.full((1, columns.width(DOUBLE_BLOCK)), np.nan)
+    singles = np.zeros((1, columns.kept_singles), np.float32)
+    for name in UNKNOWN_AT_FIRST:
+        if name in columns.groups:
+            singles[0, columns[name].places] = np.nan
+    if of.world:
+        begin = np.array(of.world.begin, np.float64)  # None becomes NaN
+        values = (*begin, np.nan, *np.zeros(of.world.rewards))
+        doubles[0, columns["robot"].first :][: len(values)] = values
+        singles[0, columns["held"].first] = NOTHING_HELD
+    return doubles, singles
+
+
+def _blocks(rows: Rows, columns: Columns, readings: Singles) -> tuple[Doubles, Singles]:
+    """Both blocks [ticks, columns] of rows whose readings are these; `flow` is not kept."""
+    doubles = np.empty((len(rows), columns.width(DOUBLE_BLOCK)))
+    singles = np.empty((len(rows), columns.kept_singles), np.float32)  # bits of readings stay what they are
+    for name, group in columns.groups.items():
+        if name != FLOW:
+            value = readings if name == "readings" else _value(name, rows)
+            block = doubles if group.block == DOUBLE_BLOCK else singles
+            block[:, group.places] = value.reshape(len(rows), group.count)
+    return doubles, singles
+
+
+def _value(name: str, rows: Rows) -> NDArray[Any]:
+    match name:
+        case "robot":
+            return rows["world"]["pose"]
+        case "things":  # those of no size, which nobody could draw, are nowhere
+            things = rows["world"]["things"]
+            has_size = (things[:, :, 2] >= 0) & np.isfinite(things[:, :, 2])
+            return np.where(has_size[:, :, None], things, np.nan)
+        case "battery" | "rewards" | "held" | "touching":
+            return rows["world"][name]
+    return rows[name]

@@ -1,0 +1,165 @@
+"""Watch a sensor, and print the lines for robot.yaml that its values call for.
+
+Move what it measures through its whole range while it runs; then let it rest. Nothing is moved by the robot.
+
+examples:
+  mindrun calibrate ball.bundle proximity
+  mindrun calibrate ball.bundle ball_bearing --seconds 30
+"""
+
+import argparse
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from statistics import median, pstdev
+from time import monotonic, sleep
+
+import mindrun.robot.drivers  # noqa: F401  every driver is known once this is imported
+from mindrun.errors import MindError
+from mindrun.files.printable import visible
+from mindrun.graph.bundle import read_bundle
+from mindrun.graph.wiring import SensorWire, reading, still
+from mindrun.kinds.sensors.sensor import SensorKind
+from mindrun.robot.processes import refuse_success
+from mindrun.robot.sensing import Sample, Sampler
+from mindrun.terminal.arguments import real
+from mindrun.terminal.standard_streams import draw
+
+MAX_SECONDS = 3600.0
+NOISE_VALUES = 10  # that follow one another, over which noise is measured
+
+
+def options(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("bundle", type=Path, help="what `mindc build --robot` wrote")
+    parser.add_argument("sensor", help="one that is wired")
+    parser.add_argument(
+        "--seconds", type=real(0, MAX_SECONDS), default=20.0, metavar="S", help="how long to watch (default: 20)"
+    )
+
+
+def run(options: argparse.Namespace) -> int:
+    """Measure and print; the exit code, 0 where something was measured, else 1."""
+    wire, kind = _wire(options.bundle, options.sensor)
+    with refuse_success():
+        samples = _watched(wire, kind, options.seconds)
+    good = [sample for sample in samples if not sample.fault]
+    for why in sorted({sample.fault for sample in samples if sample.fault}):
+        print(f"{wire.sensor} {why}", file=sys.stderr)
+    if not good:
+        print("nothing has been measured", file=sys.stderr)
+        return 1
+    print("\n".join(lines(wire, good, kind)))
+    return 0
+
+
+def _wire(path: Path, sensor: str) -> tuple[SensorWire, SensorKind]:
+    """How a sensor is wired, and what it is in the mind."""
+    bundle = read_bundle(path)
+    wiring = bundle.wiring
+    if wiring is None:
+        raise MindError("this bundle is wired to no robot", "mindc build … --robot robot.yaml")
+    names = [wire.sensor for wire in wiring.sensors]
+    if sensor not in names:
+        raise MindError(f"no sensor {sensor} is wired", f"there are {', '.join(names)}")
+    kind = next(known.kind for known in bundle.graph.sensors if known.name == sensor)
+    return still(wiring.sensors[names.index(sensor)]), kind
+
+
+def _watched(wire: SensorWire, kind: SensorKind, seconds: float) -> list[Sample]:
+    """What is measured in so many seconds or until Ctrl-C, shown as it comes."""
+    sampler, samples = Sampler(wire), list[Sample]()
+    until = monotonic() + seconds
+    sampler.start()
+    try:
+        while monotonic() < until:
+            latest = sampler.latest
+            if latest and (not samples or latest is not samples[-1]):
+                samples.append(latest)
+                _show(wire, kind, latest)
+            sleep(0.2 / wire.rate)
+    except KeyboardInterrupt:
+        pass  # that is enough
+    finally:
+        sampler.stop()
+    if sys.stderr.isatty():
+        print(file=sys.stderr)
+    return samples
+
+
+def _show(wire: SensorWire, kind: SensorKind, sample: Sample) -> None:
+    if not sys.stderr.isatty():
+        return
+    values = ((raw, reading(wire, raw, kind.circular)) for raw in sample.values)
+    pairs = (f"{'-' if raw is None else f'{raw:.3g}'} → {value:.2f}" for raw, value in values)
+    draw(f"\r\033[K{visible(sample.fault or '  '.join(pairs))}"[:160])
+
+
+@dataclass(frozen=True, slots=True)
+class ReadingStatistics:
+    """Statistics of a reading; `noise` is its standard deviation at rest, `lost` the share without a value."""
+
+    low: float
+    high: float
+    noise: float
+    lost: float
+
+
+def reading_statistics(values: Sequence[float | None], turn: float | None = None) -> ReadingStatistics | None:
+    """The statistics of these values, None standing for a lost one; None where all were lost.
+
+    Of directions, which begin anew after a whole `turn`, the range may go beyond one: 175 to 190.
+    """
+    there = [value for value in values if value is not None]
+    if not there:
+        return None
+    spans = [there[i : i + NOISE_VALUES] for i in range(max(1, len(there) - NOISE_VALUES + 1))]
+    noise = min(pstdev(_going_round(span, turn)) for span in spans)
+    ends = ((min(each), max(each)) for each in (there, _going_round(there, turn)))
+    low, high = min(ends, key=lambda each: each[1] - each[0])
+    return ReadingStatistics(low, high, noise, 1 - len(there) / len(values))
+
+
+def _going_round(values: Sequence[float], turn: float | None) -> Sequence[float]:
+    """Directions, each the short way from the first; all else as it is."""
+    first = values[0]
+    return [first + (value - first + turn / 2) % turn - turn / 2 for value in values] if turn else values
+
+
+def lines(wire: SensorWire, samples: Sequence[Sample], kind: SensorKind) -> list[str]:
+    """The lines for robot.yaml, with what they rest on as comments.
+
+    Where the kind of the sensor is `scaled`, as distances and directions are, the range of training stays.
+    """
+    turn = abs(wire.high - wire.low) if kind.circular else None
+    values = zip(*(sample.values for sample in samples), strict=True)
+    columns = [reading_statistics(column, turn) for column in values]
+    known = [column for column in columns if column]
+    said = [f"# {wire.sensor}: {len(samples)} measurements, in {wire.driver.unit or 'units of its own'}"]
+    for number, column in enumerate(columns):
+        what = "nothing measured" if column is None else (
+            f"{column.low:.4g} to {column.high:.4g}, noise {column.noise:.2g}, lost {column.lost:.0%}"
+        )  # fmt: skip
+        said.append(f"#   reading {number}: {what}")
+    if not known:
+        return said
+    low, high = min(column.low for column in known), max(column.high for column in known)
+    if kind.scaled:
+        said.append(
+            f"# from and to are those of training ({wire.low:g} to {wire.high:g}), and no matter of what was seen"
+        )
+    elif low < high:
+        first, last = (low, high) if wire.low <= wire.high else (high, low)
+        said += [f"{wire.sensor}:", f"  from: {_written(first, wire)}", f"  to: {_written(last, wire)}"]
+    else:
+        said.append("# it has not changed: move what it measures")
+    noise = median(column.noise for column in known) / abs(wire.high - wire.low)
+    lost = max(column.lost for column in known)
+    said.append(f"# for the .mind file: noise {2 * noise:.1%} dead_zone {3 * noise:.1%} lost {lost:.0%}")
+    return said
+
+
+def _written(value: float, wire: SensorWire) -> str:
+    """A value as robot.yaml takes it: no exponent, and with its unit."""
+    number = f"{value:.6f}".rstrip("0").rstrip(".")
+    return f"{number} {wire.driver.unit}".replace("²", "2").strip()

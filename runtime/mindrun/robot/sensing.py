@@ -1,0 +1,226 @@
+"""Sensors read outside of the control loop, a thread each, so that a slow or hung one never delays a tick.
+
+For a tick what was measured last is filtered, and answered as declared where something is wrong.
+"""
+
+import threading
+from collections import deque
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from math import inf, isfinite, nan
+from statistics import median
+from time import monotonic
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mindrun.driver import SensorDevice, failure
+from mindrun.graph.graph import Graph, Sensor
+from mindrun.graph.measured import measured_on_robot, rows_of
+from mindrun.graph.wiring import SensorWire, reading, within_turn
+from mindrun.numbers.given_numbers import is_truth, number, values
+
+FINE, UNMEASURED, FAILED, STALE = range(4)  # what is wrong with a sensor in a tick
+FAULT_WORDS = ("fine", "not measured yet", "failed", "too old")
+
+
+@dataclass(frozen=True, slots=True)
+class Sample:
+    """What was measured: a value for each reading in natural units, None where there was nothing, and when it began.
+
+    `fault` says why there are no values; times are seconds of a monotonic clock.
+    """
+
+    values: tuple[float | None, ...]
+    at: float
+    fault: str = ""
+
+
+class Sampler:
+    """Measures one sensor again and again, in a thread of its own; `latest` is what came of it last.
+
+    A device that fails is closed and opened anew, so that one that was unplugged comes back.
+    """
+
+    def __init__(self, wire: SensorWire, clock: Callable[[], float] = monotonic) -> None:
+        self.wire = wire
+        self.latest: Sample | None = None
+        self._clock = clock
+        self._stop = threading.Event()
+        self._thread = threading.Thread(target=self._run, name=f"sensor {wire.sensor}", daemon=True)
+
+    def start(self) -> None:
+        """Begin to measure."""
+        self._thread.start()
+
+    def stop(self, wait: float = 1.0) -> None:
+        """Measure no more; a thread that hangs is left behind, it goes with the process."""
+        self._stop.set()
+        self._thread.join(wait)
+
+    def measured_once(self) -> Sample:
+        """A sample measured now, in this thread, of a device that is open for it alone."""
+        device, sample = self._measured(None)
+        _close(device)
+        return sample
+
+    def _run(self) -> None:
+        device: SensorDevice | None = None
+        due = self._clock()
+        while not self._stop.is_set():
+            device, self.latest = self._measured(device)
+            due = max(due + 1 / self.wire.rate, self._clock())
+            self._stop.wait(due - self._clock())
+        _close(device)
+
+    def _measured(self, device: SensorDevice | None) -> tuple[SensorDevice | None, Sample]:
+        """The device, open if it works, and a sample of it."""
+        began = self._clock()
+        try:
+            device = device or self.wire.driver.open()
+            began = self._clock()
+            return device, checked(device.read(), began, self.wire)
+        except BaseException as error:  # a driver may fail in any way, and the robot has to know
+            if isinstance(error, KeyboardInterrupt) and threading.current_thread() is threading.main_thread():
+                raise  # Ctrl-C
+            why = failure(error)
+        _close(device)
+        return None, Sample((), began, why)
+
+
+def checked(given: object, at: float, wire: SensorWire) -> Sample:
+    """A sample of the values that a device gave, whatever kind of numbers these are, or of the fault that they are."""
+    low, high = getattr(wire.driver, "possible", (-inf, inf))
+    expected, found = wire.driver.readings, values(given)
+    if found is None or len(found) != expected:
+        return Sample((), at, f"gave {given!r:.60}, not a list of {expected} value{'s' * (expected != 1)}")
+    measured: list[float | None] = []
+    for value in found:
+        if value is None:
+            measured.append(None)
+            continue
+        try:
+            plain = number(value)
+        except TypeError:
+            plain = None
+        if plain is None or is_truth(value):
+            return Sample((), at, f"gave {value!r:.60}, which is no number")
+        if not isfinite(plain):
+            return Sample((), at, f"gave {plain}")
+        if not low <= plain <= high:
+            return Sample((), at, f"gave {plain:g}, which is not between {low:g} and {high:g}")
+        measured.append(plain)
+    return Sample(tuple(measured), at)
+
+
+def _close(device: SensorDevice | None) -> None:
+    if device is not None:
+        try:
+            device.close()
+        except BaseException:  # whatever its driver raises: it is of no use any more
+            return
+
+
+@dataclass(frozen=True, slots=True)
+class FilteredReadings:
+    """What the mind gets in a tick: `readings` [graph.width], NaN where one is missing; the rest is per wired sensor.
+
+    `must_stop` says that every actuator has to be neutral; `faults` are FINE, …; `ages` in seconds, infinite where
+    there is no sample; `why` the sentences.
+    """
+
+    readings: NDArray[np.float32]
+    must_stop: bool
+    faults: tuple[int, ...]
+    ages: tuple[float, ...]
+    why: Mapping[str, str]
+
+
+@dataclass(slots=True)
+class _State:
+    """A sensor: its last samples for the median, and its last good readings with their time."""
+
+    source: Sampler
+    sensor: Sensor
+    window: deque[Sample]
+    good: tuple[float, ...] = ()
+    good_at: float = -inf
+
+
+class ReadingFilter:
+    """The wired sensors of a mind; `measured` [graph.width] says which readings come of them, or of time alone."""
+
+    def __init__(self, graph: Graph, sources: Sequence[Sampler]) -> None:
+        sensors = {sensor.name: sensor for sensor in graph.sensors}
+        self._width = graph.width
+        self.measured = rows_of(graph, measured_on_robot(graph, {source.wire.sensor for source in sources}))
+        self._states = [
+            _State(source, sensors[source.wire.sensor], deque(maxlen=source.wire.median)) for source in sources
+        ]
+
+    def now(self, time: float) -> FilteredReadings:
+        """The readings of a tick that begins at `time`."""
+        readings = np.full(self._width, nan, np.float32)
+        faults, ages, why, must_stop = [], [], {}, False
+        for state in self._states:
+            fault, age, reason = _assess(state, time)
+            values, stops = _answer(state, fault, time)
+            place = slice(state.sensor.start, state.sensor.start + state.sensor.width)
+            readings[place] = values
+            faults.append(fault)
+            ages.append(age)
+            must_stop |= stops
+            if fault != FINE:
+                why[state.source.wire.sensor] = reason
+        return FilteredReadings(readings, must_stop, tuple(faults), tuple(ages), why)
+
+
+def _assess(state: _State, time: float) -> tuple[int, float, str]:
+    """What is wrong with a sensor now, the age of its sample, and why."""
+    sample = state.source.latest
+    if sample is None:
+        return UNMEASURED, inf, "has not been measured yet"
+    age = time - sample.at
+    if age > state.source.wire.max_age:
+        return STALE, age, f"was measured {age:.2f} s ago; {sample.fault}".rstrip("; ")
+    if sample.fault:
+        return FAILED, age, sample.fault
+    if not state.window or state.window[-1] is not sample:
+        state.window.append(sample)
+        good = _filtered(state)
+        if not all(map(isfinite, good)):
+            return FAILED, age, "has readings that are no numbers"
+        state.good, state.good_at = good, sample.at
+    return FINE, age, ""
+
+
+def _filtered(state: _State) -> tuple[float, ...]:
+    """The readings of the median of each value over the window; nothing there counts as `blank`."""
+    wire, circular = state.source.wire, state.sensor.kind.circular
+    rows = ([reading(wire, value, circular) for value in sample.values] for sample in state.window)
+    middle = median_direction if circular else median
+    return tuple(float(middle(column)) for column in zip(*rows, strict=True))
+
+
+def median_direction(directions: Sequence[float]) -> float:
+    """The median of directions in turns, 0..1: about the one that is nearest to all, the short ways round."""
+
+    def ways(origin: float) -> list[float]:
+        return [(each - origin + 0.5) % 1 - 0.5 for each in directions]
+
+    origin = min(directions, key=lambda each: sum(map(abs, ways(each))))
+    return within_turn(origin + median(ways(origin)))
+
+
+def _answer(state: _State, fault: int, time: float) -> tuple[tuple[float, ...], bool]:
+    """The readings, and whether every actuator has to be neutral."""
+    wire, width = state.source.wire, state.sensor.width
+    if fault == FINE:
+        return state.good, False
+    state.window.clear()
+    match wire.on_fault:
+        case "blank":
+            return (wire.blank,) * width, False
+        case "hold" if time - state.good_at <= wire.max_age + wire.hold:
+            return state.good, False
+    return (nan,) * width, True
