@@ -121,7 +121,7 @@ ROOMS = {
         interpreted=True,
     ),
     "outside": Room(
-        (f"{R}sim/outside/*.py", f"{R}kinds/slot.py", "mindlang/compiler/resolve/outside.py"),
+        (f"{R}sim/outside/*.py", f"{R}kinds/environment.py", "mindlang/compiler/resolve/outside.py"),
         (
             *(
                 f"tests/outside/test_{name}.py"

@@ -24,6 +24,8 @@ FUNCTIONS = (
     "mlp",
     "elman",
     "elman width 3",
+    "gru",
+    "gru width 3",
     "procedure from own.by",
     "procedure from own.to",
 )
@@ -232,7 +234,7 @@ def _declarations(rng: Random) -> list[list[str]]:
             ["number wide is 2"],
             *([re.sub(r" size 2(?! \d)", " size wide", line) for line in each] for each in blocks),
         ]
-    learners = [skill for skill in skills if functions[skill].startswith(("mlp", "elman"))]
+    learners = [skill for skill in skills if functions[skill].startswith(("mlp", "elman", "gru"))]
     if learners and rng.random() < 0.4:
         blocks.append(_like(rng, next(block for block in blocks if block[0].startswith(f"skill {learners[0]} "))))
     if learners:

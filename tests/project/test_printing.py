@@ -38,7 +38,7 @@ PROGRAMS = {
 TIMED = {
     "api.py": "a lesson notes when it began, and counts its seconds",
     "executors/cluster_jobs.py": "a scheduler is asked for its workers once a second",
-    "executors/worker.py": "a job says how long it took",
+    "executors/jobs.py": "a job says how long it took",
     "run/many_runs.py": "a bench counts the seconds of its runs",
 }
 

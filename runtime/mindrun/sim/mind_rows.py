@@ -54,9 +54,7 @@ def skill_rows(
     lengths = {skill.owner: genes(skill) for skill in reached}
     starts = dict(zip(learners, np.cumsum([0, *(lengths.get(name, 0) for name in learners)]), strict=False))
     kinds, numbers = function_codes(), graph.skill_numbers
-    rows: list[Row] = []
-    edges: list[Row] = []
-    inputs: list[int] = []
+    rows, edges, inputs = list[Row](), list[Row](), list[int]()
     shared, places = _shared_weights([skill for skill in reached if skill.owner not in starts], weights)
     most_inputs = scratch = 1
     state = 0
