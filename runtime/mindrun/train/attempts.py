@@ -68,7 +68,7 @@ class AttemptExecutor(Protocol):
         """Ask for a stretch."""
 
     def take(self) -> tuple[int, Segment] | None:
-        """A job that has ended, and what came of it; None where for a while none has."""
+        """A job that has ended, and what came of it; None after a while without one."""
 
 
 class InThisThread:
@@ -115,7 +115,7 @@ class StretchThreads:
         self._asked.append((job, stretch))
 
     def take(self) -> tuple[int, Segment] | None:
-        """A job and its segment; None where for a while none came. Whatever a stretch raises is raised here."""
+        """A job and its segment; None after TAKE_SECONDS without one. Whatever a stretch raises is raised here."""
         self._begin()
         try:
             done = self._done.get(timeout=TAKE_SECONDS)
