@@ -4,8 +4,8 @@ from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
+from mindrun.graph.graph import VARIED_NOUNS
 from mindrun.kinds.registry import arguments, find_kind, kinds
-from mindrun.kinds.variation import VARIED_NOUNS
 from mindrun.numbers.quantity import Quantity
 from mindrun.numbers.quantity import Reference as Noun
 
