@@ -1,6 +1,7 @@
 """`mindc train`, as its users call it."""
 
 import json
+import os
 import re
 import shlex
 import signal
@@ -49,13 +50,20 @@ TRAIN = (sys.executable, "-c", "from mindlang.cli import main; main()", "train")
 LONG = ("drive.mind", "Go", "--seed", "3", "--generations", "400", "--from-scratch", "--json")
 
 
+def train_apart(folder: Path, *arguments: str) -> "subprocess.CompletedProcess[str]":
+    """The command in a process of its own, in a folder."""
+    environment = {**os.environ, "CI": "1"}
+    return subprocess.run(
+        [*TRAIN, *arguments], cwd=folder, capture_output=True, text=True, check=False, env=environment
+    )
+
+
 @pytest.fixture(scope="module")
 def whole(tmp_path_factory: pytest.TempPathFactory) -> str:
     """The weights with which the long training ends where nothing interrupts it."""
     folder = tmp_path_factory.mktemp("undisturbed")
     (folder / "drive.mind").write_text(MIND)
-    done = subprocess.run([*TRAIN, *LONG], cwd=folder, capture_output=True, text=True, check=True)
-    weights: str = json.loads(done.stdout)["weights"]
+    weights: str = json.loads(train_apart(folder, *LONG).stdout)["weights"]
     return weights
 
 
