@@ -20,8 +20,7 @@ from mindrun.sim.outside.stepper import LocalStepper
 from mindrun.sim.outside.subprocess_stepper import SubprocessStepper
 
 import mindlang
-from mindlang.executors.job_scorer import JobScorer
-from mindlang.executors.jobs import Assignment, Work
+from mindlang.executors.jobs import Assignment, JobScorer, Work
 from mindlang.executors.processes import ProcessJobs
 
 GENERATION_GENOMES, GENERATION_LAYOUTS, RUN_TICKS = 40, 3, 500

@@ -71,7 +71,6 @@ ROOMS = {
             for name in (
                 "engine/engine",
                 "numbers/expression",
-                "numbers/sigmoid",
                 "numbers/arithmetic",
             )
         ),
@@ -224,7 +223,7 @@ ROOMS = {
     ),
     "names": Room(
         (
-            *(f"mindlang/editing/{name}.py" for name in ("world_names", "graph_names", "lock_update")),
+            *(f"mindlang/editing/{name}.py" for name in ("world_names", "lock_update")),
             *(f"mindlang/lock/{name}.py" for name in ("__init__", "status")),
         ),
         (

@@ -5,10 +5,9 @@ from argparse import SUPPRESS, Action, ArgumentParser
 from collections.abc import Iterable, Iterator, Sequence
 
 import click
-from mindrun.cli import EXAMPLES_BEGIN, driving_parser, tool_parser, tools
+from mindrun.cli import EXAMPLES, driving_parser, tool_parser, tools
 
-from mindlang.explaining.article import Article, Parameter
-from mindlang.explaining.sections import in_lines
+from mindlang.explaining.article import Article, Parameter, in_lines
 
 PROGRAM = "mindrun"
 TOOLS = "tools:"  # the part of mindrun's epilog that is not its own
@@ -51,9 +50,9 @@ def mindrun_articles() -> Iterator[Article]:
 
 def _of_parser(name: str, sort: tuple[str, str, str], parser: ArgumentParser) -> Article:
     parts = (parser.epilog or "").strip().split("\n\n")
-    called = (part.removeprefix(EXAMPLES_BEGIN) for part in parts if part.startswith(EXAMPLES_BEGIN))
+    called = (part.removeprefix(EXAMPLES) for part in parts if part.startswith(EXAMPLES))
     calls = ["\n".join(line.strip() for line in each.splitlines()) for each in called]
-    texts = [parser.description or "", *(part for part in parts if not part.startswith((EXAMPLES_BEGIN, TOOLS)))]
+    texts = [parser.description or "", *(part for part in parts if not part.startswith((EXAMPLES, TOOLS)))]
     actions = [each for each in parser._actions if each.help and each.dest not in ("help", "version")]
     usage = [parser.prog, "[OPTIONS]", *(_argument(each) for each in parser._actions if not each.option_strings)]
     return _article(name, sort, texts, map(_parameter, actions), "\n\n".join([" ".join(usage), *calls]))

@@ -178,8 +178,8 @@ def _declarations(context: click.Context, parameter: click.Parameter) -> Iterato
 
     An option may stand before the file: then they are those of this folder.
     """
+    from mindlang.compiler.compile import files, read
     from mindlang.compiler.diagnostic import Findings
-    from mindlang.compiler.use import files, read
 
     values = [*context.params.values(), *context.args]  # before the value of an option, arguments are not sorted yet
     said = [word for value in values for word in (value if isinstance(value, tuple) else [value])]

@@ -25,7 +25,7 @@ from mindlang.cli._diagnostic_printer import print_report
 from mindlang.cli._options import RunChoice
 from mindlang.compiler.compile import Compiled
 from mindlang.executors import Where, scorer_on
-from mindlang.executors.job_scorer import JobScorer
+from mindlang.executors.jobs import JobScorer
 from mindlang.limits import refuse_too_large, refuse_too_many
 from mindlang.run.chosen_task import SetupError
 from mindlang.run.recorded_run import RunResult, run_result

@@ -27,7 +27,7 @@ from mindlang.cli._session import ensure_compiled
 from mindlang.cli._terminal import console, load_compiled, procedures_talk, tell
 from mindlang.cli._training_progress import LessonDisplay, TimeLeft
 from mindlang.executors import Where
-from mindlang.executors.job_scorer import JobScorer
+from mindlang.executors.jobs import JobScorer
 from mindlang.lock import LockError
 from mindlang.training.event_files import EventFiles
 from mindlang.training.lesson_choice import TrainOptions, lessons_to_teach

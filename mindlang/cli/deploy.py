@@ -110,7 +110,7 @@ def _checked(path: Path, settings: Settings) -> Bundle:
     """The bundle; one that cannot be read ends the program."""
     from mindrun.graph.bundle import read_bundle
 
-    from mindlang.robot.release import check_deployable
+    from mindlang.robot.deployment import check_deployable
 
     try:
         bundle = read_bundle(path)

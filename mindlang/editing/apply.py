@@ -14,7 +14,7 @@ from mindrun.graph.graph import Graph
 from mindrun.terminal.command_line import command_line
 
 from mindlang.compiler.compile import Compiled, compile_source, load
-from mindlang.compiler.diagnostic import Diagnostic
+from mindlang.compiler.diagnostic import Diagnostic, errors
 from mindlang.compiler.source import MAX_SOURCE_BYTES, Span, decode, encoded
 from mindlang.compiler.splice import spliced
 from mindlang.editing import transaction
@@ -64,14 +64,17 @@ class Edited:
 def apply_edit(project: Project, change: MindChange, keep_weights: bool) -> Edited:
     """The edit made in memory; EditError where its result would not compile, nothing is written."""
     _refuse_under_alias(change)
-    texts = _texts(change)
+    touched = {id(splice.source): splice.source for splice in change.splices}
+    texts = {source.path: spliced(source, change.splices) for source in touched.values()} | dict(change.created)
     graph = _compiled(project, texts)
     _refuse_captured(project, change, graph)
     locks = locks_of([*project.taught, *change.created])
     beside = []
-    for other in _concerned(project, change):
-        main = other.main.source.path
-        damage = ""
+    sharing = [id(other) for rename in change.renamed for other in project.sharing(rename.noun, rename.old)]
+    for other in project.neighbours:
+        if change.renamed and id(other) not in sharing:
+            continue  # to it the new names are none
+        main, damage = other.main.source.path, ""
         try:
             locks = locks_of(other.taught) | locks
         except LockError as error:
@@ -80,12 +83,6 @@ def apply_edit(project: Project, change: MindChange, keep_weights: bool) -> Edit
     neighbours = [each.before.graph for each in beside]
     followed = update_locks(locks, project.graph, graph, change, keep_weights, neighbours)
     return Edited(project, change, texts, graph, tuple(beside), locks, followed)
-
-
-def _concerned(project: Project, change: MindChange) -> list[Project]:
-    """The neighbours that an edit concerns: those to which a new name is none are left alone."""
-    sharing = [set(map(id, project.sharing(rename.noun, rename.old))) for rename in change.renamed]
-    return [other for other in project.neighbours if not sharing or any(id(other) in each for each in sharing)]
 
 
 def _refuse_under_alias(change: MindChange) -> None:
@@ -109,32 +106,22 @@ def _refuse_captured(project: Project, change: MindChange, graph: Graph) -> None
         raise EditError(f"If {old} is called {new}, a line means something else.", "Choose another name.")
 
 
-def _texts(change: MindChange) -> dict[Path, str]:
-    """The new texts of the files that change, and of those that are new."""
-    touched = {id(splice.source): splice.source for splice in change.splices}
-    return {source.path: spliced(source, change.splices) for source in touched.values()} | dict(change.created)
-
-
 def _compiled(project: Project, texts: dict[Path, str]) -> Graph:
-    """What the files of a project come to with these texts; EditError where they do not compile."""
+    """What the files of a project come to with these texts; EditError where they do not compile.
+
+    What was wrong with a procedure before may stay so.
+    """
     now = project.texts | texts
     main = project.main.source
     compiled = compile_source(replace(main, text=now[main.path]), main.path, now)
-    if worst := _new_mistake(project, compiled):
-        error = EditError(f"After this edit the mind would not compile. {worst.message}", worst.hint)
-        error.diagnostic = replace(_as_edited(worst), message=str(error))
-        raise error
+    if wrong := errors(compiled.diagnostics):
+        known = {each.message for each in compile_source(main, main.path, project.texts).diagnostics}
+        for worst in (each for each in wrong if each.message not in known):
+            error = EditError(f"After this edit the mind would not compile. {worst.message}", worst.hint)
+            error.diagnostic = replace(_as_edited(worst), message=str(error))
+            raise error
     assert compiled.graph
     return compiled.graph
-
-
-def _new_mistake(project: Project, edited: Compiled) -> Diagnostic | None:
-    """The first error that was not there before: what was wrong with a procedure may stay so."""
-    errors = [each for each in edited.diagnostics if each.severity == "error"]
-    main = project.main.source
-    before = compile_source(main, main.path, project.texts).diagnostics if errors else ()
-    known = {each.message for each in before}
-    return next((each for each in errors if each.message not in known), None)
 
 
 def _as_edited(diagnostic: Diagnostic) -> Diagnostic:

@@ -4,36 +4,17 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import takewhile
 
+from mindlang.compiler import syntax
 from mindlang.compiler.source import Source, Span
 from mindlang.compiler.splice import Splice
-from mindlang.compiler.syntax import (
-    PARTS,
-    Contains,
-    Counts,
-    Declaration,
-    Drives,
-    Ends,
-    Fact,
-    Fails,
-    File,
-    Influences,
-    Lasts,
-    Number,
-    Reads,
-    Rewards,
-    Starts,
-    Stays,
-    Succeeds,
-    Teaches,
-    Use,
-    Varies,
-)
+from mindlang.compiler.syntax import PARTS, Declaration, Fact, File, Number, Use
 
 INDENT = "  "
 NOUNS = ("body", "actuator", "sensor", "memory", "skill", "scene", "task", "curriculum")  # in the order of a file
 FACTS: tuple[type[Fact], ...] = (
-    Contains, Starts, Varies, Fails, Lasts, Ends, Succeeds, Reads, Drives, Influences, Stays, Rewards, Counts, Teaches,
-)  # fmt: skip
+    *(syntax.Contains, syntax.Starts, syntax.Varies, syntax.Fails, syntax.Lasts, syntax.Ends, syntax.Succeeds),
+    *(syntax.Reads, syntax.Drives, syntax.Influences, syntax.Stays, syntax.Rewards, syntax.Counts, syntax.Teaches),
+)  # in the order of a declaration
 
 OWNERS = {  # below which declarations the facts of each verb stand
     "skill": ("reads", "drives", "influences", "stays"),
@@ -106,11 +87,6 @@ def insert_above(line: SourceLine, text: str) -> Splice:
     return Splice(line.source, line.start, line.start, text + newline(line.source))
 
 
-def replace_line(line: SourceLine, texts: Iterable[str]) -> Splice:
-    """Other lines in the place of one."""
-    return Splice(line.source, line.start, line.end, newline(line.source).join(texts))
-
-
 def remove_lines(first: SourceLine, last: SourceLine) -> Splice:
     """Lines taken out with the line end before them; the first of a source with what is blank below them."""
     if above := next(first.above(), None):
@@ -143,7 +119,8 @@ def instead(span: Span, text: str) -> Splice:
 
 def instead_of_line(fact: Fact, texts: Iterable[str]) -> Splice:
     """Replace the line of a fact, with its comment, by other lines."""
-    return replace_line(first_line(fact.span), texts)
+    line = first_line(fact.span)
+    return Splice(line.source, line.start, line.end, newline(line.source).join(texts))
 
 
 def line_of(fact: Fact) -> str:
@@ -224,7 +201,13 @@ def number_lines(file: File, texts: Sequence[str]) -> Splice:
 
 def without_declarations(declarations: Iterable[Declaration]) -> tuple[Splice, ...]:
     """Declarations taken out, with the comments that belong to them and the blank lines that set them off."""
-    return tuple(_without(first, last) for first, last in _paragraphs(declarations))
+    splices = []
+    for first, last in _paragraphs(declarations):
+        below = next(last.below(), None)
+        if below is None or below.is_blank:  # else they set off what is said right below
+            first = [first, *takewhile(lambda line: line.is_blank, first.above())][-1]
+        splices.append(remove_lines(first, last))
+    return tuple(splices)
 
 
 def text_of(declarations: Sequence[Declaration]) -> str:
@@ -233,14 +216,6 @@ def text_of(declarations: Sequence[Declaration]) -> str:
     end = newline(source)
     texts = (source.text[first.start : last.end] for first, last in _paragraphs(declarations))
     return (end * 2).join(texts) + end
-
-
-def _without(first: SourceLine, last: SourceLine) -> Splice:
-    """Lines taken out; the blank ones above go as well, unless they set off what is said right below."""
-    below = next(last.below(), None)
-    if below is None or below.is_blank:
-        first = [first, *takewhile(lambda line: line.is_blank, first.above())][-1]
-    return remove_lines(first, last)
 
 
 def _paragraphs(declarations: Iterable[Declaration]) -> list[Extent]:
@@ -258,7 +233,8 @@ def _paragraphs(declarations: Iterable[Declaration]) -> list[Extent]:
 def _extent(declaration: Declaration) -> Extent:
     """From the first comment that leads a declaration to its last line, or the last comment that belongs to it."""
     header = first_line(declaration.header.span)
-    last = first_line(max([declaration.header.span, *(fact.span for fact in declaration.facts)], key=_end))
+    spans = [declaration.header.span, *(fact.span for fact in declaration.facts)]
+    last = first_line(max(spans, key=lambda span: span.end))
     return [header, *_leading(header)][-1], [last, *_closing(last, len(header.indent))][-1]
 
 
@@ -289,7 +265,3 @@ def _closing(last: SourceLine, margin: int) -> list[SourceLine]:
 
 def _start(declaration: Declaration) -> int:
     return declaration.header.span.start
-
-
-def _end(span: Span) -> int:
-    return span.end

@@ -16,7 +16,7 @@ from mindlang.compiler.model import Mind
 from mindlang.compiler.names import SHARED, Names
 from mindlang.compiler.parse import parse
 from mindlang.compiler.parse.explain import proper
-from mindlang.compiler.references import VALUE_NOUNS, Mention, mentions
+from mindlang.compiler.references import READABLE_NOUNS, VALUE_NOUNS, Mention, mentions
 from mindlang.compiler.source import Source, Span
 from mindlang.compiler.splice import Splice
 from mindlang.compiler.syntax import (
@@ -210,12 +210,22 @@ class Project:
         """The skills that say that they influence a skill."""
         return [parent.declaration for parent in self.mind.skills if skill in parent.subskills and not parent.like]
 
-    def refuse_like(self, declaration: Declaration) -> None:
-        """EditError where a skill is like another, so that nothing but what it reads instead is said of it."""
+    def own_skill(self, name: str) -> Declaration:
+        """The declaration of a skill; EditError where it is like another, of which only what it reads is its own."""
+        declaration = self.find(name, "skill")
         if (header := declaration.header).like:
-            name, other = header.name.text, header.like.text
+            other = header.like.text
             hint = f"Edit {other}, or first: {self.main.source.edit('unshare', name)}"
             raise EditError(f"{name} is like {other}, and says nothing of its own.", hint, header.span)
+        return declaration
+
+    def refuse_new_skill(self, name: str, function: str, reads: Sequence[str]) -> None:
+        """EditError where there cannot be a new skill of this name and function that reads this."""
+        refuse_misnamed("skill", name)
+        refuse_lines(function)
+        self.refuse_taken("skill", name)
+        for reading in reads:
+            self.find(reading, *READABLE_NOUNS)
 
     def places(self, skill: str) -> Iterator[Mention]:
         """Where a skill has its place in the hierarchy: where skills influence it, and where it is the master."""

@@ -8,7 +8,7 @@ from pathlib import Path
 from mindrun.graph.graph import Graph
 
 from mindlang.compiler.diagnostic import listed
-from mindlang.editing.apply import Edited, EditedNeighbour
+from mindlang.editing.apply import Edited
 from mindlang.editing.lock_update import Locks, merged
 from mindlang.editing.unified_diff import unified
 from mindlang.files import files_beside, text_of, within_read_limits
@@ -59,12 +59,12 @@ def summarise(edited: Edited) -> list[str]:
         for skill, now in after.items()
         if skill in frozen and isinstance(now, Stale) and isinstance(before.get(old_names[skill]), Trained)
     ]
-    gone = before.keys() - set(old_names.values())
-    lines += [
-        f"{skill} is gone, its weights are forgotten" for skill in sorted(gone) if isinstance(before[skill], Trained)
-    ]
+    gone = sorted(before.keys() - set(old_names.values()))
+    lines += [f"{skill} is gone, its weights are forgotten" for skill in gone if isinstance(before[skill], Trained)]
     if any(isinstance(state, Trained) for state in before.values()):
-        lines.append(_kept(sum(isinstance(state, Trained) for state in after.values())))
+        kept = sum(isinstance(state, Trained) for state in after.values())
+        skills = {0: "no trained skill keeps", 1: "1 trained skill keeps"}.get(kept, f"{kept} trained skills keep")
+        lines.append(f"{skills} what was learnt")
     return lines + _neighbour_sentences(edited)
 
 
@@ -78,38 +78,24 @@ def broken_sentences(edited: Edited) -> list[str]:
     return [f"{name} no longer compiles by itself: {why}" for name, why in broken.items()]
 
 
-def _kept(number: int) -> str:
-    match number:
-        case 0:
-            return "no trained skill keeps what was learnt"
-        case 1:
-            return "1 trained skill keeps what was learnt"
-    return f"{number} trained skills keep what was learnt"
-
-
 def _neighbour_sentences(edited: Edited) -> list[str]:
     """What becomes stale in neighbours, whose locks may say something else of a skill than the mind's own."""
     found: dict[str, list[str]] = {}
+    own = merged(edited.locks, edited.project.taught)
     for other in edited.beside:
         name = other.before.main.source.path.name
         if other.damage:
             found.setdefault(f"{other.damage}; it stays as it is", []).append("")
-        for line in _stale_beside(edited, other) if other.after.graph else ():
-            found.setdefault(line, []).append(name)
+        if other.after.graph is None:
+            continue
+        theirs = merged(edited.locks, other.before.taught)
+        before = _statuses(other.before.graph, edited.locks, other.before.taught)
+        after = _statuses(other.after.graph, edited.followed.locks, [source.path for source in other.after.sources])
+        for skill, old in _old_names(edited, after).items():
+            now = after[skill]
+            if isinstance(now, Stale) and isinstance(before.get(old), Trained) and own.get(old) != theirs.get(old):
+                found.setdefault(f"{skill} is stale: {'; '.join(now.differences)}", []).append(name)
     return [f"{listed(sorted(names), 'and')}: {line}" if any(names) else line for line, names in found.items()]
-
-
-def _stale_beside(edited: Edited, other: EditedNeighbour) -> Iterator[str]:
-    assert other.after.graph
-    own = merged(edited.locks, edited.project.taught)
-    theirs = merged(edited.locks, other.before.taught)
-    before = _statuses(other.before.graph, edited.locks, list(other.before.taught))
-    after = _statuses(other.after.graph, edited.followed.locks, [source.path for source in other.after.sources])
-    old_names = _old_names(edited, after)
-    for skill, now in after.items():
-        old = old_names[skill]
-        if isinstance(now, Stale) and isinstance(before.get(old), Trained) and own.get(old) != theirs.get(old):
-            yield f"{skill} is stale: {'; '.join(now.differences)}"
 
 
 def _old_names(edited: Edited, after: Statuses) -> dict[str, str]:

@@ -51,7 +51,8 @@ def change(folder: Path, files: Files, check: Callable[[], None] = lambda: None,
         note = folder / UNDO_NAME
         try:
             were = {path: _get(path) for path in (note, *files)}
-            _change({note: _note(folder, files, were), **files} if keeps else {**files}, were)
+            noted = {path.relative_to(folder).as_posix(): _Noted(were[path], _hash(files[path])) for path in files}
+            _change({note: msgspec.json.encode(noted), **files} if keeps else {**files}, were)
         except OSError as error:
             raise TransactionError(f"{error.filename or folder} cannot be written: {error.strerror}") from error
 
@@ -82,26 +83,35 @@ def undo(folder: Path) -> tuple[Files, Files]:
     """
     files = _before(folder)
     now = {path: _get(path) for path in files}
+
+    def refuse_changed() -> None:
+        if _before(folder) != files:
+            raise TransactionError("another edit has been written meanwhile", "nothing has been taken back")
+
     with no_training(files):
-        change(folder, files, lambda: _refuse_changed(folder, files))
+        change(folder, files, refuse_changed)
     (folder / UNDO_NAME).unlink(missing_ok=True)
     return now, files
 
 
 def _before(folder: Path) -> Files:
     """What the files of the last edit were before it; TransactionError where one is neither that nor what it became."""
-    noted = _read(folder / UNDO_NAME)
-    for path, note in noted.items():
-        if _hash(_get(path)) not in (note.becomes, _hash(note.was)):
+    note = folder / UNDO_NAME
+    try:
+        noted = msgspec.json.decode(read_whole(note, MAX_FILE_BYTES), type=dict[str, _Noted])
+        files = {folder / name: each for name, each in noted.items()}
+        is_ours = all(_is_ours(folder, path) for path in files)  # it may have come with a project that was fetched
+    except OSError as error:
+        raise TransactionError(f"{note} cannot be read: {error.strerror}", "delete it") from error
+    except (msgspec.MsgspecError, ValueError, RuntimeError):  # what nests too deep, or links in a circle
+        is_ours = False
+    if not is_ours:
+        raise TransactionError(f"{note} is not what mindc wrote", "delete it")
+    for path, each in files.items():
+        if _hash(_get(path)) not in (each.becomes, _hash(each.was)):
             message = f"{path} has been changed since the last edit was written"
             raise TransactionError(message, "nothing has been taken back")
-    return {path: note.was for path, note in noted.items()}
-
-
-def _refuse_changed(folder: Path, files: Files) -> None:
-    """TransactionError where another edit was written meanwhile, or one of the files."""
-    if _before(folder) != files:
-        raise TransactionError("another edit has been written meanwhile", "nothing has been taken back")
+    return {path: each.was for path, each in files.items()}
 
 
 def _change(files: dict[Path, bytes | None], were: Files) -> None:
@@ -140,35 +150,8 @@ def _exchange(path: Path, data: bytes | None, was: bytes | None) -> None:
         raise OSError(errno.ESTALE, "it has been changed meanwhile", str(path))
 
 
-def _note(folder: Path, files: Files, were: Files) -> bytes:
-    noted = {path.relative_to(folder).as_posix(): _Noted(were[path], _hash(data)) for path, data in files.items()}
-    return msgspec.json.encode(noted)
-
-
-def _read(note: Path) -> dict[Path, _Noted]:
-    """What a note says; TransactionError where it is none that mindc wrote."""
-    try:
-        noted = msgspec.json.decode(read_whole(note, MAX_FILE_BYTES), type=dict[str, _Noted])
-        return {_inside(note.parent, path): each for path, each in noted.items()}
-    except OSError as error:
-        raise TransactionError(f"{note} cannot be read: {error.strerror}", "delete it") from error
-    except (msgspec.MsgspecError, ValueError, RuntimeError) as error:
-        # a RuntimeError is of what nests too deep, or of links in a circle
-        raise TransactionError(f"{note} is not what mindc wrote", "delete it") from error
-
-
-def _inside(folder: Path, name: str) -> Path:
-    """The path of a file in a folder; ValueError where that leads out of it, or to a file that mindc never changes.
-
-    A note may have come from anywhere, with a project that somebody has fetched.
-    """
-    path = folder / name
-    if not _is_ours(folder, path):
-        raise ValueError(name)
-    return path
-
-
 def _is_ours(folder: Path, path: Path) -> bool:
+    """Whether a path leads to a file in a folder, of those that mindc changes."""
     return path.suffix in CHANGED_SUFFIXES and not path.is_symlink() and path.resolve().is_relative_to(folder.resolve())
 
 

@@ -15,11 +15,10 @@ from mindrun.sim.rollouts import rollout_for
 from mindrun.sim.trace import trace
 from numpy.typing import NDArray
 
-from mindlang.compiler.references import READABLE_NOUNS
 from mindlang.editing.apply import Edited
 from mindlang.editing.lock_update import merged, new_names
 from mindlang.editing.project import EditError
-from mindlang.editing.world_names import NounNames, now_called
+from mindlang.editing.world_names import NounNames, now_called, renamed
 from mindlang.lock import Lock
 from mindlang.lock.blobs import blob, load_weights
 from mindlang.lock.signature import arrange
@@ -69,57 +68,56 @@ def verify_unchanged(edited: Edited, prepare: Callable[[Rollout], None] = Rollou
     What they read is recorded from a run in the simulator, as the mind was; `prepare` compiles it. EditError where one
     did something else. Runs the Python code of the mind's procedures.
     """
-    lock = merged(edited.locks, edited.project.taught)
+    lock, now = merged(edited.locks, edited.project.taught), merged(edited.followed.locks, edited.sources)
     folder = edited.project.main.source.folder
     before = MindVersion(arrange(edited.project.graph, lock), lock, {}, folder)
-    now = merged(edited.followed.locks, edited.sources)
     after = MindVersion(arrange(edited.graph, now), now, edited.followed.weights, folder)
     names = new_names(edited.change)
+    called = renamed(before.graph, lambda text, *nouns: now_called(text, names, *nouns))
     done = []
     for skill, state in status(before.graph, lock).items():
         master = names["skill"].get(skill, skill)
-        if isinstance(state, Trained) and _is_untouched(before, after, skill, master, names):
-            recorded = _recorded(before, skill, state, prepare)
-            _hold(recorded, before, after, skill, master, names)
+        old = before.weights(skill) if isinstance(state, Trained) else None
+        new = after.weights(master) if old and owner_of(after.graph, master) in after.lock else None
+        if isinstance(state, Trained) and old and new and _is_untouched(called, old, after.graph, new, master, names):
+            recorded = _recorded(before, skill, state.entry.taught.task, old, prepare)
+            _hold(recorded, called, after.graph, before.engine(skill, old), after.engine(master, new), master)
             done.append(master)
     return done
 
 
-def _is_untouched(before: MindVersion, after: MindVersion, skill: str, master: str, names: NounNames) -> bool:
-    """Whether all that a skill reaches is declared as before, or has been widened to do as before; and can act."""
-    old, new = before.weights(skill), owner_of(after.graph, master) in after.lock and after.weights(master)
-    if not old or not new:
-        return False
-    skills = {found.name: found for found in after.graph.skills}
-    for found in reachable(before.graph, skill):
-        name = names["skill"].get(found.name, found.name)
-        if name not in skills:
+def _is_untouched(
+    before: Graph, old: Mapping[str, Weights], after: Graph, new: Mapping[str, Weights], master: str, names: NounNames
+) -> bool:
+    """Whether all that a skill reaches is declared as before, or has been widened to do as before.
+
+    `before` has the names that are called otherwise now, and `old` the weights by the names that they had.
+    """
+    skills = {found.name: found for found in after.skills}
+    widths = {names["skill"].get(owner, owner): len(weights) for owner, weights in old.items()}
+    for found in reachable(before, master):
+        if found.name not in skills:
             return False
-        owner = skills[name].owner
-        widened = owner in new and found.owner in old and len(new[owner]) != len(old[found.owner])
-        if not (widened or _shape(before, found, names) == _shape(after, skills[name], {})):
+        owner = skills[found.name].owner
+        is_widened = owner in new and widths.get(found.owner, len(new[owner])) != len(new[owner])
+        if not is_widened and _shape(before, found) != _shape(after, skills[found.name]):
             return False
     return True
 
 
-def _shape(side: MindVersion, skill: Skill, names: NounNames) -> object:
+def _shape(graph: Graph, skill: Skill) -> object:
     """What a skill reads and sends, by name."""
-    readings = _readings(side.graph)
-
-    def called(index: float) -> tuple[str, int]:
-        name, number = readings[int(index)]
-        return now_called(name, names, *READABLE_NOUNS), number
-
+    readings = _readings(graph)
     edges = [
         (
             edge.to,
-            now_called(side.graph.named(edge.to, edge.target), names, edge.to),
+            graph.named(edge.to, edge.target),
             edge.output,
-            [(word, called(value) if word == "reading" else value) for word, value in edge.value],
+            [(word, readings[int(value)] if word == "reading" else value) for word, value in edge.value],
         )
         for edge in skill.edges
     ]
-    return skill.function, [called(index) for index in skill.inputs], edges
+    return skill.function, [readings[index] for index in skill.inputs], edges
 
 
 def _readings(graph: Graph) -> list[tuple[str, int]]:
@@ -128,24 +126,18 @@ def _readings(graph: Graph) -> list[tuple[str, int]]:
     return wide + [(memory.name, 0) for memory in graph.memories]
 
 
-def _hold(
-    recorded: NDArray[np.float32], before: MindVersion, after: MindVersion, skill: str, master: str, names: NounNames
-) -> None:
-    """Run a skill before and after on the same readings; EditError at the first tick that differs."""
-    columns = {
-        (now_called(name, names, *READABLE_NOUNS), number): column
-        for column, (name, number) in enumerate(_readings(before.graph))
-    }
-    places = [columns.get(reading, -1) for reading in _readings(after.graph)]
+def _hold(recorded: NDArray[np.float32], before: Graph, after: Graph, old: Engine, new: Engine, master: str) -> None:
+    """Run a skill before and after on the same readings; EditError at the first tick that differs.
+
+    `before` has the names that are called otherwise now.
+    """
+    columns = {reading: column for column, reading in enumerate(_readings(before))}
+    places = [columns.get(reading, -1) for reading in _readings(after)]
     with_zero = np.concatenate([recorded, np.zeros((len(recorded), 1), np.float32)], axis=1)  # for what is new
-    old, new = before.weights(skill), after.weights(master)
-    assert old is not None
-    assert new is not None
-    engines = before.engine(skill, old), after.engine(master, new)
-    actuators = [now_called(actuator.name, names, "actuator") for actuator in before.graph.actuators]
-    order = [[actuator.name for actuator in after.graph.actuators].index(name) for name in actuators]
+    actuators = [actuator.name for actuator in after.actuators]
+    order = [actuators.index(actuator.name) for actuator in before.actuators]
     for tick, readings in enumerate(with_zero):
-        commands = engines[0].tick(readings[:-1]), engines[1].tick(readings[places])[order]
+        commands = old.tick(readings[:-1]), new.tick(readings[places])[order]
         if commands[0].tobytes() != commands[1].tobytes():
             raise EditError(
                 f"{master} would do something else: at tick {tick} of a recorded run it commands "
@@ -154,13 +146,13 @@ def _hold(
             )
 
 
-def _recorded(side: MindVersion, skill: str, state: Trained, prepare: Callable[[Rollout], None]) -> NDArray[np.float32]:
+def _recorded(
+    side: MindVersion, skill: str, task: str, weights: Mapping[str, Weights], prepare: Callable[[Rollout], None]
+) -> NDArray[np.float32]:
     """What a skill reads [ticks, graph.width] in a run of the task on which it was taught; 0 of what it does not."""
-    tasks = [task.name for task in side.graph.tasks]
-    task = state.entry.taught.task if state.entry.taught.task in tasks else tasks[0]
-    weights = side.weights(skill)
-    assert weights is not None
-    rollout = rollout_for(Policy(side.graph, weights), task, skill, procedures=side.folder)
+    tasks = [each.name for each in side.graph.tasks]
+    policy = Policy(side.graph, weights)
+    rollout = rollout_for(policy, task if task in tasks else tasks[0], skill, procedures=side.folder)
     prepare(rollout)
     moments = islice(trace(rollout, VERIFIED_SEED).moments, VERIFIED_TICKS)
     readings = np.array([moment.readings for moment in moments])

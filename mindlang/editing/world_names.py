@@ -90,16 +90,14 @@ class Renaming:
         def text(role: Role, old: str) -> str:
             return texts.get((role, old)) or self._read_again(role, old)
 
-        facts = world.facts.items()
-        now = {self._subject(subject): _mapped(value, (_noun(subject),), text) for subject, value in facts}
+        now = {}
+        for subject, value in world.facts.items():
+            noun, space, own = subject.partition(" ")
+            now[f"{noun}{space}{self.name(own, noun)}"] = _mapped(value, (noun,), text)
         lesson = world.facts["lesson"]
         nouns = {"task": "task", "master": "skill", "starts_from": "skill"}
         named = {key: self.name(lesson[key], noun) for key, noun in nouns.items() if key in lesson}
         return TrainingWorld({**now, "lesson": {**lesson, **named}})
-
-    def _subject(self, subject: str) -> str:
-        noun, space, named = subject.partition(" ")
-        return f"{noun}{space}{self.name(named, noun)}"
 
     def _texts(self, world: TrainingWorld) -> dict[tuple[Role, str], str]:
         """Every text in the world of the same lesson, where a mind has it, by its role and as it was: as it is now."""
@@ -109,13 +107,13 @@ class Renaming:
             found.setdefault((role, self._unmarked(text, 0)), self._unmarked(text, 1))
             return text
 
+        lesson = world.lesson
         for mind in self._marked:
-            lesson = world.lesson
             task, master = self._mark(lesson.task, "task"), self._mark(lesson.master, "skill")
-            if {task} <= {each.name for each in mind.graph.tasks} and master in mind.graph.skill_numbers:
+            if task in {each.name for each in mind.graph.tasks} and master in mind.graph.skill_numbers:
                 facts = mind.of_gone(type(lesson)(task, master, lesson.jointly), {}).facts
                 for subject, value in facts.items():
-                    _mapped(value, (_noun(subject),), noted)
+                    _mapped(value, (subject.partition(" ")[0],), noted)
         return found
 
     @cached_property
@@ -150,17 +148,10 @@ class Renaming:
             fact = cast(Fact, parse_line(source.text, source, 0))
         except UnexpectedInput:
             return text
-        mentions = names_in(fact, self._known, None)
+        known = Names({noun: cast(dict[str, Declaration], named) for noun, named in self.names.items()})
+        mentions = names_in(fact, known, None)
         splices = (instead(each.name.span, self.name(each.name.text, each.noun)) for each in mentions)
         return spliced(source, splices).removeprefix(before).removesuffix(after)
-
-    @cached_property
-    def _known(self) -> Names:
-        return Names({noun: cast(dict[str, Declaration], named) for noun, named in self.names.items()})
-
-
-def _noun(subject: str) -> str:
-    return subject.partition(" ")[0]
 
 
 def _mapped(value: Any, role: Role, text: Callable[[Role, str], str]) -> Any:

@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING
 
 from mindrun.errors import MindError
 
-from mindlang.executors.job_scorer import JobScorer
-from mindlang.executors.jobs import Assignment, JobExecutor
+from mindlang.executors.jobs import Assignment, JobExecutor, JobScorer
 from mindlang.executors.processes import ProcessJobs
 
 if TYPE_CHECKING:

@@ -26,7 +26,6 @@ from distributed import Client, Future, KilledWorker, get_worker
 from distributed.security import Security
 from mindrun.train.manifest import Build, difference, own_build, sources_hash
 
-from mindlang.executors.job_scorer import JobScorer
 from mindlang.executors.jobs import (
     FATAL,
     MAX_LOSSES,
@@ -36,6 +35,7 @@ from mindlang.executors.jobs import (
     Failed,
     Job,
     JobExecutor,
+    JobScorer,
     WorkError,
     answer,
     rollout_of,

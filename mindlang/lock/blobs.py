@@ -75,10 +75,12 @@ def record(
     weights = {**others, **learnt}
     entries = {}
     for skill in learnt:
-        entry = _entry(path, graph, skill, weights, taught)
         before = begun_with.get(skill)
+        earlier = before.worlds if before and world else ()  # of the same lesson only the last counts
+        worlds = (*(each for each in earlier if world and each.lesson != world.lesson), *([world] if world else []))
         origin = origins.get(skill, before.origin if before else None)
-        entries[skill] = replace(entry, worlds=_worlds(before, world), origin=origin, accepted=accepted)
+        entry = _entry(path, graph, skill, weights, taught)
+        entries[skill] = replace(entry, worlds=worlds, origin=origin, accepted=accepted)
     try:
         with exclusive_folder(path.parent / FOLDER):
             lock = read_lock(path)
@@ -89,14 +91,6 @@ def record(
         names = listed(entries, "and")
         raise LockError(f"the weights of {names} cannot be written: {error.strerror}") from error
     return entries
-
-
-def _worlds(before: Entry | None, world: TrainingWorld | None) -> tuple[TrainingWorld, ...]:
-    """The worlds of a skill that has been taught in `world` now: of the same lesson only the last counts."""
-    if world is None:
-        return ()
-    earlier = before.worlds if before else ()
-    return (*(each for each in earlier if each.lesson != world.lesson), world)
 
 
 def _entry(path: Path, graph: Graph, skill: str, weights: Mapping[str, Weights], taught: Taught) -> Entry:
@@ -155,13 +149,11 @@ def _folders(project: Path) -> Iterator[Path]:
 
 
 def _unnamed(folder: Path) -> list[Path]:
-    named = {
-        entry.weights for lock in folder.glob("*.lock") if _is_of_a_mind(lock) for entry in read_lock(lock).values()
-    }
+    locks = (  # other tools have some, too (poetry.lock)
+        lock
+        for lock in folder.glob("*.lock")
+        if lock.with_suffix(".mind").exists() or read_regular(lock, 11) == b"# mind lock"
+    )
+    named = {entry.weights for lock in locks for entry in read_lock(lock).values()}
     blobs = ((path, _BLOB.fullmatch(path.name)) for path in sorted((folder / FOLDER).iterdir()))
     return [path for path, found in blobs if found and found["hash"] not in named and not path.is_symlink()]
-
-
-def _is_of_a_mind(lock: Path) -> bool:
-    """Whether a lock is one of ours: other tools have locks, too (poetry.lock)."""
-    return lock.with_suffix(".mind").exists() or read_regular(lock, 11) == b"# mind lock"

@@ -42,9 +42,10 @@ def make_ready(graph: Graph, sources: Iterable[Source], master: str | None = Non
     weights, refusals = trained_weights(graph, lock, frozenset(needed))
     states = status(graph, lock, sources[0].folder)
     acting = {name: states[name] for name in needed}
-    return ReadyMind(
-        Policy(graph, weights), tuple(refusals), (*elsewhere_sentences(acting), *unknown_world_sentences(acting))
-    )
+    notes = [*elsewhere_sentences(acting)]
+    if unknown := [name for name, state in acting.items() if isinstance(state, Trained) and not state.entry.worlds]:
+        notes.append(f"{_were_taught(unknown)} {UNKNOWN}")
+    return ReadyMind(Policy(graph, weights), tuple(refusals), tuple(notes))
 
 
 def elsewhere_sentences(states: Mapping[str, Status]) -> Iterator[str]:
@@ -55,13 +56,6 @@ def elsewhere_sentences(states: Mapping[str, Status]) -> Iterator[str]:
             ways.setdefault(state.changes, []).append(name)
     for changes, skills in ways.items():
         yield f"{_were_taught(skills)} elsewhere: {'; '.join(changes)}"
-
-
-def unknown_world_sentences(states: Mapping[str, Status]) -> Iterator[str]:
-    """A sentence for all skills of which the lock does not know in which world they were taught."""
-    skills = [name for name, state in states.items() if isinstance(state, Trained) and not state.entry.worlds]
-    if skills:
-        yield f"{_were_taught(skills)} {UNKNOWN}"
 
 
 def _were_taught(skills: Sequence[str]) -> str:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from mindrun.graph.graph import Graph, Lesson, Skill
+from mindrun.graph.graph import Graph, Lesson
 from mindrun.graph.skill_sets import learners, owner_of, owners, reachable
 
 from mindlang.compiler.diagnostic import listed
@@ -94,8 +94,14 @@ def rows(graph: Graph, sources: Sequence[Path]) -> list[Row]:
     needed = {skill.name for skill in reachable(graph, graph.master)}
     found = []
     for skill in graph.skills:
-        state, due = states[skill.name], _due(graph, skill.name, states)
-        found.append(Row(skill.name, state, skill.frozen, skill.name in needed, _damage(skill, state), skill.like, due))
+        state, damage = states[skill.name], ""
+        try:
+            if isinstance(state, Trained):
+                load_weights(state.entry, skill)
+        except LockError as error:
+            damage = str(error)
+        due = _due(graph, skill.name, states)
+        found.append(Row(skill.name, state, skill.frozen, skill.name in needed, damage, skill.like, due))
     return found
 
 
@@ -108,16 +114,6 @@ def _due(graph: Graph, skill: str, states: Mapping[str, Status]) -> tuple[Lesson
     teaching = [lesson for lesson in teaching if lesson.curriculum == teaching[0].curriculum]
     standing = {lesson: {name: states[name] for name in learners(graph, lesson)} for lesson in teaching}
     return tuple(lesson for lesson, learning in standing.items() if is_due(graph, lesson, learning))
-
-
-def _damage(skill: Skill, state: Status) -> str:
-    """What is wrong with a trained skill's weights."""
-    if isinstance(state, Trained):
-        try:
-            load_weights(state.entry, skill)
-        except LockError as error:
-            return str(error)
-    return ""
 
 
 def made(row: Row) -> str:

@@ -3,11 +3,9 @@
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import accumulate
-from typing import Any
 
 from mindrun.graph.graph import Edge, Graph, Skill
 from mindrun.kinds.registry import arguments, names
-from mindrun.kinds.sensors.sensor import SensorKind
 from networkx import DiGraph, lexicographical_topological_sort
 
 from mindlang.lock import Entry, Lock, Signature
@@ -16,10 +14,18 @@ MAX_WIDTH_DIGITS = 9  # of how many readings a sensor has, where a text from out
 
 
 def signature(graph: Graph, skill: Skill) -> Signature:
-    """The signature of a skill that learns."""
-    reads = (f"{name}:{many}" if many > 1 else name for name, many in _reads(graph, skill))
+    """The signature of a skill that learns; of its function every argument is said: mlp hidden 2 width 14."""
+    at = {sensor.start: (sensor.name, sensor.width) for sensor in graph.sensors}
+    at |= {memory.start: (memory.name, 1) for memory in graph.memories}
+    read = (at[index] for index in skill.inputs if index in at)
     sends = (graph.named(edge.to, edge.target) for edge in skill.edges if edge.output is not None)
-    return Signature(_function(skill), tuple(reads), tuple(sends))
+    function = skill.function.explicit(len(skill.inputs), skill.outputs)
+    said = (f"{each.key} {getattr(function, each.field)}" for each in arguments(type(function)))
+    return Signature(
+        " ".join([names()[type(function)], *said]),
+        tuple(f"{name}:{many}" if many > 1 else name for name, many in read),
+        tuple(sends),
+    )
 
 
 def differences(old: Signature, new: Signature, derived: Collection[str]) -> tuple[str, ...]:
@@ -27,26 +33,38 @@ def differences(old: Signature, new: Signature, derived: Collection[str]) -> tup
 
     The arguments in `derived` are not told where what is read or sent tells it already, from which they follow.
     """
-    found = [*_read_differences(_widths(old), _widths(new)), *_changes("sends", set(old.sends), set(new.sends))]
-    (old_kind, before), (new_kind, now) = _arguments(old), _arguments(new)
+    had, has = ({read.partition(":")[0]: width(read) for read in each.reads} for each in (old, new))
+    found = [*_changes("reads", set(had), set(has))]
+    for name in sorted(had.keys() & has.keys()):
+        if had[name] != has[name]:
+            found.append(f"{name} had {had[name]} reading{'s' * (had[name] != 1)}, now {has[name]}")
+    found += _changes("sends", set(old.sends), set(new.sends))
+    (old_kind, *before), (new_kind, *now) = old.function.split(), new.function.split()
     if old_kind != new_kind:
         return (f"was {old_kind}, now {new_kind}", *found)
-    for key in before | now:
-        if before.get(key) != now.get(key) and not (key in derived and found):
-            found.append(f"{key} was {before.get(key, 'not there')}, now {now.get(key, 'not there')}")
+    was, is_ = (dict(zip(words[::2], words[1::2], strict=False)) for words in (before, now))
+    for key in was | is_:
+        if was.get(key) != is_.get(key) and not (key in derived and found):
+            found.append(f"{key} was {was.get(key, 'not there')}, now {is_.get(key, 'not there')}")
     return tuple(found)
+
+
+def _changes(verb: str, old: set[str], new: set[str]) -> Iterator[str]:
+    yield from (f"{verb} {name} is new" for name in sorted(new - old))
+    yield from (f"{verb} {name} is gone" for name in sorted(old - new))
 
 
 def reordered(entry: Entry, graph: Graph) -> tuple[str, ...]:
     """The sensors that a skill reads whose readings stand in another order than in the world it was last taught in."""
     kinds = {sensor.name: sensor.kind for sensor in graph.sensors}
-    read = [text.partition(":")[0] for text in entry.signature.reads]
     facts = entry.worlds[-1].facts if entry.worlds else {}
-    return tuple(
-        f"the readings of {name} stand in another order"
-        for name in read
-        if _is_reordered(facts.get(f"sensor {name}", {}).get("at"), kinds.get(name))
-    )
+    found = []
+    for name in (text.partition(":")[0] for text in entry.signature.reads):
+        old = facts.get(f"sensor {name}", {}).get("at")
+        now = kinds[name].directions if isinstance(old, list) and name in kinds else None
+        if now is not None and tuple(old) != now and sorted(old) == sorted(now):
+            found.append(f"the readings of {name} stand in another order")
+    return tuple(found)
 
 
 def width(name: str) -> int:
@@ -62,48 +80,6 @@ def places(of: Sequence[str], among: Sequence[str], counterparts: Mapping[str, s
     """
     starts = dict(zip(among, accumulate(map(width, among), initial=0), strict=False))
     return [starts[counterparts.get(name, name)] + number for name in of for number in range(width(name))]
-
-
-def _is_reordered(old: Any, now: SensorKind | None) -> bool:
-    """Whether a sensor measures at the same angles, in another order."""
-    if not isinstance(old, list) or now is None:
-        return False
-    return tuple(old) != now.directions and sorted(old) == sorted(now.directions)
-
-
-def _reads(graph: Graph, skill: Skill) -> Iterator[tuple[str, int]]:
-    """The names and widths of what a skill reads, in its order."""
-    at = {sensor.start: (sensor.name, sensor.width) for sensor in graph.sensors}
-    at |= {memory.start: (memory.name, 1) for memory in graph.memories}
-    return (at[index] for index in skill.inputs if index in at)
-
-
-def _function(skill: Skill) -> str:
-    """The function as a phrase, every argument said: mlp hidden 2 width 14."""
-    function = skill.function.explicit(len(skill.inputs), skill.outputs)
-    said = (f"{each.key} {getattr(function, each.field)}" for each in arguments(type(function)))
-    return " ".join([names()[type(function)], *said])
-
-
-def _arguments(of: Signature) -> tuple[str, dict[str, str]]:
-    kind, *words = of.function.split()
-    return kind, dict(zip(words[::2], words[1::2], strict=False))
-
-
-def _widths(of: Signature) -> dict[str, int]:
-    return {read.partition(":")[0]: width(read) for read in of.reads}
-
-
-def _read_differences(old: dict[str, int], new: dict[str, int]) -> Iterator[str]:
-    yield from _changes("reads", set(old), set(new))
-    for name in sorted(old.keys() & new.keys()):
-        if old[name] != new[name]:
-            yield f"{name} had {old[name]} reading{'s' * (old[name] != 1)}, now {new[name]}"
-
-
-def _changes(verb: str, old: set[str], new: set[str]) -> Iterator[str]:
-    yield from (f"{verb} {name} is new" for name in sorted(new - old))
-    yield from (f"{verb} {name} is gone" for name in sorted(old - new))
 
 
 def arrange(graph: Graph, lock: Lock) -> Graph:
@@ -154,12 +130,9 @@ def _by_name(graph: Graph) -> Graph:
     }
     order = list(lexicographical_topological_sort(DiGraph(children)))
     place = {name: index for index, name in enumerate(order)}
-    moved = {
-        skill.name: replace(skill, edges=tuple(_moved(graph, edge, place) for edge in skill.edges))
-        for skill in graph.skills
-    }
-    return replace(graph, skills=tuple(moved[name] for name in order))
 
+    def moved(edge: Edge) -> Edge:
+        return replace(edge, target=place[graph.named("skill", edge.target)]) if edge.to == "skill" else edge
 
-def _moved(graph: Graph, edge: Edge, place: dict[str, int]) -> Edge:
-    return replace(edge, target=place[graph.named("skill", edge.target)]) if edge.to == "skill" else edge
+    skills = {skill.name: replace(skill, edges=tuple(map(moved, skill.edges))) for skill in graph.skills}
+    return replace(graph, skills=tuple(skills[name] for name in order))

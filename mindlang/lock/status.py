@@ -9,7 +9,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from mindrun.graph.graph import Graph, Lesson, Need, Skill
+from mindrun.graph.graph import Graph, Lesson, Skill
 from mindrun.graph.skill_sets import below, genes, learners, owner_of, owners, reachable
 
 from mindlang.lock import Entry, Lock, Taught
@@ -105,8 +105,11 @@ class _Standing:
             if not lessons and world != entry.worlds[-1]:
                 continue  # it has learnt something since, and nothing could teach it that again
             told = {lesson: self._world_changes(world, lesson) for lesson in lessons}
-            if all(told.values()) and (same := self._renamed(world, entry, told)):
-                told = {lesson: [] for lesson in same}
+            if all(told.values()):  # one that is just as the world says may have another name now
+                others = (each for each in self._teaching[entry.skill] if each not in told)
+                alike_else = (each for each in others if each.with_subskills == world.lesson.jointly)
+                same = [each for each in alike_else if not self._world_changes(world, each)]
+                told = {lesson: [] for lesson in same} or told
             fewest: list[str] = min(told.values(), key=len) if told else self._world_changes(world, None)
             changed += fewest
             outdated |= {lesson for lesson, said in told.items() if said}
@@ -118,18 +121,12 @@ class _Standing:
             outdated |= {*in_question(alike, last)}
         return Trained(entry, tuple(dict.fromkeys((*subskills, *changed))), frozenset(outdated), last)
 
-    def _renamed(self, world: TrainingWorld, entry: Entry, told: Collection[Lesson]) -> list[Lesson]:
-        """The lessons of a skill that are just as a world says, whose name another has now."""
-        others = (each for each in self._teaching[entry.skill] if each not in told)
-        alike = (each for each in others if each.with_subskills == world.lesson.jointly)
-        return [each for each in alike if not self._world_changes(world, each)]
-
     def _world_changes(self, world: TrainingWorld, lesson: Lesson | None) -> list[str]:
         """What has changed in the world of a lesson; None where none of the mind is of it."""
         key = world.lesson
         if lesson:
             return changes(world, self._worlds.of(lesson))
-        if key.task not in self._tasks:
+        if all(task.name != key.task for task in self.graph.tasks):
             return [f"its task {key.task} is gone"]
         if key.master not in self.graph.skill_numbers:
             return [f"its master {key.master} is gone"]
@@ -176,10 +173,6 @@ class _Standing:
     @cached_property
     def _worlds(self) -> Worlds:
         return Worlds(self.graph, self.folder)
-
-    @cached_property
-    def _tasks(self) -> set[str]:
-        return {task.name for task in self.graph.tasks}
 
     @cached_property
     def _teaching(self) -> dict[str, list[Lesson]]:
@@ -259,14 +252,16 @@ def lessons_of(
     if found := [lesson for lesson in teaching if key_of(lesson) == key]:
         return in_question(found, last)
     known = {each.lesson for each in entry.worlds}
-    gone = {key.task} - {task.name for task in graph.tasks}, {key.master} - graph.skill_numbers.keys()
-    return [each for each in teaching if key_of(each) not in known and _may_be(key_of(each), key, *gone)]
-
-
-def _may_be(now: LessonKey, key: LessonKey, tasks: Collection[str], masters: Collection[str]) -> bool:
-    """Whether a lesson is another, `key`, but for the names of the task and the master that are gone."""
-    same_task = now.task == key.task or key.task in tasks
-    return same_task and (now.master == key.master or key.master in masters) and now.jointly == key.jointly
+    is_task_gone = key.task not in {task.name for task in graph.tasks}
+    is_master_gone = key.master not in graph.skill_numbers
+    return [
+        each
+        for each in teaching
+        if key_of(each) not in known
+        and (each.task == key.task or is_task_gone)
+        and (each.master == key.master or is_master_gone)
+        and each.with_subskills == key.jointly
+    ]
 
 
 def needed_skills(graph: Graph, lesson: Lesson) -> set[str]:
@@ -300,14 +295,10 @@ def _is_due(lesson: Lesson, earlier: Iterable[Lesson], state: Status) -> bool:
     if lesson in state.outdated:
         return True
     taught = key_of_taught(state.entry.taught)
-    if key_of(lesson) == taught and not all(_has(state.entry.taught, each) for each in lesson.needs):
+    reached = {"score": state.entry.taught.score, "success": state.entry.taught.success}
+    had = ((reached[need.measure], need.above) for need in lesson.needs)
+    if key_of(lesson) == taught and not all(value is not None and value > above for value, above in had):
         return True  # taught by less than it needs, or before it needed that
     if state.last and state.last.curriculum == lesson.curriculum:
         return state.last.number < lesson.number
     return key_of(lesson) != taught and any(key_of(other) == taught for other in earlier)
-
-
-def _has(taught: Taught, needed: Need) -> bool:
-    """Whether what was taught is known to have what a lesson needs."""
-    reached = taught.score if needed.measure == "score" else taught.success
-    return reached is not None and reached > needed.above

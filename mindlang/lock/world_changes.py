@@ -26,7 +26,11 @@ def changes(old: TrainingWorld, now: TrainingWorld) -> list[str]:
 def _changes(old: Mapping[str, Any], now: Mapping[str, Any]) -> Iterator[str]:
     if old["tick"] != now["tick"]:
         yield f"taught with tick {_tick(old['tick'])}, now {_tick(now['tick'])}"
-    yield from _physics_changes(old.get("physics"), now.get("physics"))
+    was, is_ = old.get("physics"), now.get("physics")
+    if was and is_ and was["pymunk"] != is_["pymunk"]:
+        yield f"taught with pymunk {was['pymunk']}, now {is_['pymunk']}"
+    if was and is_ and was["world"] != is_["world"]:
+        yield f"taught in version {was['world']} of the simulated world, now {is_['world']}"
     yield from _kind_changes("body", "body", old["body"], now["body"])
     for subject in sorted(old.keys() & now.keys()):
         noun, _, name = subject.partition(" ")
@@ -34,24 +38,23 @@ def _changes(old: Mapping[str, Any], now: Mapping[str, Any]) -> Iterator[str]:
             yield from _kind_changes(NOUNS.get(noun, noun), name, old[subject], now[subject])
         elif noun == "skill":
             yield from _skill_changes(name, old[subject], now[subject])
-    yield from _actuators_at_rest(old, now)
-    if old.get("claw") != now.get("claw") and not _is_already_reported(old, now):
-        yield f"taught with a claw's reach of {_reach(old)}, now {_reach(now)}"
+    for subject in sorted(old.keys() ^ now.keys()):  # of the actuators those that move something in one of the worlds
+        noun, _, name = subject.partition(" ")
+        if noun == "actuator":
+            yield f"taught with {name}, which does nothing now" if subject in old else f"taught without {name}"
+        if noun == "thing":
+            yield f"its task has changed: {'contains' if subject in now else 'no longer contains'} {name}"
+    yield from _claw_changes(old, now)
     yield from _task_changes(old, now)
-    yield from _lesson_changes(old["lesson"], now["lesson"])
+    before, after = _beginning(old["lesson"]), _beginning(now["lesson"])
+    if before != after:
+        yield f"taught {before}, now {after}"
+    yield from _kind_changes("curriculum", "the learner", old["lesson"]["learner"], now["lesson"]["learner"])
 
 
 def _tick(seconds: float) -> str:
     a_second = 1.0 / seconds
     return f"1/{a_second:.6g} s" if abs(a_second - round(a_second)) < 1e-9 * a_second else f"{number(seconds)} s"
-
-
-def _physics_changes(old: Mapping[str, Any] | None, now: Mapping[str, Any] | None) -> Iterator[str]:
-    """What computes the world otherwise; nothing where the lock does not say what did."""
-    if old and now and old["pymunk"] != now["pymunk"]:
-        yield f"taught with pymunk {old['pymunk']}, now {now['pymunk']}"
-    if old and now and old["world"] != now["world"]:
-        yield f"taught in version {old['world']} of the simulated world, now {now['world']}"
 
 
 def _kind_changes(noun: str, name: str, old: Mapping[str, Any], now: Mapping[str, Any]) -> Iterator[str]:
@@ -60,7 +63,7 @@ def _kind_changes(noun: str, name: str, old: Mapping[str, Any], now: Mapping[str
         yield f"taught with {name} as {old['is']}, now {now['is']}"
         return
     for field in [field for field in now if field != "is" and field in old and old[field] != now[field]]:
-        if _are_lines(now[field]):
+        if isinstance(now[field], list) and any(isinstance(each, str) for each in now[field]):
             yield f"the text of {name} has changed"
         elif meaning_of(noun, now["is"], field) != ANGLE or not _are_one_direction(old[field], now[field]):
             before, after = (argument(noun, now["is"], field, each[field]) for each in (old, now))
@@ -74,109 +77,80 @@ def _are_one_direction(old: Any, now: Any) -> bool:
     return known and all(abs(sin((a - b) / 2)) < SAME_DIRECTION for a, b in zip(before, after, strict=True))
 
 
-def _are_lines(value: Any) -> bool:
-    return isinstance(value, list) and any(isinstance(each, str) for each in value)
-
-
 def _skill_changes(name: str, old: Mapping[str, Any], now: Mapping[str, Any]) -> Iterator[str]:
     if old.get("text") != now.get("text") and old.get("text") and now.get("text"):
         yield f"the text of {name}'s procedure has changed"
     before, after = _skill_words(old), _skill_words(now)
     gone, new = ", ".join(sorted((before - after).elements())), ", ".join(sorted((after - before).elements()))
-    if gone or new:
-        yield f"{name} has changed: " + (
-            f"{gone}, now {new}" if gone and new else f"{gone or new} is {'new' if new else 'gone'}"
-        )
+    if gone and new:
+        yield f"{name} has changed: {gone}, now {new}"
+    elif gone or new:
+        yield f"{name} has changed: {gone or new} is {'new' if new else 'gone'}"
 
 
 def _skill_words(skill: Mapping[str, Any]) -> Counter[str]:
     """What is said of a skill, but for the text of its procedure."""
-    said = [(key, each) for key, value in skill.items() if key != "text" for each in _each(value)]
-    return Counter(f"{word} {each}" for word, each in said)
+    said = {key: [value] if isinstance(value, str) else value for key, value in skill.items() if key != "text"}
+    return Counter(f"{word} {each}" for word, values in said.items() for each in values)
 
 
-def _each(value: Any) -> Sequence[str]:
-    return [value] if isinstance(value, str) else value
-
-
-def _actuators_at_rest(old: Mapping[str, Any], now: Mapping[str, Any]) -> Iterator[str]:
-    """Actuators that move something in one of the worlds only."""
-    for subject in sorted(old.keys() ^ now.keys()):
-        noun, _, name = subject.partition(" ")
-        if noun == "actuator":
-            yield f"taught with {name}, which does nothing now" if subject in old else f"taught without {name}"
-        if noun == "thing":
-            word = "contains" if subject in now else "no longer contains"
-            yield f"its task has changed: {word} {name}"
-
-
-def _is_already_reported(old: Mapping[str, Any], now: Mapping[str, Any]) -> bool:
-    """Whether the claw's reach is told already: as an argument of a gripper, or since items came or went."""
-    if "claw" not in old or "claw" not in now:
-        return True
-    shared = (subject for subject in old.keys() & now.keys() if subject.startswith("actuator "))
-    return any(old[s].get("reach") != now[s].get("reach") for s in shared)
-
-
-def _reach(facts: Mapping[str, Any]) -> str:
-    return number(facts["claw"])
+def _claw_changes(old: Mapping[str, Any], now: Mapping[str, Any]) -> Iterator[str]:
+    """The claw's reach, where it is not told as an argument of a gripper, or since items came or went."""
+    if "claw" in old and "claw" in now and old["claw"] != now["claw"]:
+        shared = [subject for subject in old.keys() & now.keys() if subject.startswith("actuator ")]
+        if all(old[subject].get("reach") == now[subject].get("reach") for subject in shared):
+            yield f"taught with a claw's reach of {number(old['claw'])}, now {number(now['claw'])}"
 
 
 def _task_changes(old: Mapping[str, Any], now: Mapping[str, Any]) -> Iterator[str]:
-    told = [
-        *_scene_changes(old.get("task"), now.get("task")),
-        *_variations(old.get("varying", []), now.get("varying", [])),
-        *_reward_changes(old["rewards"], now["rewards"]),
-    ]
+    told = [*_scene_changes(old["task"], now["task"])] if "task" in old and "task" in now else []
+    gone, new = _gone_and_new(old, now, "varying")
+    told += [*(f"no longer {each}" for each in gone), *(f"{each} is new" for each in new)]
+    told += _reward_changes(old["rewards"], now["rewards"])
     yield from (f"its task has changed: {change}" for change in told)
     if "environment" in old and "environment" in now and old["environment"] != now["environment"]:
         yield "the text of its task's environment has changed"
-    if _is_another_start(old.get("start"), now.get("start")):
-        yield f"its task has changed: {_start(now.get('start'))}, before {_start(old.get('start'))}"
+    before, after = old.get("start"), now.get("start")
+    if _is_another_start(before, after):
+        yield f"its task has changed: {_start(after)}, before {_start(before)}"
 
 
-def _variations(old: Sequence[str], now: Sequence[str]) -> Iterator[str]:
-    """What differs from run to run only in one of the worlds."""
-    yield from (f"no longer {each}" for each in sorted(set(old) - set(now)))
-    yield from (f"{each} is new" for each in sorted(set(now) - set(old)))
+def _gone_and_new(old: Mapping[str, Any], now: Mapping[str, Any], key: str) -> tuple[list[str], list[str]]:
+    """The texts of a list that only one of the two has."""
+    before, after = set(old.get(key, ())), set(now.get(key, ()))
+    return sorted(before - after), sorted(after - before)
 
 
 def _is_another_start(old: Any, now: Any) -> bool:
     if not old or not now:
         return bool(old != now)
-    (at, facing), (at_now, facing_now) = ((each["at"], each["facing"]) for each in (old, now))
-    return at != at_now or not (facing == facing_now or _are_one_direction(facing, facing_now))
+    is_turned = old["facing"] != now["facing"] and not _are_one_direction(old["facing"], now["facing"])
+    return is_turned or bool(old["at"] != now["at"])
 
 
 def _start(start: Any) -> str:
     """Where a robot starts, in words."""
     at, facing = (start["at"], start["facing"]) if start else (None, None)
-    words = [f"at {number(at[0])} {number(at[1])}"] if isinstance(at, list) and len(at) == 2 else ["anywhere"]
-    return " ".join(["starts", *words, *([f"facing {degrees(facing):g} deg"] if isinstance(facing, float) else [])])
+    words = f"starts at {number(at[0])} {number(at[1])}" if isinstance(at, list) and len(at) == 2 else "starts anywhere"
+    return f"{words} facing {degrees(facing):g} deg" if isinstance(facing, float) else words
 
 
-def _scene_changes(old: Mapping[str, Any] | None, now: Mapping[str, Any] | None) -> Iterator[str]:
-    if old is None or now is None:
-        return
-    if old["scene"]["is"] != now["scene"]["is"]:
-        yield f"in {old['scene']['is']}, now {now['scene']['is']}"
+def _scene_changes(old: Mapping[str, Any], now: Mapping[str, Any]) -> Iterator[str]:
+    kind = now["scene"]["is"]
+    if old["scene"]["is"] != kind:
+        yield f"in {old['scene']['is']}, now {kind}"
     else:
         for field, value in now["scene"].items():
             if old["scene"].get(field, value) != value:
-                kind = now["scene"]["is"]
                 before, after = (argument("task", kind, field, each) for each in (old["scene"][field], value))
                 of = "" if field == kind else f"{kind} "
                 yield f"in {of}{before}, now {after.partition(' ')[2]}"
     if old["ticks"] != now["ticks"]:
         yield f"lasts {old['ticks']} ticks, now {now['ticks']}"
     for verb in ("ends", "succeeds"):
-        gone, new = (set(a.get(verb, ())) - set(b.get(verb, ())) for a, b in ((old, now), (now, old)))
-        yield from (f"no longer {verb} {_on(end)}" for end in sorted(gone))
-        yield from (f"{verb} {_on(end)}" for end in sorted(new))
-
-
-def _on(end: str) -> str:
-    return end if end.startswith("when ") else f"on {end}"
+        gone, new = _gone_and_new(old, now, verb)
+        for end, said in [*((end, f"no longer {verb}") for end in gone), *((end, verb) for end in new)]:
+            yield f"{said} {end}" if end.startswith("when ") else f"{said} on {end}"
 
 
 def _reward_changes(old: Sequence[Sequence[str]], now: Sequence[Sequence[str]]) -> Iterator[str]:
@@ -194,13 +168,6 @@ def _reward_changes(old: Sequence[Sequence[str]], now: Sequence[Sequence[str]]) 
     yield from (f"rewards {amount} {reason} is new" for amount, reason in sorted((+new).elements()))
 
 
-def _lesson_changes(old: Mapping[str, Any], now: Mapping[str, Any]) -> Iterator[str]:
-    before, after = _beginning(old), _beginning(now)
-    if before != after:
-        yield f"taught {before}, now {after}"
-    yield from _kind_changes("curriculum", "the learner", old["learner"], now["learner"])
-
-
 def _beginning(lesson: Mapping[str, Any]) -> str:
     """With which weights a lesson begins."""
     if lesson["from_scratch"]:
@@ -209,18 +176,17 @@ def _beginning(lesson: Mapping[str, Any]) -> str:
 
 
 def migrate_facts(facts: Mapping[str, Any]) -> dict[str, Any]:
-    """The facts of a world; a thing moved where a reward or an end of its task named it.
+    """The facts of a world, also of a lock from before things said what becomes of them, as far as it knows it.
 
-    What was only counted is not known, so nothing is said of that.
+    A thing moved where a reward or an end of its task named it. What was only counted is not known, so nothing is said
+    of that.
     """
     named = {*facts.get("task", {}).get("ends", ())}
     named |= {reason.removeprefix("on ").partition(" when ")[0] for _, reason in facts["rewards"]}
-    return {subject: _with_outcomes(subject, fact, named) for subject, fact in facts.items()}
-
-
-def _with_outcomes(subject: str, fact: Any, named: set[str]) -> Any:
-    noun, _, name = subject.partition(" ")
-    if noun != "thing":
-        return fact
-    outcomes = {field: MOVES for field, event in EVENTS.items() if f"{event} of {name}" in named}
-    return ONE_ANYWHERE | outcomes | fact  # what it says itself counts
+    found = dict(facts)
+    for subject in facts:
+        noun, _, name = subject.partition(" ")
+        if noun == "thing":
+            outcomes = {field: MOVES for field, event in EVENTS.items() if f"{event} of {name}" in named}
+            found[subject] = ONE_ANYWHERE | outcomes | facts[subject]  # what it says itself counts
+    return found

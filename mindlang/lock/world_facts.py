@@ -20,7 +20,6 @@ from mindrun.graph.tasks import physics
 from mindrun.kinds.environment import module_beside
 from mindrun.kinds.functions.procedure import module_source
 from mindrun.kinds.registry import arguments, kinds, names
-from mindrun.kinds.sensors.sensor import SensorKind
 from mindrun.numbers.expression import TRUTHS, fold, leaves
 from mindrun.numbers.quantity import EXPRESSION, UNSAID, Quantity, Reference
 
@@ -47,20 +46,21 @@ class Worlds:
 
     def of(self, lesson: Lesson) -> TrainingWorld:
         """The world that a lesson teaches in now."""
-        return TrainingWorld({**self._facts(lesson.task, lesson.master), "lesson": _lesson(lesson)})
+        where = {"task": lesson.task, "master": lesson.master, "with_subskills": lesson.with_subskills}
+        origin = {"starts_from": lesson.starts_from} if lesson.starts_from else {}
+        how = {"from_scratch": lesson.from_scratch, **origin, "learner": encode(lesson.learner)}
+        return self.of_gone(LessonKey(lesson.task, lesson.master, lesson.with_subskills), {**where, **how})
 
     def of_gone(self, lesson: LessonKey, said: Mapping[str, Any]) -> TrainingWorld:
         """The world of a lesson that stands in no curriculum any more; how it was learnt is `said`."""
-        return TrainingWorld({**self._facts(lesson.task, lesson.master), "lesson": said})
-
-    def _facts(self, task: str, master: str) -> Mapping[str, Any]:
-        """All facts but the lesson's own."""
-        if (task, master) not in self._known:
-            self._known[task, master] = dict(self._facts_of_lesson(task, master))
-        return self._known[task, master]
+        place = lesson.task, lesson.master
+        if place not in self._known:
+            self._known[place] = dict(self._facts_of_lesson(*place))
+        return TrainingWorld({**self._known[place], "lesson": said})
 
     @cached_property
     def _known(self) -> dict[tuple[str, str], Mapping[str, Any]]:
+        """All facts but the lesson's own, by task and master."""
         return {}
 
     def _facts_of_lesson(self, name: str, master: str) -> Iterator[tuple[str, Any]]:
@@ -77,8 +77,13 @@ class Worlds:
             yield "physics", physics()
         if task.start != Start():
             yield "start", {"at": encode(task.start.at), "facing": task.start.facing}
-        if varying := sorted([*_varying(task)]):
-            yield "varying", varying
+        varying = [
+            f"varies {each.argument} of {each.of or each.noun} {number(each.low)} to {number(each.high)}"
+            for each in task.varies  # the body is called body
+        ]
+        varying += [f"fails {each.actuator} {number(each.rate)} per tick" for each in task.fails]
+        if varying:
+            yield "varying", sorted(varying)
         yield "rewards", sorted([*self._reward(task, reward)] for reward in task.rewards)
         yield from ((f"thing {thing.name}", encode(thing.kind)) for thing in task.things)
         yield from ((f"skill {skill.name}", self._skill(skill)) for skill in skills)
@@ -87,11 +92,13 @@ class Worlds:
     def _parts(self, skills: Sequence[Skill], task: Task) -> Iterator[tuple[str, Any]]:
         """The sensors and memories that skills and rewards read, and the actuators that move."""
         read = {self._names[index] for skill in skills for index in skill.inputs}
-        read |= {self._names[index] for index in _read(task)}
+        read |= {self._names[index] for program in task.programs for index in leaves(program, "reading")}
+        read |= {self._names[reward.each[0]] for reward in task.rewards if reward.each}
         driven = {self.graph.named(edge.to, edge.target) for skill in skills for edge in skill.edges}
-        if any(task.events[event].is_of_battery for event in _happening(task)):
+        happening = {*(end.event for end in task.ends), *(reward.on for reward in task.rewards)}
+        if any(task.events[event].is_of_battery for event in happening if event is not None):
             read |= {*[sensor.name for sensor in self.graph.sensors if sensor.kind.battery][:1]}
-        sources = below(source_graph(self.graph.sensors), read & self._sensors.keys()) | read
+        sources = below(source_graph(self.graph.sensors), read & {each.name for each in self.graph.sensors}) | read
         for sensor in self.graph.sensors:
             if sensor.name in sources:
                 yield f"sensor {sensor.name}", encode(sensor.kind)
@@ -103,10 +110,6 @@ class Worlds:
                 yield f"actuator {actuator.name}", encode(actuator.kind)
         if any(thing.kind.can_be_delivered for thing in task.things):
             yield "claw", self.graph.claw_reach
-
-    @cached_property
-    def _sensors(self) -> Mapping[str, SensorKind]:
-        return {sensor.name: sensor.kind for sensor in self.graph.sensors}
 
     @cached_property
     def _names(self) -> list[str]:
@@ -192,32 +195,6 @@ class Worlds:
 
     def _leaf(self, word: str, operand: float | int) -> str:
         return self._names[int(operand)]
-
-
-def _lesson(lesson: Lesson) -> dict[str, Any]:
-    learner = encode(lesson.learner)
-    where = {"task": lesson.task, "master": lesson.master, "with_subskills": lesson.with_subskills}
-    origin = {"starts_from": lesson.starts_from} if lesson.starts_from else {}
-    return {**where, "from_scratch": lesson.from_scratch, **origin, "learner": learner}
-
-
-def _read(task: Task) -> set[int]:
-    """The readings that rewards and ends depend on."""
-    found = {index for program in task.programs for index in leaves(program, "reading")}
-    return found | {reward.each[0] for reward in task.rewards if reward.each}
-
-
-def _varying(task: Task) -> Iterator[str]:
-    """What differs from run to run; the body is called body."""
-    for each in task.varies:
-        yield f"varies {each.argument} of {each.of or each.noun} {number(each.low)} to {number(each.high)}"
-    yield from (f"fails {each.actuator} {number(each.rate)} per tick" for each in task.fails)
-
-
-def _happening(task: Task) -> set[int]:
-    """The events that end a task or pay."""
-    ending = {end.event for end in task.ends if end.event is not None}
-    return ending | {reward.on for reward in task.rewards if reward.on is not None}
 
 
 def infix(program: Program, leaf: Leaf) -> str:

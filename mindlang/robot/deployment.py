@@ -1,22 +1,66 @@
-"""A deployment from the first look to the last: every step may be the last one, and may be done again."""
+"""A deployment from the first look to the last: every step may be the last one, and may be done again.
+
+What is brought is a release: a folder with the bundle, the mindrun that reads it and its services. Its name stands for
+every byte.
+"""
 
 from __future__ import annotations
 
+import json
 import re
 import tempfile
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
+from hashlib import sha256
 from pathlib import Path
 
+import mindrun
+from mindrun.errors import ProcedureError
+from mindrun.files.regular_files import read_whole
 from mindrun.files.strict_json import parsed
-from mindrun.graph.bundle import Bundle
+from mindrun.graph.bundle import MAX_BUNDLE_BYTES, Bundle
+from mindrun.graph.weights import reachable
+from mindrun.graph.wiring import code_digests
+from mindrun.kinds.procedure_text import fit, module_of
 
 from mindlang.robot import DeployError
-from mindlang.robot.release import ARMED, SERVICE, make_release
 from mindlang.robot.remote import RemoteRobot, RobotEvent
 
+WORKSTATION = "sim"  # the room of mindrun that no robot has a use for
+SERVICE, ARMED = "mind.service", "mind-armed.service"  # what they are called in a release
+PYTHON = "%h/mind/venv/bin/python"
+UNIT = """\
+# Written by `mindc deploy`, which replaces it; `systemctl --user edit mind.service` is for changes that stay.
+[Unit]
+Description=The mind of this robot, {state}
+StartLimitIntervalSec=60
+StartLimitBurst=5
+
+[Service]
+# Ready when every sensor has been measured once; then each tick is told, and two seconds without one are the end.
+Type=notify
+NotifyAccess=main
+WatchdogSec=2
+# Entered once: a process keeps the release that it was started in, whatever is current later.
+WorkingDirectory=%h/mind/current
+# No .pyc files: a release stays what was sent, and a power cut leaves none that is half written.
+Environment=PYTHONPATH=runtime PYTHONDONTWRITEBYTECODE=1 PYTHONUNBUFFERED=1
+ExecStart={run}
+{neutral}Restart=on-failure
+# 2 is said on purpose: a bundle that is refused, or a guardian that will move nothing more.
+RestartPreventExitStatus=2
+RestartSec=2
+# Only the controller is told to end; the guardian ends after it, once every actuator is at neutral.
+KillMode=mixed
+TimeoutStopSec=10
+LimitCORE=0
+NoNewPrivileges=yes
+
+[Install]
+WantedBy=default.target
+"""
 MOMENT = "%Y%m%dT%H%M%SZ"
 RELEASE = re.compile(r"(\d{8}T\d{6}Z)-[0-9a-f]{8}", re.ASCII)
 LAST_YEAR = 9999  # after which no release could be named
@@ -28,6 +72,75 @@ MANNERS = {
     ARMED: "with an armed service",
     SERVICE: "with a service that is not armed",
 }
+
+
+@dataclass(frozen=True, slots=True)
+class Release:
+    """A release that lies in a folder here: `fingerprint` is the SHA-256 of its SHA256SUMS."""
+
+    folder: Path
+    fingerprint: str
+    size: int
+
+    def named(self, moment: str) -> str:
+        """What it is called on the robot: names sort by their age."""
+        return f"{moment}-{self.fingerprint[:8]}"
+
+
+def check_deployable(bundle: Bundle, with_service: bool) -> None:
+    """Refuse procedures of which the text says that they could not run, and a service that would have no wiring."""
+    for skill in reachable(bundle.graph, bundle.graph.master):
+        if (calls := skill.function.calls) is not None:
+            try:
+                fit(calls, bundle.procedures.get(module_of(calls), ""), len(skill.inputs), skill.outputs)
+            except ProcedureError as error:
+                raise DeployError(f"{error}.", error.hint or "Mend it, and build the bundle anew.") from error
+    if with_service and bundle.wiring is None:
+        raise DeployError(
+            "This bundle does not say how the robot is wired, so no service can run it.",
+            "Build it with its robot.yaml, or use --no-service to bring it there all the same.",
+        )
+
+
+def make_release(path: Path, bundle: Bundle, folder: Path) -> Release:
+    """Lay a release out in an empty folder. The same bundle and the same mindrun have the same fingerprint."""
+    data = read_whole(path, MAX_BUNDLE_BYTES)
+    made_of: dict[str, object] = {"bundle": path.name, "sha256": sha256(data).hexdigest()}
+    made_of |= {"master": bundle.graph.master}
+    if bundle.wiring and (digests := code_digests(bundle.wiring)):
+        made_of |= {"drivers": digests}
+    files = {
+        "mind.bundle": data,  # never by its own name: no text of a user becomes a path on the robot
+        "release.json": json.dumps(made_of).encode(),  # in ASCII, on one line
+        SERVICE: unit().encode(),
+        ARMED: unit(arm=True).encode(),
+        **dict(_runtime()),
+    }
+    sums = "".join(f"{sha256(content).hexdigest()}  {name}\n" for name, content in sorted(files.items())).encode()
+    for name, content in {**files, "SHA256SUMS": sums}.items():
+        place = folder / name
+        place.parent.mkdir(parents=True, exist_ok=True)
+        place.write_bytes(content)
+    return Release(folder, sha256(sums).hexdigest(), sum(map(len, files.values())))
+
+
+def unit(arm: bool = False) -> str:
+    """The service that runs the current release, for the systemd of the robot's user: it needs no root, no password.
+
+    Armed, the mind moves what is wired to it, and however it ends everything goes to neutral.
+    """
+    run = f"{PYTHON} -m mindrun mind.bundle" + " --arm" * arm
+    neutral = f"ExecStopPost={PYTHON} -P -m mindrun.robot.guardian --neutral mind.bundle\n" * arm
+    return UNIT.format(state="armed" if arm else "not armed", run=run, neutral=neutral)
+
+
+def _runtime() -> Iterator[tuple[str, bytes]]:
+    """The files of the mindrun that runs here, so that the robot has the very one that knows this bundle."""
+    root = Path(mindrun.__path__[0])
+    for path in sorted(root.rglob("*")):
+        parts = path.relative_to(root).parts
+        if path.is_file() and parts[0] != WORKSTATION and "__pycache__" not in parts:
+            yield "/".join(("runtime", "mindrun", *parts)), path.read_bytes()
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,24 +203,19 @@ def read_state(robot: RemoteRobot) -> ReleaseState:
 def parse_state(told: Sequence[RobotEvent]) -> ReleaseState:
     """The state of a robot from the events of `robot.sh look`."""
     found = (RELEASE_LINE.fullmatch(detail) for event, detail in told if event == "release")
-    releases = [
-        Deployed(each["name"], each["state"], _made_of(each["made_of"]))
-        for each in found
-        if each and moment_of(each["name"])
-    ]
+    releases = []
+    for each in (each for each in found if each and moment_of(each["name"])):
+        try:
+            said = parsed(each["made_of"])
+        except ValueError:  # it does not say what it is as that was written
+            said = None
+        told_of = said.items() if isinstance(said, dict) else ()
+        made_of = {word: value for word, value in told_of if word in MADE_OF and isinstance(value, str)}
+        releases.append(Deployed(each["name"], each["state"], made_of))
     named = "".join(detail for event, detail in told if event == "current")
     current = named if moment_of(named) else ""
     lacks = tuple(detail for event, detail in told if event == "lacks")
     return ReleaseState(current, tuple(sorted(releases, key=lambda each: each.name)), lacks)
-
-
-def _made_of(text: str) -> dict[str, str]:
-    """What a release says of itself; nothing where it does not say it as it was written."""
-    try:
-        said = parsed(text)
-    except ValueError:
-        return {}
-    return {word: said[word] for word in MADE_OF if isinstance(said, dict) and isinstance(said.get(word), str)}
 
 
 @dataclass(frozen=True, slots=True)

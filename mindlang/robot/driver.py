@@ -24,9 +24,8 @@ from mindlang.compiler.diagnostic import Findings, errors, listed
 from mindlang.compiler.source import Span
 from mindlang.robot import driver_inspection
 from mindlang.robot.driver_inspection import Timing, timing_of
-from mindlang.robot.misread import shortened
 from mindlang.robot.options import DRIVER, ENDS, OWN_NAME, DriverOption, driver_options, drivers, own_options
-from mindlang.robot.read import Items, Scalar, Table, TableEntry, first_line
+from mindlang.robot.read import Items, Scalar, Table, TableEntry, first_line, shortened
 from mindlang.robot.values import by_option, is_empty, missing_key, unknown_key
 
 COUNTERPARTS = {"sensor": "actuator", "actuator": "sensor"}

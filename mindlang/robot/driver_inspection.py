@@ -90,7 +90,11 @@ def _answer(question: Mapping[str, Any]) -> Answer:
         try:
             cls = load_class(code)
         except AttributeError as error:
-            return {"absent": _classes(code)} if _is_outside(error) else {"raised": _reason(error, code)}
+            if traceback.extract_tb(error.__traceback__)[-1].name != load_class.__name__:  # it is from code of the user
+                raise
+            module = vars(sys.modules[f"mindrun_driver_{code.digest}"])
+            classes = [name for name, value in module.items() if isinstance(value, type) and is_dataclass(value)]
+            return {"absent": classes}
         if question["options"] is None:
             return {"options": [_plain(option) for option in _options(cls)]}
         return _facts(cls, question["noun"], decoded(question["options"]))
@@ -98,16 +102,6 @@ def _answer(question: Mapping[str, Any]) -> Answer:
         return {"unfit": str(error)}
     except BaseException as error:  # a user's code may raise anything
         return {"raised": _reason(error, code)}
-
-
-def _is_outside(error: BaseException) -> bool:
-    """Whether an error comes from asking for the class, and not from code of the user."""
-    return traceback.extract_tb(error.__traceback__)[-1].name == load_class.__name__
-
-
-def _classes(code: DriverCode) -> list[str]:
-    module = sys.modules[f"mindrun_driver_{code.digest}"]
-    return [name for name, value in vars(module).items() if isinstance(value, type) and is_dataclass(value)]
 
 
 def _reason(error: BaseException, code: DriverCode) -> str:

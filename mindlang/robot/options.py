@@ -25,6 +25,12 @@ ENDS = {"low": "from", "high": "to"}  # of a sensor: in the unit of the driver, 
 DRAFT = "https://json-schema.org/draft/2020-12/schema"
 NUMBER_PATTERN = r"-?[0-9]+(\.[0-9]+)?(/[0-9]+)?"
 TEXT = {"type": "string", "minLength": 1, "maxLength": 200}
+ANY_AMOUNT = {  # a value in a unit that only the driver knows
+    "anyOf": [
+        {"type": "number", "minimum": -1e6, "maximum": 1e6},
+        {"type": "string", "pattern": rf"^{NUMBER_PATTERN} *[^\s0-9].*$"},
+    ]
+}
 OPTION_DESCRIPTIONS = {
     "from": "The value at which it reads 0, in the unit of the driver.",
     "to": "The value at which it reads 1, in the unit of the driver; it may be the smaller one.",
@@ -172,7 +178,8 @@ def _wire_schema(noun: str, name: str, cls: type[Any]) -> dict[str, Any]:
 
 
 def _option_schema(option: DriverOption, description: str) -> dict[str, Any]:
-    found = _any_amount() if option.key in ENDS.values() and option.field in ENDS else _value_schema(option)
+    is_end = option.key in ENDS.values() and option.field in ENDS
+    found = ANY_AMOUNT if is_end else _value_schema(option)
     default = option.default
     has_units = isinstance(option.type, Quantity) and option.type.units.keys() - {"", "%"}
     told = default is not MISSING and default is not None and option.key not in ("blank", "dead_zone") and not has_units
@@ -205,9 +212,3 @@ def _number_schema(quantity: Quantity) -> dict[str, Any]:
     units = "|".join(re.escape(unit) for unit in quantity.units if unit)
     written = {"type": "string", "pattern": f"^{NUMBER_PATTERN} *({units})$"}
     return bare if not units else {"anyOf": [bare, written]} if "" in quantity.units else written
-
-
-def _any_amount() -> dict[str, Any]:
-    """A value in a unit that only the driver knows."""
-    written = {"type": "string", "pattern": rf"^{NUMBER_PATTERN} *[^\s0-9].*$"}
-    return {"anyOf": [{"type": "number", "minimum": -1e6, "maximum": 1e6}, written]}

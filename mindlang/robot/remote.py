@@ -71,8 +71,10 @@ class RemoteRobot:
             with suppress(BrokenPipeError):  # it has ended, and its exit code says why
                 process.stdin.write(script("hold", ()))
             told = []
-            for event in _until_locked(process.stdout):
+            for event in (event for line in process.stdout for event in parse_events(line)):
                 told.append(event)
+                if event == LOCK_HELD:
+                    break
                 if event == LOCK_WAITING:
                     waits()
             if told[-1:] != [LOCK_HELD]:
@@ -101,15 +103,6 @@ class RemoteRobot:
                 f"The copy to {self.host} broke off, what is current there stays (rsync ended with {done.returncode}).",
                 "The same command goes on where it stopped.",
             )
-
-
-def _until_locked(said: IO[bytes]) -> Iterator[RobotEvent]:
-    """What the robot tells until it is held, or ends."""
-    for line in said:
-        for event in parse_events(line):
-            yield event
-            if event == LOCK_HELD:
-                return
 
 
 def _beat(there: IO[bytes], ended: Event) -> None:

@@ -38,7 +38,9 @@ def sensor_wire(wired: Wired, sensor: Sensor, unit_metres: float | None, finding
     """
     wired = _seeing_as_far(wired, sensor, unit_metres)
     before = len(errors(findings.diagnostics))
-    usual = _usual_ends(wired, sensor, unit_metres)
+    usual = (float(wired.driver.usual[0]), float(wired.driver.usual[1]))
+    if unit_metres and sensor.kind.unit == wired.driver.unit != "" and not wired.entry(RANGE):
+        usual = (sensor.kind.ends[0] * unit_metres, sensor.kind.ends[1] * unit_metres)  # as long as in the mind's world
     low, high = (_end(wired, index, usual, findings) for index in (0, 1))
     if low is None or high is None:
         return None
@@ -69,17 +71,6 @@ def _seeing_as_far(wired: Wired, sensor: Sensor, unit_metres: float | None) -> W
         return wired
     driver: Any = replace(wired.driver, **{option.field: metres})
     return replace(wired, driver=driver, timing=timing_of(driver, wired.noun))
-
-
-def _usual_ends(wired: Wired, sensor: Sensor, unit_metres: float | None) -> tuple[float, float]:
-    """The values of a driver that are the readings 0 and 1 where nobody says so: as long as in the mind's world.
-
-    As the driver says where the mind does not say how long a unit is, or what it measures is no length and no speed.
-    """
-    kind = sensor.kind
-    if unit_metres is None or kind.unit != wired.driver.unit or not kind.unit or wired.entry(RANGE):
-        return float(wired.driver.usual[0]), float(wired.driver.usual[1])
-    return kind.ends[0] * unit_metres, kind.ends[1] * unit_metres
 
 
 def _end(wired: Wired, index: int, usual: tuple[float, float], findings: Findings) -> float | None:
@@ -124,17 +115,14 @@ def _check_range(wired: Wired, wire: SensorWire, sensor: Sensor, findings: Findi
         message = f"It would read 0 and 1 at the same value, {wire.low:g}."
         hint = "from is the value at which it reads 0, to the one at which it reads 1: write two different ones."
         findings.error("no-range", wired.span("to", "from"), message, hint, *labels)
-    elif sensor.kind.circular and not _is_turn(wire.high - wire.low, unit := wired.driver.unit):
-        message = f"A bearing's readings 0 to 1 are a whole turn, and these are {abs(wire.high - wire.low):g} {unit}."
+        return
+    unit, angle = wired.driver.unit, abs(wire.high - wire.low)
+    turn = FULL_TURNS.get(unit, angle)  # of other units nobody knows how long it is
+    if sensor.kind.circular and not isclose(angle, turn, rel_tol=TURN_TOLERANCE):
+        message = f"A bearing's readings 0 to 1 are a whole turn, and these are {angle:g} {unit}."
         usual = wired.driver.usual
         hint = f"Leave both out, or write from: {usual[0]:g} {unit} and to: {usual[1]:g} {unit}."
         findings.error("not-a-turn", wired.span("to", "from", "driver"), message, hint)
-
-
-def _is_turn(angle: float, unit: str) -> bool:
-    """Whether an angle is once round, as far as decimals say it; of other units nobody knows."""
-    turn = FULL_TURNS.get(unit)
-    return turn is None or isclose(abs(angle), turn, rel_tol=TURN_TOLERANCE)
 
 
 def _check_times(wired: Wired, wire: SensorWire, findings: Findings) -> None:

@@ -10,9 +10,8 @@ from mindlang.compiler.diagnostic import Findings, listed
 from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.source import Span
 from mindlang.compiler.syntax import Amount
-from mindlang.robot.misread import shortened
 from mindlang.robot.options import DriverOption
-from mindlang.robot.read import Items, Lost, Node, Scalar, Table, TableEntry, first_line
+from mindlang.robot.read import Items, Lost, Node, Scalar, Table, TableEntry, first_line, shortened
 
 AMOUNT = re.compile(r"(0x[0-9a-fA-F]{1,8}|-?[0-9]+(?:\.[0-9]+)?(?:/[0-9]+)?) *((?![0-9.,]).*)?")
 MAX_TEXT_CHARACTERS = 200
@@ -28,7 +27,11 @@ def value(option: DriverOption, node: Node, findings: Findings) -> Any:
         case "word", Reference() as reference:
             return _word(node, reference, findings)
         case "flag", _:
-            return _flag(node, findings)
+            if isinstance(node, Scalar) and node.plain and node.text in ("true", "false"):
+                return node.text == "true"
+            hint = "Write true or false, without quotes."
+            _refuse(node, "not-a-switch", "Here stands true or false.", hint, findings)
+            return None
         case "texts" | "words", Reference() as reference:
             return _words(node, reference, option.count, findings)
     return text(node, findings)
@@ -38,7 +41,11 @@ def number(node: Node, quantity: Quantity, findings: Findings) -> float | int | 
     """A number, converted from its unit."""
     match node:
         case Scalar(text=written, plain=True, span=span) if found := AMOUNT.fullmatch(written):
-            return convert(Amount(_parsed(found[1]), found[2] or "", span), quantity, findings)
+            over, _, under = found[1].partition("/")
+            parsed = float(int(over, 16)) if over.startswith("0x") else float(over)
+            divisor = float(under or 1)
+            amount = Amount(parsed / divisor if divisor else float("nan"), found[2] or "", span)
+            return convert(amount, quantity, findings)
         case Scalar(text=written, span=span) if AMOUNT.fullmatch(written):
             findings.error("quoted-number", span, "This is a text, because of its quotes.", "Remove the quotes.")
         case Scalar(text=written, span=span):
@@ -51,14 +58,6 @@ def number(node: Node, quantity: Quantity, findings: Findings) -> float | int | 
     return None
 
 
-def _parsed(digits: str) -> float:
-    if digits.startswith("0x"):
-        return float(int(digits, 16))
-    over, _, under = digits.partition("/")
-    divisor = float(under or 1)
-    return float(over) / divisor if divisor else float("nan")
-
-
 def _numbers(node: Node, quantity: Quantity, count: int | None, findings: Findings) -> tuple[float | int, ...] | None:
     """A list of numbers; where there may be any number of them, or one, a single one needs no brackets."""
     is_amount = isinstance(node, Scalar) and AMOUNT.fullmatch(node.text)
@@ -69,7 +68,7 @@ def _numbers(node: Node, quantity: Quantity, count: int | None, findings: Findin
         hint = f"Write [{', '.join([shortened(example)] * (count or 1))}]."
         _refuse(node, "not-a-list", "A list stands here.", hint, findings)
         return None
-    if _has_another_count(node, count):
+    if not node.items or count not in (None, len(node.items)):
         wanted = f"{count} numbers" if count else "at least one number"
         message = f"This list has {len(node.items)} entries." if node.items else "This list is empty."
         _refuse(node, "wrong-count", message, f"Write {wanted}, each {quantity.name}.", findings)
@@ -79,17 +78,14 @@ def _numbers(node: Node, quantity: Quantity, count: int | None, findings: Findin
 
 def _words(node: Node, reference: Reference, count: int | None, findings: Findings) -> tuple[str, ...] | None:
     """A list of words or texts."""
-    if not isinstance(node, Items) or _has_another_count(node, count):
+    if not isinstance(node, Items) or not node.items or count not in (None, len(node.items)):
         wanted = f"{count} of them" if count else "at least one"
-        _refuse(node, "not-a-list", "A list stands here.", f"Write {wanted} between brackets: [a, b].", findings)
+        hint = f"Write {wanted} between brackets: [a, b]."
+        _refuse(node, "not-a-list", "A list stands here.", hint, findings)
         return None
     if reference.words:
         return _all([_word(item, reference, findings) for item in node.items])
     return _all([text(item, findings) for item in node.items])
-
-
-def _has_another_count(node: Items, count: int | None) -> bool:
-    return not node.items or len(node.items) != (count or len(node.items))
 
 
 def _all(found: list[Any]) -> tuple[Any, ...] | None:
@@ -110,14 +106,6 @@ def _word(node: Node, reference: Reference, findings: Findings) -> str | None:
     return None
 
 
-def _flag(node: Node, findings: Findings) -> bool | None:
-    """True or false."""
-    if isinstance(node, Scalar) and node.plain and node.text in ("true", "false"):
-        return node.text == "true"
-    _refuse(node, "not-a-switch", "Here stands true or false.", "Write true or false, without quotes.", findings)
-    return None
-
-
 def text(node: Node, findings: Findings) -> str | None:
     """A text of one line."""
     if not isinstance(node, Scalar):
@@ -131,7 +119,7 @@ def text(node: Node, findings: Findings) -> str | None:
 
 
 def _refuse(node: Node, code: str, message: str, hint: str, findings: Findings) -> None:
-    """Report a value that is none of the kind that is asked for, unless it has been reported before."""
+    """Report a value that is of another kind than is asked for, unless it was reported before."""
     if not isinstance(node, Lost):
         findings.error(code, first_line(node.span), message, hint)
 

@@ -19,8 +19,7 @@ from mindlang.compiler.diagnostic import Diagnostic, Findings, a, errors, listed
 from mindlang.compiler.source import Source, decode
 from mindlang.robot.claims import check_claims, check_shared
 from mindlang.robot.driver import Wired, wired
-from mindlang.robot.misread import shortened
-from mindlang.robot.read import Node, Scalar, Table, TableEntry, read
+from mindlang.robot.read import Node, Scalar, Table, TableEntry, read, shortened
 from mindlang.robot.sensor import sensor_wire
 from mindlang.robot.values import is_empty, missing_key, table, text, unknown_key
 
@@ -91,18 +90,12 @@ def _wiring(node: Node, graph: Graph, unit_metres: float | None, findings: Findi
     acting = list(_section("actuator", said.get("actuators"), moved, moved.keys(), graph, acting_wire_of, findings))
     check_claims([wired for wired, _ in (*sensing, *acting)], findings)
     check_shared(sensing, acting, graph.tick, findings)
-    name = _name(said.get("robot"), findings)
+    entry = said.get("robot")
+    name = text(entry.value, findings) if entry and not is_empty(entry, findings) else None
+    if entry and name and name.strip() != name:
+        findings.error("not-a-text", entry.value.span, "A name has no spaces around it.", "Remove them.")
     wires = tuple(wire for _, wire in sensing if wire)
     return Wiring(name, wires, tuple(wire for _, wire in acting if wire)) if name else None
-
-
-def _name(entry: TableEntry | None, findings: Findings) -> str | None:
-    if entry is None or is_empty(entry, findings):
-        return None
-    name = text(entry.value, findings)
-    if name and name.strip() != name:
-        findings.error("not-a-text", entry.value.span, "A name has no spaces around it.", "Remove them.")
-    return name
 
 
 def _section(
@@ -115,8 +108,13 @@ def _section(
     findings: Findings,
 ) -> Iterator[tuple[Wired, W | None]]:
     """What is wired to sensors or actuators, in the order of the mind; without a wire where one is wrong."""
-    node = _table(noun, entry, findings) if entry else None
-    if entry is None or node is None:
+    if entry is None:
+        return
+    value = entry.value
+    if isinstance(value, Scalar) and value.plain and not value.text:
+        value = Table({}, value.span)  # there may be none
+    example = f"the name of {a(noun)} and a colon, and below it its driver"
+    if (node := table(value, entry.key.text, example, findings)) is None:
         return
     strange = node.entries.keys() - known.keys()
     for name in strange:
@@ -134,14 +132,6 @@ def _section(
         inner = None if is_empty(each, findings) else table(each.value, shortened(name), example, findings)
         if inner and (found := wired(noun, each.key, inner, findings)):
             yield found, wire(found, known[name])
-
-
-def _table(noun: str, entry: TableEntry, findings: Findings) -> Table | None:
-    """The entries of a section, which may be empty."""
-    if isinstance(entry.value, Scalar) and entry.value.plain and not entry.value.text:
-        return Table({}, entry.value.span)
-    example = f"the name of {a(noun)} and a colon, and below it its driver"
-    return table(entry.value, entry.key.text, example, findings)
 
 
 def _refuse_stranger(noun: str, key: Scalar, known: Mapping[str, Any], graph: Graph, findings: Findings) -> None:

@@ -19,8 +19,7 @@ from mindrun.processors import cpu_seconds
 from mindrun.terminal.command_line import command_line
 
 from mindlang.compiler.compile import Compiled
-from mindlang.executors.job_scorer import Block, JobScorer, empty_scores, place
-from mindlang.executors.jobs import Assignment
+from mindlang.executors.jobs import Assignment, Block, JobScorer, empty_scores, place
 from mindlang.limits import as_runs, as_seed
 from mindlang.lock.ready import ReadyMind, make_ready
 from mindlang.run.chosen_task import SetupError, master_of, task_of

@@ -17,34 +17,28 @@ from mindlang.server.offers import Offer
 from mindlang.server.server import LspConverter, MindServer
 from mindlang.server.workspace import MindView, are_breakpoints
 
-SYMBOLS = {
-    "body": types.SymbolKind.Object,
-    "actuator": types.SymbolKind.Interface,
-    "sensor": types.SymbolKind.Field,
-    "memory": types.SymbolKind.Variable,
-    "skill": types.SymbolKind.Function,
-    "scene": types.SymbolKind.Namespace,
-    "number": types.SymbolKind.Number,
-    "task": types.SymbolKind.Event,
-    "curriculum": types.SymbolKind.Module,
-    "thing": types.SymbolKind.Constant,
+SYMBOL, ITEM = types.SymbolKind, types.CompletionItemKind
+SORTS = {  # what is declared as an editor shows it, in an outline and among offers
+    "body": (SYMBOL.Object, ITEM.Text),
+    "actuator": (SYMBOL.Interface, ITEM.Interface),
+    "sensor": (SYMBOL.Field, ITEM.Field),
+    "memory": (SYMBOL.Variable, ITEM.Variable),
+    "skill": (SYMBOL.Function, ITEM.Function),
+    "scene": (SYMBOL.Namespace, ITEM.Module),
+    "number": (SYMBOL.Number, ITEM.Value),
+    "task": (SYMBOL.Event, ITEM.Event),
+    "curriculum": (SYMBOL.Module, ITEM.Text),
+    "thing": (SYMBOL.Constant, ITEM.Constant),
 }
 OFFERS = {
-    "actuator": types.CompletionItemKind.Interface,
-    "sensor": types.CompletionItemKind.Field,
-    "memory": types.CompletionItemKind.Variable,
-    "skill": types.CompletionItemKind.Function,
-    "scene": types.CompletionItemKind.Module,
-    "number": types.CompletionItemKind.Value,
-    "task": types.CompletionItemKind.Event,
-    "environment": types.CompletionItemKind.Module,
-    "thing": types.CompletionItemKind.Constant,
-    "kind": types.CompletionItemKind.Class,
-    "key": types.CompletionItemKind.Property,
-    "unit": types.CompletionItemKind.Unit,
-    "file": types.CompletionItemKind.File,
-    "function": types.CompletionItemKind.Function,
-    "word": types.CompletionItemKind.Keyword,
+    **{noun: item for noun, (_, item) in SORTS.items()},
+    "environment": ITEM.Module,
+    "kind": ITEM.Class,
+    "key": ITEM.Property,
+    "unit": ITEM.Unit,
+    "file": ITEM.File,
+    "function": ITEM.Function,
+    "word": ITEM.Keyword,
 }
 
 TERMINAL = "mind.terminal"  # which is the editor's own
@@ -90,7 +84,7 @@ def _item(place: int, of: tuple[Offer, types.TextEdit]) -> types.CompletionItem:
     offer, edit = of
     return types.CompletionItem(
         offer.label,
-        kind=OFFERS.get(offer.sort, types.CompletionItemKind.Text),
+        kind=OFFERS[offer.sort],
         detail=offer.detail or None,
         documentation=types.MarkupContent(types.MarkupKind.Markdown, offer.text) if offer.text else None,
         sort_text=f"{place:05}",
@@ -127,7 +121,7 @@ def outlined(ls: MindServer, params: types.DocumentSymbolParams) -> list[types.D
 def _symbol(lsp: LspConverter, symbol: Symbol) -> types.DocumentSymbol:
     return types.DocumentSymbol(
         symbol.name,
-        SYMBOLS[symbol.noun],
+        SORTS[symbol.noun][0],
         lsp.range(symbol.whole),
         lsp.range(symbol.place),
         detail=f"{symbol.noun} {symbol.kind}".strip(),
@@ -142,7 +136,7 @@ def searched(ls: MindServer, params: types.WorkspaceSymbolParams) -> list[types.
         folders = [ls.session.lsp.path(ls.workspace.root_uri)]
     return [
         types.WorkspaceSymbol(
-            ls.session.lsp.location(symbol.place), symbol.name, SYMBOLS[symbol.noun], container_name=symbol.noun
+            ls.session.lsp.location(symbol.place), symbol.name, SORTS[symbol.noun][0], container_name=symbol.noun
         )
         for symbol in everything(ls.session.workspace, folders, params.query)
     ]

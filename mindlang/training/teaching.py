@@ -13,17 +13,16 @@ from mindrun.sim.rollout import Rollout
 from mindrun.sim.rollouts import rollout_for
 from mindrun.terminal.command_line import command_line
 from mindrun.train.attempt import Clock
+from mindrun.train.attempts import StretchThreads
 from mindrun.train.kept_segments import KeptSegments, RememberingExecutor
 from mindrun.train.lesson_state import Course, LessonState, is_over
 from mindrun.train.population import founder_count
 from mindrun.train.run_folder import WEIGHTS, RunFolder, keep_result, read_result
 from mindrun.train.scoring import Scorer, breeding_generator, layouts
-from mindrun.train.stretch_threads import StretchThreads
 from mindrun.train.training import Watch, train
 
 from mindlang.executors import Where, scorer_on
-from mindlang.executors.job_scorer import JobScorer
-from mindlang.executors.jobs import Assignment, StretchExecutor, WorkError
+from mindlang.executors.jobs import Assignment, JobScorer, StretchExecutor, WorkError
 from mindlang.limits import refuse_too_large, refuse_too_long
 from mindlang.lock.blobs import digest
 from mindlang.number_format import duration, number, speed

@@ -34,11 +34,11 @@ def test_a_transfer_that_breaks_off(old: str, robot: FakeRobot, bundles: Bundles
 def test_a_bundle_that_the_robot_cannot_read(
     old: str, robot: FakeRobot, bundles: Bundles, mindc: Call, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from mindlang.robot import release
+    from mindlang.robot import deployment
 
-    runtime = dict(release._runtime())
+    runtime = dict(deployment._runtime())
     runtime["runtime/mindrun/graph/bundle.py"] += b"\nraise SyntaxError('a newer Python')\n"
-    monkeypatch.setattr(release, "_runtime", lambda: iter(runtime.items()))
+    monkeypatch.setattr(deployment, "_runtime", lambda: iter(runtime.items()))
     said = mindc("deploy", bundles[1], HOST, "--watch", 0)
     assert said.code == 1
     assert "cannot be read by the Python of this robot" in said.err

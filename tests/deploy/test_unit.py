@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from mindlang.robot.release import unit
+from mindlang.robot.deployment import unit
 
 
 def read(text: str) -> configparser.ConfigParser:

@@ -29,7 +29,7 @@ class Slow(Sphere):
 class Dying(Sphere):
     """Its process ends with each call of a number that no job reaches alone."""
 
-    every = 450
+    every = 200
 
     def score(self, genomes: Any, seeds: Any) -> Results:
         if next(_calls) % self.every == 0:

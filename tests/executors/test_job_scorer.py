@@ -7,8 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from mindrun.graph.run_scores import Scores
 
-from mindlang.executors import job_scorer
-from mindlang.executors.job_scorer import Blocks, JobScorer, runs_in_a_job
+from mindlang.executors import jobs
+from mindlang.executors.jobs import Blocks, JobScorer, runs_in_a_job
 from tests.executors.counting import LENGTH, Counting, Shuffling
 
 SHAPES = st.tuples(st.integers(0, 12), st.integers(0, 40))
@@ -32,11 +32,11 @@ def test_any_order_and_any_losses_come_to_the_same_arrays(
     expected = alone.score(genomes, seeds)
     executor, told = Shuffling(choices, width), list[float]()
     scorer = JobScorer(Counting(), executor)
-    before, job_scorer.FIRST_RUNS = job_scorer.FIRST_RUNS, first_runs
+    before, jobs.FIRST_RUNS = jobs.FIRST_RUNS, first_runs
     try:
         found = [scorer.score(genomes, seeds, told.append) for _ in range(2)]  # later it knows how long a run takes
     finally:
-        job_scorer.FIRST_RUNS = before
+        jobs.FIRST_RUNS = before
     assert arrays(found[0]) == arrays(found[1]) == arrays(expected)
     assert sum(told) == 2 * genomes.shape[0] * len(seeds)
     assert scorer.rollout.tally().tolist() == (2 * alone.tally()).tolist()
@@ -59,7 +59,7 @@ def test_blocks_are_every_run_once(shape: tuple[int, int], sizes: list[int]) -> 
 def test_a_job_has_at_least_a_run_and_is_not_too_long(all_runs: int, workers: int, seconds: float | None) -> None:
     runs = runs_in_a_job(all_runs, workers, seconds)
     assert runs >= 1
-    assert seconds is None or runs == 1 or (runs - 1) * seconds <= job_scorer.JOB_SECONDS
+    assert seconds is None or runs == 1 or (runs - 1) * seconds <= jobs.JOB_SECONDS
 
 
 def test_what_is_asked_after_an_interruption_takes_no_older_answer() -> None:

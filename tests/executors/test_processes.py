@@ -27,7 +27,7 @@ from tests.executors.spheres import ASSIGNMENT
 from tests.train.climbing import LENGTH, Sphere, lesson, manifest, unwatched
 from tests.train.sequential import teach
 
-COURSE = Course(lesson(250, attempts=5, rungs=2), 1, np.empty((0, LENGTH), np.float32))
+COURSE = Course(lesson(120, attempts=4, rungs=2), 1, np.empty((0, LENGTH), np.float32))
 ROOT = Path(__file__).parents[2]
 KILLS = 3
 UNGUARDED = """

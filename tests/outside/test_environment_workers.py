@@ -18,8 +18,7 @@ from mindrun.graph.bundle import pack as pack_bundle
 from mindrun.graph.policy import Policy
 from mindrun.sim.outside.subprocess_stepper import VARIABLE
 
-from mindlang.executors.job_scorer import JobScorer
-from mindlang.executors.jobs import Assignment
+from mindlang.executors.jobs import Assignment, JobScorer
 from mindlang.executors.processes import ProcessJobs
 from tests.executors.test_on_dask import cluster_on_this_machine
 from tests.outside import minds

@@ -14,7 +14,7 @@ from benchmarks.call_count import CallCount, one_in_eight
 from mindlang.cli._diagnostic_printer import as_data, plain
 from mindlang.compiler.compile import load
 from mindlang.compiler.source import Source
-from mindlang.robot.misread import surprise
+from mindlang.robot.read import surprise
 from mindlang.robot.wire import Checked, check_wiring, load_wiring
 from tests.draws import cases
 from tests.language.test_fuzz import delete, duplicate, flip, swap_lines

@@ -19,7 +19,7 @@ from mindrun.robot.guardian.plan import plan_of, to_json
 from mindrun.robot.sensing import Sampler
 
 from mindlang.robot import driver
-from mindlang.robot.release import make_release
+from mindlang.robot.deployment import make_release
 from tests.calling import Call
 from tests.project.sources import ROOT
 

@@ -50,16 +50,14 @@ def edit(name: str) -> Edit:
         name,
         function,
         tuple((p.name, _is_repeatable(hints[p.name])) for p in parameters if p.kind is not Parameter.KEYWORD_ONLY),
-        tuple(_option(p, hints[p.name]) for p in parameters if p.kind is Parameter.KEYWORD_ONLY),
+        tuple(
+            EditOption(p.name, _is_repeatable(hints[p.name]), p.default, get_args(hints[p.name])[1])
+            for p in parameters
+            if p.kind is Parameter.KEYWORD_ONLY
+        ),
         text.strip(),
         f"Example: {example.strip()}",
     )
-
-
-def _option(parameter: Parameter, hint: Any) -> EditOption:
-    if get_origin(hint) is not Annotated:
-        raise TypeError(f"{parameter.name} does not say what it is for")
-    return EditOption(parameter.name, _is_repeatable(hint), parameter.default, get_args(hint)[1])
 
 
 def _is_repeatable(hint: Any) -> bool:

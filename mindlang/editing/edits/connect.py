@@ -26,8 +26,7 @@ def connect(
 
     Example: mindc edit connect collect.mind Collect proximity
     """
-    declaration = project.find(skill, "skill")
-    project.refuse_like(declaration)
+    declaration = project.own_skill(skill)
     refuse_lines(at)
     is_sent = drives or bool(at)
     noun = project.find(target, *(VERBS if is_sent else reversed(VERBS))).header.noun.text

@@ -3,7 +3,7 @@
 from typing import Annotated
 
 from mindlang.editing.insertion import INDENT, declare, instead
-from mindlang.editing.project import MindChange, Project, Replaced, influence, refuse_lines, refuse_misnamed
+from mindlang.editing.project import MindChange, Project, Replaced, influence
 
 
 def encapsulate(
@@ -26,11 +26,7 @@ def encapsulate(
     project.find(skill, "skill")
     for other in with_:
         project.find(other, "skill")
-    for reading in reads:
-        project.find(reading, "sensor", "memory")
-    refuse_misnamed("skill", new)
-    refuse_lines(is_)
-    project.refuse_taken("skill", new)
+    project.refuse_new_skill(new, is_, reads)
     kind = is_.partition(" ")[0]
     lines = [
         f"skill {new} is {is_}",

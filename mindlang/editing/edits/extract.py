@@ -3,7 +3,7 @@
 from typing import Annotated
 
 from mindlang.compiler.diagnostic import did_you_mean
-from mindlang.compiler.syntax import Declaration, Influences, Reads
+from mindlang.compiler.syntax import Influences, Reads
 from mindlang.editing.insertion import declare_below, indentation, instead_of_line, line_of, without_fact
 from mindlang.editing.project import (
     EditError,
@@ -12,8 +12,6 @@ from mindlang.editing.project import (
     facts,
     influence,
     kind_of,
-    refuse_lines,
-    refuse_misnamed,
 )
 
 
@@ -32,14 +30,14 @@ def extract(
 
     Example: mindc edit extract collect.mind Collect Fetch GoToObject+Avoid Grab
     """
-    declaration = project.find(parent, "skill")
-    project.refuse_like(declaration)
-    refuse_misnamed("skill", new)
-    refuse_lines(is_)
-    project.refuse_taken("skill", new)
-    for reading in reads:
-        project.find(reading, "sensor", "memory")
-    first, *others = _edges(declaration, subskills)
+    declaration = project.own_skill(parent)
+    project.refuse_new_skill(new, is_, reads)
+    edges = {fact.name.text: fact for fact in facts(declaration, Influences)}
+    for subskill in subskills:
+        if subskill not in edges:
+            message = f"{parent} does not influence {subskill}."
+            raise EditError(message, did_you_mean(subskill, edges), declaration.header.span)
+    first, *others = (fact for name, fact in edges.items() if name in subskills)
     inputs = reads or [fact.name.text for fact in facts(declaration, Reads)]
     indent = indentation(declaration)
     lines = [
@@ -52,13 +50,3 @@ def extract(
         *(without_fact(fact) for fact in others),
         declare_below(declaration, lines),
     ))  # fmt: skip
-
-
-def _edges(parent: Declaration, subskills: tuple[str, ...]) -> list[Influences]:
-    """The lines with which a skill influences subskills, in their order; EditError where one is missing."""
-    edges = {fact.name.text: fact for fact in facts(parent, Influences)}
-    for subskill in subskills:
-        if subskill not in edges:
-            message = f"{parent.header.name.text} does not influence {subskill}."
-            raise EditError(message, did_you_mean(subskill, edges), parent.header.span)
-    return [fact for name, fact in edges.items() if name in subskills]

@@ -12,8 +12,7 @@ def freeze(project: Project, skill: str) -> MindChange:
 
     Example: mindc edit freeze collect.mind Avoid
     """
-    declaration = project.find(skill, "skill")
-    project.refuse_like(declaration)
+    declaration = project.own_skill(skill)
     if frozen := facts(declaration, Stays):
         raise EditError(f"{skill} is frozen already.", "", frozen[0].span)
     return MindChange((below_siblings(declaration, Stays, ["stays frozen"]),))

@@ -25,8 +25,7 @@ def inline(project: Project, skill: str) -> MindChange:
 
     Example: mindc edit inline collect.mind Fetch
     """
-    declaration = project.find(skill, "skill")
-    project.refuse_like(declaration)
+    declaration = project.own_skill(skill)
     if not facts(declaration, Influences):
         message = f"{skill} is a base skill: there is nothing below it to take its place."
         raise EditError(message, "", declaration.header.span)
@@ -47,13 +46,9 @@ def _taken_over(parent: Declaration, child: Declaration) -> list[Splice]:
     indent = indentation(parent)
     lines = [f"{indent}{line_of(fact)}" for fact in edges]
     splices = [instead_of_line(place, lines) if lines else without_fact(place)]
-    if reads := _needed(edges, parent):
-        splices.append(below_siblings(parent, Reads, [f"reads {name}" for name in reads]))
-    return splices
-
-
-def _needed(edges: list[Edge], parent: Declaration) -> list[str]:
-    """The readings in values and conditions that a parent does not read."""
-    said = {fact.name.text for fact in facts(parent, Reads)}
+    read = {fact.name.text for fact in facts(parent, Reads)}
     terms = (term for edge in edges for expression in edge.expressions for term in expression.terms)
-    return list(dict.fromkeys(t.kind.text for t in terms if isinstance(t, Phrase) and t.kind.text not in said))
+    needed = dict.fromkeys(term.kind.text for term in terms if isinstance(term, Phrase))
+    if reads := [f"reads {name}" for name in needed if name not in read]:
+        splices.append(below_siblings(parent, Reads, reads))
+    return splices

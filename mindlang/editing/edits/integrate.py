@@ -24,8 +24,7 @@ def integrate(
     """
     if not with_ and not reads:
         raise EditError("Nothing is to be integrated.", "Say what: --with SKILL, --reads SENSOR.")
-    declaration = project.find(skill, "skill")
-    project.refuse_like(declaration)
+    declaration = project.own_skill(skill)
     for other in with_:
         project.find(other, "skill")
         project.refuse_existing(declaration, Influences, other)

@@ -1,6 +1,5 @@
 """`mindc edit rename`."""
 
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated
 
@@ -43,7 +42,9 @@ def rename(
     for each in (project, *project.sharing(of, old)):
         _refuse_taken(each, of, new)
     places = (mention.name.span for mention in project.everywhere(of, old))
-    aliases = dict(_aliases(project, declared))
+    path = declared.name.span.source.path
+    used = ((other.paths[path].source.alias, other) for other in project.neighbours if path in other.paths)
+    aliases = {alias: other for alias, other in used if alias and of != "thing"}  # the others' names for its file
     others = (
         instead(mention.name.span, f"{alias}.{new}")
         for alias, other in aliases.items()
@@ -72,14 +73,6 @@ def _refuse_under_alias(declared: Mention, new: str, noun: str) -> None:
     raise EditError(message, hint, declared.name.span)
 
 
-def _aliases(project: Project, declared: Mention) -> Iterator[tuple[str, Project]]:
-    """The neighbours that use the file of a declaration under another name, by that name."""
-    path = declared.name.span.source.path
-    for other in project.neighbours if declared.noun != "thing" else ():
-        if path in other.paths and (alias := other.paths[path].source.alias):
-            yield alias, other
-
-
 def _declared(project: Project, name: str, noun: str) -> Mention:
     """Where a name is declared with a noun, or with the only one that has it."""
     if noun:
@@ -98,26 +91,18 @@ def _declared(project: Project, name: str, noun: str) -> Mention:
 
 
 def _refuse_taken(project: Project, noun: str, name: str) -> None:
-    """EditError where a name would mean something else in a mind."""
-    if noun == "thing":
-        _refuse_taken_thing(project, name)
-    else:
+    """EditError where a name would mean something else in a mind.
+
+    A thing with the name of one in another task would be the same one for every sensor; a reading or a number with that
+    of a `for each` would be taken for it in the reward.
+    """
+    if noun != "thing":
         project.refuse_taken(noun, name)
-    if noun in VALUE_NOUNS:
-        _refuse_captured(project, name)
-
-
-def _refuse_taken_thing(project: Project, name: str) -> None:
-    """A thing may have the name of one in another task: then they are one for every sensor."""
-    for mention in introductions(project.files):
+    for mention in introductions(project.files) if noun == "thing" else ():
         if (mention.noun, mention.name.text) == ("thing", name):
             raise EditError(f"There is already a thing called {name}.", "Choose another name.", mention.name.span)
-
-
-def _refuse_captured(project: Project, name: str) -> None:
-    """A reading or a number with the name of a `for each` would be taken for that in the reward."""
     tasks = (declaration for _, declaration in project.names.declarations("task"))
     for reward in (reward for task in tasks for reward in facts(task, Rewards)):
-        if reward.each and reward.each.name.text == name:
+        if noun in VALUE_NOUNS and reward.each and reward.each.name.text == name:
             message = f"A reward goes through readings by the name {name}."
             raise EditError(message, "Choose another name.", reward.each.name.span)

@@ -20,7 +20,9 @@ def replace(project: Project, skill: str, new: str) -> MindChange:
     declaration = project.find(new, "skill")
     if skill == new:
         raise EditError(f"{skill} takes its own place already.", "", declaration.header.name.span)
-    _refuse_other_drives(project, skill, new)
+    if differ := sorted(_drives(project, skill) ^ _drives(project, new)):
+        message = f"{skill} and {new} differ in what they drive: {listed(differ, 'and')}."
+        raise EditError(message, "Replace it by a skill with the same interface.", declaration.header.name.span)
     places = [place for place in project.places(skill) if place.by is not declaration]
     for place in places:
         if place.by:
@@ -29,16 +31,6 @@ def replace(project: Project, skill: str, new: str) -> MindChange:
         message = f"{skill} has no place: it is not the master, and no skill but {new} influences it."
         raise EditError(message, "", declaration.header.name.span)
     return MindChange(tuple(instead(place.name.span, new) for place in places), replaced=Replaced(skill, new))
-
-
-def _refuse_other_drives(project: Project, skill: str, new: str) -> None:
-    """EditError where the two do not drive the same actuators."""
-    old_drives, new_drives = _drives(project, skill), _drives(project, new)
-    if old_drives != new_drives:
-        differ = listed(sorted(old_drives ^ new_drives), "and")
-        message = f"{skill} and {new} differ in what they drive: {differ}."
-        span = project.find(new, "skill").header.name.span
-        raise EditError(message, "Replace it by a skill with the same interface.", span)
 
 
 def _drives(project: Project, skill: str) -> set[str]:

@@ -2,7 +2,6 @@
 
 from pathlib import Path
 
-from mindlang.compiler.syntax import Declaration
 from mindlang.editing.insertion import text_of, use_line, without_declarations
 from mindlang.editing.project import EditError, MindChange, Project
 
@@ -15,7 +14,12 @@ def split(project: Project, to: str, names: tuple[str, ...]) -> MindChange:
     Example: mindc edit split collect.mind wheels.mind left_wheel right_wheel
     """
     path = _new_file(project, to)
-    chosen = [_chosen(project, name) for name in dict.fromkeys(names)]
+    chosen = []
+    for noun, _, own in (name.rpartition(":") for name in dict.fromkeys(names)):
+        declaration = project.declared(own, noun, f"{{}}:{own}")
+        if project.file_of(declaration) is not project.main:
+            raise EditError(f"{own} stands in another file.", "", declaration.header.name.span)
+        chosen.append(declaration)
     splices = (*without_declarations(chosen), use_line(project.main, Path(to).as_posix()))
     return MindChange(splices, created={path: text_of(chosen)})
 
@@ -31,12 +35,3 @@ def _new_file(project: Project, to: str) -> Path:
     if path.exists() or path in used:
         raise EditError(f"{to} exists already.", "Choose another name.")
     return path
-
-
-def _chosen(project: Project, name: str) -> Declaration:
-    """A declaration of the main file by its name, or by noun:name."""
-    noun, _, own = name.rpartition(":")
-    declaration = project.declared(own, noun, f"{{}}:{own}")
-    if project.file_of(declaration) is not project.main:
-        raise EditError(f"{own} stands in another file.", "", declaration.header.name.span)
-    return declaration

@@ -10,8 +10,7 @@ def unfreeze(project: Project, skill: str) -> MindChange:
 
     Example: mindc edit unfreeze collect.mind Avoid
     """
-    declaration = project.find(skill, "skill")
-    project.refuse_like(declaration)
+    declaration = project.own_skill(skill)
     frozen = facts(declaration, Stays)
     if not frozen:
         raise EditError(f"{skill} is not frozen.", "", declaration.header.span)
