@@ -6,9 +6,8 @@ from contextlib import contextmanager
 
 from distributed import LocalCluster
 from mindrun.sim.rollout import Rollout
-from mindrun.train.attempts import AttemptExecutor
+from mindrun.train.attempts import AttemptExecutor, StretchThreads
 from mindrun.train.lesson_state import Course
-from mindrun.train.stretch_threads import StretchThreads
 
 from mindlang.executors.cluster_jobs import ClusterJobs
 from mindlang.executors.dask import Destination, connect

@@ -19,9 +19,8 @@ from mindrun.processors import cores
 from numpy.typing import NDArray
 
 from mindlang.compiler.compile import load
-from mindlang.run.many_runs import NO_GENOME, layouts
 from mindlang.run.paired_difference import difference, t_quantile
-from mindlang.run.setup import set_up
+from mindlang.run.setup import NO_GENOME, layouts, set_up
 
 Floats = NDArray[np.floating[Any]]
 Rng = np.random.Generator

@@ -22,7 +22,7 @@ import numpy as np
 from mindrun.graph.policy import Policy
 from mindrun.kinds.learners import Genetic
 from mindrun.sim.rollout import Rollout
-from mindrun.train.genetic import mutate
+from mindrun.train.ask_and_tell import mutate
 
 from benchmarks.workloads import STUCK_SEED, Lanes, collect, random_weights, with_obstacles, with_skills
 

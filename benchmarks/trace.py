@@ -14,9 +14,8 @@ from pathlib import Path
 from statistics import median
 
 from mindlang.compiler.compile import load
-from mindlang.run.many_runs import NO_GENOME
 from mindlang.run.recorded_run import record_run
-from mindlang.run.setup import set_up
+from mindlang.run.setup import NO_GENOME, set_up
 
 MINDC = (sys.executable, "-c", "from mindlang.cli import main; main()")
 COLLECT = Path(__file__).resolve().parent.parent / "examples" / "collect" / "collect.mind"

@@ -33,7 +33,7 @@ from mindrun.train.population import Genomes, Scores
 from mindrun.train.training import best
 
 import mindlang
-from mindlang.run.many_runs import NO_GENOME, layouts
+from mindlang.run.setup import NO_GENOME, layouts
 
 HIERARCHY = "hierarchy"
 ENDLESS_GENERATIONS, ENDLESS_ATTEMPTS = 10**6, 1000

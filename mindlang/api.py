@@ -34,10 +34,9 @@ from mindlang.editing.summary import broken_sentences, diff, summarise
 from mindlang.limits import as_layout, as_workers, refuse_too_large, refuse_too_many
 from mindlang.lock.ready import ReadyMind, make_ready
 from mindlang.run.chosen_task import master_of, skill_of, task_of, unknown
-from mindlang.run.many_runs import run_timed
 from mindlang.run.outcome import bench_data, over_at_once
 from mindlang.run.recorded_run import record_run
-from mindlang.run.setup import RunSetup, set_up, train_command, untaught_skills
+from mindlang.run.setup import RunSetup, run_timed, set_up, train_command, untaught_skills
 from mindlang.run.tables import Column, trace_table
 from mindlang.training.lesson_choice import TrainOptions, lessons_to_teach
 from mindlang.training.subject import begin_run
@@ -61,7 +60,7 @@ class Mind(ShortRepr):
 
     @property
     def diagnostics(self) -> tuple[Diagnostic, ...]:
-        """What is wrong, in the order of the text: each with a code, a message, a hint and where it is.
+        """All that is wrong, in the order of the text: each with a code, a message, a hint and where it is.
 
         >>> [each.code for each in mindlang.loads("master Nobody").diagnostics]
         ['no-tick', 'no-body', 'unknown-skill']
@@ -70,7 +69,7 @@ class Mind(ShortRepr):
 
     @property
     def is_valid(self) -> bool:
-        """Whether it compiles, and its procedures can be called.
+        """True where it compiles, and its procedures can be called.
 
         >>> mind.is_valid
         True
@@ -174,15 +173,15 @@ class Mind(ShortRepr):
         >>> found["runs"], found["count_mean"]
         (20, 11.45)
         """
-        cast = self._set_up(task, master)
-        seeds = cast.layouts(seed, runs)
-        refuse_too_many(cast.task, runs)
-        rollout = cast.rollout(workers=as_workers(workers))
+        setup = self._set_up(task, master)
+        seeds = setup.layouts(seed, runs)
+        refuse_too_many(setup.task, runs)
+        rollout = setup.rollout(workers=as_workers(workers))
         refuse_too_large(rollout, 1, runs)
         scores, *took = run_timed(rollout, seeds)
-        notes = cast.notes(rollout, *over_at_once(cast.task, scores))
-        data = bench_data(cast.task, scores, seeds, *took) | {"notes": notes}
-        return {"task": cast.task.name, "master": cast.master, "seed": int(seed)} | data
+        notes = setup.notes(rollout, *over_at_once(setup.task, scores))
+        data = bench_data(setup.task, scores, seeds, *took) | {"notes": notes}
+        return {"task": setup.task.name, "master": setup.master, "seed": int(seed)} | data
 
     def train(
         self,

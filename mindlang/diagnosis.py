@@ -28,7 +28,7 @@ LISTED_PACKAGES = 3  # of an extra; of more only their number is told
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """What was looked at, how it is, what was seen, and the line that mends it, where it is not ok.
+    """One thing that was looked at: how it is, what was seen, and the line that mends it, where it is not ok.
 
     Nothing is wrong with what is absent: it is needed only for what is said of it.
     """
@@ -40,7 +40,7 @@ class Finding:
 
 
 def findings() -> Iterator[Finding]:
-    """What all checks have seen. One that fails is itself a finding: a broken package must not hide the others."""
+    """All that the checks have seen. One that fails is itself a finding: a broken package must not hide the others."""
     for check in CHECKS:
         try:
             yield from check()
@@ -111,7 +111,7 @@ def packages() -> Iterator[Finding]:
 
 
 def requirements(extra: str = "") -> list[Requirement]:
-    """What an extra needs beyond what is always needed, or the latter; PackageNotFoundError where no mindlang is."""
+    """The packages that an extra needs beyond those always needed, or the latter."""
 
     def is_for(package: Requirement, extra: str) -> bool:
         return package.marker is None or package.marker.evaluate({"extra": extra})

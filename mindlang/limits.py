@@ -83,7 +83,8 @@ def refuse_too_large(rollout: Rollout, genomes: int, layouts: int, attempts: int
     needed, there = attempts * bytes_of(rollout, genomes, layouts), available()
     if there is not None and needed > there:
         message = f"{rollout.task.name} takes about {_in_bytes(needed)} of memory, and there are {_in_bytes(there)}"
-        raise MindError(message, f"Most of it is for {_largest(rollout.sizes)}.")
+        parts = _parts(rollout.sizes)
+        raise MindError(message, f"Most of it is for {max(parts, key=parts.__getitem__)}.")
 
 
 def refuse_too_long(rollout: Rollout, runs: int) -> None:
@@ -114,30 +115,16 @@ def _parts(sizes: Sizes) -> dict[str, int]:
     }
 
 
-def _largest(sizes: Sizes) -> str:
-    parts = _parts(sizes)
-    return max(parts, key=lambda part: parts[part])
-
-
 def available() -> int | None:
     """The bytes of memory that this process may still take; None where nobody knows."""
-    found = [_free(), *map(_number_in, CGROUP_LIMIT_FILES)]
-    limit = resource.getrlimit(resource.RLIMIT_AS)[0]
-    known = [number for number in (*found, limit) if number is not None and number >= 0]
-    return min(known, default=None)
-
-
-def _free() -> int | None:
+    known = [resource.getrlimit(resource.RLIMIT_AS)[0]]
     with suppress(OSError, ValueError, IndexError):
         lines = Path("/proc/meminfo").read_text(encoding="ascii").splitlines()
-        return next((int(line.split()[1]) << 10 for line in lines if line.startswith("MemAvailable:")), None)
-    return None
-
-
-def _number_in(path: str) -> int | None:
-    with suppress(OSError, ValueError):  # "max" is no limit
-        return int(Path(path).read_text(encoding="ascii"))
-    return None
+        known += [int(line.split()[1]) << 10 for line in lines if line.startswith("MemAvailable:")]
+    for path in CGROUP_LIMIT_FILES:
+        with suppress(OSError, ValueError):  # "max" is no limit
+            known.append(int(Path(path).read_text(encoding="ascii")))
+    return min((number for number in known if number >= 0), default=None)
 
 
 def _in_bytes(number: int) -> str:

@@ -1,6 +1,7 @@
 """Numbers for reading: scores, rates, times."""
 
 from math import isfinite
+from typing import Any
 
 
 def score(value: float | None, digits: int = 2) -> str:
@@ -19,6 +20,12 @@ def rate(ticks_per_second: float, of: str = "") -> str:
     if ticks_per_second >= 1e6:
         return f"{ticks_per_second / 1e6:.1f} M{per}"
     return f"{ticks_per_second / 1e3:.0f} k{per}"
+
+
+def speed(found: dict[str, Any]) -> str:
+    """How many ticks a second of a processor made, the same on a busy machine; of a clock's where that is not known."""
+    cpu = found.get("ticks_per_cpu_second")
+    return rate(found["ticks_per_second"]) if cpu is None else rate(cpu, "CPU second")
 
 
 def duration(seconds: float) -> str:

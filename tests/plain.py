@@ -13,8 +13,8 @@ from mindrun.kinds.sensors.computed import Computed
 from mindrun.kinds.sensors.derivative import Derivative
 from mindrun.kinds.sensors.reading import Reading
 from mindrun.kinds.sensors.sine import Sine
+from mindrun.numbers.arithmetic import DENOMINATOR, LIMIT, NUMERATOR
 from mindrun.numbers.network import Terms, matrices
-from mindrun.numbers.sigmoid import DENOMINATOR, LIMIT, NUMERATOR
 from mindrun.numbers.trigonometry import sine
 
 from tests.hierarchies import PROCEDURES

@@ -71,7 +71,6 @@ ROOMS = {
             for name in (
                 "engine/engine",
                 "numbers/expression",
-                "numbers/sigmoid",
                 "numbers/arithmetic",
             )
         ),

@@ -11,9 +11,10 @@ from mindrun.graph.weights import reachable
 from mindrun.kinds.sensors.sensor import directions
 from mindrun.robot.recording import RecordingError, read
 from mindrun.robot.replay import computed_again
+from mindrun.terminal.tick_count import ticks as in_words
 from numpy.typing import NDArray
 
-from mindlang.attribution.shares import Contribution, shares
+from mindlang.attribution.shares import NAMED_PATHS, Contribution, shares
 from mindlang.compiler.diagnostic import did_you_mean, listed
 from mindlang.run.chosen_task import SetupError
 from mindlang.run.edge_flow import EdgeFlows, Singles, Sink, edge_flows, sink_named
@@ -22,7 +23,6 @@ from mindlang.run.recorded_run import RecordedRun
 from mindlang.run.recording import run_of, running_bundle
 
 REWARD = "reward"  # asks for the score, where nothing has that name
-PATH_COUNT = 10  # that are named, where nobody says how many
 DIRECTION_TOLERANCE = 1e-6  # of a unit vector: directions that lead no farther together have no mean
 MAX_EDGE_TICKS = 10_000_000  # edges times ticks of one answer
 
@@ -96,7 +96,7 @@ def answer(course: Course, what: str, span: tuple[int, int] | None, paths: int |
     about = course.about | {"ticks": [first, last], "seconds_per_tick": course.flows.graph.tick}
     target = sink_named(course.flows, what)
     if target is not None:
-        return about | _shares(course, target, range(first - 1, last), paths or PATH_COUNT)
+        return about | _shares(course, target, range(first - 1, last), paths or NAMED_PATHS)
     if what != REWARD:
         raise _unknown(course, what)
     if course.run is None:
@@ -109,7 +109,7 @@ def answer(course: Course, what: str, span: tuple[int, int] | None, paths: int |
 def _within(course: Course, span: tuple[int, int] | None) -> tuple[int, int]:
     first, last = span or (1, course.ticks)
     if last > course.ticks:
-        many = "1 tick" if course.ticks == 1 else f"{course.ticks:,} ticks"
+        many = in_words(course.ticks)
         raise QuestionError(
             f"there is no tick {last:,}: it was over after {many}", f"Say one from 1 to {course.ticks}."
         )

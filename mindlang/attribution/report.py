@@ -6,7 +6,7 @@ from typing import Any
 from rich.console import Group, RenderableType
 from rich.text import Text
 
-from mindlang.attribution.largest_paths import MAX_COUNTED_PATHS
+from mindlang.attribution.shares import MAX_COUNTED_PATHS
 from mindlang.compiler.diagnostic import listed
 from mindlang.number_format import score
 
@@ -55,42 +55,28 @@ def _share_lines(found: dict[str, Any]) -> Iterator[Text]:
     noun, value = ("influence", "sent") if found["kind"] == "skill" else ("share", "command")
     yield Text(f"{noun:>9}   {'of influence':<13}{value:>8}  path", "dim")
     for each in found["paths"]:
-        yield Text(f"{each['share']:9.4f}  {_bar(each['part']):<14}{each['value']:8.4f}  {_path(each['path'])}")
+        bar = "█" * round(each["part"] * BAR_CHARACTERS)
+        yield Text(f"{each['share']:9.4f}  {each['part']:6.1%} {bar:<7}{each['value']:8.4f}  {_path(each['path'])}")
         if each["reads"]:
-            yield Text(_cut(f"{'':11}read {_reads(each['reads'])}"), "dim")
+            line = f"{'':11}read {', '.join(f'{name} {_values(values)}' for name, values in each['reads'].items())}"
+            yield Text(line if len(line) <= LINE_CHARACTERS else line[: LINE_CHARACTERS - 1] + "…", "dim")
     for number, text in _others(found):
         yield Text(f"{number:9.4f}  {text}")
-    yield Text(f"{_command(found)}  {_total(found)}", "bold")
+    command = f"{'–':>9}" if found["command"] is None else f"{found['command']:9.4f}"
+    yield Text(f"{command}  {_total(found)}", "bold")
     for note in _notes(found):
         yield Text(note, "dim")
 
 
-def _command(found: dict[str, Any]) -> str:
-    return f"{'–':>9}" if found["command"] is None else f"{found['command']:9.4f}"
-
-
-def _bar(part: float) -> str:
-    return f"{part:6.1%} " + "█" * round(part * BAR_CHARACTERS)
-
-
 def _path(names: Sequence[str]) -> str:
-    """The skills of a path; of one that is too long for a line those at both ends."""
+    """The skills of a path; of one that is too long for a line the master, and as many of the last as fit."""
     skills = [*names[:-1]] or [*names]
-    kept, room = len(skills), LINE_CHARACTERS - PATH_COLUMN
-    while (text := _shortened(skills, kept)) and len(text) > room and kept > 2:
-        kept -= 1
+    text = " → ".join(skills)
+    for left_out in range(2, len(skills)):
+        if len(text) <= LINE_CHARACTERS - PATH_COLUMN:
+            break
+        text = " → ".join([skills[0], f"{left_out - 1} more", *skills[left_out:]])
     return text
-
-
-def _shortened(skills: Sequence[str], kept: int) -> str:
-    """A path in one line, shortened to so many of its skills: the master, and the last ones."""
-    if kept == len(skills):
-        return " → ".join(skills)
-    return " → ".join([skills[0], f"{len(skills) - kept} more", *skills[len(skills) - kept + 1 :]])
-
-
-def _reads(reads: dict[str, list[float | None]]) -> str:
-    return ", ".join(f"{name} {_values(values)}" for name, values in reads.items())
 
 
 def _values(values: Sequence[float | None]) -> str:
@@ -98,31 +84,21 @@ def _values(values: Sequence[float | None]) -> str:
     return " ".join(few) + " …" * (len(values) > MAX_NAMED_READINGS)
 
 
-def _cut(line: str) -> str:
-    return line if len(line) <= LINE_CHARACTERS else line[: LINE_CHARACTERS - 1] + "…"
-
-
 def _others(found: dict[str, Any]) -> Iterator[tuple[float, str]]:
     """What of the command no named path has made."""
-    rest, ticks = found["rest"], _tick_count(found)
-    if rest["paths"]:
+    rest = found["rest"]
+    if many := rest["paths"]:
+        paths = "10^15 paths or" if many >= MAX_COUNTED_PATHS else "1 path" if many == 1 else f"{many:,} paths"
         larger = "" if found["are_largest"] else ", of which some may be larger"
-        yield rest["share"], f"{rest['part']:6.1%} over {_many(rest['paths'])} more{larger}"
+        yield rest["share"], f"{rest['part']:6.1%} over {paths} more{larger}"
     if found["undriven"] and found["kind"] == "actuator":
-        when = "" if ticks == 1 else f" in {found['undriven']:,} of {ticks:,} ticks"
-        yield found["neutral"], f"nothing influenced it{when}: its neutral"
+        yield found["neutral"], f"nothing influenced it{_often(found, 'undriven')}: its neutral"
     if abs(found["rounding"]) > GAIN_NOTED:
         yield found["rounding"], "rounding of the engine's sums"
 
 
-def _many(paths: int) -> str:
-    if paths >= MAX_COUNTED_PATHS:
-        return "10^15 paths or"
-    return "1 path" if paths == 1 else f"{paths:,} paths"
-
-
 def _total(found: dict[str, Any]) -> str:
-    mean = "" if _tick_count(found) == 1 else ", in the mean"
+    mean = _mean(found)
     if found["kind"] == "memory" and 0 < found["undriven"] < _tick_count(found):
         mean += " where it was sent one"
     if found["kind"] == "skill":
@@ -131,26 +107,28 @@ def _total(found: dict[str, Any]) -> str:
 
 
 def _notes(found: dict[str, Any]) -> Iterator[str]:
-    ticks = _tick_count(found)
     if found["undriven"] and found["kind"] != "actuator":
         nothing = "nothing influenced it" if found["kind"] == "skill" else "nothing drove it"
-        yield nothing if ticks == 1 else f"{nothing} in {found['undriven']:,} of {ticks:,} ticks"
+        yield f"{nothing}{_often(found, 'undriven')}"
     if silent := found["silent"]:
         more = len(silent) - MAX_NAMED_SKILLS
         names = silent if more <= 1 else [*silent[:MAX_NAMED_SKILLS], f"{more:,} more"]
         yield f"sent it nothing: {listed(names, 'and')}"
     if found["kind"] == "actuator" and abs(found["acted"] - found["command"]) > GAIN_NOTED:
-        yield _acted(found)
+        if "recording" in found:
+            why = f": the robot was stopped{_often(found, 'stopped')}" if found["stopped"] else ""
+            yield f"what was sent to the guardian is {found['acted']:.4f}{_mean(found)}{why}"
+        else:
+            yield f"what reached it then is {found['acted']:.4f}{_mean(found)}: its commands act later"
 
 
-def _acted(found: dict[str, Any]) -> str:
-    ticks, stopped = _tick_count(found), found["stopped"]
-    mean = "" if ticks == 1 else ", in the mean"
-    if "recording" not in found:
-        return f"what reached it then is {found['acted']:.4f}{mean}: its commands act later"
-    often = f" in {stopped:,} of {ticks:,} ticks" if ticks > 1 else ""
-    why = f": the robot was stopped{often}" if stopped else ""
-    return f"what was sent to the guardian is {found['acted']:.4f}{mean}{why}"
+def _often(found: dict[str, Any], what: str) -> str:
+    ticks = _tick_count(found)
+    return "" if ticks == 1 else f" in {found[what]:,} of {ticks:,} ticks"
+
+
+def _mean(found: dict[str, Any]) -> str:
+    return "" if _tick_count(found) == 1 else ", in the mean"
 
 
 def _tick_count(found: dict[str, Any]) -> int:

@@ -9,8 +9,12 @@ it, and the `share` of the command that this part makes with the value v that th
 add up to the command, parts to 1.
 """
 
-from collections.abc import Sequence
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from heapq import heappop, heappush
+from itertools import count
 from math import fsum
 
 import numpy as np
@@ -18,10 +22,15 @@ from mindrun.engine.think import clamped
 from mindrun.errors import MindError
 from numpy.typing import NDArray
 
-from mindlang.attribution.largest_paths import MAX_COUNTED_PATHS, Doubles, FoundPath, Ways, largest_paths, path_count
 from mindlang.run.edge_flow import NOTHING, EdgeFlow, EdgeFlows, Sink, accumulated
 
 NAMED_PATHS = 10
+Doubles = NDArray[np.float64]
+MAX_COUNTED_PATHS = 10**15
+Linked = tuple[()] | tuple[int, "Linked"]  # edges from an upper one down
+# Of a path that is known: minus the bound of its part, a number, its edges, the upper skill, a part and what of it.
+End = tuple[float, int, Linked, int, Doubles, Doubles]
+MAX_FOLLOWED_EDGES = 200_000  # after which the largest so far are the answer
 
 
 class ReplacedInfluenceError(MindError):
@@ -232,3 +241,106 @@ def _into(flows: EdgeFlows, skill: int, carried: EdgeFlow) -> Ways | None:
     total = arrived.sum(axis=0)
     fractions = np.divide(arrived, total, out=np.zeros_like(arrived), where=total > 0)
     return Ways(edges, tuple(flows.links[edge].source for edge in edges), fractions)
+
+
+@dataclass(frozen=True, slots=True)
+class Ways:
+    """How influence comes to a skill: the edges [n] from the skills `sources` [n].
+
+    `fractions` [n, ticks] are the parts of its influence that come over each, which add up to 1 in each tick in which
+    it has any.
+    """
+
+    edges: tuple[int, ...]
+    sources: tuple[int, ...]
+    fractions: Doubles
+
+
+@dataclass(frozen=True, slots=True)
+class FoundPath:
+    """A path by its edges, from the master down, and its part [ticks] of what is asked about."""
+
+    edges: tuple[int, ...]
+    part: Doubles
+
+
+@dataclass(frozen=True, slots=True)
+class LargestPaths:
+    """The largest paths, the largest first. Unless `are_largest`, the search was given up before it was sure of it."""
+
+    paths: list[FoundPath]
+    are_largest: bool
+
+
+def largest_paths(ends: Ways, into: Mapping[int, Ways], order: Sequence[int], limit: int) -> LargestPaths:
+    """The paths whose parts, summed over the ticks, are largest.
+
+    `ends` are the edges to what is asked about, with the part that comes over each; `into` has the ways into each
+    skill, `order` the skills parents first, the master before all. A path's end can at most come to its part times that
+    of the best path above it in each tick. The end of which this sum is largest is followed up, always over its best
+    way, until no end is left that could be larger than what is found. In one tick nothing is followed in vain.
+    """
+    ticks = ends.fractions.shape[1]
+    best, number = _best(into, order, ticks), count()
+    followed, found = 0, list[tuple[float, int, FoundPath]]()
+
+    def onward(ways: Ways, part: Doubles, edges: Linked) -> list[End]:
+        """A path's end with this part, longer by each of the ways on, the best first."""
+        above = _part_above(ways, best)
+        bounds = above @ part
+        return sorted(
+            (-float(bounds[i]), next(number), (ways.edges[i], edges), ways.sources[i], part, ways.fractions[i])
+            for i in np.flatnonzero(above.any(axis=1))
+        )
+
+    waiting = onward(ends, np.ones(ticks), ())  # sorted, so a heap
+    while waiting and not (len(found) >= limit and found[limit - 1][0] >= -waiting[0][0]):
+        if followed > MAX_FOLLOWED_EDGES:
+            return LargestPaths([path for _, _, path in found[:limit]], are_largest=False)
+        _, _, edges, skill, part, fraction = heappop(waiting)
+        while True:
+            part = part * fraction
+            followed += 1
+            if skill not in into:
+                break
+            (_, _, edges, skill, _, fraction), *others = onward(into[skill], part, edges)
+            for other in others:
+                heappush(waiting, other)
+        found.append((float(part.sum()), -len(found), FoundPath(tuple(_unlinked(edges)), part)))
+        found.sort(key=lambda each: each[:2], reverse=True)
+        del found[limit:]
+    return LargestPaths([path for _, _, path in found], are_largest=True)
+
+
+def path_count(ends: Ways, into: Mapping[int, Ways], order: Sequence[int]) -> int:
+    """How many paths there are over edges that carried something in any of the ticks, up to `MAX_COUNTED_PATHS`."""
+    counts: dict[int, int] = {order[0]: 1}
+    for skill in order[1:]:
+        counts[skill] = _counted(into[skill], counts) if skill in into else 0
+    return _counted(ends, counts)
+
+
+def _counted(ways: Ways, counts: Mapping[int, int]) -> int:
+    used = np.flatnonzero(ways.fractions.any(axis=1))
+    return min(MAX_COUNTED_PATHS, sum(counts[ways.sources[number]] for number in used))
+
+
+def _best(into: Mapping[int, Ways], order: Sequence[int], ticks: int) -> dict[int, Doubles]:
+    """The part [ticks] of each skill's influence that comes over the best path to it in that tick."""
+    best = {order[0]: np.ones(ticks)}
+    for skill in order[1:]:
+        ways = into.get(skill)
+        best[skill] = np.zeros(ticks) if ways is None else _part_above(ways, best).max(axis=0)
+    return best
+
+
+def _part_above(ways: Ways, best: Mapping[int, Doubles]) -> Doubles:
+    """The part [n, ticks] that comes at most over a path by each of the ways."""
+    above: Doubles = np.reshape([best[source] for source in ways.sources], ways.fractions.shape)
+    return ways.fractions * above
+
+
+def _unlinked(edges: Linked) -> Iterator[int]:
+    while edges:
+        edge, edges = edges
+        yield edge

@@ -45,7 +45,7 @@ NO_NUMBERS = "Write the number itself: a bundle has no names of numbers."
 
 @dataclass(frozen=True, slots=True)
 class BreakpointFile:
-    """What became of a .break file; where anything is wrong in it, the diagnostics say so."""
+    """A .break file that was read; where anything is wrong in it, the diagnostics say so."""
 
     breakpoints: tuple[Breakpoint, ...]
     diagnostics: tuple[Diagnostic, ...]

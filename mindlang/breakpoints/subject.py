@@ -52,7 +52,7 @@ class Subject:
 
     @classmethod
     def of_recording(cls, graph: Graph, master: str, sensors: tuple[str, ...], task: Task | None = None) -> Subject:
-        """What a robot with these wired sensors recorded with the graph of a bundle, in the world of a task if any."""
+        """The recording of a robot with these wired sensors and the graph of a bundle, in a world if any."""
         return cls(names_in(graph), graph, master, task, sensors, is_recorded=True)
 
     @cached_property
@@ -71,7 +71,7 @@ class Subject:
 
     @cached_property
     def world(self) -> World | None:
-        """What the task says of its world."""
+        """The world as the task says it."""
         if self.task is None:
             return None
         things: dict[str, set[str]] = {}
@@ -92,11 +92,11 @@ def names_in(graph: Graph) -> Names:
         "skill": graph.skills,
         "task": graph.tasks,
     }
-    return Names({noun: {each.name: _declared(noun, each.name) for each in found} for noun, found in nouns.items()})
 
+    def declared(noun: str, name: str) -> Declaration:
+        return Declaration(Header(Name(noun, NOWHERE), Name(name, NOWHERE), None, NOWHERE), ())
 
-def _declared(noun: str, name: str) -> Declaration:
-    return Declaration(Header(Name(noun, NOWHERE), Name(name, NOWHERE), None, NOWHERE), ())
+    return Names({noun: {each.name: declared(noun, each.name) for each in found} for noun, found in nouns.items()})
 
 
 def mind_of(path: str, given: Mapping[str, Compiled]) -> Compiled | None:
@@ -123,7 +123,7 @@ def subject_of_mind(compiled: Compiled, task: str | None = None, master: str | N
 
 
 def subject_of_bundle(bundle: Bundle, task: str | None = None, master: str | None = None) -> Subject:
-    """What a robot with this bundle will record; with a task, what a dry run of it will. SetupError as above."""
+    """The recording of a robot with this bundle, or with a task of its dry run; SetupError for a name that is none."""
     graph = bundle.graph
     wired = [wire.sensor for wire in bundle.wiring.sensors] if bundle.wiring and not task else physical(graph)
     chosen = task_of(graph, task)[0] if task else None

@@ -1,7 +1,5 @@
 """Where breakpoints stop a run or a robot's recording, found in its rows, which may come in parts of any size."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import chain
@@ -132,7 +130,7 @@ def noticing(setup: RunSetup, breakpoints: Sequence[Breakpoint]) -> RunSetup:
 
 
 def watcher(breakpoints: Sequence[Breakpoint], setup: RunSetup) -> Watcher:
-    """What watches a run of the setup for breakpoints; WeightsError or ProcedureError where its skills cannot think."""
+    """The watcher of a run of the setup; WeightsError or ProcedureError where its skills cannot think."""
     graph = setup.ready.policy.graph
     sources = procedure_sources(graph, setup.folder, setup.master)
     return Watcher(breakpoints, setup.task.events, graph, hierarchy(setup.ready.policy, sources, setup.master))
@@ -212,7 +210,7 @@ def _weights(flows: EdgeFlows, flow: EdgeFlow, asked: Transmission) -> NDArray[n
 
 
 def recording_subject(of: About, mind: Bundle) -> Subject:
-    """What the breakpoints of a recording are about, made with the mind of this bundle."""
+    """The subject of a recording's breakpoints, made with the mind of this bundle."""
     return Subject.of_recording(mind.graph, of.master, of.sensors, recorded_task(of, mind))
 
 

@@ -7,8 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 import click
 from mindrun.cli import EXAMPLES, driving_parser, tool_parser, tools
 
-from mindlang.explaining.article import Article, Parameter
-from mindlang.explaining.sections import in_lines
+from mindlang.explaining.article import Article, Parameter, in_lines
 
 PROGRAM = "mindrun"
 TOOLS = "tools:"  # the part of mindrun's epilog that is not its own

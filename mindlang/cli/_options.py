@@ -1,8 +1,6 @@
 """What options and arguments may be: numbers that say both of their bounds, files, names that a shell completes."""
 
-from __future__ import annotations
-
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import wraps
 from math import isfinite, nan
@@ -42,7 +40,7 @@ class LayoutOption(WholeOption):
             return super().convert(value, param, ctx)
         first = SEED.convert(seed, param, ctx)
         run = WholeOption(*limits.RUN_BOUNDS).convert(number, param, ctx)
-        from mindlang.run.many_runs import layouts
+        from mindlang.run.setup import layouts
 
         return layouts(first, run)[-1]
 
@@ -86,7 +84,7 @@ class WhereOption(click.ParamType[Any]):
     name = "where"
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        """What it says, None for threads; a sentence where it says nothing that is known."""
+        """The executor that it says, None for threads; a sentence where it says none that is known."""
         from mindrun.errors import MindError
 
         from mindlang.executors import where
@@ -101,7 +99,7 @@ class WhereOption(click.ParamType[Any]):
         from mindlang.executors import THREADS, kinds_by_usage
 
         known = {THREADS: "of this process", **{f"{name}:": usage for name, usage in kinds_by_usage().items()}}
-        return [CompletionItem(name, help=usage) for name, usage in known.items() if name.startswith(incomplete)]
+        return one_of(lambda: known)(ctx, param, incomplete)
 
 
 class NewFile(click.Path):
@@ -150,6 +148,15 @@ def in_files(words: Sequence[str], files: Sequence[str]) -> str:
     return f" in {len(files)} file{'s' * (len(files) != 1)}" if any(map(is_folder, words)) else ""
 
 
+def one_of(known: Callable[[], Mapping[str, str]]) -> Completion:
+    """Complete a parameter with names, each with what a shell says of it."""
+
+    def found(context: click.Context, parameter: click.Parameter, begun: str) -> list[CompletionItem]:
+        return [CompletionItem(name, help=about) for name, about in known().items() if name.startswith(begun)]
+
+    return found
+
+
 def declared(*nouns: str) -> Completion:
     """Complete a parameter with the names that the mind on the line declares with one of these nouns, or with any."""
 
@@ -171,8 +178,8 @@ def _declarations(context: click.Context, parameter: click.Parameter) -> Iterato
 
     An option may stand before the file: then they are those of this folder.
     """
+    from mindlang.compiler.compile import files, read
     from mindlang.compiler.diagnostic import Findings
-    from mindlang.compiler.use import files, read
 
     values = [*context.params.values(), *context.args]  # before the value of an option, arguments are not sorted yet
     said = [word for value in values for word in (value if isinstance(value, tuple) else [value])]

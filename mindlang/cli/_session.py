@@ -1,22 +1,19 @@
 """What commands that simulate share: a run set up, the simulator compiled, progress shown, recordings refused."""
 
-from __future__ import annotations
-
 import os
 import signal
 import sys
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import NamedTuple
 
 from mindrun.errors import MindError, ProcedureError
 from mindrun.graph.run_scores import Scores
 from mindrun.robot.replay import DifferenceError
 from mindrun.sim import warmup
 from mindrun.sim.changed_ticks import STAGES
-from mindrun.sim.lanes.advance import advance
 from mindrun.sim.rollout import Rollout
 from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
 
@@ -31,28 +28,16 @@ from mindlang.executors import Where, scorer_on
 from mindlang.executors.jobs import JobScorer
 from mindlang.limits import refuse_too_large, refuse_too_many
 from mindlang.run.chosen_task import SetupError
-from mindlang.run.many_runs import NO_GENOME, run_timed
 from mindlang.run.recorded_run import RunResult, run_result
-from mindlang.run.setup import RunSetup, set_up
+from mindlang.run.setup import NO_GENOME, RunSetup, run_timed, set_up
 
 COMPILING_STAGES = "compiling the stages of a tick once (about a minute)…"
 COMPILING = "compiling the simulator once (about half a minute)…"
-Cast = tuple[RunSetup, Rollout]  # who plays what, in the simulator
 
 
-def is_compiled(entries: Iterable[Any] = (advance,)) -> bool:
-    """Whether there is compiled code of these functions that numba would take: of these very files, kept or shipped."""
-    return warmup.is_there(entries)
-
-
-def prepare(rollout: Rollout) -> None:
-    """Compile the simulator for a rollout, on standard error, before what needs it begins."""
-    ensure_compiled(rollout, terminal.complain)
-
-
-def ensure_compiled(rollout: Rollout, say: Callable[[str], None]) -> None:
+def ensure_compiled(rollout: Rollout, say: Callable[[str], None] = terminal.complain) -> None:
     """Compile the simulator if need be, and say so."""
-    had = is_compiled(rollout.entries)
+    had = warmup.is_there(rollout.entries)  # compiled of these very files, kept or shipped
     if not had:
         say(COMPILING)
     with _ended_by_ctrl_c():
@@ -63,7 +48,7 @@ def ensure_compiled(rollout: Rollout, say: Callable[[str], None]) -> None:
 
 def ensure_stages_compiled(rollout: Rollout, say: Callable[[str], None]) -> None:
     """Compile the stages of a tick one by one if need be, which runs with changes take, and say so."""
-    if not is_compiled(STAGES):
+    if not warmup.is_there(STAGES):
         say(COMPILING_STAGES)
     with _ended_by_ctrl_c():
         rollout.compile(*STAGES)
@@ -79,20 +64,27 @@ def _ended_by_ctrl_c() -> Iterator[None]:
         signal.signal(signal.SIGINT, before)
 
 
+class Prepared(NamedTuple):
+    """A run that is set up, and the simulator that makes it."""
+
+    setup: RunSetup
+    rollout: Rollout
+
+
 @dataclass(frozen=True, slots=True)
 class RunSession:
     """Talks on stderr, unless it is to be quiet; what is wrong ends the program with one message."""
 
     quiet: bool
 
-    def prepare(self, file: str, chosen: RunChoice, workers: int = 1, runs: int = 1) -> Cast:
-        """The cast of a run, in the simulator."""
-        found = self.cast(file, terminal.load_compiled(file), chosen)
-        return found, self.simulator(found, chosen.interrupt, workers, runs)
+    def prepare(self, file: str, chosen: RunChoice, workers: int = 1, runs: int = 1) -> Prepared:
+        """A run that is set up, in the simulator."""
+        setup = self.set_up(file, terminal.load_compiled(file), chosen)
+        return Prepared(setup, self.simulator(setup, chosen.interrupt, workers, runs))
 
     @terminal.procedures_talk()
-    def cast(self, file: str, compiled: Compiled, chosen: RunChoice) -> RunSetup:
-        """Who plays what."""
+    def set_up(self, file: str, compiled: Compiled, chosen: RunChoice) -> RunSetup:
+        """Who plays what in a run of a file that is compiled."""
         with refusing_setups():
             found = set_up(file, compiled, chosen.task, chosen.master)
         self.say(*(f"note: {note}" for note in (*found.ready.notes, found.note) if note))
@@ -100,7 +92,7 @@ class RunSession:
 
     @terminal.procedures_talk()
     def simulator(self, setup: RunSetup, interrupt: bool, workers: int = 1, runs: int = 1) -> Rollout:
-        """A cast in the simulator, which is compiled for it."""
+        """The simulator of a run that is set up, compiled for it."""
         with refusing_setups():
             refuse_too_many(setup.task, runs)
             rollout = setup.rollout(interrupt, workers)
@@ -111,10 +103,10 @@ class RunSession:
         return rollout
 
     def scorer(
-        self, cast: Cast, interrupt: bool, where: Where | None, workers: int
+        self, prepared: Prepared, interrupt: bool, where: Where | None, workers: int
     ) -> AbstractContextManager[Rollout | JobScorer]:
         """Who makes many runs: so many `workers` of this machine, or as --on says."""
-        setup, rollout = cast
+        setup, rollout = prepared
         return scorer_on(where, rollout, lambda: setup.assignment(interrupt), workers, self.say)
 
     @terminal.procedures_talk()

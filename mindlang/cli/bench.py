@@ -28,7 +28,7 @@ from mindlang.cli._terminal import MISUSE, fail, print_result, refuse_unwritable
 if TYPE_CHECKING:
     from mindrun.graph.run_scores import Scores
 
-    from mindlang.cli._session import Cast, RunSession
+    from mindlang.cli._session import Prepared, RunSession
     from mindlang.executors import Where
     from mindlang.run.tables import Table
 
@@ -151,12 +151,13 @@ class Bench:
         from mindlang.run.summary import bench_summary
         from mindlang.run.tables import runs_table
 
-        cast = self._cast(who, self.chosen.task)
-        task, seeds = cast[0].task, cast[0].layouts(self.seed, self.runs)
-        self.session.say(*(f"note: {note}" for note in cast[0].world_notes))
-        scores, data = self._score(cast, seeds)
+        prepared = self._prepared(who, self.chosen.task)
+        setup = prepared.setup
+        task, seeds = setup.task, setup.layouts(self.seed, self.runs)
+        self.session.say(*(f"note: {note}" for note in setup.world_notes))
+        scores, data = self._score(prepared, seeds)
         self.session.say(*(f"note: {note}" for note in over_at_once(task, scores)))
-        found = {"task": task.name, "master": cast[0].master, "seed": self.seed, **self._by(), **data}
+        found = {"task": task.name, "master": setup.master, "seed": self.seed, **self._by(), **data}
         if self.table:
             self._write(self.table, runs_table(task, scores, seeds), f"{len(seeds):,} runs")
         print_result(self.as_json, found, lambda: bench_summary(found))
@@ -167,35 +168,35 @@ class Bench:
         from mindlang.run.summary import comparison_summary
         from mindlang.run.tables import joined, runs_table
 
-        first = self._cast(who[0], self.chosen.task)
-        second = self._cast(who[1], first[0].task.name)
-        is_one_world = first[0].is_one_world and second[0].is_one_world
-        seeds = max((setup.layouts(self.seed, self.runs) for setup, _ in (first, second)), key=len)
-        notes = differing_tasks(who[1].file, first[0].task, second[0].task)
+        first = self._prepared(who[0], self.chosen.task)
+        second = self._prepared(who[1], first.setup.task.name)
+        is_one_world = first.setup.is_one_world and second.setup.is_one_world
+        seeds = max((each.setup.layouts(self.seed, self.runs) for each in (first, second)), key=len)
+        notes = differing_tasks(who[1].file, first.setup.task, second.setup.task)
         self.session.say(*(f"note: {note}" for note in notes))
         benched, minds = [], []
-        for each, cast in zip(who, (first, second), strict=True):
-            scores, data = self._score(cast, seeds, f"{each.name}: ")
-            benched.append(Benched(each.name, cast[0].task, scores))
-            minds.append({"name": each.name, "file": each.file, "master": cast[0].master, **data})
+        for each, prepared in zip(who, (first, second), strict=True):
+            scores, data = self._score(prepared, seeds, f"{each.name}: ")
+            benched.append(Benched(each.name, prepared.setup.task, scores))
+            minds.append({"name": each.name, "file": each.file, "master": prepared.setup.master, **data})
         compared = compare(benched[0], benched[1], is_one_world)
-        found: dict[str, Any] = {"task": first[0].task.name, "seed": self.seed, "runs": len(seeds), **self._by()}
+        found: dict[str, Any] = {"task": first.setup.task.name, "seed": self.seed, "runs": len(seeds), **self._by()}
         found |= {"minds": minds, **compared.data(), "notes": notes}
         if self.table:
             rows = joined({each.name: runs_table(each.task, each.scores, seeds) for each in benched})
             self._write(self.table, rows, f"2 × {len(seeds):,} runs")
         print_result(self.as_json, found, lambda: comparison_summary(found, compared))
 
-    def _cast(self, who: Contender, task: str | None) -> Cast:
+    def _prepared(self, who: Contender, task: str | None) -> Prepared:
         chosen = replace(self.chosen, task=task, master=who.master)
         return self.session.prepare(who.file, chosen, self.workers, self.runs)
 
-    def _score(self, cast: Cast, seeds: Sequence[int], whose: str = "") -> tuple[Scores, dict[str, Any]]:
+    def _score(self, prepared: Prepared, seeds: Sequence[int], whose: str = "") -> tuple[Scores, dict[str, Any]]:
         """What came of each run, and of all of them as data; notes on stderr say `whose` they are."""
         from mindlang.run.outcome import bench_data, over_at_once
 
-        setup, rollout = cast
-        with self.session.scorer(cast, self.chosen.interrupt, self.where, self.workers) as scorer:
+        setup, rollout = prepared
+        with self.session.scorer(prepared, self.chosen.interrupt, self.where, self.workers) as scorer:
             scores, seconds, cpu = self.session.score(scorer, seeds, whose)
         data = bench_data(setup.task, scores, seeds, seconds, None if self.where else cpu)
         return scores, data | {"notes": setup.notes(rollout, *over_at_once(setup.task, scores))}

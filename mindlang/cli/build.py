@@ -16,9 +16,10 @@ from mindlang.cli._terminal import FINDINGS, MISUSE, complain, console, fail, lo
 from mindlang.compiler.diagnostic import did_you_mean, listed
 
 if TYPE_CHECKING:
+    from mindrun.graph.graph import Graph
     from mindrun.graph.wiring import Wiring
 
-    from mindlang.compiler.compile import Compiled
+    from mindlang.compiler.model import Mind
     from mindlang.lock.ready import ReadyMind
 
 EXAMPLES = """\b
@@ -51,22 +52,24 @@ def command(file: str, output: Path, master: str | None, robot: Path | None, as_
     from mindlang.lock.ready import make_ready
 
     compiled = load_compiled(file)
+    assert compiled.mind is not None
     assert compiled.graph is not None
-    skills = [skill.name for skill in compiled.graph.skills]
+    skills, folder = [skill.name for skill in compiled.graph.skills], compiled.sources[0].folder
     if master is not None and master not in skills:
         fail(f"There is no skill {master}.", did_you_mean(master, skills), MISUSE)
-    _refuse_procedures(compiled, master or compiled.graph.master)
-    wiring = _wiring(robot, compiled, master) if robot else None
+    graph = replace(compiled.graph, master=master or compiled.graph.master)
+    _refuse_procedures(graph, compiled.mind, folder)
+    wiring = _wiring(robot, graph, compiled.mind.unit_metres) if robot else None
     try:
         ready = make_ready(compiled.graph, compiled.sources, master)
         _refuse_missing(ready, file)
-        procedures = procedure_sources(ready.policy.graph, compiled.sources[0].folder)
+        procedures = procedure_sources(ready.policy.graph, folder)
         digest = write_bundle(output, Bundle(ready.policy, procedures, wiring))
     except MindError as error:
         fail(str(error), code=MISUSE)
     except OSError as error:
         fail(f"{output} cannot be written: {error.strerror}")
-    notes = [*ready.notes, *_needed_modules(ready, compiled.sources[0].folder)]
+    notes = [*ready.notes, *_needed_modules(ready, folder)]
     for note in notes:
         complain(f"note: {note}")
     if as_json:
@@ -87,23 +90,6 @@ def _refuse_missing(ready: ReadyMind, file: str) -> None:
         fail(ready.refusals[-1], train_command(Path(file), ready))
 
 
-def _refuse_procedures(compiled: Compiled, master: str) -> None:
-    """Say what `check` says of procedures; end the program where one that travels cannot be what its skill needs."""
-    from mindrun.graph.skill_sets import reachable
-
-    from mindlang.compiler.procedures import mistakes
-
-    assert compiled.graph is not None
-    assert compiled.mind is not None
-    travelling = reachable(compiled.graph, master)
-    others = [skill for skill in compiled.graph.skills if skill not in travelling]
-    found = [*mistakes(travelling, compiled.mind, compiled.sources[0].folder)]
-    left = [*mistakes(others, compiled.mind, compiled.sources[0].folder)]  # it is said, and in nobody's way
-    print_report([*found, *(replace(each, severity="warning") for each in left)], console(stderr=True))
-    if any(each.severity == "error" for each in found):
-        sys.exit(FINDINGS)
-
-
 def _needed_modules(ready: ReadyMind, folder: Path) -> list[str]:
     """What has to be installed on the robot beside mindrun, in a sentence."""
     from mindrun.graph.skill_sets import reachable
@@ -115,14 +101,25 @@ def _needed_modules(ready: ReadyMind, folder: Path) -> list[str]:
     return [f"the robot needs {listed(needed, 'and')}, which no bundle holds"] if needed else []
 
 
-def _wiring(path: Path, compiled: Compiled, master: str | None) -> Wiring:
+def _refuse_procedures(graph: Graph, mind: Mind, folder: Path) -> None:
+    """Say what `check` says of procedures; end the program where one that travels cannot be what its skill needs."""
+    from mindrun.graph.skill_sets import reachable
+
+    from mindlang.compiler.procedures import mistakes
+
+    travelling = reachable(graph, graph.master)
+    found = [*mistakes(travelling, mind, folder)]
+    left = mistakes([skill for skill in graph.skills if skill not in travelling], mind, folder)
+    print_report([*found, *(replace(each, severity="warning") for each in left)], console(stderr=True))
+    if any(each.severity == "error" for each in found):
+        sys.exit(FINDINGS)
+
+
+def _wiring(path: Path, graph: Graph, unit_metres: float | None) -> Wiring:
     """What the mind is wired to; its report goes to stderr, and one with errors ends the program."""
     from mindlang.robot.wire import load_wiring
 
-    assert compiled.mind is not None
-    assert compiled.graph is not None
-    graph = replace(compiled.graph, master=master or compiled.graph.master)
-    checked = load_wiring(path, graph, compiled.mind.unit_metres)
+    checked = load_wiring(path, graph, unit_metres)
     print_report(checked.diagnostics, console(stderr=True))
     if checked.wiring is None:
         sys.exit(FINDINGS if checked.readable else MISUSE)

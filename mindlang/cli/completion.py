@@ -1,7 +1,5 @@
 """`mindc completion`: click's script with which a shell completes the words of mindc, and names of files."""
 
-from __future__ import annotations
-
 import click
 from click.shell_completion import (
     BashComplete,

@@ -181,11 +181,11 @@ def _refuse(diagnostic: Diagnostic, as_json: bool) -> NoReturn:
 
 def _verified(edited: Edited) -> str:
     """What has been verified, by running it; EditError where a trained skill would do something else."""
-    from mindlang.cli._session import prepare
+    from mindlang.cli._session import ensure_compiled
     from mindlang.editing.verify import verify_unchanged
 
     with terminal.procedures_talk():
-        skills = verify_unchanged(edited, prepare)
+        skills = verify_unchanged(edited, ensure_compiled)
     if not skills:
         return "verified: there is no trained skill that this edit leaves as it was"
     return f"verified: {listed(skills, 'and')} did the same to the bit"

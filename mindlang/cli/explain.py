@@ -1,9 +1,9 @@
 """`mindc explain`: what is this, and what is to be done about it?"""
 
 import click
-from click.shell_completion import CompletionItem
 from mindrun.files.printable import visible
 
+from mindlang.cli._options import one_of
 from mindlang.cli._terminal import MISUSE, console, fail, print_json, print_result
 
 EXAMPLES = """\b
@@ -19,17 +19,16 @@ Examples:
 """
 
 
-def _names(context: click.Context, parameter: click.Parameter, begun: str) -> list[CompletionItem]:
-    """What a shell may complete: whatever there is an article of."""
+def _names() -> dict[str, str]:
+    """Whatever there is an article of."""
     from mindlang.cli._articles import command_articles
     from mindlang.explaining.collection import articles
 
-    known = {each.name: each.sort for each in (*command_articles(), *articles())}
-    return [CompletionItem(name, help=sort) for name, sort in known.items() if name.startswith(begun)]
+    return {each.name: each.sort for each in (*command_articles(), *articles())}
 
 
 @click.command(epilog=EXAMPLES)
-@click.argument("name", nargs=-1, shell_complete=_names)
+@click.argument("name", nargs=-1, shell_complete=one_of(_names))
 @click.option("--json", "as_json", is_flag=True, help="One JSON document instead: mindc explain comma --json")
 def command(name: tuple[str, ...], as_json: bool) -> None:
     """Say what NAME means; without NAME list all codes.

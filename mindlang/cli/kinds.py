@@ -1,9 +1,9 @@
 """`mindc kinds`: which kinds and drivers are there?"""
 
 import click
-from click.shell_completion import CompletionItem
 from mindrun.files.printable import visible
 
+from mindlang.cli._options import one_of
 from mindlang.cli._terminal import MISUSE, fail, print_result
 from mindlang.compiler.diagnostic import did_you_mean, listed
 from mindlang.explaining.article import Article
@@ -25,14 +25,13 @@ def _known() -> tuple[Article, ...]:
     return (*kind_articles(), *driver_articles())
 
 
-def _nouns(context: click.Context, parameter: click.Parameter, begun: str) -> list[CompletionItem]:
-    """What a shell may complete."""
-    nouns = dict.fromkeys(each.noun for each in _known())
-    return [CompletionItem(noun) for noun in nouns if noun.startswith(begun)]
+def _nouns() -> dict[str, str]:
+    """Their nouns, of which a shell says nothing more."""
+    return dict.fromkeys((each.noun for each in _known()), "")
 
 
 @click.command(epilog=EXAMPLES)
-@click.argument("noun", required=False, shell_complete=_nouns)
+@click.argument("noun", required=False, shell_complete=one_of(_nouns))
 @click.option("--json", "as_json", is_flag=True, help="One JSON document instead: mindc kinds sensor --json")
 def command(noun: str | None, as_json: bool) -> None:
     """List the kinds of the language and the drivers.
@@ -48,8 +47,7 @@ def command(noun: str | None, as_json: bool) -> None:
     known = _known()
     chosen = [each for each in known if noun is None or each.noun == ALSO_CALLED.get(noun, noun)]
     if not chosen:
-        nouns = list(dict.fromkeys(each.noun for each in known))
-        near = did_you_mean(str(noun), nouns)
-        fail(f"There are no kinds of {visible(str(noun))}.", near or f"Write {listed(nouns)}.", MISUSE)
+        near = did_you_mean(str(noun), _nouns())
+        fail(f"There are no kinds of {visible(str(noun))}.", near or f"Write {listed(_nouns())}.", MISUSE)
     data = {"kinds": [as_data(each) for each in chosen]}
     print_result(as_json, data, lambda: Text.assemble(*kind_list(chosen)), end="")

@@ -80,10 +80,10 @@ def command(
 
 
 def _run(file: str, compiled: Compiled, task: str | None, seed: int) -> Recorded:
-    from mindlang.cli._session import prepare, refusing_setups
+    from mindlang.cli._session import ensure_compiled, refusing_setups
     from mindlang.proofs.recorded import record
     from mindlang.run.setup import set_up
 
     assert compiled.graph
     with refusing_setups("--run: "), procedures_talk():
-        return record(set_up(file, compiled, task, compiled.graph.master), seed, prepare)
+        return record(set_up(file, compiled, task, compiled.graph.master), seed, ensure_compiled)

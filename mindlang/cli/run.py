@@ -15,7 +15,7 @@ from mindlang.cli import _terminal as terminal
 from mindlang.cli._options import PATH, NewFile, NumberOption, RunChoice, refuse_ineffective, run_options
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     from rich.text import Text
 
@@ -89,60 +89,47 @@ def command(
         refuse_ineffective("of --video: say it, too", "speed")
     from mindlang.cli._session import RunSession
 
-    session, seed = RunSession(quiet), secrets.randbits(31) if chosen.seed is None else chosen.seed
-    files = RunFiles(session, picture, video, speed, trace, record)
-    if breaks:
-        sys.exit(_run_to_breakpoint(session, file, chosen, seed, breaks, files, as_json))
-    _run_to_its_end(session, file, chosen, seed, files, as_json)
+    seed = secrets.randbits(31) if chosen.seed is None else chosen.seed
+    files = RunFiles(RunSession(quiet), picture, video, speed, trace, record)
+    sys.exit(_run(file, chosen, seed, breaks, files, as_json))
 
 
-def _run_to_its_end(
-    session: RunSession, file: str, chosen: RunChoice, seed: int, files: RunFiles, as_json: bool
-) -> None:
-    from mindlang.run.outcome import run_data
-    from mindlang.run.summary import run_summary
-
-    setup, rollout = session.prepare(file, chosen)
-    made = session.record(setup, rollout, seed) if files.any() else None
-    came = made.found if made else run_data(setup.task, session.score(rollout, [seed])[0])
-    found = _about(setup, seed, rollout.notes) | came
-    terminal.print_result(as_json, found, lambda: run_summary(found))
-    if made:
-        files.write(made.run, setup, found)
-
-
-def _run_to_breakpoint(
-    session: RunSession, file: str, chosen: RunChoice, seed: int, path: Path, files: RunFiles, as_json: bool
-) -> int:
-    """Run until a line of the .break file at `path` stops it; print where, and what came of it; the exit code."""
+def _run(file: str, chosen: RunChoice, seed: int, breaks: Path | None, files: RunFiles, as_json: bool) -> int:
+    """Run to the end or to a line of the .break file, print and write what came of it; how the program ends."""
     from rich.console import Group
 
     from mindlang.breakpoints.watch import noticing, watcher
     from mindlang.cli._session import breakpoints_of_run
-    from mindlang.run.outcome import data_so_far
+    from mindlang.run.outcome import data_so_far, run_data
     from mindlang.run.recorded_run import run_result
     from mindlang.run.summary import run_summary
 
-    compiled = terminal.load_compiled(file)
-    cast = session.cast(file, compiled, chosen)
-    breakpoints = breakpoints_of_run(path, compiled, cast)
-    setup = noticing(cast, breakpoints)
+    session, compiled, run, stop = files.session, terminal.load_compiled(file), None, None
+    plain = session.set_up(file, compiled, chosen)
+    breakpoints = breakpoints_of_run(breaks, compiled, plain) if breaks else ()
+    setup = noticing(plain, breakpoints)
     rollout = session.simulator(setup, chosen.interrupt)
-    with terminal.procedures_talk():
-        made = run_result(setup, rollout, seed)
-        stopped = stopped_data(watcher(breakpoints, setup).feed(made.run), str(path), made.run.graph.tick)
-    run, came = made.run, made.found
-    if stopped and stopped["tick"] < run.ticks:
-        run = run.until(stopped["tick"])
-        came = data_so_far(run.task, run.lines[-1], run.events[-1], run.ticks, "a breakpoint")
-    found = _about(setup, seed) | came | {"stopped": stopped}
-    terminal.print_result(as_json, found, lambda: Group(stop_summary(stopped), run_summary(found)))
-    files.write(run, cast, found)
-    return terminal.FINDINGS if stopped else terminal.OK
-
-
-def _about(setup: RunSetup, seed: int, notes: Sequence[str] = ()) -> dict[str, Any]:
-    return {"task": setup.task.name, "master": setup.master, "seed": seed, "notes": [*setup.ready.notes, *notes]}
+    if breaks:
+        with terminal.procedures_talk():
+            made = run_result(setup, rollout, seed)
+            stop = stopped_data(watcher(breakpoints, setup).feed(made.run), str(breaks), made.run.graph.tick)
+        run, came = made.run, made.found
+        if stop and stop["tick"] < run.ticks:
+            run = run.until(stop["tick"])
+            came = data_so_far(run.task, run.lines[-1], run.events[-1], run.ticks, "a breakpoint")
+        came = came | {"stopped": stop}
+    elif files.any():
+        made = session.record(setup, rollout, seed)
+        run, came = made.run, made.found
+    else:
+        came = run_data(setup.task, session.score(rollout, [seed])[0])
+    found = {"task": setup.task.name, "master": setup.master, "seed": seed}
+    found |= {"notes": [*setup.ready.notes, *rollout.notes], **came}
+    where = [stop_summary(stop)] if breaks else []
+    terminal.print_result(as_json, found, lambda: Group(*where, run_summary(found)))
+    if run:
+        files.write(run, plain, found)
+    return terminal.FINDINGS if stop else terminal.OK
 
 
 def stopped_data(stops: Sequence[Stop], file: str, tick_seconds: float) -> dict[str, Any] | None:
@@ -192,7 +179,7 @@ class RunFiles:
     record: Path | None
 
     def any(self) -> bool:
-        """Whether there is something to write."""
+        """True where there is something to write."""
         return bool(self.picture or self.video or self.trace or self.record)
 
     @terminal.procedures_talk()
@@ -200,41 +187,34 @@ class RunFiles:
         """Write what was asked for of a run of the setup, and say so."""
         from mindrun.terminal.tick_count import ticks as in_words
 
+        from mindlang.run.recording import run_bytes
+        from mindlang.run.tables import trace_bytes
+
         if self.picture:
             self._draw(self.picture, run, found)
         if self.video:
             self._film(self.video, run, found)
         if self.trace:
-            from mindlang.run.tables import trace_bytes
-
-            with terminal.refusing(terminal.MISUSE):
-                data = trace_bytes(run, self.trace.suffix.lower())
-            terminal.write_file(self.trace, data)
-            self.session.say(f"{self.trace}: a row for each of {in_words(run.ticks)}")
+            suffix = self.trace.suffix.lower()
+            self._write(self.trace, lambda: trace_bytes(run, suffix), f"a row for each of {in_words(run.ticks)}")
         if self.record:
-            from mindlang.run.recording import run_bytes
-
-            with terminal.refusing(terminal.MISUSE):
-                data = run_bytes(run, setup, found["seed"])
-            terminal.write_file(self.record, data)
             seen = "to be seen with its source or a bundle of it that has no robot"
-            self.session.say(f"{self.record}: {in_words(run.ticks)}, {seen}")
+            self._write(self.record, lambda: run_bytes(run, setup, found["seed"]), f"{in_words(run.ticks)}, {seen}")
+
+    def _write(self, path: Path, data: Callable[[], bytes], what: str) -> None:
+        with terminal.refusing(terminal.MISUSE):
+            made = data()
+        terminal.write_file(path, made)
+        self.session.say(f"{path}: {what}")
 
     def _draw(self, path: Path, run: RecordedRun, found: dict[str, Any]) -> None:
-        from mindlang.pictures.picture import png
+        from mindlang.pictures.environments import environment_picture
+        from mindlang.pictures.picture import picture, png
 
         if run.task.scene.environment:
-            from mindlang.pictures.environments import environment_picture as picture
-
-            what = "the run as its environment draws it"
+            self._write(path, lambda: png(environment_picture(run, found)), "the run as its environment draws it")
         else:
-            from mindlang.pictures.picture import picture
-
-            what = "the path of the robot"
-        with terminal.refusing(terminal.MISUSE):
-            drawn = picture(run, found)
-        terminal.write_file(path, png(drawn))
-        self.session.say(f"{path}: {what}")
+            self._write(path, lambda: png(picture(run, found)), "the path of the robot")
 
     def _film(self, path: Path, run: RecordedRun, found: dict[str, Any]) -> None:
         from mindlang.pictures.film import Film

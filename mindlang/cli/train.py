@@ -1,7 +1,5 @@
 """`mindc train`: teach the skills of a mind."""
 
-from __future__ import annotations
-
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any

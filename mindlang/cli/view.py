@@ -26,7 +26,7 @@ from mindlang.cli._options import (
 )
 
 if TYPE_CHECKING:
-    from mindlang.view.learning import Champions
+    from mindlang.view.learning import Learning
     from mindlang.view.viewed import Viewed
     from mindlang.view.viewed_recording import Watching
 
@@ -109,7 +109,7 @@ def run_view(file: str, chosen: RunChoice, breaks: Path | None, quiet: bool) -> 
     from mindlang.view.viewed_run import ViewedRun
 
     compiled, session = terminal.load_compiled(file), RunSession(quiet)
-    setup = session.cast(file, compiled, chosen)
+    setup = session.set_up(file, compiled, chosen)
     breakpoints = breakpoints_of_run(breaks, compiled, setup) if breaks else ()
     setup = noticing(setup, breakpoints)
     rollout = session.simulator(setup, chosen.interrupt)
@@ -120,21 +120,20 @@ def run_view(file: str, chosen: RunChoice, breaks: Path | None, quiet: bool) -> 
 
 
 @terminal.procedures_talk()
-def training_view(folder: Path, seed: int | None, quiet: bool) -> tuple[Viewed, Champions]:
+def training_view(folder: Path, seed: int | None, quiet: bool) -> tuple[Viewed, Learning]:
     """The champion of a training's folder that was found last, at its beginning, and all others."""
     from mindrun.train import NotFoundError
 
     from mindlang.cli._session import ensure_compiled
-    from mindlang.view.learning import Champions, open_learning
+    from mindlang.view.learning import open_learning
     from mindlang.view.messages import RefusedError
 
     with terminal.refusing(), terminal.refusing(terminal.MISUSE, of=NotFoundError):
         try:
-            learning = open_learning(folder)
-            champions = Champions(learning, secrets.randbits(31) if seed is None else seed)
+            learning = open_learning(folder, secrets.randbits(31) if seed is None else seed)
             number, attempt, generation = learning.newest()
-            ensure_compiled(champions.rollout(learning.runs[number]), lambda line: terminal.tell(line, quiet=quiet))
-            return champions.begin(number, attempt, generation), champions
+            ensure_compiled(learning.rollout(number), lambda line: terminal.tell(line, quiet=quiet))
+            return learning.begin(number, attempt, generation), learning
         except RefusedError as error:
             terminal.fail(str(error))
 
@@ -171,7 +170,7 @@ class ViewOutput:
     export: Path | None
     quiet: bool
 
-    def show(self, viewed: Viewed, champions: Champions | None = None) -> None:
+    def show(self, viewed: Viewed, learning: Learning | None = None) -> None:
         """Write the file, or serve until Ctrl-C."""
         import asyncio
 
@@ -191,7 +190,7 @@ class ViewOutput:
             viewed.grow()  # what the page shows first
         out = sys.stdout  # procedures print elsewhere
         with terminal.refusing(terminal.MISUSE, of=PortError), terminal.procedures_talk():
-            asyncio.run(ViewServer(Session(viewed, champions), self.port or 0).serve(ready))
+            asyncio.run(ViewServer(Session(viewed, learning), self.port or 0).serve(ready))
 
     def _write(self, viewed: Viewed, path: Path) -> None:
         from mindrun.terminal.tick_count import ticks as in_words

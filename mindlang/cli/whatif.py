@@ -117,12 +117,12 @@ def _compare_runs(
     session, seed, theirs = RunSession(quiet), 1 if chosen.seed is None else chosen.seed, None
     ours = session.prepare(file, chosen)
     if request.other:
-        theirs = session.prepare(request.other, replace(chosen, task=ours[0].task.name))
-        if theirs[0].task != ours[0].task:
-            where = f"task {ours[0].task.name} is another in {request.other}"
+        theirs = session.prepare(request.other, replace(chosen, task=ours.setup.task.name))
+        if theirs.setup.task != ours.setup.task:
+            where = f"task {ours.setup.task.name} is another in {request.other}"
             session.say(f"note: {where}; one seed need not give one world")
-    ensure_stages_compiled(ours[1], session.say)
-    setup = (theirs or ours)[0]
+    ensure_stages_compiled(ours.rollout, session.say)
+    setup = (theirs or ours).setup
     with refusing_recordings():
         changes = changes_of(request, setup.ready.policy.graph, setup.master, Path(file))
     with terminal.refusing(terminal.MISUSE, of=ChangeError), terminal.procedures_talk():

@@ -1,7 +1,5 @@
 """`mindc why`: who made a command, an influence or a reward."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import click

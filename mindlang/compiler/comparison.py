@@ -43,7 +43,10 @@ def differences(old: Mind, new: Mind) -> list[Difference]:
 
     Nothing for comments, spaces, other spellings and the order of lines, but for the lessons of a curriculum.
     """
-    found = [*_settings(old, new), *_maps(old, new)]
+    found = [*_settings(old, new)]
+    before_maps, after_maps = _drawn(old), _drawn(new)
+    for name in before_maps.keys() & after_maps.keys():
+        found += _difference(f"map {name}", before_maps[name], after_maps[name], ordered=True)
     before, after = _declared(old), _declared(new)
     for noun in syntax.NOUNS:
         for name in dict.fromkeys((*before[noun], *after[noun])):
@@ -60,16 +63,10 @@ def _settings(old: Mind, new: Mind) -> Iterator[Difference]:
             before, after = (_written(mind.names.numbers[name]) for mind in (old, new))
             yield Difference(f"number {name}", (before,), (after,))
     if old.unit_metres != new.unit_metres:
-        yield Difference("unit", *(_unit(mind.unit_metres) for mind in (old, new)))
+        lengths = ([] if mind.unit_metres is None else [mind.unit_metres] for mind in (old, new))
+        yield Difference("unit", *(tuple(f"unit {100 * metres:.6g} cm" for metres in said) for said in lengths))
     if old.tick != new.tick:
         yield Difference("tick", (f"tick {old.tick:.6g} s",), (f"tick {new.tick:.6g} s",))
-
-
-def _maps(old: Mind, new: Mind) -> Iterator[Difference]:
-    """Lines of maps that are drawn otherwise in a file of the same name."""
-    before, after = _drawn(old), _drawn(new)
-    for name in before.keys() & after.keys():
-        yield from _difference(f"map {name}", before[name], after[name], ordered=True)
 
 
 def _drawn(mind: Mind) -> dict[str, list[_Line]]:
@@ -81,10 +78,6 @@ def _drawn(mind: Mind) -> dict[str, list[_Line]]:
                 if isinstance(value, syntax.Text):
                     found[value.text] = [_Line(line, line) for line in thing.kind.drawing]
     return found
-
-
-def _unit(metres: float | None) -> tuple[str, ...]:
-    return () if metres is None else (f"unit {100 * metres:.6g} cm",)
 
 
 def _difference(what: str, old: Sequence[_Line], new: Sequence[_Line], ordered: bool) -> Iterator[Difference]:

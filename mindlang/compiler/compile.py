@@ -1,26 +1,35 @@
-"""The way through: text → File → Mind → Graph, for any input without an exception."""
+"""The way through, for any input without an exception: text → File → Mind → Graph.
+
+The files of a mind are the main one and those that it uses, all of them inside the project.
+"""
 
 import re
 import sys
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Any
 
 from mindrun.errors import reason
+from mindrun.files.regular_files import read_regular
 from mindrun.graph.graph import Graph
 from mindrun.numbers.short_repr import ShortRepr
+from msgspec import structs
 
 from mindlang.compiler.diagnostic import Diagnostic, Findings, near_file
 from mindlang.compiler.lower import lower
 from mindlang.compiler.model import Mind
+from mindlang.compiler.names import gather
+from mindlang.compiler.parse import parse
+from mindlang.compiler.references import mentions
 from mindlang.compiler.resolve import resolve
 from mindlang.compiler.source import MAX_SOURCE_BYTES, Source, Span, decode, within
-from mindlang.compiler.syntax import File
-from mindlang.compiler.use import files, read
+from mindlang.compiler.syntax import Amount, File, Name, Use, of_form, rebuilt
 
 STDIN = "<stdin>"
 SHELLS_PIPE = re.compile(r"/(?:dev|proc/self)/fd/\d+|/dev/stdin")  # <(git show HEAD:collect.mind)
 NO_TEXTS: Mapping[Path, str] = {}
+MAX_USE_DEPTH = 64
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -107,3 +116,117 @@ def _sorted(findings: Findings, parsed: list[File]) -> tuple[Diagnostic, ...]:
     return tuple(
         sorted(findings.diagnostics, key=lambda d: (order[id(d.span.source)], d.span.start) if d.span else (-1, 0))
     )
+
+
+@dataclass(slots=True)
+class _Project:
+    root: Path
+    findings: Findings
+    texts: Mapping[Path, str]
+    files: dict[Path, File] = field(default_factory=dict)
+    open: list[Path] = field(default_factory=list)
+    complete: bool = True
+
+    def refuse(self, code: str, use: Use, message: str, hint: str) -> None:
+        """Report a file that is not read."""
+        self.findings.error(code, use.span, message, hint)
+        self.complete = False
+
+
+def read(path: Path, name: str) -> Source:
+    """The source at a path; OSError or ValueError says why it cannot be read."""
+    if path.is_dir():
+        raise ValueError("is a folder: name the files in it")
+    return Source(name, decode(read_regular(path, MAX_SOURCE_BYTES + 1)), path.resolve().parent)
+
+
+def files(source: Source, path: Path, findings: Findings, texts: Mapping[Path, str]) -> tuple[list[File], bool]:
+    """The main file and after it, once each, the files that it uses; and whether all of them could be read.
+
+    A file that stands in `texts` is taken from there, as an edit or an editor has it.
+    """
+    project = _Project(source.folder, findings, texts)
+    _add(path, source, project)
+    return list(project.files.values()), project.complete
+
+
+def _add(path: Path, source: Source, project: _Project) -> None:
+    file = under_alias(parse(source, project.findings))
+    project.files[path] = file
+    project.open.append(path)
+    for use in of_form(file.settings, Use):
+        _follow(use, project)
+    project.open.pop()
+
+
+def _follow(use: Use, project: _Project) -> None:
+    target, alias = _inside(use, project), use.alias.text if use.alias else ""
+    known = project.files.get(target) if target else None
+    others = (file.source.name for file in project.files.values() if alias and file.source.alias == alias)
+    if "." in alias:
+        hint = f"Write as {alias.rpartition('.')[2]}."
+        project.refuse("dotted-alias", use, "A file is used under one word, without a dot.", hint)
+    elif target in project.open:
+        loop = [*project.open[project.open.index(target) :], target]
+        names = " → ".join(path.relative_to(project.root).as_posix() for path in loop)
+        hint = "Move what both need into a third file, and use that in both."
+        project.refuse("use-loop", use, f"Files use one another in a circle: {names}.", hint)
+    elif len(project.open) > MAX_USE_DEPTH:
+        hint = f"Files may use one another {MAX_USE_DEPTH} deep; use this one from nearer to the top."
+        project.refuse("use-too-deep", use, "Files use one another too deep.", hint)
+    elif known:
+        if known.source.alias != alias:  # its declarations would have two names
+            said = f"as {known.source.alias}" if known.source.alias else "without as"
+            message = f"{use.path} is used {said} already, and has one name."
+            project.refuse("other-alias", use, message, f"Use it {said} here, too.")
+    elif other := next(others, ""):
+        project.refuse("taken-alias", use, f"{other} is used as {alias} already.", f"Use {use.path} as another word.")
+    elif target:
+        _read(target, alias, use, project)
+
+
+def _inside(use: Use, project: _Project) -> Path | None:
+    """The path of the used file, or None after reporting that it is outside of the project."""
+    try:
+        target = (use.span.source.folder / use.path).resolve()
+    except (OSError, RuntimeError, ValueError):  # a loop of links, a name too long
+        target = Path("/")
+    if use.path and not Path(use.path).is_absolute() and target.is_relative_to(project.root):
+        return target
+    hint = f"Use files in the folder {project.root.name} or below it, by a relative path."
+    project.refuse("outside-project", use, f'"{use.path}" is not inside the project.', hint)
+    return None
+
+
+def _read(target: Path, alias: str, use: Use, project: _Project) -> None:
+    name = Path(use.span.source.name).parent.joinpath(use.path).as_posix()
+    try:
+        text = project.texts.get(target)
+        source = read(target, name) if text is None else Source(name, within(text), target.parent)
+        source = replace(source, alias=alias)
+    except (OSError, RuntimeError) as error:  # a loop of links is a RuntimeError
+        hint = "The path is relative to the file in which it stands."
+        project.refuse("unreadable-use", use, f"{use.path} cannot be read: {reason(error)}.", hint)
+    except ValueError as error:
+        project.refuse("unreadable-use", use, f"{use.path} {error}.", "Use a .mind file.")
+    else:
+        _add(target, source, project)
+
+
+def under_alias(file: File) -> File:
+    """The file with the names that it declares as other files say them, `walls.Grab`; itself where it has no alias."""
+    if not file.source.alias:
+        return file
+    names = gather([file], Findings())
+    own = {mention.name.span for mention in mentions([file], names) if mention.noun != "thing"}
+
+    def renamed(node: Any) -> Any:
+        match node:
+            case Name(text, span) if span in own:
+                return Name(f"{file.source.alias}.{text}", span)
+            case Amount(name=name) if name and node.constant.span in own:
+                return structs.replace(node, name=f"{file.source.alias}.{name}")
+        return node
+
+    found: File = rebuilt(file, renamed)
+    return found

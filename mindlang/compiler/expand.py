@@ -92,8 +92,8 @@ def writer(names: Names, values: Mapping[str, Amount], tick_seconds: float) -> C
         has_names = words and not words.isdisjoint(_WORD.findall(text))
         if not has_names and "per" not in text:  # as most lines
             return line
-        numbers = (each.name for each in names_in(line, names, None) if each.noun == "number")
-        places = {name.span for name in numbers if name.text in values}
+        found = names_in(line, names, None) if has_names else ()
+        places = {each.name.span for each in found if each.noun == "number" and each.name.text in values}
 
         def changed(node: Any) -> Any:
             match node:

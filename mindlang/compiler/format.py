@@ -108,12 +108,9 @@ def spaced(code: str, start: Start = "line") -> str:
     if plan is None:
         return code
     parts = pieces(code)
-    return "".join(_tight("".join(parts[first:end])) + after for first, end, after in plan)
-
-
-def _tight(word: str) -> str:
-    """A word as it is; one of two, such as `least of`, with one space between."""
-    return word if word.startswith('"') else " ".join(word.split())
+    words = (("".join(parts[first:end]), after) for first, end, after in plan)
+    # one of two words, such as `least of`, has one space between
+    return "".join((word if word.startswith('"') else " ".join(word.split())) + after for word, after in words)
 
 
 Plan = tuple[tuple[int, int, str], ...]  # which pieces of a line are a word, and what stands after it

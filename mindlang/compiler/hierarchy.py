@@ -4,16 +4,8 @@ from collections.abc import Iterable
 from itertools import chain, islice, pairwise
 from typing import Any
 
-from networkx import (
-    DiGraph,
-    bfs_layers,
-    convert_node_labels_to_integers,
-    is_directed_acyclic_graph,
-    lexicographical_topological_sort,
-    nodes_with_selfloops,
-    simple_cycles,
-    strongly_connected_components,
-)
+import networkx as nx
+from networkx import DiGraph
 
 from mindlang.compiler.diagnostic import Findings, Label
 
@@ -23,12 +15,12 @@ MAX_CIRCLES = 20  # that are reported at once: a tangle can have more than anybo
 def in_order(graph: DiGraph) -> list[Any]:
     """The nodes in topological order, parents first and otherwise as they were added; there are no circles."""
     place = {node: index for index, node in enumerate(graph)}
-    return list(lexicographical_topological_sort(graph, key=place.__getitem__))
+    return list(nx.lexicographical_topological_sort(graph, key=place.__getitem__))
 
 
 def below(graph: DiGraph, nodes: Iterable[Any]) -> set[Any]:
     """These nodes, and all that is reached from them."""
-    return set(chain.from_iterable(bfs_layers(graph, list(nodes))))
+    return set(chain.from_iterable(nx.bfs_layers(graph, list(nodes))))
 
 
 def above(graph: DiGraph, nodes: Iterable[Any]) -> set[Any]:
@@ -41,24 +33,20 @@ def circles(graph: DiGraph) -> list[list[Any]]:
 
     Of more than MAX_CIRCLES so many.
     """
-    if is_directed_acyclic_graph(graph):
+    if nx.is_directed_acyclic_graph(graph):
         return []
-    nodes, numbered = list(graph), convert_node_labels_to_integers(graph)  # a set of names has no order
-    found = (_turned(circle) for circle in islice(simple_cycles(numbered), MAX_CIRCLES))
-    return [[nodes[number] for number in circle] for circle in sorted(found)]
+    nodes, numbered = list(graph), nx.convert_node_labels_to_integers(graph)  # a set of names has no order
+    starts = ((circle, circle.index(min(circle))) for circle in islice(nx.simple_cycles(numbered), MAX_CIRCLES))
+    found = sorted(circle[start:] + circle[:start] for circle, start in starts)
+    return [[nodes[number] for number in circle] for circle in found]
 
 
 def ends_first(graph: DiGraph) -> list[Any]:
     """The nodes that lead into no circle, each after all that it leads to."""
-    circular = [node for part in strongly_connected_components(graph) if len(part) > 1 for node in part]
+    circular = [node for part in nx.strongly_connected_components(graph) if len(part) > 1 for node in part]
     ending = graph.copy()
-    ending.remove_nodes_from(above(graph, [*circular, *nodes_with_selfloops(graph)]))
+    ending.remove_nodes_from(above(graph, [*circular, *nx.nodes_with_selfloops(graph)]))
     return in_order(ending)[::-1]
-
-
-def _turned(circle: list[int]) -> list[int]:
-    first = circle.index(min(circle))
-    return circle[first:] + circle[:first]
 
 
 def refuse_circles(code: str, graph: DiGraph, findings: Findings, says: str, hint: str, label: str) -> None:

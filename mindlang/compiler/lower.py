@@ -11,7 +11,6 @@ from msgspec.structs import astuple
 from mindlang.compiler import model
 from mindlang.compiler.format import spaced
 from mindlang.compiler.hierarchy import in_order
-from mindlang.compiler.syntax import Operator
 
 T = TypeVar("T")
 
@@ -121,19 +120,14 @@ def condition(when: model.When, places: Places) -> graph.Program:
 
 
 def _program(expression: model.Expression, places: Places) -> graph.Program:
-    def instruction(term: model.Term) -> tuple[str, float | int]:
-        match term:
-            case model.Number():
-                return "number", term.value
-            case model.Reading():
-                return "reading", places.readings[term.name][0]
-            case model.EachReading():
-                return "each", 0
-            case model.Command():
-                return "command", places.actuators[term.name]
-            case model.Measured():
-                return "measure", _index(term.measure, places.measures)
-            case Operator():
-                return term.symbol, 0
+    def placed(word: str, operand: Any) -> tuple[str, float | int]:
+        match word:
+            case "reading":
+                return word, places.readings[operand][0]
+            case "command":
+                return word, places.actuators[operand]
+            case "measure":
+                return word, _index(operand, places.measures)
+        return word, operand
 
-    return tuple(instruction(term) for term in expression.terms)
+    return tuple(placed(*instruction) for instruction in expression.formula)

@@ -8,7 +8,7 @@ from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.parse import parse
 from mindlang.compiler.source import Source
 from mindlang.compiler.splice import Splice, spliced
-from mindlang.compiler.syntax import Contains, Counts, Declaration, Ends, Name, Phrase, Rewards, Succeeds
+from mindlang.compiler.syntax import Contains, Counts, Declaration, Name, Outcome, Phrase, Rewards, of_form
 
 PLACED = ("item", "zone", "power")  # the kinds that had places of their own
 
@@ -22,7 +22,7 @@ def migrated(source: Source, findings: Findings) -> str:
 def _splices(source: Source, declaration: Declaration) -> Iterator[Splice]:
     """What the things of a task have to say."""
     named = {_named(event) for event in _events(declaration)}
-    things = [fact for fact in declaration.facts if isinstance(fact, Contains)]
+    things = of_form(declaration.facts, Contains)
     has_zone = any(fact.phrase.kind.text == "zone" for fact in things)
     for fact in things:
         thing, phrase = fact.name.text, fact.phrase
@@ -38,12 +38,7 @@ def _splices(source: Source, declaration: Declaration) -> Iterator[Splice]:
 def _events(declaration: Declaration) -> Iterator[Phrase]:
     for fact in declaration.facts:
         match fact:
-            case (
-                Ends(_, Phrase() as event)
-                | Succeeds(_, Phrase() as event)
-                | Counts(event)
-                | Rewards(_, Phrase() as event)
-            ):
+            case Outcome(_, Phrase() as event) | Counts(event) | Rewards(_, Phrase() as event):
                 yield event
 
 

@@ -82,6 +82,26 @@ class Expression(Struct, frozen=True):
     terms: tuple[Term, ...]
     span: Span
 
+    @property
+    def formula(self) -> tuple[tuple[str, Any], ...]:
+        """The terms as words and operands, as `mindrun.numbers.expression` has them; names stand for places."""
+        return tuple(map(_instruction, self.terms))
+
+
+def _instruction(term: Term) -> tuple[str, Any]:
+    match term:
+        case Number(value):
+            return "number", value
+        case Reading(name):
+            return "reading", name
+        case EachReading():
+            return "each", 0
+        case Command(name):
+            return "command", name
+        case Measured(measure):
+            return "measure", measure
+    return term.symbol, 0
+
 
 class Comparison(Struct, frozen=True):
     """`left compare right`."""

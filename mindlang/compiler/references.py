@@ -4,26 +4,14 @@ from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
+from mindrun.graph.graph import VARIED_NOUNS
 from mindrun.kinds.registry import arguments, find_kind, kinds
-from mindrun.kinds.variation import VARIED_NOUNS
 from mindrun.numbers.quantity import Quantity
 from mindrun.numbers.quantity import Reference as Noun
 
 from mindlang.compiler import syntax
 from mindlang.compiler.names import Names
-from mindlang.compiler.syntax import (
-    Amount,
-    Argument,
-    Declaration,
-    Expression,
-    Fact,
-    File,
-    Header,
-    Name,
-    Phrase,
-    of_form,
-    walk,
-)
+from mindlang.compiler.syntax import Declaration, Fact, File, Header, Name, Phrase, of_form
 
 READABLE_NOUNS = ("sensor", "memory")
 VALUE_NOUNS = (*READABLE_NOUNS, "number", "actuator")  # an actuator is its command, in a task
@@ -89,8 +77,8 @@ class _Reader:
 
     def amounts(self, line: Any) -> Iterator[Mention]:
         """The numbers that are named in a line in the place of an amount."""
-        for node in walk(line) if self.names.numbers else ():
-            if isinstance(node, Amount) and node.name:
+        for node in syntax.walk(line) if self.names.numbers else ():
+            if isinstance(node, syntax.Amount) and node.name:
                 yield from self.first_declared(node.constant, "number")
 
     def line(self, line: Header | Fact) -> Iterator[Mention]:
@@ -134,7 +122,7 @@ class _Reader:
                 yield from self.first_declared(master, "skill")
                 yield from self.arguments(line.arguments, kinds("curriculum").values())
 
-    def expressions(self, *expressions: Expression | None, own: str = "") -> Iterator[Mention]:
+    def expressions(self, *expressions: syntax.Expression | None, own: str = "") -> Iterator[Mention]:
         """The readings and commands in expressions, and the things that their measures are about."""
         for term in (term for expression in expressions if expression for term in expression.terms):
             if not isinstance(term, Phrase) or (term.kind.text == own and not term.arguments):
@@ -149,7 +137,7 @@ class _Reader:
         if phrase and phrase.arguments and (cls := find_kind(noun, phrase.kind.text)):
             yield from self.arguments(phrase.arguments, [cls])
 
-    def arguments(self, written: Iterable[Argument], classes: Iterable[type[Any]]) -> Iterator[Mention]:
+    def arguments(self, written: Iterable[syntax.Argument], classes: Iterable[type[Any]]) -> Iterator[Mention]:
         """The names among arguments of some kinds; a lesson begins `from` a skill."""
         wanted = {each.key: each.type for cls in classes for each in arguments(cls)}
         for key, value in ((each.key.text, each.value) for each in written):

@@ -4,7 +4,7 @@ A program commands every actuator, or plays a skill of the hierarchy.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -24,7 +24,13 @@ from numpy.typing import ArrayLike, NDArray
 from mindlang.api import Mind, load
 from mindlang.compiler.diagnostic import listed
 from mindlang.lock.ready import ReadyMind, make_ready
+from mindlang.pictures.canvas import Image
+from mindlang.pictures.film_images import empty_window, half_window, window
+from mindlang.pictures.robot import draw_robot
+from mindlang.pictures.scene import draw_items, draw_names, draw_zones
+from mindlang.pictures.theme import NIGHT
 from mindlang.run.chosen_task import master_of, task_of, unknown
+from mindlang.run.recorded_run import RecordedRun
 from mindlang.run.setup import RunSetup, untaught_skills
 
 Floats = NDArray[np.float32]
@@ -32,11 +38,13 @@ Mask = NDArray[np.bool_]
 SEED_COUNT = 1 << 64  # layouts
 REAL_NUMBERS = "biuf"  # kinds of arrays: truth values, whole numbers, others
 MAX_DRAWN_SEED = 1 << 63  # so many that no two episodes are drawn the same
+IMAGE_PIXELS = 480  # of the longer side
+SHOWN_TICK = 1  # of a run that has one
 
 
-@dataclass(frozen=True, slots=True)
-class Agent:
-    """It sees the readings with these numbers, and acts by so many numbers in 0..1.
+@dataclass(eq=False, slots=True)
+class Episodes:
+    """So many runs of a task, each with an agent: it sees the readings with these numbers, acts by so many in 0..1.
 
     `played` is the skill that it plays, and `row` that one's in the tables; None where it commands the actuators.
     """
@@ -47,18 +55,59 @@ class Agent:
     actions: int
     row: int | None = None
     played: str | None = None
+    seeds: NDArray[np.uint64] = field(init=False)
+    _scores: NDArray[np.float64] = field(init=False)
 
-    def act(self, actions: Floats) -> None:
-        """One tick under its actions [lanes, actions]; one that is not finite is not sent."""
+    def __post_init__(self) -> None:
+        """All begin with the seed 0."""
+        self.seeds, self._scores = np.zeros(self.lanes.count, np.uint64), np.zeros(self.lanes.count)
+
+    def begin(self, lanes: Mask, seeds: ArrayLike) -> None:
+        """Begin the runs of these layouts in the marked lanes; to be followed by `sense`."""
+        self.seeds[lanes] = seeds
+        self.lanes.begin(lanes, seeds)
+        self._scores[lanes] = 0.0
+
+    def sense(self) -> Floats:
+        """What every agent sees [lanes, readings]; once in each tick."""
+        self.lanes.sense()
+        return self._seen(self.lanes.state, self.lanes.count)
+
+    def last_seen(self, lanes: Mask) -> Floats:
+        """What the agents of the marked lanes see, where another run is about to begin; `sense` is not disturbed."""
+        return self._seen(self.lanes.sensed_aside(lanes), int(lanes.sum()))
+
+    def step(self, actions: ArrayLike) -> tuple[NDArray[np.float64], Mask, Mask]:
+        """One tick under actions [lanes, actions]: rewards, what has ended, and where time is up instead.
+
+        An action that is not finite is not sent."""
+        given = numbers(actions, (self.lanes.count, self.actions))
         if self.row is None:
-            self.lanes.command(actions)
+            self.lanes.command(given)
         else:
-            self.lanes.play(self.row, actions)
+            self.lanes.play(self.row, given)
         self.lanes.act()
+        scores = self.lanes.scores
+        rewards, self._scores = scores - self._scores, scores
+        terminated = self.lanes.terminated
+        return rewards, terminated, self.lanes.timed_out & ~terminated
+
+    def outcome(self, lane: int) -> dict[str, Any]:
+        """What is said of a run that has ended: as numbers what `mindc run` says; a `count` where one is kept."""
+        task, lanes = self.setup.task, self.lanes
+        return {
+            "layout": int(self.seeds[lane]),
+            "score": float(lanes.scores[lane]),
+            **({"count": int(lanes.counts[lane, list(task.counts)].sum())} if task.counts else {}),
+            "ended_by": ended_by(task, int(lanes.ended_by[lane])),
+        }
+
+    def _seen(self, state: State, lanes: int) -> Floats:
+        return np.ascontiguousarray(state.mind.readings[self.readings, :lanes].T)
 
 
-def agent_of(file: Path, task: str | None, master: str | None, skill: str | None, lanes: int) -> Agent:
-    """The agent in so many lanes; MindError where the mind, the task or a skill cannot be so."""
+def episodes_of(file: Path, task: str | None, master: str | None, skill: str | None, lanes: int) -> Episodes:
+    """Episodes in so many lanes; MindError where the mind, the task or a skill cannot be so."""
     mind = load(file)
     if skill is not None:
         return _of_skill(mind, task, master, skill, lanes)
@@ -69,10 +118,10 @@ def agent_of(file: Path, task: str | None, master: str | None, skill: str | None
     seen = {row for each in reachable(mind.graph, leader) for row in each.inputs}
     sensed = sum(sensor.width for sensor in mind.graph.sensors)  # behind these are the memories of skills
     rows = np.array(sorted(row for row in seen if row < sensed), np.int64)
-    return Agent(_setup(mind, chosen, leader, ready), several, rows, len(mind.graph.actuators))
+    return Episodes(_setup(mind, chosen, leader, ready), several, rows, len(mind.graph.actuators))
 
 
-def _of_skill(mind: Mind, task: str | None, master: str | None, skill: str, lanes: int) -> Agent:
+def _of_skill(mind: Mind, task: str | None, master: str | None, skill: str, lanes: int) -> Episodes:
     graph = mind.graph
     if skill not in (names := [each.name for each in graph.skills]):
         unknown("skill", skill, names)
@@ -90,7 +139,7 @@ def _of_skill(mind: Mind, task: str | None, master: str | None, skill: str, lane
     row = int(np.flatnonzero(rollout.tables.skills["index"] == number)[0])
     inputs = np.array(ready.policy.graph.skills[number].inputs, np.int64)
     several = CommandedLanes(rollout, lanes)
-    return Agent(_setup(mind, chosen, leader, ready), several, inputs, played.outputs, row, skill)
+    return Episodes(_setup(mind, chosen, leader, ready), several, inputs, played.outputs, row, skill)
 
 
 def _played(graph: Graph, master: str, name: str) -> Skill:
@@ -108,53 +157,6 @@ def _played(graph: Graph, master: str, name: str) -> Skill:
 
 def _setup(mind: Mind, task: Task, master: str, ready: ReadyMind) -> RunSetup:
     return RunSetup(task, master, ready, mind.path.absolute().parent)
-
-
-class Episodes:
-    """So many runs of a task, each with an agent (`agent_of`) of its own."""
-
-    def __init__(self, file: Path, task: str | None, master: str | None, skill: str | None, lanes: int) -> None:
-        self.agent = agent_of(file, task, master, skill, lanes)
-        self._lanes = self.agent.lanes
-        self._shape = (lanes, self.agent.actions)
-        self.seeds = np.zeros(lanes, np.uint64)
-        self._scores = np.zeros(lanes)
-
-    def begin(self, lanes: Mask, seeds: ArrayLike) -> None:
-        """Begin the runs of these layouts in the marked lanes; to be followed by `sense`."""
-        self.seeds[lanes] = seeds
-        self._lanes.begin(lanes, seeds)
-        self._scores[lanes] = 0.0
-
-    def sense(self) -> Floats:
-        """What every agent sees [lanes, readings]; once in each tick."""
-        self._lanes.sense()
-        return self._seen(self._lanes.state, self._shape[0])
-
-    def last_seen(self, lanes: Mask) -> Floats:
-        """What the agents of the marked lanes see, where another run is about to begin; `sense` is not disturbed."""
-        return self._seen(self._lanes.sensed_aside(lanes), int(lanes.sum()))
-
-    def step(self, actions: ArrayLike) -> tuple[NDArray[np.float64], Mask, Mask]:
-        """One tick under actions [lanes, actions]: rewards, what has come to an end, and where time is up instead."""
-        self.agent.act(numbers(actions, self._shape))
-        scores = self._lanes.scores
-        rewards, self._scores = scores - self._scores, scores
-        terminated = self._lanes.terminated
-        return rewards, terminated, self._lanes.timed_out & ~terminated
-
-    def outcome(self, lane: int) -> dict[str, Any]:
-        """What is said of a run that has ended: as numbers what `mindc run` says; a `count` where one is kept."""
-        task, lanes = self.agent.setup.task, self._lanes
-        return {
-            "layout": int(self.seeds[lane]),
-            "score": float(lanes.scores[lane]),
-            **({"count": int(lanes.counts[lane, list(task.counts)].sum())} if task.counts else {}),
-            "ended_by": ended_by(task, int(lanes.ended_by[lane])),
-        }
-
-    def _seen(self, state: State, lanes: int) -> Floats:
-        return np.ascontiguousarray(state.mind.readings[self.agent.readings, :lanes].T)
 
 
 def numbers(actions: ArrayLike, shape: tuple[int, ...]) -> Floats:
@@ -191,3 +193,36 @@ def refuse_unknown_mode(mode: str | None, metadata: Mapping[str, Any]) -> None:
 def unit_box(length: int) -> Box:
     """So many numbers in 0..1."""
     return Box(0.0, 1.0, (length,), np.float32)
+
+
+def image_of(episodes: Episodes, lane: int) -> Image:
+    """What the robot of a lane is in, [height, width, 3] as red, green, blue."""
+    run = _as_run(episodes, lane)
+    half = half_window(run)
+    size = [max(1, round(IMAGE_PIXELS * side / max(half))) for side in half]
+    canvas = empty_window(run, window(run, SHOWN_TICK, *size), *size)
+    for draw in (draw_zones, draw_items, draw_robot, draw_names):
+        draw(canvas, run, NIGHT, SHOWN_TICK)
+    return np.ascontiguousarray(canvas.image[:, :, ::-1])
+
+
+def _as_run(episodes: Episodes, lane: int) -> RecordedRun:
+    """The present of a lane as a run of one tick, in which nothing has moved."""
+    lanes, here = episodes.lanes, slice(lane, lane + 1)
+    world, mind, graph = lanes.world_columns(lane), lanes.state.mind, episodes.setup.ready.policy.graph
+    return RecordedRun(
+        setup=episodes.setup,
+        boxes=lanes.boxes(lane),
+        body=np.repeat([world["pose"]], 2, axis=0),
+        things=np.repeat([world["things"][:, :-1]], 2, axis=0),
+        turned=np.repeat([world["things"][:, -1]], 2, axis=0),
+        held=np.repeat([world["held"]], 2),
+        readings=mind.readings[: graph.width, here].T,
+        influence=mind.influence[:, here].T,
+        commands=mind.commands[: len(graph.actuators), here].T,
+        lines=world["rewards"][None],
+        touching=np.array([world["touching"]], np.bool_),
+        battery=np.array([world["battery"]]),
+        events=world["events"][None],
+        ended=world["ended"],
+    )

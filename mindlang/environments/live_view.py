@@ -14,10 +14,10 @@ from mindrun.graph.graph import Edge
 from mindrun.graph.policy import Policy
 from mindrun.graph.recording_header import About
 from mindrun.kinds.functions.rule import Rule
-from mindrun.robot.rate import Rate
+from mindrun.robot.loop import Rate
 from numpy.typing import NDArray
 
-from mindlang.environments.episodes import Agent
+from mindlang.environments.episodes import Episodes
 from mindlang.run.recording import recorded_task, world_of
 from mindlang.view.server import BackgroundView, open_browser
 from mindlang.view.viewed import Viewed
@@ -31,15 +31,15 @@ log = getLogger(__name__)
 
 
 class LiveView:
-    """What the robot of an agent of one lane does, in real time: `show` waits until the next tick is due.
+    """What the robot of the only lane of episodes does, in real time: `show` waits until the next tick is due.
 
     The page is served at `address` from the first episode on, and a browser opened there.
     """
 
-    def __init__(self, agent: Agent) -> None:
-        self._agent = agent
+    def __init__(self, episodes: Episodes) -> None:
+        self._episodes = episodes
         self._served: BackgroundView | None = None
-        self._rate = Rate(agent.setup.ready.policy.graph.tick)
+        self._rate = Rate(episodes.setup.ready.policy.graph.tick)
         self._coming: SimpleQueue[Rows | None] = SimpleQueue()
 
     @property
@@ -50,8 +50,8 @@ class LiveView:
     def begin(self, seed: int) -> None:
         """An episode has begun with this layout: it is what the page shows from now on."""
         self._end_episode()
-        self._about, self._ticks = _about(self._agent, seed), 0
-        viewed = _viewed(self._agent, self._about, self._coming)
+        self._about, self._ticks = _about(self._episodes, seed), 0
+        viewed = _viewed(self._episodes, self._about, self._coming)
         viewed.grow()
         if self._served:
             self._served.see(viewed)
@@ -64,15 +64,15 @@ class LiveView:
     def show(self) -> None:
         """Add the tick that has been made, which has not been followed by sensing, and wait until it is over."""
         row = np.zeros(1, self._about.row)
-        state = self._agent.lanes.state.mind
+        state = self._episodes.lanes.state.mind
         row["tick"], row["armed"] = self._ticks, 1
         self._ticks += 1
         row["time"] = self._ticks * self._about.tick
         row["readings"] = state.readings[: self._about.readings, 0]
-        if self._agent.played:  # else no skill has any: not one of them acts
+        if self._episodes.played:  # else no skill has any: not one of them acts
             row["influence"] = state.influence[: len(self._about.skills), 0]
         row["commands"] = row["sent"] = state.commands[: len(self._about.actuators), 0]
-        for name, value in self._agent.lanes.world_columns(0).items():
+        for name, value in self._episodes.lanes.world_columns(0).items():
             row["world"][name] = value
         self._coming.put(row)
         self._rate.wait()
@@ -89,18 +89,18 @@ class LiveView:
         self._coming = SimpleQueue()
 
 
-def _about(agent: Agent, seed: int) -> About:
+def _about(episodes: Episodes, seed: int) -> About:
     """What the rows of the episode are of, which has just begun."""
-    graph, world = agent.setup.ready.policy.graph, agent.lanes.world_columns(0)
+    graph, world = episodes.setup.ready.policy.graph, episodes.lanes.world_columns(0)
     things = world["things"]
-    begun = world_of(agent.setup.task, seed, agent.lanes.boxes(0), world["pose"], things[:, :-1], things[:, -1])
-    return replace(About.of(graph, "", agent.setup.master, ()), world=begun)
+    begun = world_of(episodes.setup.task, seed, episodes.lanes.boxes(0), world["pose"], things[:, :-1], things[:, -1])
+    return replace(About.of(graph, "", episodes.setup.master, ()), world=begun)
 
 
-def _viewed(agent: Agent, about: About, coming: "SimpleQueue[Rows | None]") -> Viewed:
-    setup, policy = agent.setup, _shown_policy(agent)
+def _viewed(episodes: Episodes, about: About, coming: "SimpleQueue[Rows | None]") -> Viewed:
+    setup, policy = episodes.setup, _shown_policy(episodes)
     bundle = Bundle(policy, procedure_sources(policy.graph, setup.folder, setup.master))
-    played = f"{agent.played} played" if agent.played else "commanded"
+    played = f"{episodes.played} played" if episodes.played else "commanded"
     title = f"{setup.task.name} with {setup.master} in charge, {played} by a program"
     rows = ((row, row["readings"]) for row in _rows(coming, np.zeros(0, about.row)))
     task = recorded_task(about, bundle)
@@ -119,16 +119,16 @@ def _rows(coming: "SimpleQueue[Rows | None]", nothing: Rows) -> Iterator[Rows]:
         yield row
 
 
-def _shown_policy(agent: Agent) -> Policy:
+def _shown_policy(episodes: Episodes) -> Policy:
     """The mind in which nobody computes what a program does instead.
 
     What it sends as a skill to other skills is in no row: nothing is shown of it.
     """
-    graph, weights = agent.lanes.rollout.graph, dict(agent.setup.ready.policy.weights)
+    graph, weights = episodes.lanes.rollout.graph, dict(episodes.setup.ready.policy.weights)
     skills = [*graph.skills]
-    if agent.played:
-        weights.pop(agent.played, None)
-        number = graph.skill_numbers[agent.played]
+    if episodes.played:
+        weights.pop(episodes.played, None)
+        number = graph.skill_numbers[episodes.played]
         edges = tuple(map(_outside, skills[number].edges))
         skills[number] = replace(skills[number], function=Rule(), edges=edges)
     return Policy(replace(graph, skills=tuple(skills)), weights)

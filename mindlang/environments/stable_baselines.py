@@ -8,7 +8,7 @@ from gymnasium.vector import AutoresetMode
 from stable_baselines3.common.vec_env import VecEnv
 
 from mindlang.environments.task_vector_env import TaskVectorEnv
-from mindlang.run.many_runs import layouts
+from mindlang.run.setup import layouts
 
 Indices = None | int | Iterable[int]
 

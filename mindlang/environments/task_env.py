@@ -11,14 +11,14 @@ from gymnasium.error import ResetNeeded
 from gymnasium.utils import EzPickle
 
 from mindlang.environments.episodes import (
-    Episodes,
     Floats,
+    episodes_of,
+    image_of,
     layouts,
     numbers,
     refuse_unknown_mode,
     unit_box,
 )
-from mindlang.environments.image import image_of
 from mindlang.pictures.canvas import Image
 
 if TYPE_CHECKING:
@@ -49,17 +49,16 @@ class TaskEnv(Env[Floats, Floats], EzPickle):
     ) -> None:
         EzPickle.__init__(self, file, task, master, skill, render_mode)
         refuse_unknown_mode(render_mode, self.metadata)
-        self._episodes = Episodes(Path(file), task, master, skill, 1)
-        agent = self._episodes.agent
+        self._episodes = episodes = episodes_of(Path(file), task, master, skill, 1)
         self.render_mode = render_mode
-        self.metadata = self.metadata | {"render_fps": round(1 / agent.setup.ready.policy.graph.tick)}
-        self.observation_space, self.action_space = unit_box(len(agent.readings)), unit_box(agent.actions)
+        self.metadata = self.metadata | {"render_fps": round(1 / episodes.setup.ready.policy.graph.tick)}
+        self.observation_space, self.action_space = unit_box(len(episodes.readings)), unit_box(episodes.actions)
         self._goes_on = False
         self._view: LiveView | None = None
         if render_mode == "human":
             from mindlang.environments.live_view import LiveView  # serves a page: imported where one is asked for
 
-            self._view = LiveView(agent)
+            self._view = LiveView(episodes)
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Floats, dict[str, Any]]:
         """Begin another episode; `info["layout"]` is the seed by which `mindc run` repeats it."""
@@ -84,7 +83,7 @@ class TaskEnv(Env[Floats, Floats], EzPickle):
 
     def render(self) -> Image | None:
         """The world as it is, [height, width, 3] as red, green, blue."""
-        return image_of(self._episodes.agent, 0) if self.render_mode == "rgb_array" else None
+        return image_of(self._episodes, 0) if self.render_mode == "rgb_array" else None
 
     @property
     def address(self) -> str | None:

@@ -14,10 +14,9 @@ from gymnasium.vector.utils import batch_space
 from mindrun.errors import MindError
 from numpy.typing import NDArray
 
-from mindlang.environments.episodes import Episodes, Floats, Mask, layouts, refuse_unknown_mode, unit_box
-from mindlang.environments.image import image_of
+from mindlang.environments.episodes import Floats, Mask, episodes_of, image_of, layouts, refuse_unknown_mode, unit_box
 from mindlang.pictures.canvas import Image
-from mindlang.run.many_runs import layouts as children
+from mindlang.run.setup import layouts as children
 
 Seeds = SupportsIndex | Sequence[SupportsIndex | None] | NDArray[np.integer] | None
 Step = tuple[Floats, NDArray[np.float64], Mask, Mask, dict[str, Any]]
@@ -53,13 +52,12 @@ class TaskVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]], EzPickle):
         mode = AutoresetMode(autoreset_mode)
         if mode == AutoresetMode.DISABLED:
             raise MindError("episodes cannot be begun one by one", 'autoreset_mode is "NextStep" or "SameStep"')
-        self._episodes = Episodes(Path(file), task, master, skill, num_envs)
-        agent = self._episodes.agent
-        frames = round(1 / agent.setup.ready.policy.graph.tick)
+        self._episodes = episodes = episodes_of(Path(file), task, master, skill, num_envs)
+        frames = round(1 / episodes.setup.ready.policy.graph.tick)
         self.metadata = self.metadata | {"autoreset_mode": mode, "render_fps": frames}
         self.num_envs, self.render_mode = num_envs, render_mode
-        self.single_observation_space = unit_box(len(agent.readings))
-        self.single_action_space = unit_box(agent.actions)
+        self.single_observation_space = unit_box(len(episodes.readings))
+        self.single_action_space = unit_box(episodes.actions)
         self.observation_space = batch_space(self.single_observation_space, num_envs)
         self.action_space = batch_space(self.single_action_space, num_envs)
         self._at_once = mode == AutoresetMode.SAME_STEP
@@ -111,7 +109,7 @@ class TaskVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]], EzPickle):
         """The world of each robot, [height, width, 3] as red, green, blue."""
         if self.render_mode != "rgb_array":
             return None
-        return tuple(image_of(self._episodes.agent, lane) for lane in range(self.num_envs))
+        return tuple(image_of(self._episodes, lane) for lane in range(self.num_envs))
 
     def _tell_last(self, ended: Mask, infos: dict[str, Any]) -> None:
         """What the agents saw last, and what came of their episodes."""

@@ -4,10 +4,9 @@ from collections.abc import Iterable, Iterator, Sequence
 from functools import cache
 
 from mindlang.compiler.diagnostic import ERRORS, did_you_mean, listed
-from mindlang.explaining.article import Article
+from mindlang.explaining.article import Article, sections, titled
 from mindlang.explaining.drivers import driver_articles
 from mindlang.explaining.kinds import kind_articles
-from mindlang.explaining.sections import sections, titled
 from mindlang.explaining.words import word_articles
 from mindlang.lint.rules import all_rules
 

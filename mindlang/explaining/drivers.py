@@ -8,9 +8,8 @@ from collections.abc import Iterator, Mapping
 from functools import cache
 from inspect import cleandoc
 
-from mindlang.explaining.article import Article, Wire, Wiring
+from mindlang.explaining.article import Article, Section, Wire, Wiring, in_lines, sections
 from mindlang.explaining.parameters import parameter
-from mindlang.explaining.sections import Section, in_lines, sections
 from mindlang.robot.options import driver_options, drivers
 
 NOUNS = ("sensor", "actuator")

@@ -9,36 +9,24 @@ from typing import Any
 import mindrun.graph.graph  # noqa: F401  (it knows all kinds)
 from mindrun.kinds.registry import arguments, kinds, names
 
-from mindlang.explaining.article import Article
+from mindlang.explaining.article import Article, Section, in_lines, sections
 from mindlang.explaining.parameters import parameter
-from mindlang.explaining.sections import Section, in_lines, sections
 
-# The nouns of kinds as people say them, in the order in which a mind is written, and how the registry calls them.
-NOUNS = {
-    "body": "body",
-    "actuator": "actuator",
-    "sensor": "sensor",
-    "memory": "memory",
-    "skill": "skill",
-    "scene": "task",
-    "thing": "content",
-    "event": "event",
-    "measure": "measure",
-    "curriculum": "curriculum",
+# The nouns of kinds as people say them, in the order in which a mind is written: in the registry, and as a chapter.
+_SAID = {
+    "body": ("body", "Bodies"),
+    "actuator": ("actuator", "Actuators"),
+    "sensor": ("sensor", "Sensors"),
+    "memory": ("memory", "Memories"),
+    "skill": ("skill", "Skills"),
+    "scene": ("task", "Worlds"),
+    "thing": ("content", "Things"),
+    "event": ("event", "Events"),
+    "measure": ("measure", "Measures"),
+    "curriculum": ("curriculum", "Curricula"),
 }
-CHAPTERS = {
-    "body": "Bodies",
-    "actuator": "Actuators",
-    "sensor": "Sensors",
-    "memory": "Memories",
-    "skill": "Skills",
-    "scene": "Worlds",
-    "thing": "Things",
-    "event": "Events",
-    "measure": "Measures",
-    "curriculum": "Curricula",
-}
-SAID_AS = {noun: kind for kind, noun in NOUNS.items()} | {"scene": "scene"}
+NOUNS = {noun: of for noun, (of, _) in _SAID.items()}
+SAID_AS = {of: noun for noun, of in NOUNS.items()} | {"scene": "scene"}
 
 
 @cache
@@ -56,7 +44,7 @@ def kind_article(of: str, name: str) -> Article:
         name,
         noun,
         f"kind of {noun}",
-        CHAPTERS[noun],
+        _SAID[noun][1],
         more.title if more else "",
         "\n\n".join(_texts(cls)),
         tuple(parameter(each, _purpose(noun, name, each.key)) for each in arguments(cls)),

@@ -1,6 +1,6 @@
 """Articles on a terminal, in 80 columns, and as data."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from itertools import groupby
 from textwrap import fill, indent
 from typing import Any
@@ -52,29 +52,27 @@ def _examples(article: Article) -> Iterator[Segment]:
 
 def contents(codes: Iterable[Article]) -> Iterator[Segment]:
     """All codes with their sentences, by chapter."""
-    known = list(codes)
-    wide = max(len(each.name) for each in known)
-    for (noun, chapter), group in groupby(known, key=lambda each: (each.noun, each.chapter)):
-        yield f"Errors: {chapter}\n" if noun == ERROR else f"{chapter}\n", "bold"
-        for each in group:
-            yield f"  {each.name:{wide}}", "cyan"
-            yield f"  {each.summary}\n", ""
-        yield "\n", ""
+    yield from _by_chapter(codes, lambda each: f"Errors: {each.chapter}" if each.noun == ERROR else each.chapter)
     yield "mindc explain CODE says more; mindc kinds lists the kinds and the drivers.\n", "dim"
 
 
 def kind_list(articles: Iterable[Article]) -> Iterator[Segment]:
     """Kinds and drivers by their sort, a line each."""
+    yield from _by_chapter(
+        articles, lambda each: f"Drivers {each.chapter.lower()}" if each.noun == "driver" else each.chapter
+    )
+    yield "mindc explain NAME says more of one.\n", "dim"
+
+
+def _by_chapter(articles: Iterable[Article], heading: Callable[[Article], str]) -> Iterator[Segment]:
     known = list(articles)
     wide = max(len(each.name) for each in known)
-    for (sort, chapter), group in groupby(known, key=lambda each: (each.sort, each.chapter)):
-        yield (f"Drivers {chapter[0].lower()}{chapter[1:]}" if sort.startswith("driver") else chapter), "bold"
-        yield "\n", ""
+    for title, group in groupby(known, key=heading):
+        yield f"{title}\n", "bold"
         for each in group:
             yield f"  {each.name:{wide}}", "cyan"
             yield f"  {each.summary}\n", ""
         yield "\n", ""
-    yield "mindc explain NAME says more of one.\n", "dim"
 
 
 def as_data(article: Article) -> dict[str, Any]:

@@ -2,9 +2,8 @@
 
 from functools import cache
 
-from mindlang.explaining.article import Article
+from mindlang.explaining.article import Article, Section, sections
 from mindlang.explaining.kinds import NOUNS, kind_articles
-from mindlang.explaining.sections import Section, sections
 
 SORTS = {"Nouns": "noun", "Settings": "setting", "Verbs": "verb", "Words": "word", "Units": "unit", "Terms": "term"}
 

@@ -34,11 +34,7 @@ def _title(text: str) -> str:
 
 def _result(diagnostic: Diagnostic) -> dict[str, Any]:
     text = f"{diagnostic.message} {diagnostic.hint}".strip()
-    result: dict[str, Any] = {
-        "ruleId": diagnostic.code,
-        "level": diagnostic.severity,
-        "message": {"text": text},
-    }
+    result: dict[str, Any] = {"ruleId": diagnostic.code, "level": diagnostic.severity, "message": {"text": text}}
     if diagnostic.span:
         line = diagnostic.span.source.line(diagnostic.span.line).strip()
         result["locations"] = [_location(diagnostic.span)]
@@ -61,17 +57,13 @@ def _location(span: Span) -> dict[str, Any]:
 def annotations(found: Iterable[Diagnostic]) -> Iterator[str]:
     """A line for each."""
     for each in found:
-        place = f"{_place(each.span)}," if each.span else ""
+        place = ""
+        if each.span:
+            end = Span(each.span.source, each.span.end, each.span.end)
+            place = f"file={_property(each.span.source.name)},line={each.span.line},col={each.span.column},"
+            place += f"endLine={end.line},endColumn={end.column},"
         text = _data(f"{each.message} {each.hint}".strip())
         yield f"::{each.severity} {place}title={_property(each.code)}::{text}\n"
-
-
-def _place(span: Span) -> str:
-    end = Span(span.source, span.end, span.end)
-    return (
-        f"file={_property(span.source.name)},line={span.line},col={span.column},"
-        f"endLine={end.line},endColumn={end.column}"
-    )
 
 
 def _data(text: str) -> str:

@@ -1,6 +1,6 @@
 """The range in which the value of an expression must lie, by interval arithmetic, and what conditions come to in it."""
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import product
 from math import inf, isnan
@@ -8,7 +8,7 @@ from typing import Any
 
 from mindrun.numbers.expression import Formula, fold
 
-from mindlang.compiler.model import Command, Comparison, Expression, Measured, Number, Reading, When
+from mindlang.compiler.model import Comparison, Expression, Number, When
 from mindlang.compiler.syntax import Operator
 
 Interval = tuple[float, float]
@@ -31,7 +31,7 @@ def share(name: str) -> Interval:
 
 def interval(of: Expression | Formula, reading: Readings = share, each: Interval = UNIT_INTERVAL) -> Interval:
     """The range of an expression whose readings have these ranges, that of `for each` the range `each`."""
-    return fold(words(of), _leaf(reading, each), _negated, _combined)
+    return fold(_formula(of), _leaf(reading, each), _negated, _combined)
 
 
 def divisors(of: Expression | Formula, reading: Readings = share, each: Interval = UNIT_INTERVAL) -> list[Interval]:
@@ -43,29 +43,25 @@ def divisors(of: Expression | Formula, reading: Readings = share, each: Interval
             found.append(right)
         return _combined(symbol, left, right)
 
-    fold(words(of), _leaf(reading, each), _negated, combined)
+    fold(_formula(of), _leaf(reading, each), _negated, combined)
     return found
 
 
-def words(of: Expression | Formula) -> Iterable[tuple[str, Any]]:
-    """The terms of an expression, or of the formula of a sensor, each with the word by which `fold` knows it."""
-    if not isinstance(of, Expression):
-        return of
-    return ((term.symbol if isinstance(term, Operator) else "term", term) for term in of.terms)
+def _formula(of: Expression | Formula) -> Formula:
+    return of.formula if isinstance(of, Expression) else of
 
 
 def _leaf(reading: Readings, each: Interval) -> Callable[[str, Any], Interval]:
-    def leaf(word: str, term: Any) -> Interval:
-        match word, term:
-            case ("number", value) | (_, Number(value)):
-                return value, value
-            case ("reading", name) | (_, Reading(name)):
-                return reading(name)
-            case _, Measured(measure):
-                return measure.interval
-            case _, Command():
-                return UNIT_INTERVAL
-        return each
+    def leaf(word: str, operand: Any) -> Interval:
+        match word:
+            case "number":
+                return operand, operand
+            case "reading":
+                return reading(operand)
+            case "measure":
+                interval: Interval = operand.interval
+                return interval
+        return each if word == "each" else UNIT_INTERVAL
 
     return leaf
 

@@ -6,6 +6,7 @@ What is wrong in it is a diagnostic on its line, and does not count.
 """
 
 import os
+import re
 import tomllib
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, field
@@ -93,21 +94,17 @@ class _Reading:
         except (tomllib.TOMLDecodeError, RecursionError) as error:
             self._no_toml(error)
             said = {}
-        lint = self._tables(said).get(SECTION, {})
-        found = self._keys(lint)
+        for name in (name for name in said if name != SECTION):
+            self._unknown(name, (SECTION,), "section")
+        found = self._keys(said.get(SECTION, {}))
         in_order = sorted(self.wrong, key=lambda each: each.span.start if each.span else 0)
         return LintSettings(self.source.folder, **found, wrong=tuple(in_order))
 
-    def _tables(self, said: dict[str, Any]) -> dict[str, Any]:
-        for name, table in said.items():
-            if name != SECTION:
-                self._unknown(name, (SECTION,), "section")
-            elif not isinstance(table, dict):
-                self._refuse("wrong-setting", name, f"{SECTION} is a section.", f"Write [{SECTION}].")
-        return {name: table for name, table in said.items() if isinstance(table, dict)}
-
-    def _keys(self, lint: dict[str, Any]) -> dict[str, Any]:
+    def _keys(self, lint: Any) -> dict[str, Any]:
         found: dict[str, Any] = {}
+        if not isinstance(lint, dict):
+            self._refuse("wrong-setting", SECTION, f"{SECTION} is a section.", f"Write [{SECTION}].")
+            return found
         for key, value in lint.items():
             match key:
                 case "select" | "ignore":
@@ -142,30 +139,24 @@ class _Reading:
 
     def _place(self, word: str) -> Span:
         """Where a word stands, behind what was found before: TOML's values are in the order of the text, mostly."""
-        text = self.source.text
-        start = next((place for place in (_found(text, word, self.at), _found(text, word, 0)) if place >= 0), 0)
+        places = _places(self.source.text, word)
+        start = next((place for place in places if place >= self.at), next(iter(places), 0))
         self.at = start + len(word)
         return Span(self.source, start, self.at)
 
     def _no_toml(self, error: Exception) -> None:
         """Tell of a text that is no TOML; the place stands at the end of Python's message only."""
         why, _, place = str(error).partition(" (at ")
-        numbers = [int(word) for word in place.rstrip(")").replace(",", "").split() if word.isdigit()]
-        starts = [0, *(index + 1 for index, character in enumerate(self.source.text) if character == "\n")]
+        numbers = [int(number) for number in re.findall(r"\d+", place)]
+        starts = [0, *(found.end() for found in re.finditer("\n", self.source.text))]
         end = len(self.source.text)
         start = min(starts[numbers[0] - 1] + numbers[1] - 1, end) if len(numbers) == 2 else max(0, end - 1)
+        span = Span(self.source, start, min(start + 1, end))
         message = f"This is no TOML: {why[:1].lower()}{why[1:]}."
-        self.wrong.append(
-            Diagnostic("unreadable-settings", message, Span(self.source, start, min(start + 1, end)), "Mend the line.")
-        )
+        self.wrong.append(Diagnostic("unreadable-settings", message, span, "Mend the line."))
 
 
-def _found(text: str, word: str, start: int) -> int:
-    """Where a word stands by itself in a text and not in a comment; -1 where it does not."""
-    while (place := text.find(word, start)) >= 0:
-        line = text[text.rfind("\n", 0, place) + 1 : place]
-        ends = text[place - 1 : place], text[place + len(word) : place + len(word) + 1]
-        if "#" not in line and not any(end.isalnum() or end in ("-", "_") for end in ends if end):
-            return place
-        start = place + 1
-    return -1
+def _places(text: str, word: str) -> list[int]:
+    """Where a word stands by itself in a text and not in a comment."""
+    found = (each.start() for each in re.finditer(rf"(?<![\w-]){re.escape(word)}(?![\w-])", text))
+    return [place for place in found if "#" not in text[text.rfind("\n", 0, place) + 1 : place]]

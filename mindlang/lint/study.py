@@ -3,11 +3,12 @@
 import re
 from collections.abc import Callable, Hashable, Iterable, Iterator
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, wraps
 from operator import attrgetter
 from typing import NamedTuple
 
-from mindrun.graph.graph import Graph, Lesson
+from mindrun.graph.graph import Graph
+from mindrun.graph.tasks import goals
 from mindrun.kinds.sensors.sensor import Physical, SensorKind
 from mindrun.kinds.things.thing import STAYS
 
@@ -20,7 +21,7 @@ from mindlang.compiler.references import Mention, mentions
 from mindlang.compiler.source import Source, Span
 from mindlang.compiler.syntax import Declaration, Fact
 from mindlang.editing.insertion import without_declarations, without_fact
-from mindlang.lint.intervals import UNIT_INTERVAL, Interval, Range, interval
+from mindlang.lint.intervals import UNIT_INTERVAL, Interval, Range, interval, why_never
 from mindlang.lock import Lock, lock_sources, read_locks
 
 _WORD = re.compile(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])")
@@ -71,6 +72,17 @@ class AnalysedWorld:
     def range_in(self, of: "Conditional") -> Range:
         """The ranges of the expressions of an edge, an end or a reward."""
         return lambda expression: interval(expression, self.reading, self.each(of))
+
+    def why_never_paid(self, reward: Reward) -> tuple[Span, str, str] | None:
+        """Where and why a reward is never paid, and what to do; None of one that may be."""
+        fact, value = reward.fact, self.range_in(reward)
+        if reward.on and fact.on and (why := reward.on.prevented(self)):
+            return fact.on.span, *why
+        if reward.when and (never := why_never(reward.when, value)):
+            return reward.when.span, never, "Compare with something that is reached, or take the reward out."
+        if value(reward.amount) == (0, 0):
+            return fact.amount.span, "its amount is always 0", "Give it another amount, or take it out."
+        return None
 
     @property
     def drains(self) -> bool:
@@ -222,15 +234,7 @@ class Study:
 
     def goals(self, task: Task) -> frozenset[str]:
         """The things on which no run of a task begins."""
-        from mindrun.graph.tasks import goals
-
         return goals(self.graph, next(each for each in self.graph.tasks if each.name == task.name))
-
-    def learners(self, lesson: Lesson) -> tuple[str, ...]:
-        """The skills that a lesson of the graph teaches."""
-        from mindrun.graph.skill_sets import learners
-
-        return learners(self.graph, lesson)
 
 
 @dataclass(frozen=True, slots=True)
@@ -274,11 +278,26 @@ def first_of_each(found: Iterable[Finding], key: Callable[[Finding], Hashable] =
             yield finding
 
 
+def once_a_line(check: Callable[[Study], Found]) -> Callable[[Study], Found]:
+    """A rule that tells once of a line which several tasks have."""
+
+    @wraps(check)
+    def checked(study: Study) -> Found:
+        return first_of_each(check(study))
+
+    return checked
+
+
 def removal(what: Declaration | Fact, title: str = "", is_safe: bool = False) -> Fix:
     """The fix that takes out a declaration, or the line of a fact."""
     if isinstance(what, Declaration):
         return Fix(title or f"Remove {what.header.name.text}", without_declarations([what]), is_safe)
     return Fix(title or "Remove the line", (without_fact(what),), is_safe)
+
+
+def is_zero_influence(edge: Edge) -> bool:
+    """Whether it is an influence that is 0, whatever is read."""
+    return edge.to == "skill" and bool(edge.at) and all(interval(value)[1] <= 0 for value in edge.values)
 
 
 def words(name: str) -> list[str]:

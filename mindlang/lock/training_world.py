@@ -24,7 +24,7 @@ _FACT = re.compile(r"  (?P<subject>[^\s=]+(?: [^\s=]+)?) = (?P<value>.+)")
 
 
 class Kind:
-    """A kind as `mindrun.graph.encoding` says it: its name and its arguments."""
+    """A kind as `mindrun.graph.codec` says it: its name and its arguments."""
 
 
 class Argument:

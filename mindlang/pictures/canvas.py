@@ -29,6 +29,13 @@ def pasted(page: Image, part: Image, x: int, y: int) -> None:
     page[y : y + part.shape[0], x : x + part.shape[1]] = part
 
 
+def reduced(image: Image, scale: float) -> Image:
+    """The image so much smaller: pixels are means."""
+    height, width, _ = image.shape
+    size = max(1, round(scale * width)), max(1, round(scale * height))
+    return cv2.resize(image, size, interpolation=cv2.INTER_AREA).astype(np.uint8)
+
+
 def fitted(seen: Image, width: int, height: int, around: Colour) -> Image:
     """An image, red first, as one of that size: as large as fits, in the middle."""
     high, wide, _ = seen.shape
@@ -107,30 +114,22 @@ class Canvas:
         """A disc, or with a width its rim."""
         size = round(radius * self.view.scale * 2**COORDINATE_BITS)
         line = self._line(width) if width else cv2.FILLED
-
-        def draw(image: Image, places: Places) -> None:
-            cv2.circle(image, places[0].tolist(), size, colour, line, cv2.LINE_AA, COORDINATE_BITS)
-
-        self._blend(alpha, self.places([x, y]), size / 2**COORDINATE_BITS + width * self.pen, draw)
+        room = size / 2**COORDINATE_BITS + width * self.pen
+        how = size, colour, line, cv2.LINE_AA, COORDINATE_BITS
+        self._blend(alpha, self.places([x, y]), room, lambda image, at: cv2.circle(image, at[0].tolist(), *how))
 
     def polygon(self, points: ArrayLike, colour: Colour, alpha: float = 1.0) -> None:
         """A filled convex polygon."""
-
-        def draw(image: Image, places: Places) -> None:
-            cv2.fillConvexPoly(image, places, colour, cv2.LINE_AA, COORDINATE_BITS)
-
-        self._blend(alpha, self.places(points), 1.0, draw)
+        how = colour, cv2.LINE_AA, COORDINATE_BITS
+        self._blend(alpha, self.places(points), 1.0, lambda image, at: cv2.fillConvexPoly(image, at, *how))
 
     def line(
         self, points: ArrayLike, colour: Colour, width: float = 1.0, alpha: float = 1.0, closed: bool = False
     ) -> None:
         """A line through points."""
         wide = self._line(width)
-
-        def draw(image: Image, places: Places) -> None:
-            cv2.polylines(image, [places], closed, colour, wide, cv2.LINE_AA, COORDINATE_BITS)
-
-        self._blend(alpha, self.places(points), wide, draw)
+        how = closed, colour, wide, cv2.LINE_AA, COORDINATE_BITS
+        self._blend(alpha, self.places(points), wide, lambda image, at: cv2.polylines(image, [at], *how))
 
     def text(
         self,
@@ -163,7 +162,7 @@ class Canvas:
     def _line(self, width: float) -> int:
         return max(1, round(width * self.pen))
 
-    def _blend(self, alpha: float, places: Places, room: float, draw: Callable[[Image, Places], None]) -> None:
+    def _blend(self, alpha: float, places: Places, room: float, draw: Callable[[Image, Places], object]) -> None:
         """Draw what lies within `room` pixels of the places; through it a share of 1 − alpha still shows."""
         if alpha >= 1.0:
             draw(self.image, places)

@@ -7,9 +7,16 @@ import numpy as np
 from mindrun.errors import MindError
 from mindrun.sim.outside.seen import UNKNOWN_FAILURES, SeenEpisode
 
-from mindlang.pictures.canvas import Image, fitted, pasted
-from mindlang.pictures.caption import SMALL_PIXELS, draw_title
-from mindlang.pictures.picture import PICTURE_PIXELS, SCALE_FACTOR, SIDE_PIXELS, TOP_PIXELS, empty_page, reduced
+from mindlang.pictures.canvas import Image, fitted, pasted, reduced
+from mindlang.pictures.picture import (
+    PICTURE_PIXELS,
+    SCALE_FACTOR,
+    SIDE_PIXELS,
+    SMALL_PIXELS,
+    TOP_PIXELS,
+    draw_title,
+    empty_page,
+)
 from mindlang.pictures.theme import PAPER
 from mindlang.run.recorded_run import RecordedRun
 
@@ -64,4 +71,4 @@ def _sheet(run: RecordedRun, found: dict[str, Any], ticks: Sequence[int], said: 
         pasted(page.image, image, SCALE_FACTOR * x, SCALE_FACTOR * y)
         label = f"tick {tick:,} ({tick * run.graph.tick:.1f} s)" if tick else "beginning"
         page.text(x, y + height + 17, label, SMALL_PIXELS, PAPER.faint)
-    return reduced(page)
+    return reduced(page.image, 1 / SCALE_FACTOR)

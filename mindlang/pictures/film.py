@@ -20,7 +20,7 @@ from mindrun.errors import MindError
 from mindrun.files.atomic_write import destination, write
 from PIL import Image as Pillow
 
-from mindlang.pictures.canvas import Image
+from mindlang.pictures.canvas import Image, reduced
 from mindlang.pictures.film_images import FilmImages
 from mindlang.run.recorded_run import RecordedRun
 
@@ -148,8 +148,7 @@ def _gif(path: Path, film: Film, wrote: Callable[[], None]) -> None:
 
 def _small(image: Image) -> Image:
     """An image as small as in a GIF, red first."""
-    size = round(GIF_SCALE * image.shape[1]), round(GIF_SCALE * image.shape[0])
-    return np.ascontiguousarray(cv2.resize(image, size, interpolation=cv2.INTER_AREA)[..., ::-1]).astype(np.uint8)
+    return np.ascontiguousarray(reduced(image, GIF_SCALE)[..., ::-1])
 
 
 FORMATS = {

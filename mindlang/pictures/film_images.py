@@ -11,14 +11,20 @@ import numpy as np
 from mindrun.graph.run_scores import score_of
 
 from mindlang.pictures.canvas import Canvas, Image, Rectangle, Viewport, blank, fitted, in_lines, pasted, text_width
-from mindlang.pictures.ending import LEAST_WORLD_PIXELS, draw_banner, draw_end_mark, ending_colour, ending_words
 from mindlang.pictures.environments import seen_run
 from mindlang.pictures.hierarchy_panel import HierarchyPanel
-from mindlang.pictures.labels import draw_names
-from mindlang.pictures.path import Path, draw_cross
+from mindlang.pictures.path import (
+    LEAST_WORLD_PIXELS,
+    Path,
+    draw_banner,
+    draw_cross,
+    draw_end_mark,
+    ending_colour,
+    ending_words,
+)
 from mindlang.pictures.readings_panel import COLUMN_PIXELS, ROW_PIXELS, ReadingsPanel, sensors_read
 from mindlang.pictures.robot import draw_robot
-from mindlang.pictures.scene import WALL_UNITS, draw_floor, draw_items, draw_zones, each_thing, half_sides
+from mindlang.pictures.scene import WALL_UNITS, draw_floor, draw_items, draw_names, draw_zones, each_thing, half_sides
 from mindlang.pictures.theme import NIGHT
 from mindlang.run.recorded_run import RecordedRun
 

@@ -1,23 +1,35 @@
-"""The hierarchy in one tick, after the paper's Figure 15: a link's middle is the command, its rim the influence."""
+"""The hierarchy in one tick, after the paper's Figure 15: a link's middle is the command, its rim the influence.
 
-from collections.abc import Sequence
+Skills, actuators and memories stand in rows from the master down, so that few links cross.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from itertools import pairwise
 from operator import itemgetter
+from statistics import fmean
+from typing import Literal
 
 import numpy as np
 from mindrun.engine.engine import procedure_sources
 from numpy.typing import NDArray
 
 from mindlang.pictures.canvas import Canvas, Rectangle, text_width
-from mindlang.pictures.layout import Layout, Place
 from mindlang.pictures.theme import NIGHT, Colour, mixed
-from mindlang.run.edge_flow import Sink, edge_flows
+from mindlang.run.edge_flow import Link, Sink, edge_flows
 from mindlang.run.recorded_run import RecordedRun
 
 BEND = np.linspace(0.0, 1.0, 24)
 MAX_TEXT_PIXELS, MIN_TEXT_PIXELS = 11.0, 5.0  # capitals of names, in pixels
 LINE_GAP_PIXELS = 5.0  # between two lines of a box
 RIM_PIXELS, CORE_PIXELS = 7.0, 2.0
+Stop = Sink | tuple[Literal["link"], int]  # a box, or where a link passes a row
+CROSSING_SWEEPS = 8
+MAX_BOX_WIDTH, MAX_BOX_HEIGHT = 210.0, 50.0  # pixels of a box
+BOX_SHARE = 0.58  # of the height of a row: that of its boxes, where rows are low
+PASSAGE_SHARE = 0.3  # of a box's room: that of a link which passes a row
 
 
 class HierarchyPanel:
@@ -27,17 +39,17 @@ class HierarchyPanel:
         self._run = run
         sources = procedure_sources(run.graph, run.setup.folder, run.setup.master)
         self._flows = edge_flows(run.setup.ready.policy, sources, run.setup.master, run)
-        self._layout = Layout.of(self._flows.links, self._flows.skills, room)
-        self._lines = {sink: self._lines_of(sink, place) for sink, place in self._layout.boxes.items()}
-        self._size = min(fitting(self._lines[sink], place) for sink, place in self._layout.boxes.items())
+        self._boxes, self._stops = laid_out(self._flows.links, self._flows.skills, room)
+        self._lines = {sink: self._lines_of(sink, place) for sink, place in self._boxes.items()}
+        self._size = min(fitting(self._lines[sink], place) for sink, place in self._boxes.items())
 
     def draw(self, canvas: Canvas, tick: int) -> None:
         """The hierarchy in a tick, the first of which is 1."""
         flow = self._flows.over(range(tick - 1, tick))
-        links = zip(self._layout.stops, flow.value[0].tolist(), flow.transmitted[0].tolist(), strict=True)
+        links = zip(self._stops, flow.value[0].tolist(), flow.transmitted[0].tolist(), strict=True)
         for stops, command, transmitted in sorted(links, key=itemgetter(2)):  # what is bright lies on top
             self._link(canvas, stops, command, transmitted)
-        for sink, place in self._layout.boxes.items():
+        for sink, place in self._boxes.items():
             match sink:
                 case "skill", index:
                     self._skill(canvas, self._lines[sink], place, float(self._run.influence[tick - 1, index]))
@@ -121,11 +133,85 @@ def _curve(stops: Sequence[Place]) -> NDArray[np.float64]:
 def _rounded(place: Place, radius: float) -> NDArray[np.float64]:
     """The outline of a box with round corners."""
     radius = min(radius, place.width / 3, place.height / 3)
-    turn = np.linspace(0.0, np.pi / 2, 6)
-    corners = []
-    for quarter, (side, up) in enumerate(((1, 1), (-1, 1), (-1, -1), (1, -1))):
-        x = place.x + side * (place.width / 2 - radius)
-        y = place.y + up * (place.height / 2 - radius)
-        angle = turn + quarter * np.pi / 2
-        corners.append(np.column_stack([x + radius * np.cos(angle), y + radius * np.sin(angle)]))
-    return np.concatenate(corners)
+    sides = np.array([(1, 1), (-1, 1), (-1, -1), (1, -1)])
+    middles = [place.x, place.y] + sides * [place.width / 2 - radius, place.height / 2 - radius]
+    angles = np.linspace(0.0, np.pi / 2, 6) + np.arange(4)[:, None] * np.pi / 2
+    around = middles[:, None] + radius * np.stack([np.cos(angles), np.sin(angles)], axis=2)
+    return np.reshape(around, (-1, 2))
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """A rectangle by its middle, in pixels."""
+
+    x: float
+    y: float
+    width: float
+    height: float
+
+
+def laid_out(
+    links: Sequence[Link], skills: Sequence[int], room: Rectangle
+) -> tuple[dict[Sink, Place], list[list[Place]]]:
+    """The boxes, and for each link the places that it goes through: from box to box, between the others of a row.
+
+    `skills` stand parents first.
+    """
+    level = _levels(links, skills)
+    routes = [_route(number, link, level) for number, link in enumerate(links)]
+    rows = _ordered(_rows(level, routes), routes)
+    places = {sink: place for i, row in enumerate(rows) for sink, place in _spread(row, i, len(rows), room)}
+    boxes = {(to, index): place for (to, index), place in places.items() if to != "link"}
+    return boxes, [[places[stop] for stop in route] for route in routes]
+
+
+def _levels(links: Sequence[Link], skills: Sequence[int]) -> dict[Stop, int]:
+    """The row of each box: a skill's is below the lowest of its parents', what is driven has the last."""
+    level: dict[Stop, int] = {("skill", skill): 0 for skill in skills}
+    for link in links:
+        if link.target[0] == "skill":
+            level[link.target] = max(level[link.target], level["skill", link.source] + 1)
+    last = max(level.values()) + 1
+    return level | dict.fromkeys(sorted(link.target for link in links if link.target[0] != "skill"), last)
+
+
+def _route(number: int, link: Link, level: dict[Stop, int]) -> list[Stop]:
+    """The link's ends, and between them a stop in each row that it passes."""
+    source: Sink = ("skill", link.source)
+    passed = range(level[source] + 1, level[link.target])
+    return [source, *(("link", number * 1000 + row) for row in passed), link.target]
+
+
+def _rows(level: dict[Stop, int], routes: Iterable[Sequence[Stop]]) -> list[list[Stop]]:
+    rows: list[list[Stop]] = [[] for _ in range(max(level.values()) + 1)]
+    for sink, row in level.items():
+        rows[row].append(sink)
+    for route in routes:
+        for row, stop in enumerate(route[1:-1], level[route[0]] + 1):
+            rows[row].append(stop)
+    return rows
+
+
+def _ordered(rows: list[list[Stop]], routes: Iterable[Sequence[Stop]]) -> list[list[Stop]]:
+    """The rows sorted, down and up again, by the mean place of what each box is linked to in the rows beside it."""
+    near: dict[Stop, list[Stop]] = {sink: [] for row in rows for sink in row}
+    for upper, lower in (pair for route in routes for pair in pairwise(route)):
+        near[upper].append(lower)
+        near[lower].append(upper)
+    at = {sink: (number + 0.5) / len(row) for row in rows for number, sink in enumerate(row)}
+    for _ in range(CROSSING_SWEEPS):
+        for row in (*rows, *reversed(rows)):
+            row.sort(key=lambda sink: fmean([at[other] for other in near[sink]] or [at[sink]]))
+            at |= {sink: (number + 0.5) / len(row) for number, sink in enumerate(row)}
+    return rows
+
+
+def _spread(row: Sequence[Stop], level: int, levels: int, room: Rectangle) -> Iterable[tuple[Stop, Place]]:
+    """The boxes of a row side by side."""
+    shares = [PASSAGE_SHARE if sink[0] == "link" else 1.0 for sink in row]
+    unit, gap = room.width / sum(shares), room.height / levels
+    x, y = room.left, room.low + (level + 0.5) * gap
+    for sink, share in zip(row, shares, strict=True):
+        width, height = min(0.88 * share * unit, MAX_BOX_WIDTH), min(BOX_SHARE * gap, MAX_BOX_HEIGHT)
+        yield sink, Place(x + share * unit / 2, y, width, height)
+        x += share * unit

@@ -1,19 +1,38 @@
-"""The picture of a run: its world as it was in the end, and the path that led there."""
+"""The picture of a run: its world as it was in the end, the path that led there, and the words around it."""
 
+from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from mindlang.pictures.canvas import Canvas, Image, Viewport, blank, pasted
-from mindlang.pictures.caption import draw_legend, draw_scale, draw_title
-from mindlang.pictures.ending import draw_end_mark, end_label
-from mindlang.pictures.labels import draw_names
-from mindlang.pictures.path import Path, draw_collisions, draw_former, draw_start
+from mindlang.number_format import score
+from mindlang.pictures.canvas import Canvas, Image, Viewport, blank, in_lines, pasted, reduced, square
+from mindlang.pictures.path import (
+    MIN_CONTROL_SHARE,
+    Path,
+    Stroke,
+    draw_collisions,
+    draw_cross,
+    draw_end_mark,
+    draw_former,
+    draw_rings,
+    draw_start,
+    end_label,
+)
 from mindlang.pictures.robot import draw_robot
-from mindlang.pictures.scene import WALL_UNITS, draw_floor, draw_items, draw_zones, half_sides
-from mindlang.pictures.theme import PAPER
+from mindlang.pictures.scene import (
+    WALL_UNITS,
+    draw_floor,
+    draw_items,
+    draw_names,
+    draw_zones,
+    half_sides,
+    thing_colours,
+)
+from mindlang.pictures.theme import PAPER, Colour, mixed
 from mindlang.run.recorded_run import RecordedRun
 
 PICTURE_PIXELS = 1000
@@ -21,6 +40,11 @@ TOP_PIXELS, BOTTOM_PIXELS, SIDE_PIXELS = 96, 74, 28  # what stands around the wo
 SCALE_BAR_PIXELS = 170  # beside the legend
 SCALE_FACTOR = 2  # drawn so many times larger, then averaged
 PLAIN_MARGIN_UNITS = 6.0  # around a plain scene
+ENTRY_GAP_PIXELS = 22.0  # between two entries
+SMALL_PIXELS, LARGE_PIXELS, MIN_TEXT_PIXELS = 11.0, 14.0, 5.0
+LEGEND_LINES, LEGEND_LINE_PIXELS = 2, 22.0  # how many, and how high
+LEGEND_MARK_PIXELS = 26.0  # the width of what stands before a name
+Entry = tuple[Callable[[float, float], None], str]  # what draws the mark at a place, and the name behind it
 
 
 def picture(run: RecordedRun, found: dict[str, Any]) -> Image:
@@ -39,7 +63,7 @@ def picture(run: RecordedRun, found: dict[str, Any]) -> Image:
     page = page_around(world, height)
     draw_title(page, run, found, SIDE_PIXELS, 34, right)
     draw_legend(page, run, found, path, SIDE_PIXELS, height - 46, right - SCALE_BAR_PIXELS)
-    return reduced(page)
+    return reduced(page.image, 1 / SCALE_FACTOR)
 
 
 def empty_world(run: RecordedRun, *others: RecordedRun) -> Canvas:
@@ -89,15 +113,97 @@ def page_around(world: Canvas, height: int) -> Canvas:
     return page
 
 
-def reduced(page: Canvas) -> Image:
-    """The image of a page."""
-    height, width, _ = page.image.shape
-    size = width // SCALE_FACTOR, height // SCALE_FACTOR
-    return cv2.resize(page.image, size, interpolation=cv2.INTER_AREA).astype(np.uint8)
-
-
 def png(image: Image) -> bytes:
     """An image as the contents of a PNG file, which is kept and sent more often than written: as small as can be."""
     done, data = cv2.imencode(".png", image, [cv2.IMWRITE_PNG_COMPRESSION, 9])
     assert done
     return bytes(data)
+
+
+def draw_title(canvas: Canvas, run: RecordedRun, found: dict[str, Any], x: float, y: float, right: float) -> None:
+    """The task, and the facts of the run side by side up to `right`, each below its name."""
+    canvas.text(x, y, run.task.name, 24, PAPER.ink, bold=True)
+    facts = _facts(run, found)
+    gap = 1.6 * ENTRY_GAP_PIXELS
+    wide = [max(canvas.width(name, SMALL_PIXELS), canvas.width(value, LARGE_PIXELS)) + gap for name, value in facts]
+    fit = min(1.0, (right - x) / (sum(wide) - gap))  # smaller, where much is counted
+    for (name, value), width in zip(facts, wide, strict=True):
+        canvas.text(x, y + 25, name, fit * SMALL_PIXELS, PAPER.faint)
+        canvas.text(x, y + 46, value, fit * LARGE_PIXELS, PAPER.ink)
+        x += fit * width
+
+
+def _facts(run: RecordedRun, found: dict[str, Any]) -> list[tuple[str, str]]:
+    seconds = found["ticks"] * run.graph.tick
+    return [
+        *(("in charge", found["master"]), ("seed", str(found["seed"])), ("score", score(found["score"]))),
+        *((event, str(times)) for event, times in found["by_event"].items()),
+        ("ticks", f"{found['ticks']:,} of {found['of_ticks']:,} ({seconds:,.1f} s)"),
+        ("success" if found.get("succeeded") else "ended by", found["ended_by"] or "time"),
+    ]
+
+
+def draw_legend(
+    canvas: Canvas, run: RecordedRun, found: dict[str, Any], path: Path, x: float, y: float, right: float
+) -> None:
+    """What the colours and marks mean, in lines that end before `right`, smaller where they are many."""
+    entries = _entries(canvas, run, found, path)
+    size, places = fitted(canvas, [name for _, name in entries], right - x)
+    for (draw, name), (along, line) in zip(entries, places, strict=True):
+        low = y + LEGEND_LINE_PIXELS * line
+        draw(x + along, low - 4)
+        canvas.text(x + along + LEGEND_MARK_PIXELS, low, name, size, PAPER.ink)
+
+
+def fitted(canvas: Canvas, names: Sequence[str], room: float) -> tuple[float, list[tuple[float, int]]]:
+    """The largest size at which so many names fit into the lines, and where each entry begins."""
+    size = SMALL_PIXELS
+    while True:
+        widths = [LEGEND_MARK_PIXELS + canvas.width(name, size) for name in names]
+        places = in_lines(widths, ENTRY_GAP_PIXELS, room)
+        if places[-1][1] < LEGEND_LINES or size <= MIN_TEXT_PIXELS:
+            return size, places
+        size -= 0.5
+
+
+def _entries(canvas: Canvas, run: RecordedRun, found: dict[str, Any], path: Path) -> list[Entry]:
+    def ramp(x: float, y: float) -> None:
+        for i in range(18):
+            canvas.line([(x + i, y), (x + i + 1, y)], mixed(PAPER.early, PAPER.late, i / 17), 3.0)
+
+    def box(colour: Colour, x: float, y: float) -> None:
+        canvas.polygon(square(x + 9, y, 6), colour, 0.75)
+
+    def dot(colour: Colour, x: float, y: float) -> None:
+        canvas.disc(x + 9, y, 6, colour)
+
+    def bar(stroke: Stroke, x: float, y: float) -> None:
+        stroke.draw(canvas, [(x, y), (x + 18, y)], 3.0)
+
+    entries: list[Entry] = [
+        (partial(bar, stroke), f"{name} {share:.0%}")
+        for stroke, (name, share) in zip(path.strokes, path.shares.items(), strict=False)
+        if share >= MIN_CONTROL_SHARE
+    ] or [(ramp, f"path, 0 to {run.ticks * run.graph.tick:.0f} s")]
+    entries.append((lambda x, y: canvas.disc(x + 9, y, 4.5, PAPER.ink, width=1.6), "start"))
+    entries.append((lambda x, y: draw_rings(canvas, x + 9, y, 3.0, found, PAPER), "end"))
+    things = {thing.name: thing for thing in run.contents}
+    colours = dict(zip((thing.name for thing in run.contents), thing_colours(run.contents, PAPER), strict=True))
+    for name, thing in things.items():
+        entries.append((partial(dot if thing.kind.is_round else box, colours[name]), name))
+    if len(run.boxes):
+        solid = dict.fromkeys(thing.name for thing in run.task.things if thing.kind.is_obstacle)
+        entries.append((partial(box, PAPER.rock_edge), ", ".join(solid)))
+    if hits := len(run.collisions):
+        entries.append((lambda x, y: draw_cross(canvas, x + 9, y, 5, PAPER), f"collision ({hits})"))
+    return entries
+
+
+def draw_scale(canvas: Canvas, units_per_pixel: float, right: float, y: float) -> None:
+    """A bar of a round number of units that ends at `right`."""
+    units = next(n for n in (1000, 500, 200, 100, 50, 20, 10, 5, 2, 1, 0.5, 0) if n / units_per_pixel <= 130)
+    long = units / units_per_pixel
+    canvas.line([(right - long, y), (right, y)], PAPER.ink, 1.6)
+    for end in (right - long, right):
+        canvas.line([(end, y - 4), (end, y + 4)], PAPER.ink, 1.6)
+    canvas.text(right - long / 2, y - 9, f"{units:g} units", SMALL_PIXELS, PAPER.ink, align="centre")

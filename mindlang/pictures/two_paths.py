@@ -6,14 +6,19 @@ from typing import Any
 from mindrun.terminal.tick_count import ticks as in_words
 
 from mindlang.number_format import score
-from mindlang.pictures.canvas import Canvas, Image
-from mindlang.pictures.caption import SMALL_PIXELS
-from mindlang.pictures.ending import ending_words
-from mindlang.pictures.labels import draw_names
-from mindlang.pictures.path import draw_collisions, draw_start
-from mindlang.pictures.picture import PICTURE_PIXELS, SIDE_PIXELS, empty_world, height_of, page_around, reduced
+from mindlang.pictures.canvas import Canvas, Image, reduced
+from mindlang.pictures.path import draw_collisions, draw_start, ending_words
+from mindlang.pictures.picture import (
+    PICTURE_PIXELS,
+    SCALE_FACTOR,
+    SIDE_PIXELS,
+    SMALL_PIXELS,
+    empty_world,
+    height_of,
+    page_around,
+)
 from mindlang.pictures.robot import draw_robot
-from mindlang.pictures.scene import draw_items, draw_zones
+from mindlang.pictures.scene import draw_items, draw_names, draw_zones
 from mindlang.pictures.theme import PAPER
 from mindlang.run.recorded_run import RecordedRun
 
@@ -39,7 +44,7 @@ def two_paths(both: Sequence[tuple[RecordedRun, dict[str, Any]]], words: str, ti
         low = height - 46.0 + OUTCOME_PIXELS * line
         page.line([(SIDE_PIXELS, low - 4), (SIDE_PIXELS + 20, low - 4)], PAPER.skills[line], 3.0)
         _fitting(page, SIDE_PIXELS + 30, low, f"{name}: {outcome_words(outcome)}", SMALL_PIXELS, right - 150.0)
-    return reduced(page)
+    return reduced(page.image, 1 / SCALE_FACTOR)
 
 
 def _world(was: RecordedRun, now: RecordedRun, tick: int) -> Canvas:

@@ -13,10 +13,10 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 from mindrun.graph.graph import Gate, Program, Skill
 from mindrun.graph.weights import Weights, genes
+from mindrun.numbers.arithmetic import sigmoid
 from mindrun.numbers.evaluation import OPERATORS
 from mindrun.numbers.expression import fold
 from mindrun.numbers.network import matrices
-from mindrun.numbers.sigmoid import sigmoid
 from numpy.typing import NDArray
 
 Singles = NDArray[np.float32]

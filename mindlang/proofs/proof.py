@@ -13,8 +13,7 @@ from networkx import DiGraph
 from mindlang.compiler.hierarchy import above
 from mindlang.proofs.branch_and_bound import EdgeRange
 from mindlang.proofs.interval import is_known
-from mindlang.proofs.leak import Leak, leaks
-from mindlang.proofs.paths import Paths, paths, ways
+from mindlang.proofs.paths import Leak, Paths, leaks, paths, ways
 from mindlang.proofs.reach import MIN_INFLUENCE, Driven, ProvedReach, reach, together
 from mindlang.proofs.trying import Tried, try_out
 

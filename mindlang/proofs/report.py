@@ -15,8 +15,7 @@ from rich.table import Table
 from rich.text import Text
 
 from mindlang.compiler.diagnostic import listed
-from mindlang.proofs.leak import Leak
-from mindlang.proofs.paths import MAX_COUNTED_PATHS
+from mindlang.proofs.paths import MAX_COUNTED_PATHS, Leak
 from mindlang.proofs.proof import DECLARATION, OfActuator, OfEdge, Proof
 from mindlang.proofs.trying import Tried
 

@@ -33,7 +33,7 @@ class Benched:
     scores: Scores
 
     def figures(self) -> dict[str, NDArray[np.float64]]:
-        """What each run came to [runs], by name."""
+        """The figures of each run [runs], by name."""
         counted = {events(self.task)[event]: self.scores.by_event[0, :, event] for event in self.task.counts}
         success = {SUCCESS: succeeded(self.task, self.scores)[0]} if self.task.can_succeed else {}
         found = {SCORE: self.scores.total[0], **success, **counted}
@@ -51,12 +51,12 @@ class Comparison:
 
     @property
     def conclusion(self) -> str:
-        """What may be said, in a sentence."""
+        """The sentence that may be said of it."""
         said = one_world_conclusion if self.is_one_world else conclusion
         return said(self.first.name, self.second.name, self.second.task.name, self.differences)
 
     def data(self) -> dict[str, Any]:
-        """What `mindc bench --json` says of two minds beside what it says of each."""
+        """The part of `mindc bench --json` that is about both minds."""
         plain = {name: found.data() for name, found in self.differences.items()}
         by_event = {name: plain.pop(name) for name in list(plain) if name not in (SCORE, SUCCESS)}
         differences = {**plain, "by_event": by_event}
@@ -76,7 +76,7 @@ def compare(first: Benched, second: Benched, is_one_world: bool = False) -> Comp
 
 
 def differing_tasks(file: str, ours: Task, theirs: Task) -> list[str]:
-    """What must be known where a task is another in a second file."""
+    """Notes where a task is another in a second file."""
     if ours == theirs:
         return []
     notes = [f"task {theirs.name} is another in {file}; one seed need not give one world"]

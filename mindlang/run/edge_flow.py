@@ -1,7 +1,5 @@
 """What flows over each edge of a hierarchy, tick by tick, computed by the engine's own functions."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Container, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -25,7 +23,7 @@ PART_EDGES = 1_000_000  # edges times rows that are computed at once, a few doze
 
 
 class Thought(Protocol):
-    """What was read [ticks, graph.width] and the influence that it made [ticks, skills]."""
+    """A run as its skills had it: readings [ticks, graph.width] and the influence that they made [ticks, skills]."""
 
     @property
     def readings(self) -> Singles: ...
@@ -43,7 +41,7 @@ class Link:
 
 @dataclass(frozen=True, slots=True)
 class EdgeFlow:
-    """What the edges carried in some rows, each [rows, edges].
+    """The numbers that the edges carried in some rows, each [rows, edges].
 
     `value` is what its skill sent, clamped; `behind` the influence of that skill; `carried` their product, as the
     engine adds it up. All are 0 where nothing was sent, and `carried` where it was cut. `transmitted` is the influence
@@ -92,7 +90,7 @@ class EdgeFlows:
         return found
 
     def over(self, rows: Places | range) -> EdgeFlow:
-        """What each of `links` carried in rows in rising order; IndexError where one of these is not there."""
+        """The flow over `links` in rows in rising order; IndexError where one of these is not there."""
         places = np.asarray(rows, np.int64)
         with self._computing, np.errstate(all="ignore"):
             readings, influence = self.rows(places)
@@ -105,7 +103,7 @@ class EdgeFlows:
             return EdgeFlow(value, behind, carried, np.where(self._drives, behind, carried), influence)
 
     def parts(self, rows: Places) -> Iterator[tuple[slice, EdgeFlow]]:
-        """What flows in these rows, as many at a time as fit into memory, each part with its places among them."""
+        """The flow in these rows, as many at a time as fit into memory, each part with its places among them."""
         most = max(1, PART_EDGES // max(1, len(self.links)))
         for first in range(0, len(rows), most):
             part = slice(first, first + most)
@@ -152,7 +150,7 @@ class _Kept:
         self._known = 0  # how many rows are computed
 
     def at(self, row: int) -> list[np.float32]:
-        """What it sent in a row."""
+        """The values that it sent in a row."""
         self.go_on(row + 1)
         return [*self.blocks[row // BLOCK_ROWS][row % BLOCK_ROWS]]
 

@@ -31,7 +31,7 @@ def events(task: Task) -> list[str]:
 
 
 def ends(task: Task) -> list[str]:
-    """What ends a run of the task, as it is written."""
+    """The ends of a task as they are written."""
     return [
         end.text if end.event is None else f"{end.times} " * (end.times > 1) + phrase(task.events[end.event])
         for end in task.ends
@@ -39,7 +39,7 @@ def ends(task: Task) -> list[str]:
 
 
 def ended_by(task: Task, number: int) -> str | None:
-    """What ended a run, by its number there; None where it lasted its time, or goes on."""
+    """The end that came, by its number there; None where a run lasted its time, or goes on."""
     return ends(task)[number] if 0 <= number < len(task.ends) else OTHERWISE.get(number)
 
 
@@ -68,7 +68,7 @@ def run_data(task: Task, scores: Scores) -> dict[str, Any]:
 def data_so_far(
     task: Task, paid: NDArray[np.float64], times: NDArray[np.integer], ticks: int, ended: str | None
 ) -> dict[str, Any]:
-    """What came of a run by a tick, of what each line has paid [rewards] and how often each event happened [events].
+    """The outcome of a run by a tick, by what each line has paid [rewards] and how often each event happened [events].
 
     A sum that is not a finite number is None, `counts` the sum of `by_event` if any.
     """

@@ -59,7 +59,7 @@ class Difference:
 
     @property
     def leaves_zero_out(self) -> bool:
-        """Whether the interval leaves 0 out."""
+        """True where the interval leaves 0 out."""
         return self.low is not None and self.high is not None and not self.low <= 0 <= self.high
 
     @property
@@ -69,7 +69,7 @@ class Difference:
 
     @property
     def is_widened(self) -> bool:
-        """Whether layouts without an example make the interval as wide as it is."""
+        """True where layouts without an example make the interval as wide as it is."""
         if self.mean is None or self.unseen is None:
             return False
         return self.low == self.mean - self.unseen or self.high == self.mean + self.unseen

@@ -144,10 +144,10 @@ class RunResult:
 
 def run_result(setup: RunSetup, rollout: Rollout, seed: int, changes: Sequence[Change] = ()) -> RunResult:
     """The run of a seed, with changes, and what came of it."""
-    return result_of(setup, trace(rollout, seed, changes=changes), seed)
+    return result_of_trace(setup, trace(rollout, seed, changes=changes), seed)
 
 
-def result_of(setup: RunSetup, run: Trace, seed: int) -> RunResult:
+def result_of_trace(setup: RunSetup, run: Trace, seed: int) -> RunResult:
     """A run of that seed that is about to begin, made and written down, and what came of it."""
     written = recorded(setup, run)
     found = run_data(setup.task, scores_of(run.jobs, setup.task))

@@ -1,7 +1,5 @@
 """Recordings and runs: a simulated run as a recording, a recording as such a run, and the mind that was running."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from hashlib import sha256
 from pathlib import Path
@@ -86,7 +84,7 @@ def _built(path: Path, of: About) -> tuple[Bundle, str]:
 
 
 def bundle_without_robot(ready: ReadyMind, folder: Path) -> Bundle:
-    """What `mindc build` writes of a mind, which is wired to nothing; `folder` has its procedures."""
+    """The bundle that `mindc build` writes of a mind that is wired to nothing; `folder` has its procedures."""
     return Bundle(ready.policy, procedure_sources(ready.policy.graph, folder))
 
 
@@ -104,17 +102,13 @@ def run_bytes(run: RecordedRun, setup: RunSetup, seed: int) -> bytes:
     about = replace(about, world=world_of(setup.task, seed, run.boxes, run.body[0], run.things[0], run.turned[0]))
     after = replace(run, body=run.body[1:], things=run.things[1:], turned=run.turned[1:], held=run.held[1:])
     rows = recorded_rows(about, 1, after, run.events)
-    if _has_delays(setup):  # what reaches an actuator is what was sent some ticks ago
+    varies = any((each.noun, each.argument) == ("actuator", "delay") for each in setup.task.varies)
+    if varies or any(each.kind.delay for each in graph.actuators):  # what reaches one was sent some ticks ago
         engine = Engine(setup.ready.policy, setup.folder, setup.master)
         rows["commands"] = [engine.tick(readings) for readings in rows["readings"]]
     if len(rows):
         rows["world"]["ended"][-1] = run.ended
     return recording_bytes(about, rows)
-
-
-def _has_delays(setup: RunSetup) -> bool:
-    varies = any((each.noun, each.argument) == ("actuator", "delay") for each in setup.task.varies)
-    return varies or any(actuator.kind.delay for actuator in setup.ready.policy.graph.actuators)
 
 
 def world_of(task: Task, seed: int, boxes: Floats, pose: Floats, things: Floats, turned: Floats) -> RecordedWorld:

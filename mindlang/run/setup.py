@@ -1,26 +1,34 @@
-"""Who plays what: the task of a run, the master in charge, and the weights of all skills below it."""
+"""A run of a task set up: who is in charge, with which weights; and many such runs made, a slice after the other."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from time import perf_counter
 from typing import TYPE_CHECKING
 
+import numpy as np
 from mindrun.engine.engine import procedure_sources
 from mindrun.graph.bundle import Bundle, pack
 from mindrun.graph.graph import Task
+from mindrun.graph.run_scores import Scores
 from mindrun.graph.skill_sets import owners, reachable
 from mindrun.graph.tasks import is_one_world
+from mindrun.processors import cpu_seconds
 from mindrun.terminal.command_line import command_line
 
 from mindlang.compiler.compile import Compiled
-from mindlang.executors.jobs import Assignment
+from mindlang.executors.jobs import Assignment, Block, JobScorer, empty_scores, place
+from mindlang.limits import as_runs, as_seed
 from mindlang.lock.ready import ReadyMind, make_ready
 from mindlang.run.chosen_task import SetupError, master_of, task_of
-from mindlang.run.many_runs import layouts
 
 if TYPE_CHECKING:
     from mindrun.sim.rollout import Rollout
+
+NO_GENOME = np.zeros((1, 0), np.float32)  # the genome where nobody learns
+SLICE_RUNS = 1 << 16  # that are begun together, so that memory is for their results alone
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,7 +43,7 @@ class RunSetup:
 
     @property
     def is_one_world(self) -> bool:
-        """Whether nothing of the task is drawn, so that all of its runs are one."""
+        """True where nothing of the task is drawn, so that all of its runs are one."""
         return is_one_world(self.ready.policy.graph, self.task, self.master)
 
     @property
@@ -49,7 +57,7 @@ class RunSetup:
         return layouts(seed, runs)[: 1 if self.is_one_world else None]
 
     def notes(self, rollout: Rollout, *more: str) -> list[str]:
-        """What somebody should know of runs that have been made."""
+        """Sentences that somebody should know of runs that have been made."""
         return [*self.ready.notes, *self.world_notes, *rollout.notes, *more]
 
     def rollout(self, interrupt: bool = True, workers: int = 1) -> Rollout:
@@ -60,7 +68,7 @@ class RunSetup:
         return rollout_for(of, task, self.master, procedures=self.folder, interrupt=interrupt, workers=workers)
 
     def assignment(self, interrupt: bool = True) -> Assignment:
-        """What a worker has to know to make such runs; MindError where it is too large for a bundle."""
+        """All that a worker has to know to make such runs; MindError where it is too large for a bundle."""
         procedures = procedure_sources(self.ready.policy.graph, self.folder, self.master)
         bundle = pack(Bundle(self.ready.policy, procedures))
         return Assignment(bundle, self.task.name, self.master, (), interrupt, self.folder)
@@ -92,3 +100,35 @@ def untaught_skills(ready: ReadyMind) -> list[str]:
     """The skills without weights that fit, subskills first."""
     reached = reachable(ready.policy.graph, ready.policy.graph.master)
     return [name for name in reversed(owners(reached)) if name not in ready.policy.weights]
+
+
+def layouts(seed: int, runs: int) -> list[int]:
+    """The seeds of so many runs; MindError where these are none."""
+    seed, runs = as_seed(seed), as_runs(runs)
+    return [int(word) for word in np.random.SeedSequence(seed).generate_state(runs, np.uint64)]
+
+
+def run_all(
+    scorer: Rollout | JobScorer, seeds: Sequence[int], ran: Callable[[float], None] = lambda runs: None
+) -> Scores:
+    """A run of each seed; `ran` is told how many more have been made, parts of them too."""
+    if isinstance(scorer, JobScorer):
+        return scorer.score(NO_GENOME, seeds, ran)
+    whole = empty_scores(1, len(seeds), scorer.task)
+    for first in range(0, len(seeds), SLICE_RUNS):
+        block = Block(slice(0, 1), slice(first, min(len(seeds), first + SLICE_RUNS)))
+        place(block, scorer.score(NO_GENOME, seeds[block.seeds], ran), whole)
+    return whole
+
+
+def run_timed(
+    scorer: Rollout | JobScorer, seeds: Sequence[int], ran: Callable[[float], None] = lambda runs: None
+) -> tuple[Scores, float, float]:
+    """A run of each seed, the seconds that all of them took, and those of the processors of this machine.
+
+    The first is made twice before where it may not be the same again, which is in the scorer's notes then.
+    """
+    scorer.make_again(NO_GENOME[0], seeds[0])
+    began, cpu_began = perf_counter(), cpu_seconds()
+    scores = run_all(scorer, seeds, ran)
+    return scores, perf_counter() - began, cpu_seconds() - cpu_began

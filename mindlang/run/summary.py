@@ -8,7 +8,7 @@ from mindrun.sim.outside.making import GAVE_NO_NUMBER
 from rich.console import Group, RenderableType
 from rich.text import Text
 
-from mindlang.number_format import duration, rate, score
+from mindlang.number_format import duration, score, speed
 from mindlang.run.comparison import PERCENT, SCORE, SUCCESS, Comparison, amount
 from mindlang.run.outcome import TIME
 from mindlang.run.paired_difference import MAX_RUNS, Difference
@@ -48,16 +48,10 @@ def bench_summary(found: dict[str, Any]) -> RenderableType:
         ("ended by", ended),
         ("best run", best and f"seed {best}: mindc run --seed {best} repeats it"),
         ("worst run", worst and f"seed {worst}"),
-        ("speed", f"{_rate(found)} {who}, in {duration(found['seconds'])}"),
+        ("speed", f"{speed(found)} {who}, in {duration(found['seconds'])}"),
         ("faults", _faults(found)),
     )
     return Group(_title(found), facts)
-
-
-def _rate(found: dict[str, Any]) -> str:
-    """How many ticks a second of a processor made, the same on a busy machine; of a clock's where that is not known."""
-    cpu = found["ticks_per_cpu_second"]
-    return rate(found["ticks_per_second"]) if cpu is None else rate(cpu, "CPU second")
 
 
 def _title(found: dict[str, Any]) -> Text:

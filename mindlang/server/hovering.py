@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mindrun.errors import MindError
+from mindrun.graph.graph import VARIED_NOUNS
 from mindrun.kinds.registry import arguments, kinds
-from mindrun.kinds.variation import VARIED_NOUNS
 from networkx import DiGraph, single_target_shortest_path
 
 from mindlang.compiler.drawing import text_after_name

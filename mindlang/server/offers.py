@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from mindrun.graph.graph import VARIED_NOUNS
 from mindrun.kinds.registry import Argument, arguments, kinds, named_arguments
-from mindrun.kinds.variation import VARIED_NOUNS
 from mindrun.numbers.quantity import Quantity, Reference
 
 from mindlang.compiler.names import things_of

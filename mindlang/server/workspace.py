@@ -13,7 +13,7 @@ from msgspec import Struct
 from msgspec.structs import astuple
 
 from mindlang.breakpoints import SUFFIX
-from mindlang.compiler.compile import Compiled, load
+from mindlang.compiler.compile import Compiled, files, load
 from mindlang.compiler.diagnostic import Diagnostic, Findings
 from mindlang.compiler.expand import expand
 from mindlang.compiler.names import Names, gather
@@ -21,7 +21,6 @@ from mindlang.compiler.references import Mention, mentions
 from mindlang.compiler.resolve.maps import map_paths
 from mindlang.compiler.source import Span, within
 from mindlang.compiler.syntax import Declaration, Fact, File, Setting
-from mindlang.compiler.use import files
 from mindlang.files import files_beside, folders_above, text_of, within_read_limits
 
 _MASTER = re.compile(r"^[ \t]*master\b", re.MULTILINE)

@@ -1,12 +1,11 @@
 """Robots and tasks of which `mindc new` makes a project, each a file of data in `robots/` or `tasks/`."""
 
-import tomllib
 from collections.abc import Mapping
+from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 from typing import TypeVar
 
-import msgspec
 from mindrun.errors import MindError
 
 from mindlang.compiler.diagnostic import did_you_mean, listed
@@ -15,14 +14,16 @@ TEMPLATES = Path(__file__).parent
 FIRST_ROBOT, FIRST_TASK = "differential", "patrol"  # what is made where nothing is said
 
 
-class Part(msgspec.Struct, frozen=True, kw_only=True):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Part:
     """Something of a robot: its lines in the mind, and those that wire it in robot.yaml."""
 
     mind: str
     wiring: str
 
 
-class Robot(Part, frozen=True, kw_only=True):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Robot(Part):
     """A robot: what moves it, and by which names a task may ask for what else it has.
 
     `drives` names the actuators that a skill of any task drives; `sense` and `act` are parts a task may need.
@@ -32,10 +33,11 @@ class Robot(Part, frozen=True, kw_only=True):
     about: str
     drives: tuple[str, ...]
     sense: Mapping[str, Part]
-    act: Mapping[str, Part] = {}
+    act: Mapping[str, Part] = field(default_factory=dict)
 
 
-class Task(msgspec.Struct, frozen=True, kw_only=True):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Task:
     """A task: what it needs of a robot, and the lines of the mind that are its own.
 
     `names` are what a robot's parts call the things of this task; `tick` is how long one is. `head` begins the file,
@@ -72,13 +74,17 @@ def tasks() -> Mapping[str, Task]:
 
 
 def _templates(folder: str, first: str, of: type[Kind]) -> dict[str, Kind]:
+    import tomllib
+
+    import msgspec
+
     paths = sorted((TEMPLATES / folder).glob("*.toml"), key=lambda path: (path.stem != first, path.stem))
     texts = {path.stem: path.read_text(encoding="utf-8") for path in paths}
     return {name: msgspec.convert(tomllib.loads(text) | {"name": name}, of) for name, text in texts.items()}
 
 
 def missing(robot: Robot, task: Task) -> list[str]:
-    """What a task needs and a robot has not."""
+    """The parts that a task needs and a robot has not."""
     return [need for need in task.needs if need not in robot.sense and need not in robot.act]
 
 

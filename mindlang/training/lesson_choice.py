@@ -26,7 +26,7 @@ MAX_SCALE = 1000
 
 @dataclass(frozen=True, slots=True)
 class TrainOptions:
-    """What the command line or a program says instead of the source; None leaves it as it stands there.
+    """Numbers that the command line or a program says instead of the source; None leaves one as it stands there.
 
     `scale` multiplies the generations of a lesson.
 

@@ -33,7 +33,7 @@ class Comparison:
 
     @property
     def is_worse(self) -> bool:
-        """Whether the new weights do worse."""
+        """True where the new weights do worse."""
         return self.new < self.old
 
     def __str__(self) -> str:
@@ -46,7 +46,7 @@ class Comparison:
 
 @dataclass(frozen=True, slots=True)
 class Kept:
-    """Whether the new weights are in the lock, and how those that were there compare, where there were any."""
+    """The end of a lesson: whether the new weights are in the lock, and how those that were there compare, if any."""
 
     is_new: bool
     comparison: Comparison | None
@@ -68,20 +68,14 @@ def keep(run: RunFolder, subject: Subject, state: LessonState, scorer: Scorer, f
     old = _genome_there(run, subject)
     if old is not None and not np.array_equal(old, new):
         found = compare(run, scorer, np.stack([old, new]))
-        if not force and found.is_worse and _meets_needs(run, scorer, old):
+        seeds = verdict_layouts(run.manifest.seed, lesson.generations)  # on which the new weights have what is needed
+        stays = not force and found.is_worse
+        if stays and (not lesson.needs or has_needed(lesson, scorer.task, scorer.score(old[None], seeds))):
             if subject.is_due(declared(subject, lesson)):
                 _record(run, subject, state, scorer, old, found.old)
             return Kept(False, found)
     _record(run, subject, state, scorer, new, state.reevaluated)
     return Kept(True, found)
-
-
-def _meets_needs(run: RunFolder, scorer: Scorer, genome: Genomes) -> bool:
-    """Whether a genome has what the lesson needs, on the layouts on which the new one has it."""
-    lesson, seed = run.manifest.lesson, run.manifest.seed
-    if not lesson.needs:
-        return True
-    return has_needed(lesson, scorer.task, scorer.score(genome[None], verdict_layouts(seed, lesson.generations)))
 
 
 def _refuse_nothing(run: RunFolder, state: LessonState, scorer: Scorer) -> None:

@@ -50,7 +50,7 @@ class Subject:
         return self.source.relative_to(here) if self.source.is_relative_to(here) else self.source
 
     def takes(self, lesson: Lesson, is_named: bool) -> bool:
-        """Whether a lesson is to be taught: it is due, or somebody has named it.
+        """True where a lesson is to be taught: it is due, or somebody has named it.
 
         RunError where one that is named stands on a skill that has not what its own lesson needs.
         """
@@ -79,7 +79,7 @@ class Subject:
         return {skill: found[skill] for skill in learners(self.graph, lesson)}
 
     def is_due(self, lesson: Lesson) -> bool:
-        """Whether a lesson has yet to be taught."""
+        """True where a lesson has yet to be taught."""
         return is_due(self.graph, lesson, self.standing(lesson))
 
 

@@ -13,19 +13,19 @@ from mindrun.sim.rollout import Rollout
 from mindrun.sim.rollouts import rollout_for
 from mindrun.terminal.command_line import command_line
 from mindrun.train.attempt import Clock
+from mindrun.train.attempts import StretchThreads
 from mindrun.train.kept_segments import KeptSegments, RememberingExecutor
 from mindrun.train.lesson_state import Course, LessonState, is_over
 from mindrun.train.population import founder_count
 from mindrun.train.run_folder import WEIGHTS, RunFolder, keep_result, read_result
 from mindrun.train.scoring import Scorer, breeding_generator, layouts
-from mindrun.train.stretch_threads import StretchThreads
 from mindrun.train.training import Watch, train
 
 from mindlang.executors import Where, scorer_on
 from mindlang.executors.jobs import Assignment, JobScorer, StretchExecutor, WorkError
 from mindlang.limits import refuse_too_large, refuse_too_long
 from mindlang.lock.blobs import digest
-from mindlang.number_format import duration, number, rate
+from mindlang.number_format import duration, number, speed
 from mindlang.training.lock_update import Kept, keep
 from mindlang.training.subject import Subject
 
@@ -33,7 +33,7 @@ Result = dict[str, Any]
 
 
 def rollout_of(run: RunFolder, subject: Subject, workers: int) -> Rollout:
-    """What scores the genomes of a run; MindError where memory or a year would not suffice."""
+    """The rollout that scores the genomes of a run; MindError where memory or a year would not suffice."""
     lesson = run.manifest.lesson
     rollout = rollout_for(
         Policy(subject.graph, run.weights),
@@ -59,7 +59,7 @@ def make_again(run: RunFolder, rollout: Rollout) -> None:
 
 
 def assignment_of(run: RunFolder, subject: Subject) -> Assignment:
-    """What a worker has to know to do the jobs of a run; MindError where it is too large for a bundle."""
+    """All that a worker has to know to do the jobs of a run; MindError where it is too large for a bundle."""
     lesson = run.manifest.lesson
     procedures = procedure_sources(subject.graph, subject.folder, lesson.master)
     bundle = pack(Bundle(Policy(subject.graph, run.weights), procedures))
@@ -76,7 +76,7 @@ def workers_of(
     say: Callable[[str], object],
     clock: Clock,
 ) -> Iterator[tuple[Scorer, RememberingExecutor | None]]:
-    """What scores the genomes of a run, and who does its attempts, where there are several and they go side by side.
+    """The scorer of a run's genomes, and the executor of its attempts where there are several that go side by side.
 
     They `say` what they wait for, and are sent away in the end, whatever they do. What they cannot do is a WorkError,
     whose hint says how the run goes on.
@@ -148,7 +148,7 @@ def finish(
 
 
 def opening(run: RunFolder) -> str:
-    """What is about to be taught, in a sentence."""
+    """A sentence that says what is about to be taught."""
     lesson = run.manifest.lesson
     known = set(run.manifest.learners) <= set(run.weights)
     origin = f"the weights of {lesson.starts_from}" if lesson.starts_from else "its weights"
@@ -198,15 +198,13 @@ def _finite(score: float) -> float | None:
 
 
 def outcome(run: RunFolder, result: Result, kept: Kept, lock: str) -> list[str]:
-    """What was learnt, what is in the lock now, and where the new weights are if they are not there."""
+    """Lines that say what was learnt, what is in the lock now, and where the new weights are if they are not there."""
     generations = "1 generation" if result["bred"] == 1 else f"{result['bred']} generations"
     if result["attempts"] > 1:
         generations += f" in {result['attempts']} attempts"
-    cpu = result.get("ticks_per_cpu_second")
-    speed = rate(result["ticks_per_second"]) if cpu is None else rate(cpu, "CPU second")
     learnt = (
         f"{result['skill']} has learnt: {number(result['reevaluated'])} on fresh layouts after "
-        f"{generations}, in {duration(result['seconds'])} at {speed}"
+        f"{generations}, in {duration(result['seconds'])} at {speed(result)}"
     )
     if kept.is_new:
         worse = kept.comparison is not None and kept.comparison.is_worse

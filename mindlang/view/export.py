@@ -21,9 +21,10 @@ import numpy as np
 from mindrun.errors import MindError
 from numpy.typing import NDArray
 
+from mindlang.pictures.canvas import reduced
 from mindlang.view.messages import error_text
 from mindlang.view.rows import DOUBLE_BLOCK, SINGLE_BLOCK
-from mindlang.view.viewed import Image, Viewed, data_url
+from mindlang.view.viewed import Viewed, data_url
 
 PAGE = Path(__file__).parent / "page"
 MAX_EXPORTED_BYTES = 512 << 20  # of rows, which a browser holds in memory
@@ -60,7 +61,9 @@ def exported_images(viewed: Viewed, drawn: Callable[[int], None]) -> ExportedIma
     try:
         for tick in range(viewed.known + 1):
             if tick % every == 0:
-                images.append(data_url(_reduced(viewed.image(tick)), "webp", QUALITY))
+                image = viewed.image(tick)
+                scale = MAX_SIDE_PIXELS / max(image.shape)
+                images.append(data_url(reduced(image, scale) if scale < 1 else image, "webp", QUALITY))
                 size += len(images[-1])
             while size > MAX_IMAGES_BYTES and len(images) > 1:
                 images, every = images[::2], 2 * every
@@ -69,16 +72,6 @@ def exported_images(viewed: Viewed, drawn: Callable[[int], None]) -> ExportedIma
     except MindError as error:
         return ExportedImages(1, (), error_text(error))
     return ExportedImages(every, images)
-
-
-def _reduced(image: Image) -> Image:
-    """The image, smaller where it is larger than a page shows it."""
-    scale = MAX_SIDE_PIXELS / max(image.shape)
-    if scale >= 1:
-        return image
-    height, width, _ = image.shape
-    size = max(1, round(scale * width)), max(1, round(scale * height))
-    return cv2.resize(image, size, interpolation=cv2.INTER_AREA).astype(image.dtype)
 
 
 class ExportError(MindError):

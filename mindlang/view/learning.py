@@ -102,25 +102,18 @@ class LearntRun:
         tried = [row for row in self.generations if row[0] == attempt and row[1] <= generation and row[3] is not None]
         return tried[-1][3] if tried else None
 
-    def news(self, number: int, heard: int) -> dict[str, Any]:
-        """What is said of it to one who has heard so many generations."""
-        return {
-            "say": "learnt",
-            "run": number,
-            "name": shown(self.run.manifest.name),
-            "folder": shown(self.run.folder.name),
-            "generations": self.generations[heard : heard + MAX_GENERATIONS],
-            "champions": [each.position for each in self.champions],
-            "keeps_all": self.keeps_all,
-        }
-
 
 @dataclass(slots=True)
 class Learning:
-    """The runs of a folder, in the order in which they were found."""
+    """The runs of a folder, in the order in which they were found, whose champions play in the world of that seed.
+
+    A mind is compiled once for each run.
+    """
 
     path: Path
+    seed: int
     runs: list[LearntRun] = field(default_factory=list)
+    _minds: dict[Path, tuple[Subject, Texts]] = field(default_factory=dict)
 
     def read(self) -> bool:
         """Look for new runs, and at all of them; whether something has come."""
@@ -133,7 +126,17 @@ class Learning:
 
     def news(self, number: int, heard: int) -> dict[str, Any]:
         """What is said of a run to one who has heard so many of its generations."""
-        return {**self.runs[number].news(number, heard), "newest": self.newest()}
+        learnt = self.runs[number]
+        return {
+            "say": "learnt",
+            "run": number,
+            "name": shown(learnt.run.manifest.name),
+            "folder": shown(learnt.run.folder.name),
+            "generations": learnt.generations[heard : heard + MAX_GENERATIONS],
+            "champions": [each.position for each in learnt.champions],
+            "keeps_all": learnt.keeps_all,
+            "newest": self.newest(),
+        }
 
     def newest(self) -> tuple[int, int, int]:
         """The run with the champion that was found last, its attempt and generation."""
@@ -141,14 +144,49 @@ class Learning:
         number = max(playable, key=lambda number: self.runs[number].grown)
         return number, *self.runs[number].champions[-1].position
 
+    def begin(self, number: int, attempt: int, generation: int, seed: int | None = None) -> Viewed:
+        """The run of a champion, which has not begun but for its beginning; MindError where it cannot be made."""
+        learnt = self.runs[number]
+        champion = learnt.champion(attempt, generation)
+        setup, texts = self._setup(learnt.run, champion.genome)
+        viewed = ViewedRun(setup, setup.rollout(), self.seed if seed is None else seed, texts).begun()
+        viewed.about = {
+            **viewed.about,
+            "source": "training",
+            "training": {
+                "run": number,
+                "attempt": attempt,
+                "generation": generation,
+                "since": champion.generation,
+                "score": learnt.score(attempt, generation),
+            },
+        }
+        viewed.grow()
+        return viewed
 
-def open_learning(path: Path) -> Learning:
+    def rollout(self, number: int) -> Rollout:
+        """The simulator of a run, for compiling it before anybody waits."""
+        learnt = self.runs[number]
+        return self._setup(learnt.run, learnt.champions[-1].genome)[0].rollout()
+
+    def _setup(self, run: RunFolder, genome: Genomes) -> tuple[RunSetup, Texts]:
+        if run.folder not in self._minds:
+            self._minds[run.folder] = mind_of(run)
+        subject, texts = self._minds[run.folder]
+        lesson = run.manifest.lesson
+        weights = dict(run.weights) | parts(subject.graph, run.manifest.learners, genome)
+        policy = Policy(replace(subject.graph, master=lesson.master), weights)
+        task = next(task for task in subject.graph.tasks if task.name == lesson.task)
+        return RunSetup(task, lesson.master, ReadyMind(policy, (), ()), subject.folder), texts
+
+
+def open_learning(path: Path, seed: int) -> Learning:
     """The run in a folder, or all beneath it; RunError where there is none of which a champion can be played."""
     if (path / MANIFEST).exists() or (path / LINES).exists():
         open_run(path)  # says what is damaged
     elif not any(path.rglob(MANIFEST)):
         raise NotFoundError(f"there is no run in {path}", RUN_HINT)
-    learning = Learning(path)
+    learning = Learning(path, seed)
     learning.read()
     if not learning.runs:
         hint = f"wait for the first one; where {LINES} is damaged, mindc train --resume writes it again"
@@ -189,49 +227,6 @@ def _stamp(path: Path) -> tuple[int, int] | None:
     except OSError:
         return None
     return found.st_mtime_ns, found.st_size
-
-
-@dataclass(slots=True)
-class Champions:
-    """Plays champions of trainings; a mind is compiled once for each run."""
-
-    learning: Learning
-    seed: int
-    _minds: dict[Path, tuple[Subject, Texts]] = field(default_factory=dict)
-
-    def begin(self, number: int, attempt: int, generation: int, seed: int | None = None) -> Viewed:
-        """The run of a champion, which has not begun but for its beginning; MindError where it cannot be made."""
-        learnt = self.learning.runs[number]
-        champion = learnt.champion(attempt, generation)
-        setup, texts = self._setup(learnt.run, champion.genome)
-        viewed = ViewedRun(setup, setup.rollout(), self.seed if seed is None else seed, texts).begun()
-        viewed.about = {
-            **viewed.about,
-            "source": "training",
-            "training": {
-                "run": number,
-                "attempt": attempt,
-                "generation": generation,
-                "since": champion.generation,
-                "score": learnt.score(attempt, generation),
-            },
-        }
-        viewed.grow()
-        return viewed
-
-    def rollout(self, learnt: LearntRun) -> Rollout:
-        """The simulator of a run, for compiling it before anybody waits."""
-        return self._setup(learnt.run, learnt.champions[-1].genome)[0].rollout()
-
-    def _setup(self, run: RunFolder, genome: Genomes) -> tuple[RunSetup, Texts]:
-        if run.folder not in self._minds:
-            self._minds[run.folder] = mind_of(run)
-        subject, texts = self._minds[run.folder]
-        lesson = run.manifest.lesson
-        weights = dict(run.weights) | parts(subject.graph, run.manifest.learners, genome)
-        policy = Policy(replace(subject.graph, master=lesson.master), weights)
-        task = next(task for task in subject.graph.tasks if task.name == lesson.task)
-        return RunSetup(task, lesson.master, ReadyMind(policy, (), ()), subject.folder), texts
 
 
 def mind_of(run: RunFolder) -> tuple[Subject, Texts]:

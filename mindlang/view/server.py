@@ -17,7 +17,7 @@ from functools import partial
 from http import HTTPStatus
 from pathlib import Path
 from threading import Thread
-from typing import Any
+from typing import Any, cast
 
 from mindrun.errors import MindError
 from websockets.asyncio.server import Server, ServerConnection, serve
@@ -55,15 +55,6 @@ OPEN_SECONDS, TOKEN_SECONDS, SEND_SECONDS, CLOSE_SECONDS = 5.0, 5.0, 10.0, 0.5
 
 class PortError(MindError):
     """A port of this machine at which nothing can be served."""
-
-    @classmethod
-    def of(cls, port: int, error: OSError) -> PortError:
-        """What the system says of a port, 0 where any was asked for."""
-        why = os.strerror(error.errno or 0)
-        if not port:
-            return cls(f"no port of this machine can be opened: {why}")
-        hint = "Leave --port out, and one that is free is taken."
-        return cls(f"port {port} of this machine cannot be opened: {why}", hint)
 
 
 class StrangerConnection(ServerConnection):
@@ -130,7 +121,11 @@ class ViewServer:
         try:
             server = await self._listening()
         except OSError as error:
-            raise PortError.of(self.port, error) from error
+            why = os.strerror(error.errno or 0)
+            if not self.port:
+                raise PortError(f"no port of this machine can be opened: {why}") from error
+            hint = "Leave --port out, and one that is free is taken."
+            raise PortError(f"port {self.port} of this machine cannot be opened: {why}", hint) from error
         self.port = server.sockets[0].getsockname()[1]
         await server.start_serving()
         self._session.begin()
@@ -228,9 +223,9 @@ class ViewServer:
             fork += 1
 
     async def _tell_learnt(self, viewer: Viewer) -> None:
-        if self._session.champions is None:
+        learning = self._session.learning
+        if learning is None:
             return
-        learning = self._session.champions.learning
         for number, run in enumerate(learning.runs):
             heard, version = viewer.learnt.get(number, (0, 0))
             if version == run.version and heard == len(run.generations):
@@ -289,9 +284,7 @@ class BackgroundView:
 
     def __init__(self, viewed: Viewed) -> None:
         self._session = Session(viewed)
-        self._loop = asyncio.new_event_loop()
         self._ready: Future[str] = Future()
-        self._serving: asyncio.Task[None] | None = None
         self._thread = Thread(target=self._run, name="view", daemon=True)
         self._thread.start()
         self.address = self._ready.result()
@@ -302,16 +295,16 @@ class BackgroundView:
 
     def close(self) -> None:
         """End it: pages keep what they have fetched."""
-        if self._serving and self._thread.is_alive():
+        if self._thread.is_alive():
             self._loop.call_soon_threadsafe(self._serving.cancel)
             self._thread.join()
 
     def _run(self) -> None:
-        with asyncio.Runner(loop_factory=lambda: self._loop) as runner, suppress(asyncio.CancelledError):
-            runner.run(self._serve())
+        with suppress(asyncio.CancelledError):
+            asyncio.run(self._serve())
 
     async def _serve(self) -> None:
-        self._serving = asyncio.current_task()
+        self._loop, self._serving = asyncio.get_running_loop(), cast("asyncio.Task[None]", asyncio.current_task())
         try:
             await ViewServer(self._session).serve(self._ready.set_result)
         except Exception as error:  # said where the view was asked for

@@ -28,10 +28,10 @@ from mindlang.view.messages import (
     error_text,
 )
 from mindlang.view.rows import DOUBLE_BLOCK, SINGLE_BLOCK
-from mindlang.view.viewed import Fork, Viewed, data_url
+from mindlang.view.viewed import Viewed, data_url
 
 if TYPE_CHECKING:
-    from mindlang.view.learning import Champions
+    from mindlang.view.learning import Learning
 
 
 MAX_HAPPENED = 10_000  # events, and stops, that are told at once
@@ -40,9 +40,9 @@ MAX_HAPPENED = 10_000  # events, and stops, that are told at once
 class Session:
     """Lives in one event loop. Runs grow in a thread of their own, and answers are computed in another."""
 
-    def __init__(self, viewed: Viewed, champions: Champions | None = None) -> None:
+    def __init__(self, viewed: Viewed, learning: Learning | None = None) -> None:
         self.changed: Callable[[], None] = lambda: None  # told whenever something has come
-        self.champions = champions
+        self.learning = learning
         self.number = 0  # how many runs have been seen before this one
         self._growing: dict[int, asyncio.Task[None]] = {}
         self._waits: str | None = None  # what a change waits for
@@ -74,9 +74,9 @@ class Session:
     async def watch(self) -> None:
         """Look at trainings as long as somebody sees them."""
         loop = asyncio.get_running_loop()
-        while self.champions:
+        while self.learning:
             await asyncio.sleep(WATCH_SECONDS)
-            if await loop.run_in_executor(self._answerer, self.champions.learning.read):
+            if await loop.run_in_executor(self._answerer, self.learning.read):
                 self.changed()
 
     def about(self, edits: bool) -> dict[str, Any]:
@@ -95,12 +95,11 @@ class Session:
     def ticks(self, fork: int, happened: int = 0, stops: int = 0) -> dict[str, Any]:
         """How far a fork has come; of what happened and where it stops, what comes behind so many that are known."""
         viewed = self.forks[fork]
-        over, known = viewed.over, viewed.known
         return {
             "say": "ticks",
             "fork": fork,
-            "known": known,
-            "over": over,
+            "over": viewed.over,  # before what is known, which may grow meanwhile
+            "known": viewed.known,
             "ended_by": viewed.ended_by,
             "failed": viewed.failed,
             "waits": self._waits,
@@ -130,12 +129,12 @@ class Session:
 
     async def _play(self, asked: PlayChampion) -> None:
         """See the champion of another generation."""
-        if self.champions is None or asked.run >= len(self.champions.learning.runs):
+        if self.learning is None or asked.run >= len(self.learning.runs):
             raise RefusedError(f"there is no training {asked.run}")
         seed = None if asked.seed is None else int(asked.seed)
         given = asked.run, asked.attempt, asked.generation, seed
         try:
-            viewed = await asyncio.get_running_loop().run_in_executor(self._grower, self.champions.begin, *given)
+            viewed = await asyncio.get_running_loop().run_in_executor(self._grower, self.learning.begin, *given)
         except MindError as error:
             raise RefusedError(error_text(error)) from error
         self.see(viewed)
@@ -150,7 +149,7 @@ class Session:
         loop = asyncio.get_running_loop()
         self._wait(await loop.run_in_executor(self._answerer, of.delay))
         try:
-            fork = await loop.run_in_executor(self._grower, _begun, of.forked, change)
+            fork = await loop.run_in_executor(self._grower, of.forked, change)
         except MindError as error:
             raise RefusedError(error_text(error)) from error
         finally:
@@ -199,12 +198,6 @@ def _computed(viewed: Viewed, message: Message) -> bytes | dict[str, Any]:
     except MindError as error:
         raise RefusedError(error_text(error)) from error
     raise RefusedError("that is no question")
-
-
-def _begun(forked: Callable[[Change], Fork], change: Change) -> Fork:
-    fork = forked(change)
-    fork.viewed.grow()
-    return fork
 
 
 def command_shares(viewed: Viewed, asked: Why) -> dict[str, Any]:

@@ -1,21 +1,30 @@
-"""A recording, seen: what was read, thought and sent, and the world where there was a simulated one."""
+"""A recording, seen: what was read, thought and sent, and the world where there was a simulated one.
+
+One to which somebody still writes is followed, on this machine or on another one through ssh.
+"""
 
 from __future__ import annotations
 
+import os
+import re
+import shlex
+import subprocess
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from select import select
+from time import sleep
 from typing import TYPE_CHECKING
 
 import numpy as np
 from mindrun.engine.engine import Engine, virtual_sensors
+from mindrun.files.regular_files import open_regular
 from mindrun.graph.bundle import Bundle
 from mindrun.graph.recording_header import MAX_HEADER_BYTES, About
-from mindrun.robot.recording import read, read_growing
+from mindrun.robot.recording import RecordingError, read, read_growing
 from mindrun.robot.replay import computed_again
 
 from mindlang.run.recording import measured_in, recorded_task, running_bundle
-from mindlang.view.growing_bytes import growing_bytes
 from mindlang.view.viewed import Viewed
 from mindlang.view.viewed_rows import Filled, Rows, viewed_rows
 
@@ -25,6 +34,11 @@ if TYPE_CHECKING:
 CHUNK_TICKS = 1000
 NOTHING = np.float32(np.nan)  # the reading of what was not measured
 Watching = Callable[[About, Bundle], "RecordingWatcher"]
+POLL_SECONDS = 0.005  # from one look at a file to the next
+IDLE_SECONDS = 0.5  # after which an empty part says that nothing has come
+PART_BYTES = 1 << 20
+SSH_END_SECONDS = 2.0
+REMOTE = re.compile(r"(?P<host>(?:[A-Za-z0-9_][\w.-]*@)?[A-Za-z0-9_][\w.-]*):(?P<path>.+)", re.ASCII | re.DOTALL)
 
 
 def viewed_recording(path: Path, bundle: Path, watching: Watching | None = None) -> Viewed:
@@ -78,3 +92,95 @@ def _filled(path: Path, of: About, parts: Iterator[Rows], mind: Bundle) -> Itera
         finally:
             yield rows[:known], np.where(is_measured, readings[:known], NOTHING)
         number += known
+
+
+def remote(name: str) -> tuple[str, str] | None:
+    """The host and the path of HOST:PATH, as scp has it; None for a file of this machine."""
+    if "/" in name.partition(":")[0] or ":" not in name or Path(name).exists():
+        return None
+    found = REMOTE.fullmatch(name)
+    if not found or "\0" in name:
+        raise RecordingError(f"{name} is no file here, and names no host", "HOST:PATH, as robot.local:day.rec")
+    return found["host"], found["path"]
+
+
+@contextmanager
+def growing_bytes(name: str) -> Iterator[Iterator[bytes]]:
+    """The bytes of a file, or of HOST:PATH, as they come, without an end; an empty part where for a while none came.
+
+    RecordingError where it cannot be read, is replaced or becomes shorter, or where ssh ends.
+    """
+    at = remote(name)
+    if at is None:
+        yield _local(Path(name))
+    else:
+        with _tail(*at) as process:
+            yield _remote(at[0], process)
+
+
+def _local(path: Path) -> Iterator[bytes]:
+    try:
+        with open(open_regular(path), "rb", buffering=0) as file:  # noqa: PTH123
+            yield from _parts(lambda: _read_on(path, file.fileno()))
+    except OSError as error:
+        raise RecordingError(f"cannot read {path}: {error.strerror}") from error
+
+
+def _read_on(path: Path, descriptor: int) -> bytes:
+    """What is behind what was read already; RecordingError where the file is another now."""
+    if part := os.read(descriptor, PART_BYTES):
+        return part
+    own = os.fstat(descriptor)
+    if own.st_size < os.lseek(descriptor, 0, os.SEEK_CUR):
+        raise RecordingError(f"{path} has become shorter than it was", "follow it anew")
+    if own.st_nlink == 0 or not os.path.samestat(own, path.stat()):
+        raise RecordingError(f"{path} has been replaced or removed", "follow it anew")
+    sleep(POLL_SECONDS)
+    return b""
+
+
+def _parts(read_on: Callable[[], bytes]) -> Iterator[bytes]:
+    """Whatever comes, and an empty part where for a while nothing did."""
+    empty = 0
+    while True:
+        part = read_on()
+        empty = 0 if part else empty + 1
+        if part or empty * POLL_SECONDS >= IDLE_SECONDS:
+            yield part
+            empty = 0
+
+
+def ssh_command(host: str, path: str) -> list[str]:
+    """What is run for the bytes of a file on a host: nothing of the path is a word of the shell there."""
+    return ["ssh", "-T", "--", host, f"exec tail -c +1 -f -- {shlex.quote(path)}"]
+
+
+@contextmanager
+def _tail(host: str, path: str) -> Iterator[subprocess.Popen[bytes]]:
+    try:
+        process = subprocess.Popen(ssh_command(host, path), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE)
+    except OSError as error:
+        raise RecordingError(f"ssh cannot be run: {error.strerror}", "install OpenSSH, or copy the file") from error
+    try:
+        yield process
+    finally:
+        process.terminate()
+        try:
+            process.wait(SSH_END_SECONDS)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
+
+
+def _remote(host: str, process: subprocess.Popen[bytes]) -> Iterator[bytes]:
+    """The bytes that ssh brings; before the first of them it may ask for a password, however long that takes."""
+    assert process.stdout
+    descriptor, has_begun = process.stdout.fileno(), False
+    while True:
+        ready, _, _ = select([descriptor], [], [], IDLE_SECONDS)
+        part = os.read(descriptor, PART_BYTES) if ready else b""
+        if ready and not part:
+            raise RecordingError(f"the connection to {host} has ended (ssh: exit {process.wait()})", "follow it anew")
+        has_begun = has_begun or bool(part)
+        if has_begun:
+            yield part

@@ -70,7 +70,9 @@ class ViewedRun:
         graph = self.setup.ready.policy.graph
         change = _replacement(graph, self.setup.task, columns, asked)
         beside = replace(self, changes=(*self.changes, change), breakpoints=())  # the page pauses where the run does
-        return Fork(beside.begun(), _replacement_text(graph, change))
+        viewed = beside.begun()
+        viewed.grow()
+        return Fork(viewed, _replacement_text(graph, change))
 
 
 def _compilation() -> str | None:

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import torch
 from mindrun.graph.weights import Weights
+from mindrun.numbers.arithmetic import DENOMINATOR, LIMIT, NUMERATOR
 from mindrun.numbers.network import Terms, matrices
-from mindrun.numbers.sigmoid import DENOMINATOR, LIMIT, NUMERATOR
 from torch import Tensor, nn
 from torch.autograd import Function
 
@@ -52,7 +52,7 @@ class OrderedProduct(Function):
 
 
 class RationalSigmoid(Function):
-    """The sigmoid of `mindrun.numbers.sigmoid`; its derivative is taken as y·(1 − y), as that of the true sigmoid."""
+    """The sigmoid of `mindrun.numbers.arithmetic`; its derivative is y·(1 − y), as that of the true sigmoid."""
 
     generate_vmap_rule = True
 

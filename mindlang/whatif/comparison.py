@@ -13,12 +13,12 @@ from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import take_over
 from numpy.typing import NDArray
 
-from mindlang.run.recorded_run import ROWS, WITH_BEGINNING, RecordedRun, RunResult, result_of, run_result
+from mindlang.run.recorded_run import ROWS, WITH_BEGINNING, RecordedRun, RunResult, result_of_trace, run_result
 from mindlang.run.setup import RunSetup
 
 Array = NDArray[Any]
 Columns = Mapping[str, Array]  # by name, a row for each tick
-Cast = tuple[RunSetup, Rollout]  # who plays what, in the simulator
+Prepared = tuple[RunSetup, Rollout]  # a run that is set up, in the simulator
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +45,9 @@ class Compared:
     differences: list[Difference]
 
 
-def compare(ours: Cast, seed: int, tick: int, changes: Sequence[Change], theirs: Cast | None = None) -> Compared:
+def compare(
+    ours: Prepared, seed: int, tick: int, changes: Sequence[Change], theirs: Prepared | None = None
+) -> Compared:
     """Run a seed as it is, and with changes or with another mind from a tick on.
 
     ChangeError where the run is over before the tick, or the other mind does not fit.
@@ -58,7 +60,7 @@ def compare(ours: Cast, seed: int, tick: int, changes: Sequence[Change], theirs:
         now = run_result(*(theirs or ours), seed, changes)
     else:
         setup, rollout = theirs
-        rest = result_of(setup, take_over(ours[1], seed, tick, rollout, changes), seed)
+        rest = result_of_trace(setup, take_over(ours[1], seed, tick, rollout, changes), seed)
         now = RunResult(_continued(was.run, rest.run, tick - 1), rest.found)
     return Compared(was, now, first_differences(_columns(was.run), _columns(now.run)))
 
@@ -90,7 +92,7 @@ def _columns(run: RecordedRun) -> dict[str, Columns]:
 
 
 def mind_columns(graph: Graph, readings: Array, influence: Array, commands: Array) -> dict[str, Columns]:
-    """What a mind reads, thinks and sends in each tick, by name: not what nobody has measured in any."""
+    """The numbers that a mind reads, thinks and sends in each tick, by name, without those that nobody measured."""
     named = {
         "reading": zip(reading_names(graph), readings.T, strict=True),
         "influence": zip((skill.name for skill in graph.skills), influence.T, strict=True),
@@ -109,7 +111,8 @@ def first_differences(was: Mapping[str, Columns], now: Mapping[str, Columns]) ->
     for kind in was:
         pairs = {name: (was[kind][name], now[kind][name]) for name in was[kind] if name in now.get(kind, {})}
         ticks = min((min(len(a), len(b)) for a, b in pairs.values()), default=0)
-        unlike = {name: _unlike(a[:ticks], b[:ticks]) for name, (a, b) in pairs.items()}
+        cut = {name: (a[:ticks], b[:ticks]) for name, (a, b) in pairs.items()}
+        unlike = {name: ~((a == b) | (np.isnan(a) & np.isnan(b))) for name, (a, b) in cut.items()}
         first = min((int(each.argmax()) for each in unlike.values() if each.any()), default=None)
         if first is not None:
             found += [
@@ -118,8 +121,3 @@ def first_differences(was: Mapping[str, Columns], now: Mapping[str, Columns]) ->
                 if unlike[name][first]
             ]
     return sorted(found, key=lambda difference: difference.tick)
-
-
-def _unlike(a: Array, b: Array) -> NDArray[np.bool_]:
-    different: NDArray[np.bool_] = ~((a == b) | (np.isnan(a) & np.isnan(b)))
-    return different

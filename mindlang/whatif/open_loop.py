@@ -40,7 +40,7 @@ class Sent:
 
 @dataclass(frozen=True, slots=True)
 class OpenLoop:
-    """What of a recording differs, `sent` by actuator; ticks are counted from 1 over the whole recording."""
+    """The differences from a recording, `sent` by actuator; ticks are counted from 1 over the whole recording."""
 
     master: str
     ticks: int
@@ -58,11 +58,11 @@ def compare_recording(path: Path, bundle: Path, request: Request, other: Bundle 
     mind = running_bundle(bundle, about)
     theirs, master = (other, other.graph.master) if other else (mind, about.master)
     engine = ChangedEngine(theirs.policy, theirs.procedures, master)
-    places = _places(about, mind.graph, theirs.graph, master, request.other or "")
+    places = _places(about, mind.graph, theirs.graph, master, request.other or bundle.name)
     changes = changes_of(request, theirs.graph, master, bundle)
 
     def changed(number: int, row: Any) -> tuple[Any, ...]:
-        """What the other reads, thinks and sends for what was measured."""
+        """The readings, influence and commands of the changed mind for what was measured."""
         if row["tick"] == 0:  # begun anew
             engine.reset()
         given = np.append(row["readings"], np.float32(np.nan))[places]

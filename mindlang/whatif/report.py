@@ -35,7 +35,7 @@ def _numbers(group: Sequence[Difference]) -> str:
 
 
 def comparison_summary(request: Request, compared: Compared) -> RenderableType:
-    """What differs first, and what came of both runs."""
+    """A text: what differs first, and what came of both runs."""
     was, now = compared.was.found, compared.now.found
     columns = zip(*(_column(found, was, now) for found in (was, now)), strict=True)
     return Group(
@@ -72,7 +72,7 @@ def comparison_data(request: Request, compared: Compared) -> dict[str, Any]:
 
 
 def recording_summary(request: Request, name: str, found: OpenLoop) -> RenderableType:
-    """What the mind would have sent for the readings of a recording."""
+    """A text: what the mind would have sent for the readings of a recording."""
     rows = [
         (
             name,

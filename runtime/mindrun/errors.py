@@ -62,11 +62,7 @@ def surroundings(error: Exception) -> str:
         case OSError():
             return _of_system(error)
         case MemoryError():
-            return (
-                f"there is not enough memory for this ({error})"
-                if str(error)
-                else "there is not enough memory for this"
-            )
+            return "there is not enough memory for this" + (f" ({error})" if str(error) else "")
         case RecursionError():
             return "something here is nested too deep"
         case UnicodeError():

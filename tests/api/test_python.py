@@ -16,7 +16,7 @@ from mindrun.graph.policy import Policy
 
 import mindlang
 from mindlang import TrainOptions
-from mindlang.run.many_runs import layouts
+from mindlang.run.setup import layouts
 from tests.api.conftest import COLLECT
 
 ROOT = Path(__file__).parents[2]

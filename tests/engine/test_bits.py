@@ -8,7 +8,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from mindrun.engine.engine import Engine
 from mindrun.graph.policy import Policy
-from mindrun.numbers.sigmoid import sigmoid
+from mindrun.numbers.arithmetic import sigmoid
 from mindrun.numbers.trigonometry import cosine, sine
 
 from tests.draws import cases

@@ -31,7 +31,7 @@ def test_what_is_no_part_of_it() -> None:
 
 def test_what_is_missing_of_our_own_is_no_extra(monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("gymnasium")
-    monkeypatch.setitem(sys.modules, "mindlang.environments.image", None)
+    monkeypatch.setitem(sys.modules, "mindlang.environments.episodes", None)
     monkeypatch.delitem(sys.modules, "mindlang.environments.task_env", raising=False)
-    with pytest.raises(ModuleNotFoundError, match=r"mindlang\.environments\.image"):
+    with pytest.raises(ModuleNotFoundError, match=r"mindlang\.environments\.episodes"):
         environments.TaskEnv  # noqa: B018

@@ -15,7 +15,7 @@ pytest.importorskip("gymnasium")
 
 from mindlang.environments import TaskEnv, TaskVectorEnv
 from mindlang.environments.episodes import numbers
-from mindlang.run.many_runs import layouts
+from mindlang.run.setup import layouts
 
 
 @pytest.fixture(scope="module")
@@ -95,11 +95,11 @@ def test_what_is_no_action(roam: Path, many: TaskVectorEnv, case: str) -> None:
     single.reset(seed=1)
     many.reset(seed=1)
     for env in (single, many):
-        before = env.unwrapped._episodes._lanes.scores.copy()
+        before = env.unwrapped._episodes.lanes.scores.copy()
         with pytest.raises(MindError, match="actions ") as found:
             env.step(WRONG[case])
         assert found.value.hint
-        np.testing.assert_array_equal(env.unwrapped._episodes._lanes.scores, before)
+        np.testing.assert_array_equal(env.unwrapped._episodes.lanes.scores, before)
 
 
 @given(

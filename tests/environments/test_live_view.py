@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from mindrun.robot.rate import Rate
+from mindrun.robot.loop import Rate
 from mindrun.robot.recording import read
 from websockets.sync.client import connect
 from websockets.typing import Origin
@@ -99,10 +99,10 @@ def test_a_step_is_a_row_and_an_episode_a_run(roam: Path, opened: list[str]) -> 
         assert np.array_equal(found["commands"], actions)
         assert not found["influence"].any()
         assert not found["flow"].any()
-        sensed = env._episodes.agent.readings
+        sensed = env._episodes.readings
         assert np.array_equal(found["readings"][:, sensed], read[:-1])
         assert found["rewards"].sum(axis=1) == pytest.approx(paid[1:])
-        body = env._episodes.agent.lanes.state.world.body
+        body = env._episodes.lanes.state.world.body
         assert np.array_equal(found["robot"][-1], body[:3, 0])
         viewer.say(say="why", fork=0, tick=3, actuator=0)
         assert "a program acts here" in viewer.hear("refused")["why"]
@@ -137,7 +137,7 @@ def test_its_rows_are_those_of_a_recording(roam: Path, monkeypatch: pytest.Monke
 
     monkeypatch.setattr(live_view, "SimpleQueue", Coming)
     env = TaskEnv(roam, "Roam", render_mode="human")
-    setup = env._episodes.agent.setup
+    setup = env._episodes.setup
     run = record_run(setup, setup.rollout(), 4)
     (tmp_path / "run.rec").write_bytes(run_bytes(run, setup, 4))
     about, parts = read(tmp_path / "run.rec")
@@ -159,7 +159,7 @@ def test_while_nothing_comes_nothing_is_added(roam: Path) -> None:
     env = TaskEnv(roam, "Roam", render_mode="human")
     env.reset(seed=4)
     assert env._view
-    viewed = live_view._viewed(env._episodes.agent, env._view._about, SimpleQueue())
+    viewed = live_view._viewed(env._episodes, env._view._about, SimpleQueue())
     for _ in range(3):  # the beginning, and what comes after it
         viewed.grow()
         assert (viewed.known, viewed.over) == (0, False)

@@ -19,7 +19,7 @@ from tests.edits.taught import MIND, teach, write_mind
 pytest.importorskip("gymnasium")
 
 from mindlang.environments import TaskEnv, TaskVectorEnv
-from mindlang.environments.episodes import Agent
+from mindlang.environments.episodes import Episodes
 
 SEEDS = (4, 5, 11)
 TICKS = 60
@@ -41,7 +41,7 @@ def rules(tmp_path: Path) -> Path:
     return path
 
 
-def run_of(agent: Agent, seed: int, genome: NDArray[np.float32] | None = None) -> RecordedRun:
+def run_of(agent: Episodes, seed: int, genome: NDArray[np.float32] | None = None) -> RecordedRun:
     """The run of an agent's task that the hierarchy makes of a seed."""
     learners = [agent.played] if agent.played else []
     mind, setup = mindlang.load(agent.setup.folder / "rules.mind"), agent.setup
@@ -63,7 +63,7 @@ def filmed(run: RecordedRun, tick: int, size: tuple[int, int]) -> NDArray[np.uin
 def test_under_the_commands_of_a_run_it_is_that_run(rules: Path, task: str, size: tuple[int, int]) -> None:
     many = TaskVectorEnv(rules, task, task, num_envs=3, autoreset_mode="SameStep", render_mode="rgb_array")
     one = TaskEnv(rules, task, task, render_mode="rgb_array")
-    agent = many._episodes.agent
+    agent = many._episodes
     runs = [run_of(agent, seed) for seed in SEEDS]
     seen, alone = many.reset(seed=[*SEEDS])[0], one.reset(seed=SEEDS[1])[0]
     begins, outcomes, over = [len(run.commands) for run in runs], {}, False
@@ -102,7 +102,7 @@ def test_a_skill_that_is_played_as_it_computes_makes_the_run_of_its_weights(rule
         text = text.replace(old, new)
     rules.write_text(text, "utf-8")
     env = TaskEnv(rules, "Roam", skill="Chase")
-    agent = env._episodes.agent
+    agent = env._episodes
     skill = next(each for each in mindlang.load(rules).graph.skills if each.name == "Chase")
     genome = np.random.default_rng(1).normal(0, 2, skill.function.genome_length(1, 2)).astype(np.float32)
     compute, run = skill.function.ready(1, 2, genome, {}), run_of(agent, 4, genome)
@@ -135,8 +135,8 @@ LESSONS = READING + "  teaches Avoid on Yard under Drive for 3 generations\n" + 
 def test_who_acts_where(tmp_path: Path, words: dict[str, str], task: str, master: str, seen: int, sent: int) -> None:
     teach(write_mind(tmp_path, LESSONS))
     env = TaskEnv(tmp_path / "drive.mind", **words)
-    setup = env._episodes.agent.setup
-    assert (setup.task.name, setup.master, env._episodes.agent.played) == (task, master, words.get("skill"))
+    setup = env._episodes.setup
+    assert (setup.task.name, setup.master, env._episodes.played) == (task, master, words.get("skill"))
     assert (env.observation_space.shape, env.action_space.shape) == ((seen,), (sent,))
     assert (env.observation_space.low.max(), env.observation_space.high.min()) == (0, 1)
     env.reset(seed=1)

@@ -16,7 +16,7 @@ from stable_baselines3.common.env_checker import check_env
 from stable_baselines3.common.vec_env import DummyVecEnv
 
 from mindlang.environments import StableBaselinesEnv, TaskEnv, TaskVectorEnv
-from mindlang.run.many_runs import layouts
+from mindlang.run.setup import layouts
 
 
 @pytest.fixture

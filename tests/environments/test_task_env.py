@@ -89,7 +89,7 @@ def test_an_engine_in_it_makes_the_run_of_its_layout() -> None:
     """Rewards, ticks, outcome: what `mind.trace` has, from observations alone."""
     mind = mindlang.load(COLLECT)
     env, engine = TaskEnv(COLLECT, "Collect"), mind.engine()
-    for seed in (5, 6):
+    for seed in (46, 57):  # which do not last long
         moments = list(mind.trace("Collect", seed).moments)
         seen, told = env.reset(seed=seed)
         assert told == {"layout": seed}

@@ -19,7 +19,7 @@ from gymnasium.error import ResetNeeded  # noqa: E402
 from gymnasium.vector import AutoresetMode, SyncVectorEnv  # noqa: E402
 
 from mindlang.environments import TaskEnv, TaskVectorEnv, register  # noqa: E402
-from mindlang.run.many_runs import layouts  # noqa: E402
+from mindlang.run.setup import layouts  # noqa: E402
 
 ROBOTS, TICKS = 4, 300  # several episodes of up to 120 ticks
 

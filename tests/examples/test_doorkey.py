@@ -3,7 +3,7 @@
 import pytest
 
 from mindlang import load
-from mindlang.run.many_runs import NO_GENOME, layouts
+from mindlang.run.setup import NO_GENOME, layouts
 from tests.language.examples import ROOT
 
 FORGETFUL = ROOT / "examples" / "doorkey" / "forgetful.mind"

@@ -9,7 +9,7 @@ from time import sleep
 
 import pytest
 
-from tests.train.test_train_command import LONG, MIND, mindc
+from tests.train.test_train_command import LONG, MIND, train_apart
 
 TAUGHT = ("drive.mind", "Go", "--seed", "3", "--generations", "6", "--attempts", "3", "--from-scratch", "--json")
 
@@ -20,7 +20,7 @@ RUN = "runs/Go-on-Reach/*"
 def weights(folder: Path, *words: str) -> dict[str, str]:
     folder.mkdir()
     (folder / "drive.mind").write_text(MIND)
-    done = mindc(folder, *TAUGHT, *words)
+    done = train_apart(folder, *TAUGHT, *words)
     assert done.returncode == 0, done.stderr
     found: dict[str, str] = json.loads(done.stdout)["weights"]
     return found
@@ -39,7 +39,7 @@ def test_of_a_single_attempt_the_runs_are_the_jobs(tmp_path: Path) -> None:
 
 def test_many_runs_are_the_same_wherever_they_are_made(tmp_path: Path) -> None:
     (tmp_path / "drive.mind").write_text(MIND)
-    assert mindc(tmp_path, "drive.mind", "Go", "Drive", "--seed", "3", "-q").returncode == 0
+    assert train_apart(tmp_path, "drive.mind", "Go", "Drive", "--seed", "3", "-q").returncode == 0
     for words in (("--no-interruption", "--master", "Drive"), ("drive.mind", "--master", "Go", "--master", "Drive")):
         found = []
         for on in ((), ("--on", "processes:2")):
@@ -97,7 +97,7 @@ def called(folder: Path, *words: str) -> "subprocess.CompletedProcess[str]":
 )
 def test_what_says_no_place_is_refused(tmp_path: Path, where: str, words: str) -> None:
     (tmp_path / "drive.mind").write_text(MIND)
-    done = mindc(tmp_path, *TAUGHT, "--on", where)
+    done = train_apart(tmp_path, *TAUGHT, "--on", where)
     assert done.returncode == 2
     assert words in " ".join(done.stderr.split())
     assert not (tmp_path / "runs").exists()
@@ -108,7 +108,7 @@ def undisturbed(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
     """The weights of a run that nobody has stopped."""
     folder = tmp_path_factory.mktemp("undisturbed")
     (folder / "drive.mind").write_text(MIND)
-    said = mindc(folder, *LONG, "--attempts", "3", "--workers", "1", "--runs", "undisturbed").stdout
+    said = train_apart(folder, *LONG, "--attempts", "3", "--workers", "1", "--runs", "undisturbed").stdout
     found: dict[str, str] = json.loads(said)["weights"]
     return found
 
@@ -128,7 +128,7 @@ def test_stopped_with_ctrl_c_it_goes_on_to_the_same_weights_there_or_here(
     assert process.returncode == 130, talk
     assert "what workers are at is done again then; Ctrl-C again stops at once" in talk
     run = str(next(tmp_path.glob(RUN)))
-    there = mindc(tmp_path, *words, *where)
+    there = train_apart(tmp_path, *words, *where)
     assert json.loads(there.stdout) == json.loads(there.stdout) | {
         "run": run.removeprefix(f"{tmp_path}/"),
         "weights": undisturbed,
@@ -147,7 +147,7 @@ def test_killed_it_goes_on_to_the_same_weights(
             sleep(0.005)
         process.kill()
     run = str(next(tmp_path.glob(RUN)))
-    assert json.loads(mindc(tmp_path, "--resume", run, "--json").stdout)["weights"] == undisturbed
+    assert json.loads(train_apart(tmp_path, "--resume", run, "--json").stdout)["weights"] == undisturbed
 
 
 @pytest.mark.slow

@@ -14,7 +14,7 @@ import pytest
 
 from mindlang.executors.dask import TLS, sbatch
 from tests.executors.test_on import RUN, called
-from tests.train.test_train_command import LONG, MIND, mindc
+from tests.train.test_train_command import LONG, MIND, train_apart
 
 pytest.importorskip("distributed", reason="distributed is not installed: pip install 'mindlang[cluster]'")
 
@@ -75,7 +75,7 @@ def project(tmp_path: Path) -> Path:
 
 
 def weights(project: Path, *words: str) -> dict[str, str]:
-    done = mindc(project, *words)
+    done = train_apart(project, *words)
     assert done.returncode == 0, done.stderr
     found: dict[str, str] = json.loads(done.stdout)["weights"]
     return found
@@ -89,12 +89,12 @@ def test_the_weights_are_those_of_threads(project: Path, cluster: str, pem: str)
     for address in cluster_on_this_machine(project, pem):
         assert address.startswith("tls://")
         assert weights(project, *TAUGHT, "--runs", "tls", "--on", f"dask:{address},tls.pem") == expected
-        refused = mindc(project, *TAUGHT, "--on", f"dask:{address}")
+        refused = train_apart(project, *TAUGHT, "--on", f"dask:{address}")
         assert (refused.returncode, "none was said" in refused.stderr) == (1, True)
 
 
 def test_the_runs_are_those_of_threads(project: Path, cluster: str) -> None:
-    assert mindc(project, "drive.mind", "Go", "Drive", "--seed", "3", "-q").returncode == 0
+    assert train_apart(project, "drive.mind", "Go", "Drive", "--seed", "3", "-q").returncode == 0
     rows = []
     for words in ((), ("--on", f"dask:{cluster}")):
         done = called(project, "bench", "drive.mind", "--task", "Reach", "--runs", "700", "--csv", "runs.csv", *words)
@@ -136,7 +136,7 @@ def test_the_first_ctrl_c_stops_where_no_worker_has_begun(project: Path) -> None
         assert process.returncode == 130, talk
         assert "Ctrl-C again" not in talk
         assert f"saved; to go on: mindc train --resume {next(project.glob(RUN)).relative_to(project)}" in talk
-    assert mindc(project, "--resume", str(next(project.glob(RUN)))).returncode == 0
+    assert train_apart(project, "--resume", str(next(project.glob(RUN)))).returncode == 0
 
 
 @pytest.mark.parametrize(
@@ -151,12 +151,12 @@ def test_the_first_ctrl_c_stops_where_no_worker_has_begun(project: Path) -> None
     ],
 )
 def test_where_there_is_no_way_to_a_cluster_it_is_said(project: Path, where: str, code: int, words: str) -> None:
-    done = mindc(project, *TAUGHT, "--on", where)
+    done = train_apart(project, *TAUGHT, "--on", where)
     assert (done.returncode, words in done.stderr) == (code, True), done.stderr
     assert "Traceback" not in done.stderr
 
 
 def test_the_help_has_the_two_lines_for_slurm(project: Path) -> None:
-    done = mindc(project, "--help")
+    done = train_apart(project, "--help")
     said = " ".join(done.stdout.replace("\\\n", " ").split())
     assert all(line in said for line in (TLS, *sbatch("scheduler.json")))

@@ -14,7 +14,7 @@ pytest.importorskip("cryptography", reason="cryptography is not installed: pip i
 
 from mindlang.executors import jobs, slurm
 from tests.executors.test_on import TAUGHT, weights
-from tests.train.test_train_command import MIND, mindc
+from tests.train.test_train_command import MIND, train_apart
 
 ROOT = Path(__file__).parents[2]
 SBATCH = f"""#!{sys.executable}
@@ -65,7 +65,7 @@ def test_it_teaches_the_weights_of_threads_and_cancels_its_jobs(tmp_path: Path, 
 
 def test_what_a_job_is_has_to_be_said(tmp_path: Path, cluster: Path) -> None:
     (tmp_path / "drive.mind").write_text(MIND)
-    done = mindc(tmp_path, *TAUGHT, "--on", "slurm:2")
+    done = train_apart(tmp_path, *TAUGHT, "--on", "slurm:2")
     assert (done.returncode, "cores and memory" in done.stderr, "memory=8GB" in done.stderr) == (1, True, True)
 
 

@@ -15,7 +15,7 @@ import asyncssh
 
 from mindlang.executors.ssh import Machine, arguments, machines
 from tests.executors.test_on import TAUGHT, weights
-from tests.train.test_train_command import MIND, mindc
+from tests.train.test_train_command import MIND, train_apart
 
 ROOT = Path(__file__).parents[2]
 SERVER = """
@@ -86,7 +86,7 @@ def test_where_no_machine_takes_part_it_is_one_sentence(tmp_path: Path, home: Pa
         ("ssh:gone", "no machine takes part; the last, gone: "),
         ("ssh:a:/nowhere/python", "no machine takes part; the last, a: /bin/sh: 1: /nowhere/python: not found"),
     ):
-        done = mindc(tmp_path, *TAUGHT, "--on", where)
+        done = train_apart(tmp_path, *TAUGHT, "--on", where)
         said = " ".join(done.stderr.split())
         assert (done.returncode, words in said, "--resume" in said) == (1, True, True), done.stderr
 

@@ -22,7 +22,7 @@ EMITTERS = {"error", "refuse", "Diagnostic", "Flaw", "Mistake", "Misfit", "_refu
 # Codes that are made of words as they are emitted: how, and which these are.
 MADE = {
     "f'unknown-{nouns[0]}'": {f"unknown-{noun}" for noun in ("sensor", "actuator", "skill", "task", "scene", "number")},
-    "f'unknown-{type_.noun}'": {"unknown-axis", "unknown-side", "unknown-outcome"},
+    "f'unknown-{noun_}'": {"unknown-axis", "unknown-side", "unknown-outcome"},
     "f'{word}-differs'": {"tick-differs", "unit-differs"},
     "said.replace(' ', '-')": {f"{key}-{word}" for key, (word, _) in SWITCHES.items()},
 }
@@ -39,13 +39,14 @@ WITHOUT_EXAMPLES = FILES | MAPS | SETTINGS | {"impossible-edit", "damaged-lock",
 
 
 def emitted() -> set[str]:
-    """The codes of all diagnostics in the sources of the compiler."""
+    """The codes of all diagnostics in the sources of the compiler, but for those of a robot.yaml."""
     found: set[str] = set()
     for node in (
         node
         for path in modules(
             COMPILER, RUNTIME / "kinds" / "things", RUNTIME / "kinds" / "sensors", RUNTIME / "sim" / "outside"
         )
+        if path.parent != COMPILER / "robot"
         for node in ast.walk(tree(path))
     ):
         if isinstance(node, ast.Call) and _name(node.func) in EMITTERS and node.args:

@@ -12,8 +12,7 @@ from mindrun.graph.graph import Graph
 from mindrun.graph.policy import Policy
 from mindrun.graph.weights import genes
 from mindrun.graph.wiring import SensorWire
-from mindrun.robot.loop import Loop
-from mindrun.robot.rate import Rate
+from mindrun.robot.loop import Loop, Rate
 from mindrun.robot.recording import About, Recorder
 from mindrun.robot.replay import replay
 from mindrun.robot.sensing import ReadingFilter, Sampler

@@ -10,6 +10,7 @@ from mindrun.numbers.quantity import DECAY, RATE
 
 from mindlang.compiler.comparison import Difference, differences
 from mindlang.compiler.compile import Compiled
+from mindlang.compiler.references import mentions
 from tests.language.examples import compiled
 
 PARTS = """\
@@ -171,3 +172,12 @@ def test_another_number_is_one_difference() -> None:
     assert bare
     assert differences(old, new) == [Difference("number far", ("number far is 12",), ("number far is 13",))]
     assert differences(bare, old) == []
+
+
+def test_a_lesson_names_the_number_that_stands_after_its_argument() -> None:
+    text = PARTS.replace("rule", "mlp").replace("  drives left at battery / 2", "  drives left") + TASK
+    lesson = "curriculum School is genetic\n  teaches Go on A for 10 generations population many\n"
+    mind = compiled(f"{text}{lesson}number many is 30\n").mind
+    assert mind
+    found = [each for each in mentions(mind.files, mind.names) if each.noun == "number"]
+    assert [(each.name.text, each.is_own) for each in found] == [("many", True), ("many", False)]

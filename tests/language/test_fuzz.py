@@ -177,8 +177,9 @@ def test_a_number_of_any_size_stands_anywhere(size: str) -> None:
         sane(compile_source(Source("fuzz.mind", text[: number.start()] + size + text[number.end() :])))
 
 
-@pytest.mark.parametrize("example", ["tour/tour", "soccer/soccer"])
-@pytest.mark.parametrize("said", ["number broken is nothing", "number broken is 1/0"])
+@pytest.mark.parametrize(
+    ("example", "said"), [("tour/tour", "number broken is 1/0"), ("soccer/soccer", "number broken is nothing")]
+)
 def test_a_number_that_is_declared_wrongly_stands_anywhere(example: str, said: str) -> None:
     path = TOUR.parents[1] / f"{example}.mind"
     text = path.read_text(encoding="utf-8")

@@ -17,7 +17,7 @@ from mindlang.lock.ready import make_ready
 from mindlang.lock.report import rows
 from mindlang.run.setup import set_up
 from tests.language.examples import COLLECT
-from tests.train.test_train_command import mindc
+from tests.train.test_train_command import train_apart
 
 MIND = """\
 tick 1/60 s
@@ -73,7 +73,7 @@ def taught(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The file of a mind all of whose lessons have been taught."""
     folder = tmp_path_factory.mktemp("alike")
     (folder / "m.mind").write_text(MIND)
-    done = mindc(folder, "m.mind", "--seed", "1", "--json")
+    done = train_apart(folder, "m.mind", "--seed", "1", "--json")
     assert done.returncode == 0, done.stderr
     (folder / "results.json").write_text(f"[{','.join(done.stdout.splitlines())}]")
     return folder / "m.mind"
@@ -96,7 +96,7 @@ def test_then_there_is_nothing_to_do(taught: Path) -> None:
     found = load(taught)
     assert found.graph is not None
     assert [row.remarks for row in rows(found.graph, [taught])] == [()] * 4
-    again = mindc(taught.parent, "m.mind", "--json")
+    again = train_apart(taught.parent, "m.mind", "--json")
     assert (again.returncode, again.stdout) == (0, "")
 
 
@@ -112,14 +112,14 @@ def test_a_run_keeps_the_copy_that_it_began_with(taught: Path) -> None:
 
 def test_the_same_seed_teaches_the_same(taught: Path, tmp_path: Path) -> None:
     (tmp_path / "m.mind").write_text(MIND)
-    assert mindc(tmp_path, "m.mind", "Go", "Own", "--seed", "1", "-q").returncode == 0
+    assert train_apart(tmp_path, "m.mind", "Go", "Own", "--seed", "1", "-q").returncode == 0
     lock = read_lock(tmp_path / "m.lock")
     assert lock["Own"].weights == results(taught)[1]["weights"]["Own"]
 
 
 def test_a_lesson_waits_for_the_weights_that_it_begins_with(tmp_path: Path) -> None:
     (tmp_path / "m.mind").write_text(MIND)
-    refused = mindc(tmp_path, "m.mind", "Own")
+    refused = train_apart(tmp_path, "m.mind", "Own")
     assert refused.returncode == 1
     assert "Own cannot begin with the weights of Go: Go has not been taught" in refused.stderr
     assert "first: mindc train m.mind Go" in refused.stderr

@@ -4,12 +4,13 @@ from collections import deque
 from itertools import product
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from mindrun.kinds.things.thing import Rectangle
 
 from mindlang.lint.rules import walled_off as module
 from mindlang.lint.rules.walled_off import floor
+from tests.draws import cases
 
 RADIUS, STEP = 0.9, 0.1
 CORNERS = st.integers(-4, 3)
@@ -54,6 +55,7 @@ def flooded(sides: Place, walls: list[Rectangle]) -> dict[Place, int]:
     return {grid[at]: number for at, number in parts.items()}
 
 
+@settings(max_examples=cases(250))
 @given(st.lists(WALLS, max_size=4), st.sampled_from([(8.0, 6.0), (5.0, 7.0)]))
 def test_its_parts_are_those_of_a_flood(drawn: list[tuple[int, int, int, int, bool]], sides: Place) -> None:
     walls = [rectangle(*wall) for wall in drawn]

@@ -10,6 +10,7 @@ import pytest
 
 pytest.importorskip("gymnasium")
 
+from mindlang.pictures.canvas import reduced
 from mindlang.view import export
 from mindlang.view.export import ExportedImages
 from tests.calling import Call, caller
@@ -64,8 +65,7 @@ def test_where_not_all_fit_those_of_a_step_do(tmp_path: Path, monkeypatch: pytes
 
 
 def test_a_large_image_is_smaller_in_a_page() -> None:
-    assert export._reduced(np.zeros((3000, 20, 3), np.uint8)).shape == (1000, 7, 3)
-    assert export._reduced(np.zeros((40, 60, 3), np.uint8)).shape == (40, 60, 3)
+    assert reduced(np.zeros((3000, 20, 3), np.uint8), 1 / 3).shape == (1000, 7, 3)
 
 
 @pytest.mark.parametrize("source", ["run", "recording"])

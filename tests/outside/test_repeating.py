@@ -137,7 +137,8 @@ def test_an_environment_that_says_texts_is_at_fault() -> None:
     stepper = LocalStepper(NAME)
     [run] = stepper.begin(PLACES, [1])
     for answer in ((np.zeros(1), "1", False, False, {}), (np.zeros(1), 1.0, "no", False, {})):
-        stepper._open[run].environment.step = lambda action, answer=answer: answer
+        environment, _ = stepper._open[run]
+        environment.step = lambda action, answer=answer: answer
         with pytest.raises(BrokenEnvironmentError) as raised:
             stepper.step([run], np.zeros((1, 1)))
         assert "the fault is the environment's: TypeError: " in (raised.value.hint or "")

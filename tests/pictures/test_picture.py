@@ -15,17 +15,24 @@ from mindrun.kinds.things.zone import Zone
 
 from mindlang.compiler.compile import load
 from mindlang.pictures.canvas import Canvas, Image, Viewport, blank
-from mindlang.pictures.caption import LEGEND_LINES, MIN_TEXT_PIXELS, fitted
-from mindlang.pictures.ending import MARK_PIXELS
-from mindlang.pictures.path import NOBODY, draw_former, strokes_of
+from mindlang.pictures.path import MARK_PIXELS, NOBODY, draw_former, strokes_of
 from mindlang.pictures.path import Path as Path_
-from mindlang.pictures.picture import BOTTOM_PIXELS, PICTURE_PIXELS, SIDE_PIXELS, TOP_PIXELS, picture, view_of
+from mindlang.pictures.picture import (
+    BOTTOM_PIXELS,
+    LEGEND_LINES,
+    MIN_TEXT_PIXELS,
+    PICTURE_PIXELS,
+    SIDE_PIXELS,
+    TOP_PIXELS,
+    fitted,
+    picture,
+    view_of,
+)
 from mindlang.pictures.scene import thing_colours
 from mindlang.pictures.theme import NIGHT, PAPER, Theme, mixed
-from mindlang.run.many_runs import NO_GENOME
 from mindlang.run.outcome import run_data
 from mindlang.run.recorded_run import RecordedRun, record_run
-from mindlang.run.setup import set_up
+from mindlang.run.setup import NO_GENOME, set_up
 from tests.calling import RULES, Call
 
 

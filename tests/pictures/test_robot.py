@@ -11,15 +11,13 @@ from mindrun.kinds.scenes.arena import Arena
 
 from mindlang.compiler.compile import load
 from mindlang.pictures.canvas import Canvas, Rectangle, Viewport, blank, text_width
-from mindlang.pictures.labels import NAME_PIXELS, draw_names, free
 from mindlang.pictures.picture import height_of, picture
 from mindlang.pictures.robot import draw_robot, steering_angle
-from mindlang.pictures.scene import placed
+from mindlang.pictures.scene import NAME_PIXELS, draw_names, free, placed
 from mindlang.pictures.theme import PAPER
-from mindlang.run.many_runs import NO_GENOME
 from mindlang.run.outcome import run_data
 from mindlang.run.recorded_run import RecordedRun, record_run
-from mindlang.run.setup import set_up
+from mindlang.run.setup import NO_GENOME, set_up
 
 CAR = """tick 1/30 s
 master Drive

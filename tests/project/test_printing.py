@@ -39,7 +39,7 @@ TIMED = {
     "api.py": "a lesson notes when it began, and counts its seconds",
     "executors/cluster_jobs.py": "a scheduler is asked for its workers once a second",
     "executors/jobs.py": "a job says how long it took",
-    "run/many_runs.py": "a bench counts the seconds of its runs",
+    "run/setup.py": "a bench counts the seconds of its runs",
 }
 
 

@@ -15,7 +15,7 @@ from mindrun.graph.graph import Edge, Graph, Skill
 from mindrun.graph.policy import Policy
 from mindrun.graph.weights import Weights, genes, reachable
 from mindrun.kinds.functions.mlp import Mlp
-from mindrun.numbers.sigmoid import sigmoid
+from mindrun.numbers.arithmetic import sigmoid
 
 from mindlang.compiler.compile import load
 from mindlang.lock.ready import make_ready

@@ -10,8 +10,7 @@ from hypothesis import strategies as st
 from mindrun.graph.graph import Edge, Graph, Skill
 from mindrun.kinds.functions.mlp import Mlp
 
-from mindlang.proofs.leak import leaks
-from mindlang.proofs.paths import MAX_COUNTED_PATHS, Way, Ways, paths, ways
+from mindlang.proofs.paths import MAX_COUNTED_PATHS, Way, Ways, leaks, paths, ways
 from tests.hierarchies import random_graph
 from tests.minds import always, mind, rule, skill
 

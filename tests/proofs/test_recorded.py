@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 
 from mindlang.cli import _session as session
+from mindlang.cli import _terminal as terminal
 from tests.calling import RULES, Call
 from tests.proofs.test_prove_command import proved
 
@@ -29,7 +30,7 @@ def test_a_run_without_influence(mindc: Call, tmp_path: Path, monkeypatch: pytes
     )
     path = tmp_path / "turning.mind"
     path.write_text(text)
-    monkeypatch.setattr(session, "ensure_compiled", lambda _, tell: tell("this may take a minute"))
+    monkeypatch.setattr(session, "ensure_compiled", lambda _: terminal.tell("this may take a minute"))
     assert mindc("prove", path, "--run").err == "this may take a minute\n"
     found = proved(mindc, path, "--run", "--seed", 3)
     assert (found["run"]["ticks"], found["run"]["seed"]) == (30, 3)

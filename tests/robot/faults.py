@@ -11,8 +11,7 @@ from mindrun.engine.engine import Engine
 from mindrun.graph.graph import Graph
 from mindrun.graph.policy import Policy
 from mindrun.graph.wiring import SensorWire
-from mindrun.robot.loop import Loop
-from mindrun.robot.rate import Rate
+from mindrun.robot.loop import Loop, Rate
 from mindrun.robot.sensing import ReadingFilter, Sampler
 from numpy.typing import NDArray
 

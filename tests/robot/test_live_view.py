@@ -21,7 +21,7 @@ from mindrun.robot.live_view import breakpoint_mistakes
 from mindrun.robot.loop import Loop
 from mindrun.robot.recording import read
 
-from mindlang.view.growing_bytes import remote
+from mindlang.view.viewed_recording import remote
 from tests.robot.driving import MINDRUN, PATIENCE, begun, children, mindrun, until, wiring
 from tests.robot.faults import graph
 
@@ -178,13 +178,11 @@ def test_of_robots_that_begin_together_one_has_the_usual_port(monkeypatch: pytes
         assert again == port
 
 
-@pytest.mark.parametrize("stopped", [False, True])
-def test_no_viewer_outlives_a_robot_that_is_killed(bundle: Path, tmp_path: Path, stopped: bool) -> None:
+def test_no_viewer_outlives_a_robot_that_is_killed(bundle: Path, tmp_path: Path) -> None:
     process = begun(bundle, tmp_path / "day.rec", "--view", stderr=subprocess.PIPE)
     until_address(process)
     viewer = viewer_of(process)
-    if stopped:
-        os.kill(viewer, signal.SIGSTOP)
+    os.kill(viewer, signal.SIGSTOP)
     process.kill()
     process.communicate(timeout=PATIENCE)
     until(lambda: is_gone(viewer))

@@ -15,8 +15,7 @@ from mindrun.graph.policy import Policy
 from mindrun.graph.recording_header import by_guardian
 from mindrun.graph.wiring import SensorWire
 from mindrun.robot.drive import _summary
-from mindrun.robot.loop import Loop
-from mindrun.robot.rate import Rate
+from mindrun.robot.loop import Loop, Rate
 from mindrun.robot.recording import About, Recorder, RecordingError, read
 from mindrun.robot.replay import replay
 from mindrun.robot.sensing import ReadingFilter, Sampler

@@ -8,7 +8,7 @@ import jsonschema
 import numpy as np
 import pytest
 
-from mindlang.run.many_runs import layouts
+from mindlang.run.setup import layouts
 from tests.calling import RULES, Call
 
 SLOWER = RULES.replace("  drives left_wheel at 3 * ball_bearing - 0.7", "  drives left_wheel at 2 * ball_bearing - 0.6")

@@ -11,10 +11,10 @@ from pathlib import Path
 from statistics import mean, stdev
 
 import pytest
-from mindrun.sim import cache
+from mindrun.sim import cache, warmup
+from mindrun.sim.lanes.advance import advance
 
-from mindlang.cli._session import is_compiled
-from mindlang.run.many_runs import layouts
+from mindlang.run.setup import layouts
 from tests.calling import RULES, Call
 
 RUN_KEYS = {"score", "by_line", "counts", "ticks", "ended_by", "seed", "task", "master"}
@@ -123,7 +123,7 @@ def test_workers_change_nothing(mindc: Call, rules: Path) -> None:
 
 
 def test_a_first_run_says_why_it_takes_so_long(mindc: Call, rules: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("mindlang.cli._session.is_compiled", lambda entries: False)
+    monkeypatch.setattr("mindrun.sim.warmup.is_there", lambda entries: False)
     assert mindc("run", rules, "--seed", 3).err == "compiling the simulator once (about half a minute)…\n"
     assert mindc("run", rules, "--seed", 3, "--quiet").err == ""
 
@@ -132,9 +132,9 @@ def test_what_was_compiled_of_other_files_does_not_count(
     mindc: Call, rules: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     assert mindc("run", rules, "--seed", 3, "--quiet").code == 0
-    assert is_compiled()
+    assert warmup.is_there((advance,))
     monkeypatch.setattr(cache, "folder", lambda: cache.writable(str(tmp_path / "compiled-another")))
-    assert not is_compiled()
+    assert not warmup.is_there((advance,))
 
 
 def test_bench_for_people(mindc: Call, rules: Path) -> None:

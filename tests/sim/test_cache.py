@@ -120,7 +120,7 @@ def test_native_code_is_made_behind_what_was_shipped(
             pass
 
     started: list[str] = []
-    monkeypatch.setattr(simulator, "is_compiled", lambda entries: is_there)
+    monkeypatch.setattr(warmup, "is_there", lambda entries: is_there)
     monkeypatch.setattr(warmup, "is_native", lambda entries: native)
     monkeypatch.setattr(warmup, "start", lambda *words: started.extend(words))
     simulator.ensure_compiled(Compiled(), lambda words: None)  # type: ignore[arg-type]

@@ -13,7 +13,7 @@ from mindrun.sim.state import empty_state
 from mindlang import limits
 from mindlang.compiler.compile import load
 from mindlang.limits import bytes_for, bytes_of
-from mindlang.run.many_runs import layouts, run_all
+from mindlang.run.setup import layouts, run_all
 from mindlang.run.tables import csv_parts, runs_table
 from tests.calling import Call
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from mindrun.kinds.learners import Genetic
-from mindrun.train import genetic
+from mindrun.train import ask_and_tell as genetic
 from mindrun.train.ask_and_tell import ask, tell
 from mindrun.train.population import Genomes, Population, bounded, nobody, order
 

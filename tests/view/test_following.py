@@ -23,9 +23,8 @@ from mindrun.robot.recording import (
     read_growing,
 )
 
-from mindlang.view import growing_bytes as growing
 from mindlang.view.viewed import Viewed
-from mindlang.view.viewed_recording import followed_recording, viewed_recording
+from mindlang.view.viewed_recording import followed_recording, remote, viewed_recording
 from tests.calling import Call
 from tests.view.serving import served
 from tests.view.test_recording import MIND, mind
@@ -197,13 +196,13 @@ def test_a_file_that_is_another_now_ends_it_with_a_sentence(
     ],
 )
 def test_a_file_of_another_machine(name: str, found: tuple[str, str] | None) -> None:
-    assert growing.remote(name) == found
+    assert remote(name) == found
 
 
 @pytest.mark.parametrize("name", ["-oProxyCommand=x:day.rec", "a b:c", ":c", "me@-x:c", "h:", "$(x):c", "a:b\0", "ä:b"])
 def test_what_names_no_host_is_refused(name: str) -> None:
     with pytest.raises(RecordingError, match="names no host"):
-        growing.remote(name)
+        remote(name)
 
 
 @pytest.fixture

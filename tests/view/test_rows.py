@@ -36,7 +36,7 @@ def test_rows_are_the_run(view: Served, path: Path) -> None:
         first = group(name)[0]  # before anything is read, thought or sent
         assert (first == 0).all() if name == "influence" else np.isnan(first).all()
     assert group("rewards")[1:].tobytes() == run.lines[ticks[1:] - 1].tobytes()
-    assert np.array_equal(group("flow")[1:], flows.walker.transmitted(ticks[1:] - 1))
+    assert np.array_equal(group("flow")[1:], flows.transmitted(ticks[1:] - 1))
 
 
 @given(st.lists(st.integers(1, 300), min_size=1, max_size=12), st.data())

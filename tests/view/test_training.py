@@ -22,7 +22,7 @@ from mindrun.train.run_folder import open_run
 
 from mindlang.compiler.compile import load
 from mindlang.training.subject import open_subject
-from mindlang.view.learning import Champions, open_learning
+from mindlang.view.learning import Learning, open_learning
 from mindlang.view.messages import RefusedError
 from tests.calling import Call
 from tests.train.test_train_command import MIND
@@ -50,18 +50,18 @@ def run(taught: Path, tmp_path: Path) -> Path:
     return Path(shutil.copytree(found, tmp_path / "runs" / found.parent.name / found.name))
 
 
-def champions_of(path: Path) -> Champions:
-    return Champions(open_learning(path), SEED)
+def learning_of(path: Path) -> Learning:
+    return open_learning(path, SEED)
 
 
-def begun(path: Path) -> tuple[Champions, Any]:
-    champions = champions_of(path)
-    return champions, champions.begin(*champions.learning.newest())
+def begun(path: Path) -> tuple[Learning, Any]:
+    learning = learning_of(path)
+    return learning, learning.begin(*learning.newest())
 
 
 def test_a_view_begins_with_the_newest_champion_and_tells_all_that_was_learnt(run: Path) -> None:
-    champions, viewed = begun(run.parent.parent)
-    with served(viewed, champions) as view, view.viewer() as viewer:
+    learning, viewed = begun(run.parent.parent)
+    with served(viewed, learning) as view, view.viewer() as viewer:
         about, learnt = viewer.hear("about"), viewer.hear("learnt")
     records, kept = read_progress(run), read_champions(run)
     assert about["source"] == "training"
@@ -75,8 +75,8 @@ def test_a_view_begins_with_the_newest_champion_and_tells_all_that_was_learnt(ru
 
 
 def test_the_champion_of_a_generation_is_the_one_that_plays(run: Path, taught: Path) -> None:
-    champions, viewed = begun(run)
-    with served(viewed, champions) as view, view.viewer() as viewer:
+    learning, viewed = begun(run)
+    with served(viewed, learning) as view, view.viewer() as viewer:
         viewer.hear("about")
         viewer.say(say="champion", run=0, attempt=1, generation=15, seed="11")
         about = viewer.hear("about")
@@ -97,8 +97,8 @@ def test_the_champion_of_a_generation_is_the_one_that_plays(run: Path, taught: P
 def test_what_comes_is_told_once(run: Path) -> None:
     lines, rows = (run / LINES).read_bytes(), (run / CHAMPION_ROWS).read_bytes()
     (run / LINES).write_bytes(b"".join(lines.splitlines(keepends=True)[:5]))
-    champions, viewed = begun(run)
-    with served(viewed, champions) as view, view.viewer() as viewer:
+    learning, viewed = begun(run)
+    with served(viewed, learning) as view, view.viewer() as viewer:
         assert len(viewer.hear("learnt")["generations"]) == 5
         (run / CHAMPION_ROWS).write_bytes(rows)
         (run / LINES).write_bytes(lines + b'{"attempt": ')  # a line that is being written
@@ -111,8 +111,8 @@ def test_what_comes_is_told_once(run: Path) -> None:
 
 
 def test_a_run_that_begins_later_is_seen_too(run: Path, tmp_path: Path) -> None:
-    champions, viewed = begun(tmp_path)
-    with served(viewed, champions) as view, view.viewer() as viewer:
+    learning, viewed = begun(tmp_path)
+    with served(viewed, learning) as view, view.viewer() as viewer:
         assert viewer.hear("learnt")["run"] == 0
         shutil.copytree(run, run.parent / "later")
         assert viewer.hear("learnt")["run"] == 1
@@ -122,14 +122,14 @@ def test_a_run_that_begins_later_is_seen_too(run: Path, tmp_path: Path) -> None:
 
 def test_a_run_from_before_has_the_last_champion_of_each_attempt(run: Path) -> None:
     (run / CHAMPION_ROWS).unlink()
-    champions, _ = begun(run)
-    learnt = champions.learning.runs[0]
+    learning, _ = begun(run)
+    learnt = learning.runs[0]
     assert not learnt.keeps_all
     state = checkpoint.load(run, open_run(run).manifest.identity).state  # type: ignore[union-attr]
     assert [each.genome.tobytes() for each in learnt.champions] == [each.tobytes() for each in state.champions]
     with pytest.raises(RefusedError, match="only the champion of generation 25 of attempt 1"):
-        champions.begin(0, 1, 10)
-    assert champions.begin(0, 1, 25).about["training"]["since"] == 25
+        learning.begin(0, 1, 10)
+    assert learning.begin(0, 1, 25).about["training"]["since"] == 25
 
 
 def test_the_copy_of_the_mind_is_taken_where_the_mind_has_changed(run: Path) -> None:
@@ -152,8 +152,8 @@ WRONG: list[dict[str, object]] = [
 
 @pytest.fixture(scope="module")
 def view(taught: Path) -> Iterator[Served]:
-    champions, viewed = begun(taught / "runs")
-    with served(viewed, champions) as found:
+    learning, viewed = begun(taught / "runs")
+    with served(viewed, learning) as found:
         yield found
 
 
@@ -167,8 +167,8 @@ def test_a_champion_that_is_none_is_refused(view: Served, wrong: dict[str, objec
 
 
 def test_only_who_may_change_the_run_chooses_a_champion(taught: Path) -> None:
-    champions, viewed = begun(taught / "runs")
-    with served(viewed, champions) as view, view.viewer() as first, view.viewer() as second:
+    learning, viewed = begun(taught / "runs")
+    with served(viewed, learning) as view, view.viewer() as first, view.viewer() as second:
         first.hear("about"), second.hear("about")
         second.say(say="champion", run=0, attempt=1, generation=1)
         assert "somebody else" in second.hear("refused")["why"]
@@ -192,8 +192,8 @@ def test_what_is_no_training_is_said(run: Path, tmp_path: Path, mindc: Call) -> 
 
 
 def test_the_page_plays_the_champion_that_is_clicked(taught: Path) -> None:
-    champions, viewed = begun(taught / "runs")
-    with chromium() as browser, served(viewed, champions) as view:
+    learning, viewed = begun(taught / "runs")
+    with chromium() as browser, served(viewed, learning) as view:
         opened = Opened(browser, f"http://{view.host}/#{view.token}")
         page = opened.page
         page.wait_for_selector("#learning .u-over")
@@ -209,8 +209,8 @@ def test_the_page_plays_the_champion_that_is_clicked(taught: Path) -> None:
 
 
 def test_what_was_learnt_is_told_again_through_another_connection_and_counted_once(taught: Path) -> None:
-    champions, viewed = begun(taught / "runs")
-    with chromium() as browser, served(viewed, champions) as view:
+    learning, viewed = begun(taught / "runs")
+    with chromium() as browser, served(viewed, learning) as view:
         opened = Opened(browser, f"http://{view.host}/#{view.token}")
         told = "document.querySelector('#learning-runs .kind')?.textContent"
         opened.wait(f"{told} > 0")

@@ -11,7 +11,7 @@ from mindrun.errors import WeightsError
 
 from mindlang.compiler.compile import load
 from mindlang.lock.signature import arrange
-from mindlang.weights.comparison import Deviation, compare
+from mindlang.weights.importing import Deviation, compare
 from mindlang.weights.network import Network, Tensors, network_of, to_genome, to_tensors
 from tests.edits.taught import MIND, write_mind
 

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 import mindlang
 from mindlang.compiler.compile import load
 from mindlang.lock.signature import arrange
-from mindlang.weights.comparison import compare
+from mindlang.weights.importing import compare
 from mindlang.weights.network import Network, network_of
 from tests.draws import cases
 from tests.edits.taught import MIND, recorded, teach, write_mind

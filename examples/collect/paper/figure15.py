@@ -13,9 +13,8 @@ from mindlang.pictures.film import TRAIL_SECONDS
 from mindlang.pictures.film_images import FILM_HEIGHT, FilmImages
 from mindlang.run import outcome
 from mindlang.run.chosen_task import SetupError
-from mindlang.run.many_runs import NO_GENOME
 from mindlang.run.recorded_run import RecordedRun, record_run
-from mindlang.run.setup import set_up
+from mindlang.run.setup import NO_GENOME, set_up
 
 FILE, TASK, MASTER = "constant_skills.mind", "Collect", "Gather"
 SEEKER, DODGER = "SeekObject", "Dodge"

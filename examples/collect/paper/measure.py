@@ -17,8 +17,7 @@ from protocol import Case
 from mindlang.compiler.compile import Compiled, load
 from mindlang.lock import lock_path, read_lock
 from mindlang.lock.ready import make_ready
-from mindlang.run.many_runs import NO_GENOME, layouts
-from mindlang.run.setup import set_up
+from mindlang.run.setup import NO_GENOME, layouts, set_up
 
 
 @dataclass(frozen=True, slots=True)

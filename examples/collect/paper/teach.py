@@ -24,7 +24,7 @@ from protocol import FILES, FOLDER
 from mindlang.cli._session import ensure_compiled
 from mindlang.cli._trainer import Trainer
 from mindlang.number_format import duration
-from mindlang.run.many_runs import layouts
+from mindlang.run.setup import layouts
 
 RUN_COUNT = 128  # of shipped champions, to see how fast this machine is; fewer would leave lanes empty
 

@@ -177,12 +177,8 @@ def common_mistake(mistakes: Sequence[Mistake], code: str, line: Span) -> Diagno
             groups = {name: text or "" for name, text in found.groupdict().items()}
             words = {**groups, **_made_of(groups, code)}
             start, end = found.span("noun" if found["here"] is None else "here")
-            return Diagnostic(
-                mistake.code,
-                mistake.message.format(**words),
-                _at(line, start, end),
-                mistake.hint.format(**words),
-            )
+            message, hint = (text.format(**words) for text in (mistake.message, mistake.hint))
+            return Diagnostic(mistake.code, message, _at(line, start, end), hint)
     return None
 
 
@@ -192,6 +188,7 @@ def _made_of(groups: Mapping[str, str], code: str) -> dict[str, str]:
     registered = kinds("content" if noun == "contains" else noun)
     kind = registered.get(groups.get("kind", ""))
     digits = "".join(str(int(c)) for c in here if c.isdecimal())
+    has_exponent = re.fullmatch(r"[0-9.]+[eE][-+]?[0-9]", here)
     return {
         "a_noun": a(noun),
         "snake": _snake(here),
@@ -199,9 +196,7 @@ def _made_of(groups: Mapping[str, str], code: str) -> dict[str, str]:
         "lower": here.lower(),
         "plain": normalize("NFKC", here).replace("⁄", "/"),
         "digits": digits,
-        "written": f"{float(here):.10f}".rstrip("0").rstrip(".")
-        if re.fullmatch(r"[0-9.]+[eE][-+]?[0-9]", here)
-        else digits,
+        "written": f"{float(here):.10f}".rstrip("0").rstrip(".") if has_exponent else digits,
         "tight": "".join(here.split()),
         "bare": here.strip("\"'`“”„‘’«» "),
         "joined": re.sub(r"\W+", "_", here) if here[:1].islower() else _title(re.sub(r"\W+", "_", here)),
@@ -227,16 +222,11 @@ def _without_value(key: str, code: str, here: Span) -> Diagnostic:
         takes = listed([each.key for each in named_arguments(cls)] or ["no arguments"], "and")
         message = f"{kind[1]} has no argument called {key}."
         return Diagnostic("unknown-argument", message, here, f"{kind[1]} takes {takes}.")
-    if noun == "teaches" and (meant := _argument_of_lessons(key)):
+    known = {argument.key for cls in kinds("curriculum").values() for argument in arguments(cls)}
+    if noun == "teaches" and key not in known and (meant := did_you_mean(key, known)):
         return Diagnostic("unknown-argument", f"A lesson has no argument called {key}.", here, meant)
     hint = f"Write its value after {key}, or leave {key} out."
     return Diagnostic("missing-value", f"After {key} a value is missing.", here, hint)
-
-
-def _argument_of_lessons(key: str) -> str:
-    """Which argument of a learner a word was meant to be; empty where it is one, or like none."""
-    known = {argument.key for kind in kinds("curriculum").values() for argument in arguments(kind)}
-    return "" if key in known else did_you_mean(key, known)
 
 
 def unexpected(error: "UnexpectedInput", code: str, line: Span, example: str) -> Diagnostic:

@@ -6,7 +6,6 @@ from typing import TypeVar
 from mindrun.kinds.bodies.body import BodyKind
 from mindrun.numbers.quantity import LENGTH_OF_UNIT, TICK, Quantity
 from msgspec.structs import replace
-from networkx import DiGraph
 
 from mindlang.compiler import model
 from mindlang.compiler.diagnostic import Findings, Label
@@ -24,6 +23,7 @@ from mindlang.compiler.source import Span
 from mindlang.compiler.syntax import Amount, File, Master, Setting, Tick, Unit, Version, of_form
 
 LANGUAGE_VERSION = 1
+ONWARDS = "and from there on"  # of the lines of a circle
 
 D = TypeVar("D", model.Skill, model.Task)
 S = TypeVar("S", bound=Setting)
@@ -43,7 +43,8 @@ def resolve(files: Sequence[File], findings: Findings) -> model.Mind | None:
     memories, actuators = parts("memory", names, findings), parts("actuator", names, findings)
     known_skills = skills(names, width, findings)
     influences = model.influence_graph(known_skills)
-    _check_circles(influences, findings)
+    says, hint = "Skills influence one another in a circle", "Influence flows one way, from the master down"
+    refuse_circles("influence-cycle", influences, findings, says, f"{hint}: take one of these lines out.", ONWARDS)
     body = body_outside(names, findings) if (outside := is_outside(names)) else _body(names, findings)
     robot = RobotFacts(names, width, tick, files[0].source.folder, body, actuators, known_sensors)
     known_tasks = tasks(robot, findings)
@@ -123,12 +124,6 @@ def _check_versions(files: Sequence[File], findings: Findings) -> None:
             message = f"This is mind {LANGUAGE_VERSION}, and the file says {setting.span.text.strip()}."
             hint = f"Write mind {LANGUAGE_VERSION}, or take the mindc for which the file was written."
             findings.error("other-version", setting.span, message, hint)
-
-
-def _check_circles(influences: DiGraph, findings: Findings) -> None:
-    says = "Skills influence one another in a circle"
-    hint = "Influence flows one way, from the master down: take one of these lines out."
-    refuse_circles("influence-cycle", influences, findings, says, hint, "and from there on")
 
 
 def _body(names: Names, findings: Findings) -> model.Part[BodyKind] | None:

@@ -143,15 +143,10 @@ def _value(
             if "." not in name.text:
                 hint = f"Write the module and the function: procedure from module.{name.text}."
                 findings.error("no-module", name.span, f"{name.text} does not say in which module it is.", hint)
-        case _:
-            _check_word(name, parameter.type, findings)
+        case noun_ if name.text not in (known := parameter.type.words):
+            hint = did_you_mean(name.text, known) or f"It is {listed(known)}."
+            findings.error(f"unknown-{noun_}", name.span, f"There is no {noun_} called {name.text}.", hint)
     return name.text
-
-
-def _check_word(name: Name, type_: Reference, findings: Findings) -> None:
-    if name.text not in type_.words:
-        hint = did_you_mean(name.text, type_.words) or f"It is {listed(type_.words)}."
-        findings.error(f"unknown-{type_.noun}", name.span, f"There is no {type_.noun} called {name.text}.", hint)
 
 
 def _number(parameter: Parameter, argument: Argument, findings: Findings) -> Any:

@@ -14,7 +14,7 @@ from mindlang.compiler.diagnostic import Findings, a
 from mindlang.compiler.model import Part
 from mindlang.compiler.names import Names
 from mindlang.compiler.source import Span
-from mindlang.compiler.syntax import Counts, Starts, of_form
+from mindlang.compiler.syntax import Counts, Phrase, Starts, of_form
 
 ENVIRONMENT = "a gymnasium environment"
 
@@ -102,21 +102,15 @@ def _check_judged(task: model.Task, findings: Findings) -> None:
 
 
 def _judged(task: model.Task) -> Iterator[tuple[Any, Span]]:
-    for end in task.ends:
-        if end.event and end.fact.event:
-            yield end.event, end.fact.event.span
-        yield from _measured(end.when.expressions if end.when else ())
-    for reward in task.rewards:
-        if reward.on and reward.fact.on:
-            yield reward.on, reward.fact.on.span
-        yield from _measured(reward.expressions)
-    counted = of_form(task.facts, Counts)
-    yield from ((event, fact.event.span) for event, fact in zip(task.counts, counted, strict=True) if event)
-
-
-def _measured(expressions: Sequence[model.Expression]) -> Iterator[tuple[Any, Span]]:
-    for expression in expressions:
-        yield from ((term.measure, term.span) for term in expression.terms if isinstance(term, model.Measured))
+    """The events and measures of a task, and where they stand."""
+    events: list[tuple[Any, Phrase | None]] = [(end.event, end.fact.event) for end in task.ends]
+    events += [(reward.on, reward.fact.on) for reward in task.rewards]
+    events += zip(task.counts, (fact.event for fact in of_form(task.facts, Counts)), strict=True)
+    yield from ((event, phrase.span) for event, phrase in events if event and phrase)
+    expressions = [expression for end in task.ends if end.when for expression in end.when.expressions]
+    expressions += [expression for reward in task.rewards for expression in reward.expressions]
+    for measured in (of_form(expression.terms, model.Measured) for expression in expressions):
+        yield from ((term.measure, term.span) for term in measured)
 
 
 def _check_environment(

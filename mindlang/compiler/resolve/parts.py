@@ -9,16 +9,15 @@ from mindrun.kinds.bodies.body import BodyKind
 from mindrun.kinds.registry import kinds
 from mindrun.kinds.registry import names as kind_names
 from mindrun.kinds.sensors.computed import Computed
-from mindrun.numbers.expression import Formula
 from msgspec.structs import replace
 
 from mindlang.compiler.diagnostic import Findings, Label, a, listed
 from mindlang.compiler.hierarchy import circles, ends_first
-from mindlang.compiler.model import Expression, Number, Part, Reading, Term, source_graph
+from mindlang.compiler.model import Part, source_graph
 from mindlang.compiler.names import Names
 from mindlang.compiler.resolve.expressions import Visible, resolve
 from mindlang.compiler.resolve.kinds import Scope, make
-from mindlang.compiler.syntax import Declaration, Operator, verb_of
+from mindlang.compiler.syntax import Declaration, verb_of
 
 MOST_READINGS = 20_000
 ONE_LINE = "All that there is to say of it stands in its one line; set the fact below the skill or task it belongs to."
@@ -57,8 +56,8 @@ def sensors(names: Names, findings: Findings) -> Parts:
     widths = _widths(plain, [*formulas, *names.of("memory")])
     visible = Visible(widths, unread=names.unread, made_of="numbers, sensors and memories")
     for name, at in formulas.items():
-        formula = _formula(resolve(at, visible, findings))
-        plain[name] = Part(name, Computed(formula), names.table["sensor"][name].header.name.span)
+        computed = Computed(resolve(at, visible, findings).formula)
+        plain[name] = Part(name, computed, names.table["sensor"][name].header.name.span)
     found = tuple(replace(plain[name], width=widths[name]) for name in names.of("sensor") if name in plain)
     for circle in circles(source_graph(found)):
         message = f"A sensor is derived from itself: {' → '.join([*circle, circle[0]])}."
@@ -74,22 +73,6 @@ def sensors(names: Names, findings: Findings) -> Parts:
             said = (each.value.span for each in arguments if each.key.text == flaw.field)
             findings.error(flaw.code, next(said, header.span), flaw.message, flaw.hint)
     return found
-
-
-def _formula(expression: Expression) -> Formula:
-    """An expression as the kind has it: readings by their names."""
-
-    def instruction(term: Term) -> tuple[str, float | int | str]:
-        match term:
-            case Number():
-                return "number", term.value
-            case Reading():
-                return "reading", term.name
-            case Operator():
-                return term.symbol, 0
-        raise TypeError(f"{term} stands in a task alone")
-
-    return tuple(instruction(term) for term in expression.terms)
 
 
 def _widths(sensors: Mapping[str, Part[Any]], of_one: Iterable[str]) -> dict[str, int]:

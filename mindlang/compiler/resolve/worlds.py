@@ -5,14 +5,13 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeVar
 
-from mindrun.graph.graph import Start
+from mindrun.graph.graph import VARIED_NOUNS, Failure, Start, Variation, Varying, varied_quantity
 from mindrun.kinds.actuators.gripper import REACH_UNITS
 from mindrun.kinds.bodies.body import BodyKind
 from mindrun.kinds.registry import arguments
 from mindrun.kinds.registry import names as kind_names
 from mindrun.kinds.scenes.scene import SceneKind
 from mindrun.kinds.things.thing import MAX_OBSTACLES, MAX_THINGS, ThingKind
-from mindrun.kinds.variation import VARIED_NOUNS, Failure, Variation, Varying, varied_quantity
 from mindrun.numbers.quantity import ANGLE, COORDINATE, RATE, Place
 
 from mindlang.compiler.beginning import Beginning, beginning

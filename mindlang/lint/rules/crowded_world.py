@@ -20,7 +20,7 @@ from mindrun.numbers.quantity import Place, Span
 
 from mindlang.compiler.model import Task
 from mindlang.compiler.syntax import Contains, of_form
-from mindlang.lint.study import Finding, Found, Study, first_of_each
+from mindlang.lint.study import Finding, Found, Study, once_a_line
 
 MAX_TRIES = 200  # for one thing; the lanes try 1000 times
 ROBOT = "the robot"
@@ -36,17 +36,12 @@ task Sort in arena size {}
 """
 GOOD = BINS.format(60, 10)
 BAD = (BINS.format(30, 10), BINS.format(60, 100))
-
-
 HINT = "Make the arena larger, or what is in it smaller or fewer, or say where it stands: at 10 -5."
 
 
+@once_a_line
 def check(study: Study) -> Found:
     """Tasks of which some worlds that are drawn lack a place for something."""
-    return first_of_each(_found(study))
-
-
-def _found(study: Study) -> Found:
     for task in study.mind.tasks:
         lacking, worlds = _lacking(study, task)
         if lacking:

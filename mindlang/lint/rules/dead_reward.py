@@ -4,10 +4,7 @@ Its condition cannot hold with readings between 0 and 1, its event cannot happen
 amount is always 0. Learning goes on without it and nobody notices.
 """
 
-from mindlang.compiler.model import Reward
-from mindlang.compiler.source import Span
-from mindlang.lint.intervals import why_never
-from mindlang.lint.study import AnalysedWorld, Finding, Found, Study, removal
+from mindlang.lint.study import Finding, Found, Study, removal
 
 BEGIN = """
 sensor eye is range_finder at 0 deg
@@ -35,19 +32,7 @@ def check(study: Study) -> Found:
     """Rewards whose event never happens, whose condition never holds or whose amount is 0."""
     for task in study.mind.tasks:
         for reward in task.rewards:
-            if why := why_never_paid(study.worlds[task.name], reward):
+            if why := study.worlds[task.name].why_never_paid(reward):
                 span, message, hint = why
                 fix = removal(reward.fact, "Remove the reward")
                 yield Finding(span, f"This reward is never paid: {message}.", hint, fix=fix)
-
-
-def why_never_paid(world: AnalysedWorld, reward: Reward) -> tuple[Span, str, str] | None:
-    """Where and why a reward is never paid, and what to do; None of one that may be."""
-    fact, value = reward.fact, world.range_in(reward)
-    if reward.on and fact.on and (why := reward.on.prevented(world)):
-        return fact.on.span, *why
-    if reward.when and (never := why_never(reward.when, value)):
-        return reward.when.span, never, "Compare with something that is reached, or take the reward out."
-    if value(reward.amount) == (0, 0):
-        return fact.amount.span, "its amount is always 0", "Give it another amount, or take it out."
-    return None

@@ -7,14 +7,14 @@ directions neither is less, and a memory that decays mixes what it is sent as nu
 """
 
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence, Set
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence, Set
+from typing import Any
 
 from mindrun.kinds.sensors.sensor import directions
 from mindrun.numbers.expression import fold
 
-from mindlang.compiler.model import Comparison, Expression, Number, Reading, Term, When
-from mindlang.lint.intervals import OPPOSITES, STRICT, TURNED, UPPER, words
+from mindlang.compiler.model import Comparison, Expression, Reading, When
+from mindlang.lint.intervals import OPPOSITES, STRICT, TURNED, UPPER
 from mindlang.lint.study import Finding, Found, Study
 
 SENSORS = "sensor north is compass\nsensor off is computed at greatest of north (1 - north)\n"
@@ -72,66 +72,54 @@ def _mixed(values: Sequence[Expression], memory: str, known: Set[str]) -> Iterat
 def _of_two(when: When, known: Set[str]) -> Iterator[Finding]:
     """Comparisons of two directions."""
     for each in (each for all_ in when.alternatives for each in all_):
-        form = _linear(each.left, each.right)
-        if form and len(form.of) > 1 and form.of.keys() <= known:
-            one, other = [*form.of][:2]
+        form, _ = _linear(each)
+        if len(form) > 1 and form.keys() <= known:
+            one, other = [*form][:2]
             message = f"{one} and {other} are directions: neither is less, and behind the robot both begin anew."
             hint = f"Compare how far they are apart: greatest of ({one} - {other}) ({other} - {one}) is 0 and 1 there."
-            yield Finding(form.at[one].span, message, hint)
+            yield Finding(_reading(each, one).span, message, hint)
 
 
-@dataclass(frozen=True, slots=True)
-class _Linear:
-    """Readings times numbers, and a number more; `at` says where each reading stands first."""
-
-    of: Mapping[str, float]
-    more: float
-    at: Mapping[str, Reading]
-
-    def plus(self, other: "_Linear", times: float) -> "_Linear":
-        """The sum with so many times another."""
-        names = dict.fromkeys([*self.of, *other.of])
-        of = {name: self.of.get(name, 0.0) + times * other.of.get(name, 0.0) for name in names}
-        return _Linear(
-            {name: x for name, x in of.items() if x}, self.more + times * other.more, {**other.at, **self.at}
-        )
-
-    def times(self, number: float) -> "_Linear":
-        """The sum with every reading, and the number more, multiplied by a number."""
-        return _Linear({}, 0.0, {}).plus(self, number)
+Form = dict[str, float]  # a sum of readings, each times a number; without a name, a number more
 
 
-def _linear(left: Expression, right: Expression) -> _Linear | None:
-    """What is left less what is right; None where that is no sum of readings times numbers."""
-    one, other = _sum(left), _sum(right)
-    return one.plus(other, -1.0) if one and other else None
+def _plus(one: Form, other: Form, times: float) -> Form:
+    """The sum of one and so many times the other; a reading that is left 0 times is none of it."""
+    found = {name: one.get(name, 0.0) + times * other.get(name, 0.0) for name in (*one, *other)}
+    return {name: number for name, number in found.items() if number or not name}
 
 
-def _sum(of: Expression) -> _Linear | None:
-    def leaf(_: str, term: Term) -> _Linear | None:
-        match term:
-            case Number(value):
-                return _Linear({}, value, {})
-            case Reading(name):
-                return _Linear({name: 1.0}, 0.0, {name: term})
+def _linear(each: Comparison) -> tuple[Form, float]:
+    """What is left less what is right, and the number more; empty where that is no sum of readings times numbers."""
+
+    def leaf(word: str, operand: Any) -> Form | None:
+        return {"": operand} if word == "number" else {operand: 1.0} if word == "reading" else None
+
+    def combined(symbol: str, left: Form | None, right: Form | None) -> Form | None:
+        if left is None or right is None:
+            return None
+        match symbol:
+            case "+" | "-":
+                return _plus(left, right, 1.0 if symbol == "+" else -1.0)
+            case "*" if not right.keys() - {""}:
+                return _plus({}, left, right.get("", 0.0))
+            case "*" if not left.keys() - {""}:
+                return _plus({}, right, left.get("", 0.0))
+            case "/" if not right.keys() - {""} and right.get(""):
+                return _plus({}, left, 1 / right[""])
         return None
 
-    def combined(symbol: str, left: _Linear | None, right: _Linear | None) -> _Linear | None:
-        match symbol, left, right:
-            case "+" | "-", _Linear(), _Linear():
-                return left.plus(right, 1.0 if symbol == "+" else -1.0)
-            case "*", _Linear(), _Linear() if not right.of:
-                return left.times(right.more)
-            case "*", _Linear(), _Linear() if not left.of:
-                return right.times(left.more)
-            case "/", _Linear(), _Linear() if not right.of and right.more:
-                return left.times(1 / right.more)
-        return None
+    def negated(form: Form | None) -> Form | None:
+        return None if form is None else _plus({}, form, -1.0)
 
-    def negated(form: _Linear | None) -> _Linear | None:
-        return form and form.times(-1.0)
+    form = fold((*each.left.formula, *each.right.formula, ("-", 0)), leaf, negated, combined) or {}
+    return {name: times for name, times in form.items() if name}, form.get("", 0.0)
 
-    return fold(words(of), leaf, negated, combined)
+
+def _reading(each: Comparison, name: str) -> Reading:
+    """Where a reading stands first in a comparison."""
+    terms = (*each.left.terms, *each.right.terms)
+    return next(term for term in terms if isinstance(term, Reading) and term.name == name)
 
 
 def _one_sided(when: When, known: Set[str]) -> Iterator[Finding]:
@@ -161,8 +149,8 @@ def _is_behind(compare: str, number: float) -> bool:
 
 def _side(each: Comparison, known: Set[str]) -> tuple[Reading, str, float] | None:
     """The direction that is compared with a number, how, and the number."""
-    form = _linear(each.left, each.right)
-    if form is None or len(form.of) != 1 or not form.of.keys() <= known:
+    form, more = _linear(each)
+    if len(form) != 1 or not form.keys() <= known:
         return None
-    ((name, times),) = form.of.items()
-    return form.at[name], each.compare if times > 0 else TURNED[each.compare], -form.more / times + 0.0
+    ((name, times),) = form.items()
+    return _reading(each, name), each.compare if times > 0 else TURNED[each.compare], -more / times + 0.0

@@ -4,8 +4,7 @@ A skill without influence does not act at all (Eq. 2), so the line says the same
 another matter: 0 is a command as any other.
 """
 
-from mindlang.lint.intervals import interval
-from mindlang.lint.study import Finding, Found, Study, removal
+from mindlang.lint.study import Finding, Found, Study, is_zero_influence, removal
 
 HIERARCHY = """
 master Live
@@ -29,7 +28,7 @@ BAD = (
 def check(study: Study) -> Found:
     """Influences whose value lies at 0 or below, where it is clamped to 0."""
     for skill, edge in study.edges:
-        if edge.to == "skill" and edge.at and all(interval(value)[1] <= 0 for value in edge.values):
+        if edge.at and is_zero_influence(edge):
             message = f"{skill.name} never has influence on {edge.target}: this is always 0."
             hint = "Give it a value above 0, or take the line out."
             yield Finding(edge.at.span, message, hint, fix=removal(edge.fact) if len(skill.edges) > 1 else None)

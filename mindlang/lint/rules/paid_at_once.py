@@ -15,7 +15,7 @@ from mindrun.kinds.events.event import EventKind
 from mindlang.compiler.beginning import Beginning, hint_apart
 from mindlang.compiler.model import Task
 from mindlang.lint.intervals import UNIT_INTERVAL, Interval, interval, why_always
-from mindlang.lint.study import Finding, Found, Study, first_of_each
+from mindlang.lint.study import Finding, Found, Study, once_a_line
 
 LEAST_SHARE = 0.01  # of runs that are worth a word
 
@@ -55,10 +55,11 @@ BAD = (
 )
 
 
+@once_a_line
 def check(study: Study) -> Found:
     """Ends and rewards of events and conditions that have come in the first tick."""
-    ticks = (_FirstTick(study, task, study.beginning(task)) for task in study.mind.tasks)
-    return first_of_each(finding for tick in ticks for finding in tick.found())
+    for task in study.mind.tasks:
+        yield from _FirstTick(study, task, study.beginning(task)).found()
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,7 +4,7 @@ What comes of such a lesson is the best of its first genomes, which are random, 
 elite is nearly everybody, no weight is ever mutated, or by next to nothing.
 """
 
-from mindrun.graph.skill_sets import genes
+from mindrun.graph.skill_sets import genes, learners
 
 from mindlang.lint.study import Finding, Found, Study
 
@@ -39,6 +39,6 @@ def check(study: Study) -> Found:
     """Lessons of which their learner says that nothing can come of them."""
     skills = {skill.name: skill for skill in study.graph.skills}
     for written, lesson in zip(study.mind.lessons, study.graph.lessons, strict=True):
-        weights = sum(genes(skills[name]) for name in study.learners(lesson))
+        weights = sum(genes(skills[name]) for name in learners(study.graph, lesson))
         if weights and (why := lesson.learner.standstill(weights, lesson.generations)):
             yield Finding(written.fact.span, f"{why}.", HINT if lesson.generations > 1 else MORE_HINT)

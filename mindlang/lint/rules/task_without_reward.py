@@ -5,7 +5,6 @@ benchmark needs no rewards.
 """
 
 from mindlang.compiler.diagnostic import Label
-from mindlang.lint.rules.dead_reward import why_never_paid
 from mindlang.lint.study import Finding, Found, Study
 
 COURSE = """
@@ -26,7 +25,7 @@ def check(study: Study) -> Found:
     """Lessons whose task has no reward that could be paid."""
     for lesson in study.mind.lessons:
         task = study.tasks[lesson.task]
-        if all(why_never_paid(study.worlds[task.name], reward) for reward in task.rewards):
+        if all(study.worlds[task.name].why_never_paid(reward) for reward in task.rewards):
             label = Label(task.span, "declared here")
             rewards = "never pays a reward" if task.rewards else "rewards nothing"
             message = f"{task.name} {rewards}, so {lesson.skill} has nothing to learn for."

@@ -9,7 +9,7 @@ from mindlang.compiler.diagnostic import Fix
 from mindlang.compiler.model import Task
 from mindlang.compiler.splice import Splice
 from mindlang.compiler.syntax import Contains, of_form
-from mindlang.lint.study import Finding, Found, Study, first_of_each
+from mindlang.lint.study import Finding, Found, Study, once_a_line
 
 REACHED = "reached"  # the argument that is left out
 GOOD = (
@@ -32,19 +32,17 @@ task Dock in plain
 BAD = GOOD[0].replace(" reached stays", "")
 
 
+@once_a_line
 def check(study: Study) -> Found:
     """Things that are reached for a reward or a count, and leave open what follows."""
-    return first_of_each(finding for task in study.mind.tasks for finding in _of_task(task))
-
-
-def _of_task(task: Task) -> Found:
-    reached = _reached(task)
-    for name, phrase in ((fact.name, fact.phrase) for fact in of_form(task.facts, Contains)):
-        if name.text in reached and all(argument.key.text != REACHED for argument in phrase.arguments):
-            end = phrase.span.end
-            fix = Fix("Say reached moves", (Splice(phrase.span.source, end, end, " reached moves"),), is_safe=False)
-            hint = "Write reached stays, or reached moves to have it appear elsewhere as it once did."
-            yield Finding(name.span, f"{name.text} stays where it is when it is reached.", hint, fix=fix)
+    for task in study.mind.tasks:
+        reached = _reached(task)
+        for name, phrase in ((fact.name, fact.phrase) for fact in of_form(task.facts, Contains)):
+            if name.text in reached and all(argument.key.text != REACHED for argument in phrase.arguments):
+                end = phrase.span.end
+                fix = Fix("Say reached moves", (Splice(phrase.span.source, end, end, " reached moves"),), is_safe=False)
+                hint = "Write reached stays, or reached moves to have it appear elsewhere as it once did."
+                yield Finding(name.span, f"{name.text} stays where it is when it is reached.", hint, fix=fix)
 
 
 def _reached(task: Task) -> set[str]:

@@ -5,10 +5,9 @@ Every influence and command is clamped to 0..1. A value that is only sometimes o
 """
 
 from mindlang.compiler.diagnostic import Fix
-from mindlang.compiler.model import Edge
 from mindlang.editing.insertion import instead
 from mindlang.lint.intervals import interval, is_constant, range_in_words
-from mindlang.lint.study import Finding, Found, Study
+from mindlang.lint.study import Finding, Found, Study, is_zero_influence
 
 READS = """
 sensor eye is range_finder at 0 deg
@@ -26,7 +25,8 @@ BAD = (
 
 def check(study: Study) -> Found:
     """Values outside of 0..1, and those that read something and never get inside."""
-    for value in (value for _, edge in study.edges if not _is_zero_influence(edge) for value in edge.values):
+    # an influence that is always 0 is for edge-at-zero to tell
+    for value in (value for _, edge in study.edges if not is_zero_influence(edge) for value in edge.values):
         low, high = interval(value)
         if low > 1 or high < 0 or (not is_constant(value) and (low == 1 or high == 0)):
             clamped = 1 if low >= 1 else 0
@@ -35,8 +35,3 @@ def check(study: Study) -> Found:
             hint = f"Write {clamped}{share or ', or a value that gets between 0 and 1'}."
             fix = Fix(f"Write {clamped}", (instead(value.span, str(clamped)),))
             yield Finding(value.span, message, hint, fix=fix)
-
-
-def _is_zero_influence(edge: Edge) -> bool:
-    """Whether this is for edge_at_zero to tell."""
-    return edge.to == "skill" and bool(edge.at) and all(interval(value)[1] <= 0 for value in edge.values)

@@ -8,7 +8,7 @@ from itertools import product
 
 from mindlang.compiler.beginning import Outline, meet, rectangle
 from mindlang.compiler.diagnostic import Label
-from mindlang.lint.study import Finding, Found, Study, first_of_each
+from mindlang.lint.study import Finding, Found, Study, once_a_line
 
 HALL = """
 task Hall in arena size 40
@@ -21,12 +21,9 @@ GOOD = (HALL.format("-12 -5 to 12 -5"), HALL.format("0 -5 to 15 -5 to 15 5 to 15
 BAD = (HALL.format("0 -5 to 0 5"), HALL.format("0 -5 to 15 -5 to 15 5"), HALL.format("-12 0.9 to 12 0.9"))
 
 
+@once_a_line
 def check(study: Study) -> Found:
     """Stretches of ways, the last of which leads back to the first place, that are in what is fixed."""
-    return first_of_each(_found(study))
-
-
-def _found(study: Study) -> Found:
     for task in study.mind.tasks:
         fixed = [(each, [rectangle(wall) for wall in each.kind.standing(task.scene)]) for each in task.things]
         for thing in (each for each in task.things if each.kind.walks and not each.kind.wanders):

@@ -16,7 +16,7 @@ from mindrun.numbers.quantity import Place
 
 from mindlang.compiler.beginning import PLAIN_START
 from mindlang.compiler.model import Task
-from mindlang.lint.study import Finding, Found, Study, first_of_each
+from mindlang.lint.study import Finding, Found, Study, once_a_line
 
 LEAST_SHARE = 0.01  # of the floor that is worth a word
 MAX_CELLS = 250_000
@@ -78,9 +78,11 @@ task Maze in arena size 20
 HINT = "Open a wall or widen a passage, or fill with wall what nobody is to enter."
 
 
+@once_a_line
 def check(study: Study) -> Found:
     """Tasks in which no way leads from where the robot starts to all of the floor, or to a thing with a place."""
-    return first_of_each(finding for task in study.mind.tasks for finding in _of_task(study, task))
+    for task in study.mind.tasks:
+        yield from _of_task(study, task)
 
 
 def _of_task(study: Study, task: Task) -> Iterator[Finding]:

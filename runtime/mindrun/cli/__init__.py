@@ -14,10 +14,10 @@ from mindrun.terminal.arguments import MAX_SEED, new_file, parser, real, whole
 
 MAX_PORT = 65535
 MAX_TICK = 2**63 - 1  # tick
-EXAMPLES_BEGIN = "examples:\n"  # what the paragraph of a tool's help begins with that keeps its lines
+EXAMPLES = "examples:\n"  # what the paragraph of a tool's help begins with that keeps its lines
 LINE_COLUMNS = 80
 
-EXAMPLES = """examples:
+DRIVING_EXAMPLES = """examples:
   mindrun ball.bundle                              on its robot, nothing moves
   mindrun ball.bundle --arm --record day.rec       moves, and records every tick
   mindrun ball.bundle --arm --view                 seen in a browser meanwhile
@@ -42,7 +42,7 @@ each with --help"""
 def driving_parser() -> ArgumentParser:
     """The parser of `mindrun FILE.bundle`."""
     about = "Let a compiled mind drive its robot, say what it holds, or run it on readings."
-    known = parser("mindrun", about, EXAMPLES)
+    known = parser("mindrun", about, DRIVING_EXAMPLES)
     known.add_argument("bundle", type=Path, metavar="FILE.bundle", help="what `mindc build` wrote")
     known.add_argument("--version", action="version", version=f"mindrun, version {VERSION}", help="say which it is")
     known.add_argument("--readings", metavar="FILE", help="JSON lines of readings by sensor name; - is standard input")
@@ -91,7 +91,7 @@ def tool_parser(name: str) -> ArgumentParser:
 def _filled(text: str) -> str:
     """The paragraphs of a text in lines for a terminal."""
     parts = text.strip().split("\n\n")
-    return "\n\n".join(part if part.startswith(EXAMPLES_BEGIN) else fill(part, LINE_COLUMNS) for part in parts)
+    return "\n\n".join(part if part.startswith(EXAMPLES) else fill(part, LINE_COLUMNS) for part in parts)
 
 
 def run_tool(name: str, words: list[str]) -> int:

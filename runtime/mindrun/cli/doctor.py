@@ -35,8 +35,6 @@ PACKAGES = {  # that drivers may need, and the line that installs each
     "lgpio": "sudo apt install python3-lgpio",
     "cv2": "pip install 'opencv-python-headless>=4.10,<6'",
 }
-
-
 FINE, ABSENT, WRONG = "ok ", "-  ", "NOT"  # what is absent is no fault before something needs it
 STATES = {FINE: "ok", ABSENT: "absent", WRONG: "wrong"}  # in a document
 
@@ -82,11 +80,10 @@ def machine() -> Iterator[CheckResult]:
             yield CheckResult(package, FINE, "installed")
         else:
             yield CheckResult(package, WRONG if package == "numpy" else ABSENT, f"not installed: {line}")
-    for device in ("i2c-1", "gpiochip0", "video0"):
+    for device, group in (("i2c-1", "i2c"), ("gpiochip0", "gpio"), ("video0", "video")):
         path = Path("/dev") / device
         if path.exists():
             may = os.access(path, os.R_OK | os.W_OK)
-            group = "gpio" if "gpio" in device else "video" if "video" in device else "i2c"
             words = "you may use it" if may else f"you may not use it: sudo usermod -aG {group} $USER, and log in again"
             yield CheckResult(str(path), FINE if may else WRONG, words)
         else:

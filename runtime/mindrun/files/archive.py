@@ -14,7 +14,10 @@ def write_archive(members: Iterable[tuple[str, bytes]], comment: bytes = b"") ->
     file = BytesIO()
     with zipfile.ZipFile(file, "w", zipfile.ZIP_STORED) as archive:
         for name, content in members:
-            archive.writestr(_entry(name), content)
+            entry = zipfile.ZipInfo(name)  # of 1980: the day of writing is no part of a mind
+            entry.create_system = 3
+            entry.external_attr = 0o644 << 16
+            archive.writestr(entry, content)
         archive.comment = comment
     return file.getvalue()
 
@@ -36,10 +39,3 @@ def read_archive(data: bytes) -> dict[str, bytes]:
     if len(members) < len(entries):
         raise ValueError("a file is in it twice")
     return members
-
-
-def _entry(name: str) -> zipfile.ZipInfo:
-    entry = zipfile.ZipInfo(name)  # of 1980: the day of writing is no part of a mind
-    entry.create_system = 3
-    entry.external_attr = 0o644 << 16
-    return entry

@@ -9,6 +9,7 @@ import stat
 from pathlib import Path
 
 READ_BYTES = 1 << 20  # read at once
+IRREGULAR = {stat.S_IFDIR: "a folder", stat.S_IFIFO: "a pipe", stat.S_IFSOCK: "a socket", stat.S_IFLNK: "a link"}
 
 
 def read_regular(path: Path, most: int) -> bytes:
@@ -51,18 +52,4 @@ def _refuse(path: Path, found: os.stat_result) -> None:
 def irregular(path: Path, mode: int) -> OSError:
     """The error that says what a path is instead of a regular file."""
     number = errno.EISDIR if stat.S_ISDIR(mode) else errno.EINVAL
-    return OSError(number, f"it is {_what(mode)}", str(path))
-
-
-def _what(mode: int) -> str:
-    match stat.S_IFMT(mode):
-        case stat.S_IFDIR:
-            return "a folder"
-        case stat.S_IFIFO:
-            return "a pipe"
-        case stat.S_IFSOCK:
-            return "a socket"
-        case stat.S_IFLNK:
-            return "a link"
-        case _:
-            return "a device"
+    return OSError(number, f"it is {IRREGULAR.get(stat.S_IFMT(mode), 'a device')}", str(path))

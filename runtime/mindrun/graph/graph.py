@@ -1,7 +1,7 @@
 """The compiled hierarchy as plain data: names as indices, units converted, skills in the order of influence."""
 
 from dataclasses import dataclass
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from mindrun.kinds.actuators.actuator import ActuatorKind
 from mindrun.kinds.actuators.gripper import REACH_UNITS
@@ -11,16 +11,17 @@ from mindrun.kinds.functions.function import Function
 from mindrun.kinds.learners import Learner
 from mindrun.kinds.measures.measure import MeasureKind
 from mindrun.kinds.memory import Cell
+from mindrun.kinds.registry import arguments
 from mindrun.kinds.scenes.scene import SceneKind
 from mindrun.kinds.sensors.sensor import SensorKind
 from mindrun.kinds.things.thing import ThingKind
-from mindrun.kinds.variation import Failure as Failure
-from mindrun.kinds.variation import Variation as Variation
 from mindrun.numbers.expression import Program as Program
-from mindrun.numbers.quantity import ANGLE, COORDINATE, Place
+from mindrun.numbers.quantity import ANGLE, COORDINATE, RATIO, Place, Quantity
 from mindrun.numbers.short_repr import ShortRepr
 
 Receiver = Literal["skill", "actuator", "memory"]  # of what a skill sends
+Varying = Literal["actuator", "sensor", "body", "thing"]  # what an argument can be of that varies
+VARIED_NOUNS: tuple[Varying, ...] = ("actuator", "sensor", "body")  # those of the robot
 
 
 @dataclass(frozen=True, slots=True)
@@ -168,6 +169,34 @@ class Start:
 
     at: Annotated[Place | None, COORDINATE] = None
     facing: Annotated[float | None, ANGLE] = None
+
+
+@dataclass(frozen=True, slots=True)
+class Variation:
+    """An argument that is drawn anew for each run, between `low` and `high`.
+
+    It is of the body, or of the actuator, sensor or thing called `of`; whole numbers are drawn of what is whole.
+    """
+
+    noun: Varying
+    of: str
+    argument: str
+    low: float
+    high: float
+
+
+@dataclass(frozen=True, slots=True)
+class Failure:
+    """An actuator that fails in each tick with the probability `rate`, and is neutral from then on."""
+
+    actuator: str
+    rate: Annotated[float, RATIO]
+
+
+def varied_quantity(kind: Any, argument: str) -> Quantity | None:
+    """What an argument of a kind is that can differ from run to run; None where it cannot."""
+    found = (each.type for each in arguments(type(kind)) if each.field == argument and argument in kind.varying)
+    return next((quantity for quantity in found if isinstance(quantity, Quantity)), None)
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,11 +3,10 @@
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
-from mindrun.graph.graph import Graph, Task
+from mindrun.graph.graph import Graph, Task, Variation
 from mindrun.graph.measured import measured_in_world, with_sources
 from mindrun.graph.skill_sets import reachable
 from mindrun.kinds.things.thing import MOVES, STAYS
-from mindrun.kinds.variation import Variation
 from mindrun.numbers.expression import leaves
 
 ROUGH = ("noise", "lost", "slip")  # arguments of sensors and actuators of which something is drawn in every tick

@@ -5,11 +5,10 @@ from collections.abc import Container, Iterator
 from graphlib import CycleError, TopologicalSorter
 from math import prod
 
-from mindrun.graph.graph import Graph, Lesson, Program, Skill, Task
+from mindrun.graph.graph import Graph, Lesson, Program, Skill, Task, varied_quantity
 from mindrun.graph.tasks import varied_kind
 from mindrun.kinds.registry import arguments
 from mindrun.kinds.things.thing import MAX_OBSTACLES, MAX_THINGS
-from mindrun.kinds.variation import varied_quantity
 from mindrun.numbers.expression import OPERATORS, is_condition, is_valid_program, leaves
 from mindrun.numbers.quantity import THING, UNSAID
 

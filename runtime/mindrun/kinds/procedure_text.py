@@ -11,7 +11,7 @@ from symtable import symtable
 from warnings import catch_warnings
 
 from mindrun.errors import ProcedureError
-from mindrun.kinds import procedure_use as use
+from mindrun.kinds import procedure_names as use
 from mindrun.kinds.procedure_names import Names
 
 BLOCKS = ast.If | ast.Try | ast.With | ast.For | ast.While

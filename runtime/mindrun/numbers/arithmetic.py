@@ -8,9 +8,14 @@ from types import FunctionType
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from mindrun.numbers.sigmoid import DENOMINATOR, LIMIT, NUMERATOR, sigmoid
 from mindrun.numbers.trigonometry import C1, C2, C3, C4, C5, C6, PART_1, PART_2, PART_3, S1, S2, S3, S4, S5, S6
+
+
+def _singles(*values: float) -> tuple[float, ...]:
+    return tuple(float(np.float32(value)) for value in values)
+
 
 F = np.float32
 X, Y, ANGLE, SPEED_X, SPEED_Y, SPIN = range(6)  # rows of a body; of all else that has a place the first two
@@ -20,6 +25,23 @@ BOX_COLUMNS, HALF_X, HALF_Y = 4, 2, 3  # of a box: how many, and half of its sid
 TURN, PUSHED_X, PUSHED_Y, PUSHED_SPIN, LOOSE_ROWS = range(5)  # rows of a loose thing beside those, and how many
 ZERO, HALF, ONE, NAN = F(0), F(0.5), F(1), F(np.nan)
 MIN_DENOMINATOR = F(1e-7)
+# 1/(1 + e^−x) = ½ + ½ tanh(x/2), with tanh as a quotient of two polynomials in float32, within 1e-6 of the true value:
+# + − × ÷ alone, and so the same bits on every processor, which `exp` does not give.
+# a1, a3, … a13 of the numerator x·(a1 + a3·x² + …), b0, b2, b4, b6 of the denominator; lowest power first.
+NUMERATOR = _singles(
+    4.89352455891786e-03,
+    6.37261928875436e-04,
+    1.48572235717979e-05,
+    5.12229709037114e-08,
+    -8.60467152213735e-11,
+    2.00018790482477e-13,
+    -2.76076847742355e-16,
+)
+DENOMINATOR = _singles(4.89352518554385e-03, 2.26843463243900e-03, 1.18534705686654e-04, 1.19825839466702e-06)
+(LIMIT,) = _singles(7.90531110763549805)  # from here on tanh is 1 in float32
+_LOW, _HIGH = F(-LIMIT), F(LIMIT)
+_TOP, *_REST = (F(a) for a in reversed(NUMERATOR))
+_BOTTOM, *_BELOW = (F(b) for b in reversed(DENOMINATOR))
 A1, A3, A5, A7, A9, A11, A13 = (F(a) for a in NUMERATOR)
 B0, B2, B4, B6 = (F(b) for b in DENOMINATOR)
 SIGMOID_LIMIT = F(LIMIT)
@@ -97,7 +119,7 @@ def bearing(x: Any, y: Any) -> Any:
 
 
 def place_of(things: Any, i: Any, p: Any) -> Any:
-    """Where thing i is in the world of lane p: its x and y. Whatever reads or moves things does it by these four."""
+    """Where thing i is in the world of lane p: its x and y. Whatever reads or moves things does it by these five."""
     return things[THING_ROWS * i + X, p], things[THING_ROWS * i + Y, p]
 
 
@@ -109,6 +131,11 @@ def put_thing(things: Any, i: Any, x: Any, y: Any, p: Any) -> None:
 def size_of(things: Any, i: Any, p: Any) -> Any:
     """The side or the diameter of thing i in the world of lane p."""
     return things[THING_ROWS * i + SIZE, p]
+
+
+def resize_thing(things: Any, i: Any, size: Any, p: Any) -> None:
+    """Give thing i a size in the world of lane p."""
+    things[THING_ROWS * i + SIZE, p] = size
 
 
 def distance_of(things: Any, i: Any, p: Any) -> Any:
@@ -213,6 +240,27 @@ def load(array: Any, row: Any, lane: Any) -> Any:
 def store(array: Any, row: Any, lane: Any, value: Any) -> None:
     """Sixteen lanes into a row of an array [row, lane], from `lane` on."""
     array[row, lane : lane + LANES] = value
+
+
+def sigmoid(values: NDArray[np.float32]) -> NDArray[np.float32]:
+    """The sigmoid of each value, float32 in and out; NaN gives what −∞ gives."""
+    x: NDArray[np.float32] = np.fmin(np.fmax(values * HALF, _LOW), _HIGH)
+    y = x * x
+    p: NDArray[np.float32] = y * _TOP
+    q: NDArray[np.float32] = y * _BOTTOM
+    for a in _REST[:-1]:
+        p += a
+        p *= y
+    for b in _BELOW[:-1]:
+        q += b
+        q *= y
+    p += _REST[-1]
+    q += _BELOW[-1]
+    p *= x
+    p /= q
+    p *= HALF
+    p += HALF
+    return p
 
 
 def sigmoids(values: Any) -> Any:

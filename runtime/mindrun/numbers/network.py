@@ -7,8 +7,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from mindrun.numbers.arithmetic import sigmoid
 from mindrun.numbers.arrays import Compute, Layers, Weights
-from mindrun.numbers.sigmoid import sigmoid
 
 Matrix = NDArray[np.float32]
 

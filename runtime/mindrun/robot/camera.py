@@ -50,12 +50,11 @@ class BallTarget:
 
 @dataclass(frozen=True, slots=True)
 class Ball:
-    """A ball in a frame: where it is, seen from the camera, how big, and how sure that is (0 to 1)."""
+    """A ball in a frame: where it is, seen from the camera, and how big."""
 
     bearing: float
     elevation: float
     diameter: float
-    confidence: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,7 +88,7 @@ def find_ball(frame: Frame, target: BallTarget) -> Ball | None:
     focus = focal_length(width, target.view)
     aside, up = (width - 1) / 2 - best.x, (height - 1) / 2 - best.y
     bearing, elevation = degrees(atan2(aside, focus)), degrees(atan2(up, hypot(focus, aside)))
-    return Ball(bearing, elevation, best.diameter, best.roundness)
+    return Ball(bearing, elevation, best.diameter)
 
 
 def distance(diameter: float, size: float, width: int, view: float) -> float:

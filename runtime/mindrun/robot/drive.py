@@ -26,10 +26,9 @@ from mindrun.robot.dry_run import DryRun, SeenWorld, beginning, dry, outcome, re
 from mindrun.robot.guardian.client import Guardian
 from mindrun.robot.guardian.plan import plan_of
 from mindrun.robot.live_view import breakpoint_mistakes, live_view
-from mindrun.robot.loop import Loop, TickResult
+from mindrun.robot.loop import Loop, Rate, TickResult
 from mindrun.robot.ownership import IdentityError, hold_devices, is_adopted
 from mindrun.robot.processes import Stop, refuse_success, stopping
-from mindrun.robot.rate import Rate
 from mindrun.robot.recording import About, Recorder, TemporaryRecorder, temporary_recording
 from mindrun.robot.sensing import ReadingFilter, Sampler
 from mindrun.robot.simulated_world import simulated, status

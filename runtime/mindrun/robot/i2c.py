@@ -130,10 +130,19 @@ class I2cDevice:
 
 
 @dataclass(slots=True)
-class MeasuringChip:
-    """A chip that measures again and again: the registers that say who it is, set it up, and have what it measured."""
+class WiredDevice:
+    """A device that is a part on a bus, and nothing else."""
 
     wire: I2cDevice
+
+    def close(self) -> None:
+        self.wire.close()
+
+
+@dataclass(slots=True)
+class MeasuringChip(WiredDevice):
+    """A chip that measures again and again: the registers that say who it is, set it up, and have what it measured."""
+
     model: str
     identity: tuple[int, int]  # a register, and what it holds in this model
     settings: tuple[tuple[int, int], ...]  # registers, and what makes it measure
@@ -194,7 +203,7 @@ class ChipDevice:
         return (self.value(self.chip.measure()),)
 
     def close(self) -> None:
-        self.chip.wire.close()
+        self.chip.close()
 
 
 def open_chip(chip: MeasuringChip, value: Callable[[tuple[int, ...]], float]) -> ChipDevice:

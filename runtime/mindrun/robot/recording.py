@@ -222,7 +222,7 @@ def read_growing(path: Path, parts: Iterator[bytes]) -> tuple[About, Iterator[ND
     """
     line, waiting = _first_line(path, parts)
     about = about_of_line(line, path)
-    return about, _whole_rows(path, about, chain([waiting], parts))
+    return about, whole_rows(path, about, chain([waiting], parts))
 
 
 def _first_line(path: Path, parts: Iterator[bytes]) -> tuple[bytes, bytes]:
@@ -241,7 +241,7 @@ def _first_line(path: Path, parts: Iterator[bytes]) -> tuple[bytes, bytes]:
     return bytes(waiting[:end]), bytes(waiting[end:])
 
 
-def _whole_rows(path: Path, about: About, parts: Iterable[bytes]) -> Iterator[NDArray[Any]]:
+def whole_rows(path: Path, about: About, parts: Iterable[bytes]) -> Iterator[NDArray[Any]]:
     """The rows of a recording whose bytes come in parts, however they are cut: those that are whole with each part.
 
     RecordingError where one is damaged, behind all that are before it. A last row that is not whole is no row.

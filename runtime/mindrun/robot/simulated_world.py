@@ -16,8 +16,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from struct import Struct
 from tempfile import TemporaryDirectory
-from time import monotonic
-from typing import Any
+from typing import Any, BinaryIO
 
 from mindrun.driver import DeviceError
 from mindrun.errors import MindError
@@ -25,7 +24,7 @@ from mindrun.errors import MindError
 READ, WRITE, STATUS, WORLD, BOXES = b"R", b"W", b"S", b"T", b"B"
 REQUEST = Struct("<cHd")  # what, length of the name, value; then the name in UTF-8
 ANSWER = Struct("<?I")  # whether it was done, length of what it holds
-EXCHANGE_SECONDS = 0.2  # seconds for a whole exchange
+EXCHANGE_SECONDS = 0.2  # seconds in which a world has to take a request, or to answer
 NEUTRAL_SECONDS = 2.0  # that the guardian has to bring a robot to neutral whose controller is gone
 
 
@@ -42,7 +41,7 @@ class WorldConnection:
         if self.closed:
             raise DeviceError("the connection to the simulated world is closed")
         try:
-            done, held = self._exchange(what, name.encode(), value, monotonic() + EXCHANGE_SECONDS)
+            done, held = self._exchange(what, name.encode(), value)
         except OSError as error:
             self._drop()
             why = error.strerror or error
@@ -56,15 +55,16 @@ class WorldConnection:
         self.closed = True
         self._drop()
 
-    def _exchange(self, what: bytes, name: bytes, value: float, until: float) -> tuple[bool, bytes]:
+    def _exchange(self, what: bytes, name: bytes, value: float) -> tuple[bool, bytes]:
         if self._socket is None:
             self._socket = sockets.socket(sockets.AF_UNIX, sockets.SOCK_STREAM)
             self._socket.settimeout(EXCHANGE_SECONDS)
             self._socket.connect(self.path)
-        self._socket.settimeout(max(until - monotonic(), 0.001))
+        self._socket.settimeout(EXCHANGE_SECONDS)
         self._socket.sendall(REQUEST.pack(what, len(name), value) + name)
-        done, length = ANSWER.unpack(_received(self._socket, ANSWER.size, until))
-        return done, _received(self._socket, length, until)
+        with self._socket.makefile("rb") as answers:
+            done, length = ANSWER.unpack(_whole(answers, ANSWER.size))
+            return done, _whole(answers, length)
 
     def _drop(self) -> None:
         if self._socket is not None:
@@ -72,18 +72,9 @@ class WorldConnection:
             self._socket = None
 
 
-def _received(connection: sockets.socket, count: int, until: float) -> bytes:
-    """The next `count` bytes of a connection, which have come by the time `until`."""
-    data = b""
-    while len(data) < count:
-        left = until - monotonic()
-        if left <= 0:
-            raise TimeoutError("timed out")
-        connection.settimeout(left)
-        part = connection.recv(count - len(data))
-        if not part:
-            raise ConnectionError("it has hung up")
-        data += part
+def _whole(answers: BinaryIO, count: int) -> bytes:
+    if len(data := answers.read(count)) < count:
+        raise ConnectionError("it has hung up")
     return data
 
 

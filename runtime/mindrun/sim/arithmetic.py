@@ -12,13 +12,21 @@ from mindrun.numbers.arithmetic import F as F
 from mindrun.sim import vector
 from mindrun.sim.compiling import compiled, inlined
 
-_INLINED = ("bearing", "clamp", "finite", "sine_cosine", "wrapped", "short_way")
-_CALLED = ("place_of", "put_thing", "size_of", "distance_of", "box_of")
-_VECTORS = ("splat", "broadcast", "load", "store", "sigmoids")
+bearing, clamp = inlined(arithmetic.bearing), inlined(arithmetic.clamp)
+finite, sine_cosine = inlined(arithmetic.finite), inlined(arithmetic.sine_cosine)
+wrapped, short_way = inlined(arithmetic.wrapped), inlined(arithmetic.short_way)
 _COMPILED: dict[Any, Callable[..., Any]] = {
-    **{getattr(arithmetic, name): inlined(getattr(arithmetic, name)) for name in _INLINED},
-    **{getattr(arithmetic, name): compiled(getattr(arithmetic, name)) for name in _CALLED},
-    **{getattr(arithmetic, name): getattr(vector, name) for name in _VECTORS},
+    arithmetic.bearing: bearing,
+    arithmetic.clamp: clamp,
+    arithmetic.finite: finite,
+    arithmetic.sine_cosine: sine_cosine,
+    arithmetic.wrapped: wrapped,
+    arithmetic.short_way: short_way,
+    arithmetic.splat: vector.splat,
+    arithmetic.broadcast: vector.broadcast,
+    arithmetic.load: vector.load,
+    arithmetic.store: vector.store,
+    arithmetic.sigmoids: vector.sigmoids,
 }
 
 
@@ -40,8 +48,9 @@ def _calling_compiled(function: Any) -> FunctionType:
     return plain
 
 
-bearing, clamp, finite, sine_cosine, wrapped, short_way = (_COMPILED[getattr(arithmetic, name)] for name in _INLINED)
-place_of, put_thing, size_of, distance_of, box_of = (_COMPILED[getattr(arithmetic, name)] for name in _CALLED)
+place_of, put_thing = compiled_lane(arithmetic.place_of), compiled_lane(arithmetic.put_thing)
+size_of, resize_thing = compiled_lane(arithmetic.size_of), compiled_lane(arithmetic.resize_thing)
+distance_of, box_of = compiled_lane(arithmetic.distance_of), compiled_lane(arithmetic.box_of)
 in_claw, inside = compiled_lane(arithmetic.in_claw), compiled_lane(arithmetic.inside)
 nearest = _COMPILED[arithmetic.nearest] = inlined(_calling_compiled(arithmetic.nearest))  # which no call can return
 evaluate = compiled_lane(stack_machine.evaluate)

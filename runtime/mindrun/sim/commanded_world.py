@@ -33,6 +33,7 @@ class World:
         self.graph = graph
         self._lanes = commanded_lanes(graph, task, master)
         self._state = self._lanes.state
+        self.task = self._lanes.rollout.task
         self._begin(seed)
 
     def begin(self, seed: int) -> None:
@@ -80,11 +81,6 @@ class World:
         for event, happened in zip(self.task.events, self._lanes.counts[0].tolist(), strict=True):
             counts[_written(event)] += happened
         return dict(counts)
-
-    @property
-    def task(self) -> Task:
-        """What the world is of."""
-        return self._lanes.rollout.task
 
     @property
     def boxes(self) -> NDArray[np.float64]:

@@ -8,9 +8,8 @@ from typing import Any, TypeVar
 
 from numpy.typing import NDArray
 
-from mindrun.graph.graph import Graph, Task
+from mindrun.graph.graph import Graph, Task, Variation, Varying, varied_quantity
 from mindrun.graph.tasks import varied_kind
-from mindrun.kinds.variation import Variation, Varying, varied_quantity
 from mindrun.sim.codes import CONSTANT, DAMPING, DRAWN, DRAWN_WHOLE, FAILING, INVERSE, OVER, PARAMETER, Row, records
 
 K = TypeVar("K")

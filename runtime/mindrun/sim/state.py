@@ -4,6 +4,7 @@ Every array is declared with its room: `rows` [row, lane], `columns` [lane, colu
 itself says its `shape`. What stands under "for this tick" is computed anew in each.
 """
 
+from collections import namedtuple
 from collections.abc import Callable, Mapping
 from dataclasses import asdict
 from typing import Annotated, Any, NamedTuple, TypeVar
@@ -189,28 +190,12 @@ class State(NamedTuple):
     run: Run
 
 
-class Senses(NamedTuple):
-    """What the lane function of a sensor's kind sees of the state, and where it writes."""
-
-    readings: Array
-    before: Array
-    body: Array
-    heading: Array
-    things: Array
-    held: Array
-    battery: Array
-    tick: Array
-    trail: Array
-    loose: Array
-    nearest: Array
-    nearest_of: Array
-    frame: Array
-    sight: Array
-    boxes: Array
-    nearby: Array
-    nearby_count: Array
-    stack: Array
-    active: Array
+# What the lane function of a sensor's kind sees of the state, and where it writes.
+Senses = namedtuple(
+    "Senses",
+    "readings before body heading things held battery tick trail loose nearest nearest_of frame sight boxes nearby "
+    "nearby_count stack active",
+)
 
 
 class Jobs(NamedTuple):

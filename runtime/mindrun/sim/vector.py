@@ -127,7 +127,7 @@ def where_ordered(typingctx, low, high, yes, no):
 
 @compiled
 def sigmoids(x):
-    """1 / (1 + e^−x) in sixteen lanes, as a rational function of x/2: the arithmetic of `mindrun.numbers.sigmoid`."""
+    """1 / (1 + e^−x) in sixteen lanes, a rational function of x/2: the arithmetic of `numbers.arithmetic.sigmoid`."""
     half = splat(HALF)
     x = x * half
     x = HIGHEST(x, splat(-SIGMOID_LIMIT))

@@ -1,10 +1,18 @@
-"""Ask and tell of every kind of learner: which genomes to score next, and what is learnt from their scores."""
+"""Ask and tell of every kind of learner: which genomes to score next, and what is learnt from their scores.
+
+Plain arrays, the generator passed in, the state apart from the parameters. The genetic algorithm breeds the next
+population. The evolution strategy is (μ/μ, λ) with steps of one size (Beyer and Schwefel, 2002): its population is one
+genome, the centre, and those that were drawn around it are forgotten once it has moved.
+"""
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mindrun.kinds.learners import EvolutionStrategy, Genetic, Learner
-from mindrun.train import evolution_strategy, genetic
-from mindrun.train.population import Draw, Genomes, Population, Scores, bounded, founder_count, worst_if_nan
+from mindrun.train.population import Draw, Genomes, Population, Scores, bounded, founder_count, order, worst_if_nan
+
+TOURNAMENT_SIZE = 4
+GENOMES_PER_PARENT = 4  # of an evolution strategy: one genome in so many has a say in where the centre goes
 
 
 def ask(population: Population, learner: Learner, start: Genomes, draw: Draw, rng: np.random.Generator) -> Genomes:
@@ -16,9 +24,9 @@ def ask(population: Population, learner: Learner, start: Genomes, draw: Draw, rn
         return bounded(draw(founder_count(learner), rng))
     match learner:
         case Genetic():
-            return genetic.ask(population, learner, start, rng)
+            return _ask_genetic(population, learner, start, rng)
         case EvolutionStrategy():
-            return evolution_strategy.ask(population, learner, start, rng)
+            return _ask_strategy(population, learner, start, rng)
 
 
 def tell(population: Population, learner: Learner, start: Genomes, genomes: Genomes, scores: Scores) -> Population:
@@ -26,11 +34,99 @@ def tell(population: Population, learner: Learner, start: Genomes, genomes: Geno
     scores = worst_if_nan(scores)
     match learner:
         case Genetic():
-            return genetic.tell(population, learner, genomes, scores)
+            return _tell_genetic(population, learner, genomes, scores)
         case EvolutionStrategy():
-            return evolution_strategy.tell(population, genomes, scores, start)
+            return _tell_strategy(population, genomes, scores, start)
 
 
 def kept_count(learner: Learner) -> int:
     """How many genomes a population has between two generations."""
     return learner.population if isinstance(learner, Genetic) else 1
+
+
+def _ask_genetic(population: Population, learner: Genetic, start: Genomes, rng: np.random.Generator) -> Genomes:
+    """The genomes [individuals, weights] to score next: at first what the skill knows, `start` [1, weights], varied."""
+    return breed(population, learner, rng) if population.generation else bounded(variants(start, learner, rng))
+
+
+def _tell_genetic(population: Population, learner: Genetic, genomes: Genomes, scores: Scores) -> Population:
+    """The next population: these genomes, or the best of them where there are more, as of founders."""
+    if len(genomes) > learner.population:
+        best = order(scores)[: learner.population]
+        genomes, scores = genomes[best], scores[best]
+    return Population(genomes, scores, population.generation + 1)
+
+
+def variants(start: Genomes, learner: Genetic, rng: np.random.Generator) -> Genomes:
+    """What the skill knows, `start`, and mutated copies of it."""
+    copies = np.repeat(start, learner.population - 1, axis=0)
+    return np.concatenate([start, mutate(copies, learner, rng)])
+
+
+def breed(population: Population, learner: Genetic, rng: np.random.Generator) -> Genomes:
+    """The elite unchanged, then children of two chosen parents each, mutated."""
+    ranked = population.genomes[order(population.scores)]
+    elite = min(max(1, round(learner.elite * len(ranked))), len(ranked) - 1)
+    children = learner.population - elite
+    mothers, fathers = choose(len(ranked), children, rng), choose(len(ranked), children, rng)
+    mixed = cross(ranked[mothers], ranked[fathers], rng)
+    return bounded(np.concatenate([ranked[:elite], mutate(mixed, learner, rng)]))
+
+
+def choose(individuals: int, count: int, rng: np.random.Generator) -> NDArray[np.intp]:
+    """The ranks [count] of the winners of `count` tournaments (rank 0 is the best individual)."""
+    winners: NDArray[np.intp] = rng.integers(individuals, size=(count, TOURNAMENT_SIZE), dtype=np.intp).min(axis=1)
+    return winners
+
+
+def cross(mothers: Genomes, fathers: Genomes, rng: np.random.Generator) -> Genomes:
+    """Children [individuals, weights] that take each weight from either parent."""
+    return np.where(rng.random(mothers.shape, np.float32) < 0.5, mothers, fathers)
+
+
+def mutate(genomes: Genomes, learner: Genetic, rng: np.random.Generator) -> Genomes:
+    """The genomes with a share `mutated` of their weights moved by a normal step of spread `mutation`.
+
+    With `octaves` each genome has a share and a spread of its own: these times a power of two.
+    """
+    share, spread = np.full((2, len(genomes), 1), [[[learner.mutated]], [[learner.mutation]]], np.float32)
+    if learner.octaves:
+        powers = rng.integers(-learner.octaves, learner.octaves, size=(2, len(genomes), 1), endpoint=True)
+        share, spread = np.ldexp((share, spread), powers)
+    hit = rng.random(genomes.shape, np.float32) < share
+    step = spread * rng.standard_normal(genomes.shape, np.float32)
+    return genomes + np.where(hit, step, np.float32(0))
+
+
+def _ask_strategy(
+    population: Population, learner: EvolutionStrategy, start: Genomes, rng: np.random.Generator
+) -> Genomes:
+    """The genomes [individuals, weights] to score next, around the centre: at first `start` [1, weights]."""
+    centre = _centre(population, start)
+    steps = rng.standard_normal((learner.population, centre.shape[1]), np.float32)
+    return bounded(centre + np.float32(learner.mutation) * steps)
+
+
+def _tell_strategy(population: Population, genomes: Genomes, scores: Scores, start: Genomes) -> Population:
+    """The next centre: the mean of the best quarter, weighted by rank; the best alone of founders, which lie apart.
+
+    Where no genome was without a fault the centre stays. Its score is the weighted mean of theirs.
+    """
+    before, ranked, generation = _centre(population, start), order(scores), population.generation + 1
+    if not len(before):
+        return Population(genomes[ranked[:1]], scores[ranked[:1]], generation)
+    parents = ranked[: len(genomes) // GENOMES_PER_PARENT]
+    parents = parents[np.isfinite(scores[parents])]
+    if not len(parents):
+        return Population(before, np.full(1, -np.inf), generation)
+    shares = np.arange(len(parents), 0, -1) / (len(parents) * (len(parents) + 1) / 2)
+    centre, score = np.zeros(genomes.shape[1]), 0.0
+    for share, parent in zip(shares, parents, strict=True):  # in this order: the same bits on every processor
+        centre += share * genomes[parent]
+        score += float(share * scores[parent])
+    return Population(bounded(centre[None].astype(np.float32)), np.full(1, score), generation)
+
+
+def _centre(population: Population, start: Genomes) -> Genomes:
+    """What genomes are drawn around [0 or 1, weights]; before the first generation what the skill knows, `start`."""
+    return population.genomes if population.generation else start

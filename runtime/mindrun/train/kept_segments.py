@@ -117,7 +117,7 @@ class RememberingExecutor:
         self._stretches.submit(job, stretch)
 
     def take(self) -> tuple[int, Segment] | None:
-        """A job and its segment; None where for a while none came."""
+        """A job and its segment; None after a while without one."""
         if self._found:
             job, stretch, segment = self._found.pop(0)
             if segment.verdict is not None:

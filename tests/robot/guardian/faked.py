@@ -95,7 +95,7 @@ def faked(*channels: Channel, devices: tuple[Device, ...] = ()) -> Iterator[Fake
     plan = Plan(TICK, tuple(replace(c, driver=Driver(d)) for c, d in zip(channels, devices, strict=True)))
     said: list[str] = []
     now = [100.0]
-    with patch("mindrun.robot.guardian.output.Thread"):
+    with patch("mindrun.robot.guardian.process.Thread"):
         process = Process(plan, -1, said.append, said.append, clock=lambda: now[0])
         try:
             assert process.open() == []

@@ -15,8 +15,8 @@ from mindrun.driver import DeviceError
 from mindrun.robot.drivers.mock import MockActuator
 from mindrun.robot.guardian.guard import FOLLOWING
 from mindrun.robot.guardian.messages import pack
-from mindrun.robot.guardian.output import ActuatorOutput
 from mindrun.robot.guardian.plan import Channel
+from mindrun.robot.guardian.process import ActuatorOutput
 
 from tests.draws import cases
 from tests.robot.guardian.faked import TICK, Faked, faked

@@ -113,7 +113,7 @@ class Robot:
 @pytest.fixture
 def closed(monkeypatch: pytest.MonkeyPatch) -> Iterator[Robot]:
     """A robot whose devices are not yet open."""
-    monkeypatch.setattr("mindrun.robot.guardian.output.Thread", NoThread)
+    monkeypatch.setattr("mindrun.robot.guardian.process.Thread", NoThread)
     robot = Robot()
     monkeypatch.setattr("mindrun.robot.guardian.process.select", robot.select)
     yield robot

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
-from mindrun.kinds.sensors.sensor import Begin, Bounds, Scene, SensorKind
+from mindrun.kinds.sensors.sensor import Scene, SensorKind
 from mindrun.numbers.quantity import SENSOR, WINDOW
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
@@ -33,10 +33,6 @@ class Average(SensorKind):
     def remembered(self) -> int:  # type: ignore[override]
         """The readings of the last ticks."""
         return self.over
-
-    def first(self, begin: Begin) -> Bounds:
-        """What its source reads."""
-        return begin.first(self.of)
 
     def reader(self, scene: Scene) -> Reader:
         """The sum in float64, in the order in which the last readings lie in a ring, over how many they are."""

@@ -20,13 +20,13 @@ if TYPE_CHECKING:  # a lane is given these when it is compiled
         LOOSE_ROWS,
         ONE,
         SINE,
-        SIZE,
-        THING_ROWS,
         TURN,
         ZERO,
         X,
         Y,
+        place_of,
         sine_cosine,
+        size_of,
     )
 
 WIDTH = Quantity("an angle", {"deg": pi / 180}, low=pi / 180, high=2 * pi)
@@ -83,9 +83,9 @@ class Bumper(Physical):
 
 def lean(t: Any, s: Any, sensor: Any, i: Any, p: Any) -> None:
     """The same of loose thing i, however it is turned."""
-    thing = THING_ROWS * t.loose[i].thing
-    dx, dy = s.things[thing + X, p] - s.body[X, p], s.things[thing + Y, p] - s.body[Y, p]
-    half = s.things[thing + SIZE, p] / 2
+    x, y = place_of(s.things, t.loose[i].thing, p)
+    dx, dy = x - s.body[X, p], y - s.body[Y, p]
+    half = size_of(s.things, t.loose[i].thing, p) / 2
     if np.isnan(dx):
         return  # it has vanished
     if t.loose[i].is_round:

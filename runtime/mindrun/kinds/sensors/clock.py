@@ -6,7 +6,7 @@ from math import floor
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
-from mindrun.kinds.sensors.sensor import Begin, Bounds, Row, Scene, SensorKind
+from mindrun.kinds.sensors.sensor import Scene, SensorKind
 from mindrun.kinds.things.thing import World
 from mindrun.numbers.quantity import SECONDS
 
@@ -23,15 +23,12 @@ class Clock(SensorKind):
 
     period: Annotated[float, SECONDS]
 
+    still = 0.0
     remedy = "Give it a period of more than a tick"
 
     def constant(self, world: World) -> float | None:
         """0 where each tick begins a period."""
         return 0.0 if self.period == world.tick else None
-
-    def first(self, begin: Begin) -> Bounds:
-        """0: a period begins."""
-        return 0.0, 0.0
 
     def reader(self, scene: Scene) -> Reader:
         """t/period without its whole part, t in seconds since the first tick."""
@@ -44,10 +41,6 @@ class Clock(SensorKind):
             return np.float32(turned - floor(turned))
 
         return read
-
-    def row(self, scene: Scene) -> Row:
-        """The period in ticks."""
-        return {"period": self.period / scene.tick}
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:

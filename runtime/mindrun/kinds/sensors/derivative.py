@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
-from mindrun.kinds.sensors.sensor import Begin, Bounds, Row, Scene, SensorKind
+from mindrun.kinds.sensors.sensor import Row, Scene, SensorKind
 from mindrun.kinds.things.thing import World
 from mindrun.numbers.quantity import POSITIVE, RATIO, SENSOR
 
@@ -26,7 +26,7 @@ class Derivative(SensorKind):
 
     shape = None
     remembered = 1
-    rest = 0.5
+    rest = still = 0.5
 
     @property
     def remedy(self) -> str:  # type: ignore[override]
@@ -38,10 +38,6 @@ class Derivative(SensorKind):
     def constant(self, world: World) -> float | None:
         """0.5 where the sensor never changes, and where every change is in the dead zone."""
         return 0.5 if world.is_constant(self.of) else SensorKind.constant(self, world)
-
-    def first(self, begin: Begin) -> Bounds:
-        """0.5: nothing has changed yet."""
-        return 0.5, 0.5
 
     def reader(self, scene: Scene) -> Reader:
         """0.5 in the first tick, NaN where a reading of the source is not finite now or was not."""

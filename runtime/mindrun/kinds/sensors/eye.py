@@ -10,20 +10,20 @@ if TYPE_CHECKING:  # a lane is given these when it is compiled
     import numpy as np
 
     from mindrun.numbers.arithmetic import (
-        BOX_COLUMNS,
         COSINE,
         HALF_X,
         HALF_Y,
         MAX_FLOAT32,
         ONE,
         SINE,
-        SIZE,
-        THING_ROWS,
         ZERO,
         F,
         X,
         Y,
+        box_of,
         clamp,
+        place_of,
+        size_of,
     )
 
 
@@ -56,7 +56,7 @@ class Eye(Physical):
             for p in range(n):
                 out[k, p] = MAX_FLOAT32
         for i in range(sensor.thing, sensor.thing + sensor.things):
-            locate(s.body, s.things[THING_ROWS * i : THING_ROWS * (i + 1)], s.frame, n)
+            locate(s.body, s.things, i, s.frame, n)
             is_disc = t.things[i].is_round or t.things[i].loose >= 0
             for k in range(sensor.width):
                 cosine, sine = t.rays[COSINE, sensor.ray + k], t.rays[SINE, sensor.ray + k]
@@ -75,19 +75,20 @@ class Eye(Physical):
                 out[k, p] = clamp((out[k, p] - rim) * scale) if out[k, p] <= solid[p] else ONE
 
 
-def locate(body: Any, thing: Any, frame: Any, n: Any) -> None:
-    """Where a thing is from each robot's middle, and half of its size along x and y, in float32."""
+def locate(body: Any, things: Any, i: Any, frame: Any, n: Any) -> None:
+    """Where thing i is from each robot's middle, and half of its size along x and y, in float32."""
     for p in range(n):
-        frame[X, p], frame[Y, p] = F(thing[X, p] - body[X, p]), F(thing[Y, p] - body[Y, p])
-        frame[HALF_X, p] = frame[HALF_Y, p] = F(thing[SIZE, p] / 2)
+        x, y = place_of(things, i, p)
+        frame[X, p], frame[Y, p] = F(x - body[X, p]), F(y - body[Y, p])
+        frame[HALF_X, p] = frame[HALF_Y, p] = F(size_of(things, i, p) / 2)
 
 
 def locate_box(body: Any, boxes: Any, b: Any, frame: Any, n: Any) -> None:
     """The same of box number b."""
     for p in range(n):
-        box = BOX_COLUMNS * b
-        frame[X, p], frame[Y, p] = F(boxes[p, box + X] - body[X, p]), F(boxes[p, box + Y] - body[Y, p])
-        frame[HALF_X, p], frame[HALF_Y, p] = F(boxes[p, box + HALF_X]), F(boxes[p, box + HALF_Y])
+        x, y, wide, high = box_of(boxes, b, p)
+        frame[X, p], frame[Y, p] = F(x - body[X, p]), F(y - body[Y, p])
+        frame[HALF_X, p], frame[HALF_Y, p] = F(wide), F(high)
 
 
 def meet_disc(heading: Any, frame: Any, cosine: Any, sine: Any, out: Any, n: Any) -> None:

@@ -7,7 +7,7 @@ from mindrun.kinds.sensors.sensor import Physical
 from mindrun.numbers.quantity import THING, Quantity
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
-    from mindrun.numbers.arithmetic import COSINE, ONE, SINE, SIZE, THING_ROWS, ZERO, X, Y, inside
+    from mindrun.numbers.arithmetic import COSINE, ONE, SINE, ZERO, X, Y, inside, place_of, size_of
 
 OFFSET = Quantity("a length in world units", {"": 1.0}, low=-1000.0, high=1000.0)
 
@@ -56,6 +56,6 @@ class Floor(Physical):
 
 def in_disc(things: Any, i: Any, x: Any, y: Any, p: Any) -> Any:
     """Whether a point is inside the disc of thing i, in lane p."""
-    dx, dy = things[THING_ROWS * i + X, p] - x, things[THING_ROWS * i + Y, p] - y
-    half = things[THING_ROWS * i + SIZE, p] / 2
+    its_x, its_y = place_of(things, i, p)
+    dx, dy, half = its_x - x, its_y - y, size_of(things, i, p) / 2
     return dx * dx + dy * dy <= half * half

@@ -12,18 +12,17 @@ if TYPE_CHECKING:  # a lane is given these when it is compiled
     from mindrun.numbers.arithmetic import (
         BOX_COLUMNS,
         DISTANCE,
-        HALF_X,
-        HALF_Y,
         LOOSE_ROWS,
-        SIZE,
-        THING_ROWS,
         TURN,
         ZERO,
         F,
         X,
         Y,
+        box_of,
         nearest,
+        place_of,
         sine_cosine,
+        size_of,
     )
 
 
@@ -68,9 +67,8 @@ class Light(Physical):
 def is_shaded(boxes: Any, x: Any, y: Any, half_x: Any, half_y: Any, p: Any) -> Any:
     """Whether a box of lane p meets a straight line, given by its middle and half of its way."""
     for b in range(boxes.shape[1] // BOX_COLUMNS):
-        box = BOX_COLUMNS * b
-        dx, dy = x - boxes[p, box + X], y - boxes[p, box + Y]
-        if meets_rectangle(dx, dy, half_x, half_y, boxes[p, box + HALF_X], boxes[p, box + HALF_Y]):
+        its_x, its_y, wide, high = box_of(boxes, b, p)
+        if meets_rectangle(x - its_x, y - its_y, half_x, half_y, wide, high):
             return True
     return False
 
@@ -81,8 +79,8 @@ def is_shaded_by_loose(t: Any, s: Any, sensor: Any, x: Any, y: Any, half_x: Any,
         thing = t.loose[i].thing
         if (sensor.thing <= thing) & (thing < sensor.thing + sensor.things):
             continue
-        row = THING_ROWS * thing
-        dx, dy, half = x - s.things[row + X, p], y - s.things[row + Y, p], s.things[row + SIZE, p] / 2
+        its_x, its_y = place_of(s.things, thing, p)
+        dx, dy, half = x - its_x, y - its_y, size_of(s.things, thing, p) / 2
         if t.loose[i].is_round:
             is_met = meets_disc(dx, dy, half_x, half_y, half)
         else:

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
-from mindrun.kinds.sensors.sensor import Begin, Bounds, Flaw, Row, Scene, SensorKind
+from mindrun.kinds.sensors.sensor import Flaw, Row, Scene, SensorKind
 from mindrun.numbers.quantity import COUNT, SENSOR
 
 if TYPE_CHECKING:
@@ -28,10 +28,6 @@ class Reading(SensorKind):
             return None
         has = f"{self.of} has {width} reading{'s' * (width != 1)}."
         return Flaw("no-such-reading", "reading", has, f"Write a number from 1 to {width}.")
-
-    def first(self, begin: Begin) -> Bounds:
-        """What its source reads."""
-        return begin.first(self.of)
 
     def reader(self, scene: Scene) -> Reader:
         """That reading."""

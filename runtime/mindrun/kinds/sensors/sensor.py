@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from mindrun.numbers.arrays import Reader
 
 Row = Mapping[str, float]  # columns of the lanes' table of sensors
-TOLD = ("range", "dead_zone", "over")  # arguments that are such columns
+TOLD = ("range", "dead_zone", "over", "period")  # arguments that are such columns
 Shape = tuple[int, ...]  # of readings: () of a single one, (n,) of n side by side
 Bounds = tuple[float, float]  # the least and the greatest
 
@@ -164,9 +164,13 @@ class SensorKind(AboutThing):
         return ()
 
     def row(self, scene: Scene) -> Row:
-        """What its lane function is told beside what each is: those of its arguments that are TOLD, and its source."""
+        """What its lane function is told beside what each is: its source, and its arguments that are TOLD.
+
+        A period is told in ticks.
+        """
         plain = (each.field for each in arguments(type(self)) if each.shape == "one" and each.field in TOLD)
         told = {name: getattr(self, name) for name in plain}
+        told |= {"period": told["period"] / scene.tick} if "period" in told else {}
         return told | ({"source": scene.starts[self.source]} if self.source else {})
 
     @staticmethod
@@ -186,7 +190,9 @@ class SensorKind(AboutThing):
 
     def first(self, begin: Begin) -> Bounds | None:
         """The least and greatest of its readings in the first tick of a run; None where nobody knows."""
-        return None
+        if self.circular is None:  # it reads what its source does
+            return begin.first(self.source)
+        return None if self.still is None else (self.still, self.still)
 
     def reader(self, scene: Scene) -> Reader | None:
         """How the engine computes it, from the number of the tick and the readings now and before; None where measured.

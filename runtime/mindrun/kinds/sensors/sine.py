@@ -6,7 +6,7 @@ from math import floor, isclose, pi
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
-from mindrun.kinds.sensors.sensor import Begin, Bounds, Row, Scene, SensorKind
+from mindrun.kinds.sensors.sensor import Scene, SensorKind
 from mindrun.kinds.things.thing import World
 from mindrun.numbers.quantity import SECONDS
 from mindrun.numbers.trigonometry import sine
@@ -24,16 +24,13 @@ class Sine(SensorKind):
 
     period: Annotated[float, SECONDS]
 
+    still = 0.5
     remedy = "Give it a period of more than two ticks"
 
     def constant(self, world: World) -> float | None:
         """0.5 where every tick meets the wave there: it lasts one tick or two, or goes round in a part of one."""
         halves = 2 * world.tick / self.period
         return 0.5 if halves > 0.5 and isclose(halves, round(halves)) else None
-
-    def first(self, begin: Begin) -> Bounds:
-        """0.5: the wave begins there."""
-        return 0.5, 0.5
 
     def reader(self, scene: Scene) -> Reader:
         """0.5 + 0.5 sin(2πt/period), t in seconds since the first tick."""
@@ -46,10 +43,6 @@ class Sine(SensorKind):
             return np.float32(0.5 + 0.5 * sine(2 * pi * (turned - floor(turned))))
 
         return read
-
-    def row(self, scene: Scene) -> Row:
-        """The period in ticks."""
-        return {"period": self.period / scene.tick}
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:

@@ -4,7 +4,7 @@ from typing import Annotated
 
 from mindrun.kinds.bodies.body import DAMPING, DENSITY
 from mindrun.kinds.registry import kind
-from mindrun.kinds.things.loose import Loose
+from mindrun.kinds.things.thing import Loose
 
 
 @kind("content", "ball")

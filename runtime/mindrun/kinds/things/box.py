@@ -1,7 +1,7 @@
 """A square thing that can be pushed."""
 
 from mindrun.kinds.registry import kind
-from mindrun.kinds.things.loose import Loose
+from mindrun.kinds.things.thing import Loose
 
 
 @kind("content", "box")

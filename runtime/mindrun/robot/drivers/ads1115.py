@@ -6,7 +6,7 @@ from typing import Annotated
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import Quantity
 from mindrun.robot.driver_support import ADDRESS, BUS, answering
-from mindrun.robot.i2c import I2C_BYTE_SECONDS, I2cDevice, on_bus
+from mindrun.robot.i2c import I2C_BYTE_SECONDS, I2cDevice, WiredDevice, on_bus
 
 INPUT = Quantity("an input", {"": 1.0}, low=0, high=3, whole=True)
 RATIO_OF_DIVIDER = Quantity("how many times more than the input gets", {"": 1.0}, low=1.0, high=100.0)
@@ -17,11 +17,10 @@ TOO_MUCH = 0x7FFF
 DONE_IN = 0.05  # seconds; at 128 a second it takes 8 ms
 
 
-@dataclass(frozen=True, slots=True)
-class VoltageDevice:
+@dataclass(slots=True)
+class VoltageDevice(WiredDevice):
     """One input of the converter."""
 
-    wire: I2cDevice
     config: int
     divider: float
 
@@ -36,9 +35,6 @@ class VoltageDevice:
         if count >= TOO_MUCH:
             raise self.wire.error("has more than 4.096 V on its input; the divider is wrong or open")
         return (max(count, 0) * VOLTS_PER_COUNT * self.divider,)
-
-    def close(self) -> None:
-        self.wire.close()
 
 
 @kind("sensor driver", "ads1115")

@@ -10,7 +10,7 @@ from mindrun.driver import DeviceError
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import Quantity
 from mindrun.robot.driver_support import ADDRESS, BUS, SharedParts, answering, share
-from mindrun.robot.i2c import I2C_BYTE_SECONDS, I2cDevice, on_bus
+from mindrun.robot.i2c import I2C_BYTE_SECONDS, I2cDevice, WiredDevice, on_bus
 
 MOTOR = Quantity("a motor of the board", {"": 1.0}, low=1, high=2, whole=True)
 SPEED, FREQUENCY, DIRECTION = 0x82, 0x84, 0xAA
@@ -22,10 +22,9 @@ FULL_SPEED = 255
 
 
 @dataclass(slots=True, eq=False)
-class Board:
+class Board(WiredDevice):
     """Both motors of a board: their speeds travel in one command, their directions in another."""
 
-    wire: I2cDevice
     speeds: list[int] = field(default_factory=lambda: [0, 0])  # signed, −255..255
     sent: int = -1  # the directions
     sent_at: float = 0.0
@@ -53,9 +52,6 @@ class Board:
                 self.sent, self.sent_at = directions, monotonic()
             self.send(SPEED, *(abs(value) for value in wanted))
             self.speeds = wanted
-
-    def close(self) -> None:
-        self.wire.close()
 
     def send(self, *command: int) -> None:
         """Send a command when the board is done with the one before."""

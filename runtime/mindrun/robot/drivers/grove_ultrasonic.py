@@ -7,7 +7,7 @@ from typing import Annotated
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import Quantity
 from mindrun.robot.driver_support import ADDRESS, BUS, METRES, Ranging, answering
-from mindrun.robot.i2c import I2C_BYTE_SECONDS, I2cDevice, on_bus
+from mindrun.robot.i2c import I2C_BYTE_SECONDS, I2cDevice, WiredDevice, on_bus
 
 PORT = Quantity("a digital port of the GrovePi", {"": 1.0}, low=2, high=8, whole=True)
 RANGER_COMMAND, VERSION_COMMAND = 7, 8  # commands
@@ -20,11 +20,10 @@ ANSWERED_IN = 0.15  # seconds; the board itself listens for 75 ms
 MAX_DISTANCE_METRES = 5.2  # metres: where nothing echoes the ranger's pulse ends at about 5 m, and is longer on some
 
 
-@dataclass(frozen=True, slots=True)
-class GroveUltrasonicDevice:
+@dataclass(slots=True)
+class GroveUltrasonicDevice(WiredDevice):
     """The rangers of one board."""
 
-    wire: I2cDevice
     ports: tuple[int, ...]
     reach: float
 
@@ -54,9 +53,6 @@ class GroveUltrasonicDevice:
                 if answer[0] not in (BUSY_BYTE, IDLE_BUS_BYTE):
                     raise self.wire.error(f"answers nonsense ({answer.hex(' ')})")
             raise self.wire.error("does not finish measuring")
-
-    def close(self) -> None:
-        self.wire.close()
 
 
 @kind("sensor driver", "grove_ultrasonic")

@@ -46,7 +46,7 @@ class MotionDevice:
             self.kept.popleft()
 
     def close(self) -> None:
-        self.chip.wire.close()
+        self.chip.close()
 
 
 @kind("sensor driver", "lsm9ds1_motion")

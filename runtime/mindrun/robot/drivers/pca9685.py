@@ -6,7 +6,7 @@ from typing import Annotated
 
 from mindrun.kinds.registry import kind
 from mindrun.robot.driver_support import ADDRESS, BUS, CHANNEL, MICROSECONDS, answering, share
-from mindrun.robot.i2c import I2C_BYTE_SECONDS, I2cDevice, on_bus
+from mindrun.robot.i2c import I2C_BYTE_SECONDS, I2cDevice, WiredDevice, on_bus
 
 MODE1, MODE2, LED0, ALL_OFF_HIGH, PRESCALE = 0x00, 0x01, 0x06, 0xFD, 0xFE  # table 4
 RESTART, AUTO_INCREMENT, SLEEP = 0x80, 0x20, 0x10  # bits of MODE1, table 5
@@ -19,10 +19,9 @@ WAKE_SECONDS = 0.001  # the oscillator is stable after 500 µs
 
 
 @dataclass(slots=True)
-class ServoDevice:
-    """One channel of a servo card."""
+class ServoDevice(WiredDevice):
+    """One channel of a servo card, which repeats its last pulse when it is closed: a claw keeps what it holds."""
 
-    wire: I2cDevice
     channel: int
     shortest: float
     longest: float
@@ -59,10 +58,6 @@ class ServoDevice:
         """Whether it is awake and at our rate."""
         mode = self.wire.byte(MODE1) & ~RESTART
         return mode == AUTO_INCREMENT and self.wire.byte(PRESCALE) == PRESCALE_50_HZ
-
-    def close(self) -> None:
-        """Let go; the card repeats the last pulse, so that a claw keeps what it holds."""
-        self.wire.close()
 
 
 @kind("actuator driver", "pca9685")

@@ -108,7 +108,7 @@ class LightRangeDevice:
 
     def close(self) -> None:
         """Let go; it goes on measuring, for nobody."""
-        self.chip.wire.close()
+        self.chip.close()
 
 
 @kind("sensor driver", "vl53l0x")

@@ -7,9 +7,9 @@ the same world. Everything is placed clear of everything else, with room for the
 import numpy as np
 
 from mindrun.graph.beginning import meets_robot
-from mindrun.numbers.arithmetic import ANGLE, BOX_COLUMNS, HALF_X, HALF_Y, SIZE, THING_ROWS, X, Y
+from mindrun.numbers.arithmetic import ANGLE, BOX_COLUMNS, HALF_X, HALF_Y, THING_ROWS, X, Y
 from mindrun.sim import parameter_rows
-from mindrun.sim.arithmetic import place_of, put_thing, sine_cosine, size_of
+from mindrun.sim.arithmetic import place_of, put_thing, resize_thing, sine_cosine, size_of
 from mindrun.sim.codes import CONSTANT, DRAWN, DRAWN_WHOLE, FAILING, FAR
 from mindrun.sim.compiling import compiled
 from mindrun.sim.lanes.loose import stand
@@ -70,7 +70,7 @@ def appear(tables, world, i, lane):
     """Thing i in the size that it begins with, in its place or somewhere."""
     thing = tables.things[i]
     size = uniform(world.random, lane, thing.first, thing.last) if thing.drawn else thing.first
-    world.things[THING_ROWS * i + SIZE, lane] = size
+    resize_thing(world.things, i, size, lane)
     if thing.is_fixed:
         put_at(tables, world, i, thing.x, thing.y, lane)
     else:
@@ -191,7 +191,7 @@ def succeed(tables, world, i, lane):
         size = max(thing.last, size - thing.by)
     elif thing.first < thing.last:
         size = min(thing.last, size + thing.by)
-    world.things[THING_ROWS * i + SIZE, lane] = size
+    resize_thing(world.things, i, size, lane)
     forget(world, i, lane)
     put(tables, world, i, lane)
 

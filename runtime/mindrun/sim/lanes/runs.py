@@ -64,55 +64,31 @@ def begin_job(tables, state, jobs, lane):
 @compiled
 def reset(tables, state, lane):
     """Everything of a lane that is not its world, its genome or its generator, as at the beginning of a run."""
-    reset_world(tables, state.world, lane)
-    reset_mind(tables, state.mind, lane)
-    reset_judge(tables, state.world, state.judge, lane)
-    state.sight.anchor[:, lane] = np.nan
-    state.contact.near[lane], state.contact.touching[lane] = 0, 0
-    state.run.ended[lane], state.run.met[lane], state.run.faults[lane] = GOING_ON, GOING_ON, 0
-
-
-@compiled
-def reset_world(tables, world, lane):
-    """What is not drawn."""
-    world.held[lane], world.tick[lane] = -1, 0
-    world.battery[lane] = tables.world[0].start
+    world, mind, judge, run = state.world, state.mind, state.judge, state.run
+    world.held[lane], world.tick[lane], world.battery[lane] = -1, 0, tables.world[0].start
     world.heading[SINE, lane], world.heading[COSINE, lane] = sine_cosine(world.body[ANGLE, lane])
     world.reached[:, lane], world.delivered[:, lane] = 0, 0
     for i in range(len(tables.walkers)):
         world.goal[i, lane] = tables.walkers[i].begins
-    for i in range(TRAIL_TICKS):
-        place = PLACE_ROWS * i
+    for place in range(0, PLACE_ROWS * TRAIL_TICKS, PLACE_ROWS):
         world.trail[place + X, lane], world.trail[place + Y, lane] = world.body[X, lane], world.body[Y, lane]
-
-
-@compiled
-def reset_mind(tables, mind, lane):
-    """Nothing remembered, and neutral commands on their way."""
     mind.recurrent[:, lane] = 0.0
     for i in range(len(tables.actuators)):
         actuator = tables.actuators[i]
+        judge.last_commands[i, lane] = actuator.neutral
         for k in range(actuator.delay):
             mind.late[actuator.ring + k, lane] = actuator.neutral
     for i in range(len(tables.memories)):
         mind.readings[tables.memories[i].row, lane] = tables.memories[i].start
-
-
-@compiled
-def reset_judge(tables, world, judge, lane):
-    """Nothing paid, counted or visited, but for the patch that the robot starts in."""
-    judge.lines[:, lane] = 0.0
-    judge.counts[:, lane] = 0
-    judge.left_changes[:, lane], judge.right_changes[:, lane] = 0.0, 0.0
-    for i in range(len(tables.actuators)):
-        judge.last_commands[i, lane] = tables.actuators[i].neutral
-    judge.visited[lane] = 0
-    judge.arrived[:, lane] = 0
+    judge.lines[:, lane], judge.left_changes[:, lane], judge.right_changes[:, lane] = 0.0, 0.0, 0.0
+    judge.counts[:, lane], judge.visited[lane], judge.arrived[:, lane] = 0, 0, 0
     for i in range(len(tables.events)):
-        event = tables.events[i]
-        if event.kind == VISIT:
-            patch = patch_of(world.body, tables.world[0], event, lane)
-            judge.visited[lane, event.board + patch] = 1
+        if tables.events[i].kind == VISIT:  # the patch that the robot starts in
+            patch = patch_of(world.body, tables.world[0], tables.events[i], lane)
+            judge.visited[lane, tables.events[i].board + patch] = 1
+    state.sight.anchor[:, lane] = np.nan
+    state.contact.near[lane], state.contact.touching[lane] = 0, 0
+    run.ended[lane], run.met[lane], run.faults[lane] = GOING_ON, GOING_ON, 0
 
 
 @compiled

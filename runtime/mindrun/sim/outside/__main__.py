@@ -9,8 +9,8 @@ import sys
 from contextlib import suppress
 from ctypes import CDLL
 from dataclasses import replace
+from functools import cache, partial
 from mmap import mmap
-from pathlib import Path
 from signal import SIGKILL
 from socket import socket
 from typing import Any
@@ -28,8 +28,8 @@ class Server:
     """Steps environments as it is asked; `reached` is where it writes which one of a question is asked."""
 
     def __init__(self, reached: mmap) -> None:
-        self._reached = reached
-        self._steppers: dict[tuple[str, Path | None], LocalStepper] = {}
+        reach = partial(REACHED.pack_into, reached, 0)
+        self._stepper = cache(lambda name, folder: LocalStepper(name, folder, reach))
         self._runs: dict[int, Run] = {}
 
     def answer(self, question: tuple[Any, ...]) -> tuple[bool, Any]:
@@ -61,14 +61,6 @@ class Server:
             case name, folder, "close", numbers:
                 return self._stepper(name, folder).close([self._runs.pop(number) for number in numbers])
         raise MindError(f"nobody knows what {question!r:.100} is")
-
-    def _stepper(self, name: str, folder: Path | None) -> LocalStepper:
-        if (name, folder) not in self._steppers:
-            self._steppers[name, folder] = LocalStepper(name, folder, self._reach)
-        return self._steppers[name, folder]
-
-    def _reach(self, number: int) -> None:
-        REACHED.pack_into(self._reached, 0, number)
 
 
 def main() -> None:
