@@ -133,7 +133,7 @@ ROOMS = {
     "train": Room(
         tuple(
             f"{R}train/{name}.py"
-            for name in ("genetic", "lesson", "rungs", "scoring", "seeds", "training", "checkpoint", "progress")
+            for name in ("ask_and_tell", "attempts", "lesson_state", "scoring", "training", "checkpoint", "progress")
         ),
         (
             "tests/train/test_genetic.py",
@@ -153,7 +153,7 @@ ROOMS = {
         ),
     ),
     "bundle": Room(
-        tuple(f"{R}graph/{name}.py" for name in ("bundle", "codec", "encoding", "policy", "validate", "weights")),
+        tuple(f"{R}graph/{name}.py" for name in ("bundle", "codec", "policy", "validate", "weights")),
         tuple(
             f"tests/engine/test_{name}.py"
             for name in ("sound", "npy", "older", "resealed_bundle", "weights", "bundle", "encoding", "influence")
