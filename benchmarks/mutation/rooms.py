@@ -242,7 +242,7 @@ ROOMS = {
                 f"{R}{name}.py"
                 for name in (
                     "graph/measured",
-                    "graph/one_world",
+                    "graph/tasks",
                     "numbers/given_numbers",
                     "errors",
                     "numbers/short_repr",
