@@ -69,7 +69,7 @@ def _of_folder(folder: str, suffixes: tuple[str, ...]) -> list[str]:
 
 
 def is_folder(word: str) -> bool:
-    """Whether a word of a command line names a folder; not where one may not look: why is said where it is read."""
+    """True if a word of a command line names a folder; False without permission, which the reader reports."""
     return os.path.isdir(word)  # noqa: PTH112 (pathlib raises)
 
 

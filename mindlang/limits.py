@@ -74,7 +74,7 @@ def refuse_too_many(task: Task, runs: int) -> None:
 
 
 def bytes_for(task: Task) -> int:
-    """What the results of one run take while many are gathered."""
+    """The bytes of one run's results while many are gathered."""
     return RUN_BYTES + ENTRY_BYTES * (len(task.rewards) + len(task.events))
 
 
@@ -96,7 +96,7 @@ def refuse_too_long(rollout: Rollout, runs: int) -> None:
 
 
 def bytes_of(rollout: Rollout, genomes: int, layouts: int) -> int:
-    """What a rollout takes: its lanes, and the genomes with their parents and copies of both."""
+    """The bytes of a rollout: its lanes, and the genomes with their parents and copies of both."""
     lanes = min(genomes * layouts, rollout.workers * rollout.lanes)
     rays, things = len(rollout.tables.ray_row), len(rollout.tables.things)
     each = LANE_BYTES + 4 * rays + 48 * things + sum(_parts(rollout.sizes).values())
@@ -104,7 +104,7 @@ def bytes_of(rollout: Rollout, genomes: int, layouts: int) -> int:
 
 
 def _parts(sizes: Sizes) -> dict[str, int]:
-    """What takes the memory of a lane, in bytes."""
+    """The bytes of a lane by what they are for."""
     return {
         "the weights": 4 * sizes.genome,
         "the neurons of its widest layer": 4 * sizes.scratch,

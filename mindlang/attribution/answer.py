@@ -1,4 +1,4 @@
-"""What is asked about, a run of the simulator or a recording, and answers as plain data: the contents of `--json`."""
+"""Runs and recordings that attribution is asked about, and its answers as plain data: the contents of `--json`."""
 
 from dataclasses import asdict, dataclass
 from math import isfinite, nan
@@ -29,7 +29,7 @@ MAX_EDGE_TICKS = 10_000_000  # edges times ticks of one answer
 
 @dataclass(frozen=True, slots=True)
 class Course:
-    """What flowed; `acted` [ticks, actuators] are the commands that reached the actuators, after delay or guardian.
+    """A run or a recording with its flows; `acted` [ticks, actuators] are the commands after delay or guardian.
 
     `stopped` [ticks] says when a robot was. `about` says whose course it is, `run` has the rewards where there are any.
     """
@@ -48,7 +48,7 @@ class Course:
 
 @dataclass(frozen=True, slots=True)
 class Thoughts:
-    """What a robot has read and thought, computed again."""
+    """Readings of a recording, computed again, and its influence [ticks, numbers]."""
 
     readings: Singles
     influence: Singles
@@ -157,7 +157,7 @@ def _shares(course: Course, target: Sink, rows: range, paths: int) -> dict[str, 
 
 
 def _reads(course: Course, of: Contribution, rows: range) -> dict[str, list[float | None]]:
-    """What the skill that sent it read, by sensor or memory; the mean over the ticks, None where that is no number."""
+    """Readings of the skill that sent it, by sensor or memory: means over the ticks, None where that is no number."""
     graph = course.flows.graph
     name = of.path[-2] if len(of.path) > 1 else of.path[0]  # before what was asked about, unless that is the master
     inputs = next(skill.inputs for skill in graph.skills if skill.name == name)
@@ -179,7 +179,7 @@ def mean_direction(turns: NDArray[np.float64]) -> float:
 
 
 def _acted(course: Course, actuator: int, rows: range) -> dict[str, Any]:
-    """What reached the actuator in the mean, and in how many ticks that was something else than what the mind said."""
+    """The mean command that reached the actuator, its delay, and in how many ticks the robot was stopped."""
     acted = course.acted[rows.start : rows.stop, actuator]
     return {
         "acted": float(acted.astype(float).mean()),
@@ -189,7 +189,7 @@ def _acted(course: Course, actuator: int, rows: range) -> dict[str, Any]:
 
 
 def _rewards(run: RecordedRun, first: int, last: int) -> dict[str, Any]:
-    """What each line has paid in these ticks; lines of one text are one, as in the outcome of a run."""
+    """The rewards that each line has paid in these ticks; lines of one text are one, as in the outcome of a run."""
     paid = run.lines[last - 1] - (run.lines[first - 2] if first > 1 else 0.0)
     happened = run.events[last - 1] - (run.events[first - 2] if first > 1 else 0)
     return {

@@ -39,7 +39,7 @@ class ReplacedInfluenceError(MindError):
 
 @dataclass(frozen=True, slots=True)
 class Contribution:
-    """What one path has contributed, in the mean over the ticks.
+    """The contribution of one path, in the mean over the ticks.
 
     `path` are names, from the master to what is asked about; `value` (0..1) is what its last skill sent, `influence`
     what came along it to that skill, `part` (0..1) its part of all influence, `share` its part of the command.

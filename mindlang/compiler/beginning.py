@@ -1,4 +1,4 @@
-"""What is where when a run begins, as far as a task says: what is in one place, and what is reached by nothing.
+"""The world of a task when a run begins: the things that overlap, and those that the robot has reached already.
 
 One rule for each two of all that has a place: **bodies** (the robot, items, boxes, balls, walkers) take up room, what
 is **fixed** (obstacles, walls, maps) does, too, and what lies on the **floor** (zones, powers) takes up none. Two
@@ -47,7 +47,7 @@ def disc(place: Place, radius: float) -> Outline:
 
 
 def rectangle(of: Rectangle) -> Outline:
-    """What a rectangle along the axes covers."""
+    """The corners of a rectangle along the axes."""
     left, right, low, high = of.x - of.half_x, of.x + of.half_x, of.y - of.half_y, of.y + of.half_y
     return Outline(((left, low), (right, low), (right, high), (left, high)))
 
@@ -59,7 +59,7 @@ def turned(place: Place, angle: float, corners: Sequence[Place]) -> Outline:
 
 
 def meet(one: Outline, other: Outline) -> bool:
-    """Whether two are in one another: along no line can they be told apart."""
+    """True if two convex outlines overlap: no axis separates them (separating axis theorem)."""
     ends, others = one.ends, other.ends
     if not all(_cover((ends[i], ends[i + 2]), (others[i], others[i + 2])) for i in (0, 1)):
         return False
@@ -83,7 +83,7 @@ def _direction(x: float, y: float) -> Iterator[Place]:
 
 
 def _cover(one: Place, other: Place) -> bool:
-    """Whether two stretches of a line, from low to high, have more in common than an end; a point is a stretch, too."""
+    """True if two intervals (low, high) overlap in more than an end; an interval may be a point."""
     return one[0] < other[1] - TOUCHING_UNITS and other[0] < one[1] - TOUCHING_UNITS
 
 
@@ -93,7 +93,7 @@ def _span(of: Outline, axis: Place) -> tuple[float, float]:
 
 
 def role(kind: ThingKind) -> Role:
-    """What a kind of thing is to all others."""
+    """The role of a kind of thing in the rule of the module."""
     return "fixed" if kind.is_obstacle else "floor" if kind.is_area else "body"
 
 
@@ -130,7 +130,7 @@ class Beginning:
 
     @property
     def robot(self) -> Outline | None:
-        """What the robot covers where it starts; None where that is drawn."""
+        """The outline of the robot where it starts; None where that place is drawn at random."""
         if self.at is None:
             return None
         if self.body is None:
@@ -141,7 +141,7 @@ class Beginning:
 
     @property
     def is_inside(self) -> bool:
-        """Whether the robot is within the walls of its scene: in the middle at least, where its place is drawn."""
+        """True if the robot starts within the walls of its scene; one whose place is drawn is tried in the middle."""
         robot = self.robot or replace(self, at=PLAIN_START).robot
         if self.scene is None or robot is None:
             return True
@@ -202,7 +202,7 @@ class Beginning:
         return max(abs(middle[0] - place[0]), abs(middle[1] - place[1])) <= self.half(area)
 
     def _is_reached(self, kind: ThingKind, place: Place) -> bool:
-        """Whether the robot is inside of what lies on the floor, or has anything else in its claw's reach."""
+        """True if the robot is inside an area on the floor, or has another kind of thing in its claw's reach."""
         if self.at is None or self.body is None:
             return False
         if kind.is_area:
@@ -225,7 +225,7 @@ def beginning(
 
 
 def hint_apart(event: EventKind) -> str:
-    """What to do about an event that comes in the first tick."""
+    """The hint for an event that comes in the first tick."""
     if event.is_of_battery:
         return "Let the battery start above 0."
     if event.outcome == "delivered":

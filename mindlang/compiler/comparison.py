@@ -39,7 +39,7 @@ class _Line:
 
 
 def differences(old: Mind, new: Mind) -> list[Difference]:
-    """What changes from one mind to another, noun by noun.
+    """The declarations that differ between two minds, noun by noun.
 
     Nothing for comments, spaces, other spellings and the order of lines, but for the lessons of a curriculum.
     """
@@ -143,7 +143,7 @@ def _lines(declaration: syntax.Declaration, of: Any, mind: Mind) -> list[_Line]:
 
 
 def _parts(header: syntax.Header, of: Any) -> tuple[Any, dict[str, Sequence[Any]]]:
-    """What a header has become, and what the facts of each verb or two have, in their order."""
+    """The resolved header of a declaration, and the values that its facts have become, by verb and in their order."""
     match of:
         case Skill(like=like) if like:
             reads = syntax.of_form(of.declaration.facts, syntax.Reads)

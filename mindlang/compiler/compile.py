@@ -34,7 +34,7 @@ MAX_USE_DEPTH = 64
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Compiled(ShortRepr):
-    """What became of a file. `graph` and `mind` are None where its text has errors.
+    """A compiled file with its diagnostics. `graph` and `mind` are None where its text has errors.
 
     What is wrong with the module of a procedure is an error, too, but leaves them: it stands in another file.
     """
@@ -46,12 +46,12 @@ class Compiled(ShortRepr):
 
     @property
     def is_valid(self) -> bool:
-        """Whether nothing is wrong; warnings are nothing."""
+        """True if there are no errors; warnings may be there."""
         return self.graph is not None and all(each.severity != "error" for each in self.diagnostics)
 
     @property
     def readable(self) -> bool:
-        """Whether the main file could be read at all."""
+        """True if the main file could be read."""
         return bool(self.sources)
 
 
@@ -103,7 +103,7 @@ def compile_source(source: Source, path: Path = Path("-"), texts: Mapping[Path, 
 
 
 def _procedure_mistakes(graph: Graph, mind: Mind, folder: Path) -> Iterator[Diagnostic]:
-    """What is wrong with the modules of procedures."""
+    """The mistakes in the modules of procedures."""
     if any(skill.function.calls is not None for skill in graph.skills):  # else nothing of Python's has to be imported
         from mindlang.compiler.procedures import mistakes
 

@@ -44,7 +44,7 @@ def numbers(names: Names, findings: Findings) -> dict[str, Amount]:
 
 
 def in_place(amount: Amount, numbers: Mapping[str, Amount]) -> Amount:
-    """What an amount stands for, with its own sign and place; itself where it is no name of a number that has one."""
+    """The amount with its named number filled in, keeping its sign and span; itself where it names no known number."""
     value = numbers.get(amount.name)
     if value is None:
         return amount
@@ -84,7 +84,7 @@ def expand(names: Names, values: Mapping[str, Amount], tick_seconds: float, find
 
 
 def writer(names: Names, values: Mapping[str, Amount], tick_seconds: float) -> Callable[[Any], Any]:
-    """What writes the numbers into a line, in the place of their names, and how long a tick is into its rates."""
+    """A function that replaces names of numbers in a line by their values, and gives its rates the length of a tick."""
     words = frozenset(name.rpartition(".")[2] for name in values)  # all that stands of a name in a file with an alias
 
     def written(line: Any) -> Any:
@@ -151,7 +151,7 @@ def _with_more(first: Sequence[Fact], more: Sequence[Fact]) -> tuple[Fact, ...]:
 
 
 def _subject(fact: Fact) -> Hashable:
-    """What a fact is about; of two lines about the same, the later one counts."""
+    """The key of a fact's subject; of two facts with one subject the later one counts."""
     match fact:
         case syntax.Contains(name) | syntax.Fails(name):
             about: tuple[Hashable, ...] = (name.text,)
@@ -178,5 +178,5 @@ def _read(amount: Expression) -> Iterator[str]:
 
 
 def _text(node: Phrase | syntax.When | None) -> str:
-    """What is written, however it is spaced."""
+    """The source text with single spaces; empty for None."""
     return " ".join(node.span.text.split()) if node else ""

@@ -44,7 +44,7 @@ class _Line:
 
     @property
     def opens(self) -> bool:
-        """Whether facts may stand below it."""
+        """True if facts may stand below it."""
         return self.first in FACT_OWNERS
 
     def __str__(self) -> str:
@@ -141,7 +141,7 @@ def _words(code: str, line: Any, start: Start) -> Iterator[tuple[int, int, str]]
 
 
 def _is_signed(node: Any) -> bool:
-    """Whether it begins with a sign, which belongs to what follows it."""
+    """True if a node begins with a sign, which belongs to the number or name behind it."""
     match node:
         case syntax.Amount(_, _, span):
             return span.text[0] in "+-"

@@ -1,4 +1,4 @@
-"""What is asked of the graphs of a mind: topological order, what is reached, and circles, each with its path."""
+"""Algorithms on the graphs of a mind: topological order, reachable nodes, and cycles, each with its path."""
 
 from collections.abc import Iterable
 from itertools import chain, islice, pairwise

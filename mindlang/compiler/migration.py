@@ -20,7 +20,7 @@ def migrated(source: Source, findings: Findings) -> str:
 
 
 def _splices(source: Source, declaration: Declaration) -> Iterator[Splice]:
-    """What the things of a task have to say."""
+    """The arguments `reached` and `delivered` that the things of a task still lack."""
     named = {_named(event) for event in _events(declaration)}
     things = of_form(declaration.facts, Contains)
     has_zone = any(fact.phrase.kind.text == "zone" for fact in things)

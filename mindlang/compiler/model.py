@@ -131,7 +131,7 @@ class Gate(Struct, frozen=True):
 
 
 class Edge(Struct, frozen=True):
-    """What a skill sends: an output of its function, or the value of `at`; an influence below `cuts` is none."""
+    """An edge of a skill: it sends an output of its function, or the value of `at`; an influence below `cuts` is 0."""
 
     to: Receiver
     target: str
@@ -142,7 +142,7 @@ class Edge(Struct, frozen=True):
 
     @property
     def values(self) -> tuple[Expression, ...]:
-        """What it says that it sends: after `at`, and after `otherwise`."""
+        """The expressions that its line sends: after `at`, and after `otherwise`."""
         otherwise = self.gate.otherwise if self.gate else None
         return tuple(value for value in (self.at, otherwise) if value)
 
@@ -199,7 +199,7 @@ class Reward(Struct, frozen=True):
 
 
 class End(Struct, frozen=True):
-    """What ends a run, as a success or not: an event the `times`th time that it happens, or a condition."""
+    """An end of a run, as a success or not: the `times`th occurrence of an event, or a condition."""
 
     event: EventKind | None
     times: int

@@ -65,7 +65,7 @@ def introductions(files: Collection[File]) -> Iterator[Mention]:
 
 @dataclass(frozen=True, slots=True)
 class _Reader:
-    """What a name means depends on which names there are: a memory is read like a sensor, a sensor hides a measure."""
+    """Resolves the names in a line by what is declared: a memory is read like a sensor, a sensor hides a measure."""
 
     names: Names
     by: Declaration | None

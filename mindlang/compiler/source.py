@@ -75,7 +75,7 @@ def _line_starts(source: Source) -> list[int]:
 
 
 def comment_of(span: Span) -> str:
-    """What the comments of a line say, those right above it and the one behind, as one paragraph."""
+    """The comments of a line, those right above it and the one behind, as one paragraph."""
     text = span.source.text
     end = text.find("\n", span.end)
     behind = text[span.end : end if end >= 0 else len(text)].strip()

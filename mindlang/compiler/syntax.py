@@ -171,7 +171,7 @@ class Reads(Struct, frozen=True):
 
 
 class Sends(Struct, frozen=True):
-    """What a skill sends, and when."""
+    """`sends`: a value to an edge, and when."""
 
     name: Name
     at: Expression | None
@@ -243,7 +243,7 @@ class Lasts(Struct, frozen=True):
 
 
 class Outcome(Struct, frozen=True):
-    """What something is for: `on [TIMES] EVENT` or `when CONDITION`"""
+    """The cause of an end: `on [TIMES] EVENT` or `when CONDITION`"""
 
     times: Amount | None
     event: Phrase | None
@@ -334,7 +334,7 @@ class Header(Struct, frozen=True):
 
     @property
     def is_read(self) -> bool:
-        """Whether what it declares could be read."""
+        """True if the part behind its name could be read."""
         return bool(self.phrase or self.like or self.inside)
 
 

@@ -69,12 +69,12 @@ class Episodes:
         self._scores[lanes] = 0.0
 
     def sense(self) -> Floats:
-        """What every agent sees [lanes, readings]; once in each tick."""
+        """The observations of all agents [lanes, readings]; to be called once in each tick."""
         self.lanes.sense()
         return self._seen(self.lanes.state, self.lanes.count)
 
     def last_seen(self, lanes: Mask) -> Floats:
-        """What the agents of the marked lanes see, where another run is about to begin; `sense` is not disturbed."""
+        """The last observations in the marked lanes, before another run begins there; `sense` is not disturbed."""
         return self._seen(self.lanes.sensed_aside(lanes), int(lanes.sum()))
 
     def step(self, actions: ArrayLike) -> tuple[NDArray[np.float64], Mask, Mask]:
@@ -93,7 +93,7 @@ class Episodes:
         return rewards, terminated, self.lanes.timed_out & ~terminated
 
     def outcome(self, lane: int) -> dict[str, Any]:
-        """What is said of a run that has ended: as numbers what `mindc run` says; a `count` where one is kept."""
+        """The outcome of a run that has ended: layout, score, the end that came, and a `count` where one is kept."""
         task, lanes = self.setup.task, self.lanes
         return {
             "layout": int(self.seeds[lane]),
@@ -196,7 +196,7 @@ def unit_box(length: int) -> Box:
 
 
 def image_of(episodes: Episodes, lane: int) -> Image:
-    """What the robot of a lane is in, [height, width, 3] as red, green, blue."""
+    """An image of the world around the robot of a lane, [height, width, 3] as red, green, blue."""
     run = _as_run(episodes, lane)
     half = half_window(run)
     size = [max(1, round(IMAGE_PIXELS * side / max(half))) for side in half]

@@ -112,12 +112,12 @@ class TaskVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]], EzPickle):
         return tuple(image_of(self._episodes, lane) for lane in range(self.num_envs))
 
     def _tell_last(self, ended: Mask, infos: dict[str, Any]) -> None:
-        """What the agents saw last, and what came of their episodes."""
+        """Add the last observations and the outcomes of the episodes that have ended to `infos`."""
         for lane, seen in zip(np.flatnonzero(ended).tolist(), self._episodes.last_seen(ended), strict=True):
             self._add_info(infos, {"final_obs": seen, "final_info": self._outcome(lane)}, lane)
 
     def _outcome(self, lane: int) -> dict[str, Any]:
-        """What came of a robot's episode, and its layout, which may be larger than what numpy makes of an int."""
+        """The outcome of a lane's episode, with its layout as an int, which may be too large for numpy's."""
         return self._episodes.outcome(lane) | {"layout": self._episodes.seeds[lane]}
 
     def _begun(self, lanes: Mask, infos: dict[str, Any]) -> dict[str, Any]:

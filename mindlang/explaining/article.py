@@ -1,4 +1,4 @@
-"""What there is to say of a kind, a driver, a code, a word of the language or a command: one value for all who ask.
+"""The explanation of a kind, a driver, a code, a word of the language or a command, as one value.
 
 The texts beside this file have what no program says of itself: chapters, and a section a name.
 """
@@ -16,9 +16,9 @@ _MARK = re.compile(rf"^- ({'|'.join(map(re.escape, SCALE_MARKS))}): (.+)\n", re.
 
 @dataclass(frozen=True, slots=True)
 class Parameter:
-    """What can be said to a kind, a driver or a command: what it takes, what for, and what holds where it is not said.
+    """An argument or option of a kind, a driver or a command: what it takes, what for, and its default.
 
-    The default is None where it has to be said, and empty where there is nothing to say about it.
+The default is None for a required one, and empty where there is nothing to say about it.
     """
 
     key: str
@@ -28,12 +28,12 @@ class Parameter:
 
     @property
     def words(self) -> str:
-        """What it is for and what it takes."""
+        """Its purpose and meaning."""
         return ": ".join(filter(None, (self.purpose, self.meaning)))
 
     @property
     def otherwise(self) -> str:
-        """What holds where it is not said, or that it must be, in parentheses."""
+        """Its default, or that it is required, in parentheses."""
         if self.default is None:
             return " (required)"
         return f" (default: {self.default})" if self.default else ""
@@ -55,7 +55,7 @@ class Wire:
 
 @dataclass(frozen=True, slots=True)
 class Wiring:
-    """What is connected to the terminals of a device, with the pins of an example."""
+    """The wires at the terminals of a device, with the pins of an example."""
 
     device: str
     wires: tuple[Wire, ...]

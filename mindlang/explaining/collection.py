@@ -22,7 +22,7 @@ NAMED_OWNERS = 4  # of an argument, so many of whose kinds are named
 
 @cache
 def articles() -> tuple[Article, ...]:
-    """What stands in the language and in a robot.yaml, then the codes."""
+    """The articles on words, kinds and drivers, then those on codes."""
     return (*word_articles().values(), *kind_articles(), *driver_articles(), *codes().values())
 
 
@@ -34,7 +34,7 @@ def found(asked: str, among: Sequence[Article]) -> list[Article]:
 
 
 def hint(asked: str, among: Iterable[Article]) -> str:
-    """What to do where there is no such name."""
+    """The hint for a name without an article."""
     known = list(among)
     owners = [each for each in known if any(parameter.key == asked for parameter in each.parameters)]
     if owners:

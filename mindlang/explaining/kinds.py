@@ -59,7 +59,7 @@ def _more() -> Mapping[tuple[str, str], Section]:
 
 
 def _purpose(noun: str, name: str, key: str) -> str:
-    """What an argument is for, as `arguments.md` says it of the kind, else of its noun, else of every kind."""
+    """The purpose of an argument in `arguments.md`: of the kind, else of its noun, else of every kind."""
     chapters = (f"{noun} {name}", noun, "every kind")
     return next((_purposes()[chapter, key] for chapter in chapters if (chapter, key) in _purposes()), "")
 

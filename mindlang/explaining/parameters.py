@@ -1,4 +1,4 @@
-"""What an argument of a kind, or an option of a driver, takes, and what it is where nobody says it, in words."""
+"""Arguments of kinds and options of drivers in words: what each takes, and its default."""
 
 from typing import Any
 
@@ -32,7 +32,7 @@ def parameter(asked: Asked, purpose: str = "") -> Parameter:
 
 
 def meaning(asked: Asked) -> str:
-    """What it takes."""
+    """The values that an argument takes, in words."""
     shape = SHAPES.get(asked.shape, "{}")
     match asked.type:
         case Reference(noun, words) if words:

@@ -94,7 +94,7 @@ def _around(lows: list[float], highs: list[float]) -> Interval:
 
 
 def is_constant(of: Expression) -> bool:
-    """Whether an expression is made of numbers alone."""
+    """True if an expression is made of numbers alone."""
     return all(isinstance(term, Number | Operator) for term in of.terms)
 
 
@@ -129,7 +129,7 @@ def _why_never(all_: Sequence[Comparison], value: Range) -> str | None:
 
 
 def _can_be(each: Comparison, compare: str, value: Range) -> bool:
-    """Whether both sides of a comparison can be to each other as `compare` says."""
+    """True if the sides of a comparison can be so that `left compare right` holds."""
     left, right = value(each.left), value(each.right)
     match compare:
         case "<":
@@ -165,7 +165,7 @@ class _Bound:
 
 
 def _bounds(all_: Sequence[Comparison], value: Range) -> Iterator[_Bound]:
-    """What comparisons with a number say of their other side."""
+    """The bounds that comparisons with a number set to their other side."""
     for each in all_:
         if is_constant(each.right):
             yield _Bound(" ".join(each.left.span.text.split()), each.compare, value(each.right)[0])
@@ -174,7 +174,7 @@ def _bounds(all_: Sequence[Comparison], value: Range) -> Iterator[_Bound]:
 
 
 def _contradiction(all_: Sequence[Comparison], value: Range) -> str | None:
-    """What would have to be below a number and above a greater one."""
+    """In words, which reading the comparisons want below a number and above a greater one; None if there is none."""
     bounds = [*_bounds(all_, value)]
     for subject in dict.fromkeys(bound.subject for bound in bounds):
         own = [bound for bound in bounds if bound.subject == subject]

@@ -1,4 +1,4 @@
-"""What is wrong with a file: the compiler's errors or, where there are none, what the rules find; mended on demand."""
+"""Checks a file: the compiler's errors or, where there are none, the findings of the rules; mends them on demand."""
 
 import re
 from bisect import bisect_right, insort
@@ -61,7 +61,7 @@ def _diagnostic(rule: Rule, of: Finding) -> Diagnostic:
 
 
 def _is_silenced(diagnostic: Diagnostic) -> bool:
-    """Whether `# noqa` or `# noqa: CODE` stands on the line."""
+    """True if `# noqa` or `# noqa: CODE` stands on the line."""
     assert diagnostic.span
     found = _NOQA.search(diagnostic.span.source.line(diagnostic.span.line))
     return found is not None and diagnostic.code in (found["codes"] or diagnostic.code).replace(",", " ").split()
@@ -69,7 +69,7 @@ def _is_silenced(diagnostic: Diagnostic) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class Linted:
-    """What is found in a file, after so many fixes; one that cannot be read says so in its diagnostics."""
+    """The diagnostics of a file after `fixed` fixes; they say so if it cannot be read."""
 
     diagnostics: tuple[Diagnostic, ...]
     readable: bool
@@ -125,6 +125,6 @@ def fixed(source: Source, look: Callable[[Source], Iterable[Diagnostic]]) -> tup
 
 
 def _touches(splice: Splice, chosen: list[Splice]) -> bool:
-    """Whether a splice meets one of those that are chosen, which are in order and clear of one another."""
+    """True if a splice touches one of those that are chosen, which are in order and do not touch one another."""
     place = bisect_right(chosen, splice.end, key=attrgetter("start"))
     return place > 0 and chosen[place - 1].end >= splice.start

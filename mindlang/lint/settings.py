@@ -47,7 +47,7 @@ class LintSettings:
         return [code for code in (select or self.select or all_rules()) if code not in left_out]
 
     def _ignored_in(self, path: Path) -> Iterator[str]:
-        """What is not held in a file; a pattern fits its path from the folder of the settings, or its name alone."""
+        """The codes ignored in a file; a pattern fits its path from the folder of the settings, or its name alone."""
         name = path.relative_to(self.folder).as_posix() if path.is_relative_to(self.folder) else path.name
         for pattern, codes in self.per_file.items():
             if fnmatchcase(name, pattern) or fnmatchcase(path.name, pattern):
@@ -88,7 +88,7 @@ class _Reading:
     wrong: list[Diagnostic] = field(default_factory=list)
 
     def settings(self) -> LintSettings:
-        """What it says."""
+        """The settings that the file has, and the diagnostics of what is wrong in it."""
         try:
             said = tomllib.loads(self.source.text)
         except (tomllib.TOMLDecodeError, RecursionError) as error:

@@ -1,4 +1,4 @@
-"""What a lint rule looks at, and what it finds."""
+"""`Study`: a mind as the lint rules see it; `Finding`: what a rule returns."""
 
 import re
 from collections.abc import Callable, Hashable, Iterable, Iterator
@@ -40,19 +40,19 @@ class AnalysedWorld:
     fleeting: frozenset[str] = frozenset()  # items that are gone as soon as they are reached
 
     def constant(self, name: str) -> float | None:
-        """What a sensor always reads in this world; None where that varies, or nobody knows."""
+        """The reading of a sensor that reads the same in every tick of this world; None where it may vary."""
         kind = self.study.sensors.get(name)
         if kind is None or (isinstance(kind, Physical) and kind.noise):
             return None
         return kind.constant(self)
 
     def is_constant(self, reading: str) -> bool:
-        """Whether what a reading comes from in the end always reads the same."""
+        """True if all sensors that a reading is computed from are constant in this world."""
         return all(self.constant(root) is not None for root in self.study.roots.get(reading, {reading}))
 
     @property
     def can_hold(self) -> bool:
-        """Whether a claw may ever close."""
+        """True if a claw may ever close."""
         return self.study.can_hold
 
     @property
@@ -86,7 +86,7 @@ class AnalysedWorld:
 
     @property
     def drains(self) -> bool:
-        """Whether the battery can become empty."""
+        """True if the battery can become empty."""
         batteries = [kind.battery for kind in self.study.sensors.values() if kind.battery]
         return not all(battery.start and not battery.drain for battery in batteries)
 
@@ -117,7 +117,7 @@ class Study:
 
     @cached_property
     def edges(self) -> tuple[tuple[Skill, Edge], ...]:
-        """What skills send, those left out that are like others."""
+        """The edges of all skills but those that are like others."""
         return tuple((skill, edge) for skill in self.mind.skills if not skill.like for edge in skill.edges)
 
     @cached_property
@@ -152,14 +152,14 @@ class Study:
 
     @cached_property
     def can_hold(self) -> bool:
-        """Whether a claw may ever close: a skill that a master reaches drives it, or it is closed where none does."""
+        """True if a claw may ever close: a skill that a master reaches drives it, or it closes where none does."""
         driven = {edge.target for name in self.active for edge in self.skills[name].edges if edge.to == "actuator"}
         claws = (part for part in self.mind.actuators if part.kind.can_hold)
         return any(claw.name in driven or claw.kind.acts_at_rest for claw in claws)
 
     @cached_property
     def roots(self) -> dict[str, frozenset[str]]:
-        """What each sensor comes from in the end: itself, or what stands at the end of all that it is computed from."""
+        """The physical sensors that each sensor is computed from; of one that is not computed, itself."""
         graph, found = source_graph(self.mind.sensors), dict[str, frozenset[str]]()
         for name in ends_first(graph):
             found[name] = frozenset[str]().union(*(found[source] for source in graph[name])) or frozenset({name})
@@ -181,7 +181,7 @@ class Study:
 
     @cached_property
     def is_exhausted(self) -> bool:
-        """Whether a task asks for exhaustion, which is of the battery without naming it."""
+        """True if a task asks for exhaustion, an event of the battery that does not name it."""
         ending = (end.event for task in self.mind.tasks for end in task.ends)
         paid = (reward.on for task in self.mind.tasks for reward in task.rewards)
         counted = (event for task in self.mind.tasks for event in task.counts)
@@ -229,7 +229,7 @@ class Study:
                     yield Condition(each.when, each, self.worlds[task.name])
 
     def beginning(self, task: Task) -> Beginning:
-        """What is where when a run of a task begins."""
+        """The world of a task when a run begins."""
         return beginning(task.scene, task.things, task.start, self.mind.body.kind, self.graph.claw_reach)
 
     def goals(self, task: Task) -> frozenset[str]:
@@ -239,7 +239,7 @@ class Study:
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """What a rule finds: where, what is wrong in the user's words, and what to do; `fix` does it."""
+    """A finding of a rule: where, what is wrong in the user's words, and what to do; `fix` does it."""
 
     span: Span
     message: str
@@ -296,7 +296,7 @@ def removal(what: Declaration | Fact, title: str = "", is_safe: bool = False) ->
 
 
 def is_zero_influence(edge: Edge) -> bool:
-    """Whether it is an influence that is 0, whatever is read."""
+    """True if an edge is an influence that is 0, whatever is read."""
     return edge.to == "skill" and bool(edge.at) and all(interval(value)[1] <= 0 for value in edge.values)
 
 

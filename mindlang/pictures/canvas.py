@@ -57,12 +57,12 @@ class Rectangle(NamedTuple):
     height: float
 
     def overlaps(self, other: "Rectangle") -> bool:
-        """Whether both cover a place."""
+        """True if both share an area."""
         is_beside = self.left >= other.left + other.width or other.left >= self.left + self.width
         return not is_beside and self.low < other.low + other.height and other.low < self.low + self.height
 
     def is_within(self, other: "Rectangle") -> bool:
-        """Whether the other covers all of it."""
+        """True if the other covers all of it."""
         right, top = other.left + other.width, other.low + other.height
         ends_in = self.left + self.width <= right and self.low + self.height <= top
         return other.left <= self.left and other.low <= self.low and ends_in

@@ -132,11 +132,11 @@ class FilmImages:
         return [Rectangle(*each) for each in (np.array(corners) * view.scale).tolist()]
 
     def view(self, tick: int) -> Viewport:
-        """What is seen of the world in a tick."""
+        """The part of the world that is shown in a tick."""
         return window(self._run, tick, *self.layout.world)
 
     def _drawn_once(self) -> Image:
-        """What no tick changes: the page, the name of the task and those of the sensors."""
+        """The static part of every image: the page, the name of the task and those of the sensors."""
         page = Canvas.of_page(blank(self.layout.width, self.layout.height, NIGHT.page))
         left, low = self.layout.left + TITLE_INDENT_PIXELS, self.layout.top + NAME_LINE_PIXELS
         page.text(left, low, self._run.task.name, NAME_TEXT_PIXELS, NIGHT.ink, bold=True)
@@ -200,7 +200,7 @@ def half_window(run: RecordedRun) -> tuple[float, float]:
 
 
 def window(run: RecordedRun, tick: int, width: int, height: int) -> Viewport:
-    """What is seen of the world in a tick, in so many pixels."""
+    """The part of the world that is shown in a tick, in an image of so many pixels."""
     half = np.array(half_window(run))
     middle = run.body[tick, :2] * (not run.task.scene.is_bounded)
     return Viewport.around(middle - half, middle + half, width, height)

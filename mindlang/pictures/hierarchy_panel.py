@@ -95,7 +95,7 @@ class HierarchyPanel:
         canvas.line(outline, rim, 2.0, closed=True)
 
     def _lines_of(self, sink: Sink, place: Place) -> list[str]:
-        """What has to fit into a box: a skill's number stands below its name, any other's behind it."""
+        """The lines of text in a box: a skill's number stands below its name, any other's behind it."""
         name = self._run.graph.named(*sink)
         return broken(name, 0.84 * place.width) if sink[0] == "skill" else [f"{name}  0.00"]
 

@@ -85,7 +85,7 @@ def height_of(run: RecordedRun) -> int:
 
 
 def view_of(run: RecordedRun, width: int, height: int, *others: RecordedRun) -> Viewport:
-    """What is seen of the world in so many pixels."""
+    """The viewport of a picture of so many pixels: a bounded scene, or all places of the runs."""
     if run.task.scene.is_bounded:
         half = np.add(half_sides(run.task.scene), WALL_UNITS)
         return Viewport.around(-half, half, width, height)
@@ -146,7 +146,7 @@ def _facts(run: RecordedRun, found: dict[str, Any]) -> list[tuple[str, str]]:
 def draw_legend(
     canvas: Canvas, run: RecordedRun, found: dict[str, Any], path: Path, x: float, y: float, right: float
 ) -> None:
-    """What the colours and marks mean, in lines that end before `right`, smaller where they are many."""
+    """Draw the legend of colours and marks, in lines that end before `right`, smaller where they are many."""
     entries = _entries(canvas, run, found, path)
     size, places = fitted(canvas, [name for _, name in entries], right - x)
     for (draw, name), (along, line) in zip(entries, places, strict=True):

@@ -1,4 +1,4 @@
-"""What the sensors read in one tick: beside each name a bar and its number, or a small bar for each reading."""
+"""The readings of one tick as a panel: beside each name a bar and its number, or a small bar for each reading."""
 
 from collections.abc import Iterator, Sequence
 
@@ -33,7 +33,7 @@ class ReadingsPanel:
         self._sensors, self._cells, self._left_out = fitted(sensors_read(run), room)
 
     def draw_names(self, canvas: Canvas) -> None:
-        """What no tick changes: the names, and how many sensors are not shown."""
+        """Draw what no tick changes: the names, and how many sensors are not shown."""
         names = [sensor.name for sensor in self._sensors]
         names += [f"and {self._left_out} more"] * (self._left_out > 0)
         for name, cell in zip(names, self._cells, strict=False):

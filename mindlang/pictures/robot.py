@@ -77,7 +77,7 @@ def steering_angle(run: RecordedRun, tick: int) -> float:
 
 
 def _jets(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
-    """What each thruster throws, away from where it pushes, as long as its force is strong."""
+    """Draw the jet of each thruster, opposite to its push, of a length proportional to its force."""
     body, pose = run.graph.body, run.body[tick]
     for kind, command in _commanded(run, tick):
         if (push := kind.push(body)) is not None:

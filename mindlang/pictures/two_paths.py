@@ -75,7 +75,7 @@ def _mark(canvas: Canvas, x: float, y: float) -> None:
 
 
 def outcome_words(found: dict[str, Any]) -> str:
-    """What came of a run, in a line."""
+    """The outcome of a run in one line."""
     counted = [f"{times} × {event}" for event, times in found["by_event"].items()]
     return ", ".join([f"score {score(found['score'])}", *counted, in_words(found["ticks"]), ending_words(found)])
 

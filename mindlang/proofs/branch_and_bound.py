@@ -1,4 +1,4 @@
-"""What a skill can send over each edge, for any readings: bounds, made sharper by cutting the box (branch and bound).
+"""Bounds of what a skill sends over each edge, for any readings, made tighter by branch and bound.
 
 A box whose bounds reach no further than what the skill was seen to send cannot be improved on, and is left alone.
 """
@@ -35,7 +35,7 @@ SAMPLED_READINGS = 2048  # readings, half of them corners of the box
 
 @dataclass(frozen=True, slots=True)
 class EdgeRange:
-    """What an edge can send: proved, and as far as it was seen; `sure` where it always sends a number."""
+    """Proved bounds of what an edge sends, and the range that was seen; `sure` if it always sends a number."""
 
     low: float
     high: float
@@ -44,7 +44,7 @@ class EdgeRange:
 
     @property
     def is_dead(self) -> bool:
-        """Whether it never sends more than 0."""
+        """True if the edge never sends more than 0."""
         return self.high <= 0
 
 

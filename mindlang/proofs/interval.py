@@ -34,7 +34,7 @@ class Boxes(NamedTuple):
 
 
 class SentBounds(NamedTuple):
-    """What a skill sends [boxes, edges], clamped to 0..1; where it is not `sure`, it may be no number and not sent."""
+    """Bounds of what a skill sends [boxes, edges], clamped to 0..1; if not `sure`, it may be NaN and not sent."""
 
     low: Singles
     high: Singles
@@ -62,12 +62,12 @@ def joined(first: Bounds, second: Bounds) -> Bounds:
 
 
 def is_known(skill: Skill, weights: Weights | None) -> bool:
-    """Whether its function can be looked into: not where it is untaught, and not where it is Python code."""
+    """True if bounds of the skill's function can be computed: it is neither untaught nor Python code."""
     return skill.outputs == 0 or (not skill.function.opaque and (weights is not None or genes(skill) == 0))
 
 
 def sent(skill: Skill, weights: Weights | None, boxes: Boxes) -> SentBounds:
-    """What a skill can send over each of its edges; anything in 0..1 where its function is not known."""
+    """Bounds of what a skill sends over each of its edges; 0..1 where its function is not known."""
     count, edges = len(boxes.low), len(skill.edges)
     low, high = np.full((2, count, edges), [[[-np.inf]], [[np.inf]]], np.float32)
     sure = np.ones((count, edges), np.bool_)

@@ -26,7 +26,7 @@ Neutral = Literal["always", "never", "can be", "not excluded"]
 
 @dataclass(frozen=True, slots=True)
 class OfActuator:
-    """What is known of an actuator. `weights` names the skills on whose weights its bounds rest."""
+    """All claims about an actuator. `weights` names the skills on whose weights its bounds rest."""
 
     actuator: Actuator
     paths: Paths
@@ -37,7 +37,7 @@ class OfActuator:
 
     @property
     def neutral(self) -> Neutral:
-        """Whether Σ influence can be 0, and `neutral` is sent."""
+        """If Σ influence can be 0, and the actuator is sent its neutral."""
         if self.driven.command is None:
             return "always"
         if self.driven.is_always_driven:
@@ -46,7 +46,7 @@ class OfActuator:
 
     @property
     def command(self) -> tuple[float, float]:
-        """What it can be sent, `neutral` included where that is not ruled out."""
+        """The bounds of its command, with its neutral where that is not ruled out."""
         neutral, bound = float(self.actuator.kind.neutral), self.driven.command
         if bound is None:
             return neutral, neutral
@@ -56,14 +56,14 @@ class OfActuator:
 
     @property
     def is_rough(self) -> bool:
-        """Whether the bounds of the command leave out influence so small that rounding decides."""
+        """True if the bounds of the command leave out influence so small that rounding decides."""
         bound = self.driven.command
         return bound is not None and self.driven.total.low < MIN_INFLUENCE and not {bound.low, bound.high} <= {0.0, 1.0}
 
 
 @dataclass(frozen=True, slots=True)
 class OfEdge:
-    """What an edge to another skill can send."""
+    """The claim about an edge to another skill."""
 
     skill: str
     target: str
@@ -85,7 +85,7 @@ class Proof:
 
 
 def prove(graph: Graph, weights: Mapping[str, Weights], delta: float) -> Proof:
-    """What can be said of a mind under its master, without running it."""
+    """All claims about a mind under its master; `delta` is the influence of a leak."""
     count = len(graph.actuators)
     found, bounds = ways(graph), reach(graph, weights)
     tried: Sequence[Tried | None] = try_out(graph, weights) or [None] * count
@@ -146,7 +146,7 @@ class _Rests:
                     self._live.add_edge(*ends)
 
     def says(self, skill: Skill, edge: Edge, sends: EdgeRange) -> bool:
-        """Whether an edge is learnt, and its weights narrow what it sends, or see to it that a command is a number."""
+        """True if an edge is learnt, and its weights narrow what it sends, or ensure that a command is a number."""
         narrows = sends.low > 0 or sends.high < 1 or (edge.to == "actuator" and sends.sure)
         return edge.output is not None and skill.owner in self._weights and narrows
 

@@ -37,20 +37,20 @@ class Bound:
 
 @dataclass(frozen=True, slots=True)
 class Driven:
-    """What is proved of an actuator: Σ influence, and its command wherever that is not 0, None where it always is."""
+    """Bounds of an actuator: Σ influence, and its command where that is not 0; None where it always is."""
 
     total: Bound
     command: Bound | None
 
     @property
     def is_always_driven(self) -> bool:
-        """Whether Σ influence is never 0, nor too large to be a number: of one that may be, `low` is 0."""
+        """True if Σ influence is never 0, nor infinite: of one that may be, `low` is 0."""
         return self.total.low > 0
 
 
 @dataclass(frozen=True, slots=True)
 class ProvedReach:
-    """What is proved of a hierarchy: by skill below the master what its edges send and its influence; by actuator."""
+    """Bounds of a hierarchy: by skill below the master what its edges send and its influence; by actuator."""
 
     edges: Mapping[str, tuple[EdgeRange, ...]]
     influence: Mapping[str, Bound]

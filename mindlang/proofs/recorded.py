@@ -49,7 +49,7 @@ def record(setup: RunSetup, seed: int, prepare: Callable[[Rollout], None] = Roll
 
 
 def undriven(influence: NDArray[np.float32], commands: NDArray[np.float32]) -> Undriven:
-    """What became of an actuator [ticks] with that influence on it."""
+    """The ticks without influence on an actuator, the first of them, and its range of commands; arrays are [ticks]."""
     still = np.flatnonzero(influence == 0)
     first = int(still[0]) + 1 if len(still) else None
     return Undriven(len(still), first, (float(commands.min()), float(commands.max())))

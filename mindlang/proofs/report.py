@@ -33,7 +33,7 @@ MEANINGS = {
 
 
 def _rests_on(skills: Iterable[str], hashes: Hashes) -> list[str]:
-    """What a claim rests on, beside the declaration."""
+    """The grounds of a claim: the weights of skills, or the declaration alone."""
     return [f"the weights {hashes[skill][:4]}… of {skill}" for skill in skills] or [DECLARATION]
 
 
@@ -207,7 +207,7 @@ def _shown(found: Data, ticks: int) -> Iterator[str]:
 
 
 def _lines(data: Data) -> Iterator[Text]:
-    """What is dead, and what is always fully on though it could be learnt not to be."""
+    """Lines on edges and skills that are dead, edges that their weights keep at 1, and skills outside the hierarchy."""
     for edge in data["edges"]:
         if edge["high"] <= 0:
             yield _line(f"{edge['skill']} never influences {edge['target']}", edge["rests_on"])

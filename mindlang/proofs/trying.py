@@ -1,4 +1,4 @@
-"""What is sent for readings that are tried, many at once: by the engine's operations in its order, to the bit.
+"""The engine for many rows of readings at once, bit for bit: what a mind sends for readings that are tried.
 
 Readings for which nothing influences an actuator are looked for by trying, so that one that is found is a proof.
 """
@@ -50,7 +50,7 @@ def think(graph: Graph, weights: Mapping[str, Weights], readings: Singles) -> Th
 
 
 def values(skill: Skill, weights: Weights | None, readings: Singles) -> Singles:
-    """What a skill sends [rows, edges] before the clamp; NaN where a gate is closed and nothing is sent."""
+    """The values that a skill sends [rows, edges] before the clamp; NaN where a gate is closed and nothing is sent."""
     outputs = _outputs(skill, weights, readings)
     found = np.empty((len(readings), len(skill.edges)), np.float32)
     with np.errstate(all="ignore"):
@@ -92,7 +92,7 @@ def _evaluate(program: Program, readings: Singles) -> Singles:
 
 @dataclass(frozen=True, slots=True)
 class Tried:
-    """What was seen of an actuator: its commands, and readings without influence on it.
+    """The trial of an actuator: the range of its commands, and readings without influence on it.
 
     `still` are the skills that then have influence and pass none on towards the actuator.
     """
@@ -103,7 +103,7 @@ class Tried:
 
 
 def try_out(graph: Graph, weights: Mapping[str, Weights]) -> list[Tried] | None:
-    """What each actuator is sent for the readings that are tried; None where a skill below the master is not known."""
+    """The trial of each actuator; None where the function of a skill below the master is not known."""
     skills = reachable(graph, graph.master)
     if not all(is_known(skill, weights.get(skill.owner)) for skill in skills):
         return None

@@ -44,7 +44,7 @@ class ExportedImages:
 
     @property
     def note(self) -> str:
-        """What is left out, in a sentence; empty where nothing is."""
+        """The images that are left out, in a sentence; empty where none are."""
         if self.why:
             return f"the page has no images: {self.why}"
         if self.every == 1:
@@ -53,7 +53,7 @@ class ExportedImages:
 
 
 def exported_images(viewed: Viewed, drawn: Callable[[int], None]) -> ExportedImages | None:
-    """As many of a run that is over as fit; None where its world is no environment. `drawn` is told of each tick."""
+    """The images of a finished run, as many as fit; None without an environment. `drawn` is called with each tick."""
     if viewed.drawing is None:
         return None
     images: list[str] = []

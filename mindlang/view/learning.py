@@ -40,10 +40,10 @@ Stamp = tuple[tuple[int, int] | None, ...]
 
 @dataclass(slots=True)
 class LearntRun:
-    """What is known of a run: its generations in the order in which they came, and whose champions can be played.
+    """A training run as far as it has been read: its generations in order, and the champions that can be played.
 
-    `keeps_all`: whether it has the champion of every generation; runs from before the trainer kept them have the last
-    of each attempt. `is_full`: whether the last that was kept need not have stayed champion. `version` counts how often
+`keeps_all`: if it has the champion of every generation; runs from before the trainer kept them have the last
+of each attempt. `is_full`: if the last that was kept need not have stayed champion. `version` counts how often
     something has come.
     """
 
@@ -98,7 +98,7 @@ class LearntRun:
         raise RefusedError(f"this run has kept no champion of attempt {attempt}")
 
     def score(self, attempt: int, generation: int) -> float | None:
-        """What the champion of a generation had when it was tried last, on layouts that it had not seen."""
+        """The score of a generation's champion in its last trial, on layouts that it had not seen; None before one."""
         tried = [row for row in self.generations if row[0] == attempt and row[1] <= generation and row[3] is not None]
         return tried[-1][3] if tried else None
 
@@ -125,7 +125,7 @@ class Learning:
         return any(grown) or bool(new)
 
     def news(self, number: int, heard: int) -> dict[str, Any]:
-        """What is said of a run to one who has heard so many of its generations."""
+        """The message about a run for a viewer who has got its first `heard` generations."""
         learnt = self.runs[number]
         return {
             "say": "learnt",

@@ -1,4 +1,4 @@
-"""What a page says, and texts as it may show them.
+"""The messages that the page sends, and texts as it may show them.
 
 Messages are JSON objects told apart by `say`, decoded by msgspec with the bounds of every part.
 
@@ -28,7 +28,7 @@ Column = tuple[Literal[0, 1], Whole]  # its block, its number there
 
 
 class RefusedError(ValueError):
-    """What cannot be answered; the sentence is for who has asked."""
+    """A question that cannot be answered; its text is shown to whoever asked."""
 
 
 class _Said(Struct, tag_field="say", frozen=True, forbid_unknown_fields=True):
@@ -36,7 +36,7 @@ class _Said(Struct, tag_field="say", frozen=True, forbid_unknown_fields=True):
 
 
 class _Asked(_Said, frozen=True, kw_only=True):
-    """What is about the run that is seen, or a fork of it."""
+    """A message about the run that is shown, or a fork of it."""
 
     fork: ForkNumber = 0
 
@@ -67,14 +67,14 @@ class Run(_Asked, tag="run", frozen=True):
 
 
 class Why(_Asked, tag="why", frozen=True):
-    """What an actuator's command of a tick consists of."""
+    """Asks for the shares of all paths in an actuator's command of a tick."""
 
     tick: Counted
     actuator: Whole
 
 
 class AskImage(_Asked, tag="image", frozen=True):
-    """What an environment draws of itself after a tick."""
+    """Asks for the environment's own image after a tick."""
 
     tick: Whole
 
@@ -128,7 +128,7 @@ class _Question(Struct):
 
 
 def refusal(text: str | bytes, why: str) -> dict[str, Any]:
-    """What is said where there is no answer to a message."""
+    """The message that refuses another one, for the reason `why`."""
     try:
         of = msgspec.json.decode(text, type=_Question)
     except (msgspec.DecodeError, RecursionError, UnicodeError):
@@ -143,5 +143,5 @@ def shown(text: str) -> str:
 
 
 def error_text(error: MindError) -> str:
-    """What is wrong, and what to do."""
+    """An error's message and its hint as one line, safe to show."""
     return shown("; ".join(filter(None, (str(error), error.hint))))

@@ -113,7 +113,7 @@ class ViewServer:
 
     @property
     def address(self) -> str:
-        """What a browser opens; what is behind # is never sent over the net."""
+        """The address for a browser; the token behind # is never sent over the net."""
         return f"http://{LOOPBACK}:{self.port}/#{self.token}"
 
     async def serve(self, ready: Callable[[str], None]) -> None:

@@ -80,7 +80,7 @@ class Session:
                 self.changed()
 
     def about(self, edits: bool) -> dict[str, Any]:
-        """What a viewer is told first."""
+        """The first message to a viewer: the run, and the columns of its rows."""
         viewed = self.forks[0]
         columns = viewed.columns
         return {
@@ -201,7 +201,7 @@ def _computed(viewed: Viewed, message: Message) -> bytes | dict[str, Any]:
 
 
 def command_shares(viewed: Viewed, asked: Why) -> dict[str, Any]:
-    """What each path has contributed to a command; RefusedError where there is no such actuator or tick."""
+    """The contribution of each path to a command; RefusedError where there is no such actuator or tick."""
     flows, graph = viewed.flows, viewed.flows.graph
     if viewed.about["source"] == "environment":
         raise RefusedError("a program acts here: no path of influence has made its commands")

@@ -41,7 +41,7 @@ MAX_KEPT_BYTES = 2 << 30  # of rows, of a run and of all that are beside it
 
 
 def drawing_of(graph: Graph, task: Task | None, folder: Path, seed: int) -> Drawing | None:
-    """What draws the run of a task; None where its world is no environment."""
+    """The drawing of a task's run by its environment; None where its world is none."""
     if task is None or not task.scene.environment:
         return None
     return _undrawn if task.fails else partial(SeenEpisode, graph, task.scene.environment, folder, seed)
@@ -92,7 +92,7 @@ class Viewed:
         self._seen: SeenEpisode | None = None
 
     def _thought(self, ticks: TickNumbers) -> tuple[Singles, Singles]:
-        """What the mind read and its influence; rows are ticks, and in the first of them nothing flows."""
+        """The readings and the influence of ticks [ticks, numbers]; in the first tick nothing flows."""
         return self.group("readings", ticks), self.group("influence", ticks)
 
     @property
@@ -162,7 +162,7 @@ class Viewed:
         return np.concatenate([self.blocks.kept(SINGLE_BLOCK, ticks), self.flows.transmitted(ticks)], axis=1)
 
     def image(self, tick: int) -> Image:
-        """What its environment draws after a tick [height, width, 3], red first.
+        """The environment's image after a tick [height, width, 3], red first.
 
         RefusedError where nothing does, or the tick is not known; MindError where it cannot.
         """
@@ -173,7 +173,7 @@ class Viewed:
         return self._seen.image(tick)
 
     def _sent(self, first: int, last: int) -> Singles:
-        """What reached the actuators behind a tick, up to another one; of a run that is all that its rows have."""
+        """The commands that reached the actuators after tick `first`, up to `last`; of a run, the mind's own."""
         return self.group("sent" if "sent" in self.columns.groups else "commands", np.arange(first + 1, last + 1))
 
     def group(self, name: str, ticks: TickNumbers) -> NDArray[Any]:

@@ -122,7 +122,7 @@ def _chunks(
 
 
 def _levels(rows: Rows, is_run: bool, task: Task | None) -> NDArray[np.uint64]:
-    """What happens where it rises [ticks, events]: states of the robot, counts of the world, and touching."""
+    """The levels whose rising edges are events [ticks, events]: robot states, counts of the world, and touching."""
     robot = [] if is_run else [rows["stopped"] != 0, rows["tick"] == 0, rows["faults"] != 0]
     world = [rows["world"]["events"], rows["world"]["touching"] != 0] if task else []
     return np.column_stack([*robot, *world]).astype(np.uint64)

@@ -134,13 +134,13 @@ class Trial:
     rollout: Rollout
 
     def readings(self) -> NDArray[np.float32]:
-        """What the skill reads [ticks, inputs] in a run of the lesson's task with these weights."""
+        """The skill's inputs [ticks, inputs] in a run of the lesson's task with these weights."""
         inputs = list(self.network.skill.inputs)
         moments = trace(self.rollout, READINGS_SEED, self.genome).moments
         return np.array([moment.readings[inputs] for moment in moments], np.float32)
 
     def recorded(self, said: str) -> NDArray[np.float32]:
-        """What it has read in a recording, `day.rec` or `day.rec,ball.bundle`; MindError where that cannot be said."""
+        """The skill's inputs [ticks, inputs] in a recording, `day.rec` or `day.rec,ball.bundle`; MindError without them."""
         graph, columns = self.subject.graph, {}
         for name in (read.partition(":")[0] for read in self.network.signature.reads):
             for change in recorded_readings(graph, name, said, self.subject.source, 1, None):

@@ -44,7 +44,7 @@ class Tensors:
 
 @dataclass(frozen=True, slots=True)
 class Network:
-    """What a skill computes with matrices [values out, values in]: its function says how, and what it remembers.
+    """A skill's function as matrices [values out, values in]: its kind says how they are used, and what it remembers.
 
     `shapes` are (values in, values out) of each. What it reads and sends stands in the order of `signature`.
     """
@@ -174,7 +174,7 @@ def load_genome(path: Path, network: Network) -> Weights:
 
 
 def read_bytes(path: Path) -> bytes:
-    """What is in a file; WeightsError where it cannot be read or is too large."""
+    """The bytes of a file; WeightsError where it cannot be read or is too large."""
     try:
         return read_whole(path, MAX_WEIGHTS_BYTES)
     except OSError as error:

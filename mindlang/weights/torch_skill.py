@@ -140,13 +140,13 @@ class NetworkModule(nn.Module):
         self.take(genome)
 
     def forward(self, readings: Tensor, state: Tensor | None = None) -> Tensor | tuple[Tensor, Tensor]:
-        """What it sends; with what it remembers, where it does."""
+        """The values sent; of a network that remembers, with its state after the tick."""
         values, after = self._computed(readings, state)
         sent = ReturningClamp.apply(values)
         return (sent, after) if self.network.state else sent
 
     def before_clamp(self, readings: Tensor) -> Tensor:
-        """What its last layer adds up to, of a network that remembers nothing: the mean of a policy that explores."""
+        """The sums of its last layer, of a network that remembers nothing: the mean of a policy that explores."""
         return self._computed(readings, None)[0]
 
     def _computed(self, readings: Tensor, state: Tensor | None) -> tuple[Tensor, Tensor]:
@@ -155,7 +155,7 @@ class NetworkModule(nn.Module):
         return self.network.skill.function.forward(TERMS, weights, readings, before)
 
     def start(self, *batch: int) -> Tensor:
-        """What it remembers before the first tick of a run: zeros [..., state]."""
+        """The state before the first tick of a run: zeros [*batch, state]."""
         return self.layers[0].weight.new_zeros(*batch, self.network.state)
 
     def take(self, genome: Weights) -> None:
@@ -175,7 +175,7 @@ class NetworkModule(nn.Module):
 
 
 class Skill(NetworkModule):
-    """What a skill of a mind computes, with the weights that it was taught; see `NetworkModule` for how it is called.
+    """A skill of a mind as a module, with the weights that it was taught; see `NetworkModule` for how it is called.
 
     Where there are none that fit, or `from_scratch`, with random ones of PyTorch's generator. `reads` and `sends` say
     what its inputs and outputs are, in their order; a sensor with several readings says how many: proximity:10.
@@ -201,6 +201,6 @@ class Skill(NetworkModule):
 
 
 def _random(network: Network) -> Weights:
-    """As learning begins with them here; the seed is that of PyTorch's generator."""
+    """Random weights as `mindc train` begins with, seeded by PyTorch's generator."""
     rng = np.random.default_rng(int(torch.randint(2**62, ())))
     return network.skill.function.draw(network.inputs, network.outputs, 1, rng)[0]

@@ -94,7 +94,7 @@ def _coded_lines(source: Source) -> Iterator[tuple[Span, str]]:
 
 
 def _line(span: Span, code: str, findings: Findings, start: Start) -> syntax.Line | syntax.Stop | _Unread:
-    """What the line says, or after reporting it what can be saved of it."""
+    """The syntax of a line; of one that is wrong, after reporting it, the part that can be saved."""
     from lark import UnexpectedInput
 
     if code.count("(") + code.count("-") > MAX_NESTING and _depth(code) > MAX_NESTING:

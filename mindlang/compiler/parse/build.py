@@ -113,7 +113,7 @@ class Builder(Transformer_NonRecursive[Token, Any]):
         return Phrase(kind, (Argument(kind, environment, self._span(meta)),), self._span(meta))
 
     def its(self, meta: Any, parts: list[Any]) -> Phrase:
-        """What an environment says has both words for a name."""
+        """A phrase of the environment's own (its reward): both words are the name of its kind."""
         return Phrase(Name(f"{parts[0]} {parts[1].text}", self._span(meta)), (), self._span(meta))
 
     def place(self, meta: Any, parts: list[Any]) -> tuple[Amount, ...]:

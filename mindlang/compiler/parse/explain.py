@@ -157,7 +157,7 @@ def _no_stop(code: str, line: Span) -> Diagnostic | None:
 
 @cache
 def _instead() -> dict[str, str]:
-    """What to write for each word of `FOREIGN_WORDS`."""
+    """The word of the language for each word of `FOREIGN_WORDS`."""
     return {word: known for known, words in FOREIGN_WORDS.items() for word in words.split()}
 
 

@@ -58,7 +58,7 @@ def lessons(
 
 @dataclass(frozen=True, slots=True)
 class _School:
-    """What lessons are held against. `hopeless` are the tasks that say no success."""
+    """The parts of a mind that lessons are checked against. `hopeless` are the tasks that say no success."""
 
     names: Names
     skills: Mapping[str, model.Skill]
@@ -132,7 +132,7 @@ class _School:
         return replace(learner, **overrides(type(learner), said_by, own, self.findings))
 
     def _needs(self, fact: Teaches) -> tuple[Need, ...]:
-        """What a lesson needs, each measure once."""
+        """The needs of a lesson; a measure that is said again is reported."""
         for measure in MEASURED:
             said = [need.span for need in fact.needs if need.measure.text == measure]
             message = f"What {measure} is needed is said already."
@@ -140,7 +140,7 @@ class _School:
         return tuple(filter(None, (self._need(need, fact.task.text) for need in fact.needs)))
 
     def _need(self, need: Needs, task: str) -> Need | None:
-        """What a lesson on a task needs; None after reporting what is wrong with it."""
+        """One need of a lesson on a task; None after reporting what is wrong with it."""
         before, (measure, span) = len(self.findings.diagnostics), (need.measure.text, need.measure.span)
         if measure not in MEASURED:
             hint = self.findings.suggest(measure, MEASURED) or "Write needs score > 300, or needs success > 50%."
@@ -231,7 +231,7 @@ def _difference(learner: model.Skill, other: model.Skill, widths: Mapping[str, i
 
 
 def _holds(learner: model.Skill, other: model.Skill, widths: Mapping[str, int]) -> bool:
-    """Whether the learner computes what the other does once some of its weights are 0: no layer of it is smaller."""
+    """True if the learner computes the other's function once some of its weights are 0: no layer of it is smaller."""
     (own, its), (large, small) = zip(*(_sized(skill, widths) for skill in (learner, other)), strict=True)
     if own == its:
         return True

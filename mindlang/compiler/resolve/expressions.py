@@ -19,7 +19,7 @@ PLAIN = Quantity("a plain number", {"": 1.0, "%": 0.01})
 
 @dataclass(frozen=True, slots=True)
 class Visible:
-    """What an expression can see: readings with their widths, the name of `for each`, in a task measures.
+    """The names that an expression can use: readings with their widths, that of `for each`, in a task measures.
 
     `elsewhere` are the readings that exist but are no inputs of the skill, `unread` the words of lines that could not
     be read, `commands` the actuators whose commands can be seen.

@@ -22,7 +22,7 @@ Refused = tuple[Span, str, str]  # where, why, and what to do
 
 
 def is_outside(names: Names) -> bool:
-    """Whether any task is in an environment, or a part belongs to one."""
+    """True if any task is in an environment, or a sensor or actuator belongs to one."""
     return any(
         (phrase := declaration.header.phrase) is not None and phrase.kind.text in kinds
         for noun, kinds in (("task", {"gymnasium"}), ("sensor", {"observation"}), ("actuator", {"action", "choice"}))
@@ -31,7 +31,7 @@ def is_outside(names: Names) -> bool:
 
 
 def body_outside(names: Names, findings: Findings) -> Part[BodyKind]:
-    """What stands for the body where the environment has one of its own; one that is declared is reported."""
+    """A stand-in for the body, which the environment has itself; one that is declared is reported."""
     for _, declared in names.declarations("body"):
         message = f"{ENVIRONMENT.capitalize()} has a body of its own."
         findings.error("foreign-part", declared.header.span, message, "Leave the line out.")
@@ -80,7 +80,7 @@ def _native(sensors: Sequence[Part[Any]], actuators: Sequence[Part[Any]]) -> Ite
 
 
 def _put_in(tasks: Sequence[model.Task]) -> Iterator[Refused]:
-    """What tasks put into an environment."""
+    """The lines of tasks that an environment refuses: things, and where the robot starts."""
     for task in tasks:
         for thing in task.things:
             yield thing.span, f"Nothing can be put into {ENVIRONMENT}.", "Leave the line out."

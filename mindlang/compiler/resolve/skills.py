@@ -185,7 +185,7 @@ def _alike(
 
 
 def _stands(fact: Reads, other: model.Skill, names: Names, widths: Mapping[str, int], findings: Findings) -> bool:
-    """Whether a line says for which input of the other skill its own stands, and has as many readings."""
+    """True if a line says which input of the other skill its own replaces, and both have as many readings."""
     name = fact.name.text
     reads = f"{other.name} reads {listed(other.reads, 'and') if other.reads else 'nothing'}."
     if fact.stands_for is None:

@@ -87,7 +87,7 @@ def event_in(written: Phrase, world: World, findings: Findings) -> Any:
 
 
 def _ends(declaration: Declaration, world: World, visible: Visible, findings: Findings) -> tuple[model.End, ...]:
-    """What ends a run, in the order of the source; of two that come in one tick the first one counts."""
+    """The ends of a task's runs, in the order of the source; of two in one tick the first one counts."""
     ends = []
     for fact in (fact for fact in declaration.facts if isinstance(fact, Ends | Succeeds)):
         times = convert(fact.times, TIMES, findings) if fact.times else 1

@@ -1,4 +1,4 @@
-"""What a task or a scene says of its world: things, where they and the robot begin, what differs from run to run."""
+"""The world of a task or a scene: things, where they and the robot begin, variations and failures."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -31,7 +31,7 @@ F = TypeVar("F", bound=Fact)
 
 @dataclass(frozen=True, slots=True)
 class RobotFacts:
-    """What tasks need to know of the rest of the mind."""
+    """The parts of a mind that its tasks are checked against."""
 
     names: Names
     widths: Mapping[str, int]
@@ -77,7 +77,7 @@ def refuse_repeated(facts: Sequence[Fact], message: str, hint: str, findings: Fi
 
 
 def world_of(declaration: Declaration, robot: RobotFacts, findings: Findings) -> World:
-    """What a task or a scene says of the world, without the lines that are reported."""
+    """The world that a task or a scene declares; the lines that are wrong are reported and left out."""
     noun, name = declaration.header.noun.text, declaration.header.name.text
     scope = Scope(robot.names, things_of(declaration) if declaration.whole else None, f"{noun} {name}", root=robot.root)
     phrase = declaration.header.phrase
@@ -118,7 +118,7 @@ def _things(declaration: Declaration, scene: Any, scope: Scope, findings: Findin
 
 
 def _check_obstacles(kind: ThingKind, scene: SceneKind | None, before: int, phrase: Phrase, findings: Findings) -> None:
-    """What a thing needs of its scene, and how many obstacles there is room for with those `before`."""
+    """Report a thing that its scene cannot have, or that exceeds MAX_OBSTACLES with the obstacles `before` it."""
     if found := kind.mistake(scene):
         findings.error(found.code, phrase.span, found.message, found.hint)
     elif before <= MAX_OBSTACLES < (made := before + kind.obstacles(scene)):
@@ -202,7 +202,7 @@ def _check_start(here: Span, said: Span | None, begun: Beginning, findings: Find
 
 @dataclass(frozen=True, slots=True)
 class _Variable:
-    """What can differ from run to run, by noun: the parts of the robot, and the things of a place."""
+    """The parts that can vary from run to run, by noun: those of the robot, and the things of a task or scene."""
 
     names: Names
     parts: Mapping[str, Sequence[Part[Any]]]
@@ -210,14 +210,14 @@ class _Variable:
     findings: Findings
 
     def variations(self, declaration: Declaration) -> Iterator[Variation]:
-        """What a task or a scene says that varies."""
+        """The variations of a task or a scene, each once."""
         facts = {
             fact: f"how {fact.argument.text} of {fact.of.text} varies" for fact in of_form(declaration.facts, Varies)
         }
         return filter(None, map(self._variation, self._once(facts)))
 
     def failures(self, declaration: Declaration) -> Iterator[Failure]:
-        """What a task or a scene says that fails."""
+        """The failures of actuators in a task or a scene, each once."""
         for fact in self._once({fact: f"how {fact.name.text} fails" for fact in of_form(declaration.facts, Fails)}):
             actuator = self.names.find(fact.name, ("actuator",), self.findings)
             rate = convert(fact.rate, RATE, self.findings)
@@ -265,7 +265,7 @@ class _Variable:
         return Variation(noun, "" if noun == "body" else fact.of.text, field, float(low), float(high))
 
     def _find(self, name: Name) -> tuple[Varying, Any] | None:
-        """What a name is of, and its kind; None after reporting that there is nothing of it, or where that is wrong."""
+        """The noun and kind of a named part; None after reporting an unknown name, or for a part with mistakes."""
         noun: Varying = self.names.noun_of(name.text, VARIED_NOUNS) or "thing"
         if found := [part for part in self.parts[noun] if part.name == name.text]:
             return (noun, found[0].kind) if found[0].kind else None

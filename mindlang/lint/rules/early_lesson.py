@@ -88,6 +88,6 @@ def _early(study: Study, lessons: Sequence[Lesson], first: Mapping[str, int]) ->
 
 
 def _has_weights(study: Study, name: str) -> bool:
-    """Whether the lock has weights of a skill that fit."""
+    """True if the lock has weights that fit the skill."""
     entry = study.lock.get(name)
     return entry is not None and not mismatches(study.graph, study.graph.skills[study.graph.skill_numbers[name]], entry)

@@ -69,7 +69,7 @@ class _FirstTick:
     begun: Beginning
 
     def found(self) -> Iterator[Finding]:
-        """What is met or paid at once, line by line."""
+        """The lines of a task that end a run or pay in the first tick."""
         for end in self.task.ends:
             if end.event and (often := self._often(end.event, end.times)):
                 yield Finding(end.fact.span, f"This ends {often} in the first tick.", self._hint(end.event))
@@ -81,7 +81,7 @@ class _FirstTick:
                 yield Finding(reward.fact.span, message, self._hint(reward.on))
 
     def _hint(self, event: EventKind) -> str:
-        """What to do about an event that comes at once: which way a robot faces changes what its claw has reached."""
+        """The hint for an event that comes at once: which way a robot faces changes what its claw has reached."""
         kinds = [each.kind for each in self.task.things if each.name == event.thing]
         faces = event.outcome == "reached" and not any(kind.is_area for kind in kinds)
         return hint_apart(event) + (" Or write which way the robot faces." if faces else "")
@@ -109,7 +109,7 @@ class _FirstTick:
         return size**2 if is_area else pi / 2 * (self.begun.claw + size / 2) ** 2
 
     def first(self, name: str) -> Interval:
-        """What a sensor or a memory reads in the first tick, as far as that is known."""
+        """The interval of a sensor's or a memory's reading in the first tick."""
         if kind := self.study.sensors.get(name):
             if kind.formula:
                 low, high = interval(kind.formula, self.first)
@@ -119,7 +119,7 @@ class _FirstTick:
         return UNIT_INTERVAL if start is None else (start, start)
 
     def is_within(self, thing: str) -> bool | None:
-        """Whether the robot begins inside of a thing; None where that is drawn."""
+        """True if the robot begins inside a thing; None where that is drawn at random."""
         if self.begun.at is None:
             return None
         if self.begun.reached(thing):
