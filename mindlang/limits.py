@@ -33,7 +33,7 @@ YEAR_SECONDS = 366 * 24 * 3600  # nobody waits for longer
 CGROUP_LIMIT_FILES = "/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"  # of a container
 
 
-def whole(what: str, bounds: Bounds, value: Any) -> int:
+def bounded_int(what: str, bounds: Bounds, value: Any) -> int:
     """The value as an int, those of numpy too; MindError where it is no whole number within its bounds."""
     low, high = bounds
     try:
@@ -47,22 +47,22 @@ def whole(what: str, bounds: Bounds, value: Any) -> int:
 
 def as_seed(value: Any) -> int:
     """The seed of a training, or of many runs."""
-    return whole("seed", SEED_BOUNDS, value)
+    return bounded_int("seed", SEED_BOUNDS, value)
 
 
 def as_layout(value: Any) -> int:
     """The seed of one run."""
-    return whole("seed", LAYOUT_BOUNDS, value)
+    return bounded_int("seed", LAYOUT_BOUNDS, value)
 
 
 def as_runs(value: Any) -> int:
     """How many runs."""
-    return whole("runs", RUN_BOUNDS, value)
+    return bounded_int("runs", RUN_BOUNDS, value)
 
 
 def as_workers(value: Any) -> int:
     """How many threads."""
-    return whole("workers", WORKER_BOUNDS, value)
+    return bounded_int("workers", WORKER_BOUNDS, value)
 
 
 def refuse_too_many(task: Task, runs: int) -> None:

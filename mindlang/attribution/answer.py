@@ -28,7 +28,7 @@ MAX_EDGE_TICKS = 10_000_000  # edges times ticks of one answer
 
 
 @dataclass(frozen=True, slots=True)
-class Course:
+class AttributedRun:
     """A run or a recording with its flows; `acted` [ticks, actuators] are the commands after delay or guardian.
 
     `stopped` [ticks] says when a robot was. `about` says whose course it is, `run` has the rewards where there are any.
@@ -47,23 +47,23 @@ class Course:
 
 
 @dataclass(frozen=True, slots=True)
-class Thoughts:
+class ReplayedTicks:
     """Readings of a recording, computed again, and its influence [ticks, numbers]."""
 
     readings: Singles
     influence: Singles
 
 
-def course_of_run(run: RecordedRun, seed: int) -> Course:
+def attributed_run(run: RecordedRun, seed: int) -> AttributedRun:
     """The course of a run in the simulator."""
     setup = run.setup
     sources = procedure_sources(run.graph, setup.folder, setup.master)
     flows = edge_flows(setup.ready.policy, sources, setup.master, run)
     about = {"task": run.task.name, "master": setup.master, "seed": seed}
-    return Course(about, flows, run.commands, np.zeros(len(run.commands), bool), run)
+    return AttributedRun(about, flows, run.commands, np.zeros(len(run.commands), bool), run)
 
 
-def course_of_recording(path: Path, bundle: Path) -> Course:
+def attributed_recording(path: Path, bundle: Path) -> AttributedRun:
     """The course of a robot's recording, whose ticks are its rows; what it does not have is computed again.
 
     RecordingError where it was made with another bundle, or is not what this one computes. Runs the Python code of the
@@ -75,12 +75,12 @@ def course_of_recording(path: Path, bundle: Path) -> Course:
     if not len(rows):
         raise RecordingError(f"{path} has no tick in it")
     computed = [*computed_again(path, of, rows, Engine(mind.policy, mind.procedures, of.master))]
-    again = Thoughts(np.array([each.readings for each in computed]), rows["influence"])
+    again = ReplayedTicks(np.array([each.readings for each in computed]), rows["influence"])
     begins = np.flatnonzero(rows["tick"] == 0).tolist()
     flows = edge_flows(mind.policy, mind.procedures, of.master, again, begins)
     about = {"recording": path.name, "master": of.master}
     run = run_of(of, rows, mind, bundle.parent) if of.world else None
-    return Course(about, flows, rows["sent"], rows["stopped"] != 0, run)
+    return AttributedRun(about, flows, rows["sent"], rows["stopped"] != 0, run)
 
 
 class QuestionError(SetupError):
@@ -90,7 +90,7 @@ class QuestionError(SetupError):
         super().__init__(message, hint, misuse=True)
 
 
-def answer(course: Course, what: str, span: tuple[int, int] | None, paths: int | None) -> dict[str, Any]:
+def answer(course: AttributedRun, what: str, span: tuple[int, int] | None, paths: int | None) -> dict[str, Any]:
     """Who made what is asked about in the ticks of a span, the first of which is 1; without one in all of them."""
     first, last = _within(course, span)
     about = course.about | {"ticks": [first, last], "seconds_per_tick": course.flows.graph.tick}
@@ -106,7 +106,7 @@ def answer(course: Course, what: str, span: tuple[int, int] | None, paths: int |
     return about | _rewards(course.run, first, last)
 
 
-def _within(course: Course, span: tuple[int, int] | None) -> tuple[int, int]:
+def _within(course: AttributedRun, span: tuple[int, int] | None) -> tuple[int, int]:
     first, last = span or (1, course.ticks)
     if last > course.ticks:
         many = in_words(course.ticks)
@@ -123,7 +123,7 @@ def _within(course: Course, span: tuple[int, int] | None) -> tuple[int, int]:
     return first, last
 
 
-def _unknown(course: Course, what: str) -> QuestionError:
+def _unknown(course: AttributedRun, what: str) -> QuestionError:
     graph, master = course.flows.graph, course.flows.master
     if what in {skill.name for skill in graph.skills}:
         return QuestionError(f"{what} is not below {master}, which is in charge", _instead(course, what))
@@ -134,7 +134,7 @@ def _unknown(course: Course, what: str) -> QuestionError:
     return QuestionError(f"there is no actuator, memory or skill called {what}", hint)
 
 
-def _instead(course: Course, skill: str) -> str:
+def _instead(course: AttributedRun, skill: str) -> str:
     """Who is above a skill that the master does not reach."""
     if "recording" in course.about:
         return "It had no influence while this was recorded."
@@ -143,7 +143,7 @@ def _instead(course: Course, skill: str) -> str:
     return f"{'It is below another' if above != skill else 'Nothing is above it'}: --master {above}"
 
 
-def _shares(course: Course, target: Sink, rows: range, paths: int) -> dict[str, Any]:
+def _shares(course: AttributedRun, target: Sink, rows: range, paths: int) -> dict[str, Any]:
     found, graph = shares(course.flows, target, rows, paths), course.flows.graph
     data = asdict(found) | {
         "of": graph.named(*target),
@@ -156,7 +156,7 @@ def _shares(course: Course, target: Sink, rows: range, paths: int) -> dict[str, 
     return data | (_acted(course, target[1], rows) if target[0] == "actuator" else {})
 
 
-def _reads(course: Course, of: Contribution, rows: range) -> dict[str, list[float | None]]:
+def _reads(course: AttributedRun, of: Contribution, rows: range) -> dict[str, list[float | None]]:
     """Readings of the skill that sent it, by sensor or memory: means over the ticks, None where that is no number."""
     graph = course.flows.graph
     name = of.path[-2] if len(of.path) > 1 else of.path[0]  # before what was asked about, unless that is the master
@@ -178,7 +178,7 @@ def mean_direction(turns: NDArray[np.float64]) -> float:
     return float(np.angle(together) / (2 * np.pi) % 1.0) if abs(together) > DIRECTION_TOLERANCE else nan
 
 
-def _acted(course: Course, actuator: int, rows: range) -> dict[str, Any]:
+def _acted(course: AttributedRun, actuator: int, rows: range) -> dict[str, Any]:
     """The mean command that reached the actuator, its delay, and in how many ticks the robot was stopped."""
     acted = course.acted[rows.start : rows.stop, actuator]
     return {

@@ -41,24 +41,24 @@ class Outline(NamedTuple):
         return min(xs) - self.rim, min(ys) - self.rim, max(xs) + self.rim, max(ys) + self.rim
 
 
-def disc(place: Place, radius: float) -> Outline:
+def disc_outline(place: Place, radius: float) -> Outline:
     """All that is so near to a place."""
     return Outline((place,), radius)
 
 
-def rectangle(of: Rectangle) -> Outline:
+def rectangle_outline(of: Rectangle) -> Outline:
     """The corners of a rectangle along the axes."""
     left, right, low, high = of.x - of.half_x, of.x + of.half_x, of.y - of.half_y, of.y + of.half_y
     return Outline(((left, low), (right, low), (right, high), (left, high)))
 
 
-def turned(place: Place, angle: float, corners: Sequence[Place]) -> Outline:
+def turned_outline(place: Place, angle: float, corners: Sequence[Place]) -> Outline:
     """A body with those corners around a place, turned counterclockwise by an angle in radians."""
     c, s = cos(angle), sin(angle)
     return Outline(tuple((place[0] + c * x - s * y, place[1] + s * x + c * y) for x, y in corners))
 
 
-def meet(one: Outline, other: Outline) -> bool:
+def overlap(one: Outline, other: Outline) -> bool:
     """True if two convex outlines overlap: no axis separates them (separating axis theorem)."""
     ends, others = one.ends, other.ends
     if not all(_cover((ends[i], ends[i + 2]), (others[i], others[i + 2])) for i in (0, 1)):
@@ -116,11 +116,13 @@ class Beginning:
     def outlines(self, kind: ThingKind) -> list[Outline]:
         """One for each copy of a thing that has a place; the middle alone of what lies on the floor."""
         if kind.is_obstacle:
-            return [rectangle(each) for each in kind.standing(self.scene, self.may)]
+            return [rectangle_outline(each) for each in kind.standing(self.scene, self.may)]
         half = self.half(kind)
         square = not kind.is_round and not kind.is_area
         return [
-            rectangle(Rectangle(*place, half, half)) if square else disc(place, 0.0 if kind.is_area else half)
+            rectangle_outline(Rectangle(*place, half, half))
+            if square
+            else disc_outline(place, 0.0 if kind.is_area else half)
             for place in kind.places[: kind.copies]
         ]
 
@@ -134,10 +136,10 @@ class Beginning:
         if self.at is None:
             return None
         if self.body is None:
-            return disc(self.at, 0.0)
+            return disc_outline(self.at, 0.0)
         if self.body.outline and self.facing is not None:
-            return turned(self.at, self.facing, self.body.outline)
-        return disc(self.at, self.body.radius if self.may else min(self.body.side, self.body.front))
+            return turned_outline(self.at, self.facing, self.body.outline)
+        return disc_outline(self.at, self.body.radius if self.may else min(self.body.side, self.body.front))
 
     @property
     def is_inside(self) -> bool:
@@ -153,12 +155,12 @@ class Beginning:
         parts = sorted((each for each in self.things if each.kind), key=lambda each: not each.kind.is_obstacle)
         found = [(each, role(each.kind), self.outlines(each.kind)) for each in parts]
         for number, (thing, its, outlines) in enumerate(found):
-            if its == "body" and any(meet(a, b) for i, a in enumerate(outlines) for b in outlines[:i]):
+            if its == "body" and any(overlap(a, b) for i, a in enumerate(outlines) for b in outlines[:i]):
                 yield thing, thing
-            spots = [*outlines, *(disc(place, 0.0) for place in thing.kind.places)]
+            spots = [*outlines, *(disc_outline(place, 0.0) for place in thing.kind.places)]
             for other, other_role, others in found[:number]:
                 mine = spots if other_role == "fixed" else outlines
-                if {its, other_role} in APART and any(meet(a, b) for a in mine for b in others):
+                if {its, other_role} in APART and any(overlap(a, b) for a in mine for b in others):
                     yield thing, other
 
     def on_robot(self) -> Part[Any] | None:
@@ -168,7 +170,7 @@ class Beginning:
         return next((each for each in bodies if robot and self._meets(robot, each.kind)), None)
 
     def _meets(self, robot: Outline, kind: ThingKind) -> bool:
-        return any(meet(robot, outline) for outline in self.outlines(kind))
+        return any(overlap(robot, outline) for outline in self.outlines(kind))
 
     def happenings(self, event: EventKind, sensors: Iterable[SensorKind]) -> int:
         """How often an event happens in the first tick of every run, whatever the robot does."""
@@ -224,7 +226,7 @@ def beginning(
     return Beginning(scene, things, start.at or (PLAIN_START if is_in_middle else None), start.facing, body, claw)
 
 
-def hint_apart(event: EventKind) -> str:
+def first_tick_hint(event: EventKind) -> str:
     """The hint for an event that comes in the first tick."""
     if event.is_of_battery:
         return "Let the battery start above 0."

@@ -12,14 +12,14 @@ from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.format import spaced
 from mindlang.compiler.model import Lesson, Mind, Part, Skill, Task
 from mindlang.compiler.names import Names
-from mindlang.compiler.resolve.kinds import Scope, make
+from mindlang.compiler.resolve.kinds import Scope, make_kind
 
 PLACES = {"span", "fact", "declaration", "curriculum"}  # fields of the model that say where a thing stands
 ORDERED = {"curriculum"}  # nouns whose lines mean something by their order
 
 
 @dataclass(frozen=True, slots=True)
-class Difference:
+class MindDifference:
     """A declaration or a setting that is new, gone, or changed: lines of it that are new and that are gone, as written.
 
     A declaration that is itself new or gone has its header among them.
@@ -38,7 +38,7 @@ class _Line:
     meaning: Any
 
 
-def differences(old: Mind, new: Mind) -> list[Difference]:
+def mind_differences(old: Mind, new: Mind) -> list[MindDifference]:
     """The declarations that differ between two minds, noun by noun.
 
     Nothing for comments, spaces, other spellings and the order of lines, but for the lessons of a curriculum.
@@ -55,18 +55,18 @@ def differences(old: Mind, new: Mind) -> list[Difference]:
     return found
 
 
-def _settings(old: Mind, new: Mind) -> Iterator[Difference]:
+def _settings(old: Mind, new: Mind) -> Iterator[MindDifference]:
     if old.master != new.master:
-        yield Difference("master", (f"master {old.master}",), (f"master {new.master}",))
+        yield MindDifference("master", (f"master {old.master}",), (f"master {new.master}",))
     for name, value in old.numbers.items():
         if name in new.numbers and new.numbers[name] != value:
             before, after = (_written(mind.names.numbers[name]) for mind in (old, new))
-            yield Difference(f"number {name}", (before,), (after,))
+            yield MindDifference(f"number {name}", (before,), (after,))
     if old.unit_metres != new.unit_metres:
         lengths = ([] if mind.unit_metres is None else [mind.unit_metres] for mind in (old, new))
-        yield Difference("unit", *(tuple(f"unit {100 * metres:.6g} cm" for metres in said) for said in lengths))
+        yield MindDifference("unit", *(tuple(f"unit {100 * metres:.6g} cm" for metres in said) for said in lengths))
     if old.tick != new.tick:
-        yield Difference("tick", (f"tick {old.tick:.6g} s",), (f"tick {new.tick:.6g} s",))
+        yield MindDifference("tick", (f"tick {old.tick:.6g} s",), (f"tick {new.tick:.6g} s",))
 
 
 def _drawn(mind: Mind) -> dict[str, list[_Line]]:
@@ -80,13 +80,13 @@ def _drawn(mind: Mind) -> dict[str, list[_Line]]:
     return found
 
 
-def _difference(what: str, old: Sequence[_Line], new: Sequence[_Line], ordered: bool) -> Iterator[Difference]:
+def _difference(what: str, old: Sequence[_Line], new: Sequence[_Line], ordered: bool) -> Iterator[MindDifference]:
     before, after = _numbered(old, new)
     kept = _in_order(before, after) if ordered else set(before) & set(after)
     gone = tuple(line.text for line, number in zip(old, before, strict=True) if number not in kept)
     come = tuple(line.text for line, number in zip(new, after, strict=True) if number not in kept)
     if gone or come:
-        yield Difference(what, gone, come)
+        yield MindDifference(what, gone, come)
 
 
 def _numbered(old: Sequence[_Line], new: Sequence[_Line]) -> tuple[list[int], list[int]]:
@@ -158,7 +158,7 @@ def _parts(header: syntax.Header, of: Any) -> tuple[Any, dict[str, Sequence[Any]
         case Part():
             return of.kind, {}
     phrase = header.phrase
-    return phrase and make("curriculum", phrase, Scope(Names({}), None), Findings()), {"teaches": of or []}
+    return phrase and make_kind("curriculum", phrase, Scope(Names({}), None), Findings()), {"teaches": of or []}
 
 
 def _header(header: syntax.Header, names: Names) -> str:

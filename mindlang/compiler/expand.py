@@ -16,7 +16,7 @@ from networkx import DiGraph
 
 from mindlang.compiler import syntax
 from mindlang.compiler.diagnostic import Findings, a
-from mindlang.compiler.hierarchy import ends_first, refuse_circles
+from mindlang.compiler.hierarchy import refuse_circles, reverse_topological_order
 from mindlang.compiler.names import Names
 from mindlang.compiler.references import names_in
 from mindlang.compiler.syntax import Amount, Declaration, Expression, Fact, Name, Numbers, Phrase, rebuilt
@@ -27,7 +27,7 @@ _WORD = re.compile(r"[a-z]\w*")
 Declarations = dict[str, Declaration]
 
 
-def numbers(names: Names, findings: Findings) -> dict[str, Amount]:
+def number_values(names: Names, findings: Findings) -> dict[str, Amount]:
     """The amount that each name stands for; one that stands for itself in the end is reported, and left out."""
     graph = DiGraph()
     graph.add_nodes_from(names.numbers)
@@ -36,14 +36,14 @@ def numbers(names: Names, findings: Findings) -> dict[str, Amount]:
     hint = "Write a number in one of the lines."
     refuse_circles("number-circle", graph, findings, "A number stands for itself", hint, "through this one")
     found: dict[str, Amount] = {}
-    for name in (each for each in ends_first(graph) if each in names.numbers):
+    for name in (each for each in reverse_topological_order(graph) if each in names.numbers):
         amount = names.numbers[name].amount
         if not amount.name or names.find(amount.constant, ("number",), findings):
-            found[name] = in_place(amount, found)
+            found[name] = fill_number(amount, found)
     return {name: amount for name, amount in found.items() if not amount.name}
 
 
-def in_place(amount: Amount, numbers: Mapping[str, Amount]) -> Amount:
+def fill_number(amount: Amount, numbers: Mapping[str, Amount]) -> Amount:
     """The amount with its named number filled in, keeping its sign and span; itself where it names no known number."""
     value = numbers.get(amount.name)
     if value is None:
@@ -56,7 +56,7 @@ def expand(names: Names, values: Mapping[str, Amount], tick_seconds: float, find
 
     `values` are what the names of numbers stand for.
     """
-    line = writer(names, values, tick_seconds)
+    line = number_writer(names, values, tick_seconds)
     table = {
         noun: {
             name: replace(each, header=line(each.header), facts=tuple(map(line, each.facts)))
@@ -83,7 +83,7 @@ def expand(names: Names, values: Mapping[str, Amount], tick_seconds: float, find
     return with_fields(names, table=table | {noun: each for noun, each in whole.items() if each})
 
 
-def writer(names: Names, values: Mapping[str, Amount], tick_seconds: float) -> Callable[[Any], Any]:
+def number_writer(names: Names, values: Mapping[str, Amount], tick_seconds: float) -> Callable[[Any], Any]:
     """A function that replaces names of numbers in a line by their values, and gives its rates the length of a tick."""
     words = frozenset(name.rpartition(".")[2] for name in values)  # all that stands of a name in a file with an alias
 
@@ -98,7 +98,7 @@ def writer(names: Names, values: Mapping[str, Amount], tick_seconds: float) -> C
         def changed(node: Any) -> Any:
             match node:
                 case Amount():
-                    amount = in_place(node, values)
+                    amount = fill_number(node, values)
                     return replace(amount, tick_seconds=tick_seconds) if amount.per == "s" else amount
                 case Phrase(kind, ()) if kind.span in places:
                     return changed(Amount(1.0, "", kind.span, name=kind.text))
@@ -122,7 +122,7 @@ def _followed(noun: str, names: Names, begun: Callable[[Declaration], Declaratio
     says, hint = f"{a(noun).capitalize()} is like itself", "Let one of them say what it is itself."
     refuse_circles("like-circle", graph, findings, says, hint, "through this one")
     found: Declarations = {}
-    for name in ends_first(graph):
+    for name in reverse_topological_order(graph):
         own, other = declared[name], next(iter(graph[name]), None)
         if other:
             found[name] = _like(own, found[other])

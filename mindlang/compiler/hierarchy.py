@@ -12,20 +12,20 @@ from mindlang.compiler.diagnostic import Findings, Label
 MAX_CIRCLES = 20  # that are reported at once: a tangle can have more than anybody waits for
 
 
-def in_order(graph: DiGraph) -> list[Any]:
+def topological_order(graph: DiGraph) -> list[Any]:
     """The nodes in topological order, parents first and otherwise as they were added; there are no circles."""
     place = {node: index for index, node in enumerate(graph)}
     return list(nx.lexicographical_topological_sort(graph, key=place.__getitem__))
 
 
-def below(graph: DiGraph, nodes: Iterable[Any]) -> set[Any]:
+def with_descendants(graph: DiGraph, nodes: Iterable[Any]) -> set[Any]:
     """These nodes, and all that is reached from them."""
     return set(chain.from_iterable(nx.bfs_layers(graph, list(nodes))))
 
 
-def above(graph: DiGraph, nodes: Iterable[Any]) -> set[Any]:
+def with_ancestors(graph: DiGraph, nodes: Iterable[Any]) -> set[Any]:
     """These nodes, and all from which they are reached."""
-    return below(graph.reverse(copy=False), nodes)
+    return with_descendants(graph.reverse(copy=False), nodes)
 
 
 def circles(graph: DiGraph) -> list[list[Any]]:
@@ -41,12 +41,12 @@ def circles(graph: DiGraph) -> list[list[Any]]:
     return [[nodes[number] for number in circle] for circle in found]
 
 
-def ends_first(graph: DiGraph) -> list[Any]:
+def reverse_topological_order(graph: DiGraph) -> list[Any]:
     """The nodes that lead into no circle, each after all that it leads to."""
     circular = [node for part in nx.strongly_connected_components(graph) if len(part) > 1 for node in part]
     ending = graph.copy()
-    ending.remove_nodes_from(above(graph, [*circular, *nx.nodes_with_selfloops(graph)]))
-    return in_order(ending)[::-1]
+    ending.remove_nodes_from(with_ancestors(graph, [*circular, *nx.nodes_with_selfloops(graph)]))
+    return topological_order(ending)[::-1]
 
 
 def refuse_circles(code: str, graph: DiGraph, findings: Findings, says: str, hint: str, label: str) -> None:

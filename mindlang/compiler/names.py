@@ -124,7 +124,7 @@ def _words(span: Span) -> list[str]:
     return [*words, *(word.replace("-", "_") for word in words)]
 
 
-def gather(files: Iterable[File], findings: Findings) -> Names:
+def declared_names(files: Iterable[File], findings: Findings) -> Names:
     """All declarations by name; of two with one name the second is reported."""
     names = Names({}, frozenset(word for found in findings.diagnostics if found.span for word in _words(found.span)))
     above: Declaration | None = None

@@ -81,7 +81,7 @@ class Episodes:
         """One tick under actions [lanes, actions]: rewards, what has ended, and where time is up instead.
 
         An action that is not finite is not sent."""
-        given = numbers(actions, (self.lanes.count, self.actions))
+        given = checked_actions(actions, (self.lanes.count, self.actions))
         if self.row is None:
             self.lanes.command(given)
         else:
@@ -159,7 +159,7 @@ def _setup(mind: Mind, task: Task, master: str, ready: ReadyMind) -> RunSetup:
     return RunSetup(task, master, ready, mind.path.absolute().parent)
 
 
-def numbers(actions: ArrayLike, shape: tuple[int, ...]) -> Floats:
+def checked_actions(actions: ArrayLike, shape: tuple[int, ...]) -> Floats:
     """Actions as they are given to robots; MindError where they are no numbers of that shape."""
     try:
         given = np.asarray(actions)
@@ -174,7 +174,7 @@ def numbers(actions: ArrayLike, shape: tuple[int, ...]) -> Floats:
     return given.astype(np.float32, copy=False)
 
 
-def layouts(seeds: list[int | None], streams: list[np.random.Generator]) -> NDArray[np.uint64]:
+def chosen_layouts(seeds: list[int | None], streams: list[np.random.Generator]) -> NDArray[np.uint64]:
     """The layout of each seed, that of `mindc run --seed`; drawn from its stream where there is none."""
     drawn = (
         int(stream.integers(MAX_DRAWN_SEED)) if seed is None else seed % SEED_COUNT

@@ -12,10 +12,10 @@ from gymnasium.utils import EzPickle
 
 from mindlang.environments.episodes import (
     Floats,
+    checked_actions,
+    chosen_layouts,
     episodes_of,
     image_of,
-    layouts,
-    numbers,
     refuse_unknown_mode,
     unit_box,
 )
@@ -63,7 +63,7 @@ class TaskEnv(Env[Floats, Floats], EzPickle):
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Floats, dict[str, Any]]:
         """Begin another episode; `info["layout"]` is the seed by which `mindc run` repeats it."""
         super().reset(seed=seed)
-        self._episodes.begin(ONE_LANE, layouts([seed], [self.np_random]))
+        self._episodes.begin(ONE_LANE, chosen_layouts([seed], [self.np_random]))
         self._goes_on = True
         layout = int(self._episodes.seeds[0])
         if self._view:
@@ -74,7 +74,9 @@ class TaskEnv(Env[Floats, Floats], EzPickle):
         """One tick; with the last of an episode, `info` says what came of it."""
         if not self._goes_on:
             raise ResetNeeded("the episode has ended, or none has begun: call reset()")
-        [reward], [terminated], [truncated] = self._episodes.step(numbers(action, self.action_space.shape)[None])
+        [reward], [terminated], [truncated] = self._episodes.step(
+            checked_actions(action, self.action_space.shape)[None]
+        )
         self._goes_on = not (terminated or truncated)
         if self._view:
             self._view.show()

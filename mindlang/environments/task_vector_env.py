@@ -14,7 +14,15 @@ from gymnasium.vector.utils import batch_space
 from mindrun.errors import MindError
 from numpy.typing import NDArray
 
-from mindlang.environments.episodes import Floats, Mask, episodes_of, image_of, layouts, refuse_unknown_mode, unit_box
+from mindlang.environments.episodes import (
+    Floats,
+    Mask,
+    chosen_layouts,
+    episodes_of,
+    image_of,
+    refuse_unknown_mode,
+    unit_box,
+)
 from mindlang.pictures.canvas import Image
 from mindlang.run.setup import layouts as children
 
@@ -79,7 +87,7 @@ class TaskVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]], EzPickle):
             stream if one is None else np_random(one)[0] for stream, one in zip(before, seeds, strict=True)
         ]
         everywhere = np.ones(self.num_envs, np.bool_)
-        self._episodes.begin(everywhere, layouts(seeds, self._streams))
+        self._episodes.begin(everywhere, chosen_layouts(seeds, self._streams))
         self._over[:] = False
         return self._episodes.sense(), self._begun(everywhere, {})
 
@@ -101,7 +109,7 @@ class TaskVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]], EzPickle):
                 infos = self._add_info(infos, self._outcome(lane), lane)
         if begins.any():
             chosen = np.flatnonzero(begins).tolist()
-            self._episodes.begin(begins, layouts([None] * len(chosen), [self._streams[i] for i in chosen]))
+            self._episodes.begin(begins, chosen_layouts([None] * len(chosen), [self._streams[i] for i in chosen]))
             infos = self._begun(begins, infos)
         return self._episodes.sense(), rewards, terminated, truncated, infos
 

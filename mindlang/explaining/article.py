@@ -18,7 +18,7 @@ _MARK = re.compile(rf"^- ({'|'.join(map(re.escape, SCALE_MARKS))}): (.+)\n", re.
 class Parameter:
     """An argument or option of a kind, a driver or a command: what it takes, what for, and its default.
 
-The default is None for a required one, and empty where there is nothing to say about it.
+    The default is None for a required one, and empty where there is nothing to say about it.
     """
 
     key: str
@@ -54,7 +54,7 @@ class Wire:
 
 
 @dataclass(frozen=True, slots=True)
-class Wiring:
+class DeviceWiring:
     """The wires at the terminals of a device, with the pins of an example."""
 
     device: str
@@ -82,7 +82,7 @@ class Article:
     wrong: tuple[str, ...] = ()
     right: tuple[str, ...] = ()
     language: str = "mind"
-    wiring: Wiring | None = None
+    wiring: DeviceWiring | None = None
 
     @property
     def paragraphs(self) -> list[str]:
@@ -129,9 +129,9 @@ def _section(chapter: str, name: str, body: str) -> Section:
 def titled(text: str) -> tuple[str, str]:
     """The first line of a text, and its paragraphs, each of them one line."""
     title, *paragraphs = re.split(r"\n\s*\n", text.strip())
-    return title, in_lines("\n\n".join(paragraphs))
+    return title, unwrap_paragraphs("\n\n".join(paragraphs))
 
 
-def in_lines(text: str) -> str:
+def unwrap_paragraphs(text: str) -> str:
     """The paragraphs of a text, each of them one line."""
     return "\n\n".join(" ".join(paragraph.split()) for paragraph in re.split(r"\n\s*\n", text.strip()))

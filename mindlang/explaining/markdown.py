@@ -4,7 +4,7 @@ from mindlang.compiler.diagnostic import a
 from mindlang.explaining.article import Article, Parameter
 
 
-def card(article: Article) -> str:
+def article_card(article: Article) -> str:
     """The Markdown that an editor shows of an article."""
     parts = [f"**{article.name}**, {a(article.sort)}", article.summary, *article.paragraphs]
     parts += ["\n".join(f"- **{mark}** {meaning}" for mark, meaning in article.scale.items())]

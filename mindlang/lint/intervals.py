@@ -24,17 +24,19 @@ UPPER = ("<", "<=")
 STRICT = ("<", ">")
 
 
-def share(name: str) -> Interval:
+def unknown_reading(name: str) -> Interval:
     """The range of a reading of which nothing is known."""
     return UNIT_INTERVAL
 
 
-def interval(of: Expression | Formula, reading: Readings = share, each: Interval = UNIT_INTERVAL) -> Interval:
+def interval(of: Expression | Formula, reading: Readings = unknown_reading, each: Interval = UNIT_INTERVAL) -> Interval:
     """The range of an expression whose readings have these ranges, that of `for each` the range `each`."""
     return fold(_formula(of), _leaf(reading, each), _negated, _combined)
 
 
-def divisors(of: Expression | Formula, reading: Readings = share, each: Interval = UNIT_INTERVAL) -> list[Interval]:
+def divisors(
+    of: Expression | Formula, reading: Readings = unknown_reading, each: Interval = UNIT_INTERVAL
+) -> list[Interval]:
     """The ranges of all that an expression divides by."""
     found: list[Interval] = []
 

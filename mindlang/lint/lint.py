@@ -12,7 +12,7 @@ from mindrun.files.regular_files import read_regular
 from mindlang.compiler.compile import Compiled, compile_source, load
 from mindlang.compiler.diagnostic import Diagnostic
 from mindlang.compiler.references import mentions
-from mindlang.compiler.source import Source, encoded
+from mindlang.compiler.source import Source, encode_source
 from mindlang.compiler.splice import Splice, spliced
 from mindlang.editing import transaction
 from mindlang.editing.neighbours import neighbours
@@ -93,7 +93,7 @@ def _mended(path: Path, compiled: Compiled, codes: Collection[str]) -> Linted:
         return compiled if source is compiled.sources[0] else compile_source(source, path)
 
     def refuse_changed() -> None:
-        was = encoded(path, compiled.sources[0].text)
+        was = encode_source(path, compiled.sources[0].text)
         if read_regular(path, len(was) + 1) != was:
             message = f"{path.name} has been changed meanwhile"
             raise transaction.TransactionError(message, "Try again: nothing has been written.")
@@ -102,7 +102,7 @@ def _mended(path: Path, compiled: Compiled, codes: Collection[str]) -> Linted:
     users = (each.sources[0].path for each in neighbours([path]))
     if not made or again(source).graph is None or any(load(user, {path: source.text}).graph is None for user in users):
         return Linted(tuple(lint(compiled, codes)), True, 0)
-    transaction.change(path.parent, {path: encoded(path, source.text)}, refuse_changed)
+    transaction.change(path.parent, {path: encode_source(path, source.text)}, refuse_changed)
     return Linted(tuple(lint(again(source), codes)), True, made)
 
 

@@ -18,7 +18,7 @@ from mindrun.errors import reason
 from mindrun.files.regular_files import read_regular
 
 from mindlang.compiler.diagnostic import ERRORS, Diagnostic, did_you_mean, listed
-from mindlang.compiler.source import MAX_SOURCE_BYTES, Source, Span, decode
+from mindlang.compiler.source import MAX_SOURCE_BYTES, Source, Span, decode_source
 from mindlang.files import folders_above, name_from_here
 from mindlang.lint.rules import all_rules
 
@@ -72,7 +72,7 @@ def why_no_rule(code: str) -> tuple[str, str] | None:
 def _read(path: Path) -> LintSettings:
     name = name_from_here(path)
     try:
-        source = Source(name, decode(read_regular(path, MAX_SOURCE_BYTES + 1)), path.parent)
+        source = Source(name, decode_source(read_regular(path, MAX_SOURCE_BYTES + 1)), path.parent)
     except (OSError, ValueError) as error:
         message = f"{name} cannot be read: {reason(error)}."
         return LintSettings(wrong=(Diagnostic("unreadable-settings", message, None, "It is a text in TOML."),))

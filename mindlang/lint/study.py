@@ -15,7 +15,7 @@ from mindrun.kinds.things.thing import STAYS
 from mindlang.compiler.beginning import Beginning, beginning
 from mindlang.compiler.compile import Compiled
 from mindlang.compiler.diagnostic import Fix, Label
-from mindlang.compiler.hierarchy import below, ends_first, in_order
+from mindlang.compiler.hierarchy import reverse_topological_order, topological_order, with_descendants
 from mindlang.compiler.model import Edge, End, Expression, Mind, Reading, Reward, Skill, Task, When, source_graph
 from mindlang.compiler.references import Mention, mentions
 from mindlang.compiler.source import Source, Span
@@ -133,12 +133,14 @@ class Study:
     @cached_property
     def children_first(self) -> tuple[Skill, ...]:
         """The skills in an order in which a table that a skill has from its subskills can be filled."""
-        return tuple(self.skills[name] for name in reversed(in_order(self.mind.influences)))
+        return tuple(self.skills[name] for name in reversed(topological_order(self.mind.influences)))
 
     @cached_property
     def active(self) -> set[str]:
         """The skills that a master reaches, the mind's or that of a lesson."""
-        return below(self.mind.influences, {self.mind.master, *(lesson.master for lesson in self.mind.lessons)})
+        return with_descendants(
+            self.mind.influences, {self.mind.master, *(lesson.master for lesson in self.mind.lessons)}
+        )
 
     @cached_property
     def acting(self) -> set[str]:
@@ -161,7 +163,7 @@ class Study:
     def roots(self) -> dict[str, frozenset[str]]:
         """The physical sensors that each sensor is computed from; of one that is not computed, itself."""
         graph, found = source_graph(self.mind.sensors), dict[str, frozenset[str]]()
-        for name in ends_first(graph):
+        for name in reverse_topological_order(graph):
             found[name] = frozenset[str]().union(*(found[source] for source in graph[name])) or frozenset({name})
         return found
 
@@ -300,7 +302,7 @@ def is_zero_influence(edge: Edge) -> bool:
     return edge.to == "skill" and bool(edge.at) and all(interval(value)[1] <= 0 for value in edge.values)
 
 
-def words(name: str) -> list[str]:
+def name_words(name: str) -> list[str]:
     """The words of a name in lower case, whether underscores or capitals part them: left_wheel, LeftWheel."""
     return [word.lower() for word in _WORD.findall(name)]
 

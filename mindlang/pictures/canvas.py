@@ -36,7 +36,7 @@ def reduced(image: Image, scale: float) -> Image:
     return cv2.resize(image, size, interpolation=cv2.INTER_AREA).astype(np.uint8)
 
 
-def fitted(seen: Image, width: int, height: int, around: Colour) -> Image:
+def letterboxed(seen: Image, width: int, height: int, around: Colour) -> Image:
     """An image, red first, as one of that size: as large as fits, in the middle."""
     high, wide, _ = seen.shape
     scale = min(width / wide, height / high)
@@ -48,7 +48,7 @@ def fitted(seen: Image, width: int, height: int, around: Colour) -> Image:
     return page
 
 
-class Rectangle(NamedTuple):
+class PixelRectangle(NamedTuple):
     """Where something stands: by the corner from which both coordinates grow, in units or pixels."""
 
     left: float
@@ -56,12 +56,12 @@ class Rectangle(NamedTuple):
     width: float
     height: float
 
-    def overlaps(self, other: "Rectangle") -> bool:
+    def overlaps(self, other: "PixelRectangle") -> bool:
         """True if both share an area."""
         is_beside = self.left >= other.left + other.width or other.left >= self.left + self.width
         return not is_beside and self.low < other.low + other.height and other.low < self.low + self.height
 
-    def is_within(self, other: "Rectangle") -> bool:
+    def is_within(self, other: "PixelRectangle") -> bool:
         """True if the other covers all of it."""
         right, top = other.left + other.width, other.low + other.height
         ends_in = self.left + self.width <= right and self.low + self.height <= top
@@ -189,7 +189,7 @@ def text_width(text: str, size: float, bold: bool = False) -> float:
     return float(width)
 
 
-def in_lines(widths: Sequence[float], gap: float, room: float) -> list[tuple[float, int]]:
+def flow_layout(widths: Sequence[float], gap: float, room: float) -> list[tuple[float, int]]:
     """Where each of some texts of these widths begins, and in which line, side by side in lines as wide as the room."""
     places, along, line = [], 0.0, 0
     for width in widths:
@@ -202,10 +202,10 @@ def in_lines(widths: Sequence[float], gap: float, room: float) -> list[tuple[flo
 
 def square(x: float, y: float, half: float) -> Sequence[tuple[float, float]]:
     """The corners of a square."""
-    return rectangle(x, y, half, half)
+    return rectangle_corners(x, y, half, half)
 
 
-def rectangle(x: float, y: float, half_x: float, half_y: float) -> Sequence[tuple[float, float]]:
+def rectangle_corners(x: float, y: float, half_x: float, half_y: float) -> Sequence[tuple[float, float]]:
     """The corners of a rectangle around a place."""
     left, right, low, high = x - half_x, x + half_x, y - half_y, y + half_y
     return (left, low), (right, low), (right, high), (left, high)

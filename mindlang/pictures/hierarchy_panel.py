@@ -16,7 +16,7 @@ import numpy as np
 from mindrun.engine.engine import procedure_sources
 from numpy.typing import NDArray
 
-from mindlang.pictures.canvas import Canvas, Rectangle, text_width
+from mindlang.pictures.canvas import Canvas, PixelRectangle, text_width
 from mindlang.pictures.theme import NIGHT, Colour, mixed
 from mindlang.run.edge_flow import Link, Sink, edge_flows
 from mindlang.run.recorded_run import RecordedRun
@@ -35,13 +35,13 @@ PASSAGE_SHARE = 0.3  # of a box's room: that of a link which passes a row
 class HierarchyPanel:
     """Draws the hierarchy of a run into a rectangle of a page."""
 
-    def __init__(self, run: RecordedRun, room: Rectangle) -> None:
+    def __init__(self, run: RecordedRun, room: PixelRectangle) -> None:
         self._run = run
         sources = procedure_sources(run.graph, run.setup.folder, run.setup.master)
         self._flows = edge_flows(run.setup.ready.policy, sources, run.setup.master, run)
         self._boxes, self._stops = laid_out(self._flows.links, self._flows.skills, room)
         self._lines = {sink: self._lines_of(sink, place) for sink, place in self._boxes.items()}
-        self._size = min(fitting(self._lines[sink], place) for sink, place in self._boxes.items())
+        self._size = min(box_text_size(self._lines[sink], place) for sink, place in self._boxes.items())
 
     def draw(self, canvas: Canvas, tick: int) -> None:
         """The hierarchy in a tick, the first of which is 1."""
@@ -113,7 +113,7 @@ def broken(name: str, room: float) -> list[str]:
     return [name[:best], name[best:]]
 
 
-def fitting(lines: Sequence[str], place: Place) -> float:
+def box_text_size(lines: Sequence[str], place: Place) -> float:
     """The size at which lines fit into a box, and below them one more."""
     widest = max(text_width(line, MAX_TEXT_PIXELS) for line in lines)
     high = (place.height - LINE_GAP_PIXELS * (len(lines) + 2)) / (len(lines) + 1)
@@ -151,7 +151,7 @@ class Place:
 
 
 def laid_out(
-    links: Sequence[Link], skills: Sequence[int], room: Rectangle
+    links: Sequence[Link], skills: Sequence[int], room: PixelRectangle
 ) -> tuple[dict[Sink, Place], list[list[Place]]]:
     """The boxes, and for each link the places that it goes through: from box to box, between the others of a row.
 
@@ -206,7 +206,7 @@ def _ordered(rows: list[list[Stop]], routes: Iterable[Sequence[Stop]]) -> list[l
     return rows
 
 
-def _spread(row: Sequence[Stop], level: int, levels: int, room: Rectangle) -> Iterable[tuple[Stop, Place]]:
+def _spread(row: Sequence[Stop], level: int, levels: int, room: PixelRectangle) -> Iterable[tuple[Stop, Place]]:
     """The boxes of a row side by side."""
     shares = [PASSAGE_SHARE if sink[0] == "link" else 1.0 for sink in row]
     unit, gap = room.width / sum(shares), room.height / levels

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mindlang.number_format import score
-from mindlang.pictures.canvas import Canvas, Rectangle, rectangle, square, text_width
-from mindlang.pictures.scene import Label, free, thing_colours
+from mindlang.pictures.canvas import Canvas, PixelRectangle, rectangle_corners, square, text_width
+from mindlang.pictures.scene import SceneLabel, free, thing_colours
 from mindlang.pictures.theme import NIGHT, PAPER, Colour, Theme, mixed
 from mindlang.run.recorded_run import RecordedRun
 
@@ -148,11 +148,11 @@ def draw_end_mark(canvas: Canvas, run: RecordedRun, found: dict[str, Any], theme
     draw_rings(canvas, x, y, run.graph.body.radius + MARK_PIXELS * canvas.pixel, found, theme)
 
 
-def end_label(canvas: Canvas, run: RecordedRun, found: dict[str, Any]) -> Label:
+def end_label(canvas: Canvas, run: RecordedRun, found: dict[str, Any]) -> SceneLabel:
     """The words beside the mark."""
     x, y, _ = run.body[-1]
     size = 2 * (run.graph.body.radius + (MARK_PIXELS + RING_PIXELS) * canvas.pixel)
-    return Label(ending_words(found), LABEL_PIXELS, ending_colour(found, PAPER), x, y, size)
+    return SceneLabel(ending_words(found), LABEL_PIXELS, ending_colour(found, PAPER), x, y, size)
 
 
 def draw_rings(canvas: Canvas, x: float, y: float, radius: float, found: dict[str, Any], theme: Theme) -> None:
@@ -163,7 +163,7 @@ def draw_rings(canvas: Canvas, x: float, y: float, radius: float, found: dict[st
 
 
 def draw_banner(
-    canvas: Canvas, run: RecordedRun, found: dict[str, Any], room: Rectangle, taken: Iterable[Rectangle]
+    canvas: Canvas, run: RecordedRun, found: dict[str, Any], room: PixelRectangle, taken: Iterable[PixelRectangle]
 ) -> None:
     """How it ended, when, and with which score: at an edge of the room, where nothing that is `taken` lies below it.
 
@@ -176,16 +176,16 @@ def draw_banner(
     fit = wide / widest
     left, low, *_ = free(_banner_places(wide, room), taken, room)
     x = left + wide / 2
-    around = rectangle(x, low + BANNER_PIXELS / 2, wide / 2, BANNER_PIXELS / 2)
+    around = rectangle_corners(x, low + BANNER_PIXELS / 2, wide / 2, BANNER_PIXELS / 2)
     canvas.polygon(around, NIGHT.page, 0.88)
     canvas.line(around, colour, 1.6, closed=True)
     canvas.text(x, low + 33, words, fit * WORDS_PIXELS, colour, bold=True, align="centre")
     canvas.text(x, low + 56, detail, fit * DETAIL_PIXELS, NIGHT.ink, align="centre")
 
 
-def _banner_places(wide: float, room: Rectangle) -> Iterator[Rectangle]:
+def _banner_places(wide: float, room: PixelRectangle) -> Iterator[PixelRectangle]:
     """Below and above, each in the middle, at the left and at the right."""
     far = room.width - wide
     for y in (room.low + room.height - BANNER_MARGIN_PIXELS - BANNER_PIXELS, room.low + BANNER_MARGIN_PIXELS):
         for x in (far / 2, BANNER_MARGIN_PIXELS, far - BANNER_MARGIN_PIXELS):
-            yield Rectangle(room.left + x, y, wide, BANNER_PIXELS)
+            yield PixelRectangle(room.left + x, y, wide, BANNER_PIXELS)

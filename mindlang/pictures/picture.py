@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindlang.number_format import score
-from mindlang.pictures.canvas import Canvas, Image, Viewport, blank, in_lines, pasted, reduced, square
+from mindlang.pictures.canvas import Canvas, Image, Viewport, blank, flow_layout, pasted, reduced, square
 from mindlang.pictures.path import (
     MIN_CONTROL_SHARE,
     Path,
@@ -148,19 +148,19 @@ def draw_legend(
 ) -> None:
     """Draw the legend of colours and marks, in lines that end before `right`, smaller where they are many."""
     entries = _entries(canvas, run, found, path)
-    size, places = fitted(canvas, [name for _, name in entries], right - x)
+    size, places = legend_layout(canvas, [name for _, name in entries], right - x)
     for (draw, name), (along, line) in zip(entries, places, strict=True):
         low = y + LEGEND_LINE_PIXELS * line
         draw(x + along, low - 4)
         canvas.text(x + along + LEGEND_MARK_PIXELS, low, name, size, PAPER.ink)
 
 
-def fitted(canvas: Canvas, names: Sequence[str], room: float) -> tuple[float, list[tuple[float, int]]]:
+def legend_layout(canvas: Canvas, names: Sequence[str], room: float) -> tuple[float, list[tuple[float, int]]]:
     """The largest size at which so many names fit into the lines, and where each entry begins."""
     size = SMALL_PIXELS
     while True:
         widths = [LEGEND_MARK_PIXELS + canvas.width(name, size) for name in names]
-        places = in_lines(widths, ENTRY_GAP_PIXELS, room)
+        places = flow_layout(widths, ENTRY_GAP_PIXELS, room)
         if places[-1][1] < LEGEND_LINES or size <= MIN_TEXT_PIXELS:
             return size, places
         size -= 0.5

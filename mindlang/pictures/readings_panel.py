@@ -7,7 +7,7 @@ from mindrun.graph.graph import Sensor
 from mindrun.graph.weights import reachable
 from numpy.typing import NDArray
 
-from mindlang.pictures.canvas import Canvas, Rectangle, text_width
+from mindlang.pictures.canvas import Canvas, PixelRectangle, text_width
 from mindlang.pictures.theme import NIGHT
 from mindlang.run.recorded_run import RecordedRun
 
@@ -28,16 +28,16 @@ def sensors_read(run: RecordedRun) -> list[Sensor]:
 class ReadingsPanel:
     """Draws the readings of a run into a rectangle of a canvas, as many sensors as fit."""
 
-    def __init__(self, run: RecordedRun, room: Rectangle) -> None:
+    def __init__(self, run: RecordedRun, room: PixelRectangle) -> None:
         self._run = run
-        self._sensors, self._cells, self._left_out = fitted(sensors_read(run), room)
+        self._sensors, self._cells, self._left_out = cell_layout(sensors_read(run), room)
 
     def draw_names(self, canvas: Canvas) -> None:
         """Draw what no tick changes: the names, and how many sensors are not shown."""
         names = [sensor.name for sensor in self._sensors]
         names += [f"and {self._left_out} more"] * (self._left_out > 0)
         for name, cell in zip(names, self._cells, strict=False):
-            text, size = shortened(name, NAME_SHARE * cell.width - 8)
+            text, size = fit_name(name, NAME_SHARE * cell.width - 8)
             canvas.text(cell.left, cell.low + size / 2, text, size, NIGHT.faint)
 
     def draw(self, canvas: Canvas, tick: int) -> None:
@@ -71,7 +71,7 @@ class ReadingsPanel:
                     canvas.polygon([(begin, low), (end, low), (end, top), (begin, top)], colour)
 
 
-def fitted(sensors: Sequence[Sensor], room: Rectangle) -> tuple[Sequence[Sensor], list[Rectangle], int]:
+def cell_layout(sensors: Sequence[Sensor], room: PixelRectangle) -> tuple[Sequence[Sensor], list[PixelRectangle], int]:
     """The sensors that are shown in a room, the cells, and how many are left out.
 
     A cell is given by its left end and its middle row. Where some are left out, the last cell says how many.
@@ -83,7 +83,7 @@ def fitted(sensors: Sequence[Sensor], room: Rectangle) -> tuple[Sequence[Sensor]
     return sensors[:shown], cells, len(sensors) - shown
 
 
-def _cells(count: int, room: Rectangle) -> Iterator[Rectangle]:
+def _cells(count: int, room: PixelRectangle) -> Iterator[PixelRectangle]:
     """At most so many cells, column by column."""
     columns = max(1, int(room.width // COLUMN_PIXELS))
     most = int(room.height // ROW_PIXELS)
@@ -92,10 +92,10 @@ def _cells(count: int, room: Rectangle) -> Iterator[Rectangle]:
     for number in range(min(count, rows * columns)):
         column, row = divmod(number, rows)
         left = room.left + column * wide + INDENT_PIXELS
-        yield Rectangle(left, room.low + (row + 0.5) * ROW_PIXELS, wide - 2 * INDENT_PIXELS, ROW_PIXELS)
+        yield PixelRectangle(left, room.low + (row + 0.5) * ROW_PIXELS, wide - 2 * INDENT_PIXELS, ROW_PIXELS)
 
 
-def shortened(name: str, room: float) -> tuple[str, float]:
+def fit_name(name: str, room: float) -> tuple[str, float]:
     """A name and its size such that it is not wider than so many pixels: smaller, and if that is not enough, cut."""
     size = TEXT_PIXELS
     while size > MIN_TEXT_PIXELS and text_width(name, size) > room:

@@ -10,11 +10,11 @@ from mindrun.graph.graph import Actuator, Edge, Graph, Skill
 from mindrun.graph.weights import Weights, reachable
 from networkx import DiGraph
 
-from mindlang.compiler.hierarchy import above
+from mindlang.compiler.hierarchy import with_ancestors
 from mindlang.proofs.branch_and_bound import EdgeRange
 from mindlang.proofs.interval import is_known
-from mindlang.proofs.paths import Leak, Paths, leaks, paths, ways
-from mindlang.proofs.reach import MIN_INFLUENCE, Driven, ProvedReach, reach, together
+from mindlang.proofs.paths import Leak, Paths, influence_edges, leaks, paths
+from mindlang.proofs.reach import MIN_INFLUENCE, Driven, ProvedReach, prove_reach, tighten
 from mindlang.proofs.trying import Tried, try_out
 
 MAX_LISTED_PATHS = 10
@@ -25,7 +25,7 @@ Neutral = Literal["always", "never", "can be", "not excluded"]
 
 
 @dataclass(frozen=True, slots=True)
-class OfActuator:
+class ActuatorClaims:
     """All claims about an actuator. `weights` names the skills on whose weights its bounds rest."""
 
     actuator: Actuator
@@ -62,7 +62,7 @@ class OfActuator:
 
 
 @dataclass(frozen=True, slots=True)
-class OfEdge:
+class EdgeClaim:
     """The claim about an edge to another skill."""
 
     skill: str
@@ -79,19 +79,19 @@ class Proof:
     delta: float
     unknown: Mapping[str, str]
     outside: tuple[str, ...]
-    actuators: tuple[OfActuator, ...]
-    edges: tuple[OfEdge, ...]
+    actuators: tuple[ActuatorClaims, ...]
+    edges: tuple[EdgeClaim, ...]
     dead: Mapping[str, tuple[str, ...]]  # the skills on whose weights it rests
 
 
 def prove(graph: Graph, weights: Mapping[str, Weights], delta: float) -> Proof:
     """All claims about a mind under its master; `delta` is the influence of a leak."""
     count = len(graph.actuators)
-    found, bounds = ways(graph), reach(graph, weights)
+    found, bounds = influence_edges(graph), prove_reach(graph, weights)
     tried: Sequence[Tried | None] = try_out(graph, weights) or [None] * count
     alone, bounds = (
         bounds,
-        together(graph, weights, bounds, [bool(seen and seen.readings is not None) for seen in tried]),
+        tighten(graph, weights, bounds, [bool(seen and seen.readings is not None) for seen in tried]),
     )
     listed, leaking = paths(found, count, MAX_LISTED_PATHS), leaks(found, count, delta)
     rests = _Rests(graph, weights, bounds)
@@ -103,7 +103,7 @@ def prove(graph: Graph, weights: Mapping[str, Weights], delta: float) -> Proof:
         {skill.name: _why(skill) for skill in below if not is_known(skill, weights.get(skill.owner))},
         tuple(skill.name for skill in graph.skills if skill.name not in names),
         tuple(
-            OfActuator(
+            ActuatorClaims(
                 actuator,
                 listed[i],
                 leaking[i],
@@ -122,12 +122,12 @@ def _why(skill: Skill) -> str:
     return skill.function.opaque or "has no weights that fit"
 
 
-def _edges(graph: Graph, below: Sequence[Skill], bounds: ProvedReach, rests: _Rests) -> Iterator[OfEdge]:
+def _edges(graph: Graph, below: Sequence[Skill], bounds: ProvedReach, rests: _Rests) -> Iterator[EdgeClaim]:
     for skill in below:
         for edge, sends in zip(skill.edges, bounds.edges[skill.name], strict=True):
             if edge.to == "skill":
                 weights = (skill.owner,) if rests.says(skill, edge, sends) else ()
-                yield OfEdge(skill.name, graph.named("skill", edge.target), sends, weights)
+                yield EdgeClaim(skill.name, graph.named("skill", edge.target), sends, weights)
 
 
 class _Rests:
@@ -155,7 +155,7 @@ class _Rests:
         node = "actuator", actuator
         if node not in self._flow:
             return ()
-        ways = self._flow.in_edges(above(self._flow, [node]), data="sends")
+        ways = self._flow.in_edges(with_ancestors(self._flow, [node]), data="sends")
         return self._in_order(
             {
                 skill.owner
@@ -166,7 +166,7 @@ class _Rests:
 
     def of_dead(self, name: str) -> tuple[str, ...]:
         """Of the edges that send nothing to a dead skill or to those above it that are dead as well."""
-        ways = self._flow.in_edges(above(self._live, [("skill", self._place[name])]), data="sends")
+        ways = self._flow.in_edges(with_ancestors(self._live, [("skill", self._place[name])]), data="sends")
         return self._in_order(
             {skill.owner for _, _, (skill, edge, sends) in ways if sends.is_dead and self.says(skill, edge, sends)}
         )

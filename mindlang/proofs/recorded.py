@@ -33,7 +33,7 @@ class Recorded:
     actuators: tuple[Undriven, ...]
 
 
-def record(setup: RunSetup, seed: int, prepare: Callable[[Rollout], None] = Rollout.compile) -> Recorded:
+def record_undriven(setup: RunSetup, seed: int, prepare: Callable[[Rollout], None] = Rollout.compile) -> Recorded:
     """One run to its end; `prepare` compiles the simulator. Runs the Python code of the mind's procedures."""
     rollout = setup.rollout()
     prepare(rollout)

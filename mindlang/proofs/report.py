@@ -16,7 +16,7 @@ from rich.text import Text
 
 from mindlang.compiler.diagnostic import listed
 from mindlang.proofs.paths import MAX_COUNTED_PATHS, Leak
-from mindlang.proofs.proof import DECLARATION, OfActuator, OfEdge, Proof
+from mindlang.proofs.proof import DECLARATION, ActuatorClaims, EdgeClaim, Proof
 from mindlang.proofs.trying import Tried
 
 if TYPE_CHECKING:
@@ -37,7 +37,7 @@ def _rests_on(skills: Iterable[str], hashes: Hashes) -> list[str]:
     return [f"the weights {hashes[skill][:4]}… of {skill}" for skill in skills] or [DECLARATION]
 
 
-def as_data(proof: Proof, hashes: Hashes, run: Recorded | None) -> Data:
+def proof_data(proof: Proof, hashes: Hashes, run: Recorded | None) -> Data:
     """A whole proof as plain data."""
     return {
         "master": proof.graph.master,
@@ -53,7 +53,7 @@ def as_data(proof: Proof, hashes: Hashes, run: Recorded | None) -> Data:
     }
 
 
-def _actuator(found: OfActuator, place: int, proof: Proof, hashes: Hashes, run: Recorded | None) -> Data:
+def _actuator(found: ActuatorClaims, place: int, proof: Proof, hashes: Hashes, run: Recorded | None) -> Data:
     tried, total = found.tried, found.driven.total
     low, high = found.command
     data: Data = {
@@ -109,7 +109,7 @@ def _example(graph: Graph, tried: Tried | None) -> Data | None:
     return {"still": list(tried.still), "readings": readings | {m.name: [values[m.start]] for m in graph.memories}}
 
 
-def _edge(edge: OfEdge, hashes: Hashes) -> Data:
+def _edge(edge: EdgeClaim, hashes: Hashes) -> Data:
     sends = edge.range
     return {
         "skill": edge.skill,
@@ -121,7 +121,7 @@ def _edge(edge: OfEdge, hashes: Hashes) -> Data:
     }
 
 
-def report(data: Data) -> RenderableType:
+def proof_report(data: Data) -> RenderableType:
     """A whole proof as text."""
     parts: list[RenderableType] = [
         Text.assemble((data["master"], "bold"), " in charge, for any readings from 0 to 1"),

@@ -19,7 +19,7 @@ from mindlang.explaining import markdown
 from mindlang.explaining.kinds import kind_article
 from mindlang.explaining.parameters import meaning, parameter
 from mindlang.explaining.words import language_words
-from mindlang.files import files_beside, text_of
+from mindlang.files import files_beside, readable_text
 from mindlang.server.workspace import MindView
 
 NUMBER = "0123456789"
@@ -75,7 +75,7 @@ def numbers(view: MindView) -> list[Offer]:
 
 def kinds_of(noun: str) -> list[Offer]:
     """The kinds of a noun with their documentation."""
-    return [Offer(name, "kind", noun, markdown.card(kind_article(noun, name))) for name in sorted(kinds(noun))]
+    return [Offer(name, "kind", noun, markdown.article_card(kind_article(noun, name))) for name in sorted(kinds(noun))]
 
 
 def inputs_of(view: MindView, skill: str) -> set[str]:
@@ -106,7 +106,7 @@ def things(view: MindView, task: Declaration | None, about: Iterable[str]) -> li
 def functions(folder: Path) -> list[str]:
     """`module.function` for each function of the modules in a folder that has a name of the language."""
     modules = [path for path in files_beside(folder, ".py") if "a" <= path.name[0] <= "z"][:MAX_MODULES]
-    return [f"{path.stem}.{name}" for path in modules for name in _FUNCTION.findall(text_of(path))]
+    return [f"{path.stem}.{name}" for path in modules for name in _FUNCTION.findall(readable_text(path))]
 
 
 @dataclass(frozen=True, slots=True)

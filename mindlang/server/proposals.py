@@ -11,7 +11,7 @@ from mindrun.graph.skill_sets import genes
 
 from mindlang.compiler.compile import compile_source
 from mindlang.compiler.diagnostic import Diagnostic, listed
-from mindlang.compiler.hierarchy import above, below
+from mindlang.compiler.hierarchy import with_ancestors, with_descendants
 from mindlang.compiler.source import Source
 from mindlang.compiler.splice import Splice
 from mindlang.compiler.syntax import Declaration, Drives, Fact, Influences, Reads, Stays
@@ -193,7 +193,7 @@ def _not_below(project: Project, skill: str) -> list[str]:
     """The skills that a skill could influence without a circle, and does not."""
     influences = project.mind.influences
     alike = [known.name for known in project.mind.skills if known.like == skill]  # they would influence it, too
-    taken = {*influences[skill], *above(influences, [skill, *alike])}
+    taken = {*influences[skill], *with_ancestors(influences, [skill, *alike])}
     return [name for name in influences if name not in taken]
 
 
@@ -201,12 +201,12 @@ def _replacements(project: Project, skill: str) -> list[str]:
     """Skills that are not above it; those that drive other actuators are refused by the edit itself."""
     influences = project.mind.influences
     parents = set(influences.pred[skill])
-    higher = above(influences, parents)
+    higher = with_ancestors(influences, parents)
     others = (
         name
         for name in influences
         if name != skill
-        and (name not in higher or (name in parents and not (parents - {name}) & below(influences, [name])))
+        and (name not in higher or (name in parents and not (parents - {name}) & with_descendants(influences, [name])))
     )
     return [*islice(others, 8 * MAX_TARGETS)]
 

@@ -23,7 +23,7 @@ Data = dict[str, Any]
 TOUCH, COLLISION = "touch", "collision"  # kinds of events
 
 
-class Node(NamedTuple):
+class PlacedNode(NamedTuple):
     """A node of the hierarchy, and where its values are: the `places` in a group of columns."""
 
     name: str
@@ -54,25 +54,25 @@ def about_data(
     }
 
 
-def _nodes(graph: Graph, skills: Sequence[Skill]) -> dict[tuple[str, int], Node]:
+def _nodes(graph: Graph, skills: Sequence[Skill]) -> dict[tuple[str, int], PlacedNode]:
     """The nodes by noun and place there: sensors, memories, the skills that are reached, actuators."""
     reached = {skill.name for skill in skills}
     return {
         **{
-            ("sensor", place): Node(each.name, each.kind, "readings", range(each.start, each.start + each.width))
+            ("sensor", place): PlacedNode(each.name, each.kind, "readings", range(each.start, each.start + each.width))
             for place, each in enumerate(graph.sensors)
         },
         **{
-            ("memory", place): Node(each.name, each.kind, "readings", [each.start])
+            ("memory", place): PlacedNode(each.name, each.kind, "readings", [each.start])
             for place, each in enumerate(graph.memories)
         },
         **{
-            ("skill", place): Node(each.name, each.function, "influence", [place])
+            ("skill", place): PlacedNode(each.name, each.function, "influence", [place])
             for place, each in enumerate(graph.skills)
             if each.name in reached
         },
         **{
-            ("actuator", place): Node(each.name, each.kind, "commands", [place])
+            ("actuator", place): PlacedNode(each.name, each.kind, "commands", [place])
             for place, each in enumerate(graph.actuators)
         },
     }

@@ -78,7 +78,7 @@ class ExportError(MindError):
     """A run that does not fit into a file."""
 
 
-def refuse_too_long(viewed: Viewed) -> None:
+def refuse_too_large_page(viewed: Viewed) -> None:
     """ExportError where so many rows do not fit into a page."""
     columns = viewed.columns
     size = (viewed.known + 1) * (8 * columns.width(DOUBLE_BLOCK) + 4 * columns.width(SINGLE_BLOCK))

@@ -42,9 +42,9 @@ Stamp = tuple[tuple[int, int] | None, ...]
 class LearntRun:
     """A training run as far as it has been read: its generations in order, and the champions that can be played.
 
-`keeps_all`: if it has the champion of every generation; runs from before the trainer kept them have the last
-of each attempt. `is_full`: if the last that was kept need not have stayed champion. `version` counts how often
-    something has come.
+    `keeps_all`: if it has the champion of every generation; runs from before the trainer kept them have the last
+    of each attempt. `is_full`: if the last that was kept need not have stayed champion. `version` counts how often
+        something has come.
     """
 
     run: RunFolder
@@ -171,7 +171,7 @@ class Learning:
 
     def _setup(self, run: RunFolder, genome: Genomes) -> tuple[RunSetup, Texts]:
         if run.folder not in self._minds:
-            self._minds[run.folder] = mind_of(run)
+            self._minds[run.folder] = trained_mind(run)
         subject, texts = self._minds[run.folder]
         lesson = run.manifest.lesson
         weights = dict(run.weights) | parts(subject.graph, run.manifest.learners, genome)
@@ -229,7 +229,7 @@ def _stamp(path: Path) -> tuple[int, int] | None:
     return found.st_mtime_ns, found.st_size
 
 
-def mind_of(run: RunFolder) -> tuple[Subject, Texts]:
+def trained_mind(run: RunFolder) -> tuple[Subject, Texts]:
     """The mind of a run, and what its edges say: its source if that has not changed since, else the run's copy of it.
 
     RunError where both are another mind than that which was taught.

@@ -60,13 +60,13 @@ class AskColumns(_AskTicks, tag="columns", frozen=True, kw_only=True):
     columns: Annotated[tuple[Column, ...], Meta(min_length=1, max_length=MAX_COLUMNS)]
 
 
-class Run(_Asked, tag="run", frozen=True):
+class AskRun(_Asked, tag="run", frozen=True):
     """Let a run go on to a tick."""
 
     to: Whole
 
 
-class Why(_Asked, tag="why", frozen=True):
+class AskShares(_Asked, tag="why", frozen=True):
     """Asks for the shares of all paths in an actuator's command of a tick."""
 
     tick: Counted
@@ -79,7 +79,7 @@ class AskImage(_Asked, tag="image", frozen=True):
     tick: Whole
 
 
-class Change(_Asked, tag="change", frozen=True):
+class AskChange(_Asked, tag="change", frozen=True):
     """A run beside the one seen, in which something is replaced in a tick and `lasts` for so many."""
 
     tick: Counted
@@ -108,7 +108,7 @@ class PlayChampion(_Said, tag="champion", frozen=True):
             raise ValueError(f"seed is a whole number from 0 to {MAX_SEED}, as text")
 
 
-Message = AskRows | AskColumns | AskImage | Run | Why | Change | PlayChampion
+Message = AskRows | AskColumns | AskImage | AskRun | AskShares | AskChange | PlayChampion
 _DECODER: msgspec.json.Decoder[Message] = msgspec.json.Decoder(Message)
 
 

@@ -28,7 +28,7 @@ from websockets.http11 import Request, Response
 
 from mindlang.view.learning import MAX_GENERATIONS
 from mindlang.view.messages import MAX_MESSAGE_BYTES, RefusedError, message, refusal
-from mindlang.view.session import MAX_HAPPENED, Session
+from mindlang.view.session import MAX_HAPPENED, ViewSession
 from mindlang.view.viewed import Viewed
 
 LOOPBACK = "127.0.0.1"
@@ -103,7 +103,7 @@ class Viewer:
 class ViewServer:
     """Serves a session; `ready` is told the address, token and all, as soon as it can be opened."""
 
-    def __init__(self, session: Session, port: int = 0) -> None:
+    def __init__(self, session: ViewSession, port: int = 0) -> None:
         self.token = secrets.token_urlsafe(32)
         self.port = port
         self._session = session
@@ -143,7 +143,7 @@ class ViewServer:
             self._handle,
             LOOPBACK,
             self.port,
-            process_request=lambda _, request: answer(request, self.port),
+            process_request=lambda _, request: http_answer(request, self.port),
             process_response=lambda _, request, response: response.headers.update(SECURITY),
             server_header=None,
             compression=None,
@@ -247,7 +247,7 @@ class ViewServer:
                 await asyncio.gather(*closing)
 
 
-def answer(request: Request, port: int) -> Response | None:
+def http_answer(request: Request, port: int) -> Response | None:
     """A file, or why not; None where the websocket may be opened.
 
     A browser that another site has led here says another host or origin: this server has no other name.
@@ -283,7 +283,7 @@ class BackgroundView:
     """Served at `address` until it is closed, or the program ends. PortError where no port can be had."""
 
     def __init__(self, viewed: Viewed) -> None:
-        self._session = Session(viewed)
+        self._session = ViewSession(viewed)
         self._ready: Future[str] = Future()
         self._thread = Thread(target=self._run, name="view", daemon=True)
         self._thread.start()

@@ -16,15 +16,15 @@ from mindlang.view.about import node_numbers
 from mindlang.view.learning import WATCH_SECONDS
 from mindlang.view.messages import (
     MAX_FORKS,
+    AskChange,
     AskColumns,
     AskImage,
     AskRows,
-    Change,
+    AskRun,
+    AskShares,
     Message,
     PlayChampion,
     RefusedError,
-    Run,
-    Why,
     error_text,
 )
 from mindlang.view.rows import DOUBLE_BLOCK, SINGLE_BLOCK
@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 MAX_HAPPENED = 10_000  # events, and stops, that are told at once
 
 
-class Session:
+class ViewSession:
     """Lives in one event loop. Runs grow in a thread of their own, and answers are computed in another."""
 
     def __init__(self, viewed: Viewed, learning: Learning | None = None) -> None:
@@ -112,16 +112,16 @@ class Session:
         if message.fork >= len(self.forks):
             raise RefusedError(f"there is no fork {message.fork}")
         match message:
-            case Run(fork=fork, to=to):
+            case AskRun(fork=fork, to=to):
                 self._run(fork, to)
                 self.changed()  # said also where the run is there already
                 return None
-            case Change() | PlayChampion() if not edits:
+            case AskChange() | PlayChampion() if not edits:
                 raise RefusedError("somebody else may change this run: the first who opened it")
             case PlayChampion():
                 await self._play(message)
                 return None
-            case Change():
+            case AskChange():
                 await self._fork(message)
                 return None
         viewed = self.forks[message.fork]  # another run may be seen when it is this question's turn
@@ -139,7 +139,7 @@ class Session:
             raise RefusedError(error_text(error)) from error
         self.see(viewed)
 
-    async def _fork(self, change: Change) -> None:
+    async def _fork(self, change: AskChange) -> None:
         """A run beside another, which goes on at once to where that is."""
         of = self.forks[change.fork]
         if of.forked is None:
@@ -193,14 +193,14 @@ def _computed(viewed: Viewed, message: Message) -> bytes | dict[str, Any]:
             case AskImage(fork=fork, tick=tick):
                 image = data_url(viewed.image(tick), "png")
                 return {"say": "image", "fork": fork, "tick": tick, "image": image}
-            case Why():
+            case AskShares():
                 return command_shares(viewed, message)
     except MindError as error:
         raise RefusedError(error_text(error)) from error
     raise RefusedError("that is no question")
 
 
-def command_shares(viewed: Viewed, asked: Why) -> dict[str, Any]:
+def command_shares(viewed: Viewed, asked: AskShares) -> dict[str, Any]:
     """The contribution of each path to a command; RefusedError where there is no such actuator or tick."""
     flows, graph = viewed.flows, viewed.flows.graph
     if viewed.about["source"] == "environment":

@@ -18,7 +18,7 @@ from mindrun.sim.outside.seen import UNKNOWN_FAILURES, SeenEpisode, Sent
 from numpy.typing import NDArray
 
 from mindlang.run.edge_flow import EdgeFlows
-from mindlang.view.messages import AskColumns, AskRows, Change, RefusedError, error_text, shown
+from mindlang.view.messages import AskChange, AskColumns, AskRows, RefusedError, error_text, shown
 from mindlang.view.rows import (
     DOUBLE_BLOCK,
     SINGLE_BLOCK,
@@ -80,7 +80,7 @@ class Viewed:
     ) -> None:
         self.about, self.columns, self.is_live, self.drawing = about, columns, is_live, drawing
         self.flows = EdgeFlows(graph, mind, self._thought, begins)
-        self.forked: Callable[[Change], Fork] | None = None
+        self.forked: Callable[[AskChange], Fork] | None = None
         self.delay: Callable[[], str | None] = lambda: None
         self.blocks = RowBlocks()
         self.happened: list[tuple[int, int]] = []

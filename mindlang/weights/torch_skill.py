@@ -20,7 +20,7 @@ from torch.autograd import Function
 from mindlang.lock import lock_sources, read_locks
 from mindlang.lock.signature import arrange
 from mindlang.lock.status import trained_weights
-from mindlang.weights.network import Network, load_genome, network_of, save_genome
+from mindlang.weights.network import SkillNetwork, load_genome, network_of, save_genome
 
 if TYPE_CHECKING:
     from mindlang.api import Mind
@@ -133,7 +133,7 @@ class NetworkModule(nn.Module):
     with None or `start(batch)` in the beginning.
     """
 
-    def __init__(self, network: Network, genome: Weights) -> None:
+    def __init__(self, network: SkillNetwork, genome: Weights) -> None:
         super().__init__()
         self.network = network
         self.layers = nn.ModuleList(Layer(before, after) for before, after in network.shapes)
@@ -200,7 +200,7 @@ class Skill(NetworkModule):
         self.take(load_genome(Path(path), self.network))
 
 
-def _random(network: Network) -> Weights:
+def _random(network: SkillNetwork) -> Weights:
     """Random weights as `mindc train` begins with, seeded by PyTorch's generator."""
     rng = np.random.default_rng(int(torch.randint(2**62, ())))
     return network.skill.function.draw(network.inputs, network.outputs, 1, rng)[0]

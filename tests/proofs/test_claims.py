@@ -9,7 +9,7 @@ from mindrun.kinds.functions.procedure import Procedure
 
 from mindlang.proofs import trying
 from mindlang.proofs.paths import Paths
-from mindlang.proofs.proof import OfActuator, prove
+from mindlang.proofs.proof import ActuatorClaims, prove
 from mindlang.proofs.reach import MIN_INFLUENCE, Bound, Driven
 from mindlang.proofs.recorded import Undriven, undriven
 from mindlang.proofs.trying import Tried, readings_to_try, try_out
@@ -20,9 +20,9 @@ LEFT, RIGHT = 0, 1
 SEEN, STILL = Tried((0.25, 0.75), None, ()), Tried(None, np.zeros(1, np.float32), ("Top",))
 
 
-def claimed(driven: Driven, tried: Tried | None = None) -> OfActuator:
+def claimed(driven: Driven, tried: Tried | None = None) -> ActuatorClaims:
     """A claim about the claw, whose neutral is 1/4."""
-    return OfActuator(CLAW, Paths(1, ()), None, driven, tried, ())
+    return ActuatorClaims(CLAW, Paths(1, ()), None, driven, tried, ())
 
 
 @pytest.mark.parametrize(

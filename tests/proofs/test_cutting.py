@@ -19,7 +19,7 @@ from mindlang.proofs.branch_and_bound import (
     sway_of,
 )
 from mindlang.proofs.interval import Boxes, SentBounds
-from mindlang.proofs.trying import readings_to_try, values
+from mindlang.proofs.trying import readings_to_try, sent_values
 from tests.draws import cases
 from tests.hierarchies import random_graph
 from tests.minds import always, rule, skill
@@ -158,8 +158,8 @@ def test_a_skill_by_itself_sends_the_same(graph: Graph, seed: int) -> None:
     for each in graph.skills:
         alone, weights = by_itself(each), rng.uniform(-1, 1, genes(each)).astype(np.float32)
         assert alone.inputs == tuple(range(len(each.inputs)))
-        found = values(alone, weights, readings[:, list(each.inputs)])
-        assert np.array_equal(found, values(each, weights, readings), equal_nan=True)
+        found = sent_values(alone, weights, readings[:, list(each.inputs)])
+        assert np.array_equal(found, sent_values(each, weights, readings), equal_nan=True)
 
 
 @settings(max_examples=cases(40))
@@ -170,7 +170,7 @@ def test_bounds_are_close_to_what_a_small_perceptron_sends(weights: list[float])
     genome = np.array(weights, np.float32)
     found = ranges(taught, genome, 2000)[0]
     grid = np.stack(np.meshgrid(*[np.linspace(0, 1, 41, dtype=np.float32)] * 2), -1).reshape(-1, 2)
-    sent = np.clip(values(taught, genome, grid), 0, 1)
+    sent = np.clip(sent_values(taught, genome, grid), 0, 1)
     assert found.seen
     assert found.low <= min(sent.min(), found.seen[0])
     assert max(sent.max(), found.seen[1]) <= found.high

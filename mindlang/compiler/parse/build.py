@@ -179,7 +179,7 @@ class Builder(Transformer_NonRecursive[Token, Any]):
         if isinstance(parts[-1], Name):
             return Amount(-1.0 if parts[0] == "-" else 1.0, "", self._span(meta), name=parts[-1].text)
         said = {part.type: str(part) for part in parts}
-        value = number(said.get("SIGN", "") + said["NUMBER"])
+        value = parse_number(said.get("SIGN", "") + said["NUMBER"])
         return Amount(value, said.get("UNIT", ""), self._span(meta), said.get("RATE", ""))
 
     amount = quantity
@@ -225,7 +225,7 @@ def _terms(part: Any) -> Terms:
     return part if isinstance(part, list) else [part]
 
 
-def number(text: str) -> float:
+def parse_number(text: str) -> float:
     """The number at the beginning of an amount, as in `- 1/2 deg`."""
     sign, digits = _NUMBER.findall(text)[0]
     above, _, below = f"{sign}{digits}".partition("/")

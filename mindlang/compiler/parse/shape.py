@@ -75,7 +75,7 @@ def _table_file() -> str | bool:
 def parse_line(code: str, source: Source, offset: int, start: Start = "line") -> syntax.Line | syntax.Stop:
     """The syntax of a line without comment, which stands at `offset` of a source.
 
-lark.UnexpectedInput where it has none; the error is about `code`.
+    lark.UnexpectedInput where it has none; the error is about `code`.
     """
     maker = None if '"' in code else _maker(shape_of(code), start)
     if maker is None:
@@ -146,10 +146,10 @@ def _making(node: Any, places: dict[int, int]) -> Maker:
             spanned = _spanning(places[span.start], places[span.end])
             return lambda line: syntax.Amount(sign, "", (its := spanned(line)), name=its.text.lstrip("+- \t"))
         case syntax.Amount(_, unit, span, per):
-            from mindlang.compiler.parse.build import number
+            from mindlang.compiler.parse.build import parse_number
 
             spanned = _spanning(places[span.start], places[span.end])
-            return lambda line: syntax.Amount(number((its := spanned(line)).text), unit, its, per)
+            return lambda line: syntax.Amount(parse_number((its := spanned(line)).text), unit, its, per)
         case tuple():
             makers = [_making(part, places) for part in node]
             return lambda line: tuple([make(line) for make in makers])

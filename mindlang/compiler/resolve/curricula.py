@@ -14,9 +14,9 @@ from networkx import DiGraph
 
 from mindlang.compiler import model
 from mindlang.compiler.diagnostic import Findings, listed
-from mindlang.compiler.hierarchy import below
+from mindlang.compiler.hierarchy import with_descendants
 from mindlang.compiler.names import Names
-from mindlang.compiler.resolve.kinds import Scope, a_name, make, once, overrides
+from mindlang.compiler.resolve.kinds import Scope, a_name, make_kind, once, overrides
 from mindlang.compiler.resolve.parts import refuse_facts
 from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.syntax import Argument, Name, Needs, Phrase, Teaches, of_form
@@ -48,7 +48,7 @@ def lessons(
     for name, declaration in names.declarations("curriculum"):
         refuse_facts(declaration, ("teaches",), findings)
         phrase = declaration.header.phrase
-        learner = make("curriculum", phrase, Scope(names, None), findings) if phrase else None
+        learner = make_kind("curriculum", phrase, Scope(names, None), findings) if phrase else None
         taught = of_form(declaration.facts, Teaches)
         heirs = {fact.skill.text: origin.text for fact in taught if (origin := _origin(fact.arguments))}
         for number, fact in enumerate(taught, 1):
@@ -125,7 +125,7 @@ class _School:
             if not (kind := a_name(using, hint, self.findings)):
                 return None
             phrase, said_by = Phrase(kind, (), kind.span), kind.text
-            learner = make("curriculum", phrase, Scope(self.names, None), self.findings)
+            learner = make_kind("curriculum", phrase, Scope(self.names, None), self.findings)
         if learner is None:
             return None
         own = [argument for argument in fact.arguments if argument.key.text not in {*SWITCHES, USING}]
@@ -168,7 +168,7 @@ class _School:
             hint = f"Teach {skill.like}: both learn from that."
             self.findings.error("taught-by-another", fact.skill.span, message, hint)
             return
-        taught = below(self.influences, [skill.name]) if with_subskills else {skill.name}
+        taught = with_descendants(self.influences, [skill.name]) if with_subskills else {skill.name}
         functions = [self.skills[name].function for name in taught]
         if None in functions or any(function.learns for function in functions):
             return
@@ -179,7 +179,7 @@ class _School:
 
     def _check_reached(self, fact: Teaches, master: Name) -> None:
         """Report a learner that the master never influences: nothing that it does would show."""
-        reached = below(self.influences, [master.text])
+        reached = with_descendants(self.influences, [master.text])
         if fact.skill.text not in {each for name in reached for each in (name, self.skills[name].owner)}:
             hint = f"Let {master.text} or a skill below it influence {fact.skill.text}, or leave under out."
             message = f"{master.text} has no influence on {fact.skill.text}, which would learn nothing."

@@ -38,7 +38,7 @@ class Scope:
     root: Path | None = None
 
 
-def make(noun: str, phrase: Phrase, scope: Scope, findings: Findings) -> Any:
+def make_kind(noun: str, phrase: Phrase, scope: Scope, findings: Findings) -> Any:
     """The kind that a phrase names, with its arguments, or None after reporting what is wrong with it."""
     cls = find_kind(noun, phrase.kind.text)
     if cls is None:

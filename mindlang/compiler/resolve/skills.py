@@ -11,10 +11,10 @@ from networkx import DiGraph
 
 from mindlang.compiler import model
 from mindlang.compiler.diagnostic import Findings, listed
-from mindlang.compiler.hierarchy import ends_first, refuse_circles
+from mindlang.compiler.hierarchy import refuse_circles, reverse_topological_order
 from mindlang.compiler.names import Names
-from mindlang.compiler.resolve.expressions import Visible, condition, resolve
-from mindlang.compiler.resolve.kinds import Scope, make
+from mindlang.compiler.resolve.expressions import Visible, resolve_condition, resolve_expression
+from mindlang.compiler.resolve.kinds import Scope, make_kind
 from mindlang.compiler.resolve.parts import refuse_facts
 from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.source import Span
@@ -41,7 +41,7 @@ def skills(names: Names, widths: Mapping[str, int], findings: Findings) -> tuple
     graph.add_edges_from(edge for edge in others if edge[0] != edge[1])
     says = "Skills are like one another in a circle"
     refuse_circles("like-circle", graph, findings, says, hint, "and from there on")
-    for name in (each for each in ends_first(graph) if each in like):
+    for name in (each for each in reverse_topological_order(graph) if each in like):
         known[name] = _alike(declared[name], known.get(like[name]), names, widths, findings)
     return tuple(known.get(name) or _unsaid(each) for name, each in declared.items())
 
@@ -56,7 +56,7 @@ def _skill(
 ) -> model.Skill:
     refuse_facts(declaration, ("reads", "drives", "influences", "stays"), findings)
     phrase = declaration.header.phrase
-    function: Any = make("skill", phrase, Scope(names, None), findings) if phrase else None
+    function: Any = make_kind("skill", phrase, Scope(names, None), findings) if phrase else None
     reads = _reads(declaration, names, findings)
     # A line that could not be read may have been an input.
     all_read = declaration.whole and len(reads) == len(of_form(declaration.facts, Reads))
@@ -101,10 +101,10 @@ def _edges(declaration: Declaration, names: Names, visible: Visible, findings: F
         else:
             to = names.find(fact.name, ("skill",), findings)
             cuts = convert(fact.cuts, RATIO, findings) if fact.cuts else None
-        at = resolve(fact.at, visible, findings) if fact.at else None
+        at = resolve_expression(fact.at, visible, findings) if fact.at else None
         if fact.gate:
-            otherwise = resolve(fact.gate.otherwise, visible, findings) if fact.gate.otherwise else None
-            gate = model.Gate(condition(fact.gate.when, visible, findings), otherwise)
+            otherwise = resolve_expression(fact.gate.otherwise, visible, findings) if fact.gate.otherwise else None
+            gate = model.Gate(resolve_condition(fact.gate.when, visible, findings), otherwise)
         if to:
             edges.append(model.Edge(to, fact.name.text, at, fact, gate, cuts or 0.0))
     first = _once((edge.fact for edge in edges), findings)

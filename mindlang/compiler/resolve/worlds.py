@@ -18,7 +18,7 @@ from mindlang.compiler.beginning import Beginning, beginning
 from mindlang.compiler.diagnostic import Findings, Label, did_you_mean, listed
 from mindlang.compiler.model import Part
 from mindlang.compiler.names import Names, things_of
-from mindlang.compiler.resolve.kinds import Scope, make
+from mindlang.compiler.resolve.kinds import Scope, make_kind
 from mindlang.compiler.resolve.maps import with_places
 from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.source import Span
@@ -53,7 +53,7 @@ class RobotFacts:
 
 
 @dataclass(frozen=True, slots=True)
-class World:
+class ResolvedWorld:
     """A scene, None where it is not well said, and its things; how runs in it begin, and what differs between them."""
 
     scene: Any
@@ -76,16 +76,16 @@ def refuse_repeated(facts: Sequence[Fact], message: str, hint: str, findings: Fi
     findings.refuse_again("repeated-fact", [fact.span for fact in facts], message, hint)
 
 
-def world_of(declaration: Declaration, robot: RobotFacts, findings: Findings) -> World:
+def resolve_world(declaration: Declaration, robot: RobotFacts, findings: Findings) -> ResolvedWorld:
     """The world that a task or a scene declares; the lines that are wrong are reported and left out."""
     noun, name = declaration.header.noun.text, declaration.header.name.text
     scope = Scope(robot.names, things_of(declaration) if declaration.whole else None, f"{noun} {name}", root=robot.root)
     phrase = declaration.header.phrase
-    scene = make("task", phrase, scope, findings) if phrase else None
+    scene = make_kind("task", phrase, scope, findings) if phrase else None
     things = _things(declaration, scene, scope, findings)
     parts = {"body": (robot.body,) if robot.body else (), "actuator": robot.actuators, "sensor": robot.sensors}
     variable = _Variable(robot.names, {**parts, "thing": things}, scope.place, findings)
-    return World(
+    return ResolvedWorld(
         scene,
         things,
         scope,
@@ -102,7 +102,7 @@ def _things(declaration: Declaration, scene: Any, scope: Scope, findings: Findin
     obstacles = 0
     for fact in of_form(declaration.facts, Contains):
         name = fact.name.text
-        kind = make("content", fact.phrase, scope, findings)
+        kind = make_kind("content", fact.phrase, scope, findings)
         if name in found:
             first = Label(found[name].span, "first said here")
             message = f"The {declaration.header.noun.text} already contains something called {name}."

@@ -12,7 +12,7 @@ from math import pi
 
 from mindrun.kinds.events.event import EventKind
 
-from mindlang.compiler.beginning import Beginning, hint_apart
+from mindlang.compiler.beginning import Beginning, first_tick_hint
 from mindlang.compiler.model import Task
 from mindlang.lint.intervals import UNIT_INTERVAL, Interval, interval, why_always
 from mindlang.lint.study import Finding, Found, Study, once_a_line
@@ -84,7 +84,7 @@ class _FirstTick:
         """The hint for an event that comes at once: which way a robot faces changes what its claw has reached."""
         kinds = [each.kind for each in self.task.things if each.name == event.thing]
         faces = event.outcome == "reached" and not any(kind.is_area for kind in kinds)
-        return hint_apart(event) + (" Or write which way the robot faces." if faces else "")
+        return first_tick_hint(event) + (" Or write which way the robot faces." if faces else "")
 
     def _often(self, event: EventKind, times: int) -> str:
         """In how many runs an event happens so many times in the first tick, where the robot's place is said."""
