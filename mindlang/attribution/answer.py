@@ -31,7 +31,7 @@ MAX_EDGE_TICKS = 10_000_000  # edges times ticks of one answer
 class AttributedRun:
     """A run or a recording with its flows; `acted` [ticks, actuators] are the commands after delay or guardian.
 
-    `stopped` [ticks] says when a robot was. `about` says whose course it is, `run` has the rewards where there are any.
+    `stopped` [ticks] says when a robot was. `about` says which one it is, `run` has the rewards where there are any.
     """
 
     about: dict[str, Any]
@@ -55,7 +55,7 @@ class ReplayedTicks:
 
 
 def attributed_run(run: RecordedRun, seed: int) -> AttributedRun:
-    """The course of a run in the simulator."""
+    """A run in the simulator with its flows."""
     setup = run.setup
     sources = procedure_sources(run.graph, setup.folder, setup.master)
     flows = edge_flows(setup.ready.policy, sources, setup.master, run)
@@ -64,7 +64,7 @@ def attributed_run(run: RecordedRun, seed: int) -> AttributedRun:
 
 
 def attributed_recording(path: Path, bundle: Path) -> AttributedRun:
-    """The course of a robot's recording, whose ticks are its rows; what it does not have is computed again.
+    """A robot's recording with its flows, whose ticks are its rows; what it does not have is computed again.
 
     RecordingError where it was made with another bundle, or is not what this one computes. Runs the Python code of the
     bundle's procedures.
@@ -90,30 +90,30 @@ class QuestionError(SetupError):
         super().__init__(message, hint, misuse=True)
 
 
-def answer(course: AttributedRun, what: str, span: tuple[int, int] | None, paths: int | None) -> dict[str, Any]:
+def answer(attributed: AttributedRun, what: str, span: tuple[int, int] | None, paths: int | None) -> dict[str, Any]:
     """Who made what is asked about in the ticks of a span, the first of which is 1; without one in all of them."""
-    first, last = _within(course, span)
-    about = course.about | {"ticks": [first, last], "seconds_per_tick": course.flows.graph.tick}
-    target = sink_named(course.flows, what)
+    first, last = _within(attributed, span)
+    about = attributed.about | {"ticks": [first, last], "seconds_per_tick": attributed.flows.graph.tick}
+    target = sink_named(attributed.flows, what)
     if target is not None:
-        return about | _shares(course, target, range(first - 1, last), paths or NAMED_PATHS)
+        return about | _shares(attributed, target, range(first - 1, last), paths or NAMED_PATHS)
     if what != REWARD:
-        raise _unknown(course, what)
-    if course.run is None:
+        raise _unknown(attributed, what)
+    if attributed.run is None:
         raise QuestionError("a robot's recording has no rewards", "Ask for an actuator, a memory or a skill.")
     if paths is not None:
         raise QuestionError("a reward comes along no paths", "Leave --paths out: all of its lines are said.")
-    return about | _rewards(course.run, first, last)
+    return about | _rewards(attributed.run, first, last)
 
 
-def _within(course: AttributedRun, span: tuple[int, int] | None) -> tuple[int, int]:
-    first, last = span or (1, course.ticks)
-    if last > course.ticks:
-        many = in_words(course.ticks)
+def _within(attributed: AttributedRun, span: tuple[int, int] | None) -> tuple[int, int]:
+    first, last = span or (1, attributed.ticks)
+    if last > attributed.ticks:
+        many = in_words(attributed.ticks)
         raise QuestionError(
-            f"there is no tick {last:,}: it was over after {many}", f"Say one from 1 to {course.ticks}."
+            f"there is no tick {last:,}: it was over after {many}", f"Say one from 1 to {attributed.ticks}."
         )
-    edges = len(course.flows.links)
+    edges = len(attributed.flows.links)
     if (last - first + 1) * edges > MAX_EDGE_TICKS:
         most = MAX_EDGE_TICKS // edges
         raise QuestionError(
@@ -123,45 +123,45 @@ def _within(course: AttributedRun, span: tuple[int, int] | None) -> tuple[int, i
     return first, last
 
 
-def _unknown(course: AttributedRun, what: str) -> QuestionError:
-    graph, master = course.flows.graph, course.flows.master
+def _unknown(attributed: AttributedRun, what: str) -> QuestionError:
+    graph, master = attributed.flows.graph, attributed.flows.master
     if what in {skill.name for skill in graph.skills}:
-        return QuestionError(f"{what} is not below {master}, which is in charge", _instead(course, what))
-    below = [graph.skills[index].name for index in course.flows.skills]
+        return QuestionError(f"{what} is not below {master}, which is in charge", _instead(attributed, what))
+    below = [graph.skills[index].name for index in attributed.flows.skills]
     acting = [*(actuator.name for actuator in graph.actuators), *(memory.name for memory in graph.memories)]
-    acting += [REWARD] if course.run else []
+    acting += [REWARD] if attributed.run else []
     hint = did_you_mean(what, [*acting, *below]) or f"There is {listed(acting, 'and')}."
     return QuestionError(f"there is no actuator, memory or skill called {what}", hint)
 
 
-def _instead(course: AttributedRun, skill: str) -> str:
+def _instead(attributed: AttributedRun, skill: str) -> str:
     """Who is above a skill that the master does not reach."""
-    if "recording" in course.about:
+    if "recording" in attributed.about:
         return "It had no influence while this was recorded."
-    graph = course.flows.graph
+    graph = attributed.flows.graph
     above = next(each.name for each in graph.skills if skill in {below.name for below in reachable(graph, each.name)})
     return f"{'It is below another' if above != skill else 'Nothing is above it'}: --master {above}"
 
 
-def _shares(course: AttributedRun, target: Sink, rows: range, paths: int) -> dict[str, Any]:
-    found, graph = shares(course.flows, target, rows, paths), course.flows.graph
+def _shares(attributed: AttributedRun, target: Sink, rows: range, paths: int) -> dict[str, Any]:
+    found, graph = shares(attributed.flows, target, rows, paths), attributed.flows.graph
     data = asdict(found) | {
         "of": graph.named(*target),
         "kind": target[0],
         "ticks": [rows.start + 1, rows.stop],
-        "paths": [asdict(each) | {"reads": _reads(course, each, rows)} for each in found.paths],
+        "paths": [asdict(each) | {"reads": _reads(attributed, each, rows)} for each in found.paths],
         "silent": [graph.skills[index].name for index in found.silent],
     }
     del data["target"]
-    return data | (_acted(course, target[1], rows) if target[0] == "actuator" else {})
+    return data | (_acted(attributed, target[1], rows) if target[0] == "actuator" else {})
 
 
-def _reads(course: AttributedRun, of: Contribution, rows: range) -> dict[str, list[float | None]]:
+def _reads(attributed: AttributedRun, of: Contribution, rows: range) -> dict[str, list[float | None]]:
     """Readings of the skill that sent it, by sensor or memory: means over the ticks, None where that is no number."""
-    graph = course.flows.graph
+    graph = attributed.flows.graph
     name = of.path[-2] if len(of.path) > 1 else of.path[0]  # before what was asked about, unless that is the master
     inputs = next(skill.inputs for skill in graph.skills if skill.name == name)
-    read = course.flows.rows(np.array(rows))[0][:, list(inputs)].astype(float)
+    read = attributed.flows.rows(np.array(rows))[0][:, list(inputs)].astype(float)
     around = directions({each.name: each.kind for each in graph.sensors})
     owners = {place: each.name for each in graph.sensors for place in range(each.start, each.start + each.width)}
     owners |= {each.start: each.name for each in graph.memories}
@@ -178,13 +178,13 @@ def mean_direction(turns: NDArray[np.float64]) -> float:
     return float(np.angle(together) / (2 * np.pi) % 1.0) if abs(together) > DIRECTION_TOLERANCE else nan
 
 
-def _acted(course: AttributedRun, actuator: int, rows: range) -> dict[str, Any]:
+def _acted(attributed: AttributedRun, actuator: int, rows: range) -> dict[str, Any]:
     """The mean command that reached the actuator, its delay, and in how many ticks the robot was stopped."""
-    acted = course.acted[rows.start : rows.stop, actuator]
+    acted = attributed.acted[rows.start : rows.stop, actuator]
     return {
         "acted": float(acted.astype(float).mean()),
-        "delay": course.flows.graph.actuators[actuator].kind.delay,
-        "stopped": int(course.stopped[rows.start : rows.stop].sum()),
+        "delay": attributed.flows.graph.actuators[actuator].kind.delay,
+        "stopped": int(attributed.stopped[rows.start : rows.stop].sum()),
     }
 
 

@@ -66,16 +66,16 @@ def command(
         case [file] if not file.endswith(".rec"):
             session, seed = RunSession(quiet), 1 if chosen.seed is None else chosen.seed
             made = session.record(*session.prepare(file, chosen), seed)
-            course = attributed_run(made.run, seed)
+            attributed = attributed_run(made.run, seed)
         case [recording, bundle]:
             refuse_ineffective(OF_RUNS_ALONE, *OF_A_RUN)
             with refusing_recordings():
-                course = attributed_recording(Path(recording), Path(bundle))
+                attributed = attributed_recording(Path(recording), Path(bundle))
         case _:
             raise click.UsageError(
                 "Say a file and what is asked about: mindc why collect.mind left_wheel, or mindc why day.rec "
                 "ball.bundle left_wheel."
             )
     with refusing(MISUSE, of=QuestionError), procedures_talk():
-        found = answer(course, what, tick, paths)
+        found = answer(attributed, what, tick, paths)
     print_result(as_json, found, lambda: answer_text(found))

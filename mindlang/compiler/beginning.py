@@ -42,7 +42,7 @@ class Outline(NamedTuple):
 
 
 def disc_outline(place: Place, radius: float) -> Outline:
-    """All that is so near to a place."""
+    """A disc around a place."""
     return Outline((place,), radius)
 
 
@@ -53,7 +53,7 @@ def rectangle_outline(of: Rectangle) -> Outline:
 
 
 def turned_outline(place: Place, angle: float, corners: Sequence[Place]) -> Outline:
-    """A body with those corners around a place, turned counterclockwise by an angle in radians."""
+    """The polygon of a body at a place, turned counterclockwise by an angle in radians; `corners` are in its frame."""
     c, s = cos(angle), sin(angle)
     return Outline(tuple((place[0] + c * x - s * y, place[1] + s * x + c * y) for x, y in corners))
 
@@ -67,7 +67,7 @@ def overlap(one: Outline, other: Outline) -> bool:
 
 
 def _axes(one: Outline, other: Outline) -> Iterator[Place]:
-    """Directions of length 1, along one of which any two that are apart are apart: across sides, between corners."""
+    """Unit directions to look for a separating axis in: normals of sides and, where a rim is round, between corners."""
     for of in (one, other):
         for (x, y), (to_x, to_y) in zip(of.corners, (*of.corners[1:], of.corners[0]), strict=True):
             yield from _direction(y - to_y, to_x - x)
@@ -114,7 +114,7 @@ class Beginning:
     may: bool = False
 
     def outlines(self, kind: ThingKind) -> list[Outline]:
-        """One for each copy of a thing that has a place; the middle alone of what lies on the floor."""
+        """The outline of each copy of a thing that has a place; of one that lies on the floor its middle alone."""
         if kind.is_obstacle:
             return [rectangle_outline(each) for each in kind.standing(self.scene, self.may)]
         half = self.half(kind)
@@ -150,8 +150,8 @@ class Beginning:
         ends = zip(robot.ends, self.scene.sides * 2, strict=True)
         return all(abs(end) <= side / 2 + TOUCHING_UNITS for end, side in ends)
 
-    def meeting(self) -> Iterator[tuple[Part[Any], Part[Any]]]:
-        """Things that are in one place, what is fixed after what is not; of a way, all its places are looked at."""
+    def overlapping(self) -> Iterator[tuple[Part[Any], Part[Any]]]:
+        """Pairs of things that overlap, a fixed one as the second; one that walks is tried at all places of its way."""
         parts = sorted((each for each in self.things if each.kind), key=lambda each: not each.kind.is_obstacle)
         found = [(each, role(each.kind), self.outlines(each.kind)) for each in parts]
         for number, (thing, its, outlines) in enumerate(found):
@@ -172,7 +172,7 @@ class Beginning:
     def _meets(self, robot: Outline, kind: ThingKind) -> bool:
         return any(overlap(robot, outline) for outline in self.outlines(kind))
 
-    def happenings(self, event: EventKind, sensors: Iterable[SensorKind]) -> int:
+    def first_tick_count(self, event: EventKind, sensors: Iterable[SensorKind]) -> int:
         """How often an event happens in the first tick of every run, whatever the robot does."""
         if event.is_of_battery:
             batteries = [kind.battery for kind in sensors if kind.battery]

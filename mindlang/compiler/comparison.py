@@ -90,7 +90,7 @@ def _difference(what: str, old: Sequence[_Line], new: Sequence[_Line], ordered: 
 
 
 def _numbered(old: Sequence[_Line], new: Sequence[_Line]) -> tuple[list[int], list[int]]:
-    """A number for each line, the same for two that say the same; what is said twice has two."""
+    """Numbers of old and of new lines; an old and a new line that match, in text or else in meaning, share a number."""
     left = dict(enumerate(old))
     after: dict[int, int] = {}
     for sameness in ("text", "meaning"):
@@ -104,7 +104,7 @@ def _numbered(old: Sequence[_Line], new: Sequence[_Line]) -> tuple[list[int], li
 
 
 def _in_order(before: Sequence[int], after: Sequence[int]) -> set[int]:
-    """Those that stand in the same order in both."""
+    """The numbers that stand in the same order in both."""
     blocks = SequenceMatcher(None, before, after, autojunk=False).get_matching_blocks()
     return {number for block in blocks for number in before[block.a : block.a + block.size]}
 
@@ -129,7 +129,7 @@ def _declared(mind: Mind) -> dict[str, dict[str, list[_Line]]]:
 
 
 def _lines(declaration: syntax.Declaration, of: Any, mind: Mind) -> list[_Line]:
-    """The header and the facts of a declaration, each with what has become of it.
+    """The header and the facts of a declaration, each with its meaning in the model.
 
     Of a task also what its scene says, or the task that it is like.
     """

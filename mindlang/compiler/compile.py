@@ -1,4 +1,4 @@
-"""The way through, for any input without an exception: text → File → Mind → Graph.
+"""Compiles files, for any input without an exception: text → File → Mind → Graph.
 
 The files of a mind are the main one and those that it uses, all of them inside the project.
 """

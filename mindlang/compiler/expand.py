@@ -52,7 +52,7 @@ def fill_number(amount: Amount, numbers: Mapping[str, Amount]) -> Amount:
 
 
 def expand(names: Names, values: Mapping[str, Amount], tick_seconds: float, findings: Findings) -> Names:
-    """The declarations with nothing left in them that stands for something else.
+    """The declarations with scenes, likeness, names of numbers and rates written out.
 
     `values` are what the names of numbers stand for.
     """
@@ -112,7 +112,7 @@ def number_writer(names: Names, values: Mapping[str, Amount], tick_seconds: floa
 
 
 def _followed(noun: str, names: Names, begun: Callable[[Declaration], Declaration], findings: Findings) -> Declarations:
-    """The declarations of a noun, each with what it is like; one that is like nothing is what `begun` makes of it."""
+    """The declarations of a noun with likeness written out; `begun` prepares those that are like no other."""
     declared = dict(names.declarations(noun))
     graph = DiGraph()
     graph.add_nodes_from(declared)
@@ -132,13 +132,13 @@ def _followed(noun: str, names: Names, begun: Callable[[Declaration], Declaratio
 
 
 def _like(own: Declaration, other: Declaration) -> Declaration:
-    """A declaration that says what another says, and then its own."""
+    """A declaration with the phrase and facts of the other that it is like, and its own facts after them."""
     header = replace(own.header, phrase=other.header.phrase)
     return replace(own, header=header, facts=_with_more(other.facts, own.facts), whole=own.whole and other.whole)
 
 
 def _with_more(first: Sequence[Fact], more: Sequence[Fact]) -> tuple[Fact, ...]:
-    """The facts of one and then those of another, which stand in the place of those that they replace."""
+    """The facts of `first` and then `more`; one of `more` with the subject of an earlier one replaces that."""
     own: dict[Hashable, list[Fact]] = {}
     for fact in more:
         own.setdefault(_subject(fact), []).append(fact)

@@ -118,7 +118,7 @@ Plan = tuple[tuple[int, int, str], ...]  # which pieces of a line are a word, an
 
 @lru_cache(MAX_SHAPES)
 def _plan(shape: str, start: Start) -> Plan | None:
-    """How the words of the lines of a shape are set apart; None where Lark cannot read it."""
+    """The spacing of the words in lines of a shape; None where Lark cannot read it."""
     from lark import UnexpectedInput
 
     try:
@@ -131,7 +131,7 @@ def _plan(shape: str, start: Start) -> Plan | None:
 
 
 def _words(code: str, line: Any, start: Start) -> Iterator[tuple[int, int, str]]:
-    """From where to where the words of a line go that the grammar reads as `line`, and what stands after each."""
+    """Offsets (start, end) of the words of a line, which parses as `line`, and the space that belongs after each."""
     tokens = list(grammar().parse_interactive(code, start=start).iter_parse())
     signs = {node.span.start for node in syntax.walk(line) if _is_signed(node)}
     for token, following in zip(tokens, [*tokens[1:], None], strict=True):
@@ -166,7 +166,7 @@ def format_splices(source: Source, start: Start = "line") -> list[Splice]:
 
 
 def _stretches(text: str) -> Iterator[Stretch]:
-    """From where to where the lines go that say something, and what stands between them."""
+    """Offsets (start, end) that cut up a text: by turns the space between lines, and a line that is not blank."""
     ends, at = [0], 0
     for line in text.split("\n"):
         if line.strip(BLANKS):

@@ -29,7 +29,7 @@ def with_ancestors(graph: DiGraph, nodes: Iterable[Any]) -> set[Any]:
 
 
 def circles(graph: DiGraph) -> list[list[Any]]:
-    """The circles of a graph, each from that of its nodes on that was added first, in their order.
+    """The circles of a graph, at most MAX_CIRCLES, each from its node that was added first, sorted by their nodes.
 
     Of more than MAX_CIRCLES so many.
     """
@@ -42,7 +42,7 @@ def circles(graph: DiGraph) -> list[list[Any]]:
 
 
 def reverse_topological_order(graph: DiGraph) -> list[Any]:
-    """The nodes that lead into no circle, each after all that it leads to."""
+    """The nodes from which no circle is reached, each after all nodes that are reached from it."""
     circular = [node for part in nx.strongly_connected_components(graph) if len(part) > 1 for node in part]
     ending = graph.copy()
     ending.remove_nodes_from(with_ancestors(graph, [*circular, *nx.nodes_with_selfloops(graph)]))

@@ -17,7 +17,7 @@ T = TypeVar("T")
 
 @dataclass(frozen=True, slots=True)
 class Places:
-    """Where what expressions name stands: readings as (start, width), actuators, and measures, to which more come."""
+    """Indices of the names in expressions: readings as (start, width), actuators, and measures, which are added to."""
 
     readings: Mapping[str, tuple[int, int]]
     actuators: Mapping[str, int] = field(default_factory=dict)

@@ -124,7 +124,7 @@ class When(Struct, frozen=True):
 
 
 class Gate(Struct, frozen=True):
-    """When something is sent, and what is sent otherwise: nothing, where that is None."""
+    """The condition under which something is sent, and the value sent otherwise; nothing where that is None."""
 
     when: When
     otherwise: Expression | None
@@ -148,7 +148,7 @@ class Edge(Struct, frozen=True):
 
     @property
     def expressions(self) -> tuple[Expression, ...]:
-        """All that it computes beside the function."""
+        """The expressions of its values and of its condition."""
         return (*self.values, *(self.gate.when.expressions if self.gate else ()))
 
 

@@ -111,7 +111,7 @@ def things_of(*tasks: Declaration) -> dict[str, set[str]]:
 
 
 def _foreign_letter(name: str) -> str:
-    """A sentence about the first letter of a name that no keyboard of the language's words has, if there is one."""
+    """A sentence about the first letter of a name that is not ASCII; empty where there is none."""
     odd = next((letter for letter in name if not letter.isascii()), None)
     return f" Its letter {odd} is {unicodedata.name(odd, 'an odd one').lower()}." if odd else ""
 

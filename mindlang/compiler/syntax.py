@@ -158,7 +158,7 @@ class Gate(Struct, frozen=True):
 
     @property
     def expressions(self) -> tuple[Expression, ...]:
-        """Those of the condition, and what holds otherwise."""
+        """The expressions of the condition, and the value sent otherwise."""
         return (*self.when.expressions, self.otherwise) if self.otherwise else self.when.expressions
 
 
@@ -180,7 +180,7 @@ class Sends(Struct, frozen=True):
 
     @property
     def expressions(self) -> tuple[Expression, ...]:
-        """All that it computes: its value, its condition and what it sends otherwise."""
+        """The expressions of its value, its condition and the value sent otherwise."""
         return (*((self.at,) if self.at else ()), *(self.gate.expressions if self.gate else ()))
 
 
@@ -413,7 +413,7 @@ def verb_of(fact: Fact) -> str:
 
 
 def of_form(lines: Iterable[Any], form: type[L]) -> list[L]:
-    """Those of some facts or settings that are of a form."""
+    """The facts or settings that are of one class."""
     return [line for line in lines if isinstance(line, form)]
 
 
@@ -428,7 +428,7 @@ def walk(node: Any) -> Iterator[Any]:
 
 
 def rebuilt(node: Any, change: Callable[[Any], Any]) -> Any:
-    """A node with what `change` makes of its parts; what that returns as it was is looked into."""
+    """A tree with `change` applied from the top down; it goes on into the nodes that `change` returns as they were."""
     new = change(node)
     if new is not node:
         return new

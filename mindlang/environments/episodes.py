@@ -44,7 +44,7 @@ SHOWN_TICK = 1  # of a run that has one
 
 @dataclass(eq=False, slots=True)
 class Episodes:
-    """So many runs of a task, each with an agent: it sees the readings with these numbers, acts by so many in 0..1.
+    """Runs of a task side by side, each with an agent: it sees the readings at these indices, its actions are in 0..1.
 
     `played` is the skill that it plays, and `row` that one's in the tables; None where it commands the actuators.
     """
@@ -160,7 +160,7 @@ def _setup(mind: Mind, task: Task, master: str, ready: ReadyMind) -> RunSetup:
 
 
 def checked_actions(actions: ArrayLike, shape: tuple[int, ...]) -> Floats:
-    """Actions as they are given to robots; MindError where they are no numbers of that shape."""
+    """Actions as float32 for the lanes; MindError where they are no real numbers of that shape."""
     try:
         given = np.asarray(actions)
     except ValueError as error:  # lists of several lengths
@@ -191,7 +191,7 @@ def refuse_unknown_mode(mode: str | None, metadata: Mapping[str, Any]) -> None:
 
 
 def unit_box(length: int) -> Box:
-    """So many numbers in 0..1."""
+    """The space of `length` numbers in 0..1."""
     return Box(0.0, 1.0, (length,), np.float32)
 
 

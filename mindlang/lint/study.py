@@ -132,7 +132,7 @@ class Study:
 
     @cached_property
     def children_first(self) -> tuple[Skill, ...]:
-        """The skills in an order in which a table that a skill has from its subskills can be filled."""
+        """The skills, each after all that it influences."""
         return tuple(self.skills[name] for name in reversed(topological_order(self.mind.influences)))
 
     @cached_property
@@ -144,7 +144,7 @@ class Study:
 
     @cached_property
     def acting(self) -> set[str]:
-        """The skills that a master reaches, and those whose weights act in them."""
+        """The skills that a master reaches, and those whose weights these use."""
         return self.active | {self.skills[name].owner for name in self.active}
 
     @cached_property
@@ -169,7 +169,7 @@ class Study:
 
     @cached_property
     def senses(self) -> dict[str, str]:
-        """The thing that each sensor is about, those left out that are about none or several."""
+        """The thing that each sensor is about; sensors about none or several are left out."""
         things = {
             name: {self.sensors[root].thing for root in roots if root in self.sensors} - {""}
             for name, roots in self.roots.items()
@@ -254,7 +254,7 @@ Found = Iterator[Finding]
 
 
 def _named(tasks: Iterable[Task]) -> frozenset[str]:
-    """The things that sensors can be about."""
+    """The names of the things that sensors can be about."""
     things = ((thing, task.scene) for task in tasks for thing in task.things)
     return frozenset(thing.name for thing, scene in things if not thing.kind.is_obstacle or thing.kind.obstacles(scene))
 

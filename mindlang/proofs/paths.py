@@ -57,7 +57,7 @@ class InfluenceEdge:
 
 @dataclass(frozen=True, slots=True)
 class InfluenceEdges:
-    """By index, of the skills below the master, parents first: where influence can go, what they drive."""
+    """Influence edges and driven actuators by skill index; `skills` are those below the master, parents first."""
 
     names: tuple[str, ...]
     skills: tuple[int, ...]
@@ -66,11 +66,15 @@ class InfluenceEdges:
 
 
 def influence_edges(graph: Graph) -> InfluenceEdges:
-    """Where influence can go, without any weights."""
+    """The edges that can carry influence, whatever the weights are."""
     place = graph.skill_numbers
     everything = whole_box(graph.width)
     onward = [
-        tuple(way for edge in skill.edges if edge.to == "skill" and (way := _way(skill, edge, everything)).most > 0)
+        tuple(
+            way
+            for edge in skill.edges
+            if edge.to == "skill" and (way := _influence_edge(skill, edge, everything)).most > 0
+        )
         for skill in graph.skills
     ]
     drives = [tuple(edge.target for edge in skill.edges if edge.to == "actuator") for skill in graph.skills]
@@ -78,7 +82,7 @@ def influence_edges(graph: Graph) -> InfluenceEdges:
     return InfluenceEdges(tuple(place), below, tuple(onward), tuple(drives))
 
 
-def _way(skill: Skill, edge: Edge, everything: Boxes) -> InfluenceEdge:
+def _influence_edge(skill: Skill, edge: Edge, everything: Boxes) -> InfluenceEdge:
     if edge.output is not None:
         return InfluenceEdge(
             edge.target, 1.0, skill.function.learns, edge.cuts
@@ -111,7 +115,7 @@ def _counts(found: InfluenceEdges, actuators: int) -> dict[int, list[int]]:
 
 
 def _first(found: InfluenceEdges, counts: dict[int, list[int]], actuator: int) -> Iterator[tuple[str, ...]]:
-    """Paths in the order of the lines, no step of which leads astray."""
+    """All paths to an actuator, in the order of the lines; only edges that lead to it are followed."""
     graph, end = DiGraph(), -1  # the actuator, below all that drive it
     for skill in (skill for skill in found.skills if counts[skill][actuator]):
         graph.add_edges_from((skill, end) for driven in found.drives[skill] if driven == actuator)
@@ -152,7 +156,7 @@ def leaks(found: InfluenceEdges, actuators: int, delta: float) -> list[Leak | No
 
 
 def _without_cut(found: InfluenceEdges, delta: float) -> InfluenceEdges:
-    """The ways without the leaks that lines cut: where δ times the greatest influence of the skill is too small."""
+    """The edges without the leaks that lines cut: where δ times the greatest influence of the skill is too small."""
     most = dict.fromkeys(found.skills, 0.0)
     most[found.skills[0]] = 1.0
     onward = list(found.onward)

@@ -73,7 +73,7 @@ class EdgeClaim:
 
 @dataclass(frozen=True, slots=True)
 class Proof:
-    """All that is known. `unknown` says of skills why nothing is known of their function."""
+    """All claims about a mind. `unknown` says why nothing is known of the function of some skills."""
 
     graph: Graph
     delta: float
@@ -126,12 +126,12 @@ def _edges(graph: Graph, below: Sequence[Skill], bounds: ProvedReach, rests: _Re
     for skill in below:
         for edge, sends in zip(skill.edges, bounds.edges[skill.name], strict=True):
             if edge.to == "skill":
-                weights = (skill.owner,) if rests.says(skill, edge, sends) else ()
+                weights = (skill.owner,) if rests.narrows(skill, edge, sends) else ()
                 yield EdgeClaim(skill.name, graph.named("skill", edge.target), sends, weights)
 
 
 class _Rests:
-    """On whose weights a claim rests: of the skills on the way, those whose weights say more than "0 to 1"."""
+    """The skills on whose weights a claim rests: those on the paths whose weights narrow 0..1 to less."""
 
     def __init__(self, graph: Graph, weights: Mapping[str, Weights], bounds: ProvedReach) -> None:
         self._weights = weights
@@ -145,13 +145,13 @@ class _Rests:
                 if not sends.is_dead:
                     self._live.add_edge(*ends)
 
-    def says(self, skill: Skill, edge: Edge, sends: EdgeRange) -> bool:
+    def narrows(self, skill: Skill, edge: Edge, sends: EdgeRange) -> bool:
         """True if an edge is learnt, and its weights narrow what it sends, or ensure that a command is a number."""
         narrows = sends.low > 0 or sends.high < 1 or (edge.to == "actuator" and sends.sure)
         return edge.output is not None and skill.owner in self._weights and narrows
 
     def of_actuator(self, actuator: int, is_joint: bool) -> tuple[str, ...]:
-        """Of all ways to an actuator; a joint claim looks at all of them."""
+        """The skills on whose weights the bounds of an actuator rest; a joint claim rests on all that have weights."""
         node = "actuator", actuator
         if node not in self._flow:
             return ()
@@ -160,15 +160,15 @@ class _Rests:
             {
                 skill.owner
                 for _, _, (skill, edge, sends) in ways
-                if self.says(skill, edge, sends) or (is_joint and skill.owner in self._weights)
+                if self.narrows(skill, edge, sends) or (is_joint and skill.owner in self._weights)
             }
         )
 
     def of_dead(self, name: str) -> tuple[str, ...]:
-        """Of the edges that send nothing to a dead skill or to those above it that are dead as well."""
+        """The skills whose weights stop influence on its way to a dead skill."""
         ways = self._flow.in_edges(with_ancestors(self._live, [("skill", self._place[name])]), data="sends")
         return self._in_order(
-            {skill.owner for _, _, (skill, edge, sends) in ways if sends.is_dead and self.says(skill, edge, sends)}
+            {skill.owner for _, _, (skill, edge, sends) in ways if sends.is_dead and self.narrows(skill, edge, sends)}
         )
 
     def _in_order(self, names: set[str]) -> tuple[str, ...]:

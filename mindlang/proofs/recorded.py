@@ -1,4 +1,4 @@
-"""How often nothing influenced an actuator in a run of the simulator."""
+"""Runs of the simulator beside a proof: how often nothing influenced an actuator."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class Undriven:
 
 @dataclass(frozen=True, slots=True)
 class Recorded:
-    """A run: what it was, and what became of each actuator. `faults` counts values that were not sent."""
+    """A run: its task, seed and length, and each actuator's `Undriven`. `faults` counts values that were not sent."""
 
     task: str
     seed: int
@@ -34,7 +34,7 @@ class Recorded:
 
 
 def record_undriven(setup: RunSetup, seed: int, prepare: Callable[[Rollout], None] = Rollout.compile) -> Recorded:
-    """One run to its end; `prepare` compiles the simulator. Runs the Python code of the mind's procedures."""
+    """Simulate one run to its end; `prepare` compiles the simulator. Runs the Python code of the mind's procedures."""
     rollout = setup.rollout()
     prepare(rollout)
     run = trace(rollout, seed)

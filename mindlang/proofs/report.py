@@ -174,7 +174,7 @@ def _leaks(found: Data) -> Iterator[str]:
     worst = next((level for level in leak["levels"] if level["skill"] == leak["worst"]), None)
     yield f"{leak['share']:.1%}"
     yield " → ".join(names if len(names) <= MAX_PATH_SKILLS else ends)
-    yield f"{worst['skill']} {worst['share']:.1%}, into {some(worst['into'])}" if worst else ""
+    yield f"{worst['skill']} {worst['share']:.1%}, into {some_names(worst['into'])}" if worst else ""
 
 
 def _sent(found: Data) -> Iterator[str]:
@@ -190,7 +190,7 @@ def _sent(found: Data) -> Iterator[str]:
             yield "never"
         case "can be":
             still = neutral["example"]["still"]
-            yield f"{neutral['value']:g} where {some(still)} keep{'s' * (len(still) == 1)} still"
+            yield f"{neutral['value']:g} where {some_names(still)} keep{'s' * (len(still) == 1)} still"
         case _:
             yield f"{neutral['value']:g}, not ruled out"
     rests = neutral["rests_on"]
@@ -216,7 +216,7 @@ def _lines(data: Data) -> Iterator[Text]:
     for dead in data["dead_skills"]:
         yield _line(f"{dead['skill']} never has influence", dead["rests_on"])
     if outside := data["not_below_master"]:
-        yield _line(f"{some(outside)}: not below {data['master']}", [DECLARATION])
+        yield _line(f"{some_names(outside)}: not below {data['master']}", [DECLARATION])
 
 
 def _line(claim: str, rests: Sequence[str]) -> Text:
@@ -230,10 +230,10 @@ def _unknown(unknown: Mapping[str, str]) -> Iterator[Text]:
             yield Text(f"  {names[0]} {why}: what it sends is taken to be from 0 to 1")
         else:
             plural = why.replace("is ", "are ").replace("has ", "have ")
-            yield Text(f"  {some(names)} {plural}: what they send is taken to be from 0 to 1")
+            yield Text(f"  {some_names(names)} {plural}: what they send is taken to be from 0 to 1")
 
 
-def some(names: Iterable[str]) -> str:
+def some_names(names: Iterable[str]) -> str:
     """Names, one at least, as a sentence lists them; of many the first, and how many more."""
     found = list(names)
     if len(found) > MAX_NAMED_SKILLS + 1:

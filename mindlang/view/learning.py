@@ -57,7 +57,7 @@ class LearntRun:
     _stamp: Stamp = ()
 
     def read(self) -> bool:
-        """Read what has come since the last time; whether there was something."""
+        """Read what has come since the last time; True if there was something."""
         stamp = tuple(map(_stamp, (self.run.folder / name for name in GROWING)))
         if stamp == self._stamp:
             return False
@@ -116,7 +116,7 @@ class Learning:
     _minds: dict[Path, tuple[Subject, Texts]] = field(default_factory=dict)
 
     def read(self) -> bool:
-        """Look for new runs, and at all of them; whether something has come."""
+        """Look for new runs and read all of them; True if something has come."""
         grown = [run.read() for run in self.runs]
         known = {run.run.folder for run in self.runs}
         found = [LearntRun(run) for run in _runs(self.path, known)]
@@ -197,7 +197,7 @@ def open_learning(path: Path, seed: int) -> Learning:
 
 
 def _runs(path: Path, known: set[Path]) -> Iterator[RunFolder]:
-    """Those that are whole and not known."""
+    """The complete run folders at or below a path that are not among the known ones."""
     for manifest in sorted(each for each in path.rglob(MANIFEST) if each.parent not in known):
         try:
             yield open_run(manifest.parent)
@@ -206,7 +206,7 @@ def _runs(path: Path, known: set[Path]) -> Iterator[RunFolder]:
 
 
 def _last_champions(run: RunFolder) -> list[Champion]:
-    """Those of the attempts that have ended, and of the one that goes on, as its checkpoint has them."""
+    """The champions in a run's checkpoint: of the attempts that have ended, and of the one that goes on."""
     try:
         found = checkpoint.load(run.folder, run.manifest.identity)
     except RunError:

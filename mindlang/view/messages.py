@@ -31,17 +31,17 @@ class RefusedError(ValueError):
     """A question that cannot be answered; its text is shown to whoever asked."""
 
 
-class _Said(Struct, tag_field="say", frozen=True, forbid_unknown_fields=True):
-    """Whatever a page says."""
+class _PageMessage(Struct, tag_field="say", frozen=True, forbid_unknown_fields=True):
+    """A message of the page."""
 
 
-class _Asked(_Said, frozen=True, kw_only=True):
+class _RunMessage(_PageMessage, frozen=True, kw_only=True):
     """A message about the run that is shown, or a fork of it."""
 
     fork: ForkNumber = 0
 
 
-class _AskTicks(_Asked, frozen=True, kw_only=True):
+class _AskTicks(_RunMessage, frozen=True, kw_only=True):
     """Ticks `first`, `first` + `every` … below `below`."""
 
     first: Whole = field(name="from")
@@ -51,36 +51,36 @@ class _AskTicks(_Asked, frozen=True, kw_only=True):
 
 
 class AskRows(_AskTicks, tag="rows", frozen=True):
-    """All columns of ticks."""
+    """Asks for all columns of ticks."""
 
 
 class AskColumns(_AskTicks, tag="columns", frozen=True, kw_only=True):
-    """Some columns of ticks."""
+    """Asks for some columns of ticks."""
 
     columns: Annotated[tuple[Column, ...], Meta(min_length=1, max_length=MAX_COLUMNS)]
 
 
-class AskRun(_Asked, tag="run", frozen=True):
-    """Let a run go on to a tick."""
+class AskRun(_RunMessage, tag="run", frozen=True):
+    """Asks to let a run go on to a tick."""
 
     to: Whole
 
 
-class AskShares(_Asked, tag="why", frozen=True):
+class AskShares(_RunMessage, tag="why", frozen=True):
     """Asks for the shares of all paths in an actuator's command of a tick."""
 
     tick: Counted
     actuator: Whole
 
 
-class AskImage(_Asked, tag="image", frozen=True):
+class AskImage(_RunMessage, tag="image", frozen=True):
     """Asks for the environment's own image after a tick."""
 
     tick: Whole
 
 
-class AskChange(_Asked, tag="change", frozen=True):
-    """A run beside the one seen, in which something is replaced in a tick and `lasts` for so many."""
+class AskChange(_RunMessage, tag="change", frozen=True):
+    """Asks for a fork of the run in which a value is replaced from `tick` on, for `lasts` ticks."""
 
     tick: Counted
     what: Literal["reading", "influence", "memory"]
@@ -89,8 +89,8 @@ class AskChange(_Asked, tag="change", frozen=True):
     lasts: Counted = 1
 
 
-class PlayChampion(_Said, tag="champion", frozen=True):
-    """The champion of a generation of a training, instead of the run that is seen; `seed` None is the same world.
+class PlayChampion(_PageMessage, tag="champion", frozen=True):
+    """Asks to show the champion of a generation of a training instead; `seed` None keeps the world.
 
     A seed is told as text: JavaScript has no whole numbers of 64 bits.
     """

@@ -280,7 +280,7 @@ def _response(status: HTTPStatus, body: bytes, content: str, **headers: str) -> 
 
 
 class BackgroundView:
-    """Served at `address` until it is closed, or the program ends. PortError where no port can be had."""
+    """A view, served at `address` until it is closed, or the program ends. PortError where no port can be had."""
 
     def __init__(self, viewed: Viewed) -> None:
         self._session = ViewSession(viewed)
@@ -312,7 +312,7 @@ class BackgroundView:
 
 
 def open_browser(address: str) -> bool:
-    """Open a browser with windows; whether there is one: what runs in a terminal would take this one."""
+    """Open a browser with windows; True if there is one: one that runs in a terminal would take over this one."""
     with suppress(webbrowser.Error):
         browser = webbrowser.get()
         if type(browser) is not webbrowser.GenericBrowser:

@@ -38,7 +38,7 @@ MAX_HAPPENED = 10_000  # events, and stops, that are told at once
 
 
 class ViewSession:
-    """Lives in one event loop. Runs grow in a thread of their own, and answers are computed in another."""
+    """A session in one event loop. Runs grow in a thread of their own, and answers are computed in another."""
 
     def __init__(self, viewed: Viewed, learning: Learning | None = None) -> None:
         self.changed: Callable[[], None] = lambda: None  # told whenever something has come
@@ -93,7 +93,7 @@ class ViewSession:
         }
 
     def ticks(self, fork: int, happened: int = 0, stops: int = 0) -> dict[str, Any]:
-        """How far a fork has come; of what happened and where it stops, what comes behind so many that are known."""
+        """The message on how far a fork has come, with its events and stops from those numbers on."""
         viewed = self.forks[fork]
         return {
             "say": "ticks",

@@ -59,7 +59,7 @@ def data_url(image: Image, kind: str, quality: tuple[int, ...] = ()) -> str:
 
 
 class Viewed:
-    """`about` is what does not change, `chunks` what is still to come; the first chunk begins with tick 0.
+    """A run that is seen: `about` does not change, `chunks` are still to come; the first one begins with tick 0.
 
     In the ticks of `begins` the mind was begun anew; they come with the rows. `drawing` is of its environment. What
     `is_live` grows without being asked. `forked` makes the same run with a change; RefusedError where that cannot be,
@@ -102,7 +102,7 @@ class Viewed:
 
     @property
     def kept_bytes(self) -> int:
-        """Of its rows, and of what flowed in them."""
+        """The bytes of its rows, and of what flowed in them."""
         return self.blocks.kept_bytes + self.flows.kept_bytes
 
     def grow(self, bytes_elsewhere: int = 0) -> None:
@@ -182,7 +182,7 @@ class Viewed:
 
     @property
     def _computed_rows(self) -> int:
-        """Of how many rows it is computed at once what each edge transmits."""
+        """The number of rows whose flows are computed at once."""
         return max(1, MAX_COMPUTED_EDGES // max(1, len(self.flows.links)))
 
 

@@ -140,7 +140,7 @@ def _read_on(path: Path, descriptor: int) -> bytes:
 
 
 def _parts(read_on: Callable[[], bytes]) -> Iterator[bytes]:
-    """Whatever comes, and an empty part where for a while nothing did."""
+    """The parts of a stream as they come, and an empty one after IDLE_SECONDS without any."""
     empty = 0
     while True:
         part = read_on()

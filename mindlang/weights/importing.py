@@ -54,7 +54,7 @@ class Deviation:
 
 
 def engine_deviation(network: SkillNetwork, genome: Weights, inputs: Rows) -> Deviation:
-    """The function in PyTorch, or where that is not installed in float64 as it stands in a book, and in the engine."""
+    """How far the engine deviates from PyTorch or, if that is not installed, from matrix products in float64."""
     sound = inputs[np.isfinite(inputs).all(axis=1)]
     name, compute = _reference(network, genome)
     with np.errstate(all="ignore"):

@@ -137,7 +137,7 @@ class NetworkModule(nn.Module):
         super().__init__()
         self.network = network
         self.layers = nn.ModuleList(Layer(before, after) for before, after in network.shapes)
-        self.take(genome)
+        self.set_genome(genome)
 
     def forward(self, readings: Tensor, state: Tensor | None = None) -> Tensor | tuple[Tensor, Tensor]:
         """The values sent; of a network that remembers, with its state after the tick."""
@@ -158,8 +158,8 @@ class NetworkModule(nn.Module):
         """The state before the first tick of a run: zeros [*batch, state]."""
         return self.layers[0].weight.new_zeros(*batch, self.network.state)
 
-    def take(self, genome: Weights) -> None:
-        """Take the weights of a genome."""
+    def set_genome(self, genome: Weights) -> None:
+        """Set the weights to those of a genome."""
         with torch.no_grad():
             for layer, matrix in zip(self.layers, matrices(genome, self.network.shapes), strict=True):
                 layer.weight.copy_(torch.from_numpy(np.array(matrix)))
@@ -196,8 +196,8 @@ class Skill(NetworkModule):
         save_genome(Path(path), self.network, self.genome())
 
     def load(self, path: Path | str) -> None:
-        """Take the weights of a file; WeightsError where they are not those of this skill."""
-        self.take(load_genome(Path(path), self.network))
+        """Load the weights of a file; WeightsError where they are not those of this skill."""
+        self.set_genome(load_genome(Path(path), self.network))
 
 
 def _random(network: SkillNetwork) -> Weights:

@@ -135,8 +135,8 @@ def test_of_python_code_nothing_is_seen() -> None:
 
 
 def test_nothing_is_cut_for_a_function_that_is_not_known(monkeypatch: pytest.MonkeyPatch) -> None:
-    looked, sent = [], branch_and_bound.sent
-    monkeypatch.setattr(branch_and_bound, "sent", lambda *arguments: looked.append(1) or sent(*arguments))
+    looked, sent = [], branch_and_bound.sent_bounds
+    monkeypatch.setattr(branch_and_bound, "sent_bounds", lambda *arguments: looked.append(1) or sent(*arguments))
     ranges(Skill("Top", Procedure("a.b"), (0,), (Edge("skill", 1, 0), always("skill", 2, 0.25))), None, 99)
     assert len(looked) == 1
 

@@ -197,7 +197,7 @@ def test_every_box_that_is_cut_counts(monkeypatch: pytest.MonkeyPatch) -> None:
     """r − r + 1e-6 is open everywhere: 1, 3, 7, 15, 31, 63 boxes are made, and then 64 are too many."""
     looked, flow = [], reach.influence_bounds
     monkeypatch.setattr(reach, "MAX_BOXES", 64)
-    monkeypatch.setattr(reach, "flow", lambda *arguments: looked.append(arguments[1]) or flow(*arguments))
+    monkeypatch.setattr(reach, "influence_bounds", lambda *arguments: looked.append(arguments[1]) or flow(*arguments))
     nearly_nothing = (*R0, *R0, ("-", 0), *number(1e-6), ("+", 0))
     found = claim(rule("Top", sends("skill", 1, nearly_nothing), reads=(0,)), drives("A", 0.5))
     assert found.neutral == "not excluded"
@@ -230,7 +230,7 @@ def test_boxes_beyond_one_round_are_waited_for(monkeypatch: pytest.MonkeyPatch) 
 def test_a_sum_that_can_be_nothing_is_never_claimed(monkeypatch: pytest.MonkeyPatch) -> None:
     """r − 0.3 and 0.3 − r are both 0 at 0.3, which nobody tries; where floats are neighbours, no more is cut."""
     looked, flow = [], reach.influence_bounds
-    monkeypatch.setattr(reach, "flow", lambda *arguments: looked.append(1) or flow(*arguments))
+    monkeypatch.setattr(reach, "influence_bounds", lambda *arguments: looked.append(1) or flow(*arguments))
     found = claim(*bisected(0.0))
     assert len(looked) < 100
     assert found.neutral == "not excluded"

@@ -120,7 +120,7 @@ def _saved(code: str, span: Span) -> syntax.Header | _Unread:
 
 @lru_cache(1024)
 def _meant(word: str) -> str | None:
-    """The word with which a line was meant to begin; too much is near to `scene`, such as a skill that seeks."""
+    """The known word nearest to a line's first; `scene` only if written so: much else is near it, as in `seek`."""
     return word if word == "scene" else nearest(word, [known for known in KNOWN if known != "scene"])
 
 

@@ -183,7 +183,7 @@ def common_mistake(mistakes: Sequence[Mistake], code: str, line: Span) -> Diagno
 
 
 def _made_of(groups: Mapping[str, str], code: str) -> dict[str, str]:
-    """The words of a message that are made of what a pattern found."""
+    """The fields of a message that are computed from the groups that a pattern found."""
     here, noun, first = groups["here"], groups.get("noun", ""), (code.split() or [""])[0]
     registered = kinds("content" if noun == "contains" else noun)
     kind = registered.get(groups.get("kind", ""))

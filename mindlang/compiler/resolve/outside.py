@@ -70,7 +70,7 @@ def _kind(part: Part[Any]) -> str:
 
 
 def _native(sensors: Sequence[Part[Any]], actuators: Sequence[Part[Any]]) -> Iterator[Refused]:
-    """The parts that measure or move what an environment has not."""
+    """The sensors and actuators that need a body or a world of ours, which an environment does not have."""
     for sensor in (each for each in sensors if isinstance(each.kind, Physical) and not each.kind.is_outside):
         hint = f"Write which of its numbers it is: sensor {sensor.name} is observation 0 range -1 to 1."
         yield sensor.span, f"{_kind(sensor)} measures nothing in {ENVIRONMENT}.", hint

@@ -107,7 +107,7 @@ def _check_decided(ends: Sequence[model.End], world: ResolvedWorld, robot: Robot
     begun = beginning(world.scene, world.things, world.start, robot.body_kind, robot.claw)
     sensors = [sensor.kind for sensor in robot.sensors]
     for end in ends:
-        if end.event and begun.happenings(end.event, sensors) >= end.times:
+        if end.event and begun.first_tick_count(end.event, sensors) >= end.times:
             there = (Label(each.span, "this one") for each in world.things if each.name == end.event.thing)
             message = "This ends every run in its first tick."
             findings.error("decided-start", end.fact.span, message, first_tick_hint(end.event), *there)

@@ -138,7 +138,7 @@ def _check_places(things: Sequence[Part[Any]], scene: SceneKind | None, findings
         hint = f"A world takes {MAX_THINGS} beside its obstacles: leave some out."
         findings.error("too-many-things", apart[MAX_THINGS], f"That is thing number {MAX_THINGS + 1}.", hint)
     met: dict[str, tuple[Part[Any], Part[Any]]] = {}
-    for thing, other in Beginning(scene, things, None, None, None, 0.0).meeting():
+    for thing, other in Beginning(scene, things, None, None, None, 0.0).overlapping():
         met.setdefault(thing.name, (thing, other))
     for thing, other in met.values():
         hint, there = f"Write another place for {thing.name} or {other.name}.", Label(other.span, "this one")

@@ -49,7 +49,7 @@ def check(study: Study) -> Found:
 
 def _met(begun: Beginning, here: Span) -> Iterator[Finding]:
     hint = "Write places that are farther apart, smaller sizes or a smaller jitter."
-    for one, other in begun.meeting():
+    for one, other in begun.overlapping():
         labels = (Label(other.span, "this one"),) if one is not other else ()
         yield Finding(one.span, f"{one.name} is in {other.name} when some runs begin.", hint, labels)
     if thing := begun.on_robot():

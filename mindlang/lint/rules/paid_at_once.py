@@ -89,9 +89,9 @@ class _FirstTick:
     def _often(self, event: EventKind, times: int) -> str:
         """In how many runs an event happens so many times in the first tick, where the robot's place is said."""
         sensors = [*self.study.sensors.values()]
-        if self.begun.happenings(event, sensors) >= times:
+        if self.begun.first_tick_count(event, sensors) >= times:
             return "every run"
-        return "some runs" if replace(self.begun, may=True).happenings(event, sensors) >= times else ""
+        return "some runs" if replace(self.begun, may=True).first_tick_count(event, sensors) >= times else ""
 
     def _often_drawn(self, event: EventKind) -> str:
         """The share of runs in which the robot's place, which is drawn, is in what is rewarded, and no goal."""
