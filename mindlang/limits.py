@@ -56,17 +56,17 @@ def as_layout(value: Any) -> int:
 
 
 def as_runs(value: Any) -> int:
-    """How many runs."""
+    """A number of runs."""
     return bounded_int("runs", RUN_BOUNDS, value)
 
 
 def as_workers(value: Any) -> int:
-    """How many threads."""
+    """A number of threads."""
     return bounded_int("workers", WORKER_BOUNDS, value)
 
 
 def refuse_too_many(task: Task, runs: int) -> None:
-    """MindError where the results of so many runs of a task cannot be kept."""
+    """Raise MindError where the results of so many runs of a task cannot be kept."""
     needed, there = runs * bytes_for(task), available()
     if there is not None and needed > there:
         message = f"{runs:,} runs take about {_in_bytes(needed)} of memory, and there are {_in_bytes(there)}"
@@ -79,7 +79,7 @@ def bytes_for(task: Task) -> int:
 
 
 def refuse_too_large(rollout: Rollout, genomes: int, layouts: int, attempts: int = 1) -> None:
-    """MindError where so many genomes on so many layouts each cannot be run at once, for each of so many attempts."""
+    """Raise MindError where so many genomes on so many layouts do not fit into memory, in each of so many attempts."""
     needed, there = attempts * bytes_of(rollout, genomes, layouts), available()
     if there is not None and needed > there:
         message = f"{rollout.task.name} takes about {_in_bytes(needed)} of memory, and there are {_in_bytes(there)}"
@@ -88,7 +88,7 @@ def refuse_too_large(rollout: Rollout, genomes: int, layouts: int, attempts: int
 
 
 def refuse_too_long(rollout: Rollout, runs: int) -> None:
-    """MindError where so many runs of a task could take more than a year, however fast the machine is."""
+    """Raise MindError where so many runs of a task could take over a year, however fast the machine is."""
     years = runs * rollout.task.ticks // (MAX_TICKS_PER_SECOND * rollout.workers) // YEAR_SECONDS
     if years:
         message = f"{runs:,} runs of {rollout.task.name} take up to {years:,} year{'s' * (years > 1)} and more"

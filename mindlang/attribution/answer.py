@@ -42,7 +42,7 @@ class AttributedRun:
 
     @property
     def ticks(self) -> int:
-        """How many there are, the first of which is 1."""
+        """The number of ticks, the first of which is 1."""
         return len(self.acted)
 
 
@@ -91,7 +91,7 @@ class QuestionError(SetupError):
 
 
 def answer(attributed: AttributedRun, what: str, span: tuple[int, int] | None, paths: int | None) -> dict[str, Any]:
-    """Who made what is asked about in the ticks of a span, the first of which is 1; without one in all of them."""
+    """The shares in an actuator, memory, skill or the reward, in the ticks of a span from 1 on, or in all of them."""
     first, last = _within(attributed, span)
     about = attributed.about | {"ticks": [first, last], "seconds_per_tick": attributed.flows.graph.tick}
     target = sink_named(attributed.flows, what)
@@ -135,7 +135,7 @@ def _unknown(attributed: AttributedRun, what: str) -> QuestionError:
 
 
 def _instead(attributed: AttributedRun, skill: str) -> str:
-    """Who is above a skill that the master does not reach."""
+    """The hint for a skill that the master does not reach: a skill above it."""
     if "recording" in attributed.about:
         return "It had no influence while this was recorded."
     graph = attributed.flows.graph

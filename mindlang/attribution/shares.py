@@ -66,7 +66,7 @@ class RemainingPaths:
 
 @dataclass(frozen=True, slots=True)
 class Shares:
-    """The command to an actuator or a memory, or the influence on a skill, and who made it; means over `ticks` rows.
+    """The command to an actuator or a memory, or the influence on a skill, by paths; means over `ticks` rows.
 
     command = Σ `share` of `paths` + `rest.share` + `neutral` + `rounding`: `command` is what the mind said, to the bit;
     `neutral` is what an actuator has of it from the `undriven` rows, in which nothing influenced it, and `rounding`
@@ -91,7 +91,7 @@ class Shares:
 
 
 def shares(flows: EdgeFlows, target: Sink, rows: range, paths: int = NAMED_PATHS) -> Shares:
-    """Who made the command to `target`, or the influence on it, in these rows, one at least; the `paths` largest parts.
+    """The shares in the command to `target`, or the influence on it, in one row or more, with the `paths` largest.
 
     IndexError where a row is not there, ReplacedInfluenceError where influence that comes to the target was replaced.
     It takes as long as thinking these rows does, and for so many paths as long as they are, however many there are in
@@ -163,7 +163,7 @@ class _Ends:
 
     @property
     def ticks(self) -> int:
-        """Over how many ticks means are."""
+        """The number of ticks that means are over."""
         return int(self.driven.sum()) if self.target[0] == "memory" else len(self.driven)
 
     def mean(self, values: NDArray[np.generic]) -> float:
@@ -247,7 +247,7 @@ def _into(flows: EdgeFlows, skill: int, carried: EdgeFlow) -> IncomingEdges | No
 
 @dataclass(frozen=True, slots=True)
 class IncomingEdges:
-    """How influence comes to a skill: the edges [n] from the skills `sources` [n].
+    """The edges [n] over which influence comes to a skill, from the skills `sources` [n].
 
     `fractions` [n, ticks] are the parts of its influence that come over each, which add up to 1 in each tick in which
     it has any.

@@ -59,7 +59,7 @@ class Diagnostic(ShortRepr):
 
 @dataclass(slots=True)
 class Findings:
-    """Where a stage of the compiler collects what it finds; `numbers` are the names of numbers that may be meant."""
+    """The diagnostics that stages of the compiler collect; `numbers` are names of numbers that hints may suggest."""
 
     diagnostics: list[Diagnostic] = field(default_factory=list)
     comparisons: int = MAX_COMPARED_NAMES  # of names, which are left

@@ -109,7 +109,7 @@ def _reward(reward: model.Reward, events: dict[Any, int], places: Places) -> gra
 
 
 def lower_condition(when: model.When, places: Places) -> graph.Program:
-    """All comparisons of an alternative one after the other, each but the first with `and`; so with `or`."""
+    """A condition as a postfix program: comparisons joined by `and` into alternatives, these by `or`."""
     found: list[tuple[str, float | int]] = []
     for number, all_ in enumerate(when.alternatives):
         for place, each in enumerate(all_):

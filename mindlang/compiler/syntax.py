@@ -45,7 +45,7 @@ class Amount(Struct, frozen=True):
 
     @property
     def constant(self) -> Name:
-        """Its name where that stands, without its sign; there it is shorter in a file that has an alias."""
+        """The number's name, with the span that it has in the text, without the sign."""
         written = self.span.text.lstrip("+- \t")
         return Name(self.name, Span(self.span.source, self.span.end - len(written), self.span.end))
 

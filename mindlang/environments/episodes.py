@@ -59,7 +59,7 @@ class Episodes:
     _scores: NDArray[np.float64] = field(init=False)
 
     def __post_init__(self) -> None:
-        """All begin with the seed 0."""
+        """Begin all lanes with the seed 0."""
         self.seeds, self._scores = np.zeros(self.lanes.count, np.uint64), np.zeros(self.lanes.count)
 
     def begin(self, lanes: Mask, seeds: ArrayLike) -> None:
@@ -78,7 +78,7 @@ class Episodes:
         return self._seen(self.lanes.sensed_aside(lanes), int(lanes.sum()))
 
     def step(self, actions: ArrayLike) -> tuple[NDArray[np.float64], Mask, Mask]:
-        """One tick under actions [lanes, actions]: rewards, what has ended, and where time is up instead.
+        """Step all lanes by actions [lanes, actions]: rewards, terminations and truncations [lanes].
 
         An action that is not finite is not sent."""
         given = checked_actions(actions, (self.lanes.count, self.actions))

@@ -71,7 +71,7 @@ class TaskEnv(Env[Floats, Floats], EzPickle):
         return self._episodes.sense()[0], {"layout": layout}
 
     def step(self, action: Floats) -> tuple[Floats, float, bool, bool, dict[str, Any]]:
-        """One tick; with the last of an episode, `info` says what came of it."""
+        """Step by one tick; with the last of an episode, `info` has its outcome."""
         if not self._goes_on:
             raise ResetNeeded("the episode has ended, or none has begun: call reset()")
         [reward], [terminated], [truncated] = self._episodes.step(

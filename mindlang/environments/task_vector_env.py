@@ -92,7 +92,7 @@ class TaskVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]], EzPickle):
         return self._episodes.sense(), self._begun(everywhere, {})
 
     def step(self, actions: Floats) -> Step:
-        """One tick everywhere; `info` has the outcome of what has ended, and the layouts of what has begun."""
+        """Step all robots by one tick; `info` has the outcomes of what has ended, and the layouts of what has begun."""
         if not self._streams:
             raise ResetNeeded("no episode has begun: call reset()")
         rewards, terminated, truncated = self._episodes.step(actions)

@@ -41,7 +41,7 @@ class Parameter:
 
 @dataclass(frozen=True, slots=True)
 class Wire:
-    """From what to which terminal of a device: a pin of the Raspberry Pi, or something else where it has none."""
+    """A wire to a terminal of a device, from a pin of the Raspberry Pi, or from something else where it has none."""
 
     source: str
     pin: int | None
@@ -49,7 +49,7 @@ class Wire:
 
     @property
     def begin(self) -> str:
-        """Where it begins, with the number of the pin on the header."""
+        """The beginning of the wire, with the number of the pin on the header."""
         return f"{self.source} (pin {self.pin})" if self.pin else self.source
 
 

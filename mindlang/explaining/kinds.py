@@ -70,7 +70,7 @@ def _purposes() -> Mapping[tuple[str, str], str]:
 
 
 def _texts(cls: type[Any]) -> Iterator[str]:
-    """Its docstring; of a kind that it varies, and of what gives many kinds their arguments, all but the title."""
+    """The docstring of a kind; then, without titles, those of a kind that it varies and of bases with its arguments."""
     yield unwrap_paragraphs(cleandoc(cls.__doc__ or ""))
     for each in cls.__mro__[1:]:
         if is_dataclass(each) and (each in names() or all(field.kw_only for field in fields(each))):

@@ -51,7 +51,7 @@ def _also(quantity: Quantity) -> str:
 
 
 def _bounds(quantity: Quantity) -> str:
-    """From where to where it can be, in its own unit, as far as a person would ask."""
+    """The bounds of a quantity in its own unit, where a person would ask for them."""
     unit, factor = _unit(quantity)
     low, high = quantity.low / factor, quantity.high / factor
     most = MOST_DEGREES if unit == "deg" else MOST_SAID

@@ -125,7 +125,7 @@ def why_always(when: When, value: Range) -> str | None:
 
 
 def _why_never(all_: Sequence[Comparison], value: Range) -> str | None:
-    """Why comparisons never hold all at once."""
+    """Why comparisons never hold all at once, in words; None where they may."""
     never = next((each for each in all_ if not _can_be(each, each.compare, value)), None)
     return _in_words(never, "never", value) if never else _contradiction(all_, value)
 

@@ -157,6 +157,6 @@ class _Reading:
 
 
 def _places(text: str, word: str) -> list[int]:
-    """Where a word stands by itself in a text and not in a comment."""
+    """The offsets at which a word stands by itself in a text, not in a comment."""
     found = (each.start() for each in re.finditer(rf"(?<![\w-]){re.escape(word)}(?![\w-])", text))
     return [place for place in found if "#" not in text[text.rfind("\n", 0, place) + 1 : place]]

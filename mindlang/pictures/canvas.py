@@ -49,7 +49,7 @@ def letterboxed(seen: Image, width: int, height: int, around: Colour) -> Image:
 
 
 class PixelRectangle(NamedTuple):
-    """Where something stands: by the corner from which both coordinates grow, in units or pixels."""
+    """A rectangle by the corner from which both coordinates grow, in units or pixels."""
 
     left: float
     low: float
@@ -70,7 +70,7 @@ class PixelRectangle(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Viewport:
-    """Which part of the world an image shows: its top left corner, and how many pixels a unit has."""
+    """The part of the world that an image shows: its top left corner, and how many pixels a unit has."""
 
     left: float
     top: float
@@ -190,7 +190,7 @@ def text_width(text: str, size: float, bold: bool = False) -> float:
 
 
 def flow_layout(widths: Sequence[float], gap: float, room: float) -> list[tuple[float, int]]:
-    """Where each of some texts of these widths begins, and in which line, side by side in lines as wide as the room."""
+    """The left end and the line of each of some texts of these widths, side by side in lines as wide as the room."""
     places, along, line = [], 0.0, 0
     for width in widths:
         if along and along + width > room:

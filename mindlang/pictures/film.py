@@ -39,7 +39,7 @@ class VideoError(MindError):
 
 @dataclass(frozen=True, slots=True)
 class VideoFormat:
-    """How many images a second has, how long a whole run lasts where nobody says a speed, and how it is encoded.
+    """A format of films: images per second, the seconds of a whole run without a speed, and the encoder.
 
     `encode` writes a film to a file and tells of each image; it raises VideoError. `most` is how many it takes.
     """

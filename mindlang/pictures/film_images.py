@@ -132,7 +132,7 @@ class FilmImages:
         return page.image
 
     def _occupied(self) -> list[PixelRectangle]:
-        """Where the robot and the things are in the end, in pixels; of an environment nobody knows."""
+        """The rectangles of the robot and the things in the end, in pixels; none for an environment."""
         run, view = self._run, self.view(self._run.ticks)
         if self._seen:
             return []
@@ -196,7 +196,7 @@ class FilmImages:
         ]
 
     def _title_places(self, facts: list[str]) -> list[tuple[float, int]]:
-        """Where each fact begins, and in which line."""
+        """The left end and the line of each fact of the title."""
         widths = [text_width(text, TITLE_TEXT_PIXELS) for text in facts]
         return flow_layout(widths, TITLE_GAP_PIXELS, self.layout.width - 12 - self.layout.left - TITLE_INDENT_PIXELS)
 

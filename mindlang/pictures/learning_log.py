@@ -33,7 +33,7 @@ Records = Sequence[Mapping[str, float | None]]
 
 @dataclass(frozen=True, slots=True)
 class Curve:
-    """How a lesson was learnt: the records of its log. `note` tells it from others of its name.
+    """The learning curve of a lesson: the records of its log. `note` tells it from others of its name.
 
     `failure` says why nothing came of it; "" where it was learnt, goes on, or nobody knows.
     `lesson` is the same for runs that teach the same lesson of the same mind, whatever their seeds and the weights that

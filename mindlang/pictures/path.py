@@ -28,7 +28,7 @@ LEAST_WORLD_PIXELS = 3 * BANNER_PIXELS  # the height of a world that is not hidd
 
 @dataclass(frozen=True, slots=True)
 class Stroke:
-    """How a line looks: a colour, and in its middle another one where there are more lines than colours."""
+    """The look of a line: a colour, and in its middle another one where there are more lines than colours."""
 
     colour: Colour
     core: Colour | None = None
@@ -82,20 +82,20 @@ def strokes_of(theme: Theme, count: int) -> list[Stroke]:
 
 
 def _stretches(keys: NDArray[np.int64]) -> list[tuple[int, int]]:
-    """Where equal keys begin and end."""
+    """The stretches of equal keys, as (start, end)."""
     changes = np.flatnonzero(np.diff(keys)) + 1
     return list(pairwise([0, *(int(change) for change in changes), len(keys)])) if len(keys) else []
 
 
 def draw_start(canvas: Canvas, run: RecordedRun) -> None:
-    """Where the run began."""
+    """Draw the mark of the place where the run began."""
     x, y, _ = run.body[0]
     canvas.disc(x, y, 5 * canvas.pixel, PAPER.floor)
     canvas.disc(x, y, 5 * canvas.pixel, PAPER.ink, width=1.8)
 
 
 def draw_collisions(canvas: Canvas, run: RecordedRun) -> None:
-    """Where the robot collided; over the robot, since a run may end there."""
+    """Draw the marks of collisions; over the robot, since a run may end there."""
     for x, y, _ in run.body[run.collisions]:
         draw_cross(canvas, x, y, 5.5 * canvas.pixel, PAPER)
 
@@ -108,7 +108,7 @@ def draw_cross(canvas: Canvas, x: float, y: float, size: float, theme: Theme) ->
 
 
 def draw_former(canvas: Canvas, run: RecordedRun) -> None:
-    """Faintly, where things were before, numbered where they were several, and not too many.
+    """Draw faintly where things were before, numbered where they were several, and not too many.
 
     Of what walks or was pushed also the way; what can be pushed was first where it appeared.
     """
@@ -143,7 +143,7 @@ def ending_colour(found: dict[str, Any], theme: Theme) -> Colour:
 
 
 def draw_end_mark(canvas: Canvas, run: RecordedRun, found: dict[str, Any], theme: Theme) -> None:
-    """Two rings around the robot, where the run ended."""
+    """Draw two rings around the robot, where the run ended."""
     x, y, _ = run.body[-1]
     draw_rings(canvas, x, y, run.graph.body.radius + MARK_PIXELS * canvas.pixel, found, theme)
 
@@ -165,7 +165,7 @@ def draw_rings(canvas: Canvas, x: float, y: float, radius: float, found: dict[st
 def draw_banner(
     canvas: Canvas, run: RecordedRun, found: dict[str, Any], room: PixelRectangle, taken: Iterable[PixelRectangle]
 ) -> None:
-    """How it ended, when, and with which score: at an edge of the room, where nothing that is `taken` lies below it.
+    """Draw the end of a run, its time and score, at an edge of the room where nothing that is `taken` lies below it.
 
     All are in pixels, from the upper left corner.
     """

@@ -149,7 +149,7 @@ def _named(
 
 
 def _places(below: PixelRectangle, text: SceneLabel, gap: float) -> Iterator[PixelRectangle]:
-    """Where a name can stand: below its thing, above, to the right or left of it, and then line by line farther."""
+    """The places for a name: below its thing, above, to the right or left of it, and then line by line farther."""
     above = below._replace(low=text.y + text.size / 2 + gap)
     yield from (below, above)
     level = below._replace(low=text.y - below.height / 2)

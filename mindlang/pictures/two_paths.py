@@ -69,7 +69,7 @@ def _world(was: RecordedRun, now: RecordedRun, tick: int) -> Canvas:
 
 
 def _mark(canvas: Canvas, x: float, y: float) -> None:
-    """Where the robot was when something was changed."""
+    """Draw a mark where the robot was when something was changed."""
     canvas.disc(x, y, MARK_PIXELS * canvas.pixel, PAPER.lamp)
     canvas.disc(x, y, MARK_PIXELS * canvas.pixel, PAPER.ink, width=1.8)
 

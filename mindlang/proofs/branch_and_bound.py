@@ -49,7 +49,7 @@ class EdgeRange:
 
 
 class Pool(NamedTuple):
-    """Boxes and what is sent in them."""
+    """Boxes, and the bounds of what is sent in them."""
 
     boxes: Boxes
     sent: SentBounds
@@ -126,7 +126,7 @@ def _cut(skill: Skill, weights: Weights | None, low: Singles, high: Singles, mos
 
 
 def _excess(found: SentBounds, low: Singles, high: Singles) -> Singles:
-    """How much farther than what was seen the bounds of each box reach, over all edges; 0 where that is close."""
+    """How far the bounds of each box exceed what was seen, the most of its edges; 0 where that is close."""
     below, above = np.maximum(low - found.low, 0), np.maximum(found.high - high, 0)
     below[(below <= SHARP_ENOUGH) & (low < 1)] = 0  # "always 1" and "always 0" are to be proved exactly
     above[(above <= SHARP_ENOUGH) & (high > 0)] = 0

@@ -35,7 +35,7 @@ class PlacedNode(NamedTuple):
 def about_data(
     of: About, graph: Graph, task: Task | None, skills: Sequence[Skill], columns: Columns, texts: Texts
 ) -> Data:
-    """All that does not change of rows with these columns; `skills` are those below the master, parents first.
+    """The constant data of rows with these columns; `skills` are those below the master, parents first.
 
     There is a task where there is a world.
     """

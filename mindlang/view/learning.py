@@ -80,7 +80,7 @@ class LearntRun:
         return self._stamp[0][0] if self._stamp and self._stamp[0] else 0
 
     def champion(self, attempt: int, generation: int) -> Champion:
-        """Who was champion of an attempt in a generation; RefusedError where that is not known."""
+        """The champion of an attempt in a generation; RefusedError where that is not known."""
         if (attempt, generation) not in self._known:
             raise RefusedError(f"attempt {attempt} has no generation {generation} yet")
         of_attempt = [each for each in self.champions if each.attempt == attempt]

@@ -58,7 +58,7 @@ class PortError(MindError):
 
 
 class StrangerConnection(ServerConnection):
-    """One of so many that are open without having said the token: one more, and the oldest is closed."""
+    """A connection that has not said the token; of those only so many stay open, and the oldest is closed."""
 
     def __init__(self, strangers: list[ServerConnection], *given: Any, **options: Any) -> None:
         super().__init__(*given, **options)

@@ -106,7 +106,7 @@ class Viewed:
         return self.blocks.kept_bytes + self.flows.kept_bytes
 
     def grow(self, bytes_elsewhere: int = 0) -> None:
-        """One chunk more; where a procedure fails, or memory ends, the run is over and `failed` says why.
+        """Add a chunk of rows; where a procedure fails, or memory ends, the run is over and `failed` says why.
 
         `bytes_elsewhere` are those of other runs, whose rows are kept at the same time.
         """

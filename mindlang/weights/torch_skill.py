@@ -46,7 +46,7 @@ class OrderedProduct(Function):
 
     @staticmethod
     def backward(ctx: Any, grad: Tensor) -> tuple[Tensor, Tensor]:
-        """Of the values, and of the weights."""
+        """The derivatives of the values, and of the weights."""
         x, weight = ctx.saved_tensors
         return grad @ weight, grad.reshape(-1, weight.shape[0]).T @ x.reshape(-1, weight.shape[1])
 

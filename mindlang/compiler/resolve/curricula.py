@@ -44,7 +44,7 @@ def lessons(
 ) -> Iterator[model.Lesson]:
     """Every lesson of every curriculum that is well said, in order."""
     hopeless = {each.name for each in tasks if each.declaration.whole and not any(end.succeeds for end in each.ends)}
-    school = _School(names, {skill.name: skill for skill in skills}, influences, hopeless, widths, findings)
+    school = _LessonContext(names, {skill.name: skill for skill in skills}, influences, hopeless, widths, findings)
     for name, declaration in names.declarations("curriculum"):
         refuse_facts(declaration, ("teaches",), findings)
         phrase = declaration.header.phrase
@@ -57,7 +57,7 @@ def lessons(
 
 
 @dataclass(frozen=True, slots=True)
-class _School:
+class _LessonContext:
     """The parts of a mind that lessons are checked against. `hopeless` are the tasks that say no success."""
 
     names: Names
@@ -240,7 +240,7 @@ def _holds(learner: model.Skill, other: model.Skill, widths: Mapping[str, int]) 
 
 
 def _sized(skill: model.Skill, widths: Mapping[str, int]) -> tuple[Function, Layers]:
-    """Its function with every argument said, and the shapes of the matrices in which its weights lie."""
+    """A skill's function with every argument said, and the shapes of its weight matrices."""
     size = sum(widths.get(name, 1) for name in skill.reads), len(_sends(skill))
     return skill.function.explicit(*size), skill.function.matrix_shapes(*size)
 

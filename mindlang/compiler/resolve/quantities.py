@@ -63,7 +63,7 @@ def _wrong_unit(amount: Amount, quantity: Quantity, findings: Findings) -> None:
 
 
 def _labels(amount: Amount) -> tuple[Label, ...]:
-    """Where the number is said that a name stands for."""
+    """The label of the line that declares the number which an amount names; none where it names none."""
     return (Label(amount.said, f"{amount.span.text.strip('+- ')} is said here"),) if amount.said else ()
 
 
@@ -77,7 +77,7 @@ def _no_rate(amount: Amount, quantity: Quantity, findings: Findings) -> None:
 
 
 def _bounds(quantity: Quantity, unit: str = "") -> str:
-    """Between what an amount in a unit may be, without exponents; in the first unit where that one does not fit."""
+    """The hint on the bounds of an amount, without exponents, in its unit or, if that is not one, in the first."""
     unit = unit if unit in quantity.units else next(iter(quantity.units))
     ends = (bound / quantity.units[unit] for bound in (quantity.low, quantity.high))
     low, high = (f"{end:.9f}".rstrip("0").rstrip(".") for end in ends)

@@ -117,7 +117,7 @@ def _linear(each: Comparison) -> tuple[Form, float]:
 
 
 def _reading(each: Comparison, name: str) -> Reading:
-    """Where a reading stands first in a comparison."""
+    """The first mention of a reading in a comparison."""
     terms = (*each.left.terms, *each.right.terms)
     return next(term for term in terms if isinstance(term, Reading) and term.name == name)
 

@@ -87,7 +87,7 @@ class _FirstTick:
         return first_tick_hint(event) + (" Or write which way the robot faces." if faces else "")
 
     def _often(self, event: EventKind, times: int) -> str:
-        """In how many runs an event happens so many times in the first tick, where the robot's place is said."""
+        """The words "every run" or "some runs" if an event comes so often in their first tick, else empty."""
         sensors = [*self.study.sensors.values()]
         if self.begun.first_tick_count(event, sensors) >= times:
             return "every run"
@@ -105,7 +105,7 @@ class _FirstTick:
         return f"about {share:.0%} of the runs" if share >= LEAST_SHARE else ""
 
     def _size(self, size: float, is_area: bool) -> float:
-        """How large the places are at which a robot, facing anywhere, has reached a thing."""
+        """The area, in square units, of the places where a robot, facing anywhere, has reached a thing."""
         return size**2 if is_area else pi / 2 * (self.begun.claw + size / 2) ** 2
 
     def first(self, name: str) -> Interval:
