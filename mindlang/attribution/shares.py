@@ -100,7 +100,7 @@ def shares(flows: EdgeFlows, target: Sink, rows: range, paths: int = NAMED_PATHS
     carried, order = flows.over(rows), _above(flows, target)
     _refuse_replaced(flows, carried, [*order, *([target[1]] if target[0] == "skill" else [])])
     if target == ("skill", flows.skills[0]):
-        return _in_charge(flows, len(rows))
+        return _master_shares(flows, len(rows))
     ends = _ends(flows, target, carried)
     into = {skill: ways for skill in order if (ways := _into(flows, skill, carried)) is not None}
     weights = IncomingEdges(ends.edges, ends.sources, ends.parts)
@@ -134,8 +134,8 @@ def _size(contribution: Contribution) -> tuple[float, float]:
     return contribution.part, contribution.share
 
 
-def _in_charge(flows: EdgeFlows, ticks: int) -> Shares:
-    """The influence of the master, which is 1 by definition."""
+def _master_shares(flows: EdgeFlows, ticks: int) -> Shares:
+    """The shares in the influence of the master, which is 1 by definition."""
     path = Contribution((flows.master,), 1.0, 1.0, 1.0, 1.0)
     return Shares(
         ("skill", flows.skills[0]), ticks, 1.0, 1.0, 0, None, 0.0, (path,), RemainingPaths(0, 0.0, 0.0), (), True

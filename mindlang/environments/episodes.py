@@ -1,4 +1,4 @@
-"""Episodes side by side: who acts in them, and what an agent sees, is paid and is told, as arrays.
+"""Episodes side by side as arrays of observations, rewards and ends, from which the environments are made.
 
 A program commands every actuator, or plays a skill of the hierarchy.
 """

@@ -1,4 +1,4 @@
-"""All articles, those of the codes of diagnostics among them, and those that somebody asks for by a name."""
+"""Collects all articles, those on codes of diagnostics too, and finds the articles of a name."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from functools import cache

@@ -77,7 +77,7 @@ class Linted:
 
 
 def linted(file: str, compiled: Compiled, codes: Collection[str], fix: bool) -> Linted:
-    """A file held against the rules with these codes; MindError where the mended file cannot be written."""
+    """Check a file by the rules with these codes, with `fix` mend it; MindError where it cannot be written."""
     try:
         if fix and compiled.graph:
             return _mended(Path(file).resolve(), compiled, codes)

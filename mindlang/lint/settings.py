@@ -1,4 +1,4 @@
-"""Which lint rules are held in which files, as the command line and `mind.toml` say.
+"""Selects the lint rules for each file, by the command line and `mind.toml`.
 
 A `mind.toml` is for the files in its folder and below, where no other one is nearer.
 

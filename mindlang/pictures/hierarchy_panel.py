@@ -44,7 +44,7 @@ class HierarchyPanel:
         self._size = min(box_text_size(self._lines[sink], place) for sink, place in self._boxes.items())
 
     def draw(self, canvas: Canvas, tick: int) -> None:
-        """The hierarchy in a tick, the first of which is 1."""
+        """Draw the hierarchy in a tick, the first of which is 1."""
         flow = self._flows.over(range(tick - 1, tick))
         links = zip(self._stops, flow.value[0].tolist(), flow.transmitted[0].tolist(), strict=True)
         for stops, command, transmitted in sorted(links, key=itemgetter(2)):  # what is bright lies on top

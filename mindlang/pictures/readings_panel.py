@@ -41,7 +41,7 @@ class ReadingsPanel:
             canvas.text(cell.left, cell.low + size / 2, text, size, NIGHT.faint)
 
     def draw(self, canvas: Canvas, tick: int) -> None:
-        """The readings in a tick, the first of which is 1."""
+        """Draw the readings in a tick, the first of which is 1."""
         for sensor, cell in zip(self._sensors, self._cells, strict=False):
             values = self._run.readings[tick - 1, sensor.start : sensor.start + sensor.width].astype(float)
             left, right = cell.left + NAME_SHARE * cell.width, cell.left + cell.width

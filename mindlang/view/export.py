@@ -105,7 +105,7 @@ def exported(about: dict[str, Any], ticks: dict[str, Any], viewed: Viewed, image
 
 
 def _policy(script: str, style: str) -> str:
-    """Only this script and this style: whatever a name says, nothing else runs, and nothing is asked for."""
+    """A content security policy for only this script and style: nothing that a name contains runs or is fetched."""
     run, look = (
         f"'sha256-{base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()}'" for text in (script, style)
     )

@@ -1,4 +1,4 @@
-"""Weights from a file: held against the engine, tried in their lesson, and written into the lock if they do well."""
+"""Imports weights: compared with the engine, tried in their lesson, and written into the lock if they do well."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -46,7 +46,7 @@ def grammar() -> "Lark":
 
 
 def read_grammar(table: str | bool) -> "Lark":
-    """The grammar as Lark reads it, or from the file of its table, which has no rules but those that are parsed by."""
+    """The grammar read by Lark, or from the cached `table`, which has only the rules that the parser uses."""
     from lark import Lark
 
     here = Path(__file__).parents[2]

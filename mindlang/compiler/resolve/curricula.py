@@ -44,7 +44,7 @@ def lessons(
 ) -> Iterator[model.Lesson]:
     """Every lesson of every curriculum that is well said, in order."""
     hopeless = {each.name for each in tasks if each.declaration.whole and not any(end.succeeds for end in each.ends)}
-    school = _LessonContext(names, {skill.name: skill for skill in skills}, influences, hopeless, widths, findings)
+    context = _LessonContext(names, {skill.name: skill for skill in skills}, influences, hopeless, widths, findings)
     for name, declaration in names.declarations("curriculum"):
         refuse_facts(declaration, ("teaches",), findings)
         phrase = declaration.header.phrase
@@ -52,7 +52,7 @@ def lessons(
         taught = of_form(declaration.facts, Teaches)
         heirs = {fact.skill.text: origin.text for fact in taught if (origin := _origin(fact.arguments))}
         for number, fact in enumerate(taught, 1):
-            if lesson := school.lesson(name, number, fact, learner, heirs):
+            if lesson := context.lesson(name, number, fact, learner, heirs):
                 yield lesson
 
 

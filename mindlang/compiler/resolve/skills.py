@@ -166,7 +166,7 @@ def _alike(
     lines = of_form(own.facts, Reads)
     instead: dict[str, list[Reads]] = {}
     for fact in lines:
-        if names.find(fact.name, ("sensor", "memory"), findings) and _stands(fact, other, names, widths, findings):
+        if names.find(fact.name, ("sensor", "memory"), findings) and _replaces(fact, other, names, widths, findings):
             instead.setdefault(fact.stands_for.text if fact.stands_for else "", []).append(fact)
     for input_, same in instead.items():
         _refuse_again([fact.span for fact in same], f"Something stands for {input_} already.", findings)
@@ -184,7 +184,7 @@ def _alike(
     return model.Skill(name, other.function, reads, edges, False, own, other.owner)
 
 
-def _stands(fact: Reads, other: model.Skill, names: Names, widths: Mapping[str, int], findings: Findings) -> bool:
+def _replaces(fact: Reads, other: model.Skill, names: Names, widths: Mapping[str, int], findings: Findings) -> bool:
     """True if a line says which input of the other skill its own replaces, and both have as many readings."""
     name = fact.name.text
     reads = f"{other.name} reads {listed(other.reads, 'and') if other.reads else 'nothing'}."
