@@ -30,7 +30,7 @@ from mindlang.editing.edits import edit
 from mindlang.editing.project import EditError, open_project
 from mindlang.editing.summary import diff, summarise
 from mindlang.editing.unified_diff import unified
-from mindlang.lint.lint import fixed, lint
+from mindlang.lint.lint import apply_safe_fixes, lint
 from mindlang.lock.report import rows
 from mindlang.proofs.proof import prove
 from mindlang.server.changing import perform
@@ -68,7 +68,7 @@ def _lint(case: Case) -> None:
 
 
 def _fix(case: Case) -> None:
-    fixed(case.compiled.sources[0], lambda source: lint(case.compile(source.text)))
+    apply_safe_fixes(case.compiled.sources[0], lambda source: lint(case.compile(source.text)))
 
 
 def _check(case: Case) -> None:

@@ -218,7 +218,7 @@ class Beginning:
         return ahead >= 0 and hypot(ahead, aside) <= reach
 
 
-def beginning(
+def task_beginning(
     scene: SceneKind | None, things: Sequence[Part[Any]], start: Start, body: BodyKind | None, claw: float
 ) -> Beginning:
     """The beginning of a task's runs."""

@@ -18,7 +18,7 @@ from mindlang.compiler import syntax
 from mindlang.compiler.diagnostic import Findings, a
 from mindlang.compiler.hierarchy import refuse_circles, reverse_topological_order
 from mindlang.compiler.names import Names
-from mindlang.compiler.references import names_in
+from mindlang.compiler.references import mentions_in
 from mindlang.compiler.syntax import Amount, Declaration, Expression, Fact, Name, Numbers, Phrase, rebuilt
 
 UNLIKE_NOUNS = ("body", "curriculum")  # whose declarations are like nothing
@@ -92,7 +92,7 @@ def number_writer(names: Names, values: Mapping[str, Amount], tick_seconds: floa
         has_names = words and not words.isdisjoint(_WORD.findall(text))
         if not has_names and "per" not in text:  # as most lines
             return line
-        found = names_in(line, names, None) if has_names else ()
+        found = mentions_in(line, names, None) if has_names else ()
         places = {each.name.span for each in found if each.noun == "number" and each.name.text in values}
 
         def changed(node: Any) -> Any:

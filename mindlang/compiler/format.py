@@ -11,7 +11,7 @@ from itertools import accumulate, pairwise
 from typing import Any
 
 from mindlang.compiler import syntax
-from mindlang.compiler.parse import BLANKS, code_of
+from mindlang.compiler.parse import BLANKS, without_comment
 from mindlang.compiler.parse.shape import MAX_SHAPES, Start, grammar, parse_line, pieces, shape_of
 from mindlang.compiler.source import Source
 from mindlang.compiler.splice import Splice
@@ -61,7 +61,7 @@ def formatted(text: str, start: Start = "line") -> str:
 
 
 def _line(text: str, start: Start) -> _Line:
-    code = code_of(text)
+    code = without_comment(text)
     return _Line(spaced(code.lstrip(" \t").rstrip(BLANKS), start), text[len(code) :].strip(), text[:1] in (" ", "\t"))
 
 
@@ -133,7 +133,7 @@ def _plan(shape: str, start: Start) -> Plan | None:
 def _words(code: str, line: Any, start: Start) -> Iterator[tuple[int, int, str]]:
     """Offsets (start, end) of the words of a line, which parses as `line`, and the space that belongs after each."""
     tokens = list(grammar().parse_interactive(code, start=start).iter_parse())
-    signs = {node.span.start for node in syntax.walk(line) if _is_signed(node)}
+    signs = {node.span.start for node in syntax.walk_tree(line) if _is_signed(node)}
     for token, following in zip(tokens, [*tokens[1:], None], strict=True):
         first = token.start_pos or 0
         glued = following is None or token == "(" or following in (")", "%") or first in signs

@@ -13,7 +13,7 @@ from mindlang.compiler.syntax import Contains, Counts, Declaration, Name, Outcom
 PLACED = ("item", "zone", "power")  # the kinds that had places of their own
 
 
-def migrated(source: Source, findings: Findings) -> str:
+def migrated_text(source: Source, findings: Findings) -> str:
     """The text of a file in which every thing says what becomes of it, as an older mindc understood it."""
     declarations = parse(source, findings).declarations
     return spliced(source, [splice for declaration in declarations for splice in _splices(source, declaration)])

@@ -99,10 +99,10 @@ class Names:
 
     @cached_property
     def _all_things(self) -> dict[str, set[str]]:
-        return things_of(*self.table.get("task", {}).values())
+        return declared_things(*self.table.get("task", {}).values())
 
 
-def things_of(*tasks: Declaration) -> dict[str, set[str]]:
+def declared_things(*tasks: Declaration) -> dict[str, set[str]]:
     """The things of some tasks, with the kinds that they are of."""
     found: dict[str, set[str]] = {}
     for fact in of_form((fact for task in tasks for fact in task.facts), Contains):

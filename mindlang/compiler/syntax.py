@@ -417,14 +417,14 @@ def of_form(lines: Iterable[Any], form: type[L]) -> list[L]:
     return [line for line in lines if isinstance(line, form)]
 
 
-def walk(node: Any) -> Iterator[Any]:
+def walk_tree(node: Any) -> Iterator[Any]:
     """A node of a tree and all that it is made of, down to words and spans."""
     yield node
     if isinstance(node, Struct):
         node = astuple(node)
     if isinstance(node, tuple):
         for part in node:
-            yield from walk(part)
+            yield from walk_tree(part)
 
 
 def rebuilt(node: Any, change: Callable[[Any], Any]) -> Any:

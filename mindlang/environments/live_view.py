@@ -54,7 +54,7 @@ class LiveView:
         viewed = _viewed(self._episodes, self._about, self._coming)
         viewed.grow()
         if self._served:
-            self._served.see(viewed)
+            self._served.show(viewed)
         else:
             self._served = BackgroundView(viewed)
             tell = log.info if open_browser(self._served.address) else log.warning

@@ -76,7 +76,7 @@ class Linted:
     fixed: int
 
 
-def linted(file: str, compiled: Compiled, codes: Collection[str], fix: bool) -> Linted:
+def lint_file(file: str, compiled: Compiled, codes: Collection[str], fix: bool) -> Linted:
     """Check a file by the rules with these codes, with `fix` mend it; MindError where it cannot be written."""
     try:
         if fix and compiled.graph:
@@ -98,7 +98,7 @@ def _mended(path: Path, compiled: Compiled, codes: Collection[str]) -> Linted:
             message = f"{path.name} has been changed meanwhile"
             raise transaction.TransactionError(message, "Try again: nothing has been written.")
 
-    source, made = fixed(compiled.sources[0], lambda source: lint(again(source), codes))
+    source, made = apply_safe_fixes(compiled.sources[0], lambda source: lint(again(source), codes))
     users = (each.sources[0].path for each in neighbours([path]))
     if not made or again(source).graph is None or any(load(user, {path: source.text}).graph is None for user in users):
         return Linted(tuple(lint(compiled, codes)), True, 0)
@@ -106,7 +106,7 @@ def _mended(path: Path, compiled: Compiled, codes: Collection[str]) -> Linted:
     return Linted(tuple(lint(again(source), codes)), True, made)
 
 
-def fixed(source: Source, look: Callable[[Source], Iterable[Diagnostic]]) -> tuple[Source, int]:
+def apply_safe_fixes(source: Source, look: Callable[[Source], Iterable[Diagnostic]]) -> tuple[Source, int]:
     """A source with all safe fixes made of what `look` finds in it, round by round, and how many those were."""
     made = 0
     for _ in range(min(MAX_FIX_ROUNDS, MAX_FIXED_CHARACTERS // max(len(source.text), 1) + 1)):

@@ -12,7 +12,7 @@ from mindrun.graph.tasks import goals
 from mindrun.kinds.sensors.sensor import Physical, SensorKind
 from mindrun.kinds.things.thing import STAYS
 
-from mindlang.compiler.beginning import Beginning, beginning
+from mindlang.compiler.beginning import Beginning, task_beginning
 from mindlang.compiler.compile import Compiled
 from mindlang.compiler.diagnostic import Fix, Label
 from mindlang.compiler.hierarchy import reverse_topological_order, topological_order, with_descendants
@@ -232,7 +232,7 @@ class Study:
 
     def beginning(self, task: Task) -> Beginning:
         """The world of a task when a run begins."""
-        return beginning(task.scene, task.things, task.start, self.mind.body.kind, self.graph.claw_reach)
+        return task_beginning(task.scene, task.things, task.start, self.mind.body.kind, self.graph.claw_reach)
 
     def goals(self, task: Task) -> frozenset[str]:
         """The things on which no run of a task begins."""

@@ -15,7 +15,7 @@ from mindlang.proofs.branch_and_bound import EdgeRange
 from mindlang.proofs.interval import is_known
 from mindlang.proofs.paths import Leak, Paths, influence_edges, leaks, paths
 from mindlang.proofs.reach import MIN_INFLUENCE, Driven, ProvedReach, prove_reach, tighten
-from mindlang.proofs.trying import Tried, try_out
+from mindlang.proofs.trying import Tried, try_readings
 
 MAX_LISTED_PATHS = 10
 DECLARATION = "the declaration alone"
@@ -88,7 +88,7 @@ def prove(graph: Graph, weights: Mapping[str, Weights], delta: float) -> Proof:
     """All claims about a mind under its master; `delta` is the influence of a leak."""
     count = len(graph.actuators)
     found, bounds = influence_edges(graph), prove_reach(graph, weights)
-    tried: Sequence[Tried | None] = try_out(graph, weights) or [None] * count
+    tried: Sequence[Tried | None] = try_readings(graph, weights) or [None] * count
     alone, bounds = (
         bounds,
         tighten(graph, weights, bounds, [bool(seen and seen.readings is not None) for seen in tried]),

@@ -73,7 +73,7 @@ def prove_reach(graph: Graph, weights: Mapping[str, Weights]) -> ProvedReach:
     skills = reachable(graph, graph.master)
     boxes = max(1, min(MAX_SKILL_BOXES, MAX_TOTAL_BOXES // len(skills)))
     edges = {skill.name: ranges(skill, weights.get(skill.owner), boxes) for skill in skills}
-    found = influence_bounds(graph, 1, {name: as_sent(sends) for name, sends in edges.items()}.__getitem__)
+    found = influence_bounds(graph, 1, {name: as_bounds(sends) for name, sends in edges.items()}.__getitem__)
     drivers: list[list[EdgeRange]] = [[] for _ in graph.actuators]
     for place, skill in enumerate(graph.skills):
         if found.high[0, place] > 0:
@@ -89,7 +89,7 @@ def prove_reach(graph: Graph, weights: Mapping[str, Weights]) -> ProvedReach:
     )
 
 
-def as_sent(sends: Sequence[EdgeRange]) -> SentBounds:
+def as_bounds(sends: Sequence[EdgeRange]) -> SentBounds:
     """The ranges of a skill's edges as what it sends in a single box."""
     low, high = np.array([[s.low for s in sends]], np.float32), np.array([[s.high for s in sends]], np.float32)
     return SentBounds(low, high, np.array([[s.sure for s in sends]], np.bool_))
@@ -172,7 +172,7 @@ def _flow(
     """Influence in each box, from what every skill sends there, or what it sends anywhere, whichever says more."""
 
     def sends(name: str) -> SentBounds:
-        here, anywhere = sent_bounds(skills[name], weights.get(skills[name].owner), boxes), as_sent(found.edges[name])
+        here, anywhere = sent_bounds(skills[name], weights.get(skills[name].owner), boxes), as_bounds(found.edges[name])
         low, high = np.maximum(here.low, anywhere.low), np.minimum(here.high, anywhere.high)
         return SentBounds(low, high, here.sure | anywhere.sure)
 

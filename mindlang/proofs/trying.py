@@ -102,7 +102,7 @@ class Tried:
     still: tuple[str, ...]
 
 
-def try_out(graph: Graph, weights: Mapping[str, Weights]) -> list[Tried] | None:
+def try_readings(graph: Graph, weights: Mapping[str, Weights]) -> list[Tried] | None:
     """The trial of each actuator; None where the function of a skill below the master is not known."""
     skills = reachable(graph, graph.master)
     if not all(is_known(skill, weights.get(skill.owner)) for skill in skills):

@@ -10,7 +10,7 @@ from mindrun.graph.graph import VARIED_NOUNS
 from mindrun.kinds.registry import Argument, arguments, kinds, named_arguments
 from mindrun.numbers.quantity import Quantity, Reference
 
-from mindlang.compiler.names import things_of
+from mindlang.compiler.names import declared_things
 from mindlang.compiler.references import READABLE_NOUNS
 from mindlang.compiler.resolve.kinds import about
 from mindlang.compiler.source import comment_of
@@ -98,7 +98,7 @@ def things(view: MindView, task: Declaration | None, about: Iterable[str]) -> li
     own = [each for each in worlds if task and each.header.name is task.header.name]
     found: dict[str, set[str]] = {}
     for declaration in own or ([task] if task else worlds):
-        for name, kinds_ in things_of(declaration).items():
+        for name, kinds_ in declared_things(declaration).items():
             found.setdefault(name, set()).update(kinds_)
     return [Offer(name, "thing", " ".join(sorted(is_))) for name, is_ in found.items() if is_ & fit]
 

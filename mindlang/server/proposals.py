@@ -16,7 +16,7 @@ from mindlang.compiler.source import Source
 from mindlang.compiler.splice import Splice
 from mindlang.compiler.syntax import Declaration, Drives, Fact, Influences, Reads, Stays
 from mindlang.editing.project import EditError, Project, facts, has_outputs, kind_of
-from mindlang.lint.lint import fixed
+from mindlang.lint.lint import apply_safe_fixes
 from mindlang.server.changing import proposed
 from mindlang.server.workspace import MindView, fact_at, on_line
 
@@ -257,5 +257,5 @@ def all_mended(view: MindView, path: Path, texts: dict[Path, str]) -> str | None
         compiled = compile_source(now, path, {**texts, path: now.text})
         return MindView(path, compiled, (), view.names).findings
 
-    mended, made = fixed(source, findings_of)
+    mended, made = apply_safe_fixes(source, findings_of)
     return mended.text if made else None

@@ -207,7 +207,7 @@ def _acting(graph: Graph, columns: Columns) -> Data:
     return found
 
 
-def world_events(task: Task) -> list[dict[str, str]]:
+def world_event_data(task: Task) -> list[dict[str, str]]:
     """The texts and kinds of a task's events; touching is one, unless an event says it or there is nothing to touch."""
     kinds = [names()[type(event)] for event in task.events]
     found = [{"text": shown(text), "kind": kind} for text, kind in zip(outcome.events(task), kinds, strict=True)]
@@ -216,7 +216,7 @@ def world_events(task: Task) -> list[dict[str, str]]:
     return [*found, {"text": TOUCH, "kind": TOUCH}]
 
 
-def robot_events(of: About) -> list[dict[str, str]]:
+def robot_event_data(of: About) -> list[dict[str, str]]:
     """The texts and kinds of what happens to a robot."""
     return [
         {"text": "stopped", "kind": "stopped"},

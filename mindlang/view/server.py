@@ -289,9 +289,9 @@ class BackgroundView:
         self._thread.start()
         self.address = self._ready.result()
 
-    def see(self, viewed: Viewed) -> None:
+    def show(self, viewed: Viewed) -> None:
         """Let all viewers see another run."""
-        self._loop.call_soon_threadsafe(self._session.see, viewed)
+        self._loop.call_soon_threadsafe(self._session.show, viewed)
 
     def close(self) -> None:
         """End it: pages keep what they have fetched."""

@@ -46,7 +46,7 @@ class ViewSession:
         self.number = 0  # how many runs have been seen before this one
         self._growing: dict[int, asyncio.Task[None]] = {}
         self._waits: str | None = None  # what a change waits for
-        self._see(viewed)
+        self._show(viewed)
         self._grower = ThreadPoolExecutor(1, "growing")
         self._answerer = ThreadPoolExecutor(1, "answering")
 
@@ -55,14 +55,14 @@ class ViewSession:
         if self.forks[0].is_live:
             self._run(0, sys.maxsize)
 
-    def see(self, viewed: Viewed) -> None:
+    def show(self, viewed: Viewed) -> None:
         """Let all viewers see another run, in the loop that is running."""
-        self._see(viewed)
+        self._show(viewed)
         self.number += 1
         self.begin()
         self.changed()
 
-    def _see(self, viewed: Viewed) -> None:
+    def _show(self, viewed: Viewed) -> None:
         """See a run, and nothing of those before it."""
         for growing in self._growing.values():
             growing.cancel()
@@ -137,7 +137,7 @@ class ViewSession:
             viewed = await asyncio.get_running_loop().run_in_executor(self._grower, self.learning.begin, *given)
         except MindError as error:
             raise RefusedError(error_text(error)) from error
-        self.see(viewed)
+        self.show(viewed)
 
     async def _fork(self, change: AskChange) -> None:
         """A run beside another, which goes on at once to where that is."""

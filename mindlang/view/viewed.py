@@ -30,7 +30,7 @@ from mindlang.view.rows import (
     TickNumbers,
     columns_frame,
     rows_frame,
-    rows_that_fit,
+    rows_per_frame,
 )
 
 Drawing = Callable[[Sent], SeenEpisode]
@@ -130,7 +130,7 @@ class Viewed:
 
     def rows(self, asked: AskRows) -> bytes:
         """A frame of rows: as many as are known and fit."""
-        fit = rows_that_fit(self.columns.width(DOUBLE_BLOCK), self.columns.width(SINGLE_BLOCK))
+        fit = rows_per_frame(self.columns.width(DOUBLE_BLOCK), self.columns.width(SINGLE_BLOCK))
         ticks = self.blocks.ticks(asked.first, asked.below, asked.every, min(fit, self._computed_rows))
         return rows_frame(asked, self.doubles(ticks), self.singles(ticks))
 
@@ -142,7 +142,7 @@ class Viewed:
         kept = self.columns.kept_singles
         blocks, indices = np.array(asked.columns).T
         is_flow = (blocks == SINGLE_BLOCK) & (indices >= kept)
-        most = rows_that_fit(len(asked.columns), 0)
+        most = rows_per_frame(len(asked.columns), 0)
         most = min(most, FLOW_ROWS, self._computed_rows) if is_flow.any() else most
         ticks = self.blocks.ticks(asked.first, asked.below, asked.every, most)
         values = np.empty((len(ticks), len(asked.columns)))

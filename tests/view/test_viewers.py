@@ -286,7 +286,7 @@ def test_a_question_is_about_the_run_that_was_seen_when_it_was_asked(path: Path)
         session._answerer.submit(held.wait)
         asking = asyncio.create_task(session.answer(AskRows(first=0, below=10, fork=1, ask=7), edits=False))
         await asyncio.sleep(0)
-        session._see(simulated(path))
+        session._show(simulated(path))
         held.set()
         return await asking
 

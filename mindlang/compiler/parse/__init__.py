@@ -69,7 +69,7 @@ def parse_stops(source: Source, findings: Findings) -> list[syntax.Stop]:
     return [line for line in _lines(source, findings, "stop") if isinstance(line, syntax.Stop)]
 
 
-def code_of(line: str) -> str:
+def without_comment(line: str) -> str:
     """The part of a line before its comment."""
     found = _CODE.match(line)
     return found[0] if found else ""
@@ -88,7 +88,7 @@ def _coded_lines(source: Source) -> Iterator[tuple[Span, str]]:
     """The lines of a source that are more than a comment, each without it and without the blanks before it."""
     offset = 0
     for text in source.text.split("\n"):
-        if code := code_of(text).rstrip(BLANKS):
+        if code := without_comment(text).rstrip(BLANKS):
             yield Span(source, offset, offset + len(code)), code
         offset += len(text) + 1
 

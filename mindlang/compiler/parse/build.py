@@ -33,7 +33,7 @@ _FIELDS: Mapping[str, tuple[type[Struct], Mapping[str, type]]] = {
 }
 
 
-def build(tree: Tree[Token], source: Source, offset: int) -> syntax.Line | syntax.Stop:
+def build_line(tree: Tree[Token], source: Source, offset: int) -> syntax.Line | syntax.Stop:
     """The line that stands at `offset` of `source`."""
     return cast(syntax.Line | syntax.Stop, Builder(source, offset).transform(tree))
 

@@ -114,9 +114,9 @@ def _words() -> frozenset[str]:
 
 
 def _parsed(code: str, source: Source, offset: int, start: Start) -> syntax.Line | syntax.Stop:
-    from mindlang.compiler.parse.build import build
+    from mindlang.compiler.parse.build import build_line
 
-    return build(grammar().parse(code, start=start), source, offset)
+    return build_line(grammar().parse(code, start=start), source, offset)
 
 
 @lru_cache(MAX_SHAPES)

@@ -7,7 +7,7 @@ from typing import Any
 from mindrun.numbers.quantity import SECONDS, TICKS, Quantity
 
 from mindlang.compiler import model
-from mindlang.compiler.beginning import beginning, first_tick_hint
+from mindlang.compiler.beginning import first_tick_hint, task_beginning
 from mindlang.compiler.diagnostic import Findings, Label
 from mindlang.compiler.resolve.expressions import Visible, resolve_condition, resolve_expression
 from mindlang.compiler.resolve.kinds import make_kind
@@ -104,7 +104,7 @@ def _ends(
 
 def _check_decided(ends: Sequence[model.End], world: ResolvedWorld, robot: RobotFacts, findings: Findings) -> None:
     """Report an event that ends every run in its first tick."""
-    begun = beginning(world.scene, world.things, world.start, robot.body_kind, robot.claw)
+    begun = task_beginning(world.scene, world.things, world.start, robot.body_kind, robot.claw)
     sensors = [sensor.kind for sensor in robot.sensors]
     for end in ends:
         if end.event and begun.first_tick_count(end.event, sensors) >= end.times:

@@ -14,10 +14,10 @@ from mindrun.kinds.scenes.scene import SceneKind
 from mindrun.kinds.things.thing import MAX_OBSTACLES, MAX_THINGS, ThingKind
 from mindrun.numbers.quantity import ANGLE, COORDINATE, RATE, Place
 
-from mindlang.compiler.beginning import Beginning, beginning
+from mindlang.compiler.beginning import Beginning, task_beginning
 from mindlang.compiler.diagnostic import Findings, Label, did_you_mean, listed
 from mindlang.compiler.model import Part
-from mindlang.compiler.names import Names, things_of
+from mindlang.compiler.names import Names, declared_things
 from mindlang.compiler.resolve.kinds import Scope, make_kind
 from mindlang.compiler.resolve.maps import with_places
 from mindlang.compiler.resolve.quantities import convert
@@ -79,7 +79,9 @@ def refuse_repeated(facts: Sequence[Fact], message: str, hint: str, findings: Fi
 def resolve_world(declaration: Declaration, robot: RobotFacts, findings: Findings) -> ResolvedWorld:
     """The world that a task or a scene declares; the lines that are wrong are reported and left out."""
     noun, name = declaration.header.noun.text, declaration.header.name.text
-    scope = Scope(robot.names, things_of(declaration) if declaration.whole else None, f"{noun} {name}", root=robot.root)
+    scope = Scope(
+        robot.names, declared_things(declaration) if declaration.whole else None, f"{noun} {name}", root=robot.root
+    )
     phrase = declaration.header.phrase
     scene = make_kind("task", phrase, scope, findings) if phrase else None
     things = _things(declaration, scene, scope, findings)
@@ -163,7 +165,7 @@ def _start(
     refuse_repeated(said, message, "Write both on one line: starts at 0 0 facing 90 deg.", findings)
     is_left_open = declaration.header.noun.text == "scene" and not said  # to the tasks in it
     if scene and not is_left_open and not (said and said[-1].place and not start.at):
-        begun = beginning(scene, things, start, body, 0.0)
+        begun = task_beginning(scene, things, start, body, 0.0)
         _check_start(declaration.header.name.span, said[-1].span if start.at else None, begun, findings)
     return start
 
