@@ -9,7 +9,7 @@ def score(value: float | None, digits: int = 2) -> str:
     return f"{value:,.{digits}f}" if value is not None else "not a number"
 
 
-def progress_score(value: float | None) -> str:
+def short_score(value: float | None) -> str:
     """A score in a line of progress; – where there is none yet, or it is not finite."""
     return f"{value:.2f}" if value is not None and isfinite(value) else "–"
 

@@ -137,9 +137,8 @@ def _size(contribution: Contribution) -> tuple[float, float]:
 def _master_shares(flows: EdgeFlows, ticks: int) -> Shares:
     """The shares in the influence of the master, which is 1 by definition."""
     path = Contribution((flows.master,), 1.0, 1.0, 1.0, 1.0)
-    return Shares(
-        ("skill", flows.skills[0]), ticks, 1.0, 1.0, 0, None, 0.0, (path,), RemainingPaths(0, 0.0, 0.0), (), True
-    )
+    rest = RemainingPaths(0, 0.0, 0.0)
+    return Shares(("skill", flows.skills[0]), ticks, 1.0, 1.0, 0, None, 0.0, (path,), rest, (), True)
 
 
 @dataclass(frozen=True, slots=True)

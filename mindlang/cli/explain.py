@@ -41,7 +41,7 @@ def command(name: tuple[str, ...], as_json: bool) -> None:
     from rich.text import Text
 
     from mindlang.cli._articles import command_articles
-    from mindlang.explaining.collection import articles, codes, find_articles, missing_article_hint
+    from mindlang.explaining.collection import articles, codes, find_articles, unknown_hint
     from mindlang.explaining.terminal import article_data, article_text, code_list
 
     if not name:
@@ -51,11 +51,8 @@ def command(name: tuple[str, ...], as_json: bool) -> None:
     asked = " ".join(" ".join(name).strip("[]").split())
     known = find_articles(asked, articles()) or find_articles(asked, [*command_articles()])
     if not known:
-        fail(
-            f"There is nothing called {visible(asked)}.",
-            missing_article_hint(asked, [*articles(), *command_articles()]),
-            MISUSE,
-        )
+        hint = unknown_hint(asked, [*articles(), *command_articles()])
+        fail(f"There is nothing called {visible(asked)}.", hint, MISUSE)
     if as_json:
         print_json({"articles": [article_data(each) for each in known]})
         return

@@ -81,7 +81,7 @@ class Episodes:
         """Step all lanes by actions [lanes, actions]: rewards, terminations and truncations [lanes].
 
         An action that is not finite is not sent."""
-        given = checked_actions(actions, (self.lanes.count, self.actions))
+        given = to_actions(actions, (self.lanes.count, self.actions))
         if self.row is None:
             self.lanes.command(given)
         else:
@@ -159,7 +159,7 @@ def _setup(mind: Mind, task: Task, master: str, ready: ReadyMind) -> RunSetup:
     return RunSetup(task, master, ready, mind.path.absolute().parent)
 
 
-def checked_actions(actions: ArrayLike, shape: tuple[int, ...]) -> Floats:
+def to_actions(actions: ArrayLike, shape: tuple[int, ...]) -> Floats:
     """Actions as float32 for the lanes; MindError where they are no real numbers of that shape."""
     try:
         given = np.asarray(actions)
@@ -174,7 +174,7 @@ def checked_actions(actions: ArrayLike, shape: tuple[int, ...]) -> Floats:
     return given.astype(np.float32, copy=False)
 
 
-def chosen_layouts(seeds: list[int | None], streams: list[np.random.Generator]) -> NDArray[np.uint64]:
+def to_layouts(seeds: list[int | None], streams: list[np.random.Generator]) -> NDArray[np.uint64]:
     """The layout of each seed, that of `mindc run --seed`; drawn from its stream where there is none."""
     drawn = (
         int(stream.integers(MAX_DRAWN_SEED)) if seed is None else seed % SEED_COUNT
@@ -183,7 +183,7 @@ def chosen_layouts(seeds: list[int | None], streams: list[np.random.Generator]) 
     return np.array([*drawn], np.uint64)
 
 
-def refuse_unknown_mode(mode: str | None, metadata: Mapping[str, Any]) -> None:
+def check_render_mode(mode: str | None, metadata: Mapping[str, Any]) -> None:
     """MindError for a `render_mode` that the environment does not have."""
     if mode not in (None, *metadata["render_modes"]):
         known = listed([f'"{each}"' for each in metadata["render_modes"]])

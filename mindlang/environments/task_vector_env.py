@@ -14,15 +14,7 @@ from gymnasium.vector.utils import batch_space
 from mindrun.errors import MindError
 from numpy.typing import NDArray
 
-from mindlang.environments.episodes import (
-    Floats,
-    Mask,
-    chosen_layouts,
-    episodes_of,
-    image_of,
-    refuse_unknown_mode,
-    unit_box,
-)
+from mindlang.environments.episodes import Floats, Mask, check_render_mode, episodes_of, image_of, to_layouts, unit_box
 from mindlang.pictures.canvas import Image
 from mindlang.run.setup import layouts as children
 
@@ -54,7 +46,7 @@ class TaskVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]], EzPickle):
         EzPickle.__init__(
             self, file, task, master, skill, render_mode, num_envs=num_envs, autoreset_mode=autoreset_mode
         )
-        refuse_unknown_mode(render_mode, self.metadata)
+        check_render_mode(render_mode, self.metadata)
         if not isinstance(num_envs, SupportsIndex) or index(num_envs) < 1:
             raise MindError(f"there cannot be {num_envs!r} robots", "num_envs is a whole number, 1 or more")
         mode = AutoresetMode(autoreset_mode)
@@ -87,7 +79,7 @@ class TaskVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]], EzPickle):
             stream if one is None else np_random(one)[0] for stream, one in zip(before, seeds, strict=True)
         ]
         everywhere = np.ones(self.num_envs, np.bool_)
-        self._episodes.begin(everywhere, chosen_layouts(seeds, self._streams))
+        self._episodes.begin(everywhere, to_layouts(seeds, self._streams))
         self._over[:] = False
         return self._episodes.sense(), self._begun(everywhere, {})
 
@@ -109,7 +101,7 @@ class TaskVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]], EzPickle):
                 infos = self._add_info(infos, self._outcome(lane), lane)
         if begins.any():
             chosen = np.flatnonzero(begins).tolist()
-            self._episodes.begin(begins, chosen_layouts([None] * len(chosen), [self._streams[i] for i in chosen]))
+            self._episodes.begin(begins, to_layouts([None] * len(chosen), [self._streams[i] for i in chosen]))
             infos = self._begun(begins, infos)
         return self._episodes.sense(), rewards, terminated, truncated, infos
 

@@ -33,7 +33,7 @@ def find_articles(asked: str, among: Sequence[Article]) -> list[Article]:
     return of_name or [each for each in among if (each.noun, each.name) == (ALSO_CALLED.get(noun, noun), name)]
 
 
-def missing_article_hint(asked: str, among: Iterable[Article]) -> str:
+def unknown_hint(asked: str, among: Iterable[Article]) -> str:
     """The hint for a name without an article."""
     known = list(among)
     owners = [each for each in known if any(parameter.key == asked for parameter in each.parameters)]

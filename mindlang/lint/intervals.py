@@ -1,4 +1,4 @@
-"""The range in which the value of an expression must lie, by interval arithmetic, and what conditions come to in it."""
+"""Interval arithmetic: the range of an expression's value, and conditions that hold always or never."""
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass

@@ -47,7 +47,7 @@ class AnalysedWorld:
         return kind.constant(self)
 
     def is_constant(self, reading: str) -> bool:
-        """True if all sensors that a reading is computed from are constant in this world."""
+        """True if all that a reading is computed from in the end is constant in this world."""
         return all(self.constant(root) is not None for root in self.study.roots.get(reading, {reading}))
 
     @property
@@ -138,9 +138,8 @@ class Study:
     @cached_property
     def active(self) -> set[str]:
         """The skills that a master reaches, the mind's or that of a lesson."""
-        return with_descendants(
-            self.mind.influences, {self.mind.master, *(lesson.master for lesson in self.mind.lessons)}
-        )
+        masters = {self.mind.master, *(lesson.master for lesson in self.mind.lessons)}
+        return with_descendants(self.mind.influences, masters)
 
     @cached_property
     def acting(self) -> set[str]:
@@ -161,7 +160,7 @@ class Study:
 
     @cached_property
     def roots(self) -> dict[str, frozenset[str]]:
-        """The physical sensors that each sensor is computed from; of one that is not computed, itself."""
+        """The sensors and memories that each sensor is computed from at last; of one that is not computed, itself."""
         graph, found = source_graph(self.mind.sensors), dict[str, frozenset[str]]()
         for name in reverse_topological_order(graph):
             found[name] = frozenset[str]().union(*(found[source] for source in graph[name])) or frozenset({name})

@@ -36,7 +36,7 @@ def reduced(image: Image, scale: float) -> Image:
     return cv2.resize(image, size, interpolation=cv2.INTER_AREA).astype(np.uint8)
 
 
-def letterboxed(seen: Image, width: int, height: int, around: Colour) -> Image:
+def letterbox(seen: Image, width: int, height: int, around: Colour) -> Image:
     """An image, red first, as one of that size: as large as fits, in the middle."""
     high, wide, _ = seen.shape
     scale = min(width / wide, height / high)
@@ -48,7 +48,7 @@ def letterboxed(seen: Image, width: int, height: int, around: Colour) -> Image:
     return page
 
 
-class PixelRectangle(NamedTuple):
+class Region(NamedTuple):
     """A rectangle by the corner from which both coordinates grow, in units or pixels."""
 
     left: float
@@ -56,12 +56,12 @@ class PixelRectangle(NamedTuple):
     width: float
     height: float
 
-    def overlaps(self, other: "PixelRectangle") -> bool:
+    def overlaps(self, other: "Region") -> bool:
         """True if both share an area."""
         is_beside = self.left >= other.left + other.width or other.left >= self.left + self.width
         return not is_beside and self.low < other.low + other.height and other.low < self.low + self.height
 
-    def is_within(self, other: "PixelRectangle") -> bool:
+    def is_within(self, other: "Region") -> bool:
         """True if the other covers all of it."""
         right, top = other.left + other.width, other.low + other.height
         ends_in = self.left + self.width <= right and self.low + self.height <= top

@@ -10,17 +10,7 @@ from typing import Any
 import numpy as np
 from mindrun.graph.run_scores import score_of
 
-from mindlang.pictures.canvas import (
-    Canvas,
-    Image,
-    PixelRectangle,
-    Viewport,
-    blank,
-    flow_layout,
-    letterboxed,
-    pasted,
-    text_width,
-)
+from mindlang.pictures.canvas import Canvas, Image, Region, Viewport, blank, flow_layout, letterbox, pasted, text_width
 from mindlang.pictures.environments import seen_run
 from mindlang.pictures.hierarchy_panel import HierarchyPanel
 from mindlang.pictures.path import (
@@ -70,12 +60,12 @@ class FilmLayout:
         return cls(FILM_WIDTH, max(LEAST_HEIGHT, high), (wide, high), wide, 0)
 
     @property
-    def panel(self) -> PixelRectangle:
+    def panel(self) -> Region:
         """The rectangle of the hierarchy and the readings."""
         left, top = self.left + MARGIN_PIXELS, self.top + TITLE_PIXELS
-        return PixelRectangle(left, top, self.width - left - MARGIN_PIXELS, self.height - top - MARGIN_PIXELS - 2)
+        return Region(left, top, self.width - left - MARGIN_PIXELS, self.height - top - MARGIN_PIXELS - 2)
 
-    def divided(self, sensors: int, lower: float = 0.0) -> tuple[PixelRectangle, PixelRectangle]:
+    def divided(self, sensors: int, lower: float = 0.0) -> tuple[Region, Region]:
         """The rectangles of the hierarchy and of the readings of so many sensors: below it, or beside where it is low.
 
         The readings have at most their share, and show what fits. Both begin so many pixels `lower`, for a long title.
@@ -84,10 +74,10 @@ class FilmLayout:
         y, height = y + lower, height - lower
         if self.left == 0:
             wide = BESIDE_SHARE * width if sensors else 0.0
-            return PixelRectangle(x, y, width - wide, height), PixelRectangle(x + width - wide, y, wide, height)
+            return Region(x, y, width - wide, height), Region(x + width - wide, y, wide, height)
         rows = min(ceil(sensors / int(width // COLUMN_PIXELS)), int(BELOW_SHARE * height // ROW_PIXELS))
         high = ROW_PIXELS * rows
-        return PixelRectangle(x, y, width, height - high), PixelRectangle(x, y + height - high, width, high)
+        return Region(x, y, width, height - high), Region(x, y + height - high, width, high)
 
 
 def _even(pixels: float) -> int:
@@ -125,13 +115,13 @@ class FilmImages:
         page = self._drawn(run.ticks, self._world(run.ticks, has_ended=True))
         wide, high = self.layout.world
         if high >= LEAST_WORLD_PIXELS:
-            draw_banner(page, run, found, PixelRectangle(0.0, 0.0, wide, high), self._occupied())
+            draw_banner(page, run, found, Region(0.0, 0.0, wide, high), self._occupied())
         else:
             place = self.layout.width - 20, self.layout.top + NAME_LINE_PIXELS
             page.text(*place, ending_words(found), 14, ending_colour(found, NIGHT), bold=True, align="right")
         return page.image
 
-    def _occupied(self) -> list[PixelRectangle]:
+    def _occupied(self) -> list[Region]:
         """The rectangles of the robot and the things in the end, in pixels; none for an environment."""
         run, view = self._run, self.view(self._run.ticks)
         if self._seen:
@@ -139,7 +129,7 @@ class FilmImages:
         (x, y, _), radius = run.body[-1], run.graph.body.radius
         places = [np.array([x, y, 2 * radius]), *(place for _, _, place in each_thing(run, NIGHT, run.ticks))]
         corners = [(x - size / 2 - view.left, view.top - y - size / 2, size, size) for x, y, size in places]
-        return [PixelRectangle(*each) for each in (np.array(corners) * view.scale).tolist()]
+        return [Region(*each) for each in (np.array(corners) * view.scale).tolist()]
 
     def view(self, tick: int) -> Viewport:
         """The part of the world that is shown in a tick."""
@@ -169,7 +159,7 @@ class FilmImages:
 
     def _world(self, tick: int, has_ended: bool = False) -> Image:
         if self._seen:
-            return letterboxed(self._seen.image(tick), *self.layout.world, NIGHT.page)
+            return letterbox(self._seen.image(tick), *self.layout.world, NIGHT.page)
         run = self._run
         image = self._floor(tick) if self._empty_world is None else self._empty_world.copy()
         canvas = Canvas(image, self.view(tick))

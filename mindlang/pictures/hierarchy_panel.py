@@ -16,7 +16,7 @@ import numpy as np
 from mindrun.engine.engine import procedure_sources
 from numpy.typing import NDArray
 
-from mindlang.pictures.canvas import Canvas, PixelRectangle, text_width
+from mindlang.pictures.canvas import Canvas, Region, text_width
 from mindlang.pictures.theme import NIGHT, Colour, mixed
 from mindlang.run.edge_flow import Link, Sink, edge_flows
 from mindlang.run.recorded_run import RecordedRun
@@ -35,7 +35,7 @@ PASSAGE_SHARE = 0.3  # of a box's room: that of a link which passes a row
 class HierarchyPanel:
     """Draws the hierarchy of a run into a rectangle of a page."""
 
-    def __init__(self, run: RecordedRun, room: PixelRectangle) -> None:
+    def __init__(self, run: RecordedRun, room: Region) -> None:
         self._run = run
         sources = procedure_sources(run.graph, run.setup.folder, run.setup.master)
         self._flows = edge_flows(run.setup.ready.policy, sources, run.setup.master, run)
@@ -150,9 +150,7 @@ class Place:
     height: float
 
 
-def laid_out(
-    links: Sequence[Link], skills: Sequence[int], room: PixelRectangle
-) -> tuple[dict[Sink, Place], list[list[Place]]]:
+def laid_out(links: Sequence[Link], skills: Sequence[int], room: Region) -> tuple[dict[Sink, Place], list[list[Place]]]:
     """The boxes, and for each link the places that it goes through: from box to box, between the others of a row.
 
     `skills` stand parents first.
@@ -206,7 +204,7 @@ def _ordered(rows: list[list[Stop]], routes: Iterable[Sequence[Stop]]) -> list[l
     return rows
 
 
-def _spread(row: Sequence[Stop], level: int, levels: int, room: PixelRectangle) -> Iterable[tuple[Stop, Place]]:
+def _spread(row: Sequence[Stop], level: int, levels: int, room: Region) -> Iterable[tuple[Stop, Place]]:
     """The boxes of a row side by side."""
     shares = [PASSAGE_SHARE if sink[0] == "link" else 1.0 for sink in row]
     unit, gap = room.width / sum(shares), room.height / levels

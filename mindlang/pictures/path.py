@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mindlang.number_format import score
-from mindlang.pictures.canvas import Canvas, PixelRectangle, rectangle_corners, square, text_width
+from mindlang.pictures.canvas import Canvas, Region, rectangle_corners, square, text_width
 from mindlang.pictures.scene import SceneLabel, free, thing_colours
 from mindlang.pictures.theme import NIGHT, PAPER, Colour, Theme, mixed
 from mindlang.run.recorded_run import RecordedRun
@@ -162,9 +162,7 @@ def draw_rings(canvas: Canvas, x: float, y: float, radius: float, found: dict[st
         canvas.disc(x, y, size, ending_colour(found, theme), width=width)
 
 
-def draw_banner(
-    canvas: Canvas, run: RecordedRun, found: dict[str, Any], room: PixelRectangle, taken: Iterable[PixelRectangle]
-) -> None:
+def draw_banner(canvas: Canvas, run: RecordedRun, found: dict[str, Any], room: Region, taken: Iterable[Region]) -> None:
     """Draw the end of a run, its time and score, at an edge of the room where nothing that is `taken` lies below it.
 
     All are in pixels, from the upper left corner.
@@ -183,9 +181,9 @@ def draw_banner(
     canvas.text(x, low + 56, detail, fit * DETAIL_PIXELS, NIGHT.ink, align="centre")
 
 
-def _banner_places(wide: float, room: PixelRectangle) -> Iterator[PixelRectangle]:
+def _banner_places(wide: float, room: Region) -> Iterator[Region]:
     """Below and above, each in the middle, at the left and at the right."""
     far = room.width - wide
     for y in (room.low + room.height - BANNER_MARGIN_PIXELS - BANNER_PIXELS, room.low + BANNER_MARGIN_PIXELS):
         for x in (far / 2, BANNER_MARGIN_PIXELS, far - BANNER_MARGIN_PIXELS):
-            yield PixelRectangle(room.left + x, y, wide, BANNER_PIXELS)
+            yield Region(room.left + x, y, wide, BANNER_PIXELS)

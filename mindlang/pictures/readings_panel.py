@@ -7,7 +7,7 @@ from mindrun.graph.graph import Sensor
 from mindrun.graph.weights import reachable
 from numpy.typing import NDArray
 
-from mindlang.pictures.canvas import Canvas, PixelRectangle, text_width
+from mindlang.pictures.canvas import Canvas, Region, text_width
 from mindlang.pictures.theme import NIGHT
 from mindlang.run.recorded_run import RecordedRun
 
@@ -28,7 +28,7 @@ def sensors_read(run: RecordedRun) -> list[Sensor]:
 class ReadingsPanel:
     """Draws the readings of a run into a rectangle of a canvas, as many sensors as fit."""
 
-    def __init__(self, run: RecordedRun, room: PixelRectangle) -> None:
+    def __init__(self, run: RecordedRun, room: Region) -> None:
         self._run = run
         self._sensors, self._cells, self._left_out = cell_layout(sensors_read(run), room)
 
@@ -71,7 +71,7 @@ class ReadingsPanel:
                     canvas.polygon([(begin, low), (end, low), (end, top), (begin, top)], colour)
 
 
-def cell_layout(sensors: Sequence[Sensor], room: PixelRectangle) -> tuple[Sequence[Sensor], list[PixelRectangle], int]:
+def cell_layout(sensors: Sequence[Sensor], room: Region) -> tuple[Sequence[Sensor], list[Region], int]:
     """The sensors that are shown in a room, the cells, and how many are left out.
 
     A cell is given by its left end and its middle row. Where some are left out, the last cell says how many.
@@ -83,7 +83,7 @@ def cell_layout(sensors: Sequence[Sensor], room: PixelRectangle) -> tuple[Sequen
     return sensors[:shown], cells, len(sensors) - shown
 
 
-def _cells(count: int, room: PixelRectangle) -> Iterator[PixelRectangle]:
+def _cells(count: int, room: Region) -> Iterator[Region]:
     """At most so many cells, column by column."""
     columns = max(1, int(room.width // COLUMN_PIXELS))
     most = int(room.height // ROW_PIXELS)
@@ -92,7 +92,7 @@ def _cells(count: int, room: PixelRectangle) -> Iterator[PixelRectangle]:
     for number in range(min(count, rows * columns)):
         column, row = divmod(number, rows)
         left = room.left + column * wide + INDENT_PIXELS
-        yield PixelRectangle(left, room.low + (row + 0.5) * ROW_PIXELS, wide - 2 * INDENT_PIXELS, ROW_PIXELS)
+        yield Region(left, room.low + (row + 0.5) * ROW_PIXELS, wide - 2 * INDENT_PIXELS, ROW_PIXELS)
 
 
 def fit_name(name: str, room: float) -> tuple[str, float]:

@@ -12,7 +12,7 @@ from mindrun.kinds.registry import names
 from mindrun.kinds.scenes.scene import SceneKind
 from numpy.typing import ArrayLike, NDArray
 
-from mindlang.pictures.canvas import Canvas, PixelRectangle, rectangle_corners, square, text_width
+from mindlang.pictures.canvas import Canvas, Region, rectangle_corners, square, text_width
 from mindlang.pictures.theme import Colour, Theme, mixed
 from mindlang.run.recorded_run import RecordedRun
 
@@ -119,36 +119,36 @@ def draw_names(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int, ending
     """
     pixel = 1 / canvas.view.scale
     (height, width), (left, top) = canvas.image.shape[:2], (canvas.view.left, canvas.view.top)
-    sight = PixelRectangle(left, top - height * pixel, width * pixel, height * pixel)
+    sight = Region(left, top - height * pixel, width * pixel, height * pixel)
     gap = GAP_PIXELS * canvas.pixel
     (x, y, _), radius = run.body[tick], run.graph.body.radius
     each = list(each_thing(run, theme, tick))
     squares = [np.array((x, y, 2 * radius)), *(place for thing, _, place in each if not thing.kind.is_area)]
-    taken = [PixelRectangle(x - side / 2, y - side / 2, side, side) for x, y, side in squares]
+    taken = [Region(x - side / 2, y - side / 2, side, side) for x, y, side in squares]
     said = [SceneLabel(name, NAME_PIXELS, theme.ink, *place) for name, place in _named(run, each, sight)]
     for text in ([ending] if ending else []) + said:
         high, wide = text.pixels * canvas.pixel, text_width(text.words, text.pixels * canvas.pen) * pixel
         middle = min(max(text.x, left + wide / 2), left + width * pixel - wide / 2)
-        below = PixelRectangle(middle - wide / 2, text.y - text.size / 2 - gap - high, wide, high)
+        below = Region(middle - wide / 2, text.y - text.size / 2 - gap - high, wide, high)
         place = free(_places(below, text, gap), taken, sight)
         taken.append(place._replace(low=place.low - gap / 2, height=high + gap))
         canvas.text(place.left, place.low, text.words, text.pixels, text.colour, halo=theme.floor)
 
 
 def _named(
-    run: RecordedRun, each: Iterable[tuple[Thing, Colour, Floats]], sight: PixelRectangle
+    run: RecordedRun, each: Iterable[tuple[Thing, Colour, Floats]], sight: Region
 ) -> Iterator[tuple[str, Floats]]:
     """The name, place and size of each thing in sight that is named."""
     many = Counter(thing.name for thing in run.contents)
     named: set[str] = set()
     for thing, _, place in each:
-        is_in_sight = PixelRectangle(place[0], place[1], 0.0, 0.0).is_within(sight)
+        is_in_sight = Region(place[0], place[1], 0.0, 0.0).is_within(sight)
         if is_in_sight and (thing.name not in named or many[thing.name] <= MAX_NAMED_COPIES):
             named.add(thing.name)
             yield thing.name, place
 
 
-def _places(below: PixelRectangle, text: SceneLabel, gap: float) -> Iterator[PixelRectangle]:
+def _places(below: Region, text: SceneLabel, gap: float) -> Iterator[Region]:
     """The places for a name: below its thing, above, to the right or left of it, and then line by line farther."""
     above = below._replace(low=text.y + text.size / 2 + gap)
     yield from (below, above)
@@ -160,7 +160,7 @@ def _places(below: PixelRectangle, text: SceneLabel, gap: float) -> Iterator[Pix
         yield from (below._replace(low=below.low - away), above._replace(low=above.low + away))
 
 
-def free(places: Iterable[PixelRectangle], taken: Iterable[PixelRectangle], sight: PixelRectangle) -> PixelRectangle:
+def free(places: Iterable[Region], taken: Iterable[Region], sight: Region) -> Region:
     """The first of the places that is in sight and free; the very first, where none is."""
     choices, occupied = list(places), list(taken)
     for place in choices:

@@ -1,4 +1,4 @@
-"""From the declaration alone: the paths of influence to an actuator, and the worst that small leaks can do.
+"""Paths of influence to an actuator, and the worst that small leaks can do, from the declaration alone.
 
 A path leads over lines that can send more than 0 whatever the weights are: `influences X at 0` is no path.
 
@@ -69,24 +69,17 @@ def influence_edges(graph: Graph) -> InfluenceEdges:
     """The edges that can carry influence, whatever the weights are."""
     place = graph.skill_numbers
     everything = whole_box(graph.width)
-    onward = [
-        tuple(
-            way
-            for edge in skill.edges
-            if edge.to == "skill" and (way := _influence_edge(skill, edge, everything)).most > 0
-        )
-        for skill in graph.skills
-    ]
+    onward = [[_influence_edge(skill, e, everything) for e in skill.edges if e.to == "skill"] for skill in graph.skills]
     drives = [tuple(edge.target for edge in skill.edges if edge.to == "actuator") for skill in graph.skills]
     below = tuple(place[skill.name] for skill in reachable(graph, graph.master))
-    return InfluenceEdges(tuple(place), below, tuple(onward), tuple(drives))
+    able = tuple(tuple(edge for edge in edges if edge.most > 0) for edges in onward)
+    return InfluenceEdges(tuple(place), below, able, tuple(drives))
 
 
 def _influence_edge(skill: Skill, edge: Edge, everything: Boxes) -> InfluenceEdge:
     if edge.output is not None:
-        return InfluenceEdge(
-            edge.target, 1.0, skill.function.learns, edge.cuts
-        )  # Python code is as exact as it is written
+        learns = skill.function.learns  # Python code is as exact as it is written
+        return InfluenceEdge(edge.target, 1.0, learns, edge.cuts)
     with np.errstate(all="ignore"):
         sent_values = [edge.value] + ([edge.gate.otherwise] if edge.gate and edge.gate.otherwise is not None else [])
         most = max(expression_bounds(value, everything)[1][0] for value in sent_values)

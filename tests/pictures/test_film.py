@@ -11,7 +11,7 @@ from mindrun.graph.graph import Sensor
 from PIL import Image as Pillow
 
 from mindlang.compiler.compile import load
-from mindlang.pictures.canvas import Canvas, PixelRectangle, text_width
+from mindlang.pictures.canvas import Canvas, Region, text_width
 from mindlang.pictures.film import Film
 from mindlang.pictures.film_images import BELOW_SHARE, BESIDE_SHARE, FILM_HEIGHT, FILM_WIDTH, FilmLayout
 from mindlang.pictures.hierarchy_panel import MAX_TEXT_PIXELS, Place, box_text_size, broken, laid_out
@@ -255,7 +255,7 @@ def test_what_flows_adds_up_to_the_influence(rules: Path) -> None:
 def test_a_link_that_passes_a_row_goes_between_its_boxes() -> None:
     links = [Link(0, ("skill", 1)), Link(0, ("skill", 2)), Link(1, ("skill", 3)), Link(2, ("actuator", 0))]
     links += [Link(3, ("actuator", 0)), Link(0, ("actuator", 1))]
-    boxes, stops = laid_out(links, [0, 1, 2, 3], PixelRectangle(0.0, 0.0, 400.0, 400.0))
+    boxes, stops = laid_out(links, [0, 1, 2, 3], Region(0.0, 0.0, 400.0, 400.0))
     assert [len(each) for each in stops] == [2, 2, 2, 3, 2, 4]
     heights = {sink: place.y for sink, place in boxes.items()}
     assert heights["skill", 0] < heights["skill", 1] == heights["skill", 2] < heights["skill", 3]

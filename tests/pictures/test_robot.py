@@ -10,7 +10,7 @@ import pytest
 from mindrun.kinds.scenes.arena import Arena
 
 from mindlang.compiler.compile import load
-from mindlang.pictures.canvas import Canvas, PixelRectangle, Viewport, blank, text_width
+from mindlang.pictures.canvas import Canvas, Region, Viewport, blank, text_width
 from mindlang.pictures.picture import height_of, picture
 from mindlang.pictures.robot import draw_robot, steering_angle
 from mindlang.pictures.scene import NAME_PIXELS, draw_names, free, to_world
@@ -134,10 +134,10 @@ def test_thrusters_throw_away_from_where_they_push(tmp_path: Path) -> None:
 def test_names_of_things_that_are_close_do_not_overlap(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     things = "".join(f"  contains thing_{i} is item size 0.3 at {3 + i * 0.4} {2 + i % 2 * 0.3}\n" for i in range(6))
     run = recorded(tmp_path, CAR.replace("LAMP", "0") + things)
-    said: list[PixelRectangle] = []
+    said: list[Region] = []
 
     def text(canvas: Canvas, x: float, y: float, text: str, *rest: Any, **how: Any) -> None:
-        said.append(PixelRectangle(x, y, text_width(text, NAME_PIXELS) / 10, NAME_PIXELS / 10))
+        said.append(Region(x, y, text_width(text, NAME_PIXELS) / 10, NAME_PIXELS / 10))
 
     monkeypatch.setattr(Canvas, "text", text)
     draw_names(Spy(), run, PAPER, run.ticks)
@@ -146,7 +146,7 @@ def test_names_of_things_that_are_close_do_not_overlap(tmp_path: Path, monkeypat
 
 
 def test_a_name_that_finds_no_place_stands_at_its_first() -> None:
-    label, all_of_it = PixelRectangle(0.0, 0.0, 1.0, 1.0), PixelRectangle(-9.0, -9.0, 18.0, 18.0)
+    label, all_of_it = Region(0.0, 0.0, 1.0, 1.0), Region(-9.0, -9.0, 18.0, 18.0)
     assert free([label, label._replace(low=3.0)], [all_of_it], all_of_it) == label
     assert free([label, label._replace(low=3.0)], [label], all_of_it).low == 3.0
     assert free([label, label._replace(low=3.0)], [], label._replace(low=3.0)).low == 3.0

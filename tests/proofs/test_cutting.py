@@ -10,14 +10,7 @@ from mindrun.kinds.functions.mlp import Mlp
 from mindrun.kinds.functions.procedure import Procedure
 
 from mindlang.proofs import branch_and_bound
-from mindlang.proofs.branch_and_bound import (
-    SHARP_ENOUGH,
-    EdgeRange,
-    by_itself,
-    halves,
-    ranges,
-    sway_of,
-)
+from mindlang.proofs.branch_and_bound import SHARP_ENOUGH, EdgeRange, by_itself, halves, ranges, sway_of
 from mindlang.proofs.interval import Boxes, SentBounds
 from mindlang.proofs.trying import readings_to_try, sent_values
 from tests.draws import cases
