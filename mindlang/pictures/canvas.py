@@ -24,7 +24,7 @@ def blank(width: int, height: int, colour: Colour) -> Image:
     return image
 
 
-def pasted(page: Image, part: Image, x: int, y: int) -> None:
+def paste(page: Image, part: Image, x: int, y: int) -> None:
     """Put a part on a page."""
     page[y : y + part.shape[0], x : x + part.shape[1]] = part
 
@@ -44,7 +44,7 @@ def letterbox(seen: Image, width: int, height: int, around: Colour) -> Image:
     how = cv2.INTER_AREA if scale < 1 else cv2.INTER_CUBIC
     inner = cv2.resize(np.ascontiguousarray(seen[:, :, ::-1]), size, interpolation=how)
     page = blank(width, height, around)
-    pasted(page, inner.astype(np.uint8), (width - size[0]) // 2, (height - size[1]) // 2)
+    paste(page, inner.astype(np.uint8), (width - size[0]) // 2, (height - size[1]) // 2)
     return page
 
 
@@ -111,7 +111,7 @@ class Canvas:
         return places
 
     def disc(self, x: float, y: float, radius: float, colour: Colour, alpha: float = 1.0, width: float = 0.0) -> None:
-        """A disc, or with a width its rim."""
+        """Draw a disc, or with a width its rim."""
         size = round(radius * self.view.scale * 2**COORDINATE_BITS)
         line = self._line(width) if width else cv2.FILLED
         room = size / 2**COORDINATE_BITS + width * self.pen
@@ -119,14 +119,14 @@ class Canvas:
         self._blend(alpha, self.places([x, y]), room, lambda image, at: cv2.circle(image, at[0].tolist(), *how))
 
     def polygon(self, points: ArrayLike, colour: Colour, alpha: float = 1.0) -> None:
-        """A filled convex polygon."""
+        """Draw a filled convex polygon."""
         how = colour, cv2.LINE_AA, COORDINATE_BITS
         self._blend(alpha, self.places(points), 1.0, lambda image, at: cv2.fillConvexPoly(image, at, *how))
 
     def line(
         self, points: ArrayLike, colour: Colour, width: float = 1.0, alpha: float = 1.0, closed: bool = False
     ) -> None:
-        """A line through points."""
+        """Draw a line through points."""
         wide = self._line(width)
         how = closed, colour, wide, cv2.LINE_AA, COORDINATE_BITS
         self._blend(alpha, self.places(points), wide, lambda image, at: cv2.polylines(image, [at], *how))
@@ -142,7 +142,7 @@ class Canvas:
         align: str = "left",
         halo: Colour | None = None,
     ) -> None:
-        """Text with capitals of `size` pixels on the line that begins, is centred or ends in x, y.
+        """Draw text with capitals of `size` pixels on the line that begins, is centred or ends in x, y.
 
         A halo sets it off from what is drawn below it.
         """

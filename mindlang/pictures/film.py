@@ -132,7 +132,7 @@ def _images_in(path: Path) -> int:
 
 
 def _gif(path: Path, film: Film, wrote: Callable[[], None]) -> None:
-    """One palette for all images and no dithering: what does not move costs nothing."""
+    """Encode a GIF with one palette for all images and no dithering: what does not move costs nothing."""
     samples = [_small(film[int(number)]) for number in np.linspace(0, len(film) - 1, PALETTE_SAMPLES)]
     palette = Pillow.fromarray(np.concatenate(samples)).quantize(PALETTE_COLOURS, dither=Pillow.Dither.NONE)
 

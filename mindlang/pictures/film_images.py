@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from mindrun.graph.run_scores import score_of
 
-from mindlang.pictures.canvas import Canvas, Image, Region, Viewport, blank, flow_layout, letterbox, pasted, text_width
+from mindlang.pictures.canvas import Canvas, Image, Region, Viewport, blank, flow_layout, letterbox, paste, text_width
 from mindlang.pictures.environments import seen_run
 from mindlang.pictures.hierarchy_panel import HierarchyPanel
 from mindlang.pictures.path import (
@@ -145,7 +145,7 @@ class FilmImages:
 
     def _drawn(self, tick: int, world: Image) -> Canvas:
         page = Canvas.of_page(self._empty_image.copy())
-        pasted(page.image, world, 0, 0)
+        paste(page.image, world, 0, 0)
         facts = self._facts(tick)
         for text, (along, line) in zip(facts, self._title_places(facts), strict=True):
             low = self.layout.top + FIRST_LINE_PIXELS + TITLE_LINE_PIXELS * line

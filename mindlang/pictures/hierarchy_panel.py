@@ -67,7 +67,7 @@ class HierarchyPanel:
         canvas.line(line, mixed(NIGHT.dark, NIGHT.glow, command), CORE_PIXELS)
 
     def _skill(self, canvas: Canvas, lines: Sequence[str], place: Place, influence: float) -> None:
-        """A box with the lines of a name, and below them the influence."""
+        """Draw a box with the lines of a name, and below them the influence."""
         line_pixels = self._size + LINE_GAP_PIXELS
         rim = mixed(NIGHT.dark, NIGHT.glow, influence)
         self._box(canvas, place, mixed(NIGHT.floor, NIGHT.glow, 0.22 * influence), rim)
@@ -79,7 +79,7 @@ class HierarchyPanel:
             low += line_pixels
 
     def _gauge(self, canvas: Canvas, name: str, place: Place, value: float, middle: float) -> None:
-        """A bar from `middle` to the value."""
+        """Draw a bar from `middle` to the value."""
         self._box(canvas, place, NIGHT.floor, NIGHT.rock)
         left, width = place.x - 0.42 * place.width, 0.84 * place.width
         below = place.y + place.height / 4

@@ -34,7 +34,7 @@ class Stroke:
     core: Colour | None = None
 
     def draw(self, canvas: Canvas, points: ArrayLike, width: float) -> None:
-        """A line through points; a wider one where it has a core."""
+        """Draw a line through points; a wider one where it has a core."""
         outer, inner = CORE_SHARES
         canvas.line(points, self.colour, width * (outer if self.core else 1.0))
         if self.core:
@@ -68,7 +68,7 @@ class Path:
         return cls(places, keys, shades, {})
 
     def draw(self, canvas: Canvas, first: int, last: int, width: float) -> None:
-        """The path from tick `first` to tick `last`."""
+        """Draw the path from tick `first` to tick `last`."""
         keys = self.keys[first:last]
         for begin, end in _stretches(keys):
             self.strokes[keys[begin]].draw(canvas, self.places[first + begin : first + end + 1], width)
@@ -101,7 +101,7 @@ def draw_collisions(canvas: Canvas, run: RecordedRun) -> None:
 
 
 def draw_cross(canvas: Canvas, x: float, y: float, size: float, theme: Theme) -> None:
-    """The mark of a collision."""
+    """Draw the mark of a collision."""
     for colour, width in ((theme.floor, 4.5), (theme.crash, 2.2)):
         for up in (size, -size):
             canvas.line([(x - size, y - up), (x + size, y + up)], colour, width)
@@ -156,7 +156,7 @@ def end_label(canvas: Canvas, run: RecordedRun, found: dict[str, Any]) -> SceneL
 
 
 def draw_rings(canvas: Canvas, x: float, y: float, radius: float, found: dict[str, Any], theme: Theme) -> None:
-    """The mark of an end around a place."""
+    """Draw the rings of an end around a place."""
     for size, width in ((radius, 2.0), (radius + RING_PIXELS * canvas.pixel, 1.2)):
         canvas.disc(x, y, size, theme.floor, width=width + 2.0)
         canvas.disc(x, y, size, ending_colour(found, theme), width=width)

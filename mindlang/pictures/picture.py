@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindlang.number_format import score
-from mindlang.pictures.canvas import Canvas, Image, Viewport, blank, flow_layout, pasted, reduced, square
+from mindlang.pictures.canvas import Canvas, Image, Viewport, blank, flow_layout, paste, reduced, square
 from mindlang.pictures.path import (
     MIN_CONTROL_SHARE,
     Path,
@@ -108,7 +108,7 @@ def empty_page(height: int) -> Canvas:
 def page_around(world: Canvas, height: int) -> Canvas:
     """A page with this world on it, and its scale."""
     page = empty_page(height)
-    pasted(page.image, world.image, SCALE_FACTOR * SIDE_PIXELS, SCALE_FACTOR * TOP_PIXELS)
+    paste(page.image, world.image, SCALE_FACTOR * SIDE_PIXELS, SCALE_FACTOR * TOP_PIXELS)
     draw_scale(page, world.pixel, PICTURE_PIXELS - SIDE_PIXELS, height - 44)
     return page
 
@@ -121,7 +121,7 @@ def png(image: Image) -> bytes:
 
 
 def draw_title(canvas: Canvas, run: RecordedRun, found: dict[str, Any], x: float, y: float, right: float) -> None:
-    """The task, and the facts of the run side by side up to `right`, each below its name."""
+    """Draw the task, and the facts of the run side by side up to `right`, each below its name."""
     canvas.text(x, y, run.task.name, 24, PAPER.ink, bold=True)
     facts = _facts(run, found)
     gap = 1.6 * ENTRY_GAP_PIXELS
@@ -200,7 +200,7 @@ def _entries(canvas: Canvas, run: RecordedRun, found: dict[str, Any], path: Path
 
 
 def draw_scale(canvas: Canvas, units_per_pixel: float, right: float, y: float) -> None:
-    """A bar of a round number of units that ends at `right`."""
+    """Draw a bar of a round number of units that ends at `right`."""
     units = next(n for n in (1000, 500, 200, 100, 50, 20, 10, 5, 2, 1, 0.5, 0) if n / units_per_pixel <= 130)
     long = units / units_per_pixel
     canvas.line([(right - long, y), (right, y)], PAPER.ink, 1.6)

@@ -58,7 +58,7 @@ class ReadingsPanel:
         canvas.text(right, y + TEXT_PIXELS / 2, f"{value:.2f}", TEXT_PIXELS, NIGHT.ink, align="right")
 
     def _many(self, canvas: Canvas, values: NDArray[np.float64], left: float, right: float, y: float) -> None:
-        """A bar for each reading, one beside the other; readings at equal distances, where there are too many."""
+        """Draw bars of readings side by side; where there are too many, of some at equal distances."""
         low = y + MANY_BARS_PIXELS / 2
         count = min(len(values), int((right - left) // LEAST_BAR_PIXELS))
         shown = _shares(values)[np.linspace(0, len(values) - 1, count).astype(int)]

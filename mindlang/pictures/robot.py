@@ -21,7 +21,7 @@ SECTOR_PIXELS = 3.0  # the width of that line
 
 
 def draw_robot(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
-    """The robot as it is after a tick: what it senses, claw, body, and a line that shows its heading."""
+    """Draw the robot as it is after a tick: what it senses, claw, body, and a line that shows its heading."""
     if tick:
         _rays(canvas, run, theme, tick)
         _claw(canvas, run, theme, tick)
@@ -40,7 +40,7 @@ def draw_robot(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> Non
 
 
 def _part(canvas: Canvas, corners: Floats, theme: Theme, edge: float) -> None:
-    """A piece of its body with an edge."""
+    """Draw a piece of its body with an edge."""
     canvas.polygon(corners, theme.robot)
     canvas.line(corners, theme.floor, edge, closed=True)
 
@@ -59,7 +59,7 @@ def _sensed(run: RecordedRun, tick: int) -> Iterator[tuple[SensorKind, Floats]]:
 
 
 def _wheels(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
-    """The four wheels of a car, the front ones turned."""
+    """Draw the four wheels of a car, the front ones turned."""
     body = run.graph.body
     long, wide = (share * 2 * body.front for share in WHEEL_SHARES)
     for ahead, turn in ((-0.5, 0.0), (0.5, steering_angle(run, tick))):
@@ -86,7 +86,7 @@ def _jets(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
 
 
 def _lamps(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
-    """The lamps side by side in front, each as bright as its command; one that is lit throws a beam."""
+    """Draw the lamps side by side in front, each as bright as its command; one that is lit throws a beam."""
     lamps = [command for kind, command in _commanded(run, tick) if kind.is_light]
     body, pose = run.graph.body, run.body[tick]
     size = 0.7 * body.side / (2 + len(lamps))
@@ -112,7 +112,7 @@ def _claw(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
 
 
 def _rays(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
-    """Each ray as far as it went."""
+    """Draw each ray as far as it went."""
     x, y, angle = run.body[tick]
     for kind, readings in _sensed(run, tick):
         for at, reading in zip(kind.rays, readings, strict=False):
@@ -128,7 +128,7 @@ def _rays(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
 
 
 def _touches(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
-    """Each switch of a bumper along the rim of the body, lit where it is pressed; the pressed ones lie on top."""
+    """Draw the switches of a bumper along the rim of the body, lit where pressed; the pressed ones lie on top."""
     shown = [
         (reading, _rim(run, at, kind.sector))
         for kind, readings in _sensed(run, tick)
@@ -151,7 +151,7 @@ def _rim(run: RecordedRun, at: float, sector: float) -> Floats:
 
 
 def _spots(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
-    """Each point of the floor that a sensor looks down at, filled where it is over what it looks for."""
+    """Draw each point of the floor that a sensor looks down at, filled where it is over what it looks for."""
     radius = SPOT_PIXELS * canvas.pixel
     for kind, readings in _sensed(run, tick):
         for (x, y), reading in zip(to_world(kind.spots, run.body[tick]) if kind.spots else (), readings, strict=False):

@@ -34,7 +34,7 @@ def to_world(points: ArrayLike, pose: Floats) -> Floats:
 
 
 def draw_floor(canvas: Canvas, run: RecordedRun, theme: Theme) -> None:
-    """The floor with a line every ten units, the walls and the obstacles."""
+    """Draw the floor with a line every ten units, the walls and the obstacles."""
     view, (height, width) = canvas.view, canvas.image.shape[:2]
     left, right, low, high = view.left, view.left + width / view.scale, view.top - height / view.scale, view.top
     if run.task.scene.is_bounded:
@@ -80,7 +80,7 @@ def each_thing(run: RecordedRun, theme: Theme, tick: int) -> Iterable[tuple[Thin
 
 
 def draw_zones(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
-    """The zones as they are after a tick: below the path."""
+    """Draw the zones as they are after a tick: below the path."""
     for thing, fill, (x, y, size) in each_thing(run, theme, tick):
         if thing.kind.is_area:
             canvas.polygon(square(x, y, size / 2), fill, 0.22)
@@ -88,7 +88,7 @@ def draw_zones(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> Non
 
 
 def draw_items(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
-    """The items, boxes and balls as they are after a tick."""
+    """Draw the items, boxes and balls as they are after a tick."""
     turned = run.turned[tick][np.isfinite(run.things[tick, :, 0])]
     for (thing, fill, (x, y, size)), angle in zip(each_thing(run, theme, tick), turned, strict=True):
         edge = mixed(fill, theme.ink, 0.45)
@@ -113,7 +113,7 @@ class SceneLabel(NamedTuple):
 
 
 def draw_names(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int, ending: SceneLabel | None = None) -> None:
-    """The name of each thing in sight: below it, or where neither the robot nor a thing nor another name is.
+    """Draw the name of each thing in sight: below it, or where neither the robot nor a thing nor another name is.
 
     Of many things of one name the first alone has it. Words about the robot, how its run ended, stand beside it.
     """

@@ -81,5 +81,5 @@ def outcome_words(found: dict[str, Any]) -> str:
 
 
 def _fitting(page: Canvas, x: float, y: float, text: str, size: float, right: float) -> None:
-    """A line of text, smaller where it would go beyond `right`."""
+    """Draw a line of text, smaller where it would go beyond `right`."""
     page.text(x, y, text, size * min(1.0, (right - x) / page.width(text, size)), PAPER.ink)
