@@ -48,7 +48,7 @@ SECURITY: Mapping[str, str] = {
     "Cross-Origin-Opener-Policy": "same-origin",
     "Cross-Origin-Resource-Policy": "same-origin",
 }
-MAX_VIEWERS, MAX_STRANGERS = 16, 64
+MAX_VIEWERS, MAX_PENDING = 16, 64
 MAX_QUEUED_FRAMES = 4  # of what one viewer has said and nobody has read
 OPEN_SECONDS, TOKEN_SECONDS, SEND_SECONDS, CLOSE_SECONDS = 5.0, 5.0, 10.0, 0.5
 
@@ -57,25 +57,25 @@ class PortError(MindError):
     """A port of this machine at which nothing can be served."""
 
 
-class StrangerConnection(ServerConnection):
-    """A connection that has not said the token; of those only so many stay open, and the oldest is closed."""
+class PendingConnection(ServerConnection):
+    """A connection that has not sent the token yet; above MAX_PENDING of those the oldest is closed."""
 
-    def __init__(self, strangers: list[ServerConnection], *given: Any, **options: Any) -> None:
+    def __init__(self, pending: list[ServerConnection], *given: Any, **options: Any) -> None:
         super().__init__(*given, **options)
-        self._strangers = strangers
+        self._pending = pending
 
     def connection_made(self, transport: BaseTransport) -> None:
-        """Open it and count it among the strangers, of whom the oldest is closed where there are too many."""
+        """Open it and count it as pending; close the oldest one where there are too many."""
         super().connection_made(transport)
-        self._strangers.append(self)
-        if len(self._strangers) > MAX_STRANGERS:
-            self._strangers.pop(0).transport.abort()
+        self._pending.append(self)
+        if len(self._pending) > MAX_PENDING:
+            self._pending.pop(0).transport.abort()
 
     def connection_lost(self, exc: Exception | None) -> None:
-        """Close it and count it among the strangers no longer."""
+        """Close it and count it as pending no longer."""
         super().connection_lost(exc)
         with suppress(ValueError):  # it has said the token, or was closed
-            self._strangers.remove(self)
+            self._pending.remove(self)
 
 
 @dataclass(eq=False, slots=True)
@@ -108,7 +108,7 @@ class ViewServer:
         self.port = port
         self._session = session
         self._viewers: list[Viewer] = []
-        self._strangers: list[ServerConnection] = []
+        self._pending: list[ServerConnection] = []
         session.changed = self._changed
 
     @property
@@ -147,7 +147,7 @@ class ViewServer:
             process_response=lambda _, request, response: response.headers.update(SECURITY),
             server_header=None,
             compression=None,
-            create_connection=partial(StrangerConnection, self._strangers),  # type: ignore[arg-type]  # as good as a class
+            create_connection=partial(PendingConnection, self._pending),  # type: ignore[arg-type]  # as good as a class
             open_timeout=OPEN_SECONDS,
             close_timeout=CLOSE_SECONDS,
             max_size=MAX_MESSAGE_BYTES,
@@ -160,7 +160,7 @@ class ViewServer:
             await connection.close(CloseCode.POLICY_VIOLATION)
             return
         with suppress(ValueError):  # it was closed just now
-            self._strangers.remove(connection)
+            self._pending.remove(connection)
         if len(self._viewers) >= MAX_VIEWERS:
             await connection.close(CloseCode.TRY_AGAIN_LATER)
             return
@@ -175,7 +175,7 @@ class ViewServer:
             self._viewers.remove(viewer)
 
     async def _has_token(self, connection: ServerConnection) -> bool:
-        """Whether the first message is the token, and comes in time."""
+        """True if the first message is the token, and comes in time."""
         try:
             async with asyncio.timeout(TOKEN_SECONDS):
                 first = await connection.recv()

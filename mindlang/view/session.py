@@ -63,7 +63,7 @@ class ViewSession:
         self.changed()
 
     def _show(self, viewed: Viewed) -> None:
-        """See a run, and nothing of those before it."""
+        """Show a run, and nothing of those before it."""
         for growing in self._growing.values():
             growing.cancel()
         self._growing = {}
@@ -108,7 +108,7 @@ class ViewSession:
         }
 
     async def answer(self, message: Message, edits: bool) -> bytes | dict[str, Any] | None:
-        """What is said to one message; RefusedError where it cannot be answered."""
+        """The answer to a message, None where there is none; RefusedError where it cannot be answered."""
         if message.fork >= len(self.forks):
             raise RefusedError(f"there is no fork {message.fork}")
         match message:
@@ -128,7 +128,7 @@ class ViewSession:
         return await asyncio.get_running_loop().run_in_executor(self._answerer, _computed, viewed, message)
 
     async def _play(self, asked: PlayChampion) -> None:
-        """See the champion of another generation."""
+        """Show the champion of another generation."""
         if self.learning is None or asked.run >= len(self.learning.runs):
             raise RefusedError(f"there is no training {asked.run}")
         seed = None if asked.seed is None else int(asked.seed)
@@ -140,7 +140,7 @@ class ViewSession:
         self.show(viewed)
 
     async def _fork(self, change: AskChange) -> None:
-        """A run beside another, which goes on at once to where that is."""
+        """Fork a run, and let the fork go on at once to where that run is."""
         of = self.forks[change.fork]
         if of.forked is None:
             raise RefusedError("a recording is what it is: nothing in it can be changed")

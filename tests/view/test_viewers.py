@@ -151,7 +151,7 @@ def test_too_many_viewers_are_sent_away(path: Path, monkeypatch: pytest.MonkeyPa
 
 def test_those_who_say_nothing_keep_no_viewer_out(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Of too many the oldest are closed, but no viewer is."""
-    monkeypatch.setattr(server, "MAX_STRANGERS", 3)
+    monkeypatch.setattr(server, "MAX_PENDING", 3)
     monkeypatch.setattr(server, "OPEN_SECONDS", 600.0)
     with served(simulated(path)) as view, view.viewer() as first:
         first.hear("about")
