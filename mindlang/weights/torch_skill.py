@@ -137,7 +137,7 @@ class NetworkModule(nn.Module):
         super().__init__()
         self.network = network
         self.layers = nn.ModuleList(Layer(before, after) for before, after in network.shapes)
-        self.set_genome(genome)
+        self.take(genome)
 
     def forward(self, readings: Tensor, state: Tensor | None = None) -> Tensor | tuple[Tensor, Tensor]:
         """The values sent; of a network that remembers, with its state after the tick."""
@@ -158,7 +158,7 @@ class NetworkModule(nn.Module):
         """The state before the first tick of a run: zeros [*batch, state]."""
         return self.layers[0].weight.new_zeros(*batch, self.network.state)
 
-    def set_genome(self, genome: Weights) -> None:
+    def take(self, genome: Weights) -> None:
         """Set the weights to those of a genome."""
         with torch.no_grad():
             for layer, matrix in zip(self.layers, matrices(genome, self.network.shapes), strict=True):
@@ -197,7 +197,7 @@ class Skill(NetworkModule):
 
     def load(self, path: Path | str) -> None:
         """Load the weights of a file; WeightsError where they are not those of this skill."""
-        self.set_genome(load_genome(Path(path), self.network))
+        self.take(load_genome(Path(path), self.network))
 
 
 def _random(network: SkillNetwork) -> Weights:
