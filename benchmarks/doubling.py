@@ -20,7 +20,7 @@ from benchmarks.call_count import CallCount
 from benchmarks.shapes import SHAPES
 from mindlang.cli._diagnostic_printer import as_data, print_report
 from mindlang.cli.status import report
-from mindlang.compiler.comparison import differences
+from mindlang.compiler.comparison import mind_differences
 from mindlang.compiler.compile import Compiled, compile_source
 from mindlang.compiler.drawing import dot, tree
 from mindlang.compiler.format import format_splices, formatted
@@ -30,7 +30,7 @@ from mindlang.editing.edits import edit
 from mindlang.editing.project import EditError, open_project
 from mindlang.editing.summary import diff, summarise
 from mindlang.editing.unified_diff import unified
-from mindlang.lint.lint import fixed, lint
+from mindlang.lint.lint import apply_safe_fixes, lint
 from mindlang.lock.report import rows
 from mindlang.proofs.proof import prove
 from mindlang.server.changing import perform
@@ -68,7 +68,7 @@ def _lint(case: Case) -> None:
 
 
 def _fix(case: Case) -> None:
-    fixed(case.compiled.sources[0], lambda source: lint(case.compile(source.text)))
+    apply_safe_fixes(case.compiled.sources[0], lambda source: lint(case.compile(source.text)))
 
 
 def _check(case: Case) -> None:
@@ -102,7 +102,7 @@ def _diff(case: Case) -> None:
     """Against the same with half of the numbers others."""
     other = case.compile(case.text.replace("1", "2"))
     if case.compiled.mind and other.mind:
-        differences(case.compiled.mind, other.mind)
+        mind_differences(case.compiled.mind, other.mind)
 
 
 def _fmt(case: Case) -> None:

@@ -22,7 +22,7 @@ from mindrun.files.printable import visible
 
 from benchmarks.sources import mutant_of, source
 from mindlang.cli._diagnostic_printer import as_data, plain
-from mindlang.compiler.comparison import differences
+from mindlang.compiler.comparison import mind_differences
 from mindlang.compiler.compile import Compiled, compile_source
 from mindlang.compiler.format import format_splices, formatted
 from mindlang.compiler.source import Source
@@ -105,7 +105,7 @@ def _format(place: Place, found: Compiled, text: str, random: Random) -> None:
     must(codes[0] == codes[1], f"what is formatted means the same: {codes}")
     must(found.graph == after.graph, "what is formatted has the same graph")
     if found.mind and after.mind:
-        must(not differences(found.mind, after.mind), "what is formatted does not differ")
+        must(not mind_differences(found.mind, after.mind), "what is formatted does not differ")
 
 
 def _lint(place: Place, found: Compiled, text: str, random: Random) -> None:

@@ -13,7 +13,7 @@ from mindrun.errors import MindError
 from mindrun.files.regular_files import read_regular
 
 from mindlang.compiler.diagnostic import listed
-from mindlang.compiler.source import MAX_SOURCE_BYTES, decode
+from mindlang.compiler.source import MAX_SOURCE_BYTES, decode_source
 
 MAX_FOLDER_ENTRIES = 20_000  # of a folder, or of all folders below one, that are looked at
 MAX_READ_FILES = 500  # that are read of all those around one
@@ -69,7 +69,7 @@ def _of_folder(folder: str, suffixes: tuple[str, ...]) -> list[str]:
 
 
 def is_folder(word: str) -> bool:
-    """Whether a word of a command line names a folder; not where one may not look: why is said where it is read."""
+    """True if a word of a command line names a folder; False without permission, which the reader reports."""
     return os.path.isdir(word)  # noqa: PTH112 (pathlib raises)
 
 
@@ -87,10 +87,10 @@ def name_from_here(path: Path) -> str:
     return str(path.relative_to(here)) if path.is_relative_to(here) else str(path)
 
 
-def text_of(path: Path) -> str:
+def readable_text(path: Path) -> str:
     """The text of a source file; empty where it cannot be read."""
     try:
-        return decode(read_regular(path, MAX_SOURCE_BYTES + 1))
+        return decode_source(read_regular(path, MAX_SOURCE_BYTES + 1))
     except (OSError, RuntimeError, ValueError):  # a loop of links is a RuntimeError
         return ""
 

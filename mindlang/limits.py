@@ -33,7 +33,7 @@ YEAR_SECONDS = 366 * 24 * 3600  # nobody waits for longer
 CGROUP_LIMIT_FILES = "/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"  # of a container
 
 
-def whole(what: str, bounds: Bounds, value: Any) -> int:
+def bounded_int(what: str, bounds: Bounds, value: Any) -> int:
     """The value as an int, those of numpy too; MindError where it is no whole number within its bounds."""
     low, high = bounds
     try:
@@ -47,26 +47,26 @@ def whole(what: str, bounds: Bounds, value: Any) -> int:
 
 def as_seed(value: Any) -> int:
     """The seed of a training, or of many runs."""
-    return whole("seed", SEED_BOUNDS, value)
+    return bounded_int("seed", SEED_BOUNDS, value)
 
 
 def as_layout(value: Any) -> int:
     """The seed of one run."""
-    return whole("seed", LAYOUT_BOUNDS, value)
+    return bounded_int("seed", LAYOUT_BOUNDS, value)
 
 
 def as_runs(value: Any) -> int:
-    """How many runs."""
-    return whole("runs", RUN_BOUNDS, value)
+    """A number of runs."""
+    return bounded_int("runs", RUN_BOUNDS, value)
 
 
 def as_workers(value: Any) -> int:
-    """How many threads."""
-    return whole("workers", WORKER_BOUNDS, value)
+    """A number of threads."""
+    return bounded_int("workers", WORKER_BOUNDS, value)
 
 
 def refuse_too_many(task: Task, runs: int) -> None:
-    """MindError where the results of so many runs of a task cannot be kept."""
+    """Raise MindError where the results of so many runs of a task cannot be kept."""
     needed, there = runs * bytes_for(task), available()
     if there is not None and needed > there:
         message = f"{runs:,} runs take about {_in_bytes(needed)} of memory, and there are {_in_bytes(there)}"
@@ -74,12 +74,12 @@ def refuse_too_many(task: Task, runs: int) -> None:
 
 
 def bytes_for(task: Task) -> int:
-    """What the results of one run take while many are gathered."""
+    """The bytes of one run's results while many are gathered."""
     return RUN_BYTES + ENTRY_BYTES * (len(task.rewards) + len(task.events))
 
 
 def refuse_too_large(rollout: Rollout, genomes: int, layouts: int, attempts: int = 1) -> None:
-    """MindError where so many genomes on so many layouts each cannot be run at once, for each of so many attempts."""
+    """Raise MindError where so many genomes on so many layouts do not fit into memory, in each of so many attempts."""
     needed, there = attempts * bytes_of(rollout, genomes, layouts), available()
     if there is not None and needed > there:
         message = f"{rollout.task.name} takes about {_in_bytes(needed)} of memory, and there are {_in_bytes(there)}"
@@ -88,7 +88,7 @@ def refuse_too_large(rollout: Rollout, genomes: int, layouts: int, attempts: int
 
 
 def refuse_too_long(rollout: Rollout, runs: int) -> None:
-    """MindError where so many runs of a task could take more than a year, however fast the machine is."""
+    """Raise MindError where so many runs of a task could take over a year, however fast the machine is."""
     years = runs * rollout.task.ticks // (MAX_TICKS_PER_SECOND * rollout.workers) // YEAR_SECONDS
     if years:
         message = f"{runs:,} runs of {rollout.task.name} take up to {years:,} year{'s' * (years > 1)} and more"
@@ -96,7 +96,7 @@ def refuse_too_long(rollout: Rollout, runs: int) -> None:
 
 
 def bytes_of(rollout: Rollout, genomes: int, layouts: int) -> int:
-    """What a rollout takes: its lanes, and the genomes with their parents and copies of both."""
+    """The bytes of a rollout: its lanes, and the genomes with their parents and copies of both."""
     lanes = min(genomes * layouts, rollout.workers * rollout.lanes)
     rays, things = len(rollout.tables.ray_row), len(rollout.tables.things)
     each = LANE_BYTES + 4 * rays + 48 * things + sum(_parts(rollout.sizes).values())
@@ -104,7 +104,7 @@ def bytes_of(rollout: Rollout, genomes: int, layouts: int) -> int:
 
 
 def _parts(sizes: Sizes) -> dict[str, int]:
-    """What takes the memory of a lane, in bytes."""
+    """The bytes of a lane by what they are for."""
     return {
         "the weights": 4 * sizes.genome,
         "the neurons of its widest layer": 4 * sizes.scratch,

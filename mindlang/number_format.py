@@ -9,7 +9,7 @@ def score(value: float | None, digits: int = 2) -> str:
     return f"{value:,.{digits}f}" if value is not None else "not a number"
 
 
-def number(value: float | None) -> str:
+def short_score(value: float | None) -> str:
     """A score in a line of progress; – where there is none yet, or it is not finite."""
     return f"{value:.2f}" if value is not None and isfinite(value) else "–"
 
@@ -23,7 +23,7 @@ def rate(ticks_per_second: float, of: str = "") -> str:
 
 
 def speed(found: dict[str, Any]) -> str:
-    """How many ticks a second of a processor made, the same on a busy machine; of a clock's where that is not known."""
+    """The ticks per second of processor time, the same on a busy machine, or of the clock where that is not known."""
     cpu = found.get("ticks_per_cpu_second")
     return rate(found["ticks_per_second"]) if cpu is None else rate(cpu, "CPU second")
 

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 from itertools import cycle
 
 from docs.reference import svg
-from mindlang.explaining.article import Wire, Wiring
+from mindlang.explaining.article import DeviceWiring, Wire
 from mindlang.explaining.drivers import HEADER_PINS
 
 WIDTH_PIXELS, TOP_PIXELS, ROW_PIXELS = 640, 46, 14
@@ -15,7 +15,7 @@ SUPPLIES = {"GND": svg.INK, "5 V": svg.RED, "3.3 V": svg.RED}
 COLOURS = (svg.BLUE, svg.GREEN, svg.ORANGE, svg.PURPLE)
 
 
-def wiring_picture(wiring: Wiring) -> str:
+def wiring_picture(wiring: DeviceWiring) -> str:
     """A device beside the header, each wire in its colour."""
     wires = sorted(wiring.wires, key=lambda each: each.pin or HEADER_PINS + 1)
     height = TOP_PIXELS + ROW_PIXELS * HEADER_PINS / 2 + 14

@@ -1,4 +1,4 @@
-"""What is asked about, a run of the simulator or a recording, and answers as plain data: the contents of `--json`."""
+"""Runs and recordings that attribution is asked about, and its answers as plain data: the contents of `--json`."""
 
 from dataclasses import asdict, dataclass
 from math import isfinite, nan
@@ -28,10 +28,10 @@ MAX_EDGE_TICKS = 10_000_000  # edges times ticks of one answer
 
 
 @dataclass(frozen=True, slots=True)
-class Course:
-    """What flowed; `acted` [ticks, actuators] are the commands that reached the actuators, after delay or guardian.
+class AttributedRun:
+    """A run or a recording with its flows; `acted` [ticks, actuators] are the commands after delay or guardian.
 
-    `stopped` [ticks] says when a robot was. `about` says whose course it is, `run` has the rewards where there are any.
+    `stopped` [ticks] says when a robot was. `about` says which one it is, `run` has the rewards where there are any.
     """
 
     about: dict[str, Any]
@@ -42,29 +42,29 @@ class Course:
 
     @property
     def ticks(self) -> int:
-        """How many there are, the first of which is 1."""
+        """The number of ticks, the first of which is 1."""
         return len(self.acted)
 
 
 @dataclass(frozen=True, slots=True)
-class Thoughts:
-    """What a robot has read and thought, computed again."""
+class ReplayedTicks:
+    """Readings of a recording, computed again, and its influence [ticks, numbers]."""
 
     readings: Singles
     influence: Singles
 
 
-def course_of_run(run: RecordedRun, seed: int) -> Course:
-    """The course of a run in the simulator."""
+def attributed_run(run: RecordedRun, seed: int) -> AttributedRun:
+    """A run in the simulator with its flows."""
     setup = run.setup
     sources = procedure_sources(run.graph, setup.folder, setup.master)
     flows = edge_flows(setup.ready.policy, sources, setup.master, run)
     about = {"task": run.task.name, "master": setup.master, "seed": seed}
-    return Course(about, flows, run.commands, np.zeros(len(run.commands), bool), run)
+    return AttributedRun(about, flows, run.commands, np.zeros(len(run.commands), bool), run)
 
 
-def course_of_recording(path: Path, bundle: Path) -> Course:
-    """The course of a robot's recording, whose ticks are its rows; what it does not have is computed again.
+def attributed_recording(path: Path, bundle: Path) -> AttributedRun:
+    """A robot's recording with its flows, whose ticks are its rows; what it does not have is computed again.
 
     RecordingError where it was made with another bundle, or is not what this one computes. Runs the Python code of the
     bundle's procedures.
@@ -75,12 +75,12 @@ def course_of_recording(path: Path, bundle: Path) -> Course:
     if not len(rows):
         raise RecordingError(f"{path} has no tick in it")
     computed = [*computed_again(path, of, rows, Engine(mind.policy, mind.procedures, of.master))]
-    again = Thoughts(np.array([each.readings for each in computed]), rows["influence"])
+    again = ReplayedTicks(np.array([each.readings for each in computed]), rows["influence"])
     begins = np.flatnonzero(rows["tick"] == 0).tolist()
     flows = edge_flows(mind.policy, mind.procedures, of.master, again, begins)
     about = {"recording": path.name, "master": of.master}
     run = run_of(of, rows, mind, bundle.parent) if of.world else None
-    return Course(about, flows, rows["sent"], rows["stopped"] != 0, run)
+    return AttributedRun(about, flows, rows["sent"], rows["stopped"] != 0, run)
 
 
 class QuestionError(SetupError):
@@ -90,30 +90,30 @@ class QuestionError(SetupError):
         super().__init__(message, hint, misuse=True)
 
 
-def answer(course: Course, what: str, span: tuple[int, int] | None, paths: int | None) -> dict[str, Any]:
-    """Who made what is asked about in the ticks of a span, the first of which is 1; without one in all of them."""
-    first, last = _within(course, span)
-    about = course.about | {"ticks": [first, last], "seconds_per_tick": course.flows.graph.tick}
-    target = sink_named(course.flows, what)
+def answer(attributed: AttributedRun, what: str, span: tuple[int, int] | None, paths: int | None) -> dict[str, Any]:
+    """The shares in an actuator, memory, skill or the reward, in the ticks of a span from 1 on, or in all of them."""
+    first, last = _within(attributed, span)
+    about = attributed.about | {"ticks": [first, last], "seconds_per_tick": attributed.flows.graph.tick}
+    target = sink_named(attributed.flows, what)
     if target is not None:
-        return about | _shares(course, target, range(first - 1, last), paths or NAMED_PATHS)
+        return about | _shares(attributed, target, range(first - 1, last), paths or NAMED_PATHS)
     if what != REWARD:
-        raise _unknown(course, what)
-    if course.run is None:
+        raise _unknown(attributed, what)
+    if attributed.run is None:
         raise QuestionError("a robot's recording has no rewards", "Ask for an actuator, a memory or a skill.")
     if paths is not None:
         raise QuestionError("a reward comes along no paths", "Leave --paths out: all of its lines are said.")
-    return about | _rewards(course.run, first, last)
+    return about | _rewards(attributed.run, first, last)
 
 
-def _within(course: Course, span: tuple[int, int] | None) -> tuple[int, int]:
-    first, last = span or (1, course.ticks)
-    if last > course.ticks:
-        many = in_words(course.ticks)
+def _within(attributed: AttributedRun, span: tuple[int, int] | None) -> tuple[int, int]:
+    first, last = span or (1, attributed.ticks)
+    if last > attributed.ticks:
+        many = in_words(attributed.ticks)
         raise QuestionError(
-            f"there is no tick {last:,}: it was over after {many}", f"Say one from 1 to {course.ticks}."
+            f"there is no tick {last:,}: it was over after {many}", f"Say one from 1 to {attributed.ticks}."
         )
-    edges = len(course.flows.links)
+    edges = len(attributed.flows.links)
     if (last - first + 1) * edges > MAX_EDGE_TICKS:
         most = MAX_EDGE_TICKS // edges
         raise QuestionError(
@@ -123,45 +123,45 @@ def _within(course: Course, span: tuple[int, int] | None) -> tuple[int, int]:
     return first, last
 
 
-def _unknown(course: Course, what: str) -> QuestionError:
-    graph, master = course.flows.graph, course.flows.master
+def _unknown(attributed: AttributedRun, what: str) -> QuestionError:
+    graph, master = attributed.flows.graph, attributed.flows.master
     if what in {skill.name for skill in graph.skills}:
-        return QuestionError(f"{what} is not below {master}, which is in charge", _instead(course, what))
-    below = [graph.skills[index].name for index in course.flows.skills]
+        return QuestionError(f"{what} is not below {master}, which is in charge", _instead(attributed, what))
+    below = [graph.skills[index].name for index in attributed.flows.skills]
     acting = [*(actuator.name for actuator in graph.actuators), *(memory.name for memory in graph.memories)]
-    acting += [REWARD] if course.run else []
+    acting += [REWARD] if attributed.run else []
     hint = did_you_mean(what, [*acting, *below]) or f"There is {listed(acting, 'and')}."
     return QuestionError(f"there is no actuator, memory or skill called {what}", hint)
 
 
-def _instead(course: Course, skill: str) -> str:
-    """Who is above a skill that the master does not reach."""
-    if "recording" in course.about:
+def _instead(attributed: AttributedRun, skill: str) -> str:
+    """The hint for a skill that the master does not reach: a skill above it."""
+    if "recording" in attributed.about:
         return "It had no influence while this was recorded."
-    graph = course.flows.graph
+    graph = attributed.flows.graph
     above = next(each.name for each in graph.skills if skill in {below.name for below in reachable(graph, each.name)})
     return f"{'It is below another' if above != skill else 'Nothing is above it'}: --master {above}"
 
 
-def _shares(course: Course, target: Sink, rows: range, paths: int) -> dict[str, Any]:
-    found, graph = shares(course.flows, target, rows, paths), course.flows.graph
+def _shares(attributed: AttributedRun, target: Sink, rows: range, paths: int) -> dict[str, Any]:
+    found, graph = shares(attributed.flows, target, rows, paths), attributed.flows.graph
     data = asdict(found) | {
         "of": graph.named(*target),
         "kind": target[0],
         "ticks": [rows.start + 1, rows.stop],
-        "paths": [asdict(each) | {"reads": _reads(course, each, rows)} for each in found.paths],
+        "paths": [asdict(each) | {"reads": _reads(attributed, each, rows)} for each in found.paths],
         "silent": [graph.skills[index].name for index in found.silent],
     }
     del data["target"]
-    return data | (_acted(course, target[1], rows) if target[0] == "actuator" else {})
+    return data | (_acted(attributed, target[1], rows) if target[0] == "actuator" else {})
 
 
-def _reads(course: Course, of: Contribution, rows: range) -> dict[str, list[float | None]]:
-    """What the skill that sent it read, by sensor or memory; the mean over the ticks, None where that is no number."""
-    graph = course.flows.graph
+def _reads(attributed: AttributedRun, of: Contribution, rows: range) -> dict[str, list[float | None]]:
+    """Readings of the skill that sent it, by sensor or memory: means over the ticks, None where that is no number."""
+    graph = attributed.flows.graph
     name = of.path[-2] if len(of.path) > 1 else of.path[0]  # before what was asked about, unless that is the master
     inputs = next(skill.inputs for skill in graph.skills if skill.name == name)
-    read = course.flows.rows(np.array(rows))[0][:, list(inputs)].astype(float)
+    read = attributed.flows.rows(np.array(rows))[0][:, list(inputs)].astype(float)
     around = directions({each.name: each.kind for each in graph.sensors})
     owners = {place: each.name for each in graph.sensors for place in range(each.start, each.start + each.width)}
     owners |= {each.start: each.name for each in graph.memories}
@@ -178,18 +178,18 @@ def mean_direction(turns: NDArray[np.float64]) -> float:
     return float(np.angle(together) / (2 * np.pi) % 1.0) if abs(together) > DIRECTION_TOLERANCE else nan
 
 
-def _acted(course: Course, actuator: int, rows: range) -> dict[str, Any]:
-    """What reached the actuator in the mean, and in how many ticks that was something else than what the mind said."""
-    acted = course.acted[rows.start : rows.stop, actuator]
+def _acted(attributed: AttributedRun, actuator: int, rows: range) -> dict[str, Any]:
+    """The mean command that reached the actuator, its delay, and in how many ticks the robot was stopped."""
+    acted = attributed.acted[rows.start : rows.stop, actuator]
     return {
         "acted": float(acted.astype(float).mean()),
-        "delay": course.flows.graph.actuators[actuator].kind.delay,
-        "stopped": int(course.stopped[rows.start : rows.stop].sum()),
+        "delay": attributed.flows.graph.actuators[actuator].kind.delay,
+        "stopped": int(attributed.stopped[rows.start : rows.stop].sum()),
     }
 
 
 def _rewards(run: RecordedRun, first: int, last: int) -> dict[str, Any]:
-    """What each line has paid in these ticks; lines of one text are one, as in the outcome of a run."""
+    """The rewards that each line has paid in these ticks; lines of one text are one, as in the outcome of a run."""
     paid = run.lines[last - 1] - (run.lines[first - 2] if first > 1 else 0.0)
     happened = run.events[last - 1] - (run.events[first - 2] if first > 1 else 0)
     return {

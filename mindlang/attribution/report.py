@@ -85,7 +85,7 @@ def _values(values: Sequence[float | None]) -> str:
 
 
 def _others(found: dict[str, Any]) -> Iterator[tuple[float, str]]:
-    """What of the command no named path has made."""
+    """The parts of a command that no named path has made."""
     rest = found["rest"]
     if many := rest["paths"]:
         paths = "10^15 paths or" if many >= MAX_COUNTED_PATHS else "1 path" if many == 1 else f"{many:,} paths"

@@ -39,7 +39,7 @@ class ReplacedInfluenceError(MindError):
 
 @dataclass(frozen=True, slots=True)
 class Contribution:
-    """What one path has contributed, in the mean over the ticks.
+    """The contribution of one path, in the mean over the ticks.
 
     `path` are names, from the master to what is asked about; `value` (0..1) is what its last skill sent, `influence`
     what came along it to that skill, `part` (0..1) its part of all influence, `share` its part of the command.
@@ -53,7 +53,7 @@ class Contribution:
 
 
 @dataclass(frozen=True, slots=True)
-class Rest:
+class RemainingPaths:
     """The `paths` that are not named, together; 10^15 stands for more, too.
 
     Over several ticks some of them may have carried nothing.
@@ -66,7 +66,7 @@ class Rest:
 
 @dataclass(frozen=True, slots=True)
 class Shares:
-    """The command to an actuator or a memory, or the influence on a skill, and who made it; means over `ticks` rows.
+    """The command to an actuator or a memory, or the influence on a skill, by paths; means over `ticks` rows.
 
     command = Σ `share` of `paths` + `rest.share` + `neutral` + `rounding`: `command` is what the mind said, to the bit;
     `neutral` is what an actuator has of it from the `undriven` rows, in which nothing influenced it, and `rounding`
@@ -85,13 +85,13 @@ class Shares:
     neutral: float | None
     rounding: float
     paths: tuple[Contribution, ...]
-    rest: Rest
+    rest: RemainingPaths
     silent: tuple[int, ...]
     are_largest: bool
 
 
 def shares(flows: EdgeFlows, target: Sink, rows: range, paths: int = NAMED_PATHS) -> Shares:
-    """Who made the command to `target`, or the influence on it, in these rows, one at least; the `paths` largest parts.
+    """The shares in the command to `target`, or the influence on it, in one row or more, with the `paths` largest.
 
     IndexError where a row is not there, ReplacedInfluenceError where influence that comes to the target was replaced.
     It takes as long as thinking these rows does, and for so many paths as long as they are, however many there are in
@@ -100,17 +100,17 @@ def shares(flows: EdgeFlows, target: Sink, rows: range, paths: int = NAMED_PATHS
     carried, order = flows.over(rows), _above(flows, target)
     _refuse_replaced(flows, carried, [*order, *([target[1]] if target[0] == "skill" else [])])
     if target == ("skill", flows.skills[0]):
-        return _in_charge(flows, len(rows))
+        return _master_shares(flows, len(rows))
     ends = _ends(flows, target, carried)
     into = {skill: ways for skill in order if (ways := _into(flows, skill, carried)) is not None}
-    weights = Ways(ends.edges, ends.sources, ends.parts)
+    weights = IncomingEdges(ends.edges, ends.sources, ends.parts)
     found = largest_paths(weights, into, order, paths)
     named = tuple(sorted((_contribution(flows, ends, path) for path in found.paths), key=_size, reverse=True))
     neutral = _neutral(flows, ends)
     command = ends.mean(ends.engine) + (neutral or 0.0) if ends.ticks else None
     every, part = ends.mean(ends.shares.sum(axis=0)), ends.mean(ends.parts.sum(axis=0))
     count = path_count(weights, into, order)
-    rest = Rest(
+    rest = RemainingPaths(
         count - len(named) * (count < MAX_COUNTED_PATHS),
         max(0.0, part - fsum(each.part for each in named)),
         max(0.0, every - fsum(each.share for each in named)),
@@ -134,10 +134,11 @@ def _size(contribution: Contribution) -> tuple[float, float]:
     return contribution.part, contribution.share
 
 
-def _in_charge(flows: EdgeFlows, ticks: int) -> Shares:
-    """The influence of the master, which is 1 by definition."""
+def _master_shares(flows: EdgeFlows, ticks: int) -> Shares:
+    """The shares in the influence of the master, which is 1 by definition."""
     path = Contribution((flows.master,), 1.0, 1.0, 1.0, 1.0)
-    return Shares(("skill", flows.skills[0]), ticks, 1.0, 1.0, 0, None, 0.0, (path,), Rest(0, 0.0, 0.0), (), True)
+    rest = RemainingPaths(0, 0.0, 0.0)
+    return Shares(("skill", flows.skills[0]), ticks, 1.0, 1.0, 0, None, 0.0, (path,), rest, (), True)
 
 
 @dataclass(frozen=True, slots=True)
@@ -161,7 +162,7 @@ class _Ends:
 
     @property
     def ticks(self) -> int:
-        """Over how many ticks means are."""
+        """The number of ticks that means are over."""
         return int(self.driven.sum()) if self.target[0] == "memory" else len(self.driven)
 
     def mean(self, values: NDArray[np.generic]) -> float:
@@ -231,7 +232,7 @@ def _above(flows: EdgeFlows, target: Sink) -> list[int]:
     return [skill for skill in flows.skills if skill in found]
 
 
-def _into(flows: EdgeFlows, skill: int, carried: EdgeFlow) -> Ways | None:
+def _into(flows: EdgeFlows, skill: int, carried: EdgeFlow) -> IncomingEdges | None:
     edges = tuple(flows.links_to.get(("skill", skill), ()))
     if not edges:
         return None
@@ -240,12 +241,12 @@ def _into(flows: EdgeFlows, skill: int, carried: EdgeFlow) -> Ways | None:
     arrived = np.where(np.isfinite(arrived).all(axis=0), arrived, ~np.isfinite(arrived))
     total = arrived.sum(axis=0)
     fractions = np.divide(arrived, total, out=np.zeros_like(arrived), where=total > 0)
-    return Ways(edges, tuple(flows.links[edge].source for edge in edges), fractions)
+    return IncomingEdges(edges, tuple(flows.links[edge].source for edge in edges), fractions)
 
 
 @dataclass(frozen=True, slots=True)
-class Ways:
-    """How influence comes to a skill: the edges [n] from the skills `sources` [n].
+class IncomingEdges:
+    """The edges [n] over which influence comes to a skill, from the skills `sources` [n].
 
     `fractions` [n, ticks] are the parts of its influence that come over each, which add up to 1 in each tick in which
     it has any.
@@ -272,7 +273,9 @@ class LargestPaths:
     are_largest: bool
 
 
-def largest_paths(ends: Ways, into: Mapping[int, Ways], order: Sequence[int], limit: int) -> LargestPaths:
+def largest_paths(
+    ends: IncomingEdges, into: Mapping[int, IncomingEdges], order: Sequence[int], limit: int
+) -> LargestPaths:
     """The paths whose parts, summed over the ticks, are largest.
 
     `ends` are the edges to what is asked about, with the part that comes over each; `into` has the ways into each
@@ -284,7 +287,7 @@ def largest_paths(ends: Ways, into: Mapping[int, Ways], order: Sequence[int], li
     best, number = _best(into, order, ticks), count()
     followed, found = 0, list[tuple[float, int, FoundPath]]()
 
-    def onward(ways: Ways, part: Doubles, edges: Linked) -> list[End]:
+    def onward(ways: IncomingEdges, part: Doubles, edges: Linked) -> list[End]:
         """A path's end with this part, longer by each of the ways on, the best first."""
         above = _part_above(ways, best)
         bounds = above @ part
@@ -312,7 +315,7 @@ def largest_paths(ends: Ways, into: Mapping[int, Ways], order: Sequence[int], li
     return LargestPaths([path for _, _, path in found], are_largest=True)
 
 
-def path_count(ends: Ways, into: Mapping[int, Ways], order: Sequence[int]) -> int:
+def path_count(ends: IncomingEdges, into: Mapping[int, IncomingEdges], order: Sequence[int]) -> int:
     """How many paths there are over edges that carried something in any of the ticks, up to `MAX_COUNTED_PATHS`."""
     counts: dict[int, int] = {order[0]: 1}
     for skill in order[1:]:
@@ -320,12 +323,12 @@ def path_count(ends: Ways, into: Mapping[int, Ways], order: Sequence[int]) -> in
     return _counted(ends, counts)
 
 
-def _counted(ways: Ways, counts: Mapping[int, int]) -> int:
+def _counted(ways: IncomingEdges, counts: Mapping[int, int]) -> int:
     used = np.flatnonzero(ways.fractions.any(axis=1))
     return min(MAX_COUNTED_PATHS, sum(counts[ways.sources[number]] for number in used))
 
 
-def _best(into: Mapping[int, Ways], order: Sequence[int], ticks: int) -> dict[int, Doubles]:
+def _best(into: Mapping[int, IncomingEdges], order: Sequence[int], ticks: int) -> dict[int, Doubles]:
     """The part [ticks] of each skill's influence that comes over the best path to it in that tick."""
     best = {order[0]: np.ones(ticks)}
     for skill in order[1:]:
@@ -334,7 +337,7 @@ def _best(into: Mapping[int, Ways], order: Sequence[int], ticks: int) -> dict[in
     return best
 
 
-def _part_above(ways: Ways, best: Mapping[int, Doubles]) -> Doubles:
+def _part_above(ways: IncomingEdges, best: Mapping[int, Doubles]) -> Doubles:
     """The part [n, ticks] that comes at most over a path by each of the ways."""
     above: Doubles = np.reshape([best[source] for source in ways.sources], ways.fractions.shape)
     return ways.fractions * above

@@ -29,7 +29,7 @@ from mindlang.breakpoints.subject import Subject
 from mindlang.compiler import lower, model
 from mindlang.compiler.compile import read_main
 from mindlang.compiler.diagnostic import Diagnostic, Findings, did_you_mean, listed
-from mindlang.compiler.expand import numbers, writer
+from mindlang.compiler.expand import number_values, number_writer
 from mindlang.compiler.parse import parse_stops
 from mindlang.compiler.resolve import expressions
 from mindlang.compiler.resolve.kinds import a_name
@@ -82,7 +82,7 @@ class _Resolver:
         """The breakpoints of the lines with which nothing is wrong."""
         names = self.subject.names
         self.findings.numbers = names.numbers.keys()
-        for line in map(writer(names, numbers(names, Findings()), self.subject.graph.tick), lines):
+        for line in map(number_writer(names, number_values(names, Findings()), self.subject.graph.tick), lines):
             before = len(self.findings.diagnostics)
             cause = self._cause(line)
             if cause and len(self.findings.diagnostics) == before:
@@ -167,14 +167,16 @@ class _Resolver:
         def compared(each: Comparison | Transmits) -> model.Comparison:
             if isinstance(each, Transmits):
                 return self._transmits(each)
-            left, right = (expressions.resolve(side, visible, self.findings) for side in (each.left, each.right))
+            left, right = (
+                expressions.resolve_expression(side, visible, self.findings) for side in (each.left, each.right)
+            )
             return model.Comparison(left, each.compare, right)
 
         before = len(self.findings.diagnostics)
         found = model.When(tuple(tuple(map(compared, all_)) for all_ in when.alternatives), when.span)
         if len(self.findings.diagnostics) > before:
             return Holds((), (), ())
-        program = lower.condition(found, places)
+        program = lower.lower_condition(found, places)
         asked = leaves(program, "reading")
         for name in self.subject.unmeasured:
             if places.readings[name][0] in asked:

@@ -17,7 +17,7 @@ from mindlang.compiler import lower, model
 from mindlang.compiler.compile import Compiled, load
 from mindlang.compiler.names import Names
 from mindlang.compiler.resolve.kinds import Scope
-from mindlang.compiler.resolve.worlds import World
+from mindlang.compiler.resolve.worlds import ResolvedWorld
 from mindlang.compiler.source import Source, Span
 from mindlang.compiler.syntax import Declaration, Header, Name
 from mindlang.run.chosen_task import master_of, task_of
@@ -70,7 +70,7 @@ class Subject:
         return {sensor.name for sensor in self.graph.sensors} - {sensor.name for sensor in known}
 
     @cached_property
-    def world(self) -> World | None:
+    def world(self) -> ResolvedWorld | None:
         """The world as the task says it."""
         if self.task is None:
             return None
@@ -80,7 +80,7 @@ class Subject:
         parts = tuple(model.Part(thing.name, thing.kind, NOWHERE) for thing in self.task.things)
         battery = any(sensor.kind.battery for sensor in self.graph.sensors)
         scope = Scope(self.names, things, f"task {self.task.name}")
-        return World(self.task.scene, parts, scope, battery, self.task.can_succeed)
+        return ResolvedWorld(self.task.scene, parts, scope, battery, self.task.can_succeed)
 
 
 def names_in(graph: Graph) -> Names:

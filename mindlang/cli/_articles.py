@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 import click
 from mindrun.cli import EXAMPLES, driving_parser, tool_parser, tools
 
-from mindlang.explaining.article import Article, Parameter, in_lines
+from mindlang.explaining.article import Article, Parameter, unwrap_paragraphs
 
 PROGRAM = "mindrun"
 TOOLS = "tools:"  # the part of mindrun's epilog that is not its own
@@ -62,7 +62,7 @@ def _article(
     name: str, sort: tuple[str, str, str], texts: Sequence[str], parameters: Iterable[Parameter], right: str
 ) -> Article:
     """An article whose summary is the first sentence of its texts; `sort` is its noun, its sort and its chapter."""
-    about, *more = map(in_lines, texts)
+    about, *more = map(unwrap_paragraphs, texts)
     summary, _, rest = about.partition("\n\n")
     first, _, text = summary.partition(". ")
     paragraphs = "\n\n".join(filter(None, (text, rest, *more)))

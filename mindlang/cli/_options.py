@@ -178,7 +178,7 @@ def _declarations(context: click.Context, parameter: click.Parameter) -> Iterato
 
     An option may stand before the file: then they are those of this folder.
     """
-    from mindlang.compiler.compile import files, read
+    from mindlang.compiler.compile import read_files, read_source
     from mindlang.compiler.diagnostic import Findings
 
     values = [*context.params.values(), *context.args]  # before the value of an option, arguments are not sorted yet
@@ -186,10 +186,10 @@ def _declarations(context: click.Context, parameter: click.Parameter) -> Iterato
     minds = [Path(word) for word in said if isinstance(word, str) and word.endswith(".mind")]
     for mind in minds or (Path().glob("*.mind") if isinstance(parameter, click.Option) else ()):
         try:
-            source = read(mind, str(mind))
+            source = read_source(mind, str(mind))
         except (OSError, ValueError):
             continue  # nobody has asked for a message in the middle of a line
-        for file in files(source, mind.resolve(), Findings(), {})[0]:
+        for file in read_files(source, mind.resolve(), Findings(), {})[0]:
             yield from ((each.header.noun.text, each.header.name.text) for each in file.declarations)
 
 

@@ -171,11 +171,11 @@ def rewrite_source(file: str, old: str, new: str) -> None:
     """Write a new text into a source file that had the old one, or end the program."""
     from mindrun.files.atomic_write import rewrite
 
-    from mindlang.compiler.source import encoded
+    from mindlang.compiler.source import encode_source
 
     path = Path(file)
     try:
-        rewrite(path, encoded(path, new), encoded(path, old))
+        rewrite(path, encode_source(path, new), encode_source(path, old))
     except OSError as error:
         fail(f"{file} cannot be written: {error.strerror}")
 

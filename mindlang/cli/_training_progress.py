@@ -14,7 +14,7 @@ from rich.progress_bar import ProgressBar
 from rich.table import Table
 from rich.text import Text
 
-from mindlang.number_format import duration, number, rate
+from mindlang.number_format import duration, rate, short_score
 
 LINE_SECONDS = 5.0  # between two lines
 MAX_BAR_COLUMNS, MIN_BAR_COLUMNS = 20, 8  # columns of a bar, the space behind it with the narrowest
@@ -106,7 +106,7 @@ class TimeLeft:
         return ProgressText(
             where,
             briefly,
-            f"best {number(record.best)}",
+            f"best {short_score(record.best)}",
             self._reevaluated(record),
             rate(self.ticks * everywhere / seconds),
             f"{duration(seconds / (self.seen * everywhere) * max(0.0, left))} left",
@@ -118,7 +118,7 @@ class TimeLeft:
         if attempt != record.attempt:
             return ""
         when = "" if generation == record.generation else f" in generation {generation}"
-        return f"re-evaluated {number(score)}{when}"
+        return f"re-evaluated {short_score(score)}{when}"
 
 
 class LessonDisplay:

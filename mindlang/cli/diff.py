@@ -26,7 +26,7 @@ def command(old: str, new: str, as_json: bool) -> None:
     """
     from rich.text import Text
 
-    from mindlang.compiler.comparison import differences
+    from mindlang.compiler.comparison import mind_differences
     from mindlang.lock import lock_path, lock_sources
     from mindlang.lock.report import as_data, rows, survival
 
@@ -34,7 +34,7 @@ def command(old: str, new: str, as_json: bool) -> None:
     assert before.mind is not None
     assert after.mind is not None
     assert after.graph is not None
-    found = differences(before.mind, after.mind)
+    found = mind_differences(before.mind, after.mind)
     has_lock = lock_path(after.sources[0].path).exists()
     standing = rows(after.graph, lock_sources((after if has_lock else before).sources))
 

@@ -232,9 +232,11 @@ def undo(place: str, as_json: bool) -> None:
 
 def _undone(folder: Path, were: Files, are: Files) -> str:
     """The unified diff of the sources."""
-    from mindlang.compiler.source import decode
+    from mindlang.compiler.source import decode_source
     from mindlang.editing.unified_diff import unified
 
     sources = {path: path.relative_to(folder).as_posix() for path in are if path.suffix == ".mind"}
-    texts = ((name, decode(were[path] or b""), decode(are[path] or b"")) for path, name in sources.items())
+    texts = (
+        (name, decode_source(were[path] or b""), decode_source(are[path] or b"")) for path, name in sources.items()
+    )
     return "".join(unified(*each) for each in texts)

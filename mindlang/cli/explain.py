@@ -41,19 +41,20 @@ def command(name: tuple[str, ...], as_json: bool) -> None:
     from rich.text import Text
 
     from mindlang.cli._articles import command_articles
-    from mindlang.explaining.collection import articles, codes, found, hint
-    from mindlang.explaining.terminal import article_text, as_data, contents
+    from mindlang.explaining.collection import articles, codes, find_articles, unknown_hint
+    from mindlang.explaining.terminal import article_data, article_text, code_list
 
     if not name:
-        data = {"articles": [as_data(each) for each in codes().values()]}
-        print_result(as_json, data, lambda: Text.assemble(*contents(codes().values())), end="")
+        data = {"articles": [article_data(each) for each in codes().values()]}
+        print_result(as_json, data, lambda: Text.assemble(*code_list(codes().values())), end="")
         return
     asked = " ".join(" ".join(name).strip("[]").split())
-    known = found(asked, articles()) or found(asked, [*command_articles()])
+    known = find_articles(asked, articles()) or find_articles(asked, [*command_articles()])
     if not known:
-        fail(f"There is nothing called {visible(asked)}.", hint(asked, [*articles(), *command_articles()]), MISUSE)
+        hint = unknown_hint(asked, [*articles(), *command_articles()])
+        fail(f"There is nothing called {visible(asked)}.", hint, MISUSE)
     if as_json:
-        print_json({"articles": [as_data(each) for each in known]})
+        print_json({"articles": [article_data(each) for each in known]})
         return
     for number, each in enumerate(known):
         console().print(Text.assemble("\n" * (number > 0), *article_text(each)), end="")

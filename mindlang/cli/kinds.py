@@ -42,12 +42,12 @@ def command(noun: str | None, as_json: bool) -> None:
     from rich.text import Text
 
     from mindlang.explaining.collection import ALSO_CALLED
-    from mindlang.explaining.terminal import as_data, kind_list
+    from mindlang.explaining.terminal import article_data, kind_list
 
     known = _known()
     chosen = [each for each in known if noun is None or each.noun == ALSO_CALLED.get(noun, noun)]
     if not chosen:
         near = did_you_mean(str(noun), _nouns())
         fail(f"There are no kinds of {visible(str(noun))}.", near or f"Write {listed(_nouns())}.", MISUSE)
-    data = {"kinds": [as_data(each) for each in chosen]}
+    data = {"kinds": [article_data(each) for each in chosen]}
     print_result(as_json, data, lambda: Text.assemble(*kind_list(chosen)), end="")

@@ -60,7 +60,7 @@ def command(files: tuple[str, ...], fix: bool, select: tuple[str, ...], ignore: 
     when something was, with 2 when a file cannot be read.
     """
     from mindlang.editing.neighbours import minds
-    from mindlang.lint.lint import linted
+    from mindlang.lint.lint import lint_file
 
     if fix and "-" in files:
         fail("Standard input cannot be mended.", "Leave --fix out, or save it as a file.", MISUSE)
@@ -68,7 +68,7 @@ def command(files: tuple[str, ...], fix: bool, select: tuple[str, ...], ignore: 
     named = files_of(files, ".mind")
     with refusing():
         done = [
-            linted(file, compiled, _settings(file).codes(Path(realpath(file)), selected, ignored), fix)
+            lint_file(file, compiled, _settings(file).codes(Path(realpath(file)), selected, ignored), fix)
             for file, compiled in minds(named).items()
         ]
     found = distinct(diagnostic for each in done for diagnostic in each.diagnostics)

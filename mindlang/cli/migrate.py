@@ -31,14 +31,14 @@ def command(files: tuple[str, ...], write: bool) -> None:
 def _migrate(file: str, write: bool) -> int:
     """Migrate one file; how the program would end if it were the only one."""
     from mindlang.compiler.compile import read_main
-    from mindlang.compiler.migration import migrated
+    from mindlang.compiler.migration import migrated_text
     from mindlang.editing.unified_diff import unified
 
     source, findings = read_main(file), Findings()
     if isinstance(source, Diagnostic):
         print_report([source], console(stderr=True))
         return MISUSE
-    text = migrated(source, findings)
+    text = migrated_text(source, findings)
     if findings.diagnostics:
         print_report(findings.diagnostics, console(stderr=True))
         return FINDINGS

@@ -57,7 +57,7 @@ def command(
     from mindlang.lock import lock_sources, read_locks
     from mindlang.lock.ready import make_ready
     from mindlang.proofs.proof import prove
-    from mindlang.proofs.report import as_data, report
+    from mindlang.proofs.report import proof_data, proof_report
 
     compiled = load_compiled(file)
     assert compiled.graph
@@ -72,18 +72,18 @@ def command(
     hashes = {skill: lock[skill].weights for skill in ready.policy.weights if skill in lock}
     run = _run(file, compiled, task, seed) if with_run else None
     proof = prove(ready.policy.graph, ready.policy.weights, leak)
-    data = as_data(proof, hashes, run)
+    data = proof_data(proof, hashes, run)
     if as_json:
         print_json(data)
     else:
-        print_table(report(data))
+        print_table(proof_report(data))
 
 
 def _run(file: str, compiled: Compiled, task: str | None, seed: int) -> Recorded:
     from mindlang.cli._session import ensure_compiled, refusing_setups
-    from mindlang.proofs.recorded import record
+    from mindlang.proofs.recorded import record_undriven
     from mindlang.run.setup import set_up
 
     assert compiled.graph
     with refusing_setups("--run: "), procedures_talk():
-        return record(set_up(file, compiled, task, compiled.graph.master), seed, ensure_compiled)
+        return record_undriven(set_up(file, compiled, task, compiled.graph.master), seed, ensure_compiled)

@@ -175,7 +175,7 @@ class ViewOutput:
         import asyncio
 
         from mindlang.view.server import PortError, ViewServer, open_browser
-        from mindlang.view.session import Session
+        from mindlang.view.session import ViewSession
 
         def ready(address: str) -> None:
             click.echo(address, file=out)
@@ -190,14 +190,14 @@ class ViewOutput:
             viewed.grow()  # what the page shows first
         out = sys.stdout  # procedures print elsewhere
         with terminal.refusing(terminal.MISUSE, of=PortError), terminal.procedures_talk():
-            asyncio.run(ViewServer(Session(viewed, learning), self.port or 0).serve(ready))
+            asyncio.run(ViewServer(ViewSession(viewed, learning), self.port or 0).serve(ready))
 
     def _write(self, viewed: Viewed, path: Path) -> None:
         from mindrun.terminal.tick_count import ticks as in_words
 
         from mindlang.cli._session import RunSession
-        from mindlang.view.export import exported, exported_images, refuse_too_long
-        from mindlang.view.session import Session
+        from mindlang.view.export import exported, exported_images, refuse_too_large_page
+        from mindlang.view.session import ViewSession
 
         session = RunSession(self.quiet)
         with session.progress() as progress, terminal.procedures_talk():
@@ -208,10 +208,10 @@ class ViewOutput:
             if viewed.failed:
                 terminal.fail(f"{viewed.failed}: nothing is written")
             with terminal.refusing(terminal.MISUSE):
-                refuse_too_long(viewed)
+                refuse_too_large_page(viewed)
             progress.reset(bar, description="images", total=viewed.known)
             images = exported_images(viewed, lambda tick: progress.update(bar, completed=tick))
-        seen = Session(viewed)
+        seen = ViewSession(viewed)
         everything = seen.ticks(0) | {"happened": viewed.happened, "stops": viewed.stops}
         page = exported(seen.about(edits=False), everything, viewed, images)
         terminal.write_file(path, page.encode())

@@ -12,7 +12,7 @@ import click
 from mindlang.cli import Suggesting
 from mindlang.cli import _terminal as terminal
 from mindlang.cli._options import PATH, SKILLS
-from mindlang.number_format import number
+from mindlang.number_format import short_score
 
 if TYPE_CHECKING:
     from mindlang.training.subject import Subject
@@ -102,7 +102,7 @@ def _lines(found: Imported, lock: str, recording: str | None) -> Iterator[str]:
         yield f"{compared.faults:,} outputs were not finite, and are not sent"
     if compared.reference == "float64":
         yield "PyTorch is not installed: pip install 'mindlang[torch]' compares with the function there"
-    yield f"{skill} scores {number(found.score)} on {COMPARED_LAYOUTS} fresh layouts of {lesson.task}"
+    yield f"{skill} scores {short_score(found.score)} on {COMPARED_LAYOUTS} fresh layouts of {lesson.task}"
     if found.is_unchanged:
         yield f"{lock} has these weights already, and stays as it is"
     elif not found.is_kept:

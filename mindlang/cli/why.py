@@ -57,7 +57,7 @@ def command(
     Where FILE is a recording, BUNDLE is the one that was running, or the .mind file that it is built from, and ticks
     are the rows of the recording.
     """
-    from mindlang.attribution.answer import QuestionError, answer, course_of_recording, course_of_run
+    from mindlang.attribution.answer import QuestionError, answer, attributed_recording, attributed_run
     from mindlang.attribution.report import answer_text
     from mindlang.cli._session import RunSession, refusing_recordings
 
@@ -66,16 +66,16 @@ def command(
         case [file] if not file.endswith(".rec"):
             session, seed = RunSession(quiet), 1 if chosen.seed is None else chosen.seed
             made = session.record(*session.prepare(file, chosen), seed)
-            course = course_of_run(made.run, seed)
+            attributed = attributed_run(made.run, seed)
         case [recording, bundle]:
             refuse_ineffective(OF_RUNS_ALONE, *OF_A_RUN)
             with refusing_recordings():
-                course = course_of_recording(Path(recording), Path(bundle))
+                attributed = attributed_recording(Path(recording), Path(bundle))
         case _:
             raise click.UsageError(
                 "Say a file and what is asked about: mindc why collect.mind left_wheel, or mindc why day.rec "
                 "ball.bundle left_wheel."
             )
     with refusing(MISUSE, of=QuestionError), procedures_talk():
-        found = answer(course, what, tick, paths)
+        found = answer(attributed, what, tick, paths)
     print_result(as_json, found, lambda: answer_text(found))

@@ -1,4 +1,4 @@
-"""What is where when a run begins, as far as a task says: what is in one place, and what is reached by nothing.
+"""The world of a task when a run begins: the things that overlap, and those that the robot has reached already.
 
 One rule for each two of all that has a place: **bodies** (the robot, items, boxes, balls, walkers) take up room, what
 is **fixed** (obstacles, walls, maps) does, too, and what lies on the **floor** (zones, powers) takes up none. Two
@@ -41,25 +41,25 @@ class Outline(NamedTuple):
         return min(xs) - self.rim, min(ys) - self.rim, max(xs) + self.rim, max(ys) + self.rim
 
 
-def disc(place: Place, radius: float) -> Outline:
-    """All that is so near to a place."""
+def disc_outline(place: Place, radius: float) -> Outline:
+    """A disc around a place."""
     return Outline((place,), radius)
 
 
-def rectangle(of: Rectangle) -> Outline:
-    """What a rectangle along the axes covers."""
+def rectangle_outline(of: Rectangle) -> Outline:
+    """The corners of a rectangle along the axes."""
     left, right, low, high = of.x - of.half_x, of.x + of.half_x, of.y - of.half_y, of.y + of.half_y
     return Outline(((left, low), (right, low), (right, high), (left, high)))
 
 
-def turned(place: Place, angle: float, corners: Sequence[Place]) -> Outline:
-    """A body with those corners around a place, turned counterclockwise by an angle in radians."""
+def turned_outline(place: Place, angle: float, corners: Sequence[Place]) -> Outline:
+    """The polygon of a body at a place, turned counterclockwise by an angle in radians; `corners` are in its frame."""
     c, s = cos(angle), sin(angle)
     return Outline(tuple((place[0] + c * x - s * y, place[1] + s * x + c * y) for x, y in corners))
 
 
-def meet(one: Outline, other: Outline) -> bool:
-    """Whether two are in one another: along no line can they be told apart."""
+def overlap(one: Outline, other: Outline) -> bool:
+    """True if two convex outlines overlap: no axis separates them (separating axis theorem)."""
     ends, others = one.ends, other.ends
     if not all(_cover((ends[i], ends[i + 2]), (others[i], others[i + 2])) for i in (0, 1)):
         return False
@@ -67,7 +67,7 @@ def meet(one: Outline, other: Outline) -> bool:
 
 
 def _axes(one: Outline, other: Outline) -> Iterator[Place]:
-    """Directions of length 1, along one of which any two that are apart are apart: across sides, between corners."""
+    """Unit directions to look for a separating axis in: normals of sides and, where a rim is round, between corners."""
     for of in (one, other):
         for (x, y), (to_x, to_y) in zip(of.corners, (*of.corners[1:], of.corners[0]), strict=True):
             yield from _direction(y - to_y, to_x - x)
@@ -83,7 +83,7 @@ def _direction(x: float, y: float) -> Iterator[Place]:
 
 
 def _cover(one: Place, other: Place) -> bool:
-    """Whether two stretches of a line, from low to high, have more in common than an end; a point is a stretch, too."""
+    """True if two intervals (low, high) overlap in more than an end; an interval may be a point."""
     return one[0] < other[1] - TOUCHING_UNITS and other[0] < one[1] - TOUCHING_UNITS
 
 
@@ -93,7 +93,7 @@ def _span(of: Outline, axis: Place) -> tuple[float, float]:
 
 
 def role(kind: ThingKind) -> Role:
-    """What a kind of thing is to all others."""
+    """The role of a kind of thing in the rule of the module."""
     return "fixed" if kind.is_obstacle else "floor" if kind.is_area else "body"
 
 
@@ -114,13 +114,15 @@ class Beginning:
     may: bool = False
 
     def outlines(self, kind: ThingKind) -> list[Outline]:
-        """One for each copy of a thing that has a place; the middle alone of what lies on the floor."""
+        """The outline of each copy of a thing that has a place; of one that lies on the floor its middle alone."""
         if kind.is_obstacle:
-            return [rectangle(each) for each in kind.standing(self.scene, self.may)]
+            return [rectangle_outline(each) for each in kind.standing(self.scene, self.may)]
         half = self.half(kind)
         square = not kind.is_round and not kind.is_area
         return [
-            rectangle(Rectangle(*place, half, half)) if square else disc(place, 0.0 if kind.is_area else half)
+            rectangle_outline(Rectangle(*place, half, half))
+            if square
+            else disc_outline(place, 0.0 if kind.is_area else half)
             for place in kind.places[: kind.copies]
         ]
 
@@ -130,35 +132,35 @@ class Beginning:
 
     @property
     def robot(self) -> Outline | None:
-        """What the robot covers where it starts; None where that is drawn."""
+        """The outline of the robot where it starts; None where that place is drawn at random."""
         if self.at is None:
             return None
         if self.body is None:
-            return disc(self.at, 0.0)
+            return disc_outline(self.at, 0.0)
         if self.body.outline and self.facing is not None:
-            return turned(self.at, self.facing, self.body.outline)
-        return disc(self.at, self.body.radius if self.may else min(self.body.side, self.body.front))
+            return turned_outline(self.at, self.facing, self.body.outline)
+        return disc_outline(self.at, self.body.radius if self.may else min(self.body.side, self.body.front))
 
     @property
     def is_inside(self) -> bool:
-        """Whether the robot is within the walls of its scene: in the middle at least, where its place is drawn."""
+        """True if the robot starts within the walls of its scene; one whose place is drawn is tried in the middle."""
         robot = self.robot or replace(self, at=PLAIN_START).robot
         if self.scene is None or robot is None:
             return True
         ends = zip(robot.ends, self.scene.sides * 2, strict=True)
         return all(abs(end) <= side / 2 + TOUCHING_UNITS for end, side in ends)
 
-    def meeting(self) -> Iterator[tuple[Part[Any], Part[Any]]]:
-        """Things that are in one place, what is fixed after what is not; of a way, all its places are looked at."""
+    def overlapping(self) -> Iterator[tuple[Part[Any], Part[Any]]]:
+        """Pairs of things that overlap, a fixed one as the second; one that walks is tried at all places of its way."""
         parts = sorted((each for each in self.things if each.kind), key=lambda each: not each.kind.is_obstacle)
         found = [(each, role(each.kind), self.outlines(each.kind)) for each in parts]
         for number, (thing, its, outlines) in enumerate(found):
-            if its == "body" and any(meet(a, b) for i, a in enumerate(outlines) for b in outlines[:i]):
+            if its == "body" and any(overlap(a, b) for i, a in enumerate(outlines) for b in outlines[:i]):
                 yield thing, thing
-            spots = [*outlines, *(disc(place, 0.0) for place in thing.kind.places)]
+            spots = [*outlines, *(disc_outline(place, 0.0) for place in thing.kind.places)]
             for other, other_role, others in found[:number]:
                 mine = spots if other_role == "fixed" else outlines
-                if {its, other_role} in APART and any(meet(a, b) for a in mine for b in others):
+                if {its, other_role} in APART and any(overlap(a, b) for a in mine for b in others):
                     yield thing, other
 
     def on_robot(self) -> Part[Any] | None:
@@ -168,9 +170,9 @@ class Beginning:
         return next((each for each in bodies if robot and self._meets(robot, each.kind)), None)
 
     def _meets(self, robot: Outline, kind: ThingKind) -> bool:
-        return any(meet(robot, outline) for outline in self.outlines(kind))
+        return any(overlap(robot, outline) for outline in self.outlines(kind))
 
-    def happenings(self, event: EventKind, sensors: Iterable[SensorKind]) -> int:
+    def first_tick_count(self, event: EventKind, sensors: Iterable[SensorKind]) -> int:
         """How often an event happens in the first tick of every run, whatever the robot does."""
         if event.is_of_battery:
             batteries = [kind.battery for kind in sensors if kind.battery]
@@ -202,7 +204,7 @@ class Beginning:
         return max(abs(middle[0] - place[0]), abs(middle[1] - place[1])) <= self.half(area)
 
     def _is_reached(self, kind: ThingKind, place: Place) -> bool:
-        """Whether the robot is inside of what lies on the floor, or has anything else in its claw's reach."""
+        """True if the robot is inside an area on the floor, or has another kind of thing in its claw's reach."""
         if self.at is None or self.body is None:
             return False
         if kind.is_area:
@@ -216,7 +218,7 @@ class Beginning:
         return ahead >= 0 and hypot(ahead, aside) <= reach
 
 
-def beginning(
+def task_beginning(
     scene: SceneKind | None, things: Sequence[Part[Any]], start: Start, body: BodyKind | None, claw: float
 ) -> Beginning:
     """The beginning of a task's runs."""
@@ -224,8 +226,8 @@ def beginning(
     return Beginning(scene, things, start.at or (PLAIN_START if is_in_middle else None), start.facing, body, claw)
 
 
-def hint_apart(event: EventKind) -> str:
-    """What to do about an event that comes in the first tick."""
+def first_tick_hint(event: EventKind) -> str:
+    """The hint for an event that comes in the first tick."""
     if event.is_of_battery:
         return "Let the battery start above 0."
     if event.outcome == "delivered":

@@ -12,14 +12,14 @@ from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.format import spaced
 from mindlang.compiler.model import Lesson, Mind, Part, Skill, Task
 from mindlang.compiler.names import Names
-from mindlang.compiler.resolve.kinds import Scope, make
+from mindlang.compiler.resolve.kinds import Scope, make_kind
 
 PLACES = {"span", "fact", "declaration", "curriculum"}  # fields of the model that say where a thing stands
 ORDERED = {"curriculum"}  # nouns whose lines mean something by their order
 
 
 @dataclass(frozen=True, slots=True)
-class Difference:
+class MindDifference:
     """A declaration or a setting that is new, gone, or changed: lines of it that are new and that are gone, as written.
 
     A declaration that is itself new or gone has its header among them.
@@ -38,8 +38,8 @@ class _Line:
     meaning: Any
 
 
-def differences(old: Mind, new: Mind) -> list[Difference]:
-    """What changes from one mind to another, noun by noun.
+def mind_differences(old: Mind, new: Mind) -> list[MindDifference]:
+    """The declarations that differ between two minds, noun by noun.
 
     Nothing for comments, spaces, other spellings and the order of lines, but for the lessons of a curriculum.
     """
@@ -55,18 +55,18 @@ def differences(old: Mind, new: Mind) -> list[Difference]:
     return found
 
 
-def _settings(old: Mind, new: Mind) -> Iterator[Difference]:
+def _settings(old: Mind, new: Mind) -> Iterator[MindDifference]:
     if old.master != new.master:
-        yield Difference("master", (f"master {old.master}",), (f"master {new.master}",))
+        yield MindDifference("master", (f"master {old.master}",), (f"master {new.master}",))
     for name, value in old.numbers.items():
         if name in new.numbers and new.numbers[name] != value:
             before, after = (_written(mind.names.numbers[name]) for mind in (old, new))
-            yield Difference(f"number {name}", (before,), (after,))
+            yield MindDifference(f"number {name}", (before,), (after,))
     if old.unit_metres != new.unit_metres:
         lengths = ([] if mind.unit_metres is None else [mind.unit_metres] for mind in (old, new))
-        yield Difference("unit", *(tuple(f"unit {100 * metres:.6g} cm" for metres in said) for said in lengths))
+        yield MindDifference("unit", *(tuple(f"unit {100 * metres:.6g} cm" for metres in said) for said in lengths))
     if old.tick != new.tick:
-        yield Difference("tick", (f"tick {old.tick:.6g} s",), (f"tick {new.tick:.6g} s",))
+        yield MindDifference("tick", (f"tick {old.tick:.6g} s",), (f"tick {new.tick:.6g} s",))
 
 
 def _drawn(mind: Mind) -> dict[str, list[_Line]]:
@@ -80,17 +80,17 @@ def _drawn(mind: Mind) -> dict[str, list[_Line]]:
     return found
 
 
-def _difference(what: str, old: Sequence[_Line], new: Sequence[_Line], ordered: bool) -> Iterator[Difference]:
+def _difference(what: str, old: Sequence[_Line], new: Sequence[_Line], ordered: bool) -> Iterator[MindDifference]:
     before, after = _numbered(old, new)
     kept = _in_order(before, after) if ordered else set(before) & set(after)
     gone = tuple(line.text for line, number in zip(old, before, strict=True) if number not in kept)
     come = tuple(line.text for line, number in zip(new, after, strict=True) if number not in kept)
     if gone or come:
-        yield Difference(what, gone, come)
+        yield MindDifference(what, gone, come)
 
 
 def _numbered(old: Sequence[_Line], new: Sequence[_Line]) -> tuple[list[int], list[int]]:
-    """A number for each line, the same for two that say the same; what is said twice has two."""
+    """Numbers of old and of new lines; an old and a new line that match, in text or else in meaning, share a number."""
     left = dict(enumerate(old))
     after: dict[int, int] = {}
     for sameness in ("text", "meaning"):
@@ -104,7 +104,7 @@ def _numbered(old: Sequence[_Line], new: Sequence[_Line]) -> tuple[list[int], li
 
 
 def _in_order(before: Sequence[int], after: Sequence[int]) -> set[int]:
-    """Those that stand in the same order in both."""
+    """The numbers that stand in the same order in both."""
     blocks = SequenceMatcher(None, before, after, autojunk=False).get_matching_blocks()
     return {number for block in blocks for number in before[block.a : block.a + block.size]}
 
@@ -129,7 +129,7 @@ def _declared(mind: Mind) -> dict[str, dict[str, list[_Line]]]:
 
 
 def _lines(declaration: syntax.Declaration, of: Any, mind: Mind) -> list[_Line]:
-    """The header and the facts of a declaration, each with what has become of it.
+    """The header and the facts of a declaration, each with its meaning in the model.
 
     Of a task also what its scene says, or the task that it is like.
     """
@@ -143,7 +143,7 @@ def _lines(declaration: syntax.Declaration, of: Any, mind: Mind) -> list[_Line]:
 
 
 def _parts(header: syntax.Header, of: Any) -> tuple[Any, dict[str, Sequence[Any]]]:
-    """What a header has become, and what the facts of each verb or two have, in their order."""
+    """The resolved header of a declaration, and the values that its facts have become, by verb and in their order."""
     match of:
         case Skill(like=like) if like:
             reads = syntax.of_form(of.declaration.facts, syntax.Reads)
@@ -158,7 +158,7 @@ def _parts(header: syntax.Header, of: Any) -> tuple[Any, dict[str, Sequence[Any]
         case Part():
             return of.kind, {}
     phrase = header.phrase
-    return phrase and make("curriculum", phrase, Scope(Names({}), None), Findings()), {"teaches": of or []}
+    return phrase and make_kind("curriculum", phrase, Scope(Names({}), None), Findings()), {"teaches": of or []}
 
 
 def _header(header: syntax.Header, names: Names) -> str:

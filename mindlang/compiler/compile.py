@@ -1,4 +1,4 @@
-"""The way through, for any input without an exception: text → File → Mind → Graph.
+"""Compiles files, for any input without an exception: text → File → Mind → Graph.
 
 The files of a mind are the main one and those that it uses, all of them inside the project.
 """
@@ -19,11 +19,11 @@ from msgspec import structs
 from mindlang.compiler.diagnostic import Diagnostic, Findings, near_file
 from mindlang.compiler.lower import lower
 from mindlang.compiler.model import Mind
-from mindlang.compiler.names import gather
+from mindlang.compiler.names import declared_names
 from mindlang.compiler.parse import parse
 from mindlang.compiler.references import mentions
-from mindlang.compiler.resolve import resolve
-from mindlang.compiler.source import MAX_SOURCE_BYTES, Source, Span, decode, within
+from mindlang.compiler.resolve import resolve_mind
+from mindlang.compiler.source import MAX_SOURCE_BYTES, Source, Span, checked_text, decode_source
 from mindlang.compiler.syntax import Amount, File, Name, Use, of_form, rebuilt
 
 STDIN = "<stdin>"
@@ -34,7 +34,7 @@ MAX_USE_DEPTH = 64
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Compiled(ShortRepr):
-    """What became of a file. `graph` and `mind` are None where its text has errors.
+    """A compiled file with its diagnostics. `graph` and `mind` are None where its text has errors.
 
     What is wrong with the module of a procedure is an error, too, but leaves them: it stands in another file.
     """
@@ -46,12 +46,12 @@ class Compiled(ShortRepr):
 
     @property
     def is_valid(self) -> bool:
-        """Whether nothing is wrong; warnings are nothing."""
+        """True if there are no errors; warnings may be there."""
         return self.graph is not None and all(each.severity != "error" for each in self.diagnostics)
 
     @property
     def readable(self) -> bool:
-        """Whether the main file could be read at all."""
+        """True if the main file could be read."""
         return bool(self.sources)
 
 
@@ -71,13 +71,13 @@ def read_main(path: Path | str, texts: Mapping[Path, str] = NO_TEXTS) -> Source 
     try:
         resolved = Path(path).resolve()
         if resolved in texts:
-            return Source(str(path), within(texts[resolved]), resolved.parent)
+            return Source(str(path), checked_text(texts[resolved]), resolved.parent)
         if str(path) == "-":
-            return Source(STDIN, decode(sys.stdin.buffer.read(MAX_SOURCE_BYTES + 1)), Path.cwd().resolve())
+            return Source(STDIN, decode_source(sys.stdin.buffer.read(MAX_SOURCE_BYTES + 1)), Path.cwd().resolve())
         if SHELLS_PIPE.fullmatch(str(path)):
             with Path(path).open("rb") as stream:
-                return Source(str(path), decode(stream.read(MAX_SOURCE_BYTES + 1)), Path.cwd().resolve())
-        return read(Path(path), str(path))
+                return Source(str(path), decode_source(stream.read(MAX_SOURCE_BYTES + 1)), Path.cwd().resolve())
+        return read_source(Path(path), str(path))
     except (OSError, RuntimeError) as error:
         # a loop of links is a RuntimeError
         name, hint = (STDIN, "") if str(path) == "-" else (path, near_file(Path(path)))
@@ -94,8 +94,8 @@ def compile_source(source: Source, path: Path = Path("-"), texts: Mapping[Path, 
         hint = "A file needs a tick, a master, a body, actuators, sensors and skills: mindc show one of the examples."
         diagnostic = Diagnostic("empty-file", "There is nothing in this file.", Span(source, 0, 0), hint)
         return Compiled(None, None, (diagnostic,), (source,))
-    parsed, complete = files(source, path, findings, texts)
-    mind = resolve(parsed, findings) if complete else None  # names of a missing file would all seem unknown
+    parsed, complete = read_files(source, path, findings, texts)
+    mind = resolve_mind(parsed, findings) if complete else None  # names of a missing file would all seem unknown
     graph = lower(mind) if mind else None
     if graph and mind:
         findings.diagnostics += _procedure_mistakes(graph, mind, source.folder)
@@ -103,7 +103,7 @@ def compile_source(source: Source, path: Path = Path("-"), texts: Mapping[Path, 
 
 
 def _procedure_mistakes(graph: Graph, mind: Mind, folder: Path) -> Iterator[Diagnostic]:
-    """What is wrong with the modules of procedures."""
+    """The mistakes in the modules of procedures."""
     if any(skill.function.calls is not None for skill in graph.skills):  # else nothing of Python's has to be imported
         from mindlang.compiler.procedures import mistakes
 
@@ -133,14 +133,14 @@ class _Project:
         self.complete = False
 
 
-def read(path: Path, name: str) -> Source:
+def read_source(path: Path, name: str) -> Source:
     """The source at a path; OSError or ValueError says why it cannot be read."""
     if path.is_dir():
         raise ValueError("is a folder: name the files in it")
-    return Source(name, decode(read_regular(path, MAX_SOURCE_BYTES + 1)), path.resolve().parent)
+    return Source(name, decode_source(read_regular(path, MAX_SOURCE_BYTES + 1)), path.resolve().parent)
 
 
-def files(source: Source, path: Path, findings: Findings, texts: Mapping[Path, str]) -> tuple[list[File], bool]:
+def read_files(source: Source, path: Path, findings: Findings, texts: Mapping[Path, str]) -> tuple[list[File], bool]:
     """The main file and after it, once each, the files that it uses; and whether all of them could be read.
 
     A file that stands in `texts` is taken from there, as an edit or an editor has it.
@@ -202,7 +202,7 @@ def _read(target: Path, alias: str, use: Use, project: _Project) -> None:
     name = Path(use.span.source.name).parent.joinpath(use.path).as_posix()
     try:
         text = project.texts.get(target)
-        source = read(target, name) if text is None else Source(name, within(text), target.parent)
+        source = read_source(target, name) if text is None else Source(name, checked_text(text), target.parent)
         source = replace(source, alias=alias)
     except (OSError, RuntimeError) as error:  # a loop of links is a RuntimeError
         hint = "The path is relative to the file in which it stands."
@@ -217,7 +217,7 @@ def under_alias(file: File) -> File:
     """The file with the names that it declares as other files say them, `walls.Grab`; itself where it has no alias."""
     if not file.source.alias:
         return file
-    names = gather([file], Findings())
+    names = declared_names([file], Findings())
     own = {mention.name.span for mention in mentions([file], names) if mention.noun != "thing"}
 
     def renamed(node: Any) -> Any:

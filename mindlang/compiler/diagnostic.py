@@ -30,7 +30,7 @@ class Label:
 
 @dataclass(frozen=True, slots=True)
 class Fix:
-    """What would mend a diagnostic, as a command: "Remove eye". A safe one never changes what the robot does."""
+    """A change of text that mends a diagnostic, titled as a command: "Remove eye". Safe: the robot does the same."""
 
     title: str
     splices: tuple[Splice, ...]
@@ -59,7 +59,7 @@ class Diagnostic(ShortRepr):
 
 @dataclass(slots=True)
 class Findings:
-    """Where a stage of the compiler collects what it finds; `numbers` are the names of numbers that may be meant."""
+    """The diagnostics that stages of the compiler collect; `numbers` are names of numbers that hints may suggest."""
 
     diagnostics: list[Diagnostic] = field(default_factory=list)
     comparisons: int = MAX_COMPARED_NAMES  # of names, which are left
@@ -116,7 +116,7 @@ def did_you_mean(word: str, known: Iterable[str]) -> str:
 
 
 def near_file(path: Path) -> str:
-    """What to do where a file cannot be read: perhaps one beside it, which ends alike, has nearly this name."""
+    """The hint for a file that cannot be read: the file beside it with the nearest name and the same ending, if any."""
     try:
         beside = [each.name for each in path.parent.iterdir() if each.suffix[:2] == path.suffix[:2]]
     except OSError:

@@ -85,5 +85,5 @@ def _quoted(text: str) -> str:
 
 
 def text_after_name(fact: Drives | Influences) -> str:
-    """What a line says after the name of whom it is for, as written."""
+    """The text of a line after the name of its target, as written."""
     return fact.span.source.text[fact.name.span.end : fact.span.end]

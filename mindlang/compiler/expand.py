@@ -16,9 +16,9 @@ from networkx import DiGraph
 
 from mindlang.compiler import syntax
 from mindlang.compiler.diagnostic import Findings, a
-from mindlang.compiler.hierarchy import ends_first, refuse_circles
+from mindlang.compiler.hierarchy import refuse_circles, reverse_topological_order
 from mindlang.compiler.names import Names
-from mindlang.compiler.references import names_in
+from mindlang.compiler.references import mentions_in
 from mindlang.compiler.syntax import Amount, Declaration, Expression, Fact, Name, Numbers, Phrase, rebuilt
 
 UNLIKE_NOUNS = ("body", "curriculum")  # whose declarations are like nothing
@@ -27,7 +27,7 @@ _WORD = re.compile(r"[a-z]\w*")
 Declarations = dict[str, Declaration]
 
 
-def numbers(names: Names, findings: Findings) -> dict[str, Amount]:
+def number_values(names: Names, findings: Findings) -> dict[str, Amount]:
     """The amount that each name stands for; one that stands for itself in the end is reported, and left out."""
     graph = DiGraph()
     graph.add_nodes_from(names.numbers)
@@ -36,15 +36,15 @@ def numbers(names: Names, findings: Findings) -> dict[str, Amount]:
     hint = "Write a number in one of the lines."
     refuse_circles("number-circle", graph, findings, "A number stands for itself", hint, "through this one")
     found: dict[str, Amount] = {}
-    for name in (each for each in ends_first(graph) if each in names.numbers):
+    for name in (each for each in reverse_topological_order(graph) if each in names.numbers):
         amount = names.numbers[name].amount
         if not amount.name or names.find(amount.constant, ("number",), findings):
-            found[name] = in_place(amount, found)
+            found[name] = fill_number(amount, found)
     return {name: amount for name, amount in found.items() if not amount.name}
 
 
-def in_place(amount: Amount, numbers: Mapping[str, Amount]) -> Amount:
-    """What an amount stands for, with its own sign and place; itself where it is no name of a number that has one."""
+def fill_number(amount: Amount, numbers: Mapping[str, Amount]) -> Amount:
+    """The amount with its named number filled in, keeping its sign and span; itself where it names no known number."""
     value = numbers.get(amount.name)
     if value is None:
         return amount
@@ -52,11 +52,11 @@ def in_place(amount: Amount, numbers: Mapping[str, Amount]) -> Amount:
 
 
 def expand(names: Names, values: Mapping[str, Amount], tick_seconds: float, findings: Findings) -> Names:
-    """The declarations with nothing left in them that stands for something else.
+    """The declarations with scenes, likeness, names of numbers and rates written out.
 
     `values` are what the names of numbers stand for.
     """
-    line = writer(names, values, tick_seconds)
+    line = number_writer(names, values, tick_seconds)
     table = {
         noun: {
             name: replace(each, header=line(each.header), facts=tuple(map(line, each.facts)))
@@ -83,8 +83,8 @@ def expand(names: Names, values: Mapping[str, Amount], tick_seconds: float, find
     return with_fields(names, table=table | {noun: each for noun, each in whole.items() if each})
 
 
-def writer(names: Names, values: Mapping[str, Amount], tick_seconds: float) -> Callable[[Any], Any]:
-    """What writes the numbers into a line, in the place of their names, and how long a tick is into its rates."""
+def number_writer(names: Names, values: Mapping[str, Amount], tick_seconds: float) -> Callable[[Any], Any]:
+    """A function that replaces names of numbers in a line by their values, and gives its rates the length of a tick."""
     words = frozenset(name.rpartition(".")[2] for name in values)  # all that stands of a name in a file with an alias
 
     def written(line: Any) -> Any:
@@ -92,13 +92,13 @@ def writer(names: Names, values: Mapping[str, Amount], tick_seconds: float) -> C
         has_names = words and not words.isdisjoint(_WORD.findall(text))
         if not has_names and "per" not in text:  # as most lines
             return line
-        found = names_in(line, names, None) if has_names else ()
+        found = mentions_in(line, names, None) if has_names else ()
         places = {each.name.span for each in found if each.noun == "number" and each.name.text in values}
 
         def changed(node: Any) -> Any:
             match node:
                 case Amount():
-                    amount = in_place(node, values)
+                    amount = fill_number(node, values)
                     return replace(amount, tick_seconds=tick_seconds) if amount.per == "s" else amount
                 case Phrase(kind, ()) if kind.span in places:
                     return changed(Amount(1.0, "", kind.span, name=kind.text))
@@ -112,7 +112,7 @@ def writer(names: Names, values: Mapping[str, Amount], tick_seconds: float) -> C
 
 
 def _followed(noun: str, names: Names, begun: Callable[[Declaration], Declaration], findings: Findings) -> Declarations:
-    """The declarations of a noun, each with what it is like; one that is like nothing is what `begun` makes of it."""
+    """The declarations of a noun with likeness written out; `begun` prepares those that are like no other."""
     declared = dict(names.declarations(noun))
     graph = DiGraph()
     graph.add_nodes_from(declared)
@@ -122,7 +122,7 @@ def _followed(noun: str, names: Names, begun: Callable[[Declaration], Declaratio
     says, hint = f"{a(noun).capitalize()} is like itself", "Let one of them say what it is itself."
     refuse_circles("like-circle", graph, findings, says, hint, "through this one")
     found: Declarations = {}
-    for name in ends_first(graph):
+    for name in reverse_topological_order(graph):
         own, other = declared[name], next(iter(graph[name]), None)
         if other:
             found[name] = _like(own, found[other])
@@ -132,13 +132,13 @@ def _followed(noun: str, names: Names, begun: Callable[[Declaration], Declaratio
 
 
 def _like(own: Declaration, other: Declaration) -> Declaration:
-    """A declaration that says what another says, and then its own."""
+    """A declaration with the phrase and facts of the other that it is like, and its own facts after them."""
     header = replace(own.header, phrase=other.header.phrase)
     return replace(own, header=header, facts=_with_more(other.facts, own.facts), whole=own.whole and other.whole)
 
 
 def _with_more(first: Sequence[Fact], more: Sequence[Fact]) -> tuple[Fact, ...]:
-    """The facts of one and then those of another, which stand in the place of those that they replace."""
+    """The facts of `first` and then `more`; one of `more` with the subject of an earlier one replaces that."""
     own: dict[Hashable, list[Fact]] = {}
     for fact in more:
         own.setdefault(_subject(fact), []).append(fact)
@@ -151,7 +151,7 @@ def _with_more(first: Sequence[Fact], more: Sequence[Fact]) -> tuple[Fact, ...]:
 
 
 def _subject(fact: Fact) -> Hashable:
-    """What a fact is about; of two lines about the same, the later one counts."""
+    """The key of a fact's subject; of two facts with one subject the later one counts."""
     match fact:
         case syntax.Contains(name) | syntax.Fails(name):
             about: tuple[Hashable, ...] = (name.text,)
@@ -178,5 +178,5 @@ def _read(amount: Expression) -> Iterator[str]:
 
 
 def _text(node: Phrase | syntax.When | None) -> str:
-    """What is written, however it is spaced."""
+    """The source text with single spaces; empty for None."""
     return " ".join(node.span.text.split()) if node else ""

@@ -11,7 +11,7 @@ from itertools import accumulate, pairwise
 from typing import Any
 
 from mindlang.compiler import syntax
-from mindlang.compiler.parse import BLANKS, code_of
+from mindlang.compiler.parse import BLANKS, without_comment
 from mindlang.compiler.parse.shape import MAX_SHAPES, Start, grammar, parse_line, pieces, shape_of
 from mindlang.compiler.source import Source
 from mindlang.compiler.splice import Splice
@@ -44,7 +44,7 @@ class _Line:
 
     @property
     def opens(self) -> bool:
-        """Whether facts may stand below it."""
+        """True if facts may stand below it."""
         return self.first in FACT_OWNERS
 
     def __str__(self) -> str:
@@ -61,7 +61,7 @@ def formatted(text: str, start: Start = "line") -> str:
 
 
 def _line(text: str, start: Start) -> _Line:
-    code = code_of(text)
+    code = without_comment(text)
     return _Line(spaced(code.lstrip(" \t").rstrip(BLANKS), start), text[len(code) :].strip(), text[:1] in (" ", "\t"))
 
 
@@ -118,7 +118,7 @@ Plan = tuple[tuple[int, int, str], ...]  # which pieces of a line are a word, an
 
 @lru_cache(MAX_SHAPES)
 def _plan(shape: str, start: Start) -> Plan | None:
-    """How the words of the lines of a shape are set apart; None where Lark cannot read it."""
+    """The spacing of the words in lines of a shape; None where Lark cannot read it."""
     from lark import UnexpectedInput
 
     try:
@@ -131,9 +131,9 @@ def _plan(shape: str, start: Start) -> Plan | None:
 
 
 def _words(code: str, line: Any, start: Start) -> Iterator[tuple[int, int, str]]:
-    """From where to where the words of a line go that the grammar reads as `line`, and what stands after each."""
+    """Offsets (start, end) of the words of a line, which parses as `line`, and the space that belongs after each."""
     tokens = list(grammar().parse_interactive(code, start=start).iter_parse())
-    signs = {node.span.start for node in syntax.walk(line) if _is_signed(node)}
+    signs = {node.span.start for node in syntax.walk_tree(line) if _is_signed(node)}
     for token, following in zip(tokens, [*tokens[1:], None], strict=True):
         first = token.start_pos or 0
         glued = following is None or token == "(" or following in (")", "%") or first in signs
@@ -141,7 +141,7 @@ def _words(code: str, line: Any, start: Start) -> Iterator[tuple[int, int, str]]
 
 
 def _is_signed(node: Any) -> bool:
-    """Whether it begins with a sign, which belongs to what follows it."""
+    """True if a node begins with a sign, which belongs to the number or name behind it."""
     match node:
         case syntax.Amount(_, _, span):
             return span.text[0] in "+-"
@@ -166,7 +166,7 @@ def format_splices(source: Source, start: Start = "line") -> list[Splice]:
 
 
 def _stretches(text: str) -> Iterator[Stretch]:
-    """From where to where the lines go that say something, and what stands between them."""
+    """Offsets (start, end) that cut up a text: by turns the space between lines, and a line that is not blank."""
     ends, at = [0], 0
     for line in text.split("\n"):
         if line.strip(BLANKS):

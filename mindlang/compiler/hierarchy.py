@@ -1,4 +1,4 @@
-"""What is asked of the graphs of a mind: topological order, what is reached, and circles, each with its path."""
+"""Algorithms on the graphs of a mind: topological order, reachable nodes, and cycles, each with its path."""
 
 from collections.abc import Iterable
 from itertools import chain, islice, pairwise
@@ -12,24 +12,24 @@ from mindlang.compiler.diagnostic import Findings, Label
 MAX_CIRCLES = 20  # that are reported at once: a tangle can have more than anybody waits for
 
 
-def in_order(graph: DiGraph) -> list[Any]:
+def topological_order(graph: DiGraph) -> list[Any]:
     """The nodes in topological order, parents first and otherwise as they were added; there are no circles."""
     place = {node: index for index, node in enumerate(graph)}
     return list(nx.lexicographical_topological_sort(graph, key=place.__getitem__))
 
 
-def below(graph: DiGraph, nodes: Iterable[Any]) -> set[Any]:
+def with_descendants(graph: DiGraph, nodes: Iterable[Any]) -> set[Any]:
     """These nodes, and all that is reached from them."""
     return set(chain.from_iterable(nx.bfs_layers(graph, list(nodes))))
 
 
-def above(graph: DiGraph, nodes: Iterable[Any]) -> set[Any]:
+def with_ancestors(graph: DiGraph, nodes: Iterable[Any]) -> set[Any]:
     """These nodes, and all from which they are reached."""
-    return below(graph.reverse(copy=False), nodes)
+    return with_descendants(graph.reverse(copy=False), nodes)
 
 
 def circles(graph: DiGraph) -> list[list[Any]]:
-    """The circles of a graph, each from that of its nodes on that was added first, in their order.
+    """The circles of a graph, at most MAX_CIRCLES, each from its node that was added first, sorted by their nodes.
 
     Of more than MAX_CIRCLES so many.
     """
@@ -41,12 +41,12 @@ def circles(graph: DiGraph) -> list[list[Any]]:
     return [[nodes[number] for number in circle] for circle in found]
 
 
-def ends_first(graph: DiGraph) -> list[Any]:
-    """The nodes that lead into no circle, each after all that it leads to."""
+def reverse_topological_order(graph: DiGraph) -> list[Any]:
+    """The nodes from which no circle is reached, each after all nodes that are reached from it."""
     circular = [node for part in nx.strongly_connected_components(graph) if len(part) > 1 for node in part]
     ending = graph.copy()
-    ending.remove_nodes_from(above(graph, [*circular, *nx.nodes_with_selfloops(graph)]))
-    return in_order(ending)[::-1]
+    ending.remove_nodes_from(with_ancestors(graph, [*circular, *nx.nodes_with_selfloops(graph)]))
+    return topological_order(ending)[::-1]
 
 
 def refuse_circles(code: str, graph: DiGraph, findings: Findings, says: str, hint: str, label: str) -> None:

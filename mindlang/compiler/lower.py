@@ -10,14 +10,14 @@ from msgspec.structs import astuple
 
 from mindlang.compiler import model
 from mindlang.compiler.format import spaced
-from mindlang.compiler.hierarchy import in_order
+from mindlang.compiler.hierarchy import topological_order
 
 T = TypeVar("T")
 
 
 @dataclass(frozen=True, slots=True)
 class Places:
-    """Where what expressions name stands: readings as (start, width), actuators, and measures, to which more come."""
+    """Indices of the names in expressions: readings as (start, width), actuators, and measures, which are added to."""
 
     readings: Mapping[str, tuple[int, int]]
     actuators: Mapping[str, int] = field(default_factory=dict)
@@ -51,7 +51,7 @@ def _numbered(names: Iterable[str]) -> dict[str, int]:
 
 
 def _skills(mind: model.Mind, readings: Mapping[str, tuple[int, int]]) -> Iterator[graph.Skill]:
-    skills, order = {skill.name: skill for skill in mind.skills}, in_order(mind.influences)
+    skills, order = {skill.name: skill for skill in mind.skills}, topological_order(mind.influences)
     numbers = {
         "skill": _numbered(order),
         "actuator": _numbered(actuator.name for actuator in mind.actuators),
@@ -69,7 +69,7 @@ def _edges(skill: model.Skill, numbers: Mapping[str, Mapping[str, int]], places:
         gate = None
         if edge.gate:
             otherwise = _program(edge.gate.otherwise, places) if edge.gate.otherwise else None
-            gate = graph.Gate(condition(edge.gate.when, places), otherwise)
+            gate = graph.Gate(lower_condition(edge.gate.when, places), otherwise)
         output, value = (None, _program(edge.at, places)) if edge.at else (next(outputs), ())
         yield graph.Edge(edge.to, numbers[edge.to][edge.target], output, value, gate, edge.cuts)
 
@@ -90,7 +90,7 @@ def _end(end: model.End, events: dict[Any, int], places: Places) -> graph.End:
     if end.when is None:
         return graph.End(event, end.times, None, end.succeeds)
     text = spaced(f"ends {end.when.span.text}").removeprefix("ends when ")
-    return graph.End(event, end.times, condition(end.when, places), end.succeeds, text)
+    return graph.End(event, end.times, lower_condition(end.when, places), end.succeeds, text)
 
 
 def _index(value: T, known: dict[T, int]) -> int:
@@ -104,12 +104,12 @@ def _reward(reward: model.Reward, events: dict[Any, int], places: Places) -> gra
         _program(reward.amount, places),
         None if reward.on is None else _index(reward.on, events),
         None if reward.each is None else places.readings[reward.each],
-        None if reward.when is None else condition(reward.when, places),
+        None if reward.when is None else lower_condition(reward.when, places),
     )
 
 
-def condition(when: model.When, places: Places) -> graph.Program:
-    """All comparisons of an alternative one after the other, each but the first with `and`; so with `or`."""
+def lower_condition(when: model.When, places: Places) -> graph.Program:
+    """A condition as a postfix program: comparisons joined by `and` into alternatives, these by `or`."""
     found: list[tuple[str, float | int]] = []
     for number, all_ in enumerate(when.alternatives):
         for place, each in enumerate(all_):

@@ -13,14 +13,14 @@ from mindlang.compiler.syntax import Contains, Counts, Declaration, Name, Outcom
 PLACED = ("item", "zone", "power")  # the kinds that had places of their own
 
 
-def migrated(source: Source, findings: Findings) -> str:
+def migrated_text(source: Source, findings: Findings) -> str:
     """The text of a file in which every thing says what becomes of it, as an older mindc understood it."""
     declarations = parse(source, findings).declarations
     return spliced(source, [splice for declaration in declarations for splice in _splices(source, declaration)])
 
 
 def _splices(source: Source, declaration: Declaration) -> Iterator[Splice]:
-    """What the things of a task have to say."""
+    """The arguments `reached` and `delivered` that the things of a task still lack."""
     named = {_named(event) for event in _events(declaration)}
     things = of_form(declaration.facts, Contains)
     has_zone = any(fact.phrase.kind.text == "zone" for fact in things)

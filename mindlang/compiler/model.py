@@ -124,14 +124,14 @@ class When(Struct, frozen=True):
 
 
 class Gate(Struct, frozen=True):
-    """When something is sent, and what is sent otherwise: nothing, where that is None."""
+    """The condition under which something is sent, and the value sent otherwise; nothing where that is None."""
 
     when: When
     otherwise: Expression | None
 
 
 class Edge(Struct, frozen=True):
-    """What a skill sends: an output of its function, or the value of `at`; an influence below `cuts` is none."""
+    """An edge of a skill: it sends an output of its function, or the value of `at`; an influence below `cuts` is 0."""
 
     to: Receiver
     target: str
@@ -142,13 +142,13 @@ class Edge(Struct, frozen=True):
 
     @property
     def values(self) -> tuple[Expression, ...]:
-        """What it says that it sends: after `at`, and after `otherwise`."""
+        """The expressions that its line sends: after `at`, and after `otherwise`."""
         otherwise = self.gate.otherwise if self.gate else None
         return tuple(value for value in (self.at, otherwise) if value)
 
     @property
     def expressions(self) -> tuple[Expression, ...]:
-        """All that it computes beside the function."""
+        """The expressions of its values and of its condition."""
         return (*self.values, *(self.gate.when.expressions if self.gate else ()))
 
 
@@ -199,7 +199,7 @@ class Reward(Struct, frozen=True):
 
 
 class End(Struct, frozen=True):
-    """What ends a run, as a success or not: an event the `times`th time that it happens, or a condition."""
+    """An end of a run, as a success or not: the `times`th occurrence of an event, or a condition."""
 
     event: EventKind | None
     times: int

@@ -99,10 +99,10 @@ class Names:
 
     @cached_property
     def _all_things(self) -> dict[str, set[str]]:
-        return things_of(*self.table.get("task", {}).values())
+        return declared_things(*self.table.get("task", {}).values())
 
 
-def things_of(*tasks: Declaration) -> dict[str, set[str]]:
+def declared_things(*tasks: Declaration) -> dict[str, set[str]]:
     """The things of some tasks, with the kinds that they are of."""
     found: dict[str, set[str]] = {}
     for fact in of_form((fact for task in tasks for fact in task.facts), Contains):
@@ -111,7 +111,7 @@ def things_of(*tasks: Declaration) -> dict[str, set[str]]:
 
 
 def _foreign_letter(name: str) -> str:
-    """A sentence about the first letter of a name that no keyboard of the language's words has, if there is one."""
+    """A sentence about the first letter of a name that is not ASCII; empty where there is none."""
     odd = next((letter for letter in name if not letter.isascii()), None)
     return f" Its letter {odd} is {unicodedata.name(odd, 'an odd one').lower()}." if odd else ""
 
@@ -124,7 +124,7 @@ def _words(span: Span) -> list[str]:
     return [*words, *(word.replace("-", "_") for word in words)]
 
 
-def gather(files: Iterable[File], findings: Findings) -> Names:
+def declared_names(files: Iterable[File], findings: Findings) -> Names:
     """All declarations by name; of two with one name the second is reported."""
     names = Names({}, frozenset(word for found in findings.diagnostics if found.span for word in _words(found.span)))
     above: Declaration | None = None

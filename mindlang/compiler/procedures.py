@@ -1,4 +1,4 @@
-"""What the texts of a mind's procedures say of them: whether they can be what the skills need. Nothing is run."""
+"""Checks of the modules of a mind's procedures by their text alone, against what the skills need. Nothing is run."""
 
 import sys
 from collections.abc import Iterable, Iterator
@@ -19,7 +19,7 @@ BUSY = {"__main__", "antigravity", "idlelib", "test", "this", "turtledemo"}  # m
 
 
 def mistakes(skills: Iterable[Skill], mind: Mind, folder: Path) -> Iterator[Diagnostic]:
-    """What is wrong with the procedures among these skills, whose modules are in a folder.
+    """The mistakes in the procedures among these skills, whose modules are in a folder.
 
     That something is not installed here is a warning: it may be on the robot.
     """
@@ -51,7 +51,7 @@ def needed_modules(skills: Iterable[Skill], folder: Path) -> dict[str, str]:
 
 
 def _absent(skill: Skill, folder: Path) -> Iterator[tuple[str, str]]:
-    """What a procedure imports that is not here, in words, each once, and what to do.
+    """The imports of a procedure that are not installed here, each once, in words, with a hint.
 
     Of modules of others it is asked only whether they are installed: to know what is in them they would have to run.
     """

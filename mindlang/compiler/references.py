@@ -48,7 +48,7 @@ def mentions(files: Iterable[File], names: Names) -> Iterator[Mention]:
                 yield from reader.amounts(line)
 
 
-def names_in(line: Header | Fact, names: Names, by: Declaration | None) -> Iterator[Mention]:
+def mentions_in(line: Header | Fact, names: Names, by: Declaration | None) -> Iterator[Mention]:
     """The names in a line, of a declaration where that is known, without those that stand in the place of amounts."""
     return _Reader(names, by).line(line)
 
@@ -65,7 +65,7 @@ def introductions(files: Collection[File]) -> Iterator[Mention]:
 
 @dataclass(frozen=True, slots=True)
 class _Reader:
-    """What a name means depends on which names there are: a memory is read like a sensor, a sensor hides a measure."""
+    """Resolves the names in a line by what is declared: a memory is read like a sensor, a sensor hides a measure."""
 
     names: Names
     by: Declaration | None
@@ -77,7 +77,7 @@ class _Reader:
 
     def amounts(self, line: Any) -> Iterator[Mention]:
         """The numbers that are named in a line in the place of an amount."""
-        for node in syntax.walk(line) if self.names.numbers else ():
+        for node in syntax.walk_tree(line) if self.names.numbers else ():
             if isinstance(node, syntax.Amount) and node.name:
                 yield from self.first_declared(node.constant, "number")
 

@@ -75,7 +75,7 @@ def _line_starts(source: Source) -> list[int]:
 
 
 def comment_of(span: Span) -> str:
-    """What the comments of a line say, those right above it and the one behind, as one paragraph."""
+    """The comments of a line, those right above it and the one behind, as one paragraph."""
     text = span.source.text
     end = text.find("\n", span.end)
     behind = text[span.end : end if end >= 0 else len(text)].strip()
@@ -87,7 +87,7 @@ def comment_of(span: Span) -> str:
     return " ".join(filter(None, (each.lstrip("# ").strip() for each in said)))
 
 
-def encoded(path: Path, text: str) -> bytes:
+def encode_source(path: Path, text: str) -> bytes:
     """The bytes of a text that is to be written to `path`; with a byte order mark if the file begins with one now."""
     try:
         marked = read_regular(path, len(BOM)) == BOM
@@ -96,23 +96,23 @@ def encoded(path: Path, text: str) -> bytes:
     return (BOM if marked else b"") + text.encode()
 
 
-def within(text: str) -> str:
-    """The text itself; ValueError, as `decode` raises it, where it is too large or its lines do not end."""
+def checked_text(text: str) -> str:
+    """The text itself; ValueError, as `decode_source` raises it, where it is too large or its lines do not end."""
     if len(text) > MAX_SOURCE_BYTES or (
         not text.isascii() and len(text.encode("utf-8", "surrogatepass")) > MAX_SOURCE_BYTES
     ):
         raise ValueError(TOO_LARGE)
-    return in_lines(text)
+    return checked_line_ends(text)
 
 
-def in_lines(text: str) -> str:
+def checked_line_ends(text: str) -> str:
     """The text itself; ValueError where its lines end in CR alone, which would make it one line."""
     if "\r" in text.rstrip("\r") and "\n" not in text:
         raise ValueError(r"ends its lines in CR alone, as a classic Mac did: tr '\r' '\n' makes them ends of lines")
     return text
 
 
-def decode(data: bytes) -> str:
+def decode_source(data: bytes) -> str:
     """The text of a source file; ValueError says in the user's words why the bytes are none."""
     if len(data) > MAX_SOURCE_BYTES:
         raise ValueError(TOO_LARGE)
@@ -123,4 +123,4 @@ def decode(data: bytes) -> str:
     except UnicodeDecodeError as error:
         line = data.count(b"\n", 0, error.start) + 1
         raise ValueError(f"is not UTF-8 text (line {line})") from error
-    return in_lines(text)
+    return checked_line_ends(text)

@@ -45,7 +45,7 @@ class Amount(Struct, frozen=True):
 
     @property
     def constant(self) -> Name:
-        """Its name where that stands, without its sign; there it is shorter in a file that has an alias."""
+        """The number's name, with the span that it has in the text, without the sign."""
         written = self.span.text.lstrip("+- \t")
         return Name(self.name, Span(self.span.source, self.span.end - len(written), self.span.end))
 
@@ -158,7 +158,7 @@ class Gate(Struct, frozen=True):
 
     @property
     def expressions(self) -> tuple[Expression, ...]:
-        """Those of the condition, and what holds otherwise."""
+        """The expressions of the condition, and the value sent otherwise."""
         return (*self.when.expressions, self.otherwise) if self.otherwise else self.when.expressions
 
 
@@ -171,7 +171,7 @@ class Reads(Struct, frozen=True):
 
 
 class Sends(Struct, frozen=True):
-    """What a skill sends, and when."""
+    """`sends`: a value to an edge, and when."""
 
     name: Name
     at: Expression | None
@@ -180,7 +180,7 @@ class Sends(Struct, frozen=True):
 
     @property
     def expressions(self) -> tuple[Expression, ...]:
-        """All that it computes: its value, its condition and what it sends otherwise."""
+        """The expressions of its value, its condition and the value sent otherwise."""
         return (*((self.at,) if self.at else ()), *(self.gate.expressions if self.gate else ()))
 
 
@@ -243,7 +243,7 @@ class Lasts(Struct, frozen=True):
 
 
 class Outcome(Struct, frozen=True):
-    """What something is for: `on [TIMES] EVENT` or `when CONDITION`"""
+    """The cause of an end: `on [TIMES] EVENT` or `when CONDITION`"""
 
     times: Amount | None
     event: Phrase | None
@@ -334,7 +334,7 @@ class Header(Struct, frozen=True):
 
     @property
     def is_read(self) -> bool:
-        """Whether what it declares could be read."""
+        """True if the part behind its name could be read."""
         return bool(self.phrase or self.like or self.inside)
 
 
@@ -413,22 +413,22 @@ def verb_of(fact: Fact) -> str:
 
 
 def of_form(lines: Iterable[Any], form: type[L]) -> list[L]:
-    """Those of some facts or settings that are of a form."""
+    """The facts or settings that are of one class."""
     return [line for line in lines if isinstance(line, form)]
 
 
-def walk(node: Any) -> Iterator[Any]:
+def walk_tree(node: Any) -> Iterator[Any]:
     """A node of a tree and all that it is made of, down to words and spans."""
     yield node
     if isinstance(node, Struct):
         node = astuple(node)
     if isinstance(node, tuple):
         for part in node:
-            yield from walk(part)
+            yield from walk_tree(part)
 
 
 def rebuilt(node: Any, change: Callable[[Any], Any]) -> Any:
-    """A node with what `change` makes of its parts; what that returns as it was is looked into."""
+    """A tree with `change` applied from the top down; it goes on into the nodes that `change` returns as they were."""
     new = change(node)
     if new is not node:
         return new

@@ -15,7 +15,7 @@ from mindrun.terminal.command_line import command_line
 
 from mindlang.compiler.compile import Compiled, compile_source, load
 from mindlang.compiler.diagnostic import Diagnostic, errors
-from mindlang.compiler.source import MAX_SOURCE_BYTES, Span, decode, encoded
+from mindlang.compiler.source import MAX_SOURCE_BYTES, Span, decode_source, encode_source
 from mindlang.compiler.splice import spliced
 from mindlang.editing import transaction
 from mindlang.editing.lock_update import Locks, UpdatedLocks, locks_of, new_names, update_locks
@@ -139,7 +139,7 @@ def write(edited: Edited) -> None:
     locks = {path: edited.followed.locks[path] for path in edited.changed_locks}
     files: dict[Path, bytes | None] = {path: to_npy(weights) for path, weights in edited.followed.weights.items()}
     files |= {path: lock_text(lock).encode() for path, lock in locks.items()}
-    files |= {path: encoded(path, text) for path, text in edited.texts.items()}
+    files |= {path: encode_source(path, text) for path, text in edited.texts.items()}
     with transaction.no_training(files):
         folder = transaction.common_folder(files)
         transaction.change(folder, files, lambda: _refuse_changed(edited), keeps=True)
@@ -159,6 +159,6 @@ def _refuse_changed(edited: Edited) -> None:
 
 def _read(path: Path) -> str | None:
     try:
-        return decode(read_regular(path, MAX_SOURCE_BYTES + 1))
+        return decode_source(read_regular(path, MAX_SOURCE_BYTES + 1))
     except (FileNotFoundError, ValueError):
         return None

@@ -5,7 +5,7 @@ from os.path import realpath
 from pathlib import Path
 
 from mindlang.compiler.compile import Compiled, load
-from mindlang.files import files_beside, folders_above, name_from_here, text_of, within_read_limits
+from mindlang.files import files_beside, folders_above, name_from_here, readable_text, within_read_limits
 
 
 def neighbours(files: Collection[Path]) -> Iterator[Compiled]:
@@ -16,7 +16,7 @@ def neighbours(files: Collection[Path]) -> Iterator[Compiled]:
     main, *_ = files
     folders = dict.fromkeys(folder for file in files for folder in folders_above(file))
     paths = (path for folder in folders for path in files_beside(folder) if path != main)
-    for path, text in sorted(within_read_limits((path, text_of(path)) for path in paths)):
+    for path, text in sorted(within_read_limits((path, readable_text(path)) for path in paths)):
         if path in files or 'use "' in text:  # most of those that lie about need not be compiled
             compiled = load(name_from_here(path))
             if compiled.graph and not {source.path for source in compiled.sources}.isdisjoint(files):

@@ -11,7 +11,7 @@ from mindlang.compiler.diagnostic import listed
 from mindlang.editing.apply import Edited
 from mindlang.editing.lock_update import Locks, merged
 from mindlang.editing.unified_diff import unified
-from mindlang.files import files_beside, text_of, within_read_limits
+from mindlang.files import files_beside, readable_text, within_read_limits
 from mindlang.lock.signature import arrange
 from mindlang.lock.status import Stale, Status, Trained, Untaught, status
 
@@ -34,10 +34,10 @@ def not_followed(edited: Edited) -> Iterator[str]:
     These are breakpoints and wiring beside the mind, and minds that use one of its files and do not compile just now.
     """
     beside = next(iter(edited.project.paths)).parent
-    texts = [(path, text_of(path)) for end in (".break", ".yaml") for path in files_beside(beside, end)]
+    texts = [(path, readable_text(path)) for end in (".break", ".yaml") for path in files_beside(beside, end)]
     known = {*edited.old_texts, *edited.texts}
     for path in files_beside(beside):
-        text = text_of(path) if path not in known else ""
+        text = readable_text(path) if path not in known else ""
         if any(f'use "{file.name}"' in text for file in known):
             texts.append((path, text))
     for each in edited.change.renamed:

@@ -32,7 +32,7 @@ from mindrun.numbers.quantity import EXPRESSION, SENSOR, THING
 
 from mindlang.compiler.names import Names
 from mindlang.compiler.parse.shape import parse_line
-from mindlang.compiler.references import READABLE_NOUNS, names_in
+from mindlang.compiler.references import READABLE_NOUNS, mentions_in
 from mindlang.compiler.source import Source
 from mindlang.compiler.splice import spliced
 from mindlang.compiler.syntax import Declaration, Fact
@@ -149,7 +149,7 @@ class Renaming:
         except UnexpectedInput:
             return text
         known = Names({noun: cast(dict[str, Declaration], named) for noun, named in self.names.items()})
-        mentions = names_in(fact, known, None)
+        mentions = mentions_in(fact, known, None)
         splices = (instead(each.name.span, self.name(each.name.text, each.noun)) for each in mentions)
         return spliced(source, splices).removeprefix(before).removesuffix(after)
 

@@ -1,4 +1,4 @@
-"""Episodes side by side: who acts in them, and what an agent sees, is paid and is told, as arrays.
+"""Episodes side by side as arrays of observations, rewards and ends, from which the environments are made.
 
 A program commands every actuator, or plays a skill of the hierarchy.
 """
@@ -44,7 +44,7 @@ SHOWN_TICK = 1  # of a run that has one
 
 @dataclass(eq=False, slots=True)
 class Episodes:
-    """So many runs of a task, each with an agent: it sees the readings with these numbers, acts by so many in 0..1.
+    """Runs of a task side by side, each with an agent: it sees the readings at these indices, its actions are in 0..1.
 
     `played` is the skill that it plays, and `row` that one's in the tables; None where it commands the actuators.
     """
@@ -59,7 +59,7 @@ class Episodes:
     _scores: NDArray[np.float64] = field(init=False)
 
     def __post_init__(self) -> None:
-        """All begin with the seed 0."""
+        """Begin all lanes with the seed 0."""
         self.seeds, self._scores = np.zeros(self.lanes.count, np.uint64), np.zeros(self.lanes.count)
 
     def begin(self, lanes: Mask, seeds: ArrayLike) -> None:
@@ -69,19 +69,19 @@ class Episodes:
         self._scores[lanes] = 0.0
 
     def sense(self) -> Floats:
-        """What every agent sees [lanes, readings]; once in each tick."""
+        """The observations of all agents [lanes, readings]; to be called once in each tick."""
         self.lanes.sense()
         return self._seen(self.lanes.state, self.lanes.count)
 
     def last_seen(self, lanes: Mask) -> Floats:
-        """What the agents of the marked lanes see, where another run is about to begin; `sense` is not disturbed."""
+        """The last observations in the marked lanes, before another run begins there; `sense` is not disturbed."""
         return self._seen(self.lanes.sensed_aside(lanes), int(lanes.sum()))
 
     def step(self, actions: ArrayLike) -> tuple[NDArray[np.float64], Mask, Mask]:
-        """One tick under actions [lanes, actions]: rewards, what has ended, and where time is up instead.
+        """Step all lanes by actions [lanes, actions]: rewards, terminations and truncations [lanes].
 
         An action that is not finite is not sent."""
-        given = numbers(actions, (self.lanes.count, self.actions))
+        given = to_actions(actions, (self.lanes.count, self.actions))
         if self.row is None:
             self.lanes.command(given)
         else:
@@ -93,7 +93,7 @@ class Episodes:
         return rewards, terminated, self.lanes.timed_out & ~terminated
 
     def outcome(self, lane: int) -> dict[str, Any]:
-        """What is said of a run that has ended: as numbers what `mindc run` says; a `count` where one is kept."""
+        """The outcome of a run that has ended: layout, score, the end that came, and a `count` where one is kept."""
         task, lanes = self.setup.task, self.lanes
         return {
             "layout": int(self.seeds[lane]),
@@ -159,8 +159,8 @@ def _setup(mind: Mind, task: Task, master: str, ready: ReadyMind) -> RunSetup:
     return RunSetup(task, master, ready, mind.path.absolute().parent)
 
 
-def numbers(actions: ArrayLike, shape: tuple[int, ...]) -> Floats:
-    """Actions as they are given to robots; MindError where they are no numbers of that shape."""
+def to_actions(actions: ArrayLike, shape: tuple[int, ...]) -> Floats:
+    """Actions as float32 for the lanes; MindError where they are no real numbers of that shape."""
     try:
         given = np.asarray(actions)
     except ValueError as error:  # lists of several lengths
@@ -174,7 +174,7 @@ def numbers(actions: ArrayLike, shape: tuple[int, ...]) -> Floats:
     return given.astype(np.float32, copy=False)
 
 
-def layouts(seeds: list[int | None], streams: list[np.random.Generator]) -> NDArray[np.uint64]:
+def to_layouts(seeds: list[int | None], streams: list[np.random.Generator]) -> NDArray[np.uint64]:
     """The layout of each seed, that of `mindc run --seed`; drawn from its stream where there is none."""
     drawn = (
         int(stream.integers(MAX_DRAWN_SEED)) if seed is None else seed % SEED_COUNT
@@ -183,7 +183,7 @@ def layouts(seeds: list[int | None], streams: list[np.random.Generator]) -> NDAr
     return np.array([*drawn], np.uint64)
 
 
-def refuse_unknown_mode(mode: str | None, metadata: Mapping[str, Any]) -> None:
+def check_render_mode(mode: str | None, metadata: Mapping[str, Any]) -> None:
     """MindError for a `render_mode` that the environment does not have."""
     if mode not in (None, *metadata["render_modes"]):
         known = listed([f'"{each}"' for each in metadata["render_modes"]])
@@ -191,12 +191,12 @@ def refuse_unknown_mode(mode: str | None, metadata: Mapping[str, Any]) -> None:
 
 
 def unit_box(length: int) -> Box:
-    """So many numbers in 0..1."""
+    """The space of `length` numbers in 0..1."""
     return Box(0.0, 1.0, (length,), np.float32)
 
 
 def image_of(episodes: Episodes, lane: int) -> Image:
-    """What the robot of a lane is in, [height, width, 3] as red, green, blue."""
+    """An image of the world around the robot of a lane, [height, width, 3] as red, green, blue."""
     run = _as_run(episodes, lane)
     half = half_window(run)
     size = [max(1, round(IMAGE_PIXELS * side / max(half))) for side in half]

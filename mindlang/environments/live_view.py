@@ -31,7 +31,7 @@ log = getLogger(__name__)
 
 
 class LiveView:
-    """What the robot of the only lane of episodes does, in real time: `show` waits until the next tick is due.
+    """The page of `mindc view` for episodes of one lane, in real time: `show` waits until the next tick is due.
 
     The page is served at `address` from the first episode on, and a browser opened there.
     """
@@ -54,7 +54,7 @@ class LiveView:
         viewed = _viewed(self._episodes, self._about, self._coming)
         viewed.grow()
         if self._served:
-            self._served.see(viewed)
+            self._served.show(viewed)
         else:
             self._served = BackgroundView(viewed)
             tell = log.info if open_browser(self._served.address) else log.warning
@@ -90,7 +90,7 @@ class LiveView:
 
 
 def _about(episodes: Episodes, seed: int) -> About:
-    """What the rows of the episode are of, which has just begun."""
+    """The header of the rows of the episode that has just begun."""
     graph, world = episodes.setup.ready.policy.graph, episodes.lanes.world_columns(0)
     things = world["things"]
     begun = world_of(episodes.setup.task, seed, episodes.lanes.boxes(0), world["pose"], things[:, :-1], things[:, -1])

@@ -12,11 +12,11 @@ from gymnasium.utils import EzPickle
 
 from mindlang.environments.episodes import (
     Floats,
+    check_render_mode,
     episodes_of,
     image_of,
-    layouts,
-    numbers,
-    refuse_unknown_mode,
+    to_actions,
+    to_layouts,
     unit_box,
 )
 from mindlang.pictures.canvas import Image
@@ -48,7 +48,7 @@ class TaskEnv(Env[Floats, Floats], EzPickle):
         render_mode: str | None = None,
     ) -> None:
         EzPickle.__init__(self, file, task, master, skill, render_mode)
-        refuse_unknown_mode(render_mode, self.metadata)
+        check_render_mode(render_mode, self.metadata)
         self._episodes = episodes = episodes_of(Path(file), task, master, skill, 1)
         self.render_mode = render_mode
         self.metadata = self.metadata | {"render_fps": round(1 / episodes.setup.ready.policy.graph.tick)}
@@ -63,7 +63,7 @@ class TaskEnv(Env[Floats, Floats], EzPickle):
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Floats, dict[str, Any]]:
         """Begin another episode; `info["layout"]` is the seed by which `mindc run` repeats it."""
         super().reset(seed=seed)
-        self._episodes.begin(ONE_LANE, layouts([seed], [self.np_random]))
+        self._episodes.begin(ONE_LANE, to_layouts([seed], [self.np_random]))
         self._goes_on = True
         layout = int(self._episodes.seeds[0])
         if self._view:
@@ -71,10 +71,10 @@ class TaskEnv(Env[Floats, Floats], EzPickle):
         return self._episodes.sense()[0], {"layout": layout}
 
     def step(self, action: Floats) -> tuple[Floats, float, bool, bool, dict[str, Any]]:
-        """One tick; with the last of an episode, `info` says what came of it."""
+        """Step by one tick; with the last of an episode, `info` has its outcome."""
         if not self._goes_on:
             raise ResetNeeded("the episode has ended, or none has begun: call reset()")
-        [reward], [terminated], [truncated] = self._episodes.step(numbers(action, self.action_space.shape)[None])
+        [reward], [terminated], [truncated] = self._episodes.step(to_actions(action, self.action_space.shape)[None])
         self._goes_on = not (terminated or truncated)
         if self._view:
             self._view.show()

@@ -14,7 +14,7 @@ from gymnasium.vector.utils import batch_space
 from mindrun.errors import MindError
 from numpy.typing import NDArray
 
-from mindlang.environments.episodes import Floats, Mask, episodes_of, image_of, layouts, refuse_unknown_mode, unit_box
+from mindlang.environments.episodes import Floats, Mask, check_render_mode, episodes_of, image_of, to_layouts, unit_box
 from mindlang.pictures.canvas import Image
 from mindlang.run.setup import layouts as children
 
@@ -46,7 +46,7 @@ class TaskVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]], EzPickle):
         EzPickle.__init__(
             self, file, task, master, skill, render_mode, num_envs=num_envs, autoreset_mode=autoreset_mode
         )
-        refuse_unknown_mode(render_mode, self.metadata)
+        check_render_mode(render_mode, self.metadata)
         if not isinstance(num_envs, SupportsIndex) or index(num_envs) < 1:
             raise MindError(f"there cannot be {num_envs!r} robots", "num_envs is a whole number, 1 or more")
         mode = AutoresetMode(autoreset_mode)
@@ -79,12 +79,12 @@ class TaskVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]], EzPickle):
             stream if one is None else np_random(one)[0] for stream, one in zip(before, seeds, strict=True)
         ]
         everywhere = np.ones(self.num_envs, np.bool_)
-        self._episodes.begin(everywhere, layouts(seeds, self._streams))
+        self._episodes.begin(everywhere, to_layouts(seeds, self._streams))
         self._over[:] = False
         return self._episodes.sense(), self._begun(everywhere, {})
 
     def step(self, actions: Floats) -> Step:
-        """One tick everywhere; `info` has the outcome of what has ended, and the layouts of what has begun."""
+        """Step all robots by one tick; `info` has the outcomes of what has ended, and the layouts of what has begun."""
         if not self._streams:
             raise ResetNeeded("no episode has begun: call reset()")
         rewards, terminated, truncated = self._episodes.step(actions)
@@ -101,7 +101,7 @@ class TaskVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]], EzPickle):
                 infos = self._add_info(infos, self._outcome(lane), lane)
         if begins.any():
             chosen = np.flatnonzero(begins).tolist()
-            self._episodes.begin(begins, layouts([None] * len(chosen), [self._streams[i] for i in chosen]))
+            self._episodes.begin(begins, to_layouts([None] * len(chosen), [self._streams[i] for i in chosen]))
             infos = self._begun(begins, infos)
         return self._episodes.sense(), rewards, terminated, truncated, infos
 
@@ -112,12 +112,12 @@ class TaskVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]], EzPickle):
         return tuple(image_of(self._episodes, lane) for lane in range(self.num_envs))
 
     def _tell_last(self, ended: Mask, infos: dict[str, Any]) -> None:
-        """What the agents saw last, and what came of their episodes."""
+        """Add the last observations and the outcomes of the episodes that have ended to `infos`."""
         for lane, seen in zip(np.flatnonzero(ended).tolist(), self._episodes.last_seen(ended), strict=True):
             self._add_info(infos, {"final_obs": seen, "final_info": self._outcome(lane)}, lane)
 
     def _outcome(self, lane: int) -> dict[str, Any]:
-        """What came of a robot's episode, and its layout, which may be larger than what numpy makes of an int."""
+        """The outcome of a lane's episode, with its layout as an int, which may be too large for numpy's."""
         return self._episodes.outcome(lane) | {"layout": self._episodes.seeds[lane]}
 
     def _begun(self, lanes: Mask, infos: dict[str, Any]) -> dict[str, Any]:

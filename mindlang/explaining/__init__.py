@@ -1,1 +1,1 @@
-"""What there is to say of kinds, drivers, codes, words and commands: to be printed, hovered and published."""
+"""Explanations of kinds, drivers, codes, words and commands: to be printed, hovered and published."""

@@ -1,4 +1,4 @@
-"""What there is to say of a kind, a driver, a code, a word of the language or a command: one value for all who ask.
+"""The explanation of a kind, a driver, a code, a word of the language or a command, as one value.
 
 The texts beside this file have what no program says of itself: chapters, and a section a name.
 """
@@ -16,9 +16,9 @@ _MARK = re.compile(rf"^- ({'|'.join(map(re.escape, SCALE_MARKS))}): (.+)\n", re.
 
 @dataclass(frozen=True, slots=True)
 class Parameter:
-    """What can be said to a kind, a driver or a command: what it takes, what for, and what holds where it is not said.
+    """An argument or option of a kind, a driver or a command: what it takes, what for, and its default.
 
-    The default is None where it has to be said, and empty where there is nothing to say about it.
+    The default is None for a required one, and empty where there is nothing to say about it.
     """
 
     key: str
@@ -28,12 +28,12 @@ class Parameter:
 
     @property
     def words(self) -> str:
-        """What it is for and what it takes."""
+        """Its purpose and meaning."""
         return ": ".join(filter(None, (self.purpose, self.meaning)))
 
     @property
     def otherwise(self) -> str:
-        """What holds where it is not said, or that it must be, in parentheses."""
+        """Its default, or that it is required, in parentheses."""
         if self.default is None:
             return " (required)"
         return f" (default: {self.default})" if self.default else ""
@@ -41,7 +41,7 @@ class Parameter:
 
 @dataclass(frozen=True, slots=True)
 class Wire:
-    """From what to which terminal of a device: a pin of the Raspberry Pi, or something else where it has none."""
+    """A wire to a terminal of a device, from a pin of the Raspberry Pi, or from something else where it has none."""
 
     source: str
     pin: int | None
@@ -49,13 +49,13 @@ class Wire:
 
     @property
     def begin(self) -> str:
-        """Where it begins, with the number of the pin on the header."""
+        """The beginning of the wire, with the number of the pin on the header."""
         return f"{self.source} (pin {self.pin})" if self.pin else self.source
 
 
 @dataclass(frozen=True, slots=True)
-class Wiring:
-    """What is connected to the terminals of a device, with the pins of an example."""
+class DeviceWiring:
+    """The wires at the terminals of a device, with the pins of an example."""
 
     device: str
     wires: tuple[Wire, ...]
@@ -82,7 +82,7 @@ class Article:
     wrong: tuple[str, ...] = ()
     right: tuple[str, ...] = ()
     language: str = "mind"
-    wiring: Wiring | None = None
+    wiring: DeviceWiring | None = None
 
     @property
     def paragraphs(self) -> list[str]:
@@ -129,9 +129,9 @@ def _section(chapter: str, name: str, body: str) -> Section:
 def titled(text: str) -> tuple[str, str]:
     """The first line of a text, and its paragraphs, each of them one line."""
     title, *paragraphs = re.split(r"\n\s*\n", text.strip())
-    return title, in_lines("\n\n".join(paragraphs))
+    return title, unwrap_paragraphs("\n\n".join(paragraphs))
 
 
-def in_lines(text: str) -> str:
+def unwrap_paragraphs(text: str) -> str:
     """The paragraphs of a text, each of them one line."""
     return "\n\n".join(" ".join(paragraph.split()) for paragraph in re.split(r"\n\s*\n", text.strip()))

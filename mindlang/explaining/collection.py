@@ -1,4 +1,4 @@
-"""All articles, those of the codes of diagnostics among them, and those that somebody asks for by a name."""
+"""Collects all articles, those on codes of diagnostics too, and finds the articles of a name."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from functools import cache
@@ -22,19 +22,19 @@ NAMED_OWNERS = 4  # of an argument, so many of whose kinds are named
 
 @cache
 def articles() -> tuple[Article, ...]:
-    """What stands in the language and in a robot.yaml, then the codes."""
+    """The articles on words, kinds and drivers, then those on codes."""
     return (*word_articles().values(), *kind_articles(), *driver_articles(), *codes().values())
 
 
-def found(asked: str, among: Sequence[Article]) -> list[Article]:
+def find_articles(asked: str, among: Sequence[Article]) -> list[Article]:
     """The articles of a name, or of a name behind its noun: `light`, `sensor light`."""
     of_name = [each for each in among if each.name == asked]
     noun, _, name = asked.partition(" ")
     return of_name or [each for each in among if (each.noun, each.name) == (ALSO_CALLED.get(noun, noun), name)]
 
 
-def hint(asked: str, among: Iterable[Article]) -> str:
-    """What to do where there is no such name."""
+def unknown_hint(asked: str, among: Iterable[Article]) -> str:
+    """The hint for a name without an article."""
     known = list(among)
     owners = [each for each in known if any(parameter.key == asked for parameter in each.parameters)]
     if owners:
@@ -48,10 +48,10 @@ def hint(asked: str, among: Iterable[Article]) -> str:
 @cache
 def codes() -> dict[str, Article]:
     """All codes: errors in the order of their chapters, then the lint rules."""
-    return {each.name: each for each in (*errors(), *_rules())}
+    return {each.name: each for each in (*error_articles(), *_rules())}
 
 
-def errors() -> Iterator[Article]:
+def error_articles() -> Iterator[Article]:
     """The errors."""
     for each in sections(ERRORS):
         wrong, right = each.labelled("mind bad"), each.labelled("mind good")

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping
 from functools import cache
 from inspect import cleandoc
 
-from mindlang.explaining.article import Article, Section, Wire, Wiring, in_lines, sections
+from mindlang.explaining.article import Article, DeviceWiring, Section, Wire, sections, unwrap_paragraphs
 from mindlang.explaining.parameters import parameter
 from mindlang.robot.options import driver_options, drivers
 
@@ -48,19 +48,19 @@ def _article(noun: str, name: str, more: Section | None) -> Article:
         f"driver of {noun}s",
         f"For {noun}s",
         more.title if more else "",
-        in_lines(cleandoc(cls.__doc__ or "")),
+        unwrap_paragraphs(cleandoc(cls.__doc__ or "")),
         tuple(parameter(each) for each in driver_options(cls)),
         right=right,
         language="yaml",
-        wiring=next(map(wiring_of, more.labelled("wiring"), right), None) if more else None,
+        wiring=next(map(parse_wiring, more.labelled("wiring"), right), None) if more else None,
     )
 
 
-def wiring_of(lines: str, example: str) -> Wiring:
+def parse_wiring(lines: str, example: str) -> DeviceWiring:
     """The wiring that these lines say, where options have the pins of an example in YAML."""
     device, *said = lines.strip().splitlines()
     options = {key: [int(number) for number in re.findall(r"\d+", value)] for key, value in _options(example)}
-    return Wiring(device, tuple(wire for line in said for wire in _wires(line, options)))
+    return DeviceWiring(device, tuple(wire for line in said for wire in _wires(line, options)))
 
 
 def _options(example: str) -> Iterator[tuple[str, str]]:

@@ -9,7 +9,7 @@ from typing import Any
 import mindrun.graph.graph  # noqa: F401  (it knows all kinds)
 from mindrun.kinds.registry import arguments, kinds, names
 
-from mindlang.explaining.article import Article, Section, in_lines, sections
+from mindlang.explaining.article import Article, Section, sections, unwrap_paragraphs
 from mindlang.explaining.parameters import parameter
 
 # The nouns of kinds as people say them, in the order in which a mind is written: in the registry, and as a chapter.
@@ -59,7 +59,7 @@ def _more() -> Mapping[tuple[str, str], Section]:
 
 
 def _purpose(noun: str, name: str, key: str) -> str:
-    """What an argument is for, as `arguments.md` says it of the kind, else of its noun, else of every kind."""
+    """The purpose of an argument in `arguments.md`: of the kind, else of its noun, else of every kind."""
     chapters = (f"{noun} {name}", noun, "every kind")
     return next((_purposes()[chapter, key] for chapter in chapters if (chapter, key) in _purposes()), "")
 
@@ -70,8 +70,8 @@ def _purposes() -> Mapping[tuple[str, str], str]:
 
 
 def _texts(cls: type[Any]) -> Iterator[str]:
-    """Its docstring; of a kind that it varies, and of what gives many kinds their arguments, all but the title."""
-    yield in_lines(cleandoc(cls.__doc__ or ""))
+    """The docstring of a kind; then, without titles, those of a kind that it varies and of bases with its arguments."""
+    yield unwrap_paragraphs(cleandoc(cls.__doc__ or ""))
     for each in cls.__mro__[1:]:
         if is_dataclass(each) and (each in names() or all(field.kw_only for field in fields(each))):
-            yield in_lines(cleandoc(each.__doc__ or "")).partition("\n\n")[2]
+            yield unwrap_paragraphs(cleandoc(each.__doc__ or "")).partition("\n\n")[2]

@@ -4,8 +4,8 @@ from mindlang.compiler.diagnostic import a
 from mindlang.explaining.article import Article, Parameter
 
 
-def card(article: Article) -> str:
-    """What an editor shows of it."""
+def article_card(article: Article) -> str:
+    """The Markdown that an editor shows of an article."""
     parts = [f"**{article.name}**, {a(article.sort)}", article.summary, *article.paragraphs]
     parts += ["\n".join(f"- **{mark}** {meaning}" for mark, meaning in article.scale.items())]
     parts += ["\n".join(f"- {parameter_line(each)}" for each in article.parameters)]
@@ -19,7 +19,7 @@ def parameter_line(parameter: Parameter) -> str:
 
 
 def parameter_card(parameter: Parameter, of: Article) -> str:
-    """What an editor shows of an argument."""
+    """The Markdown that an editor shows of an argument."""
     return "\n\n".join([parameter_line(parameter), f"of **{of.name}**: {of.summary}", *of.paragraphs])
 
 

@@ -1,4 +1,4 @@
-"""What an argument of a kind, or an option of a driver, takes, and what it is where nobody says it, in words."""
+"""Arguments of kinds and options of drivers in words: what each takes, and its default."""
 
 from typing import Any
 
@@ -32,7 +32,7 @@ def parameter(asked: Asked, purpose: str = "") -> Parameter:
 
 
 def meaning(asked: Asked) -> str:
-    """What it takes."""
+    """The values that an argument takes, in words."""
     shape = SHAPES.get(asked.shape, "{}")
     match asked.type:
         case Reference(noun, words) if words:
@@ -51,7 +51,7 @@ def _also(quantity: Quantity) -> str:
 
 
 def _bounds(quantity: Quantity) -> str:
-    """From where to where it can be, in its own unit, as far as a person would ask."""
+    """The bounds of a quantity in its own unit, where a person would ask for them."""
     unit, factor = _unit(quantity)
     low, high = quantity.low / factor, quantity.high / factor
     most = MOST_DEGREES if unit == "deg" else MOST_SAID

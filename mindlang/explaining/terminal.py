@@ -50,7 +50,7 @@ def _examples(article: Article) -> Iterator[Segment]:
             yield f"{indent(text.rstrip(), '  ')}\n", ""
 
 
-def contents(codes: Iterable[Article]) -> Iterator[Segment]:
+def code_list(codes: Iterable[Article]) -> Iterator[Segment]:
     """All codes with their sentences, by chapter."""
     yield from _by_chapter(codes, lambda each: f"Errors: {each.chapter}" if each.noun == ERROR else each.chapter)
     yield "mindc explain CODE says more; mindc kinds lists the kinds and the drivers.\n", "dim"
@@ -75,7 +75,7 @@ def _by_chapter(articles: Iterable[Article], heading: Callable[[Article], str]) 
         yield "\n", ""
 
 
-def as_data(article: Article) -> dict[str, Any]:
+def article_data(article: Article) -> dict[str, Any]:
     """An article as plain data."""
     return {
         "name": article.name,

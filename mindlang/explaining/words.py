@@ -16,7 +16,7 @@ def word_articles() -> dict[str, Article]:
 
 @cache
 def language_words() -> dict[str, Article]:
-    """Those that stand in a mind: all but the terms."""
+    """The words that stand in a mind: all but the terms."""
     return {name: each for name, each in word_articles().items() if each.noun != "term"}
 
 
@@ -32,7 +32,7 @@ def _article(section: Section) -> Article:
 
 
 def _kinds(noun: str) -> str:
-    """Of a noun, which kinds there are."""
+    """A sentence that lists the kinds of a noun; empty for other words."""
     if noun not in NOUNS:
         return ""
     its = [each.name for each in kind_articles() if each.noun == noun]

@@ -17,7 +17,7 @@ SCHEMA = "https://json.schemastore.org/sarif-2.1.0.json"
 
 
 def sarif(found: Iterable[Diagnostic]) -> dict[str, Any]:
-    """One run of mindc; paths are as they were said on the command line."""
+    """Diagnostics as a SARIF log of one run of mindc; paths are as they were said on the command line."""
     results = [_result(each) for each in found]
     rules = all_rules()
     codes = sorted({result["ruleId"] for result in results})
@@ -55,7 +55,7 @@ def _location(span: Span) -> dict[str, Any]:
 
 
 def annotations(found: Iterable[Diagnostic]) -> Iterator[str]:
-    """A line for each."""
+    """A workflow command of GitHub for each diagnostic, with its line end."""
     for each in found:
         place = ""
         if each.span:

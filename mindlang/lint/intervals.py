@@ -1,4 +1,4 @@
-"""The range in which the value of an expression must lie, by interval arithmetic, and what conditions come to in it."""
+"""Interval arithmetic: the range of an expression's value, and conditions that hold always or never."""
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
@@ -24,17 +24,19 @@ UPPER = ("<", "<=")
 STRICT = ("<", ">")
 
 
-def share(name: str) -> Interval:
+def unknown_reading(name: str) -> Interval:
     """The range of a reading of which nothing is known."""
     return UNIT_INTERVAL
 
 
-def interval(of: Expression | Formula, reading: Readings = share, each: Interval = UNIT_INTERVAL) -> Interval:
+def interval(of: Expression | Formula, reading: Readings = unknown_reading, each: Interval = UNIT_INTERVAL) -> Interval:
     """The range of an expression whose readings have these ranges, that of `for each` the range `each`."""
     return fold(_formula(of), _leaf(reading, each), _negated, _combined)
 
 
-def divisors(of: Expression | Formula, reading: Readings = share, each: Interval = UNIT_INTERVAL) -> list[Interval]:
+def divisors(
+    of: Expression | Formula, reading: Readings = unknown_reading, each: Interval = UNIT_INTERVAL
+) -> list[Interval]:
     """The ranges of all that an expression divides by."""
     found: list[Interval] = []
 
@@ -94,7 +96,7 @@ def _around(lows: list[float], highs: list[float]) -> Interval:
 
 
 def is_constant(of: Expression) -> bool:
-    """Whether an expression is made of numbers alone."""
+    """True if an expression is made of numbers alone."""
     return all(isinstance(term, Number | Operator) for term in of.terms)
 
 
@@ -123,13 +125,13 @@ def why_always(when: When, value: Range) -> str | None:
 
 
 def _why_never(all_: Sequence[Comparison], value: Range) -> str | None:
-    """Why comparisons never hold all at once."""
+    """Why comparisons never hold all at once, in words; None where they may."""
     never = next((each for each in all_ if not _can_be(each, each.compare, value)), None)
     return _in_words(never, "never", value) if never else _contradiction(all_, value)
 
 
 def _can_be(each: Comparison, compare: str, value: Range) -> bool:
-    """Whether both sides of a comparison can be to each other as `compare` says."""
+    """True if the sides of a comparison can be so that `left compare right` holds."""
     left, right = value(each.left), value(each.right)
     match compare:
         case "<":
@@ -165,7 +167,7 @@ class _Bound:
 
 
 def _bounds(all_: Sequence[Comparison], value: Range) -> Iterator[_Bound]:
-    """What comparisons with a number say of their other side."""
+    """The bounds that comparisons with a number set to their other side."""
     for each in all_:
         if is_constant(each.right):
             yield _Bound(" ".join(each.left.span.text.split()), each.compare, value(each.right)[0])
@@ -174,7 +176,7 @@ def _bounds(all_: Sequence[Comparison], value: Range) -> Iterator[_Bound]:
 
 
 def _contradiction(all_: Sequence[Comparison], value: Range) -> str | None:
-    """What would have to be below a number and above a greater one."""
+    """In words, which reading the comparisons want below a number and above a greater one; None if there is none."""
     bounds = [*_bounds(all_, value)]
     for subject in dict.fromkeys(bound.subject for bound in bounds):
         own = [bound for bound in bounds if bound.subject == subject]

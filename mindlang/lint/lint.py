@@ -1,4 +1,4 @@
-"""What is wrong with a file: the compiler's errors or, where there are none, what the rules find; mended on demand."""
+"""Checks a file: the compiler's errors or, where there are none, the findings of the rules; mends them on demand."""
 
 import re
 from bisect import bisect_right, insort
@@ -12,7 +12,7 @@ from mindrun.files.regular_files import read_regular
 from mindlang.compiler.compile import Compiled, compile_source, load
 from mindlang.compiler.diagnostic import Diagnostic
 from mindlang.compiler.references import mentions
-from mindlang.compiler.source import Source, encoded
+from mindlang.compiler.source import Source, encode_source
 from mindlang.compiler.splice import Splice, spliced
 from mindlang.editing import transaction
 from mindlang.editing.neighbours import neighbours
@@ -61,7 +61,7 @@ def _diagnostic(rule: Rule, of: Finding) -> Diagnostic:
 
 
 def _is_silenced(diagnostic: Diagnostic) -> bool:
-    """Whether `# noqa` or `# noqa: CODE` stands on the line."""
+    """True if `# noqa` or `# noqa: CODE` stands on the line."""
     assert diagnostic.span
     found = _NOQA.search(diagnostic.span.source.line(diagnostic.span.line))
     return found is not None and diagnostic.code in (found["codes"] or diagnostic.code).replace(",", " ").split()
@@ -69,15 +69,15 @@ def _is_silenced(diagnostic: Diagnostic) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class Linted:
-    """What is found in a file, after so many fixes; one that cannot be read says so in its diagnostics."""
+    """The diagnostics of a file after `fixed` fixes; they say so if it cannot be read."""
 
     diagnostics: tuple[Diagnostic, ...]
     readable: bool
     fixed: int
 
 
-def linted(file: str, compiled: Compiled, codes: Collection[str], fix: bool) -> Linted:
-    """A file held against the rules with these codes; MindError where the mended file cannot be written."""
+def lint_file(file: str, compiled: Compiled, codes: Collection[str], fix: bool) -> Linted:
+    """Check a file by the rules with these codes, with `fix` mend it; MindError where it cannot be written."""
     try:
         if fix and compiled.graph:
             return _mended(Path(file).resolve(), compiled, codes)
@@ -93,20 +93,20 @@ def _mended(path: Path, compiled: Compiled, codes: Collection[str]) -> Linted:
         return compiled if source is compiled.sources[0] else compile_source(source, path)
 
     def refuse_changed() -> None:
-        was = encoded(path, compiled.sources[0].text)
+        was = encode_source(path, compiled.sources[0].text)
         if read_regular(path, len(was) + 1) != was:
             message = f"{path.name} has been changed meanwhile"
             raise transaction.TransactionError(message, "Try again: nothing has been written.")
 
-    source, made = fixed(compiled.sources[0], lambda source: lint(again(source), codes))
+    source, made = apply_safe_fixes(compiled.sources[0], lambda source: lint(again(source), codes))
     users = (each.sources[0].path for each in neighbours([path]))
     if not made or again(source).graph is None or any(load(user, {path: source.text}).graph is None for user in users):
         return Linted(tuple(lint(compiled, codes)), True, 0)
-    transaction.change(path.parent, {path: encoded(path, source.text)}, refuse_changed)
+    transaction.change(path.parent, {path: encode_source(path, source.text)}, refuse_changed)
     return Linted(tuple(lint(again(source), codes)), True, made)
 
 
-def fixed(source: Source, look: Callable[[Source], Iterable[Diagnostic]]) -> tuple[Source, int]:
+def apply_safe_fixes(source: Source, look: Callable[[Source], Iterable[Diagnostic]]) -> tuple[Source, int]:
     """A source with all safe fixes made of what `look` finds in it, round by round, and how many those were."""
     made = 0
     for _ in range(min(MAX_FIX_ROUNDS, MAX_FIXED_CHARACTERS // max(len(source.text), 1) + 1)):
@@ -125,6 +125,6 @@ def fixed(source: Source, look: Callable[[Source], Iterable[Diagnostic]]) -> tup
 
 
 def _touches(splice: Splice, chosen: list[Splice]) -> bool:
-    """Whether a splice meets one of those that are chosen, which are in order and clear of one another."""
+    """True if a splice touches one of those that are chosen, which are in order and do not touch one another."""
     place = bisect_right(chosen, splice.end, key=attrgetter("start"))
     return place > 0 and chosen[place - 1].end >= splice.start

@@ -1,4 +1,4 @@
-"""Which lint rules are held in which files, as the command line and `mind.toml` say.
+"""Selects the lint rules for each file, by the command line and `mind.toml`.
 
 A `mind.toml` is for the files in its folder and below, where no other one is nearer.
 
@@ -18,7 +18,7 @@ from mindrun.errors import reason
 from mindrun.files.regular_files import read_regular
 
 from mindlang.compiler.diagnostic import ERRORS, Diagnostic, did_you_mean, listed
-from mindlang.compiler.source import MAX_SOURCE_BYTES, Source, Span, decode
+from mindlang.compiler.source import MAX_SOURCE_BYTES, Source, Span, decode_source
 from mindlang.files import folders_above, name_from_here
 from mindlang.lint.rules import all_rules
 
@@ -47,7 +47,7 @@ class LintSettings:
         return [code for code in (select or self.select or all_rules()) if code not in left_out]
 
     def _ignored_in(self, path: Path) -> Iterator[str]:
-        """What is not held in a file; a pattern fits its path from the folder of the settings, or its name alone."""
+        """The codes ignored in a file; a pattern fits its path from the folder of the settings, or its name alone."""
         name = path.relative_to(self.folder).as_posix() if path.is_relative_to(self.folder) else path.name
         for pattern, codes in self.per_file.items():
             if fnmatchcase(name, pattern) or fnmatchcase(path.name, pattern):
@@ -72,7 +72,7 @@ def why_no_rule(code: str) -> tuple[str, str] | None:
 def _read(path: Path) -> LintSettings:
     name = name_from_here(path)
     try:
-        source = Source(name, decode(read_regular(path, MAX_SOURCE_BYTES + 1)), path.parent)
+        source = Source(name, decode_source(read_regular(path, MAX_SOURCE_BYTES + 1)), path.parent)
     except (OSError, ValueError) as error:
         message = f"{name} cannot be read: {reason(error)}."
         return LintSettings(wrong=(Diagnostic("unreadable-settings", message, None, "It is a text in TOML."),))
@@ -88,7 +88,7 @@ class _Reading:
     wrong: list[Diagnostic] = field(default_factory=list)
 
     def settings(self) -> LintSettings:
-        """What it says."""
+        """The settings that the file has, and the diagnostics of what is wrong in it."""
         try:
             said = tomllib.loads(self.source.text)
         except (tomllib.TOMLDecodeError, RecursionError) as error:
@@ -157,6 +157,6 @@ class _Reading:
 
 
 def _places(text: str, word: str) -> list[int]:
-    """Where a word stands by itself in a text and not in a comment."""
+    """The offsets at which a word stands by itself in a text, not in a comment."""
     found = (each.start() for each in re.finditer(rf"(?<![\w-]){re.escape(word)}(?![\w-])", text))
     return [place for place in found if "#" not in text[text.rfind("\n", 0, place) + 1 : place]]

@@ -1,4 +1,4 @@
-"""What a lint rule looks at, and what it finds."""
+"""`Study`: a mind as the lint rules see it; `Finding`: what a rule returns."""
 
 import re
 from collections.abc import Callable, Hashable, Iterable, Iterator
@@ -12,10 +12,10 @@ from mindrun.graph.tasks import goals
 from mindrun.kinds.sensors.sensor import Physical, SensorKind
 from mindrun.kinds.things.thing import STAYS
 
-from mindlang.compiler.beginning import Beginning, beginning
+from mindlang.compiler.beginning import Beginning, task_beginning
 from mindlang.compiler.compile import Compiled
 from mindlang.compiler.diagnostic import Fix, Label
-from mindlang.compiler.hierarchy import below, ends_first, in_order
+from mindlang.compiler.hierarchy import reverse_topological_order, topological_order, with_descendants
 from mindlang.compiler.model import Edge, End, Expression, Mind, Reading, Reward, Skill, Task, When, source_graph
 from mindlang.compiler.references import Mention, mentions
 from mindlang.compiler.source import Source, Span
@@ -40,19 +40,19 @@ class AnalysedWorld:
     fleeting: frozenset[str] = frozenset()  # items that are gone as soon as they are reached
 
     def constant(self, name: str) -> float | None:
-        """What a sensor always reads in this world; None where that varies, or nobody knows."""
+        """The reading of a sensor that reads the same in every tick of this world; None where it may vary."""
         kind = self.study.sensors.get(name)
         if kind is None or (isinstance(kind, Physical) and kind.noise):
             return None
         return kind.constant(self)
 
     def is_constant(self, reading: str) -> bool:
-        """Whether what a reading comes from in the end always reads the same."""
+        """True if all that a reading is computed from in the end is constant in this world."""
         return all(self.constant(root) is not None for root in self.study.roots.get(reading, {reading}))
 
     @property
     def can_hold(self) -> bool:
-        """Whether a claw may ever close."""
+        """True if a claw may ever close."""
         return self.study.can_hold
 
     @property
@@ -86,7 +86,7 @@ class AnalysedWorld:
 
     @property
     def drains(self) -> bool:
-        """Whether the battery can become empty."""
+        """True if the battery can become empty."""
         batteries = [kind.battery for kind in self.study.sensors.values() if kind.battery]
         return not all(battery.start and not battery.drain for battery in batteries)
 
@@ -117,7 +117,7 @@ class Study:
 
     @cached_property
     def edges(self) -> tuple[tuple[Skill, Edge], ...]:
-        """What skills send, those left out that are like others."""
+        """The edges of all skills but those that are like others."""
         return tuple((skill, edge) for skill in self.mind.skills if not skill.like for edge in skill.edges)
 
     @cached_property
@@ -132,17 +132,18 @@ class Study:
 
     @cached_property
     def children_first(self) -> tuple[Skill, ...]:
-        """The skills in an order in which a table that a skill has from its subskills can be filled."""
-        return tuple(self.skills[name] for name in reversed(in_order(self.mind.influences)))
+        """The skills, each after all that it influences."""
+        return tuple(self.skills[name] for name in reversed(topological_order(self.mind.influences)))
 
     @cached_property
     def active(self) -> set[str]:
         """The skills that a master reaches, the mind's or that of a lesson."""
-        return below(self.mind.influences, {self.mind.master, *(lesson.master for lesson in self.mind.lessons)})
+        masters = {self.mind.master, *(lesson.master for lesson in self.mind.lessons)}
+        return with_descendants(self.mind.influences, masters)
 
     @cached_property
     def acting(self) -> set[str]:
-        """The skills that a master reaches, and those whose weights act in them."""
+        """The skills that a master reaches, and those whose weights these use."""
         return self.active | {self.skills[name].owner for name in self.active}
 
     @cached_property
@@ -152,22 +153,22 @@ class Study:
 
     @cached_property
     def can_hold(self) -> bool:
-        """Whether a claw may ever close: a skill that a master reaches drives it, or it is closed where none does."""
+        """True if a claw may ever close: a skill that a master reaches drives it, or it closes where none does."""
         driven = {edge.target for name in self.active for edge in self.skills[name].edges if edge.to == "actuator"}
         claws = (part for part in self.mind.actuators if part.kind.can_hold)
         return any(claw.name in driven or claw.kind.acts_at_rest for claw in claws)
 
     @cached_property
     def roots(self) -> dict[str, frozenset[str]]:
-        """What each sensor comes from in the end: itself, or what stands at the end of all that it is computed from."""
+        """The sensors and memories that each sensor is computed from at last; of one that is not computed, itself."""
         graph, found = source_graph(self.mind.sensors), dict[str, frozenset[str]]()
-        for name in ends_first(graph):
+        for name in reverse_topological_order(graph):
             found[name] = frozenset[str]().union(*(found[source] for source in graph[name])) or frozenset({name})
         return found
 
     @cached_property
     def senses(self) -> dict[str, str]:
-        """The thing that each sensor is about, those left out that are about none or several."""
+        """The thing that each sensor is about; sensors about none or several are left out."""
         things = {
             name: {self.sensors[root].thing for root in roots if root in self.sensors} - {""}
             for name, roots in self.roots.items()
@@ -181,7 +182,7 @@ class Study:
 
     @cached_property
     def is_exhausted(self) -> bool:
-        """Whether a task asks for exhaustion, which is of the battery without naming it."""
+        """True if a task asks for exhaustion, an event of the battery that does not name it."""
         ending = (end.event for task in self.mind.tasks for end in task.ends)
         paid = (reward.on for task in self.mind.tasks for reward in task.rewards)
         counted = (event for task in self.mind.tasks for event in task.counts)
@@ -229,8 +230,8 @@ class Study:
                     yield Condition(each.when, each, self.worlds[task.name])
 
     def beginning(self, task: Task) -> Beginning:
-        """What is where when a run of a task begins."""
-        return beginning(task.scene, task.things, task.start, self.mind.body.kind, self.graph.claw_reach)
+        """The world of a task when a run begins."""
+        return task_beginning(task.scene, task.things, task.start, self.mind.body.kind, self.graph.claw_reach)
 
     def goals(self, task: Task) -> frozenset[str]:
         """The things on which no run of a task begins."""
@@ -239,7 +240,7 @@ class Study:
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """What a rule finds: where, what is wrong in the user's words, and what to do; `fix` does it."""
+    """A finding of a rule: where, what is wrong in the user's words, and what to do; `fix` does it."""
 
     span: Span
     message: str
@@ -252,7 +253,7 @@ Found = Iterator[Finding]
 
 
 def _named(tasks: Iterable[Task]) -> frozenset[str]:
-    """The things that sensors can be about."""
+    """The names of the things that sensors can be about."""
     things = ((thing, task.scene) for task in tasks for thing in task.things)
     return frozenset(thing.name for thing, scene in things if not thing.kind.is_obstacle or thing.kind.obstacles(scene))
 
@@ -296,11 +297,11 @@ def removal(what: Declaration | Fact, title: str = "", is_safe: bool = False) ->
 
 
 def is_zero_influence(edge: Edge) -> bool:
-    """Whether it is an influence that is 0, whatever is read."""
+    """True if an edge is an influence that is 0, whatever is read."""
     return edge.to == "skill" and bool(edge.at) and all(interval(value)[1] <= 0 for value in edge.values)
 
 
-def words(name: str) -> list[str]:
+def name_words(name: str) -> list[str]:
     """The words of a name in lower case, whether underscores or capitals part them: left_wheel, LeftWheel."""
     return [word.lower() for word in _WORD.findall(name)]
 

@@ -24,7 +24,7 @@ from mindrun.numbers.expression import TRUTHS, fold, leaves
 from mindrun.numbers.quantity import EXPRESSION, UNSAID, Quantity, Reference
 
 from mindlang.compiler.drawing import phrase
-from mindlang.compiler.hierarchy import below
+from mindlang.compiler.hierarchy import with_descendants
 from mindlang.compiler.model import source_graph
 from mindlang.lock.training_world import LessonKey, TrainingWorld
 
@@ -98,7 +98,9 @@ class Worlds:
         happening = {*(end.event for end in task.ends), *(reward.on for reward in task.rewards)}
         if any(task.events[event].is_of_battery for event in happening if event is not None):
             read |= {*[sensor.name for sensor in self.graph.sensors if sensor.kind.battery][:1]}
-        sources = below(source_graph(self.graph.sensors), read & {each.name for each in self.graph.sensors}) | read
+        sources = (
+            with_descendants(source_graph(self.graph.sensors), read & {each.name for each in self.graph.sensors}) | read
+        )
         for sensor in self.graph.sensors:
             if sensor.name in sources:
                 yield f"sensor {sensor.name}", encode(sensor.kind)

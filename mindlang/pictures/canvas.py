@@ -24,7 +24,7 @@ def blank(width: int, height: int, colour: Colour) -> Image:
     return image
 
 
-def pasted(page: Image, part: Image, x: int, y: int) -> None:
+def paste(page: Image, part: Image, x: int, y: int) -> None:
     """Put a part on a page."""
     page[y : y + part.shape[0], x : x + part.shape[1]] = part
 
@@ -36,7 +36,7 @@ def reduced(image: Image, scale: float) -> Image:
     return cv2.resize(image, size, interpolation=cv2.INTER_AREA).astype(np.uint8)
 
 
-def fitted(seen: Image, width: int, height: int, around: Colour) -> Image:
+def letterbox(seen: Image, width: int, height: int, around: Colour) -> Image:
     """An image, red first, as one of that size: as large as fits, in the middle."""
     high, wide, _ = seen.shape
     scale = min(width / wide, height / high)
@@ -44,25 +44,25 @@ def fitted(seen: Image, width: int, height: int, around: Colour) -> Image:
     how = cv2.INTER_AREA if scale < 1 else cv2.INTER_CUBIC
     inner = cv2.resize(np.ascontiguousarray(seen[:, :, ::-1]), size, interpolation=how)
     page = blank(width, height, around)
-    pasted(page, inner.astype(np.uint8), (width - size[0]) // 2, (height - size[1]) // 2)
+    paste(page, inner.astype(np.uint8), (width - size[0]) // 2, (height - size[1]) // 2)
     return page
 
 
-class Rectangle(NamedTuple):
-    """Where something stands: by the corner from which both coordinates grow, in units or pixels."""
+class Region(NamedTuple):
+    """A rectangle by the corner from which both coordinates grow, in units or pixels."""
 
     left: float
     low: float
     width: float
     height: float
 
-    def overlaps(self, other: "Rectangle") -> bool:
-        """Whether both cover a place."""
+    def overlaps(self, other: "Region") -> bool:
+        """True if both share an area."""
         is_beside = self.left >= other.left + other.width or other.left >= self.left + self.width
         return not is_beside and self.low < other.low + other.height and other.low < self.low + self.height
 
-    def is_within(self, other: "Rectangle") -> bool:
-        """Whether the other covers all of it."""
+    def is_within(self, other: "Region") -> bool:
+        """True if the other covers all of it."""
         right, top = other.left + other.width, other.low + other.height
         ends_in = self.left + self.width <= right and self.low + self.height <= top
         return other.left <= self.left and other.low <= self.low and ends_in
@@ -70,7 +70,7 @@ class Rectangle(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Viewport:
-    """Which part of the world an image shows: its top left corner, and how many pixels a unit has."""
+    """The part of the world that an image shows: its top left corner, and how many pixels a unit has."""
 
     left: float
     top: float
@@ -111,7 +111,7 @@ class Canvas:
         return places
 
     def disc(self, x: float, y: float, radius: float, colour: Colour, alpha: float = 1.0, width: float = 0.0) -> None:
-        """A disc, or with a width its rim."""
+        """Draw a disc, or with a width its rim."""
         size = round(radius * self.view.scale * 2**COORDINATE_BITS)
         line = self._line(width) if width else cv2.FILLED
         room = size / 2**COORDINATE_BITS + width * self.pen
@@ -119,14 +119,14 @@ class Canvas:
         self._blend(alpha, self.places([x, y]), room, lambda image, at: cv2.circle(image, at[0].tolist(), *how))
 
     def polygon(self, points: ArrayLike, colour: Colour, alpha: float = 1.0) -> None:
-        """A filled convex polygon."""
+        """Draw a filled convex polygon."""
         how = colour, cv2.LINE_AA, COORDINATE_BITS
         self._blend(alpha, self.places(points), 1.0, lambda image, at: cv2.fillConvexPoly(image, at, *how))
 
     def line(
         self, points: ArrayLike, colour: Colour, width: float = 1.0, alpha: float = 1.0, closed: bool = False
     ) -> None:
-        """A line through points."""
+        """Draw a line through points."""
         wide = self._line(width)
         how = closed, colour, wide, cv2.LINE_AA, COORDINATE_BITS
         self._blend(alpha, self.places(points), wide, lambda image, at: cv2.polylines(image, [at], *how))
@@ -142,7 +142,7 @@ class Canvas:
         align: str = "left",
         halo: Colour | None = None,
     ) -> None:
-        """Text with capitals of `size` pixels on the line that begins, is centred or ends in x, y.
+        """Draw text with capitals of `size` pixels on the line that begins, is centred or ends in x, y.
 
         A halo sets it off from what is drawn below it.
         """
@@ -189,8 +189,8 @@ def text_width(text: str, size: float, bold: bool = False) -> float:
     return float(width)
 
 
-def in_lines(widths: Sequence[float], gap: float, room: float) -> list[tuple[float, int]]:
-    """Where each of some texts of these widths begins, and in which line, side by side in lines as wide as the room."""
+def flow_layout(widths: Sequence[float], gap: float, room: float) -> list[tuple[float, int]]:
+    """The left end and the line of each of some texts of these widths, side by side in lines as wide as the room."""
     places, along, line = [], 0.0, 0
     for width in widths:
         if along and along + width > room:
@@ -202,10 +202,10 @@ def in_lines(widths: Sequence[float], gap: float, room: float) -> list[tuple[flo
 
 def square(x: float, y: float, half: float) -> Sequence[tuple[float, float]]:
     """The corners of a square."""
-    return rectangle(x, y, half, half)
+    return rectangle_corners(x, y, half, half)
 
 
-def rectangle(x: float, y: float, half_x: float, half_y: float) -> Sequence[tuple[float, float]]:
+def rectangle_corners(x: float, y: float, half_x: float, half_y: float) -> Sequence[tuple[float, float]]:
     """The corners of a rectangle around a place."""
     left, right, low, high = x - half_x, x + half_x, y - half_y, y + half_y
     return (left, low), (right, low), (right, high), (left, high)

@@ -169,7 +169,7 @@ def _grid(count: int) -> tuple[Figure, list[Axes]]:
 
 
 def _frame(axes: Axes, name: str, note: str, generations: int) -> None:
-    """What is around the lines of a panel: its name, a note below that, and its axes."""
+    """Draw the frame of a panel: its name, a note below that, and its axes."""
     axes.set_title(name, pad=20.0 if note else 8.0)
     axes.annotate(note, (0, 1), (0, 8), xycoords="axes fraction", textcoords="offset points", size=6.5, color=FAINT)
     axes.set_xlim(0, generations * 1.07)

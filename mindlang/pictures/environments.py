@@ -7,7 +7,7 @@ import numpy as np
 from mindrun.errors import MindError
 from mindrun.sim.outside.seen import UNKNOWN_FAILURES, SeenEpisode
 
-from mindlang.pictures.canvas import Image, fitted, pasted, reduced
+from mindlang.pictures.canvas import Image, letterbox, paste, reduced
 from mindlang.pictures.picture import (
     PICTURE_PIXELS,
     SCALE_FACTOR,
@@ -67,8 +67,8 @@ def _sheet(run: RecordedRun, found: dict[str, Any], ticks: Sequence[int], said: 
         row, column = divmod(number, SHEET_COLUMNS)
         x = SIDE_PIXELS + column * (width + GAP_PIXELS)
         y = TOP_PIXELS + row * (height + LABEL_PIXELS + GAP_PIXELS)
-        image = fitted(seen.image(tick), SCALE_FACTOR * width, SCALE_FACTOR * height, PAPER.page)
-        pasted(page.image, image, SCALE_FACTOR * x, SCALE_FACTOR * y)
+        image = letterbox(seen.image(tick), SCALE_FACTOR * width, SCALE_FACTOR * height, PAPER.page)
+        paste(page.image, image, SCALE_FACTOR * x, SCALE_FACTOR * y)
         label = f"tick {tick:,} ({tick * run.graph.tick:.1f} s)" if tick else "beginning"
         page.text(x, y + height + 17, label, SMALL_PIXELS, PAPER.faint)
     return reduced(page.image, 1 / SCALE_FACTOR)

@@ -39,7 +39,7 @@ class VideoError(MindError):
 
 @dataclass(frozen=True, slots=True)
 class VideoFormat:
-    """How many images a second has, how long a whole run lasts where nobody says a speed, and how it is encoded.
+    """A format of films: images per second, the seconds of a whole run without a speed, and the encoder.
 
     `encode` writes a film to a file and tells of each image; it raises VideoError. `most` is how many it takes.
     """
@@ -132,7 +132,7 @@ def _images_in(path: Path) -> int:
 
 
 def _gif(path: Path, film: Film, wrote: Callable[[], None]) -> None:
-    """One palette for all images and no dithering: what does not move costs nothing."""
+    """Encode a GIF with one palette for all images and no dithering: what does not move costs nothing."""
     samples = [_small(film[int(number)]) for number in np.linspace(0, len(film) - 1, PALETTE_SAMPLES)]
     palette = Pillow.fromarray(np.concatenate(samples)).quantize(PALETTE_COLOURS, dither=Pillow.Dither.NONE)
 

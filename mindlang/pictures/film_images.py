@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from mindrun.graph.run_scores import score_of
 
-from mindlang.pictures.canvas import Canvas, Image, Rectangle, Viewport, blank, fitted, in_lines, pasted, text_width
+from mindlang.pictures.canvas import Canvas, Image, Region, Viewport, blank, flow_layout, letterbox, paste, text_width
 from mindlang.pictures.environments import seen_run
 from mindlang.pictures.hierarchy_panel import HierarchyPanel
 from mindlang.pictures.path import (
@@ -60,12 +60,12 @@ class FilmLayout:
         return cls(FILM_WIDTH, max(LEAST_HEIGHT, high), (wide, high), wide, 0)
 
     @property
-    def panel(self) -> Rectangle:
+    def panel(self) -> Region:
         """The rectangle of the hierarchy and the readings."""
         left, top = self.left + MARGIN_PIXELS, self.top + TITLE_PIXELS
-        return Rectangle(left, top, self.width - left - MARGIN_PIXELS, self.height - top - MARGIN_PIXELS - 2)
+        return Region(left, top, self.width - left - MARGIN_PIXELS, self.height - top - MARGIN_PIXELS - 2)
 
-    def divided(self, sensors: int, lower: float = 0.0) -> tuple[Rectangle, Rectangle]:
+    def divided(self, sensors: int, lower: float = 0.0) -> tuple[Region, Region]:
         """The rectangles of the hierarchy and of the readings of so many sensors: below it, or beside where it is low.
 
         The readings have at most their share, and show what fits. Both begin so many pixels `lower`, for a long title.
@@ -74,10 +74,10 @@ class FilmLayout:
         y, height = y + lower, height - lower
         if self.left == 0:
             wide = BESIDE_SHARE * width if sensors else 0.0
-            return Rectangle(x, y, width - wide, height), Rectangle(x + width - wide, y, wide, height)
+            return Region(x, y, width - wide, height), Region(x + width - wide, y, wide, height)
         rows = min(ceil(sensors / int(width // COLUMN_PIXELS)), int(BELOW_SHARE * height // ROW_PIXELS))
         high = ROW_PIXELS * rows
-        return Rectangle(x, y, width, height - high), Rectangle(x, y + height - high, width, high)
+        return Region(x, y, width, height - high), Region(x, y + height - high, width, high)
 
 
 def _even(pixels: float) -> int:
@@ -115,28 +115,28 @@ class FilmImages:
         page = self._drawn(run.ticks, self._world(run.ticks, has_ended=True))
         wide, high = self.layout.world
         if high >= LEAST_WORLD_PIXELS:
-            draw_banner(page, run, found, Rectangle(0.0, 0.0, wide, high), self._occupied())
+            draw_banner(page, run, found, Region(0.0, 0.0, wide, high), self._occupied())
         else:
             place = self.layout.width - 20, self.layout.top + NAME_LINE_PIXELS
             page.text(*place, ending_words(found), 14, ending_colour(found, NIGHT), bold=True, align="right")
         return page.image
 
-    def _occupied(self) -> list[Rectangle]:
-        """Where the robot and the things are in the end, in pixels; of an environment nobody knows."""
+    def _occupied(self) -> list[Region]:
+        """The rectangles of the robot and the things in the end, in pixels; none for an environment."""
         run, view = self._run, self.view(self._run.ticks)
         if self._seen:
             return []
         (x, y, _), radius = run.body[-1], run.graph.body.radius
         places = [np.array([x, y, 2 * radius]), *(place for _, _, place in each_thing(run, NIGHT, run.ticks))]
         corners = [(x - size / 2 - view.left, view.top - y - size / 2, size, size) for x, y, size in places]
-        return [Rectangle(*each) for each in (np.array(corners) * view.scale).tolist()]
+        return [Region(*each) for each in (np.array(corners) * view.scale).tolist()]
 
     def view(self, tick: int) -> Viewport:
-        """What is seen of the world in a tick."""
+        """The part of the world that is shown in a tick."""
         return window(self._run, tick, *self.layout.world)
 
     def _drawn_once(self) -> Image:
-        """What no tick changes: the page, the name of the task and those of the sensors."""
+        """The static part of every image: the page, the name of the task and those of the sensors."""
         page = Canvas.of_page(blank(self.layout.width, self.layout.height, NIGHT.page))
         left, low = self.layout.left + TITLE_INDENT_PIXELS, self.layout.top + NAME_LINE_PIXELS
         page.text(left, low, self._run.task.name, NAME_TEXT_PIXELS, NIGHT.ink, bold=True)
@@ -145,7 +145,7 @@ class FilmImages:
 
     def _drawn(self, tick: int, world: Image) -> Canvas:
         page = Canvas.of_page(self._empty_image.copy())
-        pasted(page.image, world, 0, 0)
+        paste(page.image, world, 0, 0)
         facts = self._facts(tick)
         for text, (along, line) in zip(facts, self._title_places(facts), strict=True):
             low = self.layout.top + FIRST_LINE_PIXELS + TITLE_LINE_PIXELS * line
@@ -159,7 +159,7 @@ class FilmImages:
 
     def _world(self, tick: int, has_ended: bool = False) -> Image:
         if self._seen:
-            return fitted(self._seen.image(tick), *self.layout.world, NIGHT.page)
+            return letterbox(self._seen.image(tick), *self.layout.world, NIGHT.page)
         run = self._run
         image = self._floor(tick) if self._empty_world is None else self._empty_world.copy()
         canvas = Canvas(image, self.view(tick))
@@ -186,9 +186,9 @@ class FilmImages:
         ]
 
     def _title_places(self, facts: list[str]) -> list[tuple[float, int]]:
-        """Where each fact begins, and in which line."""
+        """The left end and the line of each fact of the title."""
         widths = [text_width(text, TITLE_TEXT_PIXELS) for text in facts]
-        return in_lines(widths, TITLE_GAP_PIXELS, self.layout.width - 12 - self.layout.left - TITLE_INDENT_PIXELS)
+        return flow_layout(widths, TITLE_GAP_PIXELS, self.layout.width - 12 - self.layout.left - TITLE_INDENT_PIXELS)
 
 
 def half_window(run: RecordedRun) -> tuple[float, float]:
@@ -200,7 +200,7 @@ def half_window(run: RecordedRun) -> tuple[float, float]:
 
 
 def window(run: RecordedRun, tick: int, width: int, height: int) -> Viewport:
-    """What is seen of the world in a tick, in so many pixels."""
+    """The part of the world that is shown in a tick, in an image of so many pixels."""
     half = np.array(half_window(run))
     middle = run.body[tick, :2] * (not run.task.scene.is_bounded)
     return Viewport.around(middle - half, middle + half, width, height)

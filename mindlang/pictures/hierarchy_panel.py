@@ -16,7 +16,7 @@ import numpy as np
 from mindrun.engine.engine import procedure_sources
 from numpy.typing import NDArray
 
-from mindlang.pictures.canvas import Canvas, Rectangle, text_width
+from mindlang.pictures.canvas import Canvas, Region, text_width
 from mindlang.pictures.theme import NIGHT, Colour, mixed
 from mindlang.run.edge_flow import Link, Sink, edge_flows
 from mindlang.run.recorded_run import RecordedRun
@@ -35,16 +35,16 @@ PASSAGE_SHARE = 0.3  # of a box's room: that of a link which passes a row
 class HierarchyPanel:
     """Draws the hierarchy of a run into a rectangle of a page."""
 
-    def __init__(self, run: RecordedRun, room: Rectangle) -> None:
+    def __init__(self, run: RecordedRun, room: Region) -> None:
         self._run = run
         sources = procedure_sources(run.graph, run.setup.folder, run.setup.master)
         self._flows = edge_flows(run.setup.ready.policy, sources, run.setup.master, run)
         self._boxes, self._stops = laid_out(self._flows.links, self._flows.skills, room)
         self._lines = {sink: self._lines_of(sink, place) for sink, place in self._boxes.items()}
-        self._size = min(fitting(self._lines[sink], place) for sink, place in self._boxes.items())
+        self._size = min(box_text_size(self._lines[sink], place) for sink, place in self._boxes.items())
 
     def draw(self, canvas: Canvas, tick: int) -> None:
-        """The hierarchy in a tick, the first of which is 1."""
+        """Draw the hierarchy in a tick, the first of which is 1."""
         flow = self._flows.over(range(tick - 1, tick))
         links = zip(self._stops, flow.value[0].tolist(), flow.transmitted[0].tolist(), strict=True)
         for stops, command, transmitted in sorted(links, key=itemgetter(2)):  # what is bright lies on top
@@ -67,7 +67,7 @@ class HierarchyPanel:
         canvas.line(line, mixed(NIGHT.dark, NIGHT.glow, command), CORE_PIXELS)
 
     def _skill(self, canvas: Canvas, lines: Sequence[str], place: Place, influence: float) -> None:
-        """A box with the lines of a name, and below them the influence."""
+        """Draw a box with the lines of a name, and below them the influence."""
         line_pixels = self._size + LINE_GAP_PIXELS
         rim = mixed(NIGHT.dark, NIGHT.glow, influence)
         self._box(canvas, place, mixed(NIGHT.floor, NIGHT.glow, 0.22 * influence), rim)
@@ -79,7 +79,7 @@ class HierarchyPanel:
             low += line_pixels
 
     def _gauge(self, canvas: Canvas, name: str, place: Place, value: float, middle: float) -> None:
-        """A bar from `middle` to the value."""
+        """Draw a bar from `middle` to the value."""
         self._box(canvas, place, NIGHT.floor, NIGHT.rock)
         left, width = place.x - 0.42 * place.width, 0.84 * place.width
         below = place.y + place.height / 4
@@ -95,7 +95,7 @@ class HierarchyPanel:
         canvas.line(outline, rim, 2.0, closed=True)
 
     def _lines_of(self, sink: Sink, place: Place) -> list[str]:
-        """What has to fit into a box: a skill's number stands below its name, any other's behind it."""
+        """The lines of text in a box: a skill's number stands below its name, any other's behind it."""
         name = self._run.graph.named(*sink)
         return broken(name, 0.84 * place.width) if sink[0] == "skill" else [f"{name}  0.00"]
 
@@ -113,7 +113,7 @@ def broken(name: str, room: float) -> list[str]:
     return [name[:best], name[best:]]
 
 
-def fitting(lines: Sequence[str], place: Place) -> float:
+def box_text_size(lines: Sequence[str], place: Place) -> float:
     """The size at which lines fit into a box, and below them one more."""
     widest = max(text_width(line, MAX_TEXT_PIXELS) for line in lines)
     high = (place.height - LINE_GAP_PIXELS * (len(lines) + 2)) / (len(lines) + 1)
@@ -150,9 +150,7 @@ class Place:
     height: float
 
 
-def laid_out(
-    links: Sequence[Link], skills: Sequence[int], room: Rectangle
-) -> tuple[dict[Sink, Place], list[list[Place]]]:
+def laid_out(links: Sequence[Link], skills: Sequence[int], room: Region) -> tuple[dict[Sink, Place], list[list[Place]]]:
     """The boxes, and for each link the places that it goes through: from box to box, between the others of a row.
 
     `skills` stand parents first.
@@ -206,7 +204,7 @@ def _ordered(rows: list[list[Stop]], routes: Iterable[Sequence[Stop]]) -> list[l
     return rows
 
 
-def _spread(row: Sequence[Stop], level: int, levels: int, room: Rectangle) -> Iterable[tuple[Stop, Place]]:
+def _spread(row: Sequence[Stop], level: int, levels: int, room: Region) -> Iterable[tuple[Stop, Place]]:
     """The boxes of a row side by side."""
     shares = [PASSAGE_SHARE if sink[0] == "link" else 1.0 for sink in row]
     unit, gap = room.width / sum(shares), room.height / levels

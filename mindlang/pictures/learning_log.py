@@ -1,4 +1,4 @@
-"""What logs of runs have to show: the generations of each, from its folder or from a table, and the mean of several.
+"""Logs of runs as data for pictures: generations, from a run's folder or a table, and the mean of several runs.
 
 The mean is that of all attempts of the runs of a lesson, with the standard error of that mean.
 """
@@ -33,7 +33,7 @@ Records = Sequence[Mapping[str, float | None]]
 
 @dataclass(frozen=True, slots=True)
 class Curve:
-    """How a lesson was learnt: the records of its log. `note` tells it from others of its name.
+    """The learning curve of a lesson: the records of its log. `note` tells it from others of its name.
 
     `failure` says why nothing came of it; "" where it was learnt, goes on, or nobody knows.
     `lesson` is the same for runs that teach the same lesson of the same mind, whatever their seeds and the weights that
@@ -57,7 +57,7 @@ class Curve:
         return max(int(record["generation"] or 0) for record in self.records if record["attempt"] == attempt)
 
     def has_ended(self, attempt: int) -> bool:
-        """Whether an attempt is known to have come to its end: it has a verdict, or another has begun after it."""
+        """True if an attempt has certainly ended: it has a verdict, or another has begun after it."""
         return attempt < max(self.attempts) or bool(self.points(attempt, "verdict"))
 
     def points(self, attempt: int, column: str) -> list[tuple[int, float]]:

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mindlang.number_format import score
-from mindlang.pictures.canvas import Canvas, Rectangle, rectangle, square, text_width
-from mindlang.pictures.scene import Label, free, thing_colours
+from mindlang.pictures.canvas import Canvas, Region, rectangle_corners, square, text_width
+from mindlang.pictures.scene import SceneLabel, free, thing_colours
 from mindlang.pictures.theme import NIGHT, PAPER, Colour, Theme, mixed
 from mindlang.run.recorded_run import RecordedRun
 
@@ -28,13 +28,13 @@ LEAST_WORLD_PIXELS = 3 * BANNER_PIXELS  # the height of a world that is not hidd
 
 @dataclass(frozen=True, slots=True)
 class Stroke:
-    """How a line looks: a colour, and in its middle another one where there are more lines than colours."""
+    """The look of a line: a colour, and in its middle another one where there are more lines than colours."""
 
     colour: Colour
     core: Colour | None = None
 
     def draw(self, canvas: Canvas, points: ArrayLike, width: float) -> None:
-        """A line through points; a wider one where it has a core."""
+        """Draw a line through points; a wider one where it has a core."""
         outer, inner = CORE_SHARES
         canvas.line(points, self.colour, width * (outer if self.core else 1.0))
         if self.core:
@@ -68,7 +68,7 @@ class Path:
         return cls(places, keys, shades, {})
 
     def draw(self, canvas: Canvas, first: int, last: int, width: float) -> None:
-        """The path from tick `first` to tick `last`."""
+        """Draw the path from tick `first` to tick `last`."""
         keys = self.keys[first:last]
         for begin, end in _stretches(keys):
             self.strokes[keys[begin]].draw(canvas, self.places[first + begin : first + end + 1], width)
@@ -82,33 +82,33 @@ def strokes_of(theme: Theme, count: int) -> list[Stroke]:
 
 
 def _stretches(keys: NDArray[np.int64]) -> list[tuple[int, int]]:
-    """Where equal keys begin and end."""
+    """The stretches of equal keys, as (start, end)."""
     changes = np.flatnonzero(np.diff(keys)) + 1
     return list(pairwise([0, *(int(change) for change in changes), len(keys)])) if len(keys) else []
 
 
 def draw_start(canvas: Canvas, run: RecordedRun) -> None:
-    """Where the run began."""
+    """Draw the mark of the place where the run began."""
     x, y, _ = run.body[0]
     canvas.disc(x, y, 5 * canvas.pixel, PAPER.floor)
     canvas.disc(x, y, 5 * canvas.pixel, PAPER.ink, width=1.8)
 
 
 def draw_collisions(canvas: Canvas, run: RecordedRun) -> None:
-    """Where the robot collided; over the robot, since a run may end there."""
+    """Draw the marks of collisions; over the robot, since a run may end there."""
     for x, y, _ in run.body[run.collisions]:
         draw_cross(canvas, x, y, 5.5 * canvas.pixel, PAPER)
 
 
 def draw_cross(canvas: Canvas, x: float, y: float, size: float, theme: Theme) -> None:
-    """The mark of a collision."""
+    """Draw the mark of a collision."""
     for colour, width in ((theme.floor, 4.5), (theme.crash, 2.2)):
         for up in (size, -size):
             canvas.line([(x - size, y - up), (x + size, y + up)], colour, width)
 
 
 def draw_former(canvas: Canvas, run: RecordedRun) -> None:
-    """Faintly, where things were before, numbered where they were several, and not too many.
+    """Draw faintly where things were before, numbered where they were several, and not too many.
 
     Of what walks or was pushed also the way; what can be pushed was first where it appeared.
     """
@@ -143,29 +143,27 @@ def ending_colour(found: dict[str, Any], theme: Theme) -> Colour:
 
 
 def draw_end_mark(canvas: Canvas, run: RecordedRun, found: dict[str, Any], theme: Theme) -> None:
-    """Two rings around the robot, where the run ended."""
+    """Draw two rings around the robot, where the run ended."""
     x, y, _ = run.body[-1]
     draw_rings(canvas, x, y, run.graph.body.radius + MARK_PIXELS * canvas.pixel, found, theme)
 
 
-def end_label(canvas: Canvas, run: RecordedRun, found: dict[str, Any]) -> Label:
+def end_label(canvas: Canvas, run: RecordedRun, found: dict[str, Any]) -> SceneLabel:
     """The words beside the mark."""
     x, y, _ = run.body[-1]
     size = 2 * (run.graph.body.radius + (MARK_PIXELS + RING_PIXELS) * canvas.pixel)
-    return Label(ending_words(found), LABEL_PIXELS, ending_colour(found, PAPER), x, y, size)
+    return SceneLabel(ending_words(found), LABEL_PIXELS, ending_colour(found, PAPER), x, y, size)
 
 
 def draw_rings(canvas: Canvas, x: float, y: float, radius: float, found: dict[str, Any], theme: Theme) -> None:
-    """The mark of an end around a place."""
+    """Draw the rings of an end around a place."""
     for size, width in ((radius, 2.0), (radius + RING_PIXELS * canvas.pixel, 1.2)):
         canvas.disc(x, y, size, theme.floor, width=width + 2.0)
         canvas.disc(x, y, size, ending_colour(found, theme), width=width)
 
 
-def draw_banner(
-    canvas: Canvas, run: RecordedRun, found: dict[str, Any], room: Rectangle, taken: Iterable[Rectangle]
-) -> None:
-    """How it ended, when, and with which score: at an edge of the room, where nothing that is `taken` lies below it.
+def draw_banner(canvas: Canvas, run: RecordedRun, found: dict[str, Any], room: Region, taken: Iterable[Region]) -> None:
+    """Draw the end of a run, its time and score, at an edge of the room where nothing that is `taken` lies below it.
 
     All are in pixels, from the upper left corner.
     """
@@ -176,16 +174,16 @@ def draw_banner(
     fit = wide / widest
     left, low, *_ = free(_banner_places(wide, room), taken, room)
     x = left + wide / 2
-    around = rectangle(x, low + BANNER_PIXELS / 2, wide / 2, BANNER_PIXELS / 2)
+    around = rectangle_corners(x, low + BANNER_PIXELS / 2, wide / 2, BANNER_PIXELS / 2)
     canvas.polygon(around, NIGHT.page, 0.88)
     canvas.line(around, colour, 1.6, closed=True)
     canvas.text(x, low + 33, words, fit * WORDS_PIXELS, colour, bold=True, align="centre")
     canvas.text(x, low + 56, detail, fit * DETAIL_PIXELS, NIGHT.ink, align="centre")
 
 
-def _banner_places(wide: float, room: Rectangle) -> Iterator[Rectangle]:
+def _banner_places(wide: float, room: Region) -> Iterator[Region]:
     """Below and above, each in the middle, at the left and at the right."""
     far = room.width - wide
     for y in (room.low + room.height - BANNER_MARGIN_PIXELS - BANNER_PIXELS, room.low + BANNER_MARGIN_PIXELS):
         for x in (far / 2, BANNER_MARGIN_PIXELS, far - BANNER_MARGIN_PIXELS):
-            yield Rectangle(room.left + x, y, wide, BANNER_PIXELS)
+            yield Region(room.left + x, y, wide, BANNER_PIXELS)

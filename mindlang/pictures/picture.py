@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindlang.number_format import score
-from mindlang.pictures.canvas import Canvas, Image, Viewport, blank, in_lines, pasted, reduced, square
+from mindlang.pictures.canvas import Canvas, Image, Viewport, blank, flow_layout, paste, reduced, square
 from mindlang.pictures.path import (
     MIN_CONTROL_SHARE,
     Path,
@@ -85,7 +85,7 @@ def height_of(run: RecordedRun) -> int:
 
 
 def view_of(run: RecordedRun, width: int, height: int, *others: RecordedRun) -> Viewport:
-    """What is seen of the world in so many pixels."""
+    """The viewport of a picture of so many pixels: a bounded scene, or all places of the runs."""
     if run.task.scene.is_bounded:
         half = np.add(half_sides(run.task.scene), WALL_UNITS)
         return Viewport.around(-half, half, width, height)
@@ -108,7 +108,7 @@ def empty_page(height: int) -> Canvas:
 def page_around(world: Canvas, height: int) -> Canvas:
     """A page with this world on it, and its scale."""
     page = empty_page(height)
-    pasted(page.image, world.image, SCALE_FACTOR * SIDE_PIXELS, SCALE_FACTOR * TOP_PIXELS)
+    paste(page.image, world.image, SCALE_FACTOR * SIDE_PIXELS, SCALE_FACTOR * TOP_PIXELS)
     draw_scale(page, world.pixel, PICTURE_PIXELS - SIDE_PIXELS, height - 44)
     return page
 
@@ -121,7 +121,7 @@ def png(image: Image) -> bytes:
 
 
 def draw_title(canvas: Canvas, run: RecordedRun, found: dict[str, Any], x: float, y: float, right: float) -> None:
-    """The task, and the facts of the run side by side up to `right`, each below its name."""
+    """Draw the task, and the facts of the run side by side up to `right`, each below its name."""
     canvas.text(x, y, run.task.name, 24, PAPER.ink, bold=True)
     facts = _facts(run, found)
     gap = 1.6 * ENTRY_GAP_PIXELS
@@ -146,21 +146,21 @@ def _facts(run: RecordedRun, found: dict[str, Any]) -> list[tuple[str, str]]:
 def draw_legend(
     canvas: Canvas, run: RecordedRun, found: dict[str, Any], path: Path, x: float, y: float, right: float
 ) -> None:
-    """What the colours and marks mean, in lines that end before `right`, smaller where they are many."""
+    """Draw the legend of colours and marks, in lines that end before `right`, smaller where they are many."""
     entries = _entries(canvas, run, found, path)
-    size, places = fitted(canvas, [name for _, name in entries], right - x)
+    size, places = legend_layout(canvas, [name for _, name in entries], right - x)
     for (draw, name), (along, line) in zip(entries, places, strict=True):
         low = y + LEGEND_LINE_PIXELS * line
         draw(x + along, low - 4)
         canvas.text(x + along + LEGEND_MARK_PIXELS, low, name, size, PAPER.ink)
 
 
-def fitted(canvas: Canvas, names: Sequence[str], room: float) -> tuple[float, list[tuple[float, int]]]:
+def legend_layout(canvas: Canvas, names: Sequence[str], room: float) -> tuple[float, list[tuple[float, int]]]:
     """The largest size at which so many names fit into the lines, and where each entry begins."""
     size = SMALL_PIXELS
     while True:
         widths = [LEGEND_MARK_PIXELS + canvas.width(name, size) for name in names]
-        places = in_lines(widths, ENTRY_GAP_PIXELS, room)
+        places = flow_layout(widths, ENTRY_GAP_PIXELS, room)
         if places[-1][1] < LEGEND_LINES or size <= MIN_TEXT_PIXELS:
             return size, places
         size -= 0.5
@@ -200,7 +200,7 @@ def _entries(canvas: Canvas, run: RecordedRun, found: dict[str, Any], path: Path
 
 
 def draw_scale(canvas: Canvas, units_per_pixel: float, right: float, y: float) -> None:
-    """A bar of a round number of units that ends at `right`."""
+    """Draw a bar of a round number of units that ends at `right`."""
     units = next(n for n in (1000, 500, 200, 100, 50, 20, 10, 5, 2, 1, 0.5, 0) if n / units_per_pixel <= 130)
     long = units / units_per_pixel
     canvas.line([(right - long, y), (right, y)], PAPER.ink, 1.6)

@@ -1,4 +1,4 @@
-"""What the sensors read in one tick: beside each name a bar and its number, or a small bar for each reading."""
+"""The readings of one tick as a panel: beside each name a bar and its number, or a small bar for each reading."""
 
 from collections.abc import Iterator, Sequence
 
@@ -7,7 +7,7 @@ from mindrun.graph.graph import Sensor
 from mindrun.graph.weights import reachable
 from numpy.typing import NDArray
 
-from mindlang.pictures.canvas import Canvas, Rectangle, text_width
+from mindlang.pictures.canvas import Canvas, Region, text_width
 from mindlang.pictures.theme import NIGHT
 from mindlang.run.recorded_run import RecordedRun
 
@@ -28,20 +28,20 @@ def sensors_read(run: RecordedRun) -> list[Sensor]:
 class ReadingsPanel:
     """Draws the readings of a run into a rectangle of a canvas, as many sensors as fit."""
 
-    def __init__(self, run: RecordedRun, room: Rectangle) -> None:
+    def __init__(self, run: RecordedRun, room: Region) -> None:
         self._run = run
-        self._sensors, self._cells, self._left_out = fitted(sensors_read(run), room)
+        self._sensors, self._cells, self._left_out = cell_layout(sensors_read(run), room)
 
     def draw_names(self, canvas: Canvas) -> None:
-        """What no tick changes: the names, and how many sensors are not shown."""
+        """Draw what no tick changes: the names, and how many sensors are not shown."""
         names = [sensor.name for sensor in self._sensors]
         names += [f"and {self._left_out} more"] * (self._left_out > 0)
         for name, cell in zip(names, self._cells, strict=False):
-            text, size = shortened(name, NAME_SHARE * cell.width - 8)
+            text, size = fit_name(name, NAME_SHARE * cell.width - 8)
             canvas.text(cell.left, cell.low + size / 2, text, size, NIGHT.faint)
 
     def draw(self, canvas: Canvas, tick: int) -> None:
-        """The readings in a tick, the first of which is 1."""
+        """Draw the readings in a tick, the first of which is 1."""
         for sensor, cell in zip(self._sensors, self._cells, strict=False):
             values = self._run.readings[tick - 1, sensor.start : sensor.start + sensor.width].astype(float)
             left, right = cell.left + NAME_SHARE * cell.width, cell.left + cell.width
@@ -58,7 +58,7 @@ class ReadingsPanel:
         canvas.text(right, y + TEXT_PIXELS / 2, f"{value:.2f}", TEXT_PIXELS, NIGHT.ink, align="right")
 
     def _many(self, canvas: Canvas, values: NDArray[np.float64], left: float, right: float, y: float) -> None:
-        """A bar for each reading, one beside the other; readings at equal distances, where there are too many."""
+        """Draw bars of readings side by side; where there are too many, of some at equal distances."""
         low = y + MANY_BARS_PIXELS / 2
         count = min(len(values), int((right - left) // LEAST_BAR_PIXELS))
         shown = _shares(values)[np.linspace(0, len(values) - 1, count).astype(int)]
@@ -71,7 +71,7 @@ class ReadingsPanel:
                     canvas.polygon([(begin, low), (end, low), (end, top), (begin, top)], colour)
 
 
-def fitted(sensors: Sequence[Sensor], room: Rectangle) -> tuple[Sequence[Sensor], list[Rectangle], int]:
+def cell_layout(sensors: Sequence[Sensor], room: Region) -> tuple[Sequence[Sensor], list[Region], int]:
     """The sensors that are shown in a room, the cells, and how many are left out.
 
     A cell is given by its left end and its middle row. Where some are left out, the last cell says how many.
@@ -83,7 +83,7 @@ def fitted(sensors: Sequence[Sensor], room: Rectangle) -> tuple[Sequence[Sensor]
     return sensors[:shown], cells, len(sensors) - shown
 
 
-def _cells(count: int, room: Rectangle) -> Iterator[Rectangle]:
+def _cells(count: int, room: Region) -> Iterator[Region]:
     """At most so many cells, column by column."""
     columns = max(1, int(room.width // COLUMN_PIXELS))
     most = int(room.height // ROW_PIXELS)
@@ -92,10 +92,10 @@ def _cells(count: int, room: Rectangle) -> Iterator[Rectangle]:
     for number in range(min(count, rows * columns)):
         column, row = divmod(number, rows)
         left = room.left + column * wide + INDENT_PIXELS
-        yield Rectangle(left, room.low + (row + 0.5) * ROW_PIXELS, wide - 2 * INDENT_PIXELS, ROW_PIXELS)
+        yield Region(left, room.low + (row + 0.5) * ROW_PIXELS, wide - 2 * INDENT_PIXELS, ROW_PIXELS)
 
 
-def shortened(name: str, room: float) -> tuple[str, float]:
+def fit_name(name: str, room: float) -> tuple[str, float]:
     """A name and its size such that it is not wider than so many pixels: smaller, and if that is not enough, cut."""
     size = TEXT_PIXELS
     while size > MIN_TEXT_PIXELS and text_width(name, size) > room:

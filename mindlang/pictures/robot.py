@@ -6,8 +6,8 @@ import numpy as np
 from mindrun.kinds.actuators.actuator import ActuatorKind
 from mindrun.kinds.sensors.sensor import SensorKind
 
-from mindlang.pictures.canvas import Canvas, rectangle
-from mindlang.pictures.scene import Floats, placed
+from mindlang.pictures.canvas import Canvas, rectangle_corners
+from mindlang.pictures.scene import Floats, to_world
 from mindlang.pictures.theme import Theme
 from mindlang.run.recorded_run import RecordedRun
 
@@ -21,26 +21,26 @@ SECTOR_PIXELS = 3.0  # the width of that line
 
 
 def draw_robot(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
-    """The robot as it is after a tick: what it senses, claw, body, and a line that shows its heading."""
+    """Draw the robot as it is after a tick: what it senses, claw, body, and a line that shows its heading."""
     if tick:
         _rays(canvas, run, theme, tick)
         _claw(canvas, run, theme, tick)
         _jets(canvas, run, theme, tick)
     pose, body = run.body[tick], run.graph.body
     if body.outline:
-        _part(canvas, placed(body.outline, pose), theme, 1.2)
+        _part(canvas, to_world(body.outline, pose), theme, 1.2)
     else:
         canvas.disc(pose[0], pose[1], body.radius, theme.robot)
         canvas.disc(pose[0], pose[1], body.radius, theme.floor, width=1.2)
     _wheels(canvas, run, theme, tick)
-    canvas.line([pose[:2], *placed([(0.95 * body.front, 0.0)], pose)], theme.floor, 2.0)
+    canvas.line([pose[:2], *to_world([(0.95 * body.front, 0.0)], pose)], theme.floor, 2.0)
     _lamps(canvas, run, theme, tick)
     _touches(canvas, run, theme, tick)
     _spots(canvas, run, theme, tick)
 
 
 def _part(canvas: Canvas, corners: Floats, theme: Theme, edge: float) -> None:
-    """A piece of its body with an edge."""
+    """Draw a piece of its body with an edge."""
     canvas.polygon(corners, theme.robot)
     canvas.line(corners, theme.floor, edge, closed=True)
 
@@ -59,13 +59,13 @@ def _sensed(run: RecordedRun, tick: int) -> Iterator[tuple[SensorKind, Floats]]:
 
 
 def _wheels(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
-    """The four wheels of a car, the front ones turned."""
+    """Draw the four wheels of a car, the front ones turned."""
     body = run.graph.body
     long, wide = (share * 2 * body.front for share in WHEEL_SHARES)
     for ahead, turn in ((-0.5, 0.0), (0.5, steering_angle(run, tick))):
         for side in (body.side, -body.side) if body.axle_distance else ():
-            wheel = placed(rectangle(0, 0, long, wide), np.array([ahead * body.axle_distance, side, turn]))
-            _part(canvas, placed(wheel, run.body[tick]), theme, 1.0)
+            wheel = to_world(rectangle_corners(0, 0, long, wide), np.array([ahead * body.axle_distance, side, turn]))
+            _part(canvas, to_world(wheel, run.body[tick]), theme, 1.0)
 
 
 def steering_angle(run: RecordedRun, tick: int) -> float:
@@ -77,16 +77,16 @@ def steering_angle(run: RecordedRun, tick: int) -> float:
 
 
 def _jets(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
-    """What each thruster throws, away from where it pushes, as long as its force is strong."""
+    """Draw the jet of each thruster, opposite to its push, of a length proportional to its force."""
     body, pose = run.graph.body, run.body[tick]
     for kind, command in _commanded(run, tick):
         if (push := kind.push(body)) is not None:
             at, way = (np.array(each) for each in push)
-            canvas.line(placed([at, at - JET_SIDES * body.side * (2 * command - 1) * way], pose), theme.lamp, 4.0)
+            canvas.line(to_world([at, at - JET_SIDES * body.side * (2 * command - 1) * way], pose), theme.lamp, 4.0)
 
 
 def _lamps(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
-    """The lamps side by side in front, each as bright as its command; one that is lit throws a beam."""
+    """Draw the lamps side by side in front, each as bright as its command; one that is lit throws a beam."""
     lamps = [command for kind, command in _commanded(run, tick) if kind.is_light]
     body, pose = run.graph.body, run.body[tick]
     size = 0.7 * body.side / (2 + len(lamps))
@@ -95,8 +95,8 @@ def _lamps(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
         if bright > LIT_COMMAND:
             far, wide = BEAM_UNITS * body.side, BEAM_SLOPE * BEAM_UNITS * body.side
             ends = [(ahead + far, aside - wide), (ahead + far, aside + wide)]
-            canvas.polygon(placed([(ahead, aside), *ends], pose), theme.lamp, 0.35 * bright)
-        [(x, y)] = placed([(ahead, aside)], pose)
+            canvas.polygon(to_world([(ahead, aside), *ends], pose), theme.lamp, 0.35 * bright)
+        [(x, y)] = to_world([(ahead, aside)], pose)
         canvas.disc(x, y, size, theme.floor)
         canvas.disc(x, y, size, theme.lamp, bright)
         canvas.disc(x, y, 1.9 * size, theme.lamp, 0.4 * bright)
@@ -108,11 +108,11 @@ def _claw(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
         apart = 0.35 if command > 0.5 else 0.75
         for side in (-1.0, 1.0) if kind.can_hold else ():
             shape = np.array([(-0.2, 0.5 * side), (0.4, apart * side), (0.9, apart * 0.8 * side)]) * body.side
-            canvas.line(placed(shape + np.array([body.front, 0.0]), run.body[tick]), theme.robot, 2.2)
+            canvas.line(to_world(shape + np.array([body.front, 0.0]), run.body[tick]), theme.robot, 2.2)
 
 
 def _rays(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
-    """Each ray as far as it went."""
+    """Draw each ray as far as it went."""
     x, y, angle = run.body[tick]
     for kind, readings in _sensed(run, tick):
         for at, reading in zip(kind.rays, readings, strict=False):
@@ -128,7 +128,7 @@ def _rays(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
 
 
 def _touches(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
-    """Each switch of a bumper along the rim of the body, lit where it is pressed; the pressed ones lie on top."""
+    """Draw the switches of a bumper along the rim of the body, lit where pressed; the pressed ones lie on top."""
     shown = [
         (reading, _rim(run, at, kind.sector))
         for kind, readings in _sensed(run, tick)
@@ -137,7 +137,7 @@ def _touches(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
         if not np.isnan(reading)
     ]
     for reading, points in sorted(shown, key=lambda switch: switch[0]):
-        line = placed(points, run.body[tick])
+        line = to_world(points, run.body[tick])
         canvas.line(line, theme.floor, SECTOR_PIXELS + 1.5)
         canvas.line(line, theme.crash if reading > 0.5 else theme.faint, SECTOR_PIXELS)
 
@@ -151,10 +151,10 @@ def _rim(run: RecordedRun, at: float, sector: float) -> Floats:
 
 
 def _spots(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
-    """Each point of the floor that a sensor looks down at, filled where it is over what it looks for."""
+    """Draw each point of the floor that a sensor looks down at, filled where it is over what it looks for."""
     radius = SPOT_PIXELS * canvas.pixel
     for kind, readings in _sensed(run, tick):
-        for (x, y), reading in zip(placed(kind.spots, run.body[tick]) if kind.spots else (), readings, strict=False):
+        for (x, y), reading in zip(to_world(kind.spots, run.body[tick]) if kind.spots else (), readings, strict=False):
             if not np.isnan(reading):
                 canvas.disc(x, y, radius, theme.ray if reading > 0.5 else theme.floor)
                 canvas.disc(x, y, radius, theme.ray, width=1.0)

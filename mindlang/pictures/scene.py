@@ -12,7 +12,7 @@ from mindrun.kinds.registry import names
 from mindrun.kinds.scenes.scene import SceneKind
 from numpy.typing import ArrayLike, NDArray
 
-from mindlang.pictures.canvas import Canvas, Rectangle, rectangle, square, text_width
+from mindlang.pictures.canvas import Canvas, Region, rectangle_corners, square, text_width
 from mindlang.pictures.theme import Colour, Theme, mixed
 from mindlang.run.recorded_run import RecordedRun
 
@@ -25,7 +25,7 @@ GAP_PIXELS = 4.0  # between a thing and its name
 MAX_LINES_AWAY = 8  # how far a name gives way to others
 
 
-def placed(points: ArrayLike, pose: Floats) -> Floats:
+def to_world(points: ArrayLike, pose: Floats) -> Floats:
     """Points [n, 2] of a body in the world, where it stands at x, y and is turned by an angle."""
     x, y, angle = pose
     turned = np.asarray(points, float) @ np.array([(cos(angle), sin(angle)), (-sin(angle), cos(angle))])
@@ -34,22 +34,22 @@ def placed(points: ArrayLike, pose: Floats) -> Floats:
 
 
 def draw_floor(canvas: Canvas, run: RecordedRun, theme: Theme) -> None:
-    """The floor with a line every ten units, the walls and the obstacles."""
+    """Draw the floor with a line every ten units, the walls and the obstacles."""
     view, (height, width) = canvas.view, canvas.image.shape[:2]
     left, right, low, high = view.left, view.left + width / view.scale, view.top - height / view.scale, view.top
     if run.task.scene.is_bounded:
         right, high = half_sides(run.task.scene)
         left, low = -right, -high
-        canvas.polygon(rectangle(0, 0, right + WALL_UNITS, high + WALL_UNITS), theme.wall)
-        canvas.polygon(rectangle(0, 0, right, high), theme.floor)
+        canvas.polygon(rectangle_corners(0, 0, right + WALL_UNITS, high + WALL_UNITS), theme.wall)
+        canvas.polygon(rectangle_corners(0, 0, right, high), theme.floor)
     for x in _grid(left, right):
         canvas.line([(x, low), (x, high)], theme.grid)
     for y in _grid(low, high):
         canvas.line([(left, y), (right, y)], theme.grid)
     for box in run.boxes:
-        canvas.line(rectangle(*box), theme.rock_edge, 2.4, closed=True)
+        canvas.line(rectangle_corners(*box), theme.rock_edge, 2.4, closed=True)
     for box in run.boxes:
-        canvas.polygon(rectangle(*box), theme.rock)
+        canvas.polygon(rectangle_corners(*box), theme.rock)
 
 
 def _grid(first: float, last: float) -> Floats:
@@ -80,7 +80,7 @@ def each_thing(run: RecordedRun, theme: Theme, tick: int) -> Iterable[tuple[Thin
 
 
 def draw_zones(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
-    """The zones as they are after a tick: below the path."""
+    """Draw the zones as they are after a tick: below the path."""
     for thing, fill, (x, y, size) in each_thing(run, theme, tick):
         if thing.kind.is_area:
             canvas.polygon(square(x, y, size / 2), fill, 0.22)
@@ -88,7 +88,7 @@ def draw_zones(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> Non
 
 
 def draw_items(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
-    """The items, boxes and balls as they are after a tick."""
+    """Draw the items, boxes and balls as they are after a tick."""
     turned = run.turned[tick][np.isfinite(run.things[tick, :, 0])]
     for (thing, fill, (x, y, size)), angle in zip(each_thing(run, theme, tick), turned, strict=True):
         edge = mixed(fill, theme.ink, 0.45)
@@ -96,12 +96,12 @@ def draw_items(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> Non
             canvas.disc(x, y, size / 2, fill)
             canvas.disc(x, y, size / 2, edge, width=1.2)
         elif not thing.kind.is_area:
-            shape = placed(square(0.0, 0.0, size / 2), np.array([x, y, angle]))
+            shape = to_world(square(0.0, 0.0, size / 2), np.array([x, y, angle]))
             canvas.polygon(shape, fill)
             canvas.line(shape, edge, 1.2, closed=True)
 
 
-class Label(NamedTuple):
+class SceneLabel(NamedTuple):
     """Words with capitals of so many `pixels`, and the place and size of what they are about."""
 
     words: str
@@ -112,44 +112,44 @@ class Label(NamedTuple):
     size: float
 
 
-def draw_names(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int, ending: Label | None = None) -> None:
-    """The name of each thing in sight: below it, or where neither the robot nor a thing nor another name is.
+def draw_names(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int, ending: SceneLabel | None = None) -> None:
+    """Draw the name of each thing in sight: below it, or where neither the robot nor a thing nor another name is.
 
     Of many things of one name the first alone has it. Words about the robot, how its run ended, stand beside it.
     """
     pixel = 1 / canvas.view.scale
     (height, width), (left, top) = canvas.image.shape[:2], (canvas.view.left, canvas.view.top)
-    sight = Rectangle(left, top - height * pixel, width * pixel, height * pixel)
+    sight = Region(left, top - height * pixel, width * pixel, height * pixel)
     gap = GAP_PIXELS * canvas.pixel
     (x, y, _), radius = run.body[tick], run.graph.body.radius
     each = list(each_thing(run, theme, tick))
     squares = [np.array((x, y, 2 * radius)), *(place for thing, _, place in each if not thing.kind.is_area)]
-    taken = [Rectangle(x - side / 2, y - side / 2, side, side) for x, y, side in squares]
-    said = [Label(name, NAME_PIXELS, theme.ink, *place) for name, place in _named(run, each, sight)]
+    taken = [Region(x - side / 2, y - side / 2, side, side) for x, y, side in squares]
+    said = [SceneLabel(name, NAME_PIXELS, theme.ink, *place) for name, place in _named(run, each, sight)]
     for text in ([ending] if ending else []) + said:
         high, wide = text.pixels * canvas.pixel, text_width(text.words, text.pixels * canvas.pen) * pixel
         middle = min(max(text.x, left + wide / 2), left + width * pixel - wide / 2)
-        below = Rectangle(middle - wide / 2, text.y - text.size / 2 - gap - high, wide, high)
+        below = Region(middle - wide / 2, text.y - text.size / 2 - gap - high, wide, high)
         place = free(_places(below, text, gap), taken, sight)
         taken.append(place._replace(low=place.low - gap / 2, height=high + gap))
         canvas.text(place.left, place.low, text.words, text.pixels, text.colour, halo=theme.floor)
 
 
 def _named(
-    run: RecordedRun, each: Iterable[tuple[Thing, Colour, Floats]], sight: Rectangle
+    run: RecordedRun, each: Iterable[tuple[Thing, Colour, Floats]], sight: Region
 ) -> Iterator[tuple[str, Floats]]:
     """The name, place and size of each thing in sight that is named."""
     many = Counter(thing.name for thing in run.contents)
     named: set[str] = set()
     for thing, _, place in each:
-        is_in_sight = Rectangle(place[0], place[1], 0.0, 0.0).is_within(sight)
+        is_in_sight = Region(place[0], place[1], 0.0, 0.0).is_within(sight)
         if is_in_sight and (thing.name not in named or many[thing.name] <= MAX_NAMED_COPIES):
             named.add(thing.name)
             yield thing.name, place
 
 
-def _places(below: Rectangle, text: Label, gap: float) -> Iterator[Rectangle]:
-    """Where a name can stand: below its thing, above, to the right or left of it, and then line by line farther."""
+def _places(below: Region, text: SceneLabel, gap: float) -> Iterator[Region]:
+    """The places for a name: below its thing, above, to the right or left of it, and then line by line farther."""
     above = below._replace(low=text.y + text.size / 2 + gap)
     yield from (below, above)
     level = below._replace(low=text.y - below.height / 2)
@@ -160,7 +160,7 @@ def _places(below: Rectangle, text: Label, gap: float) -> Iterator[Rectangle]:
         yield from (below._replace(low=below.low - away), above._replace(low=above.low + away))
 
 
-def free(places: Iterable[Rectangle], taken: Iterable[Rectangle], sight: Rectangle) -> Rectangle:
+def free(places: Iterable[Region], taken: Iterable[Region], sight: Region) -> Region:
     """The first of the places that is in sight and free; the very first, where none is."""
     choices, occupied = list(places), list(taken)
     for place in choices:

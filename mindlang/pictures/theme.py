@@ -26,7 +26,7 @@ def mixed(first: Colour, second: Colour, share: float) -> Colour:
 
 @dataclass(frozen=True, slots=True)
 class Theme:
-    """What has which colour."""
+    """The colours of a picture, by their use."""
 
     page: Colour
     floor: Colour

@@ -69,17 +69,17 @@ def _world(was: RecordedRun, now: RecordedRun, tick: int) -> Canvas:
 
 
 def _mark(canvas: Canvas, x: float, y: float) -> None:
-    """Where the robot was when something was changed."""
+    """Draw a mark where the robot was when something was changed."""
     canvas.disc(x, y, MARK_PIXELS * canvas.pixel, PAPER.lamp)
     canvas.disc(x, y, MARK_PIXELS * canvas.pixel, PAPER.ink, width=1.8)
 
 
 def outcome_words(found: dict[str, Any]) -> str:
-    """What came of a run, in a line."""
+    """The outcome of a run in one line."""
     counted = [f"{times} × {event}" for event, times in found["by_event"].items()]
     return ", ".join([f"score {score(found['score'])}", *counted, in_words(found["ticks"]), ending_words(found)])
 
 
 def _fitting(page: Canvas, x: float, y: float, text: str, size: float, right: float) -> None:
-    """A line of text, smaller where it would go beyond `right`."""
+    """Draw a line of text, smaller where it would go beyond `right`."""
     page.text(x, y, text, size * min(1.0, (right - x) / page.width(text, size)), PAPER.ink)

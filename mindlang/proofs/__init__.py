@@ -1,1 +1,1 @@
-"""What can be said about a mind without running it: paths, leaks, bounds. One claim a file."""
+"""Proofs about a mind without running it: paths, leaks, bounds. One claim a file."""

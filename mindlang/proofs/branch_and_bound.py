@@ -1,4 +1,4 @@
-"""What a skill can send over each edge, for any readings: bounds, made sharper by cutting the box (branch and bound).
+"""Bounds of what a skill sends over each edge, for any readings, made tighter by branch and bound.
 
 A box whose bounds reach no further than what the skill was seen to send cannot be improved on, and is left alone.
 """
@@ -20,13 +20,13 @@ from mindlang.proofs.interval import (
     SentBounds,
     Singles,
     is_known,
-    joined,
-    part,
-    perceptron,
-    sent,
-    whole,
+    join_boxes,
+    perceptron_matrices,
+    select_boxes,
+    sent_bounds,
+    whole_box,
 )
-from mindlang.proofs.trying import readings_to_try, values
+from mindlang.proofs.trying import readings_to_try, sent_values
 
 SHARP_ENOUGH = 1e-3  # a bound this near to a value that was seen is sharp enough, but for 0 and 1
 BOXES_PER_ROUND = 256  # boxes that are cut in one round
@@ -35,7 +35,7 @@ SAMPLED_READINGS = 2048  # readings, half of them corners of the box
 
 @dataclass(frozen=True, slots=True)
 class EdgeRange:
-    """What an edge can send: proved, and as far as it was seen; `sure` where it always sends a number."""
+    """Proved bounds of what an edge sends, and the range that was seen; `sure` if it always sends a number."""
 
     low: float
     high: float
@@ -44,19 +44,19 @@ class EdgeRange:
 
     @property
     def is_dead(self) -> bool:
-        """Whether it never sends more than 0."""
+        """True if the edge never sends more than 0."""
         return self.high <= 0
 
 
 class Pool(NamedTuple):
-    """Boxes and what is sent in them."""
+    """Boxes, and the bounds of what is sent in them."""
 
     boxes: Boxes
     sent: SentBounds
 
 
 def _some(of: Pool, rows: NDArray[np.intp] | NDArray[np.bool_]) -> Pool:
-    return Pool(part(of.boxes, rows), part(of.sent, rows))
+    return Pool(select_boxes(of.boxes, rows), select_boxes(of.sent, rows))
 
 
 def ranges(skill: Skill, weights: Weights | None, most: int) -> tuple[EdgeRange, ...]:
@@ -65,7 +65,7 @@ def ranges(skill: Skill, weights: Weights | None, most: int) -> tuple[EdgeRange,
         return tuple(EdgeRange(0.0, 1.0, sure=False) for _ in skill.edges)
     skill = by_itself(skill)
     low, high = _seen(skill, weights)
-    found = reduce(joined, (pool.sent for pool in _cut(skill, weights, low, high, most)))
+    found = reduce(join_boxes, (pool.sent for pool in _cut(skill, weights, low, high, most)))
     bounds = [found.low.min(axis=0), found.high.max(axis=0), found.sure.all(axis=0)]
     known = is_known(skill, weights)
     seen = [
@@ -95,7 +95,7 @@ def _seen(skill: Skill, weights: Weights | None) -> tuple[Singles, Singles]:
     """The least and the most that each edge sends for readings that are tried; 0 and 1 where it cannot be known."""
     tried = readings_to_try(len(skill.inputs), SAMPLED_READINGS)
     known = is_known(skill, weights)
-    found = values(skill if known else _without_function(skill), weights, tried)
+    found = sent_values(skill if known else _without_function(skill), weights, tried)
     sound = np.isfinite(found)
     found = np.clip(found, 0, 1)
     low, high = found.min(axis=0, initial=1, where=sound), found.max(axis=0, initial=0, where=sound)
@@ -110,7 +110,7 @@ def _without_function(skill: Skill) -> Skill:
 def _cut(skill: Skill, weights: Weights | None, low: Singles, high: Singles, most: int) -> list[Pool]:
     """Pools that cover the box together; the boxes that say least are cut first."""
     sides = len(skill.inputs)
-    open_, done, made = Pool(whole(sides), sent(skill, weights, whole(sides))), [], 1
+    open_, done, made = Pool(whole_box(sides), sent_bounds(skill, weights, whole_box(sides))), [], 1
     sway = sway_of(skill, weights)
     while True:
         excess = _excess(open_.sent, low, high)
@@ -119,14 +119,14 @@ def _cut(skill: Skill, weights: Weights | None, low: Singles, high: Singles, mos
         if not len(excess) or made >= most or sides == 0:
             return [*done, open_]
         order = np.argsort(-excess, kind="stable")
-        cut = halves(part(open_.boxes, order[:BOXES_PER_ROUND]), sway)
+        cut = halves(select_boxes(open_.boxes, order[:BOXES_PER_ROUND]), sway)
         made += len(cut.low)
         rest = _some(open_, order[BOXES_PER_ROUND:])
-        open_ = Pool(joined(rest.boxes, cut), joined(rest.sent, sent(skill, weights, cut)))
+        open_ = Pool(join_boxes(rest.boxes, cut), join_boxes(rest.sent, sent_bounds(skill, weights, cut)))
 
 
 def _excess(found: SentBounds, low: Singles, high: Singles) -> Singles:
-    """How much farther than what was seen the bounds of each box reach, over all edges; 0 where that is close."""
+    """How far the bounds of each box exceed what was seen, the most of its edges; 0 where that is close."""
     below, above = np.maximum(low - found.low, 0), np.maximum(found.high - high, 0)
     below[(below <= SHARP_ENOUGH) & (low < 1)] = 0  # "always 1" and "always 0" are to be proved exactly
     above[(above <= SHARP_ENOUGH) & (high > 0)] = 0
@@ -141,7 +141,7 @@ def sway_of(skill: Skill, weights: Weights | None) -> Singles:
         for word, reading in (term for program in edge.programs for term in program):
             if word == "reading":
                 sway[int(reading)] += 1
-    for matrix in perceptron(skill, weights)[:1]:
+    for matrix in perceptron_matrices(skill, weights)[:1]:
         sway += np.minimum(np.abs(matrix), 1e6).sum(axis=0)
     return sway
 
@@ -153,4 +153,4 @@ def halves(boxes: Boxes, sway: Singles) -> Boxes:
     middle = (low[rows, side] + high[rows, side]) / 2
     upper, lower = low.copy(), high.copy()
     upper[rows, side], lower[rows, side] = middle, middle
-    return joined(Boxes(low, lower), Boxes(upper, high))
+    return join_boxes(Boxes(low, lower), Boxes(upper, high))

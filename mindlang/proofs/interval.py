@@ -34,7 +34,7 @@ class Boxes(NamedTuple):
 
 
 class SentBounds(NamedTuple):
-    """What a skill sends [boxes, edges], clamped to 0..1; where it is not `sure`, it may be no number and not sent."""
+    """Bounds of what a skill sends [boxes, edges], clamped to 0..1; if not `sure`, it may be NaN and not sent."""
 
     low: Singles
     high: Singles
@@ -44,30 +44,30 @@ class SentBounds(NamedTuple):
 Bounds = TypeVar("Bounds", Boxes, SentBounds)
 
 
-def whole(width: int) -> Boxes:
+def whole_box(width: int) -> Boxes:
     """One box with all readings there are."""
     return Boxes(np.zeros((1, width), np.float32), np.ones((1, width), np.float32))
 
 
-def part(of: Bounds, boxes: slice | NDArray[np.intp] | NDArray[np.bool_]) -> Bounds:
+def select_boxes(of: Bounds, boxes: slice | NDArray[np.intp] | NDArray[np.bool_]) -> Bounds:
     """Some of the boxes."""
     some: list[Any] = [each[boxes] for each in of]
     return type(of)(*some)
 
 
-def joined(first: Bounds, second: Bounds) -> Bounds:
+def join_boxes(first: Bounds, second: Bounds) -> Bounds:
     """The boxes of both."""
     both: list[Any] = [np.concatenate(pair) for pair in zip(first, second, strict=True)]
     return type(first)(*both)
 
 
 def is_known(skill: Skill, weights: Weights | None) -> bool:
-    """Whether its function can be looked into: not where it is untaught, and not where it is Python code."""
+    """True if bounds of the skill's function can be computed: it is neither untaught nor Python code."""
     return skill.outputs == 0 or (not skill.function.opaque and (weights is not None or genes(skill) == 0))
 
 
-def sent(skill: Skill, weights: Weights | None, boxes: Boxes) -> SentBounds:
-    """What a skill can send over each of its edges; anything in 0..1 where its function is not known."""
+def sent_bounds(skill: Skill, weights: Weights | None, boxes: Boxes) -> SentBounds:
+    """Bounds of what a skill sends over each of its edges; 0..1 where its function is not known."""
     count, edges = len(boxes.low), len(skill.edges)
     low, high = np.full((2, count, edges), [[[-np.inf]], [[np.inf]]], np.float32)
     sure = np.ones((count, edges), np.bool_)
@@ -75,7 +75,7 @@ def sent(skill: Skill, weights: Weights | None, boxes: Boxes) -> SentBounds:
         outputs = _outputs(skill, weights, boxes)
         for number, edge in enumerate(skill.edges):
             if edge.output is None:
-                low[:, number], high[:, number] = evaluate(edge.value, boxes)
+                low[:, number], high[:, number] = expression_bounds(edge.value, boxes)
             elif outputs is not None:
                 low[:, number], high[:, number] = outputs[0][:, edge.output], outputs[1][:, edge.output]
             if edge.gate:
@@ -87,18 +87,18 @@ def sent(skill: Skill, weights: Weights | None, boxes: Boxes) -> SentBounds:
 
 def _gated(gate: Gate, low: Singles, high: Singles, boxes: Boxes) -> tuple[Singles, Singles, NDArray[np.bool_]]:
     """The bounds of what is sent through a gate, and where it is sure that something is."""
-    never, always = evaluate(gate.when, boxes)
+    never, always = expression_bounds(gate.when, boxes)
     is_known = np.isfinite(never) & np.isfinite(always)
     can_open, can_close = always > 0, never <= 0
     if gate.otherwise is None:
         nothing = np.float32(0)
         return np.where(can_open, low, nothing), np.where(can_open, high, nothing), is_known & ~can_close
-    least, most = evaluate(gate.otherwise, boxes)
+    least, most = expression_bounds(gate.otherwise, boxes)
     least, most = np.where(can_open, np.minimum(low, least), least), np.where(can_open, np.maximum(high, most), most)
     return np.where(can_close, least, low), np.where(can_close, most, high), is_known
 
 
-def perceptron(skill: Skill, weights: Weights | None) -> tuple[Singles, ...]:
+def perceptron_matrices(skill: Skill, weights: Weights | None) -> tuple[Singles, ...]:
     """The matrices of its layers; none where it has nothing to learn, or was not taught."""
     return () if weights is None else matrices(weights, skill.function.layers(len(skill.inputs), skill.outputs))
 
@@ -107,14 +107,14 @@ def _outputs(skill: Skill, weights: Weights | None, boxes: Boxes) -> tuple[Singl
     """The outputs of its function; None where nothing is known of them."""
     if not is_known(skill, weights):
         return None
-    found, inputs = perceptron(skill, weights), list(skill.inputs)
+    found, inputs = perceptron_matrices(skill, weights), list(skill.inputs)
     if not found:
         nothing = np.zeros((len(boxes.low), skill.outputs), np.float32)
         return nothing, nothing
-    return perceive(found, boxes.low[:, inputs], boxes.high[:, inputs])
+    return perceptron_bounds(found, boxes.low[:, inputs], boxes.high[:, inputs])
 
 
-def perceive(layer_matrices: Sequence[Singles], low: Singles, high: Singles) -> tuple[Singles, Singles]:
+def perceptron_bounds(layer_matrices: Sequence[Singles], low: Singles, high: Singles) -> tuple[Singles, Singles]:
     """The bounds of a perceptron's outputs, before the clamp; infinite where a sum may overflow."""
     *hidden, last = layer_matrices
     for matrix in hidden:
@@ -137,7 +137,7 @@ def _dense(matrix: Singles, low: Singles, high: Singles) -> tuple[Singles, Singl
     return least, most
 
 
-def evaluate(program: Program, boxes: Boxes) -> tuple[Singles, Singles]:
+def expression_bounds(program: Program, boxes: Boxes) -> tuple[Singles, Singles]:
     """The bounds of an `at` expression, which the engine computes in float64; infinite where it may be no number."""
 
     def leaf(word: str, operand: float | int) -> tuple[Doubles, Doubles]:

@@ -1,4 +1,4 @@
-"""From the declaration alone: the paths of influence to an actuator, and the worst that small leaks can do.
+"""Paths of influence to an actuator, and the worst that small leaks can do, from the declaration alone.
 
 A path leads over lines that can send more than 0 whatever the weights are: `influences X at 0` is no path.
 
@@ -28,7 +28,7 @@ from mindrun.graph.weights import reachable
 from networkx import DiGraph, all_simple_paths
 from numpy.typing import NDArray
 
-from mindlang.proofs.interval import Boxes, evaluate, whole
+from mindlang.proofs.interval import Boxes, expression_bounds, whole_box
 
 MAX_COUNTED_PATHS = 10**15  # stands for itself and for more
 Row = NDArray[np.float64]  # one value per actuator
@@ -43,7 +43,7 @@ class Paths:
 
 
 @dataclass(frozen=True, slots=True)
-class Way:
+class InfluenceEdge:
     """An edge that can carry influence to another skill, by its index: how much at most, and whether it is learnt.
 
     What would arrive with less than `cuts` does not.
@@ -56,38 +56,37 @@ class Way:
 
 
 @dataclass(frozen=True, slots=True)
-class Ways:
-    """By index, of the skills below the master, parents first: where influence can go, what they drive."""
+class InfluenceEdges:
+    """Influence edges and driven actuators by skill index; `skills` are those below the master, parents first."""
 
     names: tuple[str, ...]
     skills: tuple[int, ...]
-    onward: tuple[tuple[Way, ...], ...]
+    onward: tuple[tuple[InfluenceEdge, ...], ...]
     drives: tuple[tuple[int, ...], ...]
 
 
-def ways(graph: Graph) -> Ways:
-    """Where influence can go, without any weights."""
+def influence_edges(graph: Graph) -> InfluenceEdges:
+    """The edges that can carry influence, whatever the weights are."""
     place = graph.skill_numbers
-    everything = whole(graph.width)
-    onward = [
-        tuple(way for edge in skill.edges if edge.to == "skill" and (way := _way(skill, edge, everything)).most > 0)
-        for skill in graph.skills
-    ]
+    everything = whole_box(graph.width)
+    onward = [[_influence_edge(skill, e, everything) for e in skill.edges if e.to == "skill"] for skill in graph.skills]
     drives = [tuple(edge.target for edge in skill.edges if edge.to == "actuator") for skill in graph.skills]
     below = tuple(place[skill.name] for skill in reachable(graph, graph.master))
-    return Ways(tuple(place), below, tuple(onward), tuple(drives))
+    able = tuple(tuple(edge for edge in edges if edge.most > 0) for edges in onward)
+    return InfluenceEdges(tuple(place), below, able, tuple(drives))
 
 
-def _way(skill: Skill, edge: Edge, everything: Boxes) -> Way:
+def _influence_edge(skill: Skill, edge: Edge, everything: Boxes) -> InfluenceEdge:
     if edge.output is not None:
-        return Way(edge.target, 1.0, skill.function.learns, edge.cuts)  # Python code is as exact as it is written
+        learns = skill.function.learns  # Python code is as exact as it is written
+        return InfluenceEdge(edge.target, 1.0, learns, edge.cuts)
     with np.errstate(all="ignore"):
         sent_values = [edge.value] + ([edge.gate.otherwise] if edge.gate and edge.gate.otherwise is not None else [])
-        most = max(evaluate(value, everything)[1][0] for value in sent_values)
-    return Way(edge.target, float(np.clip(most, 0, 1)), False, edge.cuts)
+        most = max(expression_bounds(value, everything)[1][0] for value in sent_values)
+    return InfluenceEdge(edge.target, float(np.clip(most, 0, 1)), False, edge.cuts)
 
 
-def paths(found: Ways, actuators: int, listed: int) -> list[Paths]:
+def paths(found: InfluenceEdges, actuators: int, listed: int) -> list[Paths]:
     """The paths to each actuator."""
     counts = _counts(found, actuators)
     master = found.skills[0]
@@ -97,7 +96,7 @@ def paths(found: Ways, actuators: int, listed: int) -> list[Paths]:
     ]
 
 
-def _counts(found: Ways, actuators: int) -> dict[int, list[int]]:
+def _counts(found: InfluenceEdges, actuators: int) -> dict[int, list[int]]:
     """By skill, how many paths lead from it to each actuator, up to MAX_COUNTED_PATHS."""
     counts: dict[int, list[int]] = {}
     for skill in reversed(found.skills):
@@ -108,8 +107,8 @@ def _counts(found: Ways, actuators: int) -> dict[int, list[int]]:
     return counts
 
 
-def _first(found: Ways, counts: dict[int, list[int]], actuator: int) -> Iterator[tuple[str, ...]]:
-    """Paths in the order of the lines, no step of which leads astray."""
+def _first(found: InfluenceEdges, counts: dict[int, list[int]], actuator: int) -> Iterator[tuple[str, ...]]:
+    """All paths to an actuator, in the order of the lines; only edges that lead to it are followed."""
     graph, end = DiGraph(), -1  # the actuator, below all that drive it
     for skill in (skill for skill in found.skills if counts[skill][actuator]):
         graph.add_edges_from((skill, end) for driven in found.drives[skill] if driven == actuator)
@@ -142,15 +141,15 @@ class Leak:
         return most if most.share > 0 else None
 
 
-def leaks(found: Ways, actuators: int, delta: float) -> list[Leak | None]:
+def leaks(found: InfluenceEdges, actuators: int, delta: float) -> list[Leak | None]:
     """For each actuator the worst case of a leak of `delta`; None where no path leads to it."""
     with np.errstate(all="ignore"):  # where the ways are too many for a number, they are infinitely many
         search = _Leaks(_without_cut(found, delta), actuators, delta)
         return [search.worst_path(actuator) for actuator in range(actuators)]
 
 
-def _without_cut(found: Ways, delta: float) -> Ways:
-    """The ways without the leaks that lines cut: where δ times the greatest influence of the skill is too small."""
+def _without_cut(found: InfluenceEdges, delta: float) -> InfluenceEdges:
+    """The edges without the leaks that lines cut: where δ times the greatest influence of the skill is too small."""
     most = dict.fromkeys(found.skills, 0.0)
     most[found.skills[0]] = 1.0
     onward = list(found.onward)
@@ -166,7 +165,7 @@ def _without_cut(found: Ways, delta: float) -> Ways:
 class _Leaks:
     """Rows by skill: W, Σ W over its learnt lines, and the greatest U of a path to it, with that path's last steps."""
 
-    def __init__(self, found: Ways, actuators: int, delta: float) -> None:
+    def __init__(self, found: InfluenceEdges, actuators: int, delta: float) -> None:
         self._found, self._delta = found, delta
         self._reach: dict[int, Row] = {}
         for skill in reversed(found.skills):
@@ -175,7 +174,7 @@ class _Leaks:
         self._learnt = {skill: self._sum_of_learnt(skill, None) for skill in found.skills}
         self._worst = {skill: np.full(actuators, -1.0) for skill in found.skills}  # where no path leads
         self._worst[found.skills[0]] = np.zeros(actuators)
-        self._above: dict[int, dict[int, tuple[int, Way]]] = {skill: {} for skill in found.skills}
+        self._above: dict[int, dict[int, tuple[int, InfluenceEdge]]] = {skill: {} for skill in found.skills}
         for skill in found.skills:
             for way in found.onward[skill] if self._worst[skill].min(initial=0) >= 0 else ():
                 leaked = (self._worst[skill] + delta * self._others(skill, way)) / way.most
@@ -183,11 +182,11 @@ class _Leaks:
                     self._worst[way.target][actuator] = leaked[actuator]
                     self._above[way.target][actuator] = skill, way
 
-    def _sum_of_learnt(self, skill: int, kept: Way | None) -> Row:
+    def _sum_of_learnt(self, skill: int, kept: InfluenceEdge | None) -> Row:
         ways = (way for way in self._found.onward[skill] if way.is_learnt and way is not kept)
         return sum((self._reach[way.target] for way in ways), np.zeros_like(self._reach[skill]))
 
-    def _others(self, skill: int, kept: Way | None) -> Row:
+    def _others(self, skill: int, kept: InfluenceEdge | None) -> Row:
         """Σ W over the learnt lines of a skill other than the one that is meant."""
         if kept is None or not kept.is_learnt:
             return self._learnt[skill]

@@ -10,12 +10,12 @@ from mindrun.graph.graph import Actuator, Edge, Graph, Skill
 from mindrun.graph.weights import Weights, reachable
 from networkx import DiGraph
 
-from mindlang.compiler.hierarchy import above
+from mindlang.compiler.hierarchy import with_ancestors
 from mindlang.proofs.branch_and_bound import EdgeRange
 from mindlang.proofs.interval import is_known
-from mindlang.proofs.paths import Leak, Paths, leaks, paths, ways
-from mindlang.proofs.reach import MIN_INFLUENCE, Driven, ProvedReach, reach, together
-from mindlang.proofs.trying import Tried, try_out
+from mindlang.proofs.paths import Leak, Paths, influence_edges, leaks, paths
+from mindlang.proofs.reach import MIN_INFLUENCE, Driven, ProvedReach, prove_reach, tighten
+from mindlang.proofs.trying import Tried, try_readings
 
 MAX_LISTED_PATHS = 10
 DECLARATION = "the declaration alone"
@@ -25,8 +25,8 @@ Neutral = Literal["always", "never", "can be", "not excluded"]
 
 
 @dataclass(frozen=True, slots=True)
-class OfActuator:
-    """What is known of an actuator. `weights` names the skills on whose weights its bounds rest."""
+class ActuatorClaims:
+    """All claims about an actuator. `weights` names the skills on whose weights its bounds rest."""
 
     actuator: Actuator
     paths: Paths
@@ -37,7 +37,7 @@ class OfActuator:
 
     @property
     def neutral(self) -> Neutral:
-        """Whether Σ influence can be 0, and `neutral` is sent."""
+        """If Σ influence can be 0, and the actuator is sent its neutral."""
         if self.driven.command is None:
             return "always"
         if self.driven.is_always_driven:
@@ -46,7 +46,7 @@ class OfActuator:
 
     @property
     def command(self) -> tuple[float, float]:
-        """What it can be sent, `neutral` included where that is not ruled out."""
+        """The bounds of its command, with its neutral where that is not ruled out."""
         neutral, bound = float(self.actuator.kind.neutral), self.driven.command
         if bound is None:
             return neutral, neutral
@@ -56,14 +56,14 @@ class OfActuator:
 
     @property
     def is_rough(self) -> bool:
-        """Whether the bounds of the command leave out influence so small that rounding decides."""
+        """True if the bounds of the command leave out influence so small that rounding decides."""
         bound = self.driven.command
         return bound is not None and self.driven.total.low < MIN_INFLUENCE and not {bound.low, bound.high} <= {0.0, 1.0}
 
 
 @dataclass(frozen=True, slots=True)
-class OfEdge:
-    """What an edge to another skill can send."""
+class EdgeClaim:
+    """The claim about an edge to another skill."""
 
     skill: str
     target: str
@@ -73,25 +73,25 @@ class OfEdge:
 
 @dataclass(frozen=True, slots=True)
 class Proof:
-    """All that is known. `unknown` says of skills why nothing is known of their function."""
+    """All claims about a mind. `unknown` says why nothing is known of the function of some skills."""
 
     graph: Graph
     delta: float
     unknown: Mapping[str, str]
     outside: tuple[str, ...]
-    actuators: tuple[OfActuator, ...]
-    edges: tuple[OfEdge, ...]
+    actuators: tuple[ActuatorClaims, ...]
+    edges: tuple[EdgeClaim, ...]
     dead: Mapping[str, tuple[str, ...]]  # the skills on whose weights it rests
 
 
 def prove(graph: Graph, weights: Mapping[str, Weights], delta: float) -> Proof:
-    """What can be said of a mind under its master, without running it."""
+    """All claims about a mind under its master; `delta` is the influence of a leak."""
     count = len(graph.actuators)
-    found, bounds = ways(graph), reach(graph, weights)
-    tried: Sequence[Tried | None] = try_out(graph, weights) or [None] * count
+    found, bounds = influence_edges(graph), prove_reach(graph, weights)
+    tried: Sequence[Tried | None] = try_readings(graph, weights) or [None] * count
     alone, bounds = (
         bounds,
-        together(graph, weights, bounds, [bool(seen and seen.readings is not None) for seen in tried]),
+        tighten(graph, weights, bounds, [bool(seen and seen.readings is not None) for seen in tried]),
     )
     listed, leaking = paths(found, count, MAX_LISTED_PATHS), leaks(found, count, delta)
     rests = _Rests(graph, weights, bounds)
@@ -103,7 +103,7 @@ def prove(graph: Graph, weights: Mapping[str, Weights], delta: float) -> Proof:
         {skill.name: _why(skill) for skill in below if not is_known(skill, weights.get(skill.owner))},
         tuple(skill.name for skill in graph.skills if skill.name not in names),
         tuple(
-            OfActuator(
+            ActuatorClaims(
                 actuator,
                 listed[i],
                 leaking[i],
@@ -122,16 +122,16 @@ def _why(skill: Skill) -> str:
     return skill.function.opaque or "has no weights that fit"
 
 
-def _edges(graph: Graph, below: Sequence[Skill], bounds: ProvedReach, rests: _Rests) -> Iterator[OfEdge]:
+def _edges(graph: Graph, below: Sequence[Skill], bounds: ProvedReach, rests: _Rests) -> Iterator[EdgeClaim]:
     for skill in below:
         for edge, sends in zip(skill.edges, bounds.edges[skill.name], strict=True):
             if edge.to == "skill":
-                weights = (skill.owner,) if rests.says(skill, edge, sends) else ()
-                yield OfEdge(skill.name, graph.named("skill", edge.target), sends, weights)
+                weights = (skill.owner,) if rests.narrows(skill, edge, sends) else ()
+                yield EdgeClaim(skill.name, graph.named("skill", edge.target), sends, weights)
 
 
 class _Rests:
-    """On whose weights a claim rests: of the skills on the way, those whose weights say more than "0 to 1"."""
+    """The skills on whose weights a claim rests: those on the paths whose weights narrow 0..1 to less."""
 
     def __init__(self, graph: Graph, weights: Mapping[str, Weights], bounds: ProvedReach) -> None:
         self._weights = weights
@@ -145,30 +145,30 @@ class _Rests:
                 if not sends.is_dead:
                     self._live.add_edge(*ends)
 
-    def says(self, skill: Skill, edge: Edge, sends: EdgeRange) -> bool:
-        """Whether an edge is learnt, and its weights narrow what it sends, or see to it that a command is a number."""
+    def narrows(self, skill: Skill, edge: Edge, sends: EdgeRange) -> bool:
+        """True if an edge is learnt, and its weights narrow what it sends, or ensure that a command is a number."""
         narrows = sends.low > 0 or sends.high < 1 or (edge.to == "actuator" and sends.sure)
         return edge.output is not None and skill.owner in self._weights and narrows
 
     def of_actuator(self, actuator: int, is_joint: bool) -> tuple[str, ...]:
-        """Of all ways to an actuator; a joint claim looks at all of them."""
+        """The skills on whose weights the bounds of an actuator rest; a joint claim rests on all that have weights."""
         node = "actuator", actuator
         if node not in self._flow:
             return ()
-        ways = self._flow.in_edges(above(self._flow, [node]), data="sends")
+        ways = self._flow.in_edges(with_ancestors(self._flow, [node]), data="sends")
         return self._in_order(
             {
                 skill.owner
                 for _, _, (skill, edge, sends) in ways
-                if self.says(skill, edge, sends) or (is_joint and skill.owner in self._weights)
+                if self.narrows(skill, edge, sends) or (is_joint and skill.owner in self._weights)
             }
         )
 
     def of_dead(self, name: str) -> tuple[str, ...]:
-        """Of the edges that send nothing to a dead skill or to those above it that are dead as well."""
-        ways = self._flow.in_edges(above(self._live, [("skill", self._place[name])]), data="sends")
+        """The skills whose weights stop influence on its way to a dead skill."""
+        ways = self._flow.in_edges(with_ancestors(self._live, [("skill", self._place[name])]), data="sends")
         return self._in_order(
-            {skill.owner for _, _, (skill, edge, sends) in ways if sends.is_dead and self.says(skill, edge, sends)}
+            {skill.owner for _, _, (skill, edge, sends) in ways if sends.is_dead and self.narrows(skill, edge, sends)}
         )
 
     def _in_order(self, names: set[str]) -> tuple[str, ...]:

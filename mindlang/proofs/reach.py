@@ -2,10 +2,11 @@
 
 As in `interval`, rounding is monotone: influence is added and multiplied in float32 in the engine's order, so that its
 bounds need no margin. A command, Σ command·influence / Σ influence, is a mean of what the drivers send but for
-its rounding: with n drivers a share of at most (2n + 1)·2^−24, for which MARGIN·(n + 2) is put on.
+its rounding: with n drivers a share of at most (2n + 1)·2^−24, for which ROUNDING_MARGIN·(n + 2) is put on.
 
-`reach` lets every skill read something else, and so finds nothing where one skill sends p and another 1 − p. `together`
-cuts the box of all readings, as `ranges` does, until in every part some influence is above 0, or too many are left.
+`prove_reach` lets every skill read something else, and so finds nothing where one skill sends p and another 1 − p.
+`tighten` cuts the box of all readings, as `ranges` does, until in every part some influence is above 0, or too many
+are left.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from mindrun.graph.graph import Graph, Skill
 from mindrun.graph.weights import Weights, reachable
 
 from mindlang.proofs.branch_and_bound import EdgeRange, by_itself, halves, ranges, sway_of
-from mindlang.proofs.interval import Boxes, SentBounds, Singles, joined, part, sent, whole
+from mindlang.proofs.interval import Boxes, SentBounds, Singles, join_boxes, select_boxes, sent_bounds, whole_box
 
 MAX_SKILL_BOXES, MAX_TOTAL_BOXES = 20_000, 500_000  # for one skill, for all of them
 ROUNDING_MARGIN = 2.0**-22
@@ -37,20 +38,20 @@ class Bound:
 
 @dataclass(frozen=True, slots=True)
 class Driven:
-    """What is proved of an actuator: Σ influence, and its command wherever that is not 0, None where it always is."""
+    """Bounds of an actuator: Σ influence, and its command where that is not 0; None where it always is."""
 
     total: Bound
     command: Bound | None
 
     @property
     def is_always_driven(self) -> bool:
-        """Whether Σ influence is never 0, nor too large to be a number: of one that may be, `low` is 0."""
+        """True if Σ influence is never 0, nor infinite: of one that may be, `low` is 0."""
         return self.total.low > 0
 
 
 @dataclass(frozen=True, slots=True)
 class ProvedReach:
-    """What is proved of a hierarchy: by skill below the master what its edges send and its influence; by actuator."""
+    """Bounds of a hierarchy: by skill below the master what its edges send and its influence; by actuator."""
 
     edges: Mapping[str, tuple[EdgeRange, ...]]
     influence: Mapping[str, Bound]
@@ -67,12 +68,12 @@ class InfluenceBounds:
     total_high: Singles
 
 
-def reach(graph: Graph, weights: Mapping[str, Weights]) -> ProvedReach:
+def prove_reach(graph: Graph, weights: Mapping[str, Weights]) -> ProvedReach:
     """Bounds for any readings in 0..1; of skills without weights, and of procedures, only that they send 0..1."""
     skills = reachable(graph, graph.master)
     boxes = max(1, min(MAX_SKILL_BOXES, MAX_TOTAL_BOXES // len(skills)))
     edges = {skill.name: ranges(skill, weights.get(skill.owner), boxes) for skill in skills}
-    found = flow(graph, 1, {name: as_sent(sends) for name, sends in edges.items()}.__getitem__)
+    found = influence_bounds(graph, 1, {name: as_bounds(sends) for name, sends in edges.items()}.__getitem__)
     drivers: list[list[EdgeRange]] = [[] for _ in graph.actuators]
     for place, skill in enumerate(graph.skills):
         if found.high[0, place] > 0:
@@ -88,13 +89,13 @@ def reach(graph: Graph, weights: Mapping[str, Weights]) -> ProvedReach:
     )
 
 
-def as_sent(sends: Sequence[EdgeRange]) -> SentBounds:
+def as_bounds(sends: Sequence[EdgeRange]) -> SentBounds:
     """The ranges of a skill's edges as what it sends in a single box."""
     low, high = np.array([[s.low for s in sends]], np.float32), np.array([[s.high for s in sends]], np.float32)
     return SentBounds(low, high, np.array([[s.sure for s in sends]], np.bool_))
 
 
-def flow(graph: Graph, boxes: int, sends: Callable[[str], SentBounds]) -> InfluenceBounds:
+def influence_bounds(graph: Graph, boxes: int, sends: Callable[[str], SentBounds]) -> InfluenceBounds:
     """Influence from the master down to the actuators, in so many boxes, from what each skill sends in them."""
     low, high = np.zeros((2, boxes, len(graph.skills)), np.float32)
     total_low, total_high = np.zeros((2, boxes, len(graph.actuators)), np.float32)
@@ -127,7 +128,7 @@ def _mean(drivers: Sequence[EdgeRange]) -> Bound | None:
     return Bound(low if low == 1 else low * (1 - margin), min(1.0, high * (1 + margin)))
 
 
-def together(
+def tighten(
     graph: Graph, weights: Mapping[str, Weights], found: ProvedReach, can_be_zero: Sequence[bool]
 ) -> ProvedReach:
     """The bounds with a better least Σ influence, for those actuators whose Σ is neither above 0 nor was seen at 0."""
@@ -144,10 +145,13 @@ def _least(graph: Graph, weights: Mapping[str, Weights], found: ProvedReach, act
     """The least Σ influence of an actuator over boxes that cover all readings; 0 where that would take too many."""
     skills = {skill.name: skill for skill in reachable(graph, graph.master)}
     sway = _sway(graph, weights, skills.values())
-    waiting = whole(graph.width)
+    waiting = whole_box(graph.width)
     least, made = np.inf, 1
     while len(waiting.low):
-        now, waiting = part(waiting, slice(BOXES_PER_ROUND)), part(waiting, slice(BOXES_PER_ROUND, None))
+        now, waiting = (
+            select_boxes(waiting, slice(BOXES_PER_ROUND)),
+            select_boxes(waiting, slice(BOXES_PER_ROUND, None)),
+        )
         low = _flow(graph, weights, skills, found, now).total_low[:, actuator]
         is_open = low <= 0
         made += 2 * int(is_open.sum())
@@ -155,10 +159,10 @@ def _least(graph: Graph, weights: Mapping[str, Weights], found: ProvedReach, act
             return 0.0
         least = min(least, float(low[~is_open].min(initial=np.inf)))
         if is_open.any():
-            cut = halves(part(now, is_open), sway)
+            cut = halves(select_boxes(now, is_open), sway)
             if (cut.low == cut.high).any():
                 return 0.0  # between neighbours of float32 nothing is left to cut
-            waiting = joined(cut, waiting)
+            waiting = join_boxes(cut, waiting)
     return least
 
 
@@ -168,11 +172,11 @@ def _flow(
     """Influence in each box, from what every skill sends there, or what it sends anywhere, whichever says more."""
 
     def sends(name: str) -> SentBounds:
-        here, anywhere = sent(skills[name], weights.get(skills[name].owner), boxes), as_sent(found.edges[name])
+        here, anywhere = sent_bounds(skills[name], weights.get(skills[name].owner), boxes), as_bounds(found.edges[name])
         low, high = np.maximum(here.low, anywhere.low), np.minimum(here.high, anywhere.high)
         return SentBounds(low, high, here.sure | anywhere.sure)
 
-    return flow(graph, len(boxes.low), sends)
+    return influence_bounds(graph, len(boxes.low), sends)
 
 
 def _sway(graph: Graph, weights: Mapping[str, Weights], skills: Collection[Skill]) -> Singles:

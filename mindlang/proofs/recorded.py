@@ -1,4 +1,4 @@
-"""How often nothing influenced an actuator in a run of the simulator."""
+"""Runs of the simulator beside a proof: how often nothing influenced an actuator."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class Undriven:
 
 @dataclass(frozen=True, slots=True)
 class Recorded:
-    """A run: what it was, and what became of each actuator. `faults` counts values that were not sent."""
+    """A run: its task, seed and length, and each actuator's `Undriven`. `faults` counts values that were not sent."""
 
     task: str
     seed: int
@@ -33,8 +33,8 @@ class Recorded:
     actuators: tuple[Undriven, ...]
 
 
-def record(setup: RunSetup, seed: int, prepare: Callable[[Rollout], None] = Rollout.compile) -> Recorded:
-    """One run to its end; `prepare` compiles the simulator. Runs the Python code of the mind's procedures."""
+def record_undriven(setup: RunSetup, seed: int, prepare: Callable[[Rollout], None] = Rollout.compile) -> Recorded:
+    """Simulate one run to its end; `prepare` compiles the simulator. Runs the Python code of the mind's procedures."""
     rollout = setup.rollout()
     prepare(rollout)
     run = trace(rollout, seed)
@@ -49,7 +49,7 @@ def record(setup: RunSetup, seed: int, prepare: Callable[[Rollout], None] = Roll
 
 
 def undriven(influence: NDArray[np.float32], commands: NDArray[np.float32]) -> Undriven:
-    """What became of an actuator [ticks] with that influence on it."""
+    """The ticks without influence on an actuator, the first of them, and its range of commands; arrays are [ticks]."""
     still = np.flatnonzero(influence == 0)
     first = int(still[0]) + 1 if len(still) else None
     return Undriven(len(still), first, (float(commands.min()), float(commands.max())))

@@ -16,7 +16,7 @@ from rich.text import Text
 
 from mindlang.compiler.diagnostic import listed
 from mindlang.proofs.paths import MAX_COUNTED_PATHS, Leak
-from mindlang.proofs.proof import DECLARATION, OfActuator, OfEdge, Proof
+from mindlang.proofs.proof import DECLARATION, ActuatorClaims, EdgeClaim, Proof
 from mindlang.proofs.trying import Tried
 
 if TYPE_CHECKING:
@@ -33,11 +33,11 @@ MEANINGS = {
 
 
 def _rests_on(skills: Iterable[str], hashes: Hashes) -> list[str]:
-    """What a claim rests on, beside the declaration."""
+    """The grounds of a claim: the weights of skills, or the declaration alone."""
     return [f"the weights {hashes[skill][:4]}… of {skill}" for skill in skills] or [DECLARATION]
 
 
-def as_data(proof: Proof, hashes: Hashes, run: Recorded | None) -> Data:
+def proof_data(proof: Proof, hashes: Hashes, run: Recorded | None) -> Data:
     """A whole proof as plain data."""
     return {
         "master": proof.graph.master,
@@ -53,7 +53,7 @@ def as_data(proof: Proof, hashes: Hashes, run: Recorded | None) -> Data:
     }
 
 
-def _actuator(found: OfActuator, place: int, proof: Proof, hashes: Hashes, run: Recorded | None) -> Data:
+def _actuator(found: ActuatorClaims, place: int, proof: Proof, hashes: Hashes, run: Recorded | None) -> Data:
     tried, total = found.tried, found.driven.total
     low, high = found.command
     data: Data = {
@@ -109,7 +109,7 @@ def _example(graph: Graph, tried: Tried | None) -> Data | None:
     return {"still": list(tried.still), "readings": readings | {m.name: [values[m.start]] for m in graph.memories}}
 
 
-def _edge(edge: OfEdge, hashes: Hashes) -> Data:
+def _edge(edge: EdgeClaim, hashes: Hashes) -> Data:
     sends = edge.range
     return {
         "skill": edge.skill,
@@ -121,7 +121,7 @@ def _edge(edge: OfEdge, hashes: Hashes) -> Data:
     }
 
 
-def report(data: Data) -> RenderableType:
+def proof_report(data: Data) -> RenderableType:
     """A whole proof as text."""
     parts: list[RenderableType] = [
         Text.assemble((data["master"], "bold"), " in charge, for any readings from 0 to 1"),
@@ -174,7 +174,7 @@ def _leaks(found: Data) -> Iterator[str]:
     worst = next((level for level in leak["levels"] if level["skill"] == leak["worst"]), None)
     yield f"{leak['share']:.1%}"
     yield " → ".join(names if len(names) <= MAX_PATH_SKILLS else ends)
-    yield f"{worst['skill']} {worst['share']:.1%}, into {some(worst['into'])}" if worst else ""
+    yield f"{worst['skill']} {worst['share']:.1%}, into {some_names(worst['into'])}" if worst else ""
 
 
 def _sent(found: Data) -> Iterator[str]:
@@ -190,7 +190,7 @@ def _sent(found: Data) -> Iterator[str]:
             yield "never"
         case "can be":
             still = neutral["example"]["still"]
-            yield f"{neutral['value']:g} where {some(still)} keep{'s' * (len(still) == 1)} still"
+            yield f"{neutral['value']:g} where {some_names(still)} keep{'s' * (len(still) == 1)} still"
         case _:
             yield f"{neutral['value']:g}, not ruled out"
     rests = neutral["rests_on"]
@@ -207,7 +207,7 @@ def _shown(found: Data, ticks: int) -> Iterator[str]:
 
 
 def _lines(data: Data) -> Iterator[Text]:
-    """What is dead, and what is always fully on though it could be learnt not to be."""
+    """Lines on edges and skills that are dead, edges that their weights keep at 1, and skills outside the hierarchy."""
     for edge in data["edges"]:
         if edge["high"] <= 0:
             yield _line(f"{edge['skill']} never influences {edge['target']}", edge["rests_on"])
@@ -216,7 +216,7 @@ def _lines(data: Data) -> Iterator[Text]:
     for dead in data["dead_skills"]:
         yield _line(f"{dead['skill']} never has influence", dead["rests_on"])
     if outside := data["not_below_master"]:
-        yield _line(f"{some(outside)}: not below {data['master']}", [DECLARATION])
+        yield _line(f"{some_names(outside)}: not below {data['master']}", [DECLARATION])
 
 
 def _line(claim: str, rests: Sequence[str]) -> Text:
@@ -230,10 +230,10 @@ def _unknown(unknown: Mapping[str, str]) -> Iterator[Text]:
             yield Text(f"  {names[0]} {why}: what it sends is taken to be from 0 to 1")
         else:
             plural = why.replace("is ", "are ").replace("has ", "have ")
-            yield Text(f"  {some(names)} {plural}: what they send is taken to be from 0 to 1")
+            yield Text(f"  {some_names(names)} {plural}: what they send is taken to be from 0 to 1")
 
 
-def some(names: Iterable[str]) -> str:
+def some_names(names: Iterable[str]) -> str:
     """Names, one at least, as a sentence lists them; of many the first, and how many more."""
     found = list(names)
     if len(found) > MAX_NAMED_SKILLS + 1:

@@ -1,4 +1,4 @@
-"""What is sent for readings that are tried, many at once: by the engine's operations in its order, to the bit.
+"""The engine for many rows of readings at once, bit for bit: what a mind sends for readings that are tried.
 
 Readings for which nothing influences an actuator are looked for by trying, so that one that is found is a proof.
 """
@@ -15,13 +15,13 @@ from mindrun.numbers.evaluation import OPERATORS
 from mindrun.numbers.expression import fold
 from mindrun.numbers.network import running
 
-from mindlang.proofs.interval import Doubles, Singles, is_known, perceptron
+from mindlang.proofs.interval import Doubles, Singles, is_known, perceptron_matrices
 
 TRIED_READINGS, MAX_WEIGHT_READINGS = 4096, 20_000_000  # readings, and weights times readings
 
 
 @dataclass(frozen=True, slots=True)
-class Thoughts:
+class ThoughtRows:
     """Influence [rows, skills], Σ influence [rows, actuators] of each actuator and its command where that is not 0."""
 
     influence: Singles
@@ -29,7 +29,7 @@ class Thoughts:
     command: Singles
 
 
-def think(graph: Graph, weights: Mapping[str, Weights], readings: Singles) -> Thoughts:
+def think_rows(graph: Graph, weights: Mapping[str, Weights], readings: Singles) -> ThoughtRows:
     """Equations 2 and 3 for readings [rows, graph.width], as `mindrun.engine.think` has them; no procedures."""
     places = graph.skill_numbers
     influence = np.zeros((len(readings), len(graph.skills)), np.float32)
@@ -38,7 +38,7 @@ def think(graph: Graph, weights: Mapping[str, Weights], readings: Singles) -> Th
     with np.errstate(all="ignore"):
         for skill in reachable(graph, graph.master):
             own = influence[:, places[skill.name]].copy()
-            for edge, value in zip(skill.edges, values(skill, weights.get(skill.owner), readings).T, strict=True):
+            for edge, value in zip(skill.edges, sent_values(skill, weights.get(skill.owner), readings).T, strict=True):
                 sound = np.isfinite(value)
                 share = np.where(sound, np.clip(value, 0, 1), 0) * own
                 if edge.to == "skill":
@@ -46,11 +46,11 @@ def think(graph: Graph, weights: Mapping[str, Weights], readings: Singles) -> Th
                 elif edge.to == "actuator":
                     sums[:, edge.target] += share
                     totals[:, edge.target] += np.where(sound, own, 0)
-        return Thoughts(influence, totals, np.clip(sums / totals, 0, 1))
+        return ThoughtRows(influence, totals, np.clip(sums / totals, 0, 1))
 
 
-def values(skill: Skill, weights: Weights | None, readings: Singles) -> Singles:
-    """What a skill sends [rows, edges] before the clamp; NaN where a gate is closed and nothing is sent."""
+def sent_values(skill: Skill, weights: Weights | None, readings: Singles) -> Singles:
+    """The values that a skill sends [rows, edges] before the clamp; NaN where a gate is closed and nothing is sent."""
     outputs = _outputs(skill, weights, readings)
     found = np.empty((len(readings), len(skill.edges)), np.float32)
     with np.errstate(all="ignore"):
@@ -69,7 +69,7 @@ def _gated(gate: Gate, value: Singles, readings: Singles) -> Singles:
 
 
 def _outputs(skill: Skill, weights: Weights | None, readings: Singles) -> Singles:
-    layers = perceptron(skill, weights)
+    layers = perceptron_matrices(skill, weights)
     if not layers:
         return np.zeros((len(readings), skill.outputs), np.float32)
     with np.errstate(all="ignore"):
@@ -92,7 +92,7 @@ def _evaluate(program: Program, readings: Singles) -> Singles:
 
 @dataclass(frozen=True, slots=True)
 class Tried:
-    """What was seen of an actuator: its commands, and readings without influence on it.
+    """The trial of an actuator: the range of its commands, and readings without influence on it.
 
     `still` are the skills that then have influence and pass none on towards the actuator.
     """
@@ -102,18 +102,18 @@ class Tried:
     still: tuple[str, ...]
 
 
-def try_out(graph: Graph, weights: Mapping[str, Weights]) -> list[Tried] | None:
-    """What each actuator is sent for the readings that are tried; None where a skill below the master is not known."""
+def try_readings(graph: Graph, weights: Mapping[str, Weights]) -> list[Tried] | None:
+    """The trial of each actuator; None where the function of a skill below the master is not known."""
     skills = reachable(graph, graph.master)
     if not all(is_known(skill, weights.get(skill.owner)) for skill in skills):
         return None
     rows = max(64, min(TRIED_READINGS, MAX_WEIGHT_READINGS // sum(genes(skill) + 100 for skill in skills)))
     readings = readings_to_try(graph.width, rows)
-    thoughts = think(graph, weights, readings)
+    thoughts = think_rows(graph, weights, readings)
     return [_of(graph, readings, thoughts, actuator) for actuator in range(len(graph.actuators))]
 
 
-def _of(graph: Graph, readings: Singles, thoughts: Thoughts, actuator: int) -> Tried:
+def _of(graph: Graph, readings: Singles, thoughts: ThoughtRows, actuator: int) -> Tried:
     driven = (thoughts.total[:, actuator] > 0) & np.isfinite(thoughts.command[:, actuator])
     sent = thoughts.command[driven, actuator]
     commands = (float(sent.min()), float(sent.max())) if len(sent) else None

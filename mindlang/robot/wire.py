@@ -16,7 +16,7 @@ from mindrun.graph.named_readings import physical
 from mindrun.graph.wiring import ActuatorWire, SensorWire, Wiring, read_by
 
 from mindlang.compiler.diagnostic import Diagnostic, Findings, a, errors, listed, near_file
-from mindlang.compiler.source import Source, decode
+from mindlang.compiler.source import Source, decode_source
 from mindlang.robot.claims import check_claims, check_shared
 from mindlang.robot.driver import Wired, wired
 from mindlang.robot.read import Node, Scalar, Table, TableEntry, read, shortened
@@ -53,7 +53,7 @@ def load_wiring(path: Path, graph: Graph, unit_metres: float | None = None) -> C
         data = read_regular(path, MAX_WIRING_BYTES + 1)
         if len(data) > MAX_WIRING_BYTES:
             raise ValueError(f"is larger than {MAX_WIRING_BYTES >> 10} kB")
-        return check_wiring(Source(str(path), decode(data), path.resolve().parent), graph, unit_metres)
+        return check_wiring(Source(str(path), decode_source(data), path.resolve().parent), graph, unit_metres)
     except (OSError, RuntimeError) as error:  # a loop of links is a RuntimeError
         message, hint = f"{path} cannot be read: {reason(error)}.", near_file(path)
     except ValueError as error:

@@ -109,7 +109,7 @@ def _of_lesson(lesson: Teaches, of_all: Phrase | None, argument: Argument, offse
 
 
 def _kind_itself(noun: str, kind: Name) -> Hover | None:
-    return Hover(markdown.card(kind_article(noun, kind.text)), kind.span) if kind.text in kinds(noun) else None
+    return Hover(markdown.article_card(kind_article(noun, kind.text)), kind.span) if kind.text in kinds(noun) else None
 
 
 def _argument(noun: str, kind: str, argument: Argument) -> Hover | None:
@@ -131,11 +131,11 @@ def _word(view: MindView, file: File, offset: int) -> Hover | None:
     if (found := here(_WORD)) is None:
         return None
     if joint := here(rf"\b(?:{'|'.join(word for word in words if ' ' in word)})\b"):
-        return Hover(markdown.card(words[joint[0]]), joint[1])
+        return Hover(markdown.article_card(words[joint[0]]), joint[1])
     word, span = found
     if noun := view.names.noun_of(word, NOUNS):
         return Hover(card(view, noun, word), span)
-    return Hover(markdown.card(words[word]), span) if word in words else None
+    return Hover(markdown.article_card(words[word]), span) if word in words else None
 
 
 def card(view: MindView, noun: str, name: str) -> str:
@@ -160,7 +160,7 @@ def card(view: MindView, noun: str, name: str) -> str:
         case "sensor" | "memory" | "actuator":
             parts.append(_part(view, noun, name))
     if header.phrase and header.phrase.kind.text in kinds(noun):
-        parts.append(f"---\n{markdown.card(kind_article(noun, header.phrase.kind.text))}")
+        parts.append(f"---\n{markdown.article_card(kind_article(noun, header.phrase.kind.text))}")
     return "\n\n".join(filter(None, parts))
 
 

@@ -12,7 +12,7 @@ from mindlang.compiler.parse import parse
 from mindlang.compiler.references import Mention, introductions
 from mindlang.compiler.source import Source, Span
 from mindlang.compiler.syntax import Argument, Contains, File, Name, Phrase, Use
-from mindlang.files import files_below, text_of, within_read_limits
+from mindlang.files import files_below, readable_text, within_read_limits
 from mindlang.server.workspace import MindView, Workspace, path_to
 
 MAX_SYMBOLS = 500  # that are found
@@ -112,7 +112,7 @@ def _procedure(file: File, offset: int) -> list[Span]:
         case [*_, Phrase(kind=Name(text="procedure")), Argument(value=Name(text=name)), Name()]:
             module, _, function = name.rpartition(".")
             path = file.source.folder.joinpath(*module.split(".")).with_suffix(".py")
-            text = text_of(path)
+            text = readable_text(path)
             found = re.search(rf"^(?:async )?def (?P<name>{re.escape(function)})\b", text, re.MULTILINE)
             source = Source(str(path), text, path.parent)
             return [Span(source, *found.span("name"))] if found else _start_of(path)

@@ -10,7 +10,7 @@ from mindrun.graph.graph import VARIED_NOUNS
 from mindrun.kinds.registry import Argument, arguments, kinds, named_arguments
 from mindrun.numbers.quantity import Quantity, Reference
 
-from mindlang.compiler.names import things_of
+from mindlang.compiler.names import declared_things
 from mindlang.compiler.references import READABLE_NOUNS
 from mindlang.compiler.resolve.kinds import about
 from mindlang.compiler.source import comment_of
@@ -19,7 +19,7 @@ from mindlang.explaining import markdown
 from mindlang.explaining.kinds import kind_article
 from mindlang.explaining.parameters import meaning, parameter
 from mindlang.explaining.words import language_words
-from mindlang.files import files_beside, text_of
+from mindlang.files import files_beside, readable_text
 from mindlang.server.workspace import MindView
 
 NUMBER = "0123456789"
@@ -75,7 +75,7 @@ def numbers(view: MindView) -> list[Offer]:
 
 def kinds_of(noun: str) -> list[Offer]:
     """The kinds of a noun with their documentation."""
-    return [Offer(name, "kind", noun, markdown.card(kind_article(noun, name))) for name in sorted(kinds(noun))]
+    return [Offer(name, "kind", noun, markdown.article_card(kind_article(noun, name))) for name in sorted(kinds(noun))]
 
 
 def inputs_of(view: MindView, skill: str) -> set[str]:
@@ -98,7 +98,7 @@ def things(view: MindView, task: Declaration | None, about: Iterable[str]) -> li
     own = [each for each in worlds if task and each.header.name is task.header.name]
     found: dict[str, set[str]] = {}
     for declaration in own or ([task] if task else worlds):
-        for name, kinds_ in things_of(declaration).items():
+        for name, kinds_ in declared_things(declaration).items():
             found.setdefault(name, set()).update(kinds_)
     return [Offer(name, "thing", " ".join(sorted(is_))) for name, is_ in found.items() if is_ & fit]
 
@@ -106,7 +106,7 @@ def things(view: MindView, task: Declaration | None, about: Iterable[str]) -> li
 def functions(folder: Path) -> list[str]:
     """`module.function` for each function of the modules in a folder that has a name of the language."""
     modules = [path for path in files_beside(folder, ".py") if "a" <= path.name[0] <= "z"][:MAX_MODULES]
-    return [f"{path.stem}.{name}" for path in modules for name in _FUNCTION.findall(text_of(path))]
+    return [f"{path.stem}.{name}" for path in modules for name in _FUNCTION.findall(readable_text(path))]
 
 
 @dataclass(frozen=True, slots=True)

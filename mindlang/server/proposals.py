@@ -11,12 +11,12 @@ from mindrun.graph.skill_sets import genes
 
 from mindlang.compiler.compile import compile_source
 from mindlang.compiler.diagnostic import Diagnostic, listed
-from mindlang.compiler.hierarchy import above, below
+from mindlang.compiler.hierarchy import with_ancestors, with_descendants
 from mindlang.compiler.source import Source
 from mindlang.compiler.splice import Splice
 from mindlang.compiler.syntax import Declaration, Drives, Fact, Influences, Reads, Stays
 from mindlang.editing.project import EditError, Project, facts, has_outputs, kind_of
-from mindlang.lint.lint import fixed
+from mindlang.lint.lint import apply_safe_fixes
 from mindlang.server.changing import proposed
 from mindlang.server.workspace import MindView, fact_at, on_line
 
@@ -193,7 +193,7 @@ def _not_below(project: Project, skill: str) -> list[str]:
     """The skills that a skill could influence without a circle, and does not."""
     influences = project.mind.influences
     alike = [known.name for known in project.mind.skills if known.like == skill]  # they would influence it, too
-    taken = {*influences[skill], *above(influences, [skill, *alike])}
+    taken = {*influences[skill], *with_ancestors(influences, [skill, *alike])}
     return [name for name in influences if name not in taken]
 
 
@@ -201,12 +201,12 @@ def _replacements(project: Project, skill: str) -> list[str]:
     """Skills that are not above it; those that drive other actuators are refused by the edit itself."""
     influences = project.mind.influences
     parents = set(influences.pred[skill])
-    higher = above(influences, parents)
+    higher = with_ancestors(influences, parents)
     others = (
         name
         for name in influences
         if name != skill
-        and (name not in higher or (name in parents and not (parents - {name}) & below(influences, [name])))
+        and (name not in higher or (name in parents and not (parents - {name}) & with_descendants(influences, [name])))
     )
     return [*islice(others, 8 * MAX_TARGETS)]
 
@@ -257,5 +257,5 @@ def all_mended(view: MindView, path: Path, texts: dict[Path, str]) -> str | None
         compiled = compile_source(now, path, {**texts, path: now.text})
         return MindView(path, compiled, (), view.names).findings
 
-    mended, made = fixed(source, findings_of)
+    mended, made = apply_safe_fixes(source, findings_of)
     return mended.text if made else None

@@ -13,15 +13,15 @@ from msgspec import Struct
 from msgspec.structs import astuple
 
 from mindlang.breakpoints import SUFFIX
-from mindlang.compiler.compile import Compiled, files, load
+from mindlang.compiler.compile import Compiled, load, read_files
 from mindlang.compiler.diagnostic import Diagnostic, Findings
 from mindlang.compiler.expand import expand
-from mindlang.compiler.names import Names, gather
+from mindlang.compiler.names import Names, declared_names
 from mindlang.compiler.references import Mention, mentions
 from mindlang.compiler.resolve.maps import map_paths
-from mindlang.compiler.source import Span, within
+from mindlang.compiler.source import Span, checked_text
 from mindlang.compiler.syntax import Declaration, Fact, File, Setting
-from mindlang.files import files_beside, folders_above, text_of, within_read_limits
+from mindlang.files import files_beside, folders_above, readable_text, within_read_limits
 
 _MASTER = re.compile(r"^[ \t]*master\b", re.MULTILINE)
 _USE = re.compile(r'^[ \t]*use[ \t]+"', re.MULTILINE)
@@ -96,10 +96,10 @@ def view(main: Path, texts: Texts) -> MindView:
     if compiled.mind:
         found = compiled.mind.files
     elif compiled.sources:
-        found = tuple(files(compiled.sources[0], main, Findings(), texts)[0])
+        found = tuple(read_files(compiled.sources[0], main, Findings(), texts)[0])
     else:
         found = ()
-    return MindView(main, compiled, found, gather(found, Findings()))
+    return MindView(main, compiled, found, declared_names(found, Findings()))
 
 
 def declaration_at(file: File, offset: int) -> Declaration | None:
@@ -198,9 +198,9 @@ class Workspace:
         """The text of a file as it is now; nothing where it is too large, or cannot be read."""
         text = self.texts.get(path)
         if text is None:
-            return text_of(path)
+            return readable_text(path)
         try:
-            return within(text)
+            return checked_text(text)
         except ValueError:
             return ""
 

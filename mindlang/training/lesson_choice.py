@@ -45,7 +45,8 @@ class TrainOptions:
         """MindError where a number is none that `mindc train` would take."""
         for what in BOUNDS:
             if (value := getattr(self, what)) is not None:
-                object.__setattr__(self, what, limits.whole(what, BOUNDS[what], value))  # one of numpy becomes an int
+                number = limits.bounded_int(what, BOUNDS[what], value)  # one of numpy becomes an int
+                object.__setattr__(self, what, number)
         if not 0 < self.scale <= MAX_SCALE:
             raise MindError(f"scale cannot be {self.scale!r}", f"scale is a number above 0, and at most {MAX_SCALE}")
 

@@ -18,7 +18,7 @@ from mindlang.lock import LockError, Taught, read_lock
 from mindlang.lock.blobs import record
 from mindlang.lock.status import Trained, key_of, trained_weights
 from mindlang.lock.world_facts import Worlds
-from mindlang.number_format import number
+from mindlang.number_format import short_score
 from mindlang.training.subject import Subject, origin_of
 
 COMPARED_LAYOUTS = 50  # common to the weights that a lock has and to the new ones, and to nothing else
@@ -39,7 +39,7 @@ class Comparison:
     def __str__(self) -> str:
         """Which stay, and why."""
         return (
-            f"the weights that were there do better: {number(self.old)} against {number(self.new)} "
+            f"the weights that were there do better: {short_score(self.old)} against {short_score(self.new)} "
             f"on the same {COMPARED_LAYOUTS} fresh layouts"
         )
 
@@ -88,7 +88,7 @@ def _refuse_nothing(run: RunFolder, state: LessonState, scorer: Scorer) -> None:
         why = f"{where} a reward or a command of the best genome was no finite number"
         hint = f"look at the rewards of the task {lesson.task}: mindc lint says what is divided by what can be 0"
     elif not state.told_apart:
-        why = f"every genome of a generation scored the same, {number(state.best)} at best"
+        why = f"every genome of a generation scored the same, {short_score(state.best)} at best"
         hint = (
             f"look at the rewards of the task {lesson.task}: are they ever paid, and does what {lesson.skill} "
             "sends make a difference? mindc run shows what each line pays"
@@ -104,7 +104,7 @@ def _refuse_failed(run: RunFolder, state: LessonState, scorer: Scorer) -> None:
     if not lesson.needs or state.passed.any():
         return
     which = "its only attempt" if state.attempt == 1 else f"the best of {state.attempt} attempts"
-    needed, reached = listed(map(str, lesson.needs), "and"), "scored " + " and ".join(map(number, state.verdict))
+    needed, reached = listed(map(str, lesson.needs), "and"), "scored " + " and ".join(map(short_score, state.verdict))
     if any(need.measure == "success" for need in lesson.needs):
         tried = scorer.score(state.kept, verdict_layouts(run.manifest.seed, lesson.generations))
         shares = of_halves(succeeded(scorer.task, tried))

@@ -25,7 +25,7 @@ from mindlang.executors import Where, scorer_on
 from mindlang.executors.jobs import Assignment, JobScorer, StretchExecutor, WorkError
 from mindlang.limits import refuse_too_large, refuse_too_long
 from mindlang.lock.blobs import digest
-from mindlang.number_format import duration, number, speed
+from mindlang.number_format import duration, short_score, speed
 from mindlang.training.lock_update import Kept, keep
 from mindlang.training.subject import Subject
 
@@ -203,7 +203,7 @@ def outcome(run: RunFolder, result: Result, kept: Kept, lock: str) -> list[str]:
     if result["attempts"] > 1:
         generations += f" in {result['attempts']} attempts"
     learnt = (
-        f"{result['skill']} has learnt: {number(result['reevaluated'])} on fresh layouts after "
+        f"{result['skill']} has learnt: {short_score(result['reevaluated'])} on fresh layouts after "
         f"{generations}, in {duration(result['seconds'])} at {speed(result)}"
     )
     if kept.is_new:

@@ -1,1 +1,1 @@
-"""A run or a recording seen in a browser: what it consists of as bytes, and the server that says it."""
+"""Shows a run or a recording in a browser: its rows as bytes, and the server that sends them."""

@@ -23,7 +23,7 @@ Data = dict[str, Any]
 TOUCH, COLLISION = "touch", "collision"  # kinds of events
 
 
-class Node(NamedTuple):
+class PlacedNode(NamedTuple):
     """A node of the hierarchy, and where its values are: the `places` in a group of columns."""
 
     name: str
@@ -35,7 +35,7 @@ class Node(NamedTuple):
 def about_data(
     of: About, graph: Graph, task: Task | None, skills: Sequence[Skill], columns: Columns, texts: Texts
 ) -> Data:
-    """All that does not change of rows with these columns; `skills` are those below the master, parents first.
+    """The constant data of rows with these columns; `skills` are those below the master, parents first.
 
     There is a task where there is a world.
     """
@@ -54,25 +54,25 @@ def about_data(
     }
 
 
-def _nodes(graph: Graph, skills: Sequence[Skill]) -> dict[tuple[str, int], Node]:
+def _nodes(graph: Graph, skills: Sequence[Skill]) -> dict[tuple[str, int], PlacedNode]:
     """The nodes by noun and place there: sensors, memories, the skills that are reached, actuators."""
     reached = {skill.name for skill in skills}
     return {
         **{
-            ("sensor", place): Node(each.name, each.kind, "readings", range(each.start, each.start + each.width))
+            ("sensor", place): PlacedNode(each.name, each.kind, "readings", range(each.start, each.start + each.width))
             for place, each in enumerate(graph.sensors)
         },
         **{
-            ("memory", place): Node(each.name, each.kind, "readings", [each.start])
+            ("memory", place): PlacedNode(each.name, each.kind, "readings", [each.start])
             for place, each in enumerate(graph.memories)
         },
         **{
-            ("skill", place): Node(each.name, each.function, "influence", [place])
+            ("skill", place): PlacedNode(each.name, each.function, "influence", [place])
             for place, each in enumerate(graph.skills)
             if each.name in reached
         },
         **{
-            ("actuator", place): Node(each.name, each.kind, "commands", [place])
+            ("actuator", place): PlacedNode(each.name, each.kind, "commands", [place])
             for place, each in enumerate(graph.actuators)
         },
     }
@@ -207,7 +207,7 @@ def _acting(graph: Graph, columns: Columns) -> Data:
     return found
 
 
-def world_events(task: Task) -> list[dict[str, str]]:
+def world_event_data(task: Task) -> list[dict[str, str]]:
     """The texts and kinds of a task's events; touching is one, unless an event says it or there is nothing to touch."""
     kinds = [names()[type(event)] for event in task.events]
     found = [{"text": shown(text), "kind": kind} for text, kind in zip(outcome.events(task), kinds, strict=True)]
@@ -216,7 +216,7 @@ def world_events(task: Task) -> list[dict[str, str]]:
     return [*found, {"text": TOUCH, "kind": TOUCH}]
 
 
-def robot_events(of: About) -> list[dict[str, str]]:
+def robot_event_data(of: About) -> list[dict[str, str]]:
     """The texts and kinds of what happens to a robot."""
     return [
         {"text": "stopped", "kind": "stopped"},

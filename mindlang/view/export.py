@@ -44,7 +44,7 @@ class ExportedImages:
 
     @property
     def note(self) -> str:
-        """What is left out, in a sentence; empty where nothing is."""
+        """The images that are left out, in a sentence; empty where none are."""
         if self.why:
             return f"the page has no images: {self.why}"
         if self.every == 1:
@@ -53,7 +53,7 @@ class ExportedImages:
 
 
 def exported_images(viewed: Viewed, drawn: Callable[[int], None]) -> ExportedImages | None:
-    """As many of a run that is over as fit; None where its world is no environment. `drawn` is told of each tick."""
+    """The images of a finished run, as many as fit; None without an environment. `drawn` is called with each tick."""
     if viewed.drawing is None:
         return None
     images: list[str] = []
@@ -78,7 +78,7 @@ class ExportError(MindError):
     """A run that does not fit into a file."""
 
 
-def refuse_too_long(viewed: Viewed) -> None:
+def refuse_too_large_page(viewed: Viewed) -> None:
     """ExportError where so many rows do not fit into a page."""
     columns = viewed.columns
     size = (viewed.known + 1) * (8 * columns.width(DOUBLE_BLOCK) + 4 * columns.width(SINGLE_BLOCK))
@@ -105,7 +105,7 @@ def exported(about: dict[str, Any], ticks: dict[str, Any], viewed: Viewed, image
 
 
 def _policy(script: str, style: str) -> str:
-    """Only this script and this style: whatever a name says, nothing else runs, and nothing is asked for."""
+    """A content security policy for only this script and style: nothing that a name contains runs or is fetched."""
     run, look = (
         f"'sha256-{base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()}'" for text in (script, style)
     )

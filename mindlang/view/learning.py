@@ -40,11 +40,11 @@ Stamp = tuple[tuple[int, int] | None, ...]
 
 @dataclass(slots=True)
 class LearntRun:
-    """What is known of a run: its generations in the order in which they came, and whose champions can be played.
+    """A training run as far as it has been read: its generations in order, and the champions that can be played.
 
-    `keeps_all`: whether it has the champion of every generation; runs from before the trainer kept them have the last
-    of each attempt. `is_full`: whether the last that was kept need not have stayed champion. `version` counts how often
-    something has come.
+    `keeps_all`: if it has the champion of every generation; runs from before the trainer kept them have the last
+    of each attempt. `is_full`: if the last that was kept need not have stayed champion. `version` counts how often
+        something has come.
     """
 
     run: RunFolder
@@ -57,7 +57,7 @@ class LearntRun:
     _stamp: Stamp = ()
 
     def read(self) -> bool:
-        """Read what has come since the last time; whether there was something."""
+        """Read what has come since the last time; True if there was something."""
         stamp = tuple(map(_stamp, (self.run.folder / name for name in GROWING)))
         if stamp == self._stamp:
             return False
@@ -80,7 +80,7 @@ class LearntRun:
         return self._stamp[0][0] if self._stamp and self._stamp[0] else 0
 
     def champion(self, attempt: int, generation: int) -> Champion:
-        """Who was champion of an attempt in a generation; RefusedError where that is not known."""
+        """The champion of an attempt in a generation; RefusedError where that is not known."""
         if (attempt, generation) not in self._known:
             raise RefusedError(f"attempt {attempt} has no generation {generation} yet")
         of_attempt = [each for each in self.champions if each.attempt == attempt]
@@ -98,7 +98,7 @@ class LearntRun:
         raise RefusedError(f"this run has kept no champion of attempt {attempt}")
 
     def score(self, attempt: int, generation: int) -> float | None:
-        """What the champion of a generation had when it was tried last, on layouts that it had not seen."""
+        """The score of a generation's champion in its last trial, on layouts that it had not seen; None before one."""
         tried = [row for row in self.generations if row[0] == attempt and row[1] <= generation and row[3] is not None]
         return tried[-1][3] if tried else None
 
@@ -116,7 +116,7 @@ class Learning:
     _minds: dict[Path, tuple[Subject, Texts]] = field(default_factory=dict)
 
     def read(self) -> bool:
-        """Look for new runs, and at all of them; whether something has come."""
+        """Look for new runs and read all of them; True if something has come."""
         grown = [run.read() for run in self.runs]
         known = {run.run.folder for run in self.runs}
         found = [LearntRun(run) for run in _runs(self.path, known)]
@@ -125,7 +125,7 @@ class Learning:
         return any(grown) or bool(new)
 
     def news(self, number: int, heard: int) -> dict[str, Any]:
-        """What is said of a run to one who has heard so many of its generations."""
+        """The message about a run for a viewer who has got its first `heard` generations."""
         learnt = self.runs[number]
         return {
             "say": "learnt",
@@ -171,7 +171,7 @@ class Learning:
 
     def _setup(self, run: RunFolder, genome: Genomes) -> tuple[RunSetup, Texts]:
         if run.folder not in self._minds:
-            self._minds[run.folder] = mind_of(run)
+            self._minds[run.folder] = trained_mind(run)
         subject, texts = self._minds[run.folder]
         lesson = run.manifest.lesson
         weights = dict(run.weights) | parts(subject.graph, run.manifest.learners, genome)
@@ -197,7 +197,7 @@ def open_learning(path: Path, seed: int) -> Learning:
 
 
 def _runs(path: Path, known: set[Path]) -> Iterator[RunFolder]:
-    """Those that are whole and not known."""
+    """The complete run folders at or below a path that are not among the known ones."""
     for manifest in sorted(each for each in path.rglob(MANIFEST) if each.parent not in known):
         try:
             yield open_run(manifest.parent)
@@ -206,7 +206,7 @@ def _runs(path: Path, known: set[Path]) -> Iterator[RunFolder]:
 
 
 def _last_champions(run: RunFolder) -> list[Champion]:
-    """Those of the attempts that have ended, and of the one that goes on, as its checkpoint has them."""
+    """The champions in a run's checkpoint: of the attempts that have ended, and of the one that goes on."""
     try:
         found = checkpoint.load(run.folder, run.manifest.identity)
     except RunError:
@@ -229,7 +229,7 @@ def _stamp(path: Path) -> tuple[int, int] | None:
     return found.st_mtime_ns, found.st_size
 
 
-def mind_of(run: RunFolder) -> tuple[Subject, Texts]:
+def trained_mind(run: RunFolder) -> tuple[Subject, Texts]:
     """The mind of a run, and what its edges say: its source if that has not changed since, else the run's copy of it.
 
     RunError where both are another mind than that which was taught.

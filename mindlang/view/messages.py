@@ -1,4 +1,4 @@
-"""What a page says, and texts as it may show them.
+"""The messages that the page sends, and texts as it may show them.
 
 Messages are JSON objects told apart by `say`, decoded by msgspec with the bounds of every part.
 
@@ -28,20 +28,20 @@ Column = tuple[Literal[0, 1], Whole]  # its block, its number there
 
 
 class RefusedError(ValueError):
-    """What cannot be answered; the sentence is for who has asked."""
+    """A question that cannot be answered; its text is shown to whoever asked."""
 
 
-class _Said(Struct, tag_field="say", frozen=True, forbid_unknown_fields=True):
-    """Whatever a page says."""
+class _PageMessage(Struct, tag_field="say", frozen=True, forbid_unknown_fields=True):
+    """A message of the page."""
 
 
-class _Asked(_Said, frozen=True, kw_only=True):
-    """What is about the run that is seen, or a fork of it."""
+class _RunMessage(_PageMessage, frozen=True, kw_only=True):
+    """A message about the run that is shown, or a fork of it."""
 
     fork: ForkNumber = 0
 
 
-class _AskTicks(_Asked, frozen=True, kw_only=True):
+class _AskTicks(_RunMessage, frozen=True, kw_only=True):
     """Ticks `first`, `first` + `every` … below `below`."""
 
     first: Whole = field(name="from")
@@ -51,36 +51,36 @@ class _AskTicks(_Asked, frozen=True, kw_only=True):
 
 
 class AskRows(_AskTicks, tag="rows", frozen=True):
-    """All columns of ticks."""
+    """Asks for all columns of ticks."""
 
 
 class AskColumns(_AskTicks, tag="columns", frozen=True, kw_only=True):
-    """Some columns of ticks."""
+    """Asks for some columns of ticks."""
 
     columns: Annotated[tuple[Column, ...], Meta(min_length=1, max_length=MAX_COLUMNS)]
 
 
-class Run(_Asked, tag="run", frozen=True):
-    """Let a run go on to a tick."""
+class AskRun(_RunMessage, tag="run", frozen=True):
+    """Asks to let a run go on to a tick."""
 
     to: Whole
 
 
-class Why(_Asked, tag="why", frozen=True):
-    """What an actuator's command of a tick consists of."""
+class AskShares(_RunMessage, tag="why", frozen=True):
+    """Asks for the shares of all paths in an actuator's command of a tick."""
 
     tick: Counted
     actuator: Whole
 
 
-class AskImage(_Asked, tag="image", frozen=True):
-    """What an environment draws of itself after a tick."""
+class AskImage(_RunMessage, tag="image", frozen=True):
+    """Asks for the environment's own image after a tick."""
 
     tick: Whole
 
 
-class Change(_Asked, tag="change", frozen=True):
-    """A run beside the one seen, in which something is replaced in a tick and `lasts` for so many."""
+class AskChange(_RunMessage, tag="change", frozen=True):
+    """Asks for a fork of the run in which a value is replaced from `tick` on, for `lasts` ticks."""
 
     tick: Counted
     what: Literal["reading", "influence", "memory"]
@@ -89,8 +89,8 @@ class Change(_Asked, tag="change", frozen=True):
     lasts: Counted = 1
 
 
-class PlayChampion(_Said, tag="champion", frozen=True):
-    """The champion of a generation of a training, instead of the run that is seen; `seed` None is the same world.
+class PlayChampion(_PageMessage, tag="champion", frozen=True):
+    """Asks to show the champion of a generation of a training instead; `seed` None keeps the world.
 
     A seed is told as text: JavaScript has no whole numbers of 64 bits.
     """
@@ -108,7 +108,7 @@ class PlayChampion(_Said, tag="champion", frozen=True):
             raise ValueError(f"seed is a whole number from 0 to {MAX_SEED}, as text")
 
 
-Message = AskRows | AskColumns | AskImage | Run | Why | Change | PlayChampion
+Message = AskRows | AskColumns | AskImage | AskRun | AskShares | AskChange | PlayChampion
 _DECODER: msgspec.json.Decoder[Message] = msgspec.json.Decoder(Message)
 
 
@@ -128,7 +128,7 @@ class _Question(Struct):
 
 
 def refusal(text: str | bytes, why: str) -> dict[str, Any]:
-    """What is said where there is no answer to a message."""
+    """The message that refuses another one, for the reason `why`."""
     try:
         of = msgspec.json.decode(text, type=_Question)
     except (msgspec.DecodeError, RecursionError, UnicodeError):
@@ -143,5 +143,5 @@ def shown(text: str) -> str:
 
 
 def error_text(error: MindError) -> str:
-    """What is wrong, and what to do."""
+    """An error's message and its hint as one line, safe to show."""
     return shown("; ".join(filter(None, (str(error), error.hint))))

@@ -137,7 +137,7 @@ class RowBlocks:
         return np.concatenate(found)
 
 
-def rows_that_fit(doubles: int, singles: int) -> int:
+def rows_per_frame(doubles: int, singles: int) -> int:
     """How many rows of so many columns a frame can hold, at least one."""
     size = DOUBLE_BYTES * doubles + SINGLE_BYTES * singles
     return max(1, (MAX_FRAME_BYTES - HEADER.size) // max(1, size))

@@ -28,7 +28,7 @@ from websockets.http11 import Request, Response
 
 from mindlang.view.learning import MAX_GENERATIONS
 from mindlang.view.messages import MAX_MESSAGE_BYTES, RefusedError, message, refusal
-from mindlang.view.session import MAX_HAPPENED, Session
+from mindlang.view.session import MAX_HAPPENED, ViewSession
 from mindlang.view.viewed import Viewed
 
 LOOPBACK = "127.0.0.1"
@@ -48,7 +48,7 @@ SECURITY: Mapping[str, str] = {
     "Cross-Origin-Opener-Policy": "same-origin",
     "Cross-Origin-Resource-Policy": "same-origin",
 }
-MAX_VIEWERS, MAX_STRANGERS = 16, 64
+MAX_VIEWERS, MAX_PENDING = 16, 64
 MAX_QUEUED_FRAMES = 4  # of what one viewer has said and nobody has read
 OPEN_SECONDS, TOKEN_SECONDS, SEND_SECONDS, CLOSE_SECONDS = 5.0, 5.0, 10.0, 0.5
 
@@ -57,25 +57,25 @@ class PortError(MindError):
     """A port of this machine at which nothing can be served."""
 
 
-class StrangerConnection(ServerConnection):
-    """One of so many that are open without having said the token: one more, and the oldest is closed."""
+class PendingConnection(ServerConnection):
+    """A connection that has not sent the token yet; above MAX_PENDING of those the oldest is closed."""
 
-    def __init__(self, strangers: list[ServerConnection], *given: Any, **options: Any) -> None:
+    def __init__(self, pending: list[ServerConnection], *given: Any, **options: Any) -> None:
         super().__init__(*given, **options)
-        self._strangers = strangers
+        self._pending = pending
 
     def connection_made(self, transport: BaseTransport) -> None:
-        """Open it and count it among the strangers, of whom the oldest is closed where there are too many."""
+        """Open it and count it as pending; close the oldest one where there are too many."""
         super().connection_made(transport)
-        self._strangers.append(self)
-        if len(self._strangers) > MAX_STRANGERS:
-            self._strangers.pop(0).transport.abort()
+        self._pending.append(self)
+        if len(self._pending) > MAX_PENDING:
+            self._pending.pop(0).transport.abort()
 
     def connection_lost(self, exc: Exception | None) -> None:
-        """Close it and count it among the strangers no longer."""
+        """Close it and count it as pending no longer."""
         super().connection_lost(exc)
         with suppress(ValueError):  # it has said the token, or was closed
-            self._strangers.remove(self)
+            self._pending.remove(self)
 
 
 @dataclass(eq=False, slots=True)
@@ -103,17 +103,17 @@ class Viewer:
 class ViewServer:
     """Serves a session; `ready` is told the address, token and all, as soon as it can be opened."""
 
-    def __init__(self, session: Session, port: int = 0) -> None:
+    def __init__(self, session: ViewSession, port: int = 0) -> None:
         self.token = secrets.token_urlsafe(32)
         self.port = port
         self._session = session
         self._viewers: list[Viewer] = []
-        self._strangers: list[ServerConnection] = []
+        self._pending: list[ServerConnection] = []
         session.changed = self._changed
 
     @property
     def address(self) -> str:
-        """What a browser opens; what is behind # is never sent over the net."""
+        """The address for a browser; the token behind # is never sent over the net."""
         return f"http://{LOOPBACK}:{self.port}/#{self.token}"
 
     async def serve(self, ready: Callable[[str], None]) -> None:
@@ -143,11 +143,11 @@ class ViewServer:
             self._handle,
             LOOPBACK,
             self.port,
-            process_request=lambda _, request: answer(request, self.port),
+            process_request=lambda _, request: http_answer(request, self.port),
             process_response=lambda _, request, response: response.headers.update(SECURITY),
             server_header=None,
             compression=None,
-            create_connection=partial(StrangerConnection, self._strangers),  # type: ignore[arg-type]  # as good as a class
+            create_connection=partial(PendingConnection, self._pending),  # type: ignore[arg-type]  # as good as a class
             open_timeout=OPEN_SECONDS,
             close_timeout=CLOSE_SECONDS,
             max_size=MAX_MESSAGE_BYTES,
@@ -160,7 +160,7 @@ class ViewServer:
             await connection.close(CloseCode.POLICY_VIOLATION)
             return
         with suppress(ValueError):  # it was closed just now
-            self._strangers.remove(connection)
+            self._pending.remove(connection)
         if len(self._viewers) >= MAX_VIEWERS:
             await connection.close(CloseCode.TRY_AGAIN_LATER)
             return
@@ -175,7 +175,7 @@ class ViewServer:
             self._viewers.remove(viewer)
 
     async def _has_token(self, connection: ServerConnection) -> bool:
-        """Whether the first message is the token, and comes in time."""
+        """True if the first message is the token, and comes in time."""
         try:
             async with asyncio.timeout(TOKEN_SECONDS):
                 first = await connection.recv()
@@ -247,7 +247,7 @@ class ViewServer:
                 await asyncio.gather(*closing)
 
 
-def answer(request: Request, port: int) -> Response | None:
+def http_answer(request: Request, port: int) -> Response | None:
     """A file, or why not; None where the websocket may be opened.
 
     A browser that another site has led here says another host or origin: this server has no other name.
@@ -280,18 +280,18 @@ def _response(status: HTTPStatus, body: bytes, content: str, **headers: str) -> 
 
 
 class BackgroundView:
-    """Served at `address` until it is closed, or the program ends. PortError where no port can be had."""
+    """A view, served at `address` until it is closed, or the program ends. PortError where no port can be had."""
 
     def __init__(self, viewed: Viewed) -> None:
-        self._session = Session(viewed)
+        self._session = ViewSession(viewed)
         self._ready: Future[str] = Future()
         self._thread = Thread(target=self._run, name="view", daemon=True)
         self._thread.start()
         self.address = self._ready.result()
 
-    def see(self, viewed: Viewed) -> None:
+    def show(self, viewed: Viewed) -> None:
         """Let all viewers see another run."""
-        self._loop.call_soon_threadsafe(self._session.see, viewed)
+        self._loop.call_soon_threadsafe(self._session.show, viewed)
 
     def close(self) -> None:
         """End it: pages keep what they have fetched."""
@@ -312,7 +312,7 @@ class BackgroundView:
 
 
 def open_browser(address: str) -> bool:
-    """Open a browser with windows; whether there is one: what runs in a terminal would take this one."""
+    """Open a browser with windows; True if there is one: one that runs in a terminal would take over this one."""
     with suppress(webbrowser.Error):
         browser = webbrowser.get()
         if type(browser) is not webbrowser.GenericBrowser:

@@ -16,15 +16,15 @@ from mindlang.view.about import node_numbers
 from mindlang.view.learning import WATCH_SECONDS
 from mindlang.view.messages import (
     MAX_FORKS,
+    AskChange,
     AskColumns,
     AskImage,
     AskRows,
-    Change,
+    AskRun,
+    AskShares,
     Message,
     PlayChampion,
     RefusedError,
-    Run,
-    Why,
     error_text,
 )
 from mindlang.view.rows import DOUBLE_BLOCK, SINGLE_BLOCK
@@ -37,8 +37,8 @@ if TYPE_CHECKING:
 MAX_HAPPENED = 10_000  # events, and stops, that are told at once
 
 
-class Session:
-    """Lives in one event loop. Runs grow in a thread of their own, and answers are computed in another."""
+class ViewSession:
+    """A session in one event loop. Runs grow in a thread of their own, and answers are computed in another."""
 
     def __init__(self, viewed: Viewed, learning: Learning | None = None) -> None:
         self.changed: Callable[[], None] = lambda: None  # told whenever something has come
@@ -46,7 +46,7 @@ class Session:
         self.number = 0  # how many runs have been seen before this one
         self._growing: dict[int, asyncio.Task[None]] = {}
         self._waits: str | None = None  # what a change waits for
-        self._see(viewed)
+        self._show(viewed)
         self._grower = ThreadPoolExecutor(1, "growing")
         self._answerer = ThreadPoolExecutor(1, "answering")
 
@@ -55,15 +55,15 @@ class Session:
         if self.forks[0].is_live:
             self._run(0, sys.maxsize)
 
-    def see(self, viewed: Viewed) -> None:
+    def show(self, viewed: Viewed) -> None:
         """Let all viewers see another run, in the loop that is running."""
-        self._see(viewed)
+        self._show(viewed)
         self.number += 1
         self.begin()
         self.changed()
 
-    def _see(self, viewed: Viewed) -> None:
-        """See a run, and nothing of those before it."""
+    def _show(self, viewed: Viewed) -> None:
+        """Show a run, and nothing of those before it."""
         for growing in self._growing.values():
             growing.cancel()
         self._growing = {}
@@ -80,7 +80,7 @@ class Session:
                 self.changed()
 
     def about(self, edits: bool) -> dict[str, Any]:
-        """What a viewer is told first."""
+        """The first message to a viewer: the run, and the columns of its rows."""
         viewed = self.forks[0]
         columns = viewed.columns
         return {
@@ -93,7 +93,7 @@ class Session:
         }
 
     def ticks(self, fork: int, happened: int = 0, stops: int = 0) -> dict[str, Any]:
-        """How far a fork has come; of what happened and where it stops, what comes behind so many that are known."""
+        """The message on how far a fork has come, with its events and stops from those numbers on."""
         viewed = self.forks[fork]
         return {
             "say": "ticks",
@@ -108,27 +108,27 @@ class Session:
         }
 
     async def answer(self, message: Message, edits: bool) -> bytes | dict[str, Any] | None:
-        """What is said to one message; RefusedError where it cannot be answered."""
+        """The answer to a message, None where there is none; RefusedError where it cannot be answered."""
         if message.fork >= len(self.forks):
             raise RefusedError(f"there is no fork {message.fork}")
         match message:
-            case Run(fork=fork, to=to):
+            case AskRun(fork=fork, to=to):
                 self._run(fork, to)
                 self.changed()  # said also where the run is there already
                 return None
-            case Change() | PlayChampion() if not edits:
+            case AskChange() | PlayChampion() if not edits:
                 raise RefusedError("somebody else may change this run: the first who opened it")
             case PlayChampion():
                 await self._play(message)
                 return None
-            case Change():
+            case AskChange():
                 await self._fork(message)
                 return None
         viewed = self.forks[message.fork]  # another run may be seen when it is this question's turn
         return await asyncio.get_running_loop().run_in_executor(self._answerer, _computed, viewed, message)
 
     async def _play(self, asked: PlayChampion) -> None:
-        """See the champion of another generation."""
+        """Show the champion of another generation."""
         if self.learning is None or asked.run >= len(self.learning.runs):
             raise RefusedError(f"there is no training {asked.run}")
         seed = None if asked.seed is None else int(asked.seed)
@@ -137,10 +137,10 @@ class Session:
             viewed = await asyncio.get_running_loop().run_in_executor(self._grower, self.learning.begin, *given)
         except MindError as error:
             raise RefusedError(error_text(error)) from error
-        self.see(viewed)
+        self.show(viewed)
 
-    async def _fork(self, change: Change) -> None:
-        """A run beside another, which goes on at once to where that is."""
+    async def _fork(self, change: AskChange) -> None:
+        """Fork a run, and let the fork go on at once to where that run is."""
         of = self.forks[change.fork]
         if of.forked is None:
             raise RefusedError("a recording is what it is: nothing in it can be changed")
@@ -193,15 +193,15 @@ def _computed(viewed: Viewed, message: Message) -> bytes | dict[str, Any]:
             case AskImage(fork=fork, tick=tick):
                 image = data_url(viewed.image(tick), "png")
                 return {"say": "image", "fork": fork, "tick": tick, "image": image}
-            case Why():
+            case AskShares():
                 return command_shares(viewed, message)
     except MindError as error:
         raise RefusedError(error_text(error)) from error
     raise RefusedError("that is no question")
 
 
-def command_shares(viewed: Viewed, asked: Why) -> dict[str, Any]:
-    """What each path has contributed to a command; RefusedError where there is no such actuator or tick."""
+def command_shares(viewed: Viewed, asked: AskShares) -> dict[str, Any]:
+    """The contribution of each path to a command; RefusedError where there is no such actuator or tick."""
     flows, graph = viewed.flows, viewed.flows.graph
     if viewed.about["source"] == "environment":
         raise RefusedError("a program acts here: no path of influence has made its commands")

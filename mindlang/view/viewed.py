@@ -18,7 +18,7 @@ from mindrun.sim.outside.seen import UNKNOWN_FAILURES, SeenEpisode, Sent
 from numpy.typing import NDArray
 
 from mindlang.run.edge_flow import EdgeFlows
-from mindlang.view.messages import AskColumns, AskRows, Change, RefusedError, error_text, shown
+from mindlang.view.messages import AskChange, AskColumns, AskRows, RefusedError, error_text, shown
 from mindlang.view.rows import (
     DOUBLE_BLOCK,
     SINGLE_BLOCK,
@@ -30,7 +30,7 @@ from mindlang.view.rows import (
     TickNumbers,
     columns_frame,
     rows_frame,
-    rows_that_fit,
+    rows_per_frame,
 )
 
 Drawing = Callable[[Sent], SeenEpisode]
@@ -41,7 +41,7 @@ MAX_KEPT_BYTES = 2 << 30  # of rows, of a run and of all that are beside it
 
 
 def drawing_of(graph: Graph, task: Task | None, folder: Path, seed: int) -> Drawing | None:
-    """What draws the run of a task; None where its world is no environment."""
+    """The drawing of a task's run by its environment; None where its world is none."""
     if task is None or not task.scene.environment:
         return None
     return _undrawn if task.fails else partial(SeenEpisode, graph, task.scene.environment, folder, seed)
@@ -59,7 +59,7 @@ def data_url(image: Image, kind: str, quality: tuple[int, ...] = ()) -> str:
 
 
 class Viewed:
-    """`about` is what does not change, `chunks` what is still to come; the first chunk begins with tick 0.
+    """A run that is seen: `about` does not change, `chunks` are still to come; the first one begins with tick 0.
 
     In the ticks of `begins` the mind was begun anew; they come with the rows. `drawing` is of its environment. What
     `is_live` grows without being asked. `forked` makes the same run with a change; RefusedError where that cannot be,
@@ -80,7 +80,7 @@ class Viewed:
     ) -> None:
         self.about, self.columns, self.is_live, self.drawing = about, columns, is_live, drawing
         self.flows = EdgeFlows(graph, mind, self._thought, begins)
-        self.forked: Callable[[Change], Fork] | None = None
+        self.forked: Callable[[AskChange], Fork] | None = None
         self.delay: Callable[[], str | None] = lambda: None
         self.blocks = RowBlocks()
         self.happened: list[tuple[int, int]] = []
@@ -92,7 +92,7 @@ class Viewed:
         self._seen: SeenEpisode | None = None
 
     def _thought(self, ticks: TickNumbers) -> tuple[Singles, Singles]:
-        """What the mind read and its influence; rows are ticks, and in the first of them nothing flows."""
+        """The readings and the influence of ticks [ticks, numbers]; in the first tick nothing flows."""
         return self.group("readings", ticks), self.group("influence", ticks)
 
     @property
@@ -102,11 +102,11 @@ class Viewed:
 
     @property
     def kept_bytes(self) -> int:
-        """Of its rows, and of what flowed in them."""
+        """The bytes of its rows, and of what flowed in them."""
         return self.blocks.kept_bytes + self.flows.kept_bytes
 
     def grow(self, bytes_elsewhere: int = 0) -> None:
-        """One chunk more; where a procedure fails, or memory ends, the run is over and `failed` says why.
+        """Add a chunk of rows; where a procedure fails, or memory ends, the run is over and `failed` says why.
 
         `bytes_elsewhere` are those of other runs, whose rows are kept at the same time.
         """
@@ -130,7 +130,7 @@ class Viewed:
 
     def rows(self, asked: AskRows) -> bytes:
         """A frame of rows: as many as are known and fit."""
-        fit = rows_that_fit(self.columns.width(DOUBLE_BLOCK), self.columns.width(SINGLE_BLOCK))
+        fit = rows_per_frame(self.columns.width(DOUBLE_BLOCK), self.columns.width(SINGLE_BLOCK))
         ticks = self.blocks.ticks(asked.first, asked.below, asked.every, min(fit, self._computed_rows))
         return rows_frame(asked, self.doubles(ticks), self.singles(ticks))
 
@@ -142,7 +142,7 @@ class Viewed:
         kept = self.columns.kept_singles
         blocks, indices = np.array(asked.columns).T
         is_flow = (blocks == SINGLE_BLOCK) & (indices >= kept)
-        most = rows_that_fit(len(asked.columns), 0)
+        most = rows_per_frame(len(asked.columns), 0)
         most = min(most, FLOW_ROWS, self._computed_rows) if is_flow.any() else most
         ticks = self.blocks.ticks(asked.first, asked.below, asked.every, most)
         values = np.empty((len(ticks), len(asked.columns)))
@@ -162,7 +162,7 @@ class Viewed:
         return np.concatenate([self.blocks.kept(SINGLE_BLOCK, ticks), self.flows.transmitted(ticks)], axis=1)
 
     def image(self, tick: int) -> Image:
-        """What its environment draws after a tick [height, width, 3], red first.
+        """The environment's image after a tick [height, width, 3], red first.
 
         RefusedError where nothing does, or the tick is not known; MindError where it cannot.
         """
@@ -173,7 +173,7 @@ class Viewed:
         return self._seen.image(tick)
 
     def _sent(self, first: int, last: int) -> Singles:
-        """What reached the actuators behind a tick, up to another one; of a run that is all that its rows have."""
+        """The commands that reached the actuators after tick `first`, up to `last`; of a run, the mind's own."""
         return self.group("sent" if "sent" in self.columns.groups else "commands", np.arange(first + 1, last + 1))
 
     def group(self, name: str, ticks: TickNumbers) -> NDArray[Any]:
@@ -182,7 +182,7 @@ class Viewed:
 
     @property
     def _computed_rows(self) -> int:
-        """Of how many rows it is computed at once what each edge transmits."""
+        """The number of rows whose flows are computed at once."""
         return max(1, MAX_COMPUTED_EDGES // max(1, len(self.flows.links)))
 
 

@@ -127,7 +127,7 @@ def _local(path: Path) -> Iterator[bytes]:
 
 
 def _read_on(path: Path, descriptor: int) -> bytes:
-    """What is behind what was read already; RecordingError where the file is another now."""
+    """The next bytes of a growing file, none after a pause; RecordingError where it was cut or replaced."""
     if part := os.read(descriptor, PART_BYTES):
         return part
     own = os.fstat(descriptor)
@@ -140,7 +140,7 @@ def _read_on(path: Path, descriptor: int) -> bytes:
 
 
 def _parts(read_on: Callable[[], bytes]) -> Iterator[bytes]:
-    """Whatever comes, and an empty part where for a while nothing did."""
+    """The parts of a stream as they come, and an empty one after IDLE_SECONDS without any."""
     empty = 0
     while True:
         part = read_on()
@@ -151,7 +151,7 @@ def _parts(read_on: Callable[[], bytes]) -> Iterator[bytes]:
 
 
 def ssh_command(host: str, path: str) -> list[str]:
-    """What is run for the bytes of a file on a host: nothing of the path is a word of the shell there."""
+    """The command that follows a file on a host over ssh; its path is quoted for the shell there."""
     return ["ssh", "-T", "--", host, f"exec tail -c +1 -f -- {shlex.quote(path)}"]
 
 

@@ -14,7 +14,7 @@ from mindrun.graph.recording_header import GOES_ON, POSE_COLUMNS, THING_COLUMNS,
 from numpy.typing import NDArray
 
 from mindlang.run import outcome
-from mindlang.view.about import Texts, about_data, robot_events, world_events
+from mindlang.view.about import Texts, about_data, robot_event_data, world_event_data
 from mindlang.view.messages import shown
 from mindlang.view.rows import DOUBLE_BLOCK, FLOW, Chunk, Columns, Doubles, Singles
 from mindlang.view.viewed import Viewed, drawing_of
@@ -51,7 +51,7 @@ def viewed_rows(
     skills = [mind.graph.skills[skill.index] for skill in ready.skills]
     columns = columns_of(of, mind, source == RUN, sum(len(skill.edges) for skill in skills))
     drawing = drawing_of(mind.graph, task, folder, of.world.seed) if of.world else None
-    happens = [*([] if source == RUN else robot_events(of)), *(world_events(task) if task else [])]
+    happens = [*([] if source == RUN else robot_event_data(of)), *(world_event_data(task) if task else [])]
     about = {
         "title": shown(title),
         "source": source,
@@ -122,7 +122,7 @@ def _chunks(
 
 
 def _levels(rows: Rows, is_run: bool, task: Task | None) -> NDArray[np.uint64]:
-    """What happens where it rises [ticks, events]: states of the robot, counts of the world, and touching."""
+    """The levels whose rising edges are events [ticks, events]: robot states, counts of the world, and touching."""
     robot = [] if is_run else [rows["stopped"] != 0, rows["tick"] == 0, rows["faults"] != 0]
     world = [rows["world"]["events"], rows["world"]["touching"] != 0] if task else []
     return np.column_stack([*robot, *world]).astype(np.uint64)

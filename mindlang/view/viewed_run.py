@@ -66,7 +66,7 @@ class ViewedRun:
             Part(readings, rows["influence"], rows["commands"], rows["world"]["events"].astype(np.int64))
         )
 
-    def _forked(self, columns: Columns, asked: messages.Change) -> Fork:
+    def _forked(self, columns: Columns, asked: messages.AskChange) -> Fork:
         graph = self.setup.ready.policy.graph
         change = _replacement(graph, self.setup.task, columns, asked)
         beside = replace(self, changes=(*self.changes, change), breakpoints=())  # the page pauses where the run does
@@ -91,7 +91,7 @@ def _rows(run: Trace, of: About, events: int) -> Iterator[Filled]:
         yield rows, rows["readings"]
 
 
-def _replacement(graph: Graph, task: Task, columns: Columns, asked: messages.Change) -> Change:
+def _replacement(graph: Graph, task: Task, columns: Columns, asked: messages.AskChange) -> Change:
     """The change that was asked for; RefusedError where there is no such value, or no such tick."""
     what = next(each for each in get_args(What) if each == asked.what)
     block, index = asked.column

@@ -1,1 +1,1 @@
-"""The weights of a skill as other programs have them, and weights from elsewhere held against the engine."""
+"""The weights of a skill as other programs have them, and weights from elsewhere compared with the engine."""

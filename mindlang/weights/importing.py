@@ -1,4 +1,4 @@
-"""Weights from a file: held against the engine, tried in their lesson, and written into the lock if they do well."""
+"""Imports weights: compared with the engine, tried in their lesson, and written into the lock if they do well."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -31,7 +31,7 @@ from mindlang.lock.world_facts import Worlds
 from mindlang.training.lesson_choice import chosen_lessons
 from mindlang.training.lock_update import COMPARED_LAYOUTS, Comparison, needed_success
 from mindlang.training.subject import Subject
-from mindlang.weights.network import Network, genome_in, network_of, read_bytes
+from mindlang.weights.network import SkillNetwork, genome_in, network_of, read_bytes
 from mindlang.whatif.request import recorded_readings
 
 READINGS_SEED = 1  # of the run whose readings are taken
@@ -53,8 +53,8 @@ class Deviation:
     faults: int
 
 
-def compare(network: Network, genome: Weights, inputs: Rows) -> Deviation:
-    """The function in PyTorch, or where that is not installed in float64 as it stands in a book, and in the engine."""
+def engine_deviation(network: SkillNetwork, genome: Weights, inputs: Rows) -> Deviation:
+    """How far the engine deviates from PyTorch or, if that is not installed, from matrix products in float64."""
     sound = inputs[np.isfinite(inputs).all(axis=1)]
     name, compute = _reference(network, genome)
     with np.errstate(all="ignore"):
@@ -64,7 +64,7 @@ def compare(network: Network, genome: Weights, inputs: Rows) -> Deviation:
     return Deviation(name, len(sound), float(difference.max(initial=0.0)), int((~finite).sum()))
 
 
-def _engine(network: Network, genome: Weights, inputs: Rows) -> Rows:
+def _engine(network: SkillNetwork, genome: Weights, inputs: Rows) -> Rows:
     """Tick by tick, as on a robot."""
     compute = network.skill.function.ready(network.inputs, network.outputs, genome, {})
     values = np.array([compute(row) for row in inputs], np.float32).reshape(len(inputs), network.outputs)
@@ -75,7 +75,7 @@ def _clamped(values: NDArray[np.floating]) -> Rows:
     return np.where(np.isfinite(values), np.clip(values, 0, 1), np.nan).astype(values.dtype)
 
 
-def _reference(network: Network, genome: Weights) -> tuple[str, Compute]:
+def _reference(network: SkillNetwork, genome: Weights) -> tuple[str, Compute]:
     try:
         import torch
     except ImportError:
@@ -83,7 +83,7 @@ def _reference(network: Network, genome: Weights) -> tuple[str, Compute]:
     return f"PyTorch {torch.__version__}", partial(_in_torch, network, genome)
 
 
-def _in_torch(network: Network, genome: Weights, inputs: Rows) -> Rows:
+def _in_torch(network: SkillNetwork, genome: Weights, inputs: Rows) -> Rows:
     """Outputs of `mindlang.torch.Skill`."""
     import torch
 
@@ -100,7 +100,7 @@ def _in_torch(network: Network, genome: Weights, inputs: Rows) -> Rows:
     return np.array(found, np.float32).reshape(len(inputs), network.outputs)
 
 
-def _in_float64(network: Network, genome: Weights, inputs: Rows) -> Rows:
+def _in_float64(network: SkillNetwork, genome: Weights, inputs: Rows) -> Rows:
     """Products of matrices and 1/(1 + e^−x), in float64."""
     found = [matrix.astype(np.float64) for matrix in matrices(genome, network.shapes)]
     state, rows = np.zeros(network.state), []
@@ -127,20 +127,20 @@ class Trial:
     subject: Subject
     path: Path
     file_digest: str
-    network: Network
+    network: SkillNetwork
     genome: Weights
     lesson: Lesson
     others: dict[str, Weights]
     rollout: Rollout
 
     def readings(self) -> NDArray[np.float32]:
-        """What the skill reads [ticks, inputs] in a run of the lesson's task with these weights."""
+        """The skill's inputs [ticks, inputs] in a run of the lesson's task with these weights."""
         inputs = list(self.network.skill.inputs)
         moments = trace(self.rollout, READINGS_SEED, self.genome).moments
         return np.array([moment.readings[inputs] for moment in moments], np.float32)
 
     def recorded(self, said: str) -> NDArray[np.float32]:
-        """What it has read in a recording, `day.rec` or `day.rec,ball.bundle`; MindError where that cannot be said."""
+        """The skill's inputs [ticks, inputs] in a recording (`day.rec` or `day.rec,ball.bundle`); MindError without."""
         graph, columns = self.subject.graph, {}
         for name in (read.partition(":")[0] for read in self.network.signature.reads):
             for change in recorded_readings(graph, name, said, self.subject.source, 1, None):
@@ -234,7 +234,7 @@ def import_weights(trial: Trial, recording: str | None, force: bool) -> Imported
     LockError where the lock cannot be read or written.
     """
     rows = trial.recorded(recording) if recording else trial.readings()
-    compared = compare(trial.network, trial.genome, rows)
+    compared = engine_deviation(trial.network, trial.genome, rows)
     old = _weights_there(trial)
     if old is not None and np.array_equal(old, trial.genome):
         return Imported(trial, compared, *trial.score(None), True, True)

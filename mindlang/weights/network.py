@@ -43,8 +43,8 @@ class Tensors:
 
 
 @dataclass(frozen=True, slots=True)
-class Network:
-    """What a skill computes with matrices [values out, values in]: its function says how, and what it remembers.
+class SkillNetwork:
+    """A skill's function as matrices [values out, values in]: its kind says how they are used, and what it remembers.
 
     `shapes` are (values in, values out) of each. What it reads and sends stands in the order of `signature`.
     """
@@ -69,7 +69,7 @@ class Network:
         return self.skill.function.state_length(self.inputs, self.outputs)
 
 
-def network_of(graph: Graph, name: str) -> Network:
+def network_of(graph: Graph, name: str) -> SkillNetwork:
     """The network of the skill of that name in an `arrange`d graph; WeightsError where it has none of its own."""
     skill = next((each for each in graph.skills if each.name == name), None)
     if skill is None:
@@ -80,15 +80,15 @@ def network_of(graph: Graph, name: str) -> Network:
     if not genes(skill) or not shapes:
         learning = " or ".join(kind for kind, cls in kinds("skill").items() if cls.learns)
         raise WeightsError(f"{name} has no weights: it learns nothing", f"take a skill that is {learning}")
-    return Network(skill, signature(graph, skill), shapes)
+    return SkillNetwork(skill, signature(graph, skill), shapes)
 
 
-def matrix_names(network: Network) -> tuple[str, ...]:
+def matrix_names(network: SkillNetwork) -> tuple[str, ...]:
     """The names of the matrices, as PyTorch gives them to the layers of `mindlang.torch.Skill`."""
     return tuple(f"layers.{number}.weight" for number in range(len(network.shapes)))
 
 
-def to_tensors(network: Network, genome: Weights) -> Tensors:
+def to_tensors(network: SkillNetwork, genome: Weights) -> Tensors:
     """The matrices of a genome by name, and which skill they are for."""
     own, found = network.signature, matrices(genome, network.shapes)
     said = (own.function, " ".join(own.reads), " ".join(own.sends))
@@ -96,7 +96,7 @@ def to_tensors(network: Network, genome: Weights) -> Tensors:
     return Tensors(dict(zip(matrix_names(network), found, strict=True)), metadata)
 
 
-def to_genome(network: Network, tensors: Tensors) -> Weights:
+def to_genome(network: SkillNetwork, tensors: Tensors) -> Weights:
     """The genome in a file's tensors, in the order of the network; WeightsError where they are not its matrices.
 
     What a file says that its weights read and send is held against the skill, by name: another order is brought into
@@ -116,7 +116,7 @@ def to_genome(network: Network, tensors: Tensors) -> Weights:
     return _in_order(network, tensors, genome)
 
 
-def _refuse_other_names(network: Network, names: Sequence[str], tensors: Tensors) -> None:
+def _refuse_other_names(network: SkillNetwork, names: Sequence[str], tensors: Tensors) -> None:
     hint = f"the tensors of {network.skill.name} are {', '.join(names)}; mindlang.torch.Skill saves them"
     if missing := [name for name in names if name not in tensors.by_name]:
         raise WeightsError(f"it has no {missing[0]}", hint)
@@ -124,7 +124,7 @@ def _refuse_other_names(network: Network, names: Sequence[str], tensors: Tensors
         raise WeightsError(f"it has {visible(f'{extra[0]:.60}')}, which is no weight of {network.skill.name}", hint)
 
 
-def _in_order(network: Network, tensors: Tensors, genome: Weights) -> Weights:
+def _in_order(network: SkillNetwork, tensors: Tensors, genome: Weights) -> Weights:
     """The genome of a file that says what it reads and sends in the order in which the skill does."""
     if not any(key in tensors.metadata for key in KEYS):
         return genome
@@ -145,7 +145,7 @@ def _shortened(text: str) -> str:
     return visible(text if len(text) <= MAX_SHOWN else f"{text[:MAX_SHOWN]}…")
 
 
-def trained_network(subject: Subject, skill: str) -> tuple[Network, Weights]:
+def trained_network(subject: Subject, skill: str) -> tuple[SkillNetwork, Weights]:
     """A skill's network and the weights that it was taught; MindError where it has none that fit."""
     network = network_of(subject.graph, skill)
     weights, refusals = trained_weights(subject.graph, subject.lock, [skill])
@@ -154,7 +154,7 @@ def trained_network(subject: Subject, skill: str) -> tuple[Network, Weights]:
     return network, weights[skill]
 
 
-def save_genome(path: Path, network: Network, genome: Weights) -> None:
+def save_genome(path: Path, network: SkillNetwork, genome: Weights) -> None:
     """Write a genome as the matrices of its network; WeightsError where that fails."""
     try:
         write(path, to_bytes(network, genome))
@@ -162,26 +162,26 @@ def save_genome(path: Path, network: Network, genome: Weights) -> None:
         raise WeightsError(f"{path} cannot be written: {error.strerror}") from error
 
 
-def to_bytes(network: Network, genome: Weights) -> bytes:
+def to_bytes(network: SkillNetwork, genome: Weights) -> bytes:
     """A genome as a file of safetensors; the order in which it says of what the weights are is any."""
     tensors = to_tensors(network, genome)
     return save(dict(tensors.by_name), dict(tensors.metadata))
 
 
-def load_genome(path: Path, network: Network) -> Weights:
+def load_genome(path: Path, network: SkillNetwork) -> Weights:
     """The genome in a file of safetensors; WeightsError where it is not that of this network."""
     return genome_in(path, read_bytes(path), network)
 
 
 def read_bytes(path: Path) -> bytes:
-    """What is in a file; WeightsError where it cannot be read or is too large."""
+    """The bytes of a file; WeightsError where it cannot be read or is too large."""
     try:
         return read_whole(path, MAX_WEIGHTS_BYTES)
     except OSError as error:
         raise WeightsError(f"{path} cannot be read: {error.strerror}") from error
 
 
-def genome_in(path: Path, data: bytes, network: Network) -> Weights:
+def genome_in(path: Path, data: bytes, network: SkillNetwork) -> Weights:
     """The genome in these bytes of a file."""
     try:
         return to_genome(network, from_bytes(data))

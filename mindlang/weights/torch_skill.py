@@ -20,7 +20,7 @@ from torch.autograd import Function
 from mindlang.lock import lock_sources, read_locks
 from mindlang.lock.signature import arrange
 from mindlang.lock.status import trained_weights
-from mindlang.weights.network import Network, load_genome, network_of, save_genome
+from mindlang.weights.network import SkillNetwork, load_genome, network_of, save_genome
 
 if TYPE_CHECKING:
     from mindlang.api import Mind
@@ -46,7 +46,7 @@ class OrderedProduct(Function):
 
     @staticmethod
     def backward(ctx: Any, grad: Tensor) -> tuple[Tensor, Tensor]:
-        """Of the values, and of the weights."""
+        """The derivatives of the values, and of the weights."""
         x, weight = ctx.saved_tensors
         return grad @ weight, grad.reshape(-1, weight.shape[0]).T @ x.reshape(-1, weight.shape[1])
 
@@ -133,20 +133,20 @@ class NetworkModule(nn.Module):
     with None or `start(batch)` in the beginning.
     """
 
-    def __init__(self, network: Network, genome: Weights) -> None:
+    def __init__(self, network: SkillNetwork, genome: Weights) -> None:
         super().__init__()
         self.network = network
         self.layers = nn.ModuleList(Layer(before, after) for before, after in network.shapes)
         self.take(genome)
 
     def forward(self, readings: Tensor, state: Tensor | None = None) -> Tensor | tuple[Tensor, Tensor]:
-        """What it sends; with what it remembers, where it does."""
+        """The values sent; of a network that remembers, with its state after the tick."""
         values, after = self._computed(readings, state)
         sent = ReturningClamp.apply(values)
         return (sent, after) if self.network.state else sent
 
     def before_clamp(self, readings: Tensor) -> Tensor:
-        """What its last layer adds up to, of a network that remembers nothing: the mean of a policy that explores."""
+        """The sums of its last layer, of a network that remembers nothing: the mean of a policy that explores."""
         return self._computed(readings, None)[0]
 
     def _computed(self, readings: Tensor, state: Tensor | None) -> tuple[Tensor, Tensor]:
@@ -155,11 +155,11 @@ class NetworkModule(nn.Module):
         return self.network.skill.function.forward(TERMS, weights, readings, before)
 
     def start(self, *batch: int) -> Tensor:
-        """What it remembers before the first tick of a run: zeros [..., state]."""
+        """The state before the first tick of a run: zeros [*batch, state]."""
         return self.layers[0].weight.new_zeros(*batch, self.network.state)
 
     def take(self, genome: Weights) -> None:
-        """Take the weights of a genome."""
+        """Set the weights to those of a genome."""
         with torch.no_grad():
             for layer, matrix in zip(self.layers, matrices(genome, self.network.shapes), strict=True):
                 layer.weight.copy_(torch.from_numpy(np.array(matrix)))
@@ -175,7 +175,7 @@ class NetworkModule(nn.Module):
 
 
 class Skill(NetworkModule):
-    """What a skill of a mind computes, with the weights that it was taught; see `NetworkModule` for how it is called.
+    """A skill of a mind as a module, with the weights that it was taught; see `NetworkModule` for how it is called.
 
     Where there are none that fit, or `from_scratch`, with random ones of PyTorch's generator. `reads` and `sends` say
     what its inputs and outputs are, in their order; a sensor with several readings says how many: proximity:10.
@@ -196,11 +196,11 @@ class Skill(NetworkModule):
         save_genome(Path(path), self.network, self.genome())
 
     def load(self, path: Path | str) -> None:
-        """Take the weights of a file; WeightsError where they are not those of this skill."""
+        """Load the weights of a file; WeightsError where they are not those of this skill."""
         self.take(load_genome(Path(path), self.network))
 
 
-def _random(network: Network) -> Weights:
-    """As learning begins with them here; the seed is that of PyTorch's generator."""
+def _random(network: SkillNetwork) -> Weights:
+    """Random weights as `mindc train` begins with, seeded by PyTorch's generator."""
     rng = np.random.default_rng(int(torch.randint(2**62, ())))
     return network.skill.function.draw(network.inputs, network.outputs, 1, rng)[0]

@@ -14,7 +14,7 @@ from tests.calling import write_rules
 pytest.importorskip("gymnasium")
 
 from mindlang.environments import TaskEnv, TaskVectorEnv
-from mindlang.environments.episodes import numbers
+from mindlang.environments.episodes import to_actions
 from mindlang.run.setup import layouts
 
 
@@ -110,7 +110,7 @@ def test_what_is_finite_stays_so_in_single_precision(values: list[float], kind: 
     with np.errstate(over="ignore"):
         array = np.array(values, kind)
     with np.errstate(all="raise", under="ignore"):
-        found = numbers(array, array.shape)
+        found = to_actions(array, array.shape)
     assert found.dtype == np.float32
     np.testing.assert_array_equal(np.isfinite(found), np.isfinite(array))
     finite = np.isfinite(array)

@@ -11,13 +11,13 @@ from mindlang.compiler.diagnostic import Diagnostic
 from mindlang.compiler.resolve.curricula import SWITCHES
 from mindlang.compiler.source import Source
 from mindlang.explaining.article import Article
-from mindlang.explaining.collection import ERROR, errors
+from mindlang.explaining.collection import ERROR, error_articles
 from mindlang.explaining.collection import codes as all_codes
 from tests.breakpoints.subjects import subject
 from tests.explain.examples import ENVIRONMENTS, write
 from tests.project.sources import COMPILER, RUNTIME, modules, tree
 
-ALL = list(errors())
+ALL = list(error_articles())
 EMITTERS = {"error", "refuse", "Diagnostic", "Flaw", "Mistake", "Misfit", "_refuse", "refuse_again", "refuse_circles"}
 # Codes that are made of words as they are emitted: how, and which these are.
 MADE = {

@@ -11,7 +11,7 @@ from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.source import Source
 from mindlang.explaining.article import Article, sections
 from mindlang.explaining.drivers import GPIO_PINS, HEADER_PINS, NAMED_PINS, NOUNS, driver_articles
-from mindlang.explaining.markdown import card
+from mindlang.explaining.markdown import article_card
 from mindlang.explaining.terminal import LINE_COLUMNS, article_text
 from mindlang.robot.driver import wired
 from mindlang.robot.options import driver_options, drivers
@@ -47,7 +47,7 @@ def test_a_driver_says_what_it_is(article: Article) -> None:
 def test_every_door_has_each_option(article: Article) -> None:
     for option in driver_options(drivers(noun_of(article))[article.name]):
         assert f"  {option.key} " in printed(article)
-        assert f"- `{option.key}` " in card(article)
+        assert f"- `{option.key}` " in article_card(article)
         assert f"| `{option.key}` |" in reference("Drivers", "", [article])
 
 
@@ -90,4 +90,4 @@ def test_the_pins_of_the_header_are_those_of_a_raspberry_pi() -> None:
 @every_driver
 def test_a_driver_speaks_of_options_that_there_are(article: Article) -> None:
     """`low` and `high` are called `from` and `to` in a robot.yaml."""
-    assert not {"low", "high"} & set(re.findall(r"`(\w+)`", card(article)))
+    assert not {"low", "high"} & set(re.findall(r"`(\w+)`", article_card(article)))

@@ -10,7 +10,7 @@ from docs.reference.pages import reference
 from mindlang.compiler.compile import load
 from mindlang.explaining.article import SCALE_MARKS, Article, sections
 from mindlang.explaining.kinds import NOUNS, kind_articles
-from mindlang.explaining.markdown import card
+from mindlang.explaining.markdown import article_card
 from mindlang.explaining.terminal import LINE_COLUMNS, article_text, kind_list
 from tests.explain.examples import write_among
 
@@ -50,7 +50,7 @@ def test_what_has_readings_or_commands_says_what_0_and_a_half_and_1_are(article:
 def test_every_door_has_each_argument(article: Article) -> None:
     said = {argument.key for argument in arguments(kinds(NOUNS[article.noun])[article.name])}
     assert {each.key for each in article.parameters} == said
-    doors = printed(article), card(article), reference("Kinds", "", [article])
+    doors = printed(article), article_card(article), reference("Kinds", "", [article])
     for parameter in article.parameters:
         lines = [line for text in doors for line in text.splitlines() if parameter.key in line]
         assert len(lines) >= len(doors), parameter.key
@@ -103,4 +103,4 @@ def test_a_kind_that_nobody_wrote_about_is_explained_all_the_same() -> None:
     """The tests above ask for more; a program that runs says what it knows."""
     bare = Article("sonar", "sensor", "kind of sensor", "Sensors", "")
     assert printed(bare).startswith("sonar (kind of sensor)\n")
-    assert card(bare) == "**sonar**, a kind of sensor"
+    assert article_card(bare) == "**sonar**, a kind of sensor"

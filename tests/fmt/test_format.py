@@ -9,7 +9,7 @@ import pytest
 from msgspec import Struct
 from msgspec.structs import astuple
 
-from mindlang.compiler.comparison import differences
+from mindlang.compiler.comparison import mind_differences
 from mindlang.compiler.compile import compile_source
 from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.format import formatted
@@ -137,7 +137,7 @@ def test_blanks_alone_make_no_difference() -> None:
     assert glued.mind, glued.diagnostics
     assert spaced.mind
     assert glued.graph == spaced.graph
-    assert not differences(glued.mind, spaced.mind)
+    assert not mind_differences(glued.mind, spaced.mind)
     bad = [f"{blanks}] {'9' * 397}\n" for blanks in ("", "  ")]  # a longer line is no common mistake
     codes = [compile_source(Source("test.mind", text)).diagnostics[0].code for text in bad]
     assert codes == ["braces", "braces"]

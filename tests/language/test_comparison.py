@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mindlang.compiler.comparison import Difference, differences
+from mindlang.compiler.comparison import MindDifference, mind_differences
 from mindlang.compiler.compile import compile_source
 from mindlang.compiler.model import Mind
 from mindlang.compiler.source import Source
@@ -36,13 +36,13 @@ def mind(text: str) -> Mind:
     return found.mind
 
 
-def changed(*pairs: tuple[str, str]) -> list[Difference]:
+def changed(*pairs: tuple[str, str]) -> list[MindDifference]:
     """The differences after some of the text has been replaced, everywhere."""
     text = TEXT
     for before, after in pairs:
         assert before in text
         text = text.replace(before, after)
-    return differences(mind(TEXT), mind(text))
+    return mind_differences(mind(TEXT), mind(text))
 
 
 @pytest.mark.parametrize(
@@ -93,36 +93,36 @@ def test_another_spelling_is_no_difference(before: str, after: str) -> None:
 )
 def test_one_change_is_one_difference(before: str, after: str, what: str) -> None:
     gone = next(line.strip() for line in TEXT.splitlines() if before in line)
-    assert changed((before, after)) == [Difference(what, (gone,), (gone.replace(before, after),))]
+    assert changed((before, after)) == [MindDifference(what, (gone,), (gone.replace(before, after),))]
 
 
 def test_another_tick_is_one_difference() -> None:
-    assert changed(("tick 1/60 s", "tick 1/50 s")) == [Difference("tick", ("tick 0.0166667 s",), ("tick 0.02 s",))]
+    assert changed(("tick 1/60 s", "tick 1/50 s")) == [MindDifference("tick", ("tick 0.0166667 s",), ("tick 0.02 s",))]
 
 
 def test_what_is_new_and_what_is_gone_has_all_its_lines() -> None:
     new = "skill New is rule\n  drives left_wheel at 1 # fast\n"
-    found = differences(mind(TEXT), mind(TEXT + new))
-    assert found == [Difference("skill New", (), ("skill New is rule", "drives left_wheel at 1"))]
-    assert differences(mind(TEXT + new), mind(TEXT)) == [Difference("skill New", found[0].new, ())]
+    found = mind_differences(mind(TEXT), mind(TEXT + new))
+    assert found == [MindDifference("skill New", (), ("skill New is rule", "drives left_wheel at 1"))]
+    assert mind_differences(mind(TEXT + new), mind(TEXT)) == [MindDifference("skill New", found[0].new, ())]
 
 
 def test_what_is_said_twice_counts_twice() -> None:
     reward = "  rewards 10 on reach of ball\n"
-    assert changed((reward, reward * 2)) == [Difference("task Chase", (), ("rewards 10 on reach of ball",))]
+    assert changed((reward, reward * 2)) == [MindDifference("task Chase", (), ("rewards 10 on reach of ball",))]
 
 
 def test_the_order_of_lessons_is_a_difference() -> None:
     one, other = "  teaches Learn on Chase for 5 generations\n", "  teaches Learn on Roam for 5 generations\n"
     assert changed((one + other + one, other + one + one)) == [
-        Difference("curriculum School", (other.strip(),), (other.strip(),))
+        MindDifference("curriculum School", (other.strip(),), (other.strip(),))
     ]
 
 
 def test_where_a_declaration_stands_is_no_difference() -> None:
     text = COLLECT.read_text(encoding="utf-8")
     paragraphs = text.split("\n\n")
-    assert differences(mind(text), mind("\n\n".join([*paragraphs[:2], *reversed(paragraphs[2:])]))) == []
+    assert mind_differences(mind(text), mind("\n\n".join([*paragraphs[:2], *reversed(paragraphs[2:])]))) == []
 
 
 OPEN_WORLD = """tick 1/60 s
@@ -176,17 +176,17 @@ task Run in Flat
     ],
 )
 def test_words_of_the_open_world_are_differences(what: str, gone: str, new: str) -> None:
-    found = differences(mind(OPEN_WORLD), mind(OPEN_WORLD.replace(gone, new)))
-    assert found == [Difference(what, (gone,), (new,) if new else ())]
-    assert differences(mind(OPEN_WORLD.replace(gone, new)), mind(OPEN_WORLD)) == [
-        Difference(what, found[0].new, (gone,))
+    found = mind_differences(mind(OPEN_WORLD), mind(OPEN_WORLD.replace(gone, new)))
+    assert found == [MindDifference(what, (gone,), (new,) if new else ())]
+    assert mind_differences(mind(OPEN_WORLD.replace(gone, new)), mind(OPEN_WORLD)) == [
+        MindDifference(what, found[0].new, (gone,))
     ]
 
 
 def test_another_scene_is_a_difference_of_its_tasks() -> None:
     larger = OPEN_WORLD.replace("scene Flat is arena size 50", "scene Flat is arena size 60")
     headers = ("task Run in arena size 50",), ("task Run in arena size 60",)
-    assert differences(mind(OPEN_WORLD), mind(larger)) == [Difference("task Run", *headers)]
+    assert mind_differences(mind(OPEN_WORLD), mind(larger)) == [MindDifference("task Run", *headers)]
 
 
 def test_a_map_drawn_otherwise_is_a_difference(tmp_path: Path) -> None:
@@ -197,7 +197,7 @@ def test_a_map_drawn_otherwise_is_a_difference(tmp_path: Path) -> None:
         minds_.append(compile_source(Source("a.mind", text, tmp_path)).mind)
     assert minds_[0]
     assert minds_[1]
-    assert differences(*minds_) == [Difference("map maze.txt", ("....",), (".#..",))]
+    assert mind_differences(*minds_) == [MindDifference("map maze.txt", ("....",), (".#..",))]
 
 
 @given(minds(), st.randoms(use_true_random=False))
@@ -218,5 +218,5 @@ def test_a_mind_written_otherwise_is_the_same(texts: Texts, rng) -> None:
     text = "\r\n".join(line for block in [*settings_, *declared] for line in block)
     before = texts.compiled().mind
     assert before
-    assert differences(before, mind(text)) == []
-    assert differences(mind(text), before) == []
+    assert mind_differences(before, mind(text)) == []
+    assert mind_differences(mind(text), before) == []

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from mindrun.graph.graph import Graph
 from mindrun.numbers.quantity import DECAY, RATE
 
-from mindlang.compiler.comparison import Difference, differences
+from mindlang.compiler.comparison import MindDifference, mind_differences
 from mindlang.compiler.compile import Compiled
 from mindlang.compiler.references import mentions
 from tests.language.examples import compiled
@@ -87,10 +87,10 @@ def test_a_world_in_a_scene_is_the_same_world() -> None:
     old, new = compiled(PARTS + TASK).mind, compiled(text).mind
     assert old
     assert new
-    assert differences(old, new) == []
+    assert mind_differences(old, new) == []
     wider = compiled(text.replace("size 4 to 8", "size 4 to 9")).mind
     assert wider
-    assert [found.what for found in differences(new, wider)] == ["task A"]
+    assert [found.what for found in mind_differences(new, wider)] == ["task A"]
 
 
 def test_a_task_like_another_says_what_that_says() -> None:
@@ -170,8 +170,8 @@ def test_another_number_is_one_difference() -> None:
     assert old
     assert new
     assert bare
-    assert differences(old, new) == [Difference("number far", ("number far is 12",), ("number far is 13",))]
-    assert differences(bare, old) == []
+    assert mind_differences(old, new) == [MindDifference("number far", ("number far is 12",), ("number far is 13",))]
+    assert mind_differences(bare, old) == []
 
 
 def test_a_lesson_names_the_number_that_stands_after_its_argument() -> None:

@@ -17,7 +17,7 @@ from mindlang.cli._diagnostic_printer import as_data, plain
 from mindlang.compiler.compile import Compiled, compile_source, load
 from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.parse import parse
-from mindlang.compiler.parse.build import build
+from mindlang.compiler.parse.build import build_line
 from mindlang.compiler.parse.shape import grammar, parse_line, read_grammar
 from mindlang.compiler.source import Source
 from tests.draws import cases
@@ -196,7 +196,7 @@ def same_as_lark(code: str) -> None:
     """What the shape of a line makes of it is what Lark makes of the line itself."""
     source = Source("line", f"?? {code}")
     try:
-        expected = repr(build(grammar().parse(code, start="line"), source, 3))
+        expected = repr(build_line(grammar().parse(code, start="line"), source, 3))
     except UnexpectedInput:
         with pytest.raises(UnexpectedInput):
             parse_line(code, source, 3)

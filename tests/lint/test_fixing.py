@@ -5,7 +5,7 @@ import pytest
 from mindlang.compiler.diagnostic import Diagnostic, Fix
 from mindlang.compiler.source import Source
 from mindlang.compiler.splice import Splice
-from mindlang.lint.lint import fixed
+from mindlang.lint.lint import apply_safe_fixes
 
 TEXT = "abcdef"
 
@@ -22,7 +22,7 @@ def looks(*spans: tuple[int, int, str], safe: bool = True) -> tuple[str, int, in
         splices = [Splice(source, start, end, text) for start, end, text in spans]
         return [Diagnostic("x", "y", fix=Fix("z", (splice,), safe)) for splice in splices]
 
-    source, made = fixed(Source("a.mind", TEXT), look)
+    source, made = apply_safe_fixes(Source("a.mind", TEXT), look)
     return source.text, made, looked
 
 
@@ -42,7 +42,7 @@ def test_unsafe_ones_are_not_made() -> None:
 
 
 def test_fixes_that_never_end_are_given_up() -> None:
-    source, made = fixed(
+    source, made = apply_safe_fixes(
         Source("a.mind", ""), lambda source: [Diagnostic("x", "y", fix=Fix("z", (Splice(source, 0, 0, "a"),)))]
     )
     assert 50 <= made <= 200

@@ -11,7 +11,7 @@ from benchmarks.call_count import one_in_eight
 from mindlang.cli._diagnostic_printer import plain
 from mindlang.compiler.compile import compile_source
 from mindlang.compiler.format import formatted
-from mindlang.compiler.source import Source, decode
+from mindlang.compiler.source import Source, decode_source
 from mindlang.lint.lint import lint
 from tests.fmt.test_format import comments, meaning
 from tests.language.test_fuzz import SEEDS, delete, duplicate, flip, insert, splice, swap_lines
@@ -37,7 +37,7 @@ def mutants(seeds: range) -> Tally:
         for _ in range(rng.randint(1, 4)):
             data = rng.choice((flip, delete, duplicate, swap_lines, splice, insert))(data, rng) or b" "
         try:
-            text = decode(data)
+            text = decode_source(data)
         except ValueError:
             continue
         with one_in_eight(seed, MOST_CALLS):

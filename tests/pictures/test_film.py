@@ -11,12 +11,12 @@ from mindrun.graph.graph import Sensor
 from PIL import Image as Pillow
 
 from mindlang.compiler.compile import load
-from mindlang.pictures.canvas import Canvas, Rectangle, text_width
+from mindlang.pictures.canvas import Canvas, Region, text_width
 from mindlang.pictures.film import Film
 from mindlang.pictures.film_images import BELOW_SHARE, BESIDE_SHARE, FILM_HEIGHT, FILM_WIDTH, FilmLayout
-from mindlang.pictures.hierarchy_panel import MAX_TEXT_PIXELS, Place, broken, fitting, laid_out
+from mindlang.pictures.hierarchy_panel import MAX_TEXT_PIXELS, Place, box_text_size, broken, laid_out
 from mindlang.pictures.path import ending_words
-from mindlang.pictures.readings_panel import TEXT_PIXELS, fitted, sensors_read, shortened
+from mindlang.pictures.readings_panel import TEXT_PIXELS, cell_layout, fit_name, sensors_read
 from mindlang.pictures.scene import WALL_UNITS
 from mindlang.pictures.theme import NIGHT
 from mindlang.run.edge_flow import Link, edge_flows
@@ -81,9 +81,9 @@ def test_a_speed_is_a_number(mindc: Call, rules: Path) -> None:
 
 def test_a_name_and_its_number_fit_into_a_box() -> None:
     place = Place(0.0, 0.0, 100.0, 50.0)
-    assert text_width("left_wheel  0.00", fitting(["left_wheel  0.00"], place)) <= 0.84 * place.width + 1
-    assert fitting(["left"], place) == MAX_TEXT_PIXELS
-    assert fitting(["left"], replace(place, height=30.0)) < MAX_TEXT_PIXELS
+    assert text_width("left_wheel  0.00", box_text_size(["left_wheel  0.00"], place)) <= 0.84 * place.width + 1
+    assert box_text_size(["left"], place) == MAX_TEXT_PIXELS
+    assert box_text_size(["left"], replace(place, height=30.0)) < MAX_TEXT_PIXELS
 
 
 @pytest.mark.parametrize(
@@ -216,7 +216,7 @@ def test_as_many_readings_as_fit(rules: Path, ratio: float, count: int) -> None:
     hierarchy, room = layout.divided(count)
     sensor = load(rules).graph.sensors[0]  # type: ignore[union-attr]
     sensors = [Sensor(f"s{number}", sensor.kind, number, 1) for number in range(count)]
-    shown, cells, left_out = fitted(sensors, room)
+    shown, cells, left_out = cell_layout(sensors, room)
     assert len(shown) + left_out == count
     assert len(cells) == len(shown) + (left_out > 0)
     assert hierarchy.width >= (1 - BESIDE_SHARE) * layout.panel.width - 1
@@ -232,8 +232,8 @@ def test_as_many_readings_as_fit(rules: Path, ratio: float, count: int) -> None:
 
 
 def test_a_long_name_of_a_sensor_is_cut() -> None:
-    assert shortened("eye", 80.0) == ("eye", TEXT_PIXELS)
-    text, size = shortened("a_name_that_nobody_should_give_to_a_sensor", 80.0)
+    assert fit_name("eye", 80.0) == ("eye", TEXT_PIXELS)
+    text, size = fit_name("a_name_that_nobody_should_give_to_a_sensor", 80.0)
     assert text.startswith("a_name_")
     assert text.endswith("..")
     assert text_width(text, size) <= 80.0
@@ -255,7 +255,7 @@ def test_what_flows_adds_up_to_the_influence(rules: Path) -> None:
 def test_a_link_that_passes_a_row_goes_between_its_boxes() -> None:
     links = [Link(0, ("skill", 1)), Link(0, ("skill", 2)), Link(1, ("skill", 3)), Link(2, ("actuator", 0))]
     links += [Link(3, ("actuator", 0)), Link(0, ("actuator", 1))]
-    boxes, stops = laid_out(links, [0, 1, 2, 3], Rectangle(0.0, 0.0, 400.0, 400.0))
+    boxes, stops = laid_out(links, [0, 1, 2, 3], Region(0.0, 0.0, 400.0, 400.0))
     assert [len(each) for each in stops] == [2, 2, 2, 3, 2, 4]
     heights = {sink: place.y for sink, place in boxes.items()}
     assert heights["skill", 0] < heights["skill", 1] == heights["skill", 2] < heights["skill", 3]

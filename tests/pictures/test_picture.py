@@ -24,7 +24,7 @@ from mindlang.pictures.picture import (
     PICTURE_PIXELS,
     SIDE_PIXELS,
     TOP_PIXELS,
-    fitted,
+    legend_layout,
     picture,
     view_of,
 )
@@ -217,7 +217,7 @@ def test_the_end_is_marked_and_said(rules: Path, monkeypatch: pytest.MonkeyPatch
 @pytest.mark.parametrize("names", [["a"], ["a", "bb", "ccc"] * 4, ["a_name_that_is_long"] * 20])
 def test_a_legend_stays_within_its_lines(names: list[str]) -> None:
     canvas = Canvas.of_page(blank(400, 100, PAPER.page))
-    size, places = fitted(canvas, names, 400.0)
+    size, places = legend_layout(canvas, names, 400.0)
     assert len(places) == len(names)
     assert size == MIN_TEXT_PIXELS or max(line for _, line in places) < LEGEND_LINES
     assert all(after > before for before, after in pairwise((line, along) for along, line in places))

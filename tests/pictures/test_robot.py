@@ -10,10 +10,10 @@ import pytest
 from mindrun.kinds.scenes.arena import Arena
 
 from mindlang.compiler.compile import load
-from mindlang.pictures.canvas import Canvas, Rectangle, Viewport, blank, text_width
+from mindlang.pictures.canvas import Canvas, Region, Viewport, blank, text_width
 from mindlang.pictures.picture import height_of, picture
 from mindlang.pictures.robot import draw_robot, steering_angle
-from mindlang.pictures.scene import NAME_PIXELS, draw_names, free, placed
+from mindlang.pictures.scene import NAME_PIXELS, draw_names, free, to_world
 from mindlang.pictures.theme import PAPER
 from mindlang.run.outcome import run_data
 from mindlang.run.recorded_run import RecordedRun, record_run
@@ -90,7 +90,7 @@ def robot(run: RecordedRun, tick: int) -> Spy:
 def test_points_of_the_floor_are_where_they_look_and_filled_over_what_they_look_for(tmp_path: Path) -> None:
     run = recorded(tmp_path, CAR.replace("LAMP", "0"))
     assert run.readings[-1, :2].tolist() == [1.0, 0.0]
-    places = placed([(3.0, 1.0), (3.0, -1.0)], run.body[-1])
+    places = to_world([(3.0, 1.0), (3.0, -1.0)], run.body[-1])
     spy = robot(run, run.ticks)
     assert np.allclose(spy.of("rim", PAPER.ray), places)
     assert np.allclose(spy.of("disc", PAPER.ray), places[:1])
@@ -104,7 +104,7 @@ def test_a_switch_is_lit_where_it_is_pressed(tmp_path: Path, pressed: list[float
     lit, dark = spy.of("line", PAPER.crash), spy.of("line", PAPER.faint)
     assert (len(lit), len(dark)) == (sum(pressed), 2 - sum(pressed))
     for line, ahead in zip(lit, [2.0 * (1 - 2 * pressed.index(1.0))] if lit else [], strict=True):
-        assert np.allclose(line[4], placed([(ahead, 0.0)], run.body[-1])[0])  # the middle of a side of the car
+        assert np.allclose(line[4], to_world([(ahead, 0.0)], run.body[-1])[0])  # the middle of a side of the car
 
 
 @pytest.mark.parametrize(("command", "is_lit"), [(0.0, False), (0.5, False), (0.6, True), (1.0, True)])
@@ -112,7 +112,7 @@ def test_a_headlight_throws_a_beam_above_a_half(tmp_path: Path, command: float, 
     run = recorded(tmp_path, CAR.replace("LAMP", str(command)))
     beams = robot(run, run.ticks).of("polygon", PAPER.lamp)
     assert len(beams) == is_lit
-    ahead, _ = placed([(5.0, 0.0)], run.body[-1])[0]
+    ahead, _ = to_world([(5.0, 0.0)], run.body[-1])[0]
     assert all(beam[:, 0].max() > ahead for beam in beams)
 
 
@@ -127,17 +127,17 @@ def test_the_front_wheels_of_a_car_are_turned_as_late_as_their_steering(tmp_path
 
 def test_thrusters_throw_away_from_where_they_push(tmp_path: Path) -> None:
     run = recorded(tmp_path, HOVER)
-    thrown = [placed(way, run.body[-1]) for way in ([(-1, 0), (-2.6, 0)], [(0, 1), (0, 1)], [(1, 0), (1, 0.8)])]
+    thrown = [to_world(way, run.body[-1]) for way in ([(-1, 0), (-2.6, 0)], [(0, 1), (0, 1)], [(1, 0), (1, 0.8)])]
     assert np.allclose(robot(run, 1).of("line", PAPER.lamp), thrown)
 
 
 def test_names_of_things_that_are_close_do_not_overlap(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     things = "".join(f"  contains thing_{i} is item size 0.3 at {3 + i * 0.4} {2 + i % 2 * 0.3}\n" for i in range(6))
     run = recorded(tmp_path, CAR.replace("LAMP", "0") + things)
-    said: list[Rectangle] = []
+    said: list[Region] = []
 
     def text(canvas: Canvas, x: float, y: float, text: str, *rest: Any, **how: Any) -> None:
-        said.append(Rectangle(x, y, text_width(text, NAME_PIXELS) / 10, NAME_PIXELS / 10))
+        said.append(Region(x, y, text_width(text, NAME_PIXELS) / 10, NAME_PIXELS / 10))
 
     monkeypatch.setattr(Canvas, "text", text)
     draw_names(Spy(), run, PAPER, run.ticks)
@@ -146,7 +146,7 @@ def test_names_of_things_that_are_close_do_not_overlap(tmp_path: Path, monkeypat
 
 
 def test_a_name_that_finds_no_place_stands_at_its_first() -> None:
-    label, all_of_it = Rectangle(0.0, 0.0, 1.0, 1.0), Rectangle(-9.0, -9.0, 18.0, 18.0)
+    label, all_of_it = Region(0.0, 0.0, 1.0, 1.0), Region(-9.0, -9.0, 18.0, 18.0)
     assert free([label, label._replace(low=3.0)], [all_of_it], all_of_it) == label
     assert free([label, label._replace(low=3.0)], [label], all_of_it).low == 3.0
     assert free([label, label._replace(low=3.0)], [], label._replace(low=3.0)).low == 3.0

@@ -19,7 +19,7 @@ LONG_FILES = {
     "tests/lock/test_worlds.py": "one mind with every kind, and what is noticed of each",
 }
 LONG_FUNCTIONS = {
-    "mindlang/compiler/resolve/__init__.py: resolve": "a line for each stage, in their order",
+    "mindlang/compiler/resolve/__init__.py: resolve_mind": "a line for each stage, in their order",
     "mindlang/cli/deploy.py: command": "a parameter in a line of its own for each option of the command",
     "mindlang/cli/train.py: command": "a parameter in a line of its own for each option of the command",
 }

@@ -20,9 +20,9 @@ from mindrun.numbers.arithmetic import sigmoid
 from mindlang.compiler.compile import load
 from mindlang.lock.ready import make_ready
 from mindlang.proofs.interval import SIGMOID_ERROR
-from mindlang.proofs.proof import OfActuator, Proof, prove
-from mindlang.proofs.reach import MIN_INFLUENCE, ProvedReach, reach
-from mindlang.proofs.trying import think, values
+from mindlang.proofs.proof import ActuatorClaims, Proof, prove
+from mindlang.proofs.reach import MIN_INFLUENCE, ProvedReach, prove_reach
+from mindlang.proofs.trying import sent_values, think_rows
 from tests.draws import cases
 from tests.hierarchies import PROCEDURES, SCALES, random_graph
 from tests.minds import always, mind, rule, skill
@@ -54,13 +54,13 @@ def lies_inside(
     """Hold what is computed for these readings against everything that was claimed."""
     names = {s.name: place for place, s in enumerate(graph.skills)}
     for s in reachable(graph, graph.master):
-        found = values(s, weights.get(s.owner, np.zeros(0, np.float32)), readings)
+        found = sent_values(s, weights.get(s.owner, np.zeros(0, np.float32)), readings)
         for value, sends in zip(found.T, bounds.edges[s.name], strict=True):
             sound = np.isfinite(value)
             assert sound.all() or not sends.sure
             value = np.clip(value[sound], 0, 1)
             assert ((sends.low <= value) & (value <= sends.high)).all()
-    thoughts = think(graph, weights, readings)
+    thoughts = think_rows(graph, weights, readings)
     for name, bound in bounds.influence.items():
         found = thoughts.influence[:, names[name]]
         found = found[~np.isnan(found)]
@@ -70,7 +70,7 @@ def lies_inside(
         commanded(claim, thoughts.total[:, place], thoughts.command[:, place])
 
 
-def commanded(claim: OfActuator, total: np.ndarray, command: np.ndarray) -> None:
+def commanded(claim: ActuatorClaims, total: np.ndarray, command: np.ndarray) -> None:
     """Hold what an actuator was sent against what was claimed of it."""
     driven = (total > 0) & np.isfinite(command)
     assert driven.all() or claim.neutral != "never"
@@ -96,7 +96,7 @@ def test_random_hierarchies(graph: Graph, scale: float, seed: int) -> None:
     weights = some_weights(plain, scale, rng)
     same = {s.name: weights[s.name] for s in graph.skills if s in plain.skills and s.name in weights}
     of_graph = some_weights(graph, scale, rng) | same
-    lies_inside(plain, weights, in_the_box(graph, 400, rng), prove(graph, of_graph, 0.01), reach(graph, of_graph))
+    lies_inside(plain, weights, in_the_box(graph, 400, rng), prove(graph, of_graph, 0.01), prove_reach(graph, of_graph))
 
 
 @settings(max_examples=cases(60))
@@ -105,9 +105,9 @@ def test_what_the_real_engine_does(graph: Graph, scale: float, seed: int) -> Non
     """Everything above is computed for many readings at once; here the engine itself says that it is the same."""
     rng = np.random.default_rng(seed)
     weights = some_weights(graph, scale, rng)
-    bounds = reach(graph, weights)
+    bounds = prove_reach(graph, weights)
     readings = in_the_box(graph, 12, rng)
-    thoughts = think(graph, weights, readings)
+    thoughts = think_rows(graph, weights, readings)
     made = hierarchy(Policy(graph, weights), procedure_sources(graph, PROCEDURES), graph.master)
     actuators = len(graph.actuators)
     for row, now in enumerate(readings):
@@ -135,7 +135,7 @@ def shipped(name: str) -> tuple[Graph, dict[str, Weights]]:
 
 def sampled(name: str, rows: int) -> None:
     graph, weights = shipped(name)
-    proof, bounds = prove(graph, weights, 0.01), reach(graph, weights)
+    proof, bounds = prove(graph, weights, 0.01), prove_reach(graph, weights)
     rng = np.random.default_rng(7)
     for _ in range(0, rows, 10_000):
         lies_inside(graph, weights, in_the_box(graph, 10_000, rng), proof, bounds)
@@ -192,7 +192,7 @@ def test_p_and_one_less_p_are_never_both_zero() -> None:
     top = Skill("Top", rule("x").function, (0,), (Edge("skill", 1, None, p), Edge("skill", 2, None, less)))
     graph = mind(top, rule("A", always("actuator", 0, 1.0)), rule("B", always("actuator", 0, 0.0)))
     claim = prove(graph, {}, 0.01).actuators[0]
-    assert reach(graph, {}).actuators[0].total.low == 0
+    assert prove_reach(graph, {}).actuators[0].total.low == 0
     assert claim.neutral == "never"
     assert 0.4 < claim.driven.total.low <= 1
 
@@ -213,7 +213,7 @@ def test_a_divisor_that_passes_through_zero() -> None:
     """0.1 / (r − 1/2) is −0.2 and 0.2 in the corners, and anything at all between."""
     value = (("number", 0.1), ("reading", 0), ("number", 0.5), ("-", 0), ("/", 0))
     graph = mind(rule("Top", Edge("actuator", 0, None, value), reads=(0,)))
-    sends = reach(graph, {}).edges["Top"][0]
+    sends = prove_reach(graph, {}).edges["Top"][0]
     assert (sends.low, sends.high, sends.sure) == (0, 1, False)
 
 
@@ -241,7 +241,7 @@ def test_a_mean_that_rounds_beyond_all_that_is_averaged_lies_inside() -> None:
         graph = averaged(float(np.float32(rng.uniform(0.1, 0.9))), rng.random(int(rng.integers(2, 9)), np.float32))
         command = float(Engine(Policy(graph, {})).tick([0.0])[0])
         sent = graph.skills[1].edges[0].value[0][1]
-        bound = reach(graph, {}).actuators[0].command
+        bound = prove_reach(graph, {}).actuators[0].command
         assert bound
         assert bound.low <= command <= bound.high
         assert bound.high - bound.low < 1e-5
@@ -251,6 +251,6 @@ def test_a_mean_that_rounds_beyond_all_that_is_averaged_lies_inside() -> None:
 
 def test_a_mean_of_nothing_but_ones_or_noughts_is_exact() -> None:
     for value in (0.0, 1.0):
-        bound = reach(averaged(value, np.full(3, 0.3, np.float32)), {}).actuators[0].command
+        bound = prove_reach(averaged(value, np.full(3, 0.3, np.float32)), {}).actuators[0].command
         assert bound
         assert (bound.low, bound.high) == (value, value)

@@ -9,10 +9,10 @@ from mindrun.kinds.functions.procedure import Procedure
 
 from mindlang.proofs import trying
 from mindlang.proofs.paths import Paths
-from mindlang.proofs.proof import OfActuator, prove
+from mindlang.proofs.proof import ActuatorClaims, prove
 from mindlang.proofs.reach import MIN_INFLUENCE, Bound, Driven
 from mindlang.proofs.recorded import Undriven, undriven
-from mindlang.proofs.trying import Tried, readings_to_try, try_out
+from mindlang.proofs.trying import Tried, readings_to_try, try_readings
 from tests.minds import CLAW, WHEELS, always, mind, rule, skill
 from tests.proofs.samples import R0, drives, sends, single
 
@@ -20,9 +20,9 @@ LEFT, RIGHT = 0, 1
 SEEN, STILL = Tried((0.25, 0.75), None, ()), Tried(None, np.zeros(1, np.float32), ("Top",))
 
 
-def claimed(driven: Driven, tried: Tried | None = None) -> OfActuator:
+def claimed(driven: Driven, tried: Tried | None = None) -> ActuatorClaims:
     """A claim about the claw, whose neutral is 1/4."""
-    return OfActuator(CLAW, Paths(1, ()), None, driven, tried, ())
+    return ActuatorClaims(CLAW, Paths(1, ()), None, driven, tried, ())
 
 
 @pytest.mark.parametrize(
@@ -124,8 +124,10 @@ def test_what_lies_aside_and_what_is_unknown() -> None:
 def test_nothing_is_tried_of_what_is_not_known() -> None:
     """Of a skill below the master; what lies aside does not matter."""
     graph = mind(drives("Top", 0.5), skill("Aside", Mlp(), (0,), ("actuator", LEFT)))
-    assert try_out(graph, {})
-    assert try_out(mind(rule("Top", always("skill", 1, 0.5)), skill("A", Mlp(), (0,), ("actuator", 0))), {}) is None
+    assert try_readings(graph, {})
+    assert (
+        try_readings(mind(rule("Top", always("skill", 1, 0.5)), skill("A", Mlp(), (0,), ("actuator", 0))), {}) is None
+    )
 
 
 @pytest.mark.parametrize(("work", "rows"), [(0, 64), (64 * 206 - 1, 64), (65 * 206, 65), (10**9, 4096)])
@@ -136,7 +138,7 @@ def test_as_many_readings_are_tried_as_there_is_time_for(monkeypatch: pytest.Mon
     monkeypatch.setattr(trying, "MAX_WEIGHT_READINGS", work)
     monkeypatch.setattr(trying, "readings_to_try", lambda *size: tried.append(size) or readings_to_try(*size))
     assert genes(graph.skills[0]) == 6
-    assert try_out(graph, {"Top": np.ones(6, np.float32)})
+    assert try_readings(graph, {"Top": np.ones(6, np.float32)})
     assert tried == [(3, rows)]
 
 
@@ -150,7 +152,7 @@ def test_what_was_seen_of_an_actuator() -> None:
         rule("Elsewhere", always("memory", 0, 1.0)),
         cells=(),
     )
-    found = try_out(graph, {})
+    found = try_readings(graph, {})
     assert found
     left, right = found
     assert left.commands == pytest.approx((0.75, 0.75), abs=1e-6)

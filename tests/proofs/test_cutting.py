@@ -10,16 +10,9 @@ from mindrun.kinds.functions.mlp import Mlp
 from mindrun.kinds.functions.procedure import Procedure
 
 from mindlang.proofs import branch_and_bound
-from mindlang.proofs.branch_and_bound import (
-    SHARP_ENOUGH,
-    EdgeRange,
-    by_itself,
-    halves,
-    ranges,
-    sway_of,
-)
+from mindlang.proofs.branch_and_bound import SHARP_ENOUGH, EdgeRange, by_itself, halves, ranges, sway_of
 from mindlang.proofs.interval import Boxes, SentBounds
-from mindlang.proofs.trying import readings_to_try, values
+from mindlang.proofs.trying import readings_to_try, sent_values
 from tests.draws import cases
 from tests.hierarchies import random_graph
 from tests.minds import always, rule, skill
@@ -135,8 +128,8 @@ def test_of_python_code_nothing_is_seen() -> None:
 
 
 def test_nothing_is_cut_for_a_function_that_is_not_known(monkeypatch: pytest.MonkeyPatch) -> None:
-    looked, sent = [], branch_and_bound.sent
-    monkeypatch.setattr(branch_and_bound, "sent", lambda *arguments: looked.append(1) or sent(*arguments))
+    looked, sent = [], branch_and_bound.sent_bounds
+    monkeypatch.setattr(branch_and_bound, "sent_bounds", lambda *arguments: looked.append(1) or sent(*arguments))
     ranges(Skill("Top", Procedure("a.b"), (0,), (Edge("skill", 1, 0), always("skill", 2, 0.25))), None, 99)
     assert len(looked) == 1
 
@@ -158,8 +151,8 @@ def test_a_skill_by_itself_sends_the_same(graph: Graph, seed: int) -> None:
     for each in graph.skills:
         alone, weights = by_itself(each), rng.uniform(-1, 1, genes(each)).astype(np.float32)
         assert alone.inputs == tuple(range(len(each.inputs)))
-        found = values(alone, weights, readings[:, list(each.inputs)])
-        assert np.array_equal(found, values(each, weights, readings), equal_nan=True)
+        found = sent_values(alone, weights, readings[:, list(each.inputs)])
+        assert np.array_equal(found, sent_values(each, weights, readings), equal_nan=True)
 
 
 @settings(max_examples=cases(40))
@@ -170,7 +163,7 @@ def test_bounds_are_close_to_what_a_small_perceptron_sends(weights: list[float])
     genome = np.array(weights, np.float32)
     found = ranges(taught, genome, 2000)[0]
     grid = np.stack(np.meshgrid(*[np.linspace(0, 1, 41, dtype=np.float32)] * 2), -1).reshape(-1, 2)
-    sent = np.clip(values(taught, genome, grid), 0, 1)
+    sent = np.clip(sent_values(taught, genome, grid), 0, 1)
     assert found.seen
     assert found.low <= min(sent.min(), found.seen[0])
     assert max(sent.max(), found.seen[1]) <= found.high

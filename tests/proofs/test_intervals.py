@@ -12,8 +12,16 @@ from mindrun.kinds.functions.mlp import Mlp
 from mindrun.kinds.functions.procedure import Procedure
 from mindrun.kinds.functions.rule import Rule
 
-from mindlang.proofs.interval import SIGMOID_ERROR, Boxes, SentBounds, evaluate, is_known, perceive, sent
-from mindlang.proofs.trying import values
+from mindlang.proofs.interval import (
+    SIGMOID_ERROR,
+    Boxes,
+    SentBounds,
+    expression_bounds,
+    is_known,
+    perceptron_bounds,
+    sent_bounds,
+)
+from mindlang.proofs.trying import sent_values
 from tests.minds import always, rule, skill
 
 SHARES = st.floats(0, 1, width=32)
@@ -50,12 +58,12 @@ def test_an_operator_attains_its_bounds_in_corners(
     """Of (r0 − x) and (r1 − y), unless the divisor can be 0; then nothing is known."""
     left, right = ((("reading", i), ("number", n), ("-", 0)) for i, n in ((0, x), (1, y)))
     value = (*left, *right, (operator, 0), *[("negate", 0)] * turned)
-    with np.errstate(all="ignore"):  # as `sent` calls it
-        low, high = evaluate(value, box(a, b))
+    with np.errstate(all="ignore"):  # as `sent_bounds` calls it
+        low, high = expression_bounds(value, box(a, b))
     if operator == "/" and b[0] - y <= 0 <= b[1] - y:
         assert (low[0], high[0]) == (-np.inf, np.inf)
     else:
-        found = values(sending(value), np.zeros(0, np.float32), corners(a, b))
+        found = sent_values(sending(value), np.zeros(0, np.float32), corners(a, b))
         assert (low[0], high[0]) == (found.min(), found.max())
 
 
@@ -67,8 +75,8 @@ def test_a_layer_attains_its_bounds_in_corners(sides: list[tuple[float, float]],
     )
     taught = skill("Top", Mlp(hidden=0), tuple(range(len(sides))), ("skill", 1), ("skill", 2))
     matrix = weights.astype(np.float32).reshape(2, len(sides))
-    low, high = perceive([matrix], *(np.array([ends], np.float32) for ends in zip(*sides, strict=True)))
-    found = values(taught, matrix.ravel(), corners(*sides))
+    low, high = perceptron_bounds([matrix], *(np.array([ends], np.float32) for ends in zip(*sides, strict=True)))
+    found = sent_values(taught, matrix.ravel(), corners(*sides))
     assert np.array_equal(low[0], found.min(axis=0))
     assert np.array_equal(high[0], found.max(axis=0))
 
@@ -77,8 +85,12 @@ def test_a_layer_attains_its_bounds_in_corners(sides: list[tuple[float, float]],
 def test_the_margin_of_a_hidden_layer_is_that_of_its_sigmoids(weights: list[float], x: float, y: float) -> None:
     """In a box that is a point, what is left is DIP for each neuron, and a few roundings."""
     genome = np.array(weights, np.float32)
-    low, high = perceive([genome[:4].reshape(2, 2), genome[4:].reshape(1, 2)], *[np.array([[x, y]], np.float32)] * 2)
-    found = values(skill("Top", Mlp(hidden=1, width=2), (0, 1), ("skill", 1)), genome, np.array([[x, y]], np.float32))
+    low, high = perceptron_bounds(
+        [genome[:4].reshape(2, 2), genome[4:].reshape(1, 2)], *[np.array([[x, y]], np.float32)] * 2
+    )
+    found = sent_values(
+        skill("Top", Mlp(hidden=1, width=2), (0, 1), ("skill", 1)), genome, np.array([[x, y]], np.float32)
+    )
     assert low[0, 0] <= found[0, 0] <= high[0, 0]
     weight = float(np.abs(genome[4:]).sum())
     assert high[0, 0] - low[0, 0] <= 2 * float(SIGMOID_ERROR) * weight + 1e-6 * weight
@@ -88,9 +100,9 @@ def test_the_margin_of_a_hidden_layer_is_that_of_its_sigmoids(weights: list[floa
 def test_a_sigmoid_stays_in_its_range(out: float, expected: tuple[float, float]) -> None:
     """However far out it is looked at, its bounds are of 0..1."""
     ends = [np.array([[x]], np.float32) for x in (1.0, 1.0)]
-    low, high = perceive([np.array([[1e30]], np.float32), np.array([[out]], np.float32)], *ends)
+    low, high = perceptron_bounds([np.array([[1e30]], np.float32), np.array([[out]], np.float32)], *ends)
     assert (low[0, 0], high[0, 0]) == pytest.approx(expected, abs=1e-9)
-    low, high = perceive([np.array([[-1e30]], np.float32), np.array([[1.0]], np.float32)], *ends)
+    low, high = perceptron_bounds([np.array([[-1e30]], np.float32), np.array([[1.0]], np.float32)], *ends)
     assert (low[0, 0], high[0, 0]) == (0.0, SIGMOID_ERROR)
 
 
@@ -104,10 +116,10 @@ def test_what_may_overflow_is_not_sure() -> None:
         ((0.25, 0.5), (0, 0.75, True)),
     ):
         taught = skill("Top", Mlp(hidden=0), (0, 1), ("skill", 1))
-        assert range_of(sent(taught, np.array(weights, np.float32), whole)) == expected
+        assert range_of(sent_bounds(taught, np.array(weights, np.float32), whole)) == expected
     less_and_more = [np.array([[3e38, 3e38, -3e38]], np.float32), *[np.ones((1, 3), np.float32)] * 2]
     with np.errstate(over="ignore"):
-        low, high = perceive(less_and_more[:1], *less_and_more[1:])
+        low, high = perceptron_bounds(less_and_more[:1], *less_and_more[1:])
     assert (low[0, 0], high[0, 0]) == (np.inf, np.inf)  # as it is in the order of the inputs
 
 
@@ -116,14 +128,14 @@ def test_a_number_that_overflows_on_its_way_is_not_sure() -> None:
     huge = (("reading", 0), ("number", 1e308), ("*", 0), ("number", 10.0), ("*", 0))
     value = (("number", 1.0), ("number", 1.0), *huge, ("+", 0), ("/", 0))
     with np.errstate(all="ignore"):
-        assert range_of(sent(sending(value, (0,)), None, box((0, 1)))) == (0, 1, False)
-        assert range_of(sent(sending(value, (0,)), None, box((0, 0)))) == (1, 1, True)
+        assert range_of(sent_bounds(sending(value, (0,)), None, box((0, 1)))) == (0, 1, False)
+        assert range_of(sent_bounds(sending(value, (0,)), None, box((0, 0)))) == (1, 1, True)
 
 
 def test_of_an_unknown_function_nothing_is_known_but_its_fixed_lines_are() -> None:
     edges = (Edge("skill", 1, 0), always("skill", 2, 0.25))
     for function, weights in ((Procedure("turning.turn"), None), (Mlp(), None)):
-        found = sent(Skill("Top", function, (0,), edges), weights, box((0, 1)))
+        found = sent_bounds(Skill("Top", function, (0,), edges), weights, box((0, 1)))
         assert (found.low.tolist(), found.high.tolist()) == ([[0, 0.25]], [[1, 0.25]])
         assert found.sure.tolist() == [[False, True]]
 
@@ -143,17 +155,17 @@ def test_what_is_known() -> None:
 
 def test_what_is_sent_is_clamped() -> None:
     for value, expected in ((1.5, (1, 1, True)), (-0.5, (0, 0, True)), (2.5, (1, 1, True))):
-        assert range_of(sent(rule("Top", always("skill", 1, value)), None, box((0, 1)))) == expected
+        assert range_of(sent_bounds(rule("Top", always("skill", 1, value)), None, box((0, 1)))) == expected
 
 
 def test_a_perceptron_that_reads_nothing_sends_nothing() -> None:
-    found = sent(skill("Top", Mlp(), (), ("skill", 1)), None, box((0, 1)))
+    found = sent_bounds(skill("Top", Mlp(), (), ("skill", 1)), None, box((0, 1)))
     assert range_of(found) == (0, 0, True)
 
 
 def test_readings_are_those_that_a_skill_reads() -> None:
     """Two boxes of three readings, of which the skill reads the last and the first."""
     boxes = Boxes(np.array([[0, 0, 0.5], [0.25, 0, 0]], np.float32), np.array([[0.5, 1, 1], [0.25, 1, 0]], np.float32))
-    found = sent(skill("Top", Mlp(hidden=0), (2, 0), ("skill", 1)), np.array([0.5, -0.25], np.float32), boxes)
+    found = sent_bounds(skill("Top", Mlp(hidden=0), (2, 0), ("skill", 1)), np.array([0.5, -0.25], np.float32), boxes)
     assert found.low.tolist() == [[0.125], [0]]
     assert found.high.tolist() == [[0.5], [0]]

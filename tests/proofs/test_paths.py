@@ -10,14 +10,14 @@ from hypothesis import strategies as st
 from mindrun.graph.graph import Edge, Graph, Skill
 from mindrun.kinds.functions.mlp import Mlp
 
-from mindlang.proofs.paths import MAX_COUNTED_PATHS, Way, Ways, leaks, paths, ways
+from mindlang.proofs.paths import MAX_COUNTED_PATHS, InfluenceEdge, InfluenceEdges, influence_edges, leaks, paths
 from tests.hierarchies import random_graph
 from tests.minds import always, mind, rule, skill
 
 DELTAS = st.sampled_from([0.001, 0.01, 0.3, 1.0])
 
 
-def every_path(found: Ways, begin: int, actuator: int) -> list[list[tuple[int, Way | None]]]:
+def every_path(found: InfluenceEdges, begin: int, actuator: int) -> list[list[tuple[int, InfluenceEdge | None]]]:
     """All paths from a skill to an actuator, each a list of (skill, the way it goes on by)."""
     here = [[(begin, None)]] if actuator in found.drives[begin] else []
     return here + [
@@ -25,19 +25,19 @@ def every_path(found: Ways, begin: int, actuator: int) -> list[list[tuple[int, W
     ]
 
 
-def weight(path: list[tuple[int, Way | None]]) -> float:
+def weight(path: list[tuple[int, InfluenceEdge | None]]) -> float:
     """How much of an influence of 1 arrives at the end of a path."""
     return float(np.prod([way.most for _, way in path if way]))
 
 
-def greatest(found: Ways, skill: int, begin: int | None = None) -> float:
+def greatest(found: InfluenceEdges, skill: int, begin: int | None = None) -> float:
     """The most influence that a skill can have: over every path from the master to it."""
     begin = found.skills[0] if begin is None else begin
     onward = (way.most * greatest(found, skill, way.target) for way in found.onward[begin])
     return float(begin == skill) + sum(onward)
 
 
-def leaked(found: Ways, path: list[tuple[int, Way | None]], actuator: int, delta: float) -> float:
+def leaked(found: InfluenceEdges, path: list[tuple[int, InfluenceEdge | None]], actuator: int, delta: float) -> float:
     """The share of the command that leaks take on one path, as the definition has it."""
     total = 0.0
     for step, (here, meant) in enumerate(path):
@@ -50,7 +50,7 @@ def leaked(found: Ways, path: list[tuple[int, Way | None]], actuator: int, delta
 
 @given(random_graph(), DELTAS)
 def test_paths_and_leaks_are_those_of_a_list_of_all(graph: Graph, delta: float) -> None:
-    found, count = ways(graph), len(graph.actuators)
+    found, count = influence_edges(graph), len(graph.actuators)
     listed, worst = paths(found, count, 1000), leaks(found, count, delta)
     for actuator in range(count):
         all_of_them = every_path(found, found.skills[0], actuator)
@@ -90,7 +90,7 @@ def cutting(of: Skill, below: float) -> Skill:
 @given(learnt_graph(), DELTAS, st.randoms(use_true_random=False))
 def test_no_leak_takes_more_than_the_worst_case(graph: Graph, delta: float, random: object) -> None:
     """Equations 2 and 3 where a path is meant and leaks, and where all that is off it sends what it will."""
-    found = ways(graph)
+    found = influence_edges(graph)
     worst = leaks(found, 1, delta)[0]
     assert worst
     for path in every_path(found, found.skills[0], 0)[:20]:
@@ -121,7 +121,7 @@ def test_the_fan_of_section_9() -> None:
         *(skill(f"Leaf{i}", Mlp(), (0,), ("actuator", 0)) for i in range(9)),
         skill("Go", Mlp(), (0,), ("actuator", 0)),
     )
-    found = ways(graph)
+    found = influence_edges(graph)
     assert [place.count for place in paths(found, 2, 3)] == [10, 0]
     # A path through the fan leaks more: Branch into two fans of three and Fan into two leaves, beside Top into Go.
     leak = leaks(found, 2, 0.01)[0]
@@ -148,7 +148,7 @@ def test_a_hierarchy_ten_deep_leaks_nothing_that_is_cut(below: float, share: flo
     )
     drivers = (skill(f"Drive{number}", Mlp(), (0,), ("actuator", 0)) for number in range(1 + beside))
     graph = mind(*(cutting(each, below) for each in down), *drivers)
-    leak = leaks(ways(graph), 1, 0.01)[0]
+    leak = leaks(influence_edges(graph), 1, 0.01)[0]
     assert leak
     assert leak.share == pytest.approx(share)
     assert [level.skill for level in leak.levels][-1] == "Drive0" or share == 0
@@ -162,7 +162,7 @@ def test_a_fixed_line_carries_what_it_says() -> None:
         half,
         *(rule(name, always("actuator", 0, 1.0)) for name in ("Meant", "Other", "Never")),
     )
-    found = ways(graph)
+    found = influence_edges(graph)
     assert paths(found, 1, 9)[0].first == (("Top", "Half", "Meant"), ("Top", "Half", "Other"), ("Top", "Other"))
     leak = leaks(found, 1, 0.01)[0]
     assert leak
@@ -177,7 +177,7 @@ def test_ways_without_number() -> None:
     for layer, side in product(range(layers), range(2)):
         onward = [("skill", 2 * layer + 3 + i) for i in range(2)] if layer + 1 < layers else [("actuator", 0)]
         skills.append(skill(f"S{layer}.{side}", Mlp(), (0,), *onward))
-    found = ways(mind(*skills))
+    found = influence_edges(mind(*skills))
     assert paths(found, 1, 5)[0].count == MAX_COUNTED_PATHS
     assert len(paths(found, 1, 5)[0].first) == 5
     leak = leaks(found, 1, 1e-12)[0]
@@ -188,6 +188,6 @@ def test_ways_without_number() -> None:
 
 
 def test_no_way_at_all() -> None:
-    found = ways(mind(rule("Top", always("skill", 1, 0.0)), rule("Go", always("actuator", 0, 1.0))))
+    found = influence_edges(mind(rule("Top", always("skill", 1, 0.0)), rule("Go", always("actuator", 0, 1.0))))
     assert paths(found, 2, 5)[0].count == 0
     assert leaks(found, 2, 0.01) == [None, None]

@@ -11,9 +11,9 @@ from mindrun.kinds.functions.mlp import Mlp
 from mindrun.kinds.functions.procedure import Procedure
 
 from mindlang.proofs import reach
-from mindlang.proofs.proof import OfActuator, prove
+from mindlang.proofs.proof import ActuatorClaims, prove
 from mindlang.proofs.reach import ROUNDING_MARGIN, Bound, Driven
-from mindlang.proofs.trying import think
+from mindlang.proofs.trying import think_rows
 from tests.draws import cases
 from tests.hierarchies import doubling
 from tests.minds import CLAW, WHEELS, always, mind, rule, skill
@@ -53,7 +53,7 @@ def separate(draw: st.DrawFn) -> Graph:
 def test_influence_attains_its_bounds(graph: Graph) -> None:
     """With all readings 0, and with all of them 1: to the bit, for every skill and every actuator."""
     ends = np.stack([np.zeros(graph.width, np.float32), np.ones(graph.width, np.float32)])
-    thoughts, found = think(graph, {}, ends), reach.reach(graph, {})
+    thoughts, found = think_rows(graph, {}, ends), reach.prove_reach(graph, {})
     for place, each in enumerate(graph.skills):
         low, high = thoughts.influence[:, place].tolist()
         assert found.influence.get(each.name, Bound(0, 0)) == Bound(low, high)
@@ -67,7 +67,7 @@ def test_influence_attains_its_bounds(graph: Graph) -> None:
 @given(separate())
 def test_a_command_is_bounded_by_what_its_drivers_send(graph: Graph) -> None:
     """And by a margin for each of them that may have influence, and two more, as docs/proofs.md has it."""
-    found = reach.reach(graph, {})
+    found = reach.prove_reach(graph, {})
     for place, driven in enumerate(found.actuators):
         lines = [
             (sent.low, sent.high)
@@ -93,7 +93,7 @@ def test_by_hand() -> None:
         rule("B", always("actuator", LEFT, 0.75), always("actuator", RIGHT, 1.0)),
         readings=2,
     )
-    found = reach.reach(graph, {})
+    found = reach.prove_reach(graph, {})
     assert found.influence == {"Top": Bound(1, 1), "A": Bound(0.5, 0.5), "B": Bound(0, 1.5)}
     left, right = found.actuators
     assert left == Driven(Bound(0.5, 2), Bound(0.25 * (1 - 4 * ROUNDING_MARGIN), 0.75 * (1 + 4 * ROUNDING_MARGIN)))
@@ -103,7 +103,7 @@ def test_by_hand() -> None:
 
 def test_a_margin_does_not_lead_beyond_one() -> None:
     nearly = float(np.nextafter(np.float32(1), np.float32(0)))
-    found = reach.reach(mind(drives("Top", nearly)), {}).actuators[LEFT]
+    found = reach.prove_reach(mind(drives("Top", nearly)), {}).actuators[LEFT]
     assert found == Driven(Bound(1, 1), Bound(nearly * (1 - 3 * ROUNDING_MARGIN), 1))
 
 
@@ -114,14 +114,14 @@ def test_what_may_be_no_number_gives_no_influence_for_certain() -> None:
         rule("Top", sends("skill", 1, half), sends("actuator", RIGHT, half), reads=(0,)),
         drives("A", 0.25),
     )
-    left, right = reach.reach(graph, {}).actuators
+    left, right = reach.prove_reach(graph, {}).actuators
     assert left.total == right.total == Bound(0, 1)
 
 
 def test_influence_that_overflows_is_not_certain() -> None:
     """2^128 and more is no number in float32; at 2^127 it still is."""
     for levels, total in ((127, Bound(2.0**127, 2.0**127)), (128, Bound(0, np.inf)), (135, Bound(0, np.inf))):
-        found = reach.reach(mind(*doubling(levels, (always("actuator", LEFT, 0.25),))), {}).actuators[LEFT]
+        found = reach.prove_reach(mind(*doubling(levels, (always("actuator", LEFT, 0.25),))), {}).actuators[LEFT]
         assert found.total == total
         assert found.is_always_driven == (total.high < np.inf)
 
@@ -137,14 +137,14 @@ def test_the_boxes_are_shared_by_the_skills(monkeypatch: pytest.MonkeyPatch, one
     graph = mind(top, rule("A", sends("actuator", LEFT, nothing), reads=(0,)))
     monkeypatch.setattr(reach, "MAX_SKILL_BOXES", one)
     monkeypatch.setattr(reach, "MAX_TOTAL_BOXES", every)
-    found = reach.reach(graph, {}).edges
+    found = reach.prove_reach(graph, {}).edges
     assert (found["Top"][0].high, found["A"][0].high) == (high, high)
 
 
 # Of all skills in the same box.
 
 
-def claim(*skills: Skill, readings: int = 1) -> OfActuator:
+def claim(*skills: Skill, readings: int = 1) -> ActuatorClaims:
     """What is known of the left wheel."""
     return prove(mind(*skills, readings=readings), {}, 0.01).actuators[LEFT]
 
@@ -195,9 +195,9 @@ def test_so_few_boxes_are_not_begun_with(monkeypatch: pytest.MonkeyPatch) -> Non
 
 def test_every_box_that_is_cut_counts(monkeypatch: pytest.MonkeyPatch) -> None:
     """r − r + 1e-6 is open everywhere: 1, 3, 7, 15, 31, 63 boxes are made, and then 64 are too many."""
-    looked, flow = [], reach.flow
+    looked, flow = [], reach.influence_bounds
     monkeypatch.setattr(reach, "MAX_BOXES", 64)
-    monkeypatch.setattr(reach, "flow", lambda *arguments: looked.append(arguments[1]) or flow(*arguments))
+    monkeypatch.setattr(reach, "influence_bounds", lambda *arguments: looked.append(arguments[1]) or flow(*arguments))
     nearly_nothing = (*R0, *R0, ("-", 0), *number(1e-6), ("+", 0))
     found = claim(rule("Top", sends("skill", 1, nearly_nothing), reads=(0,)), drives("A", 0.5))
     assert found.neutral == "not excluded"
@@ -229,8 +229,8 @@ def test_boxes_beyond_one_round_are_waited_for(monkeypatch: pytest.MonkeyPatch) 
 
 def test_a_sum_that_can_be_nothing_is_never_claimed(monkeypatch: pytest.MonkeyPatch) -> None:
     """r − 0.3 and 0.3 − r are both 0 at 0.3, which nobody tries; where floats are neighbours, no more is cut."""
-    looked, flow = [], reach.flow
-    monkeypatch.setattr(reach, "flow", lambda *arguments: looked.append(1) or flow(*arguments))
+    looked, flow = [], reach.influence_bounds
+    monkeypatch.setattr(reach, "influence_bounds", lambda *arguments: looked.append(1) or flow(*arguments))
     found = claim(*bisected(0.0))
     assert len(looked) < 100
     assert found.neutral == "not excluded"

@@ -11,7 +11,7 @@ import pytest
 
 from mindlang.cli._terminal import console
 from mindlang.proofs.proof import Proof, prove
-from mindlang.proofs.report import as_data, report
+from mindlang.proofs.report import proof_data, proof_report
 from tests.hierarchies import doubling
 from tests.minds import always, mind
 from tests.proofs.samples import SAMPLES, Sample
@@ -34,7 +34,7 @@ def is_said(text: str, path: Path) -> None:
 
 def printed(sample: Sample, capsys: pytest.CaptureFixture[str]) -> list[str]:
     """The lines that are printed."""
-    console().print(report(as_data(proved(sample), sample.hashes, sample.run)))
+    console().print(proof_report(proof_data(proved(sample), sample.hashes, sample.run)))
     return capsys.readouterr().out.splitlines()
 
 
@@ -47,14 +47,14 @@ def test_in_words(name: str, capsys: pytest.CaptureFixture[str]) -> None:
 @pytest.mark.parametrize("name", SHORT)
 def test_as_json(name: str) -> None:
     sample = SAMPLES[name]
-    data = as_data(proved(sample), sample.hashes, sample.run)
+    data = proof_data(proved(sample), sample.hashes, sample.run)
     is_said(json.dumps(data, indent=1, ensure_ascii=False, allow_nan=False) + "\n", SAID / f"{name}.json")
 
 
 @pytest.mark.parametrize("levels", [127, 128])
 def test_more_influence_than_a_number_holds_is_none_in_json(levels: int) -> None:
     """2^128 and more; it does not count as influence for certain."""
-    data = as_data(proved(Sample(mind(*doubling(levels, (always("actuator", 0, 0.25),))))), {}, None)
+    data = proof_data(proved(Sample(mind(*doubling(levels, (always("actuator", 0, 0.25),))))), {}, None)
     assert json.dumps(data, allow_nan=False)
     found = data["actuators"][0]
     assert found["neutral"]["influence"] == ([2.0**127, 2.0**127] if levels == 127 else [0, None])

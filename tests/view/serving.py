@@ -19,7 +19,7 @@ from mindlang.run.setup import RunSetup, set_up
 from mindlang.view.learning import Learning
 from mindlang.view.rows import DOUBLE_BYTES, HEADER, ROWS_KIND, SINGLE_BYTES
 from mindlang.view.server import ViewServer
-from mindlang.view.session import Session
+from mindlang.view.session import ViewSession
 from mindlang.view.viewed import Viewed
 from mindlang.view.viewed_run import ViewedRun
 
@@ -123,10 +123,10 @@ class ViewingClient:
 
 
 @contextmanager
-def served(viewed: Viewed, learning: Learning | None = None, session: Session | None = None) -> Iterator[Served]:
+def served(viewed: Viewed, learning: Learning | None = None, session: ViewSession | None = None) -> Iterator[Served]:
     """A view served until the block ends, in a session of its own where none is given."""
     loop, listening = asyncio.new_event_loop(), Event()
-    server = ViewServer(session or Session(viewed, learning))
+    server = ViewServer(session or ViewSession(viewed, learning))
 
     def ready(address: str) -> None:
         listening.set()

@@ -12,7 +12,7 @@ import pytest
 
 from mindlang.run.edge_flow import edge_flows
 from mindlang.run.recorded_run import record_run
-from mindlang.view.messages import Change, RefusedError, Why
+from mindlang.view.messages import AskChange, AskShares, RefusedError
 from mindlang.view.session import command_shares
 from mindlang.view.viewed import Fork, Viewed
 from tests.calling import write_rules
@@ -169,7 +169,7 @@ def test_what_a_change_waits_for_stands_there_until_it_has_come(browser: Any, mi
     viewed, compiled = simulated(mind), Event()
     forked = viewed.forked
 
-    def slow(change: Change) -> Fork:
+    def slow(change: AskChange) -> Fork:
         assert forked
         assert compiled.wait(60)
         return forked(change)
@@ -190,7 +190,7 @@ def test_what_a_change_waits_for_stands_there_until_it_has_come(browser: Any, mi
 
 
 def test_what_no_path_has_made_of_a_command_is_said(opened: Opened, monkeypatch: pytest.MonkeyPatch) -> None:
-    def answered(viewed: Viewed, asked: Why) -> dict[str, Any]:
+    def answered(viewed: Viewed, asked: AskShares) -> dict[str, Any]:
         more = {"rest": 0.125, "rest_paths": 7, "rounding": -2e-5}
         return command_shares(viewed, asked) | more | ({"paths": [], "neutral": 0.5} if asked.tick == 641 else {})
 

@@ -10,7 +10,7 @@ from mindrun.graph.policy import Policy
 from mindrun.robot.recording import About, Recorder, RecordingError, read
 
 from mindlang.run.edge_flow import BLOCK_ROWS
-from mindlang.view.messages import Why
+from mindlang.view.messages import AskShares
 from mindlang.view.session import command_shares
 from mindlang.view.viewed import Viewed
 from mindlang.view.viewed_recording import viewed_recording
@@ -149,7 +149,7 @@ def test_what_a_network_that_remembers_has_sent_counts_as_kept(day: tuple[Path, 
 def test_why_is_of_the_memory_that_the_robot_had(day: tuple[Path, Path, list[tuple[np.ndarray, np.ndarray]]]) -> None:
     viewed = whole(viewed_recording(*day[:2]))
     for tick in (TICKS, 4, BEGUN_ANEW + 2):
-        found = command_shares(viewed, Why(tick=tick, actuator=0))
+        found = command_shares(viewed, AskShares(tick=tick, actuator=0))
         assert np.float32(found["command"]) == day[2][tick - 1][1][0]
         [to_turn] = [path for path in found["paths"] if len(path["path"]) == 3]
         assert np.float32(to_turn["influence"]) == viewed.group("influence", np.array([tick]))[0, 1]

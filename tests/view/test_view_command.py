@@ -21,7 +21,7 @@ from websockets.typing import Origin
 from mindlang.cli._options import RunChoice
 from mindlang.cli.view import run_view
 from mindlang.view.server import ViewServer, open_browser
-from mindlang.view.session import Session
+from mindlang.view.session import ViewSession
 from tests.calling import Call
 from tests.view.serving import ANSWER_SECONDS, ViewingClient
 
@@ -74,7 +74,7 @@ def test_an_error_that_is_no_port_s_says_nothing_about_ports(rules: Path) -> Non
 
     viewed = run_view(str(rules), RunChoice("Chase", 3, None, True), None, True)
     with pytest.raises(OSError, match="Too many open files"):
-        asyncio.run(ViewServer(Session(viewed)).serve(unready))
+        asyncio.run(ViewServer(ViewSession(viewed)).serve(unready))
 
 
 @pytest.mark.parametrize(

@@ -17,10 +17,10 @@ from websockets.exceptions import ConnectionClosed
 from websockets.frames import Frame, Opcode
 
 from mindlang.view import server
-from mindlang.view.messages import AskRows, Change
+from mindlang.view.messages import AskChange, AskRows
 from mindlang.view.rows import MAX_FRAME_BYTES
 from mindlang.view.server import SECURITY
-from mindlang.view.session import Session
+from mindlang.view.session import ViewSession
 from mindlang.view.viewed import Fork
 from tests.view.serving import (
     ANSWER_SECONDS,
@@ -80,7 +80,7 @@ def test_what_a_change_waits_for_is_said_until_it_has_come(path: Path) -> None:
     viewed, compiled = simulated(path), Event()
     forked = viewed.forked
 
-    def slow(change: Change) -> Fork:
+    def slow(change: AskChange) -> Fork:
         assert forked
         assert compiled.wait(ANSWER_SECONDS)
         return forked(change)
@@ -101,7 +101,7 @@ def test_what_a_change_waits_for_is_said_until_it_has_come(path: Path) -> None:
 def test_a_change_that_cannot_be_made_is_refused_with_what_to_do(path: Path) -> None:
     viewed = simulated(path)
 
-    def failing(change: Change) -> Fork:
+    def failing(change: AskChange) -> Fork:
         raise MindError("this cannot be", "do that")
 
     viewed.forked = failing
@@ -151,7 +151,7 @@ def test_too_many_viewers_are_sent_away(path: Path, monkeypatch: pytest.MonkeyPa
 
 def test_those_who_say_nothing_keep_no_viewer_out(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Of too many the oldest are closed, but no viewer is."""
-    monkeypatch.setattr(server, "MAX_STRANGERS", 3)
+    monkeypatch.setattr(server, "MAX_PENDING", 3)
     monkeypatch.setattr(server, "OPEN_SECONDS", 600.0)
     with served(simulated(path)) as view, view.viewer() as first:
         first.hear("about")
@@ -266,7 +266,7 @@ def test_rows_are_bounded_over_a_run_and_its_forks(path: Path, monkeypatch: pyte
         viewed.grow()
     limit = viewed.blocks.kept_bytes * 5 // 4
     monkeypatch.setattr("mindlang.view.viewed.MAX_KEPT_BYTES", limit)
-    session = Session(viewed)
+    session = ViewSession(viewed)
     with served(viewed, session=session) as view, view.viewer() as viewer:
         assert viewer.hear("ticks")["failed"] is None
         viewer.say(**CHANGE, column=viewed.about["nodes"][0]["columns"][0])
@@ -279,14 +279,14 @@ def test_rows_are_bounded_over_a_run_and_its_forks(path: Path, monkeypatch: pyte
 
 def test_a_question_is_about_the_run_that_was_seen_when_it_was_asked(path: Path) -> None:
     """Another run is seen before it is its turn: that one has no fork."""
-    session, held = Session(simulated(path)), Event()
+    session, held = ViewSession(simulated(path)), Event()
     session.forks.append(simulated(path))
 
     async def asked() -> bytes | dict[str, Any] | None:
         session._answerer.submit(held.wait)
         asking = asyncio.create_task(session.answer(AskRows(first=0, below=10, fork=1, ask=7), edits=False))
         await asyncio.sleep(0)
-        session._see(simulated(path))
+        session._show(simulated(path))
         held.set()
         return await asking
 
@@ -315,6 +315,6 @@ def test_a_refusal_says_which_question_it_answers(view: Served, asked: Any, of: 
 def test_hostile_texts_are_spelt_out_and_short(path: Path) -> None:
     viewed = simulated(path)
     viewed.about = {**viewed.about, "title": "<img src=x onerror=alert(1)>"}
-    data = json.dumps(Session(viewed).about(edits=True))
+    data = json.dumps(ViewSession(viewed).about(edits=True))
     assert "<img src=x onerror=alert(1)>" in data  # as text, which the page shows as text
     assert data.isascii()

@@ -11,8 +11,8 @@ from mindrun.errors import WeightsError
 
 from mindlang.compiler.compile import load
 from mindlang.lock.signature import arrange
-from mindlang.weights.importing import Deviation, compare
-from mindlang.weights.network import Network, Tensors, network_of, to_genome, to_tensors
+from mindlang.weights.importing import Deviation, engine_deviation
+from mindlang.weights.network import SkillNetwork, Tensors, network_of, to_genome, to_tensors
 from tests.edits.taught import MIND, write_mind
 
 KINDS = {
@@ -20,14 +20,14 @@ KINDS = {
 }
 
 
-def network(folder: Path, text: str = MIND, skill: str = "Avoid") -> Network:
+def network(folder: Path, text: str = MIND, skill: str = "Avoid") -> SkillNetwork:
     """The network of a skill of a text."""
     graph = load(write_mind(folder, text)).graph
     assert graph is not None
     return network_of(arrange(graph, {}), skill)
 
 
-def genome_of(of: Network, seed: int = 1) -> np.ndarray:
+def genome_of(of: SkillNetwork, seed: int = 1) -> np.ndarray:
     """A random genome."""
     return of.skill.function.draw(of.inputs, of.outputs, 1, np.random.default_rng(seed))[0]
 
@@ -62,7 +62,7 @@ def test_the_engine_computes_what_stands_in_a_book(tmp_path: Path, text: str, mo
     own = network(tmp_path, text)
     rows = np.random.default_rng(2).random((50, own.inputs)).astype(np.float32)
     rows[7, 0] = np.nan
-    found = compare(own, genome_of(own), rows)
+    found = engine_deviation(own, genome_of(own), rows)
     assert (found.reference, found.ticks, found.faults) == ("float64", 49, 0)
     assert 0 < found.difference < 1e-4
 
@@ -72,7 +72,7 @@ def test_of_no_readings_nothing_is_computed(tmp_path: Path, text: str, monkeypat
     monkeypatch.setitem(__import__("sys").modules, "torch", None)
     own = network(tmp_path, text)
     rows = np.full((3, own.inputs), np.nan, np.float32)
-    assert compare(own, genome_of(own), rows) == Deviation("float64", 0, 0.0, 0)
+    assert engine_deviation(own, genome_of(own), rows) == Deviation("float64", 0, 0.0, 0)
 
 
 @pytest.mark.parametrize(
@@ -85,7 +85,7 @@ def test_they_differ_by_what_is_sent(
     monkeypatch.setitem(__import__("sys").modules, "torch", None)
     own = network(tmp_path, MIND.replace("skill Avoid is mlp hidden 2", "skill Avoid is mlp hidden 0"))
     genome = np.tile(np.array(weights, np.float32), own.outputs)
-    found = compare(own, genome, np.ones((2, own.inputs), np.float32))
+    found = engine_deviation(own, genome, np.ones((2, own.inputs), np.float32))
     assert found.difference == pytest.approx(difference, rel=1e-6)
 
 
@@ -93,7 +93,7 @@ def test_what_overflows_is_a_fault(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     monkeypatch.setitem(__import__("sys").modules, "torch", None)
     own = network(tmp_path)
     rows = np.ones((5, own.inputs), np.float32)
-    found = compare(own, np.full_like(genome_of(own), 3e38), rows)
+    found = engine_deviation(own, np.full_like(genome_of(own), 3e38), rows)
     assert found.faults == 5 * own.outputs
 
 

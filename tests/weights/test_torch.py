@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 import mindlang
 from mindlang.compiler.compile import load
 from mindlang.lock.signature import arrange
-from mindlang.weights.importing import compare
-from mindlang.weights.network import Network, network_of
+from mindlang.weights.importing import engine_deviation
+from mindlang.weights.network import SkillNetwork, network_of
 from tests.draws import cases
 from tests.edits.taught import MIND, recorded, teach, write_mind
 
@@ -30,7 +30,7 @@ from mindlang.weights.torch_skill import (  # noqa: E402
 SHAPES = ("mlp hidden 0", "mlp hidden 1", "mlp hidden 2", "mlp hidden 3 width 9", "elman", "elman width 3", "gru")
 
 
-def network(folder: Path, function: str) -> Network:
+def network(folder: Path, function: str) -> SkillNetwork:
     """The network of a skill with this function."""
     graph = load(write_mind(folder, MIND.replace("skill Avoid is mlp hidden 2", f"skill Avoid is {function}"))).graph
     assert graph is not None
@@ -53,7 +53,7 @@ def test_it_computes_the_bits_of_the_engine(
         sent = module(row, state) if own.state else module(row)
         sent, state = sent if own.state else (sent, None)
         found.append(sent.detach().numpy())
-    compared = compare(own, genome, rows)
+    compared = engine_deviation(own, genome, rows)
     assert compared.reference.startswith("PyTorch")
     assert compared.difference == 0
     assert int(np.isnan(found).sum()) == compared.faults

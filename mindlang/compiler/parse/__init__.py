@@ -69,7 +69,7 @@ def parse_stops(source: Source, findings: Findings) -> list[syntax.Stop]:
     return [line for line in _lines(source, findings, "stop") if isinstance(line, syntax.Stop)]
 
 
-def code_of(line: str) -> str:
+def without_comment(line: str) -> str:
     """The part of a line before its comment."""
     found = _CODE.match(line)
     return found[0] if found else ""
@@ -88,13 +88,13 @@ def _coded_lines(source: Source) -> Iterator[tuple[Span, str]]:
     """The lines of a source that are more than a comment, each without it and without the blanks before it."""
     offset = 0
     for text in source.text.split("\n"):
-        if code := code_of(text).rstrip(BLANKS):
+        if code := without_comment(text).rstrip(BLANKS):
             yield Span(source, offset, offset + len(code)), code
         offset += len(text) + 1
 
 
 def _line(span: Span, code: str, findings: Findings, start: Start) -> syntax.Line | syntax.Stop | _Unread:
-    """What the line says, or after reporting it what can be saved of it."""
+    """The syntax of a line; of one that is wrong, after reporting it, the part that can be saved."""
     from lark import UnexpectedInput
 
     if code.count("(") + code.count("-") > MAX_NESTING and _depth(code) > MAX_NESTING:
@@ -120,7 +120,7 @@ def _saved(code: str, span: Span) -> syntax.Header | _Unread:
 
 @lru_cache(1024)
 def _meant(word: str) -> str | None:
-    """The word with which a line was meant to begin; too much is near to `scene`, such as a skill that seeks."""
+    """The known word nearest to a line's first; `scene` only if written so: much else is near it, as in `seek`."""
     return word if word == "scene" else nearest(word, [known for known in KNOWN if known != "scene"])
 
 

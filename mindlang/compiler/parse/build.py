@@ -33,7 +33,7 @@ _FIELDS: Mapping[str, tuple[type[Struct], Mapping[str, type]]] = {
 }
 
 
-def build(tree: Tree[Token], source: Source, offset: int) -> syntax.Line | syntax.Stop:
+def build_line(tree: Tree[Token], source: Source, offset: int) -> syntax.Line | syntax.Stop:
     """The line that stands at `offset` of `source`."""
     return cast(syntax.Line | syntax.Stop, Builder(source, offset).transform(tree))
 
@@ -113,7 +113,7 @@ class Builder(Transformer_NonRecursive[Token, Any]):
         return Phrase(kind, (Argument(kind, environment, self._span(meta)),), self._span(meta))
 
     def its(self, meta: Any, parts: list[Any]) -> Phrase:
-        """What an environment says has both words for a name."""
+        """A phrase of the environment's own (its reward): both words are the name of its kind."""
         return Phrase(Name(f"{parts[0]} {parts[1].text}", self._span(meta)), (), self._span(meta))
 
     def place(self, meta: Any, parts: list[Any]) -> tuple[Amount, ...]:
@@ -179,7 +179,7 @@ class Builder(Transformer_NonRecursive[Token, Any]):
         if isinstance(parts[-1], Name):
             return Amount(-1.0 if parts[0] == "-" else 1.0, "", self._span(meta), name=parts[-1].text)
         said = {part.type: str(part) for part in parts}
-        value = number(said.get("SIGN", "") + said["NUMBER"])
+        value = parse_number(said.get("SIGN", "") + said["NUMBER"])
         return Amount(value, said.get("UNIT", ""), self._span(meta), said.get("RATE", ""))
 
     amount = quantity
@@ -225,7 +225,7 @@ def _terms(part: Any) -> Terms:
     return part if isinstance(part, list) else [part]
 
 
-def number(text: str) -> float:
+def parse_number(text: str) -> float:
     """The number at the beginning of an amount, as in `- 1/2 deg`."""
     sign, digits = _NUMBER.findall(text)[0]
     above, _, below = f"{sign}{digits}".partition("/")

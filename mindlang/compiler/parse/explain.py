@@ -129,8 +129,8 @@ def _opening(code: str, line: Span) -> Diagnostic | None:
     message = f"A line cannot begin with {word[:40]}."
     if word.lower() in known:
         return Diagnostic("no-verb", message, here, f"Write {word.lower()}.")
-    if word in _instead():
-        known_word = _instead()[word]
+    if word in _known_words():
+        known_word = _known_words()[word]
         example = f", as in {LINES[known_word]}" if known_word in LINES else ""
         return Diagnostic("no-verb", message, here, f"Write {known_word}{example}.")
     if word in _keys() and re.match(r"\s*\w+(\s+[-+\d.]|\s*$)", code):
@@ -156,8 +156,8 @@ def _no_stop(code: str, line: Span) -> Diagnostic | None:
 
 
 @cache
-def _instead() -> dict[str, str]:
-    """What to write for each word of `FOREIGN_WORDS`."""
+def _known_words() -> dict[str, str]:
+    """The word of the language for each word of `FOREIGN_WORDS`."""
     return {word: known for known, words in FOREIGN_WORDS.items() for word in words.split()}
 
 
@@ -175,15 +175,15 @@ def common_mistake(mistakes: Sequence[Mistake], code: str, line: Span) -> Diagno
     for mistake in mistakes:
         if found := re.search(mistake.pattern, code):
             groups = {name: text or "" for name, text in found.groupdict().items()}
-            words = {**groups, **_made_of(groups, code)}
+            words = {**groups, **_computed_fields(groups, code)}
             start, end = found.span("noun" if found["here"] is None else "here")
             message, hint = (text.format(**words) for text in (mistake.message, mistake.hint))
             return Diagnostic(mistake.code, message, _at(line, start, end), hint)
     return None
 
 
-def _made_of(groups: Mapping[str, str], code: str) -> dict[str, str]:
-    """The words of a message that are made of what a pattern found."""
+def _computed_fields(groups: Mapping[str, str], code: str) -> dict[str, str]:
+    """The fields of a message that are computed from the groups that a pattern found."""
     here, noun, first = groups["here"], groups.get("noun", ""), (code.split() or [""])[0]
     registered = kinds("content" if noun == "contains" else noun)
     kind = registered.get(groups.get("kind", ""))

@@ -46,7 +46,7 @@ def grammar() -> "Lark":
 
 
 def read_grammar(table: str | bool) -> "Lark":
-    """The grammar as Lark reads it, or from the file of its table, which has no rules but those that are parsed by."""
+    """The grammar read by Lark, or from the cached `table`, which has only the rules that the parser uses."""
     from lark import Lark
 
     here = Path(__file__).parents[2]
@@ -73,9 +73,9 @@ def _table_file() -> str | bool:
 
 
 def parse_line(code: str, source: Source, offset: int, start: Start = "line") -> syntax.Line | syntax.Stop:
-    """What a line without comment says that stands at `offset` of a source.
+    """The syntax of a line without comment, which stands at `offset` of a source.
 
-    lark.UnexpectedInput where it says nothing; the error is about `code`.
+    lark.UnexpectedInput where it has none; the error is about `code`.
     """
     maker = None if '"' in code else _maker(shape_of(code), start)
     if maker is None:
@@ -96,7 +96,7 @@ def shape_of(code: str) -> str:
 
 
 def _stands_for(piece: str) -> str:
-    """What stands for a piece of a line in its shape."""
+    """The placeholder of a piece of a line in its shape."""
     first = piece[0]
     if "a" <= first <= "z":
         return piece if piece in _words() else "a"
@@ -114,14 +114,14 @@ def _words() -> frozenset[str]:
 
 
 def _parsed(code: str, source: Source, offset: int, start: Start) -> syntax.Line | syntax.Stop:
-    from mindlang.compiler.parse.build import build
+    from mindlang.compiler.parse.build import build_line
 
-    return build(grammar().parse(code, start=start), source, offset)
+    return build_line(grammar().parse(code, start=start), source, offset)
 
 
 @lru_cache(MAX_SHAPES)
 def _maker(shape: str, start: Start) -> Maker | None:
-    """What makes the lines of a shape; None where Lark cannot read it."""
+    """A function that builds the syntax of any line of a shape; None where Lark cannot read the shape."""
     from lark import UnexpectedInput
 
     try:
@@ -133,7 +133,7 @@ def _maker(shape: str, start: Start) -> Maker | None:
 
 
 def _making(node: Any, places: dict[int, int]) -> Maker:
-    """What makes a node of other lines like this one; `places` are the numbers of the pieces by where they begin."""
+    """A function that builds this node for other lines of its shape; `places`: number of each piece by its offset."""
     match node:
         case Span(_, start, end):
             return _spanning(places[start], places[end])
@@ -146,10 +146,10 @@ def _making(node: Any, places: dict[int, int]) -> Maker:
             spanned = _spanning(places[span.start], places[span.end])
             return lambda line: syntax.Amount(sign, "", (its := spanned(line)), name=its.text.lstrip("+- \t"))
         case syntax.Amount(_, unit, span, per):
-            from mindlang.compiler.parse.build import number
+            from mindlang.compiler.parse.build import parse_number
 
             spanned = _spanning(places[span.start], places[span.end])
-            return lambda line: syntax.Amount(number((its := spanned(line)).text), unit, its, per)
+            return lambda line: syntax.Amount(parse_number((its := spanned(line)).text), unit, its, per)
         case tuple():
             makers = [_making(part, places) for part in node]
             return lambda line: tuple([make(line) for make in makers])

@@ -9,15 +9,15 @@ from msgspec.structs import replace
 
 from mindlang.compiler import model
 from mindlang.compiler.diagnostic import Findings, Label
-from mindlang.compiler.expand import expand, in_place, numbers
+from mindlang.compiler.expand import expand, fill_number, number_values
 from mindlang.compiler.hierarchy import refuse_circles
-from mindlang.compiler.names import Names, gather
+from mindlang.compiler.names import Names, declared_names
 from mindlang.compiler.resolve.curricula import lessons
 from mindlang.compiler.resolve.outside import body_outside, check_outside, is_outside
-from mindlang.compiler.resolve.parts import check_drives, parts, sensors
+from mindlang.compiler.resolve.parts import check_drives, resolve_parts, sensors
 from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.resolve.skills import skills
-from mindlang.compiler.resolve.tasks import tasks
+from mindlang.compiler.resolve.tasks import resolve_tasks
 from mindlang.compiler.resolve.worlds import RobotFacts
 from mindlang.compiler.source import Span
 from mindlang.compiler.syntax import Amount, File, Master, Setting, Tick, Unit, Version, of_form
@@ -29,25 +29,25 @@ D = TypeVar("D", model.Skill, model.Task)
 S = TypeVar("S", bound=Setting)
 
 
-def resolve(files: Sequence[File], findings: Findings) -> model.Mind | None:
+def resolve_mind(files: Sequence[File], findings: Findings) -> model.Mind | None:
     """The mind that the files declare, the main one first; None when anything in them is wrong."""
     all_read = not findings.diagnostics
-    written = gather(files, findings)
-    values = numbers(written, findings)
+    written = declared_names(files, findings)
+    values = number_values(written, findings)
     tick = _agreed(files, Tick, TICK, values, findings) or 1.0
     unit = _agreed(files, Unit, LENGTH_OF_UNIT, values, findings)
     _check_versions(files, findings)
     names = expand(written, values, tick, findings)
     known_sensors = sensors(names, findings)
     width = dict.fromkeys(names.of("sensor", "memory"), 1) | {each.name: each.width for each in known_sensors}
-    memories, actuators = parts("memory", names, findings), parts("actuator", names, findings)
+    memories, actuators = resolve_parts("memory", names, findings), resolve_parts("actuator", names, findings)
     known_skills = skills(names, width, findings)
     influences = model.influence_graph(known_skills)
     says, hint = "Skills influence one another in a circle", "Influence flows one way, from the master down"
     refuse_circles("influence-cycle", influences, findings, says, f"{hint}: take one of these lines out.", ONWARDS)
     body = body_outside(names, findings) if (outside := is_outside(names)) else _body(names, findings)
     robot = RobotFacts(names, width, tick, files[0].source.folder, body, actuators, known_sensors)
-    known_tasks = tasks(robot, findings)
+    known_tasks = resolve_tasks(robot, findings)
     check_outside(known_tasks, known_sensors, actuators, findings)
     known_lessons = tuple(lessons(names, known_skills, influences, known_tasks, width, findings))
     if body and not outside:
@@ -96,7 +96,7 @@ def _agreed(
     word = form.__name__.lower()
     first: tuple[float, Span] | None = None
     for setting in _settings(files, form):
-        value = convert(in_place(setting.amount, values), quantity, findings)
+        value = convert(fill_number(setting.amount, values), quantity, findings)
         if value and first and value != first[0]:
             label = Label(first[1], "first said here")
             message = f"The {word} differs from the one said before."
@@ -129,7 +129,7 @@ def _check_versions(files: Sequence[File], findings: Findings) -> None:
 def _body(names: Names, findings: Findings) -> model.Part[BodyKind] | None:
     declared = [each.header.span for _, each in names.declarations("body")]
     findings.refuse_again("second-body", declared, "A mind has one body.", "Leave one of the two out.", "the first one")
-    return next(iter(parts("body", names, findings)), None)
+    return next(iter(resolve_parts("body", names, findings)), None)
 
 
 def _check_complete(

@@ -14,9 +14,9 @@ from networkx import DiGraph
 
 from mindlang.compiler import model
 from mindlang.compiler.diagnostic import Findings, listed
-from mindlang.compiler.hierarchy import below
+from mindlang.compiler.hierarchy import with_descendants
 from mindlang.compiler.names import Names
-from mindlang.compiler.resolve.kinds import Scope, a_name, make, once, overrides
+from mindlang.compiler.resolve.kinds import Scope, a_name, make_kind, once, overrides
 from mindlang.compiler.resolve.parts import refuse_facts
 from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.syntax import Argument, Name, Needs, Phrase, Teaches, of_form
@@ -44,21 +44,21 @@ def lessons(
 ) -> Iterator[model.Lesson]:
     """Every lesson of every curriculum that is well said, in order."""
     hopeless = {each.name for each in tasks if each.declaration.whole and not any(end.succeeds for end in each.ends)}
-    school = _School(names, {skill.name: skill for skill in skills}, influences, hopeless, widths, findings)
+    context = _LessonContext(names, {skill.name: skill for skill in skills}, influences, hopeless, widths, findings)
     for name, declaration in names.declarations("curriculum"):
         refuse_facts(declaration, ("teaches",), findings)
         phrase = declaration.header.phrase
-        learner = make("curriculum", phrase, Scope(names, None), findings) if phrase else None
+        learner = make_kind("curriculum", phrase, Scope(names, None), findings) if phrase else None
         taught = of_form(declaration.facts, Teaches)
         heirs = {fact.skill.text: origin.text for fact in taught if (origin := _origin(fact.arguments))}
         for number, fact in enumerate(taught, 1):
-            if lesson := school.lesson(name, number, fact, learner, heirs):
+            if lesson := context.lesson(name, number, fact, learner, heirs):
                 yield lesson
 
 
 @dataclass(frozen=True, slots=True)
-class _School:
-    """What lessons are held against. `hopeless` are the tasks that say no success."""
+class _LessonContext:
+    """The parts of a mind that lessons are checked against. `hopeless` are the tasks that say no success."""
 
     names: Names
     skills: Mapping[str, model.Skill]
@@ -125,14 +125,14 @@ class _School:
             if not (kind := a_name(using, hint, self.findings)):
                 return None
             phrase, said_by = Phrase(kind, (), kind.span), kind.text
-            learner = make("curriculum", phrase, Scope(self.names, None), self.findings)
+            learner = make_kind("curriculum", phrase, Scope(self.names, None), self.findings)
         if learner is None:
             return None
         own = [argument for argument in fact.arguments if argument.key.text not in {*SWITCHES, USING}]
         return replace(learner, **overrides(type(learner), said_by, own, self.findings))
 
     def _needs(self, fact: Teaches) -> tuple[Need, ...]:
-        """What a lesson needs, each measure once."""
+        """The needs of a lesson; a measure that is said again is reported."""
         for measure in MEASURED:
             said = [need.span for need in fact.needs if need.measure.text == measure]
             message = f"What {measure} is needed is said already."
@@ -140,7 +140,7 @@ class _School:
         return tuple(filter(None, (self._need(need, fact.task.text) for need in fact.needs)))
 
     def _need(self, need: Needs, task: str) -> Need | None:
-        """What a lesson on a task needs; None after reporting what is wrong with it."""
+        """One need of a lesson on a task; None after reporting what is wrong with it."""
         before, (measure, span) = len(self.findings.diagnostics), (need.measure.text, need.measure.span)
         if measure not in MEASURED:
             hint = self.findings.suggest(measure, MEASURED) or "Write needs score > 300, or needs success > 50%."
@@ -168,7 +168,7 @@ class _School:
             hint = f"Teach {skill.like}: both learn from that."
             self.findings.error("taught-by-another", fact.skill.span, message, hint)
             return
-        taught = below(self.influences, [skill.name]) if with_subskills else {skill.name}
+        taught = with_descendants(self.influences, [skill.name]) if with_subskills else {skill.name}
         functions = [self.skills[name].function for name in taught]
         if None in functions or any(function.learns for function in functions):
             return
@@ -179,7 +179,7 @@ class _School:
 
     def _check_reached(self, fact: Teaches, master: Name) -> None:
         """Report a learner that the master never influences: nothing that it does would show."""
-        reached = below(self.influences, [master.text])
+        reached = with_descendants(self.influences, [master.text])
         if fact.skill.text not in {each for name in reached for each in (name, self.skills[name].owner)}:
             hint = f"Let {master.text} or a skill below it influence {fact.skill.text}, or leave under out."
             message = f"{master.text} has no influence on {fact.skill.text}, which would learn nothing."
@@ -231,7 +231,7 @@ def _difference(learner: model.Skill, other: model.Skill, widths: Mapping[str, i
 
 
 def _holds(learner: model.Skill, other: model.Skill, widths: Mapping[str, int]) -> bool:
-    """Whether the learner computes what the other does once some of its weights are 0: no layer of it is smaller."""
+    """True if the learner computes the other's function once some of its weights are 0: no layer of it is smaller."""
     (own, its), (large, small) = zip(*(_sized(skill, widths) for skill in (learner, other)), strict=True)
     if own == its:
         return True
@@ -240,7 +240,7 @@ def _holds(learner: model.Skill, other: model.Skill, widths: Mapping[str, int]) 
 
 
 def _sized(skill: model.Skill, widths: Mapping[str, int]) -> tuple[Function, Layers]:
-    """Its function with every argument said, and the shapes of the matrices in which its weights lie."""
+    """A skill's function with every argument said, and the shapes of its weight matrices."""
     size = sum(widths.get(name, 1) for name in skill.reads), len(_sends(skill))
     return skill.function.explicit(*size), skill.function.matrix_shapes(*size)
 

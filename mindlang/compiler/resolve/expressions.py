@@ -9,7 +9,7 @@ from mindrun.numbers.quantity import Quantity
 
 from mindlang.compiler import model, syntax
 from mindlang.compiler.diagnostic import Findings
-from mindlang.compiler.resolve.kinds import Scope, make
+from mindlang.compiler.resolve.kinds import Scope, make_kind
 from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.syntax import Amount, Operator, Phrase
 
@@ -19,7 +19,7 @@ PLAIN = Quantity("a plain number", {"": 1.0, "%": 0.01})
 
 @dataclass(frozen=True, slots=True)
 class Visible:
-    """What an expression can see: readings with their widths, the name of `for each`, in a task measures.
+    """The names that an expression can use: readings with their widths, that of `for each`, in a task measures.
 
     `elsewhere` are the readings that exist but are no inputs of the skill, `unread` the words of lines that could not
     be read, `commands` the actuators whose commands can be seen.
@@ -35,7 +35,7 @@ class Visible:
     where: str = "An expression after at"
 
 
-def resolve(expression: syntax.Expression, visible: Visible, findings: Findings) -> model.Expression:
+def resolve_expression(expression: syntax.Expression, visible: Visible, findings: Findings) -> model.Expression:
     """The expression with its names resolved; a term that cannot be is reported and left out."""
     for right, operator in pairwise(expression.terms):
         divides = isinstance(operator, Operator) and operator.symbol == "/"
@@ -45,11 +45,11 @@ def resolve(expression: syntax.Expression, visible: Visible, findings: Findings)
     return model.Expression(tuple(term for term in terms if term), expression.span)
 
 
-def condition(when: syntax.When, visible: Visible, findings: Findings) -> model.When:
+def resolve_condition(when: syntax.When, visible: Visible, findings: Findings) -> model.When:
     """A condition with both sides of its comparisons resolved."""
 
     def compared(each: syntax.Comparison) -> model.Comparison:
-        left, right = (resolve(side, visible, findings) for side in (each.left, each.right))
+        left, right = (resolve_expression(side, visible, findings) for side in (each.left, each.right))
         return model.Comparison(left, each.compare, right)
 
     return model.When(tuple(tuple(map(compared, all_)) for all_ in when.alternatives), when.span)
@@ -75,7 +75,7 @@ def _term(term: syntax.Term, visible: Visible, findings: Findings) -> model.Term
         case Phrase(kind, ()) if kind.text in visible.commands:
             return model.Command(kind.text, term.span)
         case Phrase(kind) if visible.measures and find_kind("measure", kind.text):
-            measure = make("measure", term, visible.measures, findings)
+            measure = make_kind("measure", term, visible.measures, findings)
             return model.Measured(measure, term.span) if measure else None
         case Phrase(kind) if kind.text not in visible.unread:  # there it may have been declared
             _refuse_unknown(term, visible, findings)

@@ -25,7 +25,7 @@ MISSING_HINTS = {
 
 @dataclass(frozen=True, slots=True)
 class Scope:
-    """What the arguments of a phrase can name. `things` are None where no task says which there are.
+    """The names that the arguments of a phrase can use. `things` are None where no task says which there are.
 
     Text files are in the folder `root`, where that is known, or below it. A declaration is `whole` when all lines below
     it could be read: one that could not be may have had an argument.
@@ -38,7 +38,7 @@ class Scope:
     root: Path | None = None
 
 
-def make(noun: str, phrase: Phrase, scope: Scope, findings: Findings) -> Any:
+def make_kind(noun: str, phrase: Phrase, scope: Scope, findings: Findings) -> Any:
     """The kind that a phrase names, with its arguments, or None after reporting what is wrong with it."""
     cls = find_kind(noun, phrase.kind.text)
     if cls is None:
@@ -63,7 +63,7 @@ def make(noun: str, phrase: Phrase, scope: Scope, findings: Findings) -> Any:
 
 
 def _known_kinds(noun: str, name: str, scope: Scope) -> str:
-    """What to write instead of a kind that a noun does not have."""
+    """The hint for a kind that a noun does not have."""
     if hint := did_you_mean(name, kinds(noun)):
         return hint
     known = f"Known are {listed(sorted(kinds(noun)), 'and')}."

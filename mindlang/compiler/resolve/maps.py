@@ -14,7 +14,7 @@ from msgspec.structs import replace
 
 from mindlang.compiler.diagnostic import Findings, listed
 from mindlang.compiler.model import Part
-from mindlang.compiler.source import MAX_SOURCE_BYTES, decode
+from mindlang.compiler.source import MAX_SOURCE_BYTES, decode_source
 from mindlang.compiler.syntax import Contains, File, Text, Value
 
 MAX_SHOWN_LETTERS = 3  # of those that nothing begins with
@@ -39,7 +39,7 @@ def text_lines(value: Value, root: Path | None, findings: Findings) -> tuple[str
         return None
     try:
         data = read_regular(path, MAX_SOURCE_BYTES + 1)
-        text = "" if PICTURES.match(data) else decode(data)
+        text = "" if PICTURES.match(data) else decode_source(data)
     except (OSError, ValueError, RuntimeError) as error:
         why = f": {reason(error)}" if isinstance(error, OSError) else f": it {error}"
         hint = "The path is relative to the file in which it stands; a map is a text of # and . and letters."

@@ -1,4 +1,4 @@
-"""Minds whose tasks are environments of somebody else: what makes sense there, and whether parts fit them."""
+"""Checks of minds whose tasks are Gymnasium environments: what makes sense there, and whether parts fit them."""
 
 from collections.abc import Iterator, Sequence
 from typing import Any
@@ -22,7 +22,7 @@ Refused = tuple[Span, str, str]  # where, why, and what to do
 
 
 def is_outside(names: Names) -> bool:
-    """Whether any task is in an environment, or a part belongs to one."""
+    """True if any task is in an environment, or a sensor or actuator belongs to one."""
     return any(
         (phrase := declaration.header.phrase) is not None and phrase.kind.text in kinds
         for noun, kinds in (("task", {"gymnasium"}), ("sensor", {"observation"}), ("actuator", {"action", "choice"}))
@@ -31,7 +31,7 @@ def is_outside(names: Names) -> bool:
 
 
 def body_outside(names: Names, findings: Findings) -> Part[BodyKind]:
-    """What stands for the body where the environment has one of its own; one that is declared is reported."""
+    """A stand-in for the body, which the environment has itself; one that is declared is reported."""
     for _, declared in names.declarations("body"):
         message = f"{ENVIRONMENT.capitalize()} has a body of its own."
         findings.error("foreign-part", declared.header.span, message, "Leave the line out.")
@@ -58,7 +58,7 @@ def check_outside(
             message = f"{task.name} is in no environment, as {outside[0].name} is."
             hint = "The tasks of a mind are all in gymnasium, or none is: write this one in a file of its own."
             findings.error("mixed-scenes", task.declaration.header.span, message, hint)
-        for span, message, hint in (*_native(sensors, actuators), *_put_in(outside)):
+        for span, message, hint in (*_foreign_parts(sensors, actuators), *_foreign_lines(outside)):
             findings.error("foreign-part", span, message, hint)
         several = {task.scene.environment: task for task in reversed(outside)}
         for name, task in several.items():
@@ -69,8 +69,8 @@ def _kind(part: Part[Any]) -> str:
     return a(kind_names()[type(part.kind)]).capitalize()
 
 
-def _native(sensors: Sequence[Part[Any]], actuators: Sequence[Part[Any]]) -> Iterator[Refused]:
-    """The parts that measure or move what an environment has not."""
+def _foreign_parts(sensors: Sequence[Part[Any]], actuators: Sequence[Part[Any]]) -> Iterator[Refused]:
+    """The sensors and actuators that need a body or a world of ours, which an environment does not have."""
     for sensor in (each for each in sensors if isinstance(each.kind, Physical) and not each.kind.is_outside):
         hint = f"Write which of its numbers it is: sensor {sensor.name} is observation 0 range -1 to 1."
         yield sensor.span, f"{_kind(sensor)} measures nothing in {ENVIRONMENT}.", hint
@@ -79,8 +79,8 @@ def _native(sensors: Sequence[Part[Any]], actuators: Sequence[Part[Any]]) -> Ite
         yield actuator.span, f"{_kind(actuator)} does nothing in {ENVIRONMENT}.", hint
 
 
-def _put_in(tasks: Sequence[model.Task]) -> Iterator[Refused]:
-    """What tasks put into an environment."""
+def _foreign_lines(tasks: Sequence[model.Task]) -> Iterator[Refused]:
+    """The lines of tasks that an environment refuses: things, and where the robot starts."""
     for task in tasks:
         for thing in task.things:
             yield thing.span, f"Nothing can be put into {ENVIRONMENT}.", "Leave the line out."

@@ -12,11 +12,11 @@ from mindrun.kinds.sensors.computed import Computed
 from msgspec.structs import replace
 
 from mindlang.compiler.diagnostic import Findings, Label, a, listed
-from mindlang.compiler.hierarchy import circles, ends_first
+from mindlang.compiler.hierarchy import circles, reverse_topological_order
 from mindlang.compiler.model import Part, source_graph
 from mindlang.compiler.names import Names
-from mindlang.compiler.resolve.expressions import Visible, resolve
-from mindlang.compiler.resolve.kinds import Scope, make
+from mindlang.compiler.resolve.expressions import Visible, resolve_expression
+from mindlang.compiler.resolve.kinds import Scope, make_kind
 from mindlang.compiler.syntax import Declaration, verb_of
 
 MOST_READINGS = 20_000
@@ -25,14 +25,14 @@ ONE_LINE = "All that there is to say of it stands in its one line; set the fact 
 Parts = tuple[Part[Any], ...]
 
 
-def parts(noun: str, names: Names, findings: Findings) -> Parts:
+def resolve_parts(noun: str, names: Names, findings: Findings) -> Parts:
     """The parts declared with a noun, as far as their kinds are well said; not those that are computed."""
     things = names.things()
     found = []
     for name, declaration in names.declarations(noun):
         refuse_facts(declaration, (), findings)
         phrase = None if declaration.header.at else declaration.header.phrase
-        if phrase and (kind := make(noun, phrase, Scope(names, things, whole=declaration.whole), findings)):
+        if phrase and (kind := make_kind(noun, phrase, Scope(names, things, whole=declaration.whole), findings)):
             found.append(Part(name, kind, declaration.header.name.span))
     return tuple(found)
 
@@ -51,12 +51,12 @@ def refuse_facts(declaration: Declaration, verbs: Sequence[str], findings: Findi
 
 def sensors(names: Names, findings: Findings) -> Parts:
     """The sensors with their widths, as they are declared; those that are computed from themselves are reported."""
-    plain = {sensor.name: sensor for sensor in parts("sensor", names, findings)}
+    plain = {sensor.name: sensor for sensor in resolve_parts("sensor", names, findings)}
     formulas = {name: header.at for name, each in names.declarations("sensor") if (header := each.header).at}
     widths = _widths(plain, [*formulas, *names.of("memory")])
     visible = Visible(widths, unread=names.unread, made_of="numbers, sensors and memories")
     for name, at in formulas.items():
-        computed = Computed(resolve(at, visible, findings).formula)
+        computed = Computed(resolve_expression(at, visible, findings).formula)
         plain[name] = Part(name, computed, names.table["sensor"][name].header.name.span)
     found = tuple(replace(plain[name], width=widths[name]) for name in names.of("sensor") if name in plain)
     for circle in circles(source_graph(found)):
@@ -79,7 +79,7 @@ def _widths(sensors: Mapping[str, Part[Any]], of_one: Iterable[str]) -> dict[str
     """How many readings each sensor and memory has: one that does not say has as many as its source."""
     shapes = {name: each.kind.shape for name, each in sensors.items()}
     widths = dict.fromkeys(of_one, 1) | {name: prod(shape) for name, shape in shapes.items() if shape is not None}
-    sources_first = (name for name in ends_first(source_graph(sensors.values())) if name in sensors)
+    sources_first = (name for name in reverse_topological_order(source_graph(sensors.values())) if name in sensors)
     for name in (*sources_first, *sensors):
         widths.setdefault(name, widths.get(sensors[name].kind.source, 1))
     return widths

@@ -63,7 +63,7 @@ def _wrong_unit(amount: Amount, quantity: Quantity, findings: Findings) -> None:
 
 
 def _labels(amount: Amount) -> tuple[Label, ...]:
-    """Where the number is said that a name stands for."""
+    """The label of the line that declares the number which an amount names; none where it names none."""
     return (Label(amount.said, f"{amount.span.text.strip('+- ')} is said here"),) if amount.said else ()
 
 
@@ -77,7 +77,7 @@ def _no_rate(amount: Amount, quantity: Quantity, findings: Findings) -> None:
 
 
 def _bounds(quantity: Quantity, unit: str = "") -> str:
-    """Between what an amount in a unit may be, without exponents; in the first unit where that one does not fit."""
+    """The hint on the bounds of an amount, without exponents, in its unit or, if that is not one, in the first."""
     unit = unit if unit in quantity.units else next(iter(quantity.units))
     ends = (bound / quantity.units[unit] for bound in (quantity.low, quantity.high))
     low, high = (f"{end:.9f}".rstrip("0").rstrip(".") for end in ends)
@@ -122,7 +122,7 @@ def extent(value: Value, quantity: Quantity, findings: Findings) -> Extent | Non
     """The value of an argument that takes one number, or a width and a depth."""
     match value:
         case Numbers((_, _)):
-            return place(value, quantity, findings)
+            return single_place(value, quantity, findings)
         case Numbers((_, _, third, *_)):
             hint = "Write one number for a square, or two: the width and the depth."
             findings.error("too-many-numbers", third.span, "Here stand one number or two.", hint)
@@ -130,14 +130,14 @@ def extent(value: Value, quantity: Quantity, findings: Findings) -> Extent | Non
     return single_value(value, quantity, findings)
 
 
-def places(value: Value, quantity: Quantity, findings: Findings) -> tuple[Place, ...] | None:
+def place_list(value: Value, quantity: Quantity, findings: Findings) -> tuple[Place, ...] | None:
     """The value of an argument that takes a place, or several with `to` between."""
     written = value.points if isinstance(value, Points) and not value.by else (value,)
-    found = [place(each, quantity, findings) for each in written]
+    found = [single_place(each, quantity, findings) for each in written]
     return None if None in found else tuple(each for each in found if each)
 
 
-def place(value: Value, quantity: Quantity, findings: Findings) -> Place | None:
+def single_place(value: Value, quantity: Quantity, findings: Findings) -> Place | None:
     """The value of two numbers."""
     match value:
         case Numbers((_, _)):
@@ -170,5 +170,6 @@ def span(value: Value, quantity: Quantity, findings: Findings) -> Span | None:
 
 
 SHAPES: Mapping[Shape, Callable[[Value, Quantity, Findings], Any]] = {  # of the values of arguments
-    "one": single_value, "list": value_list, "extent": extent, "place": place, "places": places, "span": span,
+    "one": single_value, "list": value_list, "extent": extent, "place": single_place,
+    "places": place_list, "span": span,
 }  # fmt: skip

@@ -11,10 +11,10 @@ from networkx import DiGraph
 
 from mindlang.compiler import model
 from mindlang.compiler.diagnostic import Findings, listed
-from mindlang.compiler.hierarchy import ends_first, refuse_circles
+from mindlang.compiler.hierarchy import refuse_circles, reverse_topological_order
 from mindlang.compiler.names import Names
-from mindlang.compiler.resolve.expressions import Visible, condition, resolve
-from mindlang.compiler.resolve.kinds import Scope, make
+from mindlang.compiler.resolve.expressions import Visible, resolve_condition, resolve_expression
+from mindlang.compiler.resolve.kinds import Scope, make_kind
 from mindlang.compiler.resolve.parts import refuse_facts
 from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.source import Span
@@ -41,7 +41,7 @@ def skills(names: Names, widths: Mapping[str, int], findings: Findings) -> tuple
     graph.add_edges_from(edge for edge in others if edge[0] != edge[1])
     says = "Skills are like one another in a circle"
     refuse_circles("like-circle", graph, findings, says, hint, "and from there on")
-    for name in (each for each in ends_first(graph) if each in like):
+    for name in (each for each in reverse_topological_order(graph) if each in like):
         known[name] = _alike(declared[name], known.get(like[name]), names, widths, findings)
     return tuple(known.get(name) or _unsaid(each) for name, each in declared.items())
 
@@ -56,7 +56,7 @@ def _skill(
 ) -> model.Skill:
     refuse_facts(declaration, ("reads", "drives", "influences", "stays"), findings)
     phrase = declaration.header.phrase
-    function: Any = make("skill", phrase, Scope(names, None), findings) if phrase else None
+    function: Any = make_kind("skill", phrase, Scope(names, None), findings) if phrase else None
     reads = _reads(declaration, names, findings)
     # A line that could not be read may have been an input.
     all_read = declaration.whole and len(reads) == len(of_form(declaration.facts, Reads))
@@ -101,10 +101,10 @@ def _edges(declaration: Declaration, names: Names, visible: Visible, findings: F
         else:
             to = names.find(fact.name, ("skill",), findings)
             cuts = convert(fact.cuts, RATIO, findings) if fact.cuts else None
-        at = resolve(fact.at, visible, findings) if fact.at else None
+        at = resolve_expression(fact.at, visible, findings) if fact.at else None
         if fact.gate:
-            otherwise = resolve(fact.gate.otherwise, visible, findings) if fact.gate.otherwise else None
-            gate = model.Gate(condition(fact.gate.when, visible, findings), otherwise)
+            otherwise = resolve_expression(fact.gate.otherwise, visible, findings) if fact.gate.otherwise else None
+            gate = model.Gate(resolve_condition(fact.gate.when, visible, findings), otherwise)
         if to:
             edges.append(model.Edge(to, fact.name.text, at, fact, gate, cuts or 0.0))
     first = _once((edge.fact for edge in edges), findings)
@@ -166,7 +166,7 @@ def _alike(
     lines = of_form(own.facts, Reads)
     instead: dict[str, list[Reads]] = {}
     for fact in lines:
-        if names.find(fact.name, ("sensor", "memory"), findings) and _stands(fact, other, names, widths, findings):
+        if names.find(fact.name, ("sensor", "memory"), findings) and _replaces(fact, other, names, widths, findings):
             instead.setdefault(fact.stands_for.text if fact.stands_for else "", []).append(fact)
     for input_, same in instead.items():
         _refuse_again([fact.span for fact in same], f"Something stands for {input_} already.", findings)
@@ -184,8 +184,8 @@ def _alike(
     return model.Skill(name, other.function, reads, edges, False, own, other.owner)
 
 
-def _stands(fact: Reads, other: model.Skill, names: Names, widths: Mapping[str, int], findings: Findings) -> bool:
-    """Whether a line says for which input of the other skill its own stands, and has as many readings."""
+def _replaces(fact: Reads, other: model.Skill, names: Names, widths: Mapping[str, int], findings: Findings) -> bool:
+    """True if a line says which input of the other skill its own replaces, and both have as many readings."""
     name = fact.name.text
     reads = f"{other.name} reads {listed(other.reads, 'and') if other.reads else 'nothing'}."
     if fact.stands_for is None:

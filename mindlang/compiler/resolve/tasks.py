@@ -7,13 +7,13 @@ from typing import Any
 from mindrun.numbers.quantity import SECONDS, TICKS, Quantity
 
 from mindlang.compiler import model
-from mindlang.compiler.beginning import beginning, hint_apart
+from mindlang.compiler.beginning import first_tick_hint, task_beginning
 from mindlang.compiler.diagnostic import Findings, Label
-from mindlang.compiler.resolve.expressions import Visible, condition, resolve
-from mindlang.compiler.resolve.kinds import make
+from mindlang.compiler.resolve.expressions import Visible, resolve_condition, resolve_expression
+from mindlang.compiler.resolve.kinds import make_kind
 from mindlang.compiler.resolve.parts import refuse_facts
 from mindlang.compiler.resolve.quantities import convert
-from mindlang.compiler.resolve.worlds import RobotFacts, World, refuse_repeated, world_of
+from mindlang.compiler.resolve.worlds import ResolvedWorld, RobotFacts, refuse_repeated, resolve_world
 from mindlang.compiler.syntax import Counts, Declaration, Ends, Lasts, Phrase, Rewards, Succeeds, of_form
 
 MAX_RUN_TICKS = 10_000_000  # of a run
@@ -24,12 +24,12 @@ SCENE_FACTS = ("contains", "starts", "varies", "fails")  # what the world is, no
 TASK_FACTS = (*SCENE_FACTS, "lasts", "ends", "succeeds", "rewards", "counts")
 
 
-def tasks(robot: RobotFacts, findings: Findings) -> tuple[model.Task, ...]:
+def resolve_tasks(robot: RobotFacts, findings: Findings) -> tuple[model.Task, ...]:
     """Every task, without the lines that are reported; one that several tasks have is reported once."""
     for _, scene in robot.names.declarations("scene"):
         with findings.each_once():
             refuse_facts(scene, SCENE_FACTS, findings)
-            world_of(scene, robot, findings)
+            resolve_world(scene, robot, findings)
     found = []
     for _, declaration in robot.names.declarations("task"):
         with findings.each_once():
@@ -39,7 +39,7 @@ def tasks(robot: RobotFacts, findings: Findings) -> tuple[model.Task, ...]:
 
 def _task(declaration: Declaration, robot: RobotFacts, findings: Findings) -> model.Task:
     refuse_facts(declaration, TASK_FACTS, findings)
-    world = world_of(declaration, robot, findings)
+    world = resolve_world(declaration, robot, findings)
     commands = frozenset(robot.names.of("actuator"))
     visible = Visible(robot.widths, world.scope, unread=robot.names.unread, commands=commands)
     ends = _ends(declaration, world, visible, findings)
@@ -78,21 +78,23 @@ def _ticks(declaration: Declaration, tick: float, findings: Findings) -> int:
     return int(convert(amount, LASTS, findings) or 1)
 
 
-def event_in(written: Phrase, world: World, findings: Findings) -> Any:
+def event_in(written: Phrase, world: ResolvedWorld, findings: Findings) -> Any:
     """The event of a phrase; one that can never happen in the world is reported."""
-    event = make("event", written, world.scope, findings)
+    event = make_kind("event", written, world.scope, findings)
     if event and (found := event.missing(world)):
         findings.error("impossible-event", written.span, found.reason, found.hint)
     return event
 
 
-def _ends(declaration: Declaration, world: World, visible: Visible, findings: Findings) -> tuple[model.End, ...]:
-    """What ends a run, in the order of the source; of two that come in one tick the first one counts."""
+def _ends(
+    declaration: Declaration, world: ResolvedWorld, visible: Visible, findings: Findings
+) -> tuple[model.End, ...]:
+    """The ends of a task's runs, in the order of the source; of two in one tick the first one counts."""
     ends = []
     for fact in (fact for fact in declaration.facts if isinstance(fact, Ends | Succeeds)):
         times = convert(fact.times, TIMES, findings) if fact.times else 1
         event = event_in(fact.event, world, findings) if fact.event else None
-        when = condition(fact.when, visible, findings) if fact.when else None
+        when = resolve_condition(fact.when, visible, findings) if fact.when else None
         if fact.event and event and event.is_of_success and world.can_succeed:
             hint = "Write what a success is: succeeds on 5 delivery of red."
             findings.error("own-success", fact.event.span, "A success ends the run by itself.", hint)
@@ -100,22 +102,24 @@ def _ends(declaration: Declaration, world: World, visible: Visible, findings: Fi
     return tuple(ends)
 
 
-def _check_decided(ends: Sequence[model.End], world: World, robot: RobotFacts, findings: Findings) -> None:
+def _check_decided(ends: Sequence[model.End], world: ResolvedWorld, robot: RobotFacts, findings: Findings) -> None:
     """Report an event that ends every run in its first tick."""
-    begun = beginning(world.scene, world.things, world.start, robot.body_kind, robot.claw)
+    begun = task_beginning(world.scene, world.things, world.start, robot.body_kind, robot.claw)
     sensors = [sensor.kind for sensor in robot.sensors]
     for end in ends:
-        if end.event and begun.happenings(end.event, sensors) >= end.times:
+        if end.event and begun.first_tick_count(end.event, sensors) >= end.times:
             there = (Label(each.span, "this one") for each in world.things if each.name == end.event.thing)
             message = "This ends every run in its first tick."
-            findings.error("decided-start", end.fact.span, message, hint_apart(end.event), *there)
+            findings.error("decided-start", end.fact.span, message, first_tick_hint(end.event), *there)
 
 
-def _reward(fact: Rewards, world: World, visible: Visible, robot: RobotFacts, findings: Findings) -> model.Reward:
+def _reward(
+    fact: Rewards, world: ResolvedWorld, visible: Visible, robot: RobotFacts, findings: Findings
+) -> model.Reward:
     each = None
     if fact.each:
         visible = replace(visible, each=fact.each.name.text)
         each = fact.each.sensor.text if robot.names.find(fact.each.sensor, ("sensor", "memory"), findings) else None
     on = event_in(fact.on, world, findings) if fact.on else None
-    when = condition(fact.when, visible, findings) if fact.when else None
-    return model.Reward(resolve(fact.amount, visible, findings), on, each, when, fact)
+    when = resolve_condition(fact.when, visible, findings) if fact.when else None
+    return model.Reward(resolve_expression(fact.amount, visible, findings), on, each, when, fact)

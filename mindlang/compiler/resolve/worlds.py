@@ -1,4 +1,4 @@
-"""What a task or a scene says of its world: things, where they and the robot begin, what differs from run to run."""
+"""The world of a task or a scene: things, where they and the robot begin, variations and failures."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -14,11 +14,11 @@ from mindrun.kinds.scenes.scene import SceneKind
 from mindrun.kinds.things.thing import MAX_OBSTACLES, MAX_THINGS, ThingKind
 from mindrun.numbers.quantity import ANGLE, COORDINATE, RATE, Place
 
-from mindlang.compiler.beginning import Beginning, beginning
+from mindlang.compiler.beginning import Beginning, task_beginning
 from mindlang.compiler.diagnostic import Findings, Label, did_you_mean, listed
 from mindlang.compiler.model import Part
-from mindlang.compiler.names import Names, things_of
-from mindlang.compiler.resolve.kinds import Scope, make
+from mindlang.compiler.names import Names, declared_things
+from mindlang.compiler.resolve.kinds import Scope, make_kind
 from mindlang.compiler.resolve.maps import with_places
 from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.source import Span
@@ -31,7 +31,7 @@ F = TypeVar("F", bound=Fact)
 
 @dataclass(frozen=True, slots=True)
 class RobotFacts:
-    """What tasks need to know of the rest of the mind."""
+    """The parts of a mind that its tasks are checked against."""
 
     names: Names
     widths: Mapping[str, int]
@@ -53,7 +53,7 @@ class RobotFacts:
 
 
 @dataclass(frozen=True, slots=True)
-class World:
+class ResolvedWorld:
     """A scene, None where it is not well said, and its things; how runs in it begin, and what differs between them."""
 
     scene: Any
@@ -76,16 +76,18 @@ def refuse_repeated(facts: Sequence[Fact], message: str, hint: str, findings: Fi
     findings.refuse_again("repeated-fact", [fact.span for fact in facts], message, hint)
 
 
-def world_of(declaration: Declaration, robot: RobotFacts, findings: Findings) -> World:
-    """What a task or a scene says of the world, without the lines that are reported."""
+def resolve_world(declaration: Declaration, robot: RobotFacts, findings: Findings) -> ResolvedWorld:
+    """The world that a task or a scene declares; the lines that are wrong are reported and left out."""
     noun, name = declaration.header.noun.text, declaration.header.name.text
-    scope = Scope(robot.names, things_of(declaration) if declaration.whole else None, f"{noun} {name}", root=robot.root)
+    scope = Scope(
+        robot.names, declared_things(declaration) if declaration.whole else None, f"{noun} {name}", root=robot.root
+    )
     phrase = declaration.header.phrase
-    scene = make("task", phrase, scope, findings) if phrase else None
+    scene = make_kind("task", phrase, scope, findings) if phrase else None
     things = _things(declaration, scene, scope, findings)
     parts = {"body": (robot.body,) if robot.body else (), "actuator": robot.actuators, "sensor": robot.sensors}
     variable = _Variable(robot.names, {**parts, "thing": things}, scope.place, findings)
-    return World(
+    return ResolvedWorld(
         scene,
         things,
         scope,
@@ -102,7 +104,7 @@ def _things(declaration: Declaration, scene: Any, scope: Scope, findings: Findin
     obstacles = 0
     for fact in of_form(declaration.facts, Contains):
         name = fact.name.text
-        kind = make("content", fact.phrase, scope, findings)
+        kind = make_kind("content", fact.phrase, scope, findings)
         if name in found:
             first = Label(found[name].span, "first said here")
             message = f"The {declaration.header.noun.text} already contains something called {name}."
@@ -118,7 +120,7 @@ def _things(declaration: Declaration, scene: Any, scope: Scope, findings: Findin
 
 
 def _check_obstacles(kind: ThingKind, scene: SceneKind | None, before: int, phrase: Phrase, findings: Findings) -> None:
-    """What a thing needs of its scene, and how many obstacles there is room for with those `before`."""
+    """Report a thing that its scene cannot have, or that exceeds MAX_OBSTACLES with the obstacles `before` it."""
     if found := kind.mistake(scene):
         findings.error(found.code, phrase.span, found.message, found.hint)
     elif before <= MAX_OBSTACLES < (made := before + kind.obstacles(scene)):
@@ -138,7 +140,7 @@ def _check_places(things: Sequence[Part[Any]], scene: SceneKind | None, findings
         hint = f"A world takes {MAX_THINGS} beside its obstacles: leave some out."
         findings.error("too-many-things", apart[MAX_THINGS], f"That is thing number {MAX_THINGS + 1}.", hint)
     met: dict[str, tuple[Part[Any], Part[Any]]] = {}
-    for thing, other in Beginning(scene, things, None, None, None, 0.0).meeting():
+    for thing, other in Beginning(scene, things, None, None, None, 0.0).overlapping():
         met.setdefault(thing.name, (thing, other))
     for thing, other in met.values():
         hint, there = f"Write another place for {thing.name} or {other.name}.", Label(other.span, "this one")
@@ -163,7 +165,7 @@ def _start(
     refuse_repeated(said, message, "Write both on one line: starts at 0 0 facing 90 deg.", findings)
     is_left_open = declaration.header.noun.text == "scene" and not said  # to the tasks in it
     if scene and not is_left_open and not (said and said[-1].place and not start.at):
-        begun = beginning(scene, things, start, body, 0.0)
+        begun = task_beginning(scene, things, start, body, 0.0)
         _check_start(declaration.header.name.span, said[-1].span if start.at else None, begun, findings)
     return start
 
@@ -202,7 +204,7 @@ def _check_start(here: Span, said: Span | None, begun: Beginning, findings: Find
 
 @dataclass(frozen=True, slots=True)
 class _Variable:
-    """What can differ from run to run, by noun: the parts of the robot, and the things of a place."""
+    """The parts that can vary from run to run, by noun: those of the robot, and the things of a task or scene."""
 
     names: Names
     parts: Mapping[str, Sequence[Part[Any]]]
@@ -210,14 +212,14 @@ class _Variable:
     findings: Findings
 
     def variations(self, declaration: Declaration) -> Iterator[Variation]:
-        """What a task or a scene says that varies."""
+        """The variations of a task or a scene, each once."""
         facts = {
             fact: f"how {fact.argument.text} of {fact.of.text} varies" for fact in of_form(declaration.facts, Varies)
         }
         return filter(None, map(self._variation, self._once(facts)))
 
     def failures(self, declaration: Declaration) -> Iterator[Failure]:
-        """What a task or a scene says that fails."""
+        """The failures of actuators in a task or a scene, each once."""
         for fact in self._once({fact: f"how {fact.name.text} fails" for fact in of_form(declaration.facts, Fails)}):
             actuator = self.names.find(fact.name, ("actuator",), self.findings)
             rate = convert(fact.rate, RATE, self.findings)
@@ -265,7 +267,7 @@ class _Variable:
         return Variation(noun, "" if noun == "body" else fact.of.text, field, float(low), float(high))
 
     def _find(self, name: Name) -> tuple[Varying, Any] | None:
-        """What a name is of, and its kind; None after reporting that there is nothing of it, or where that is wrong."""
+        """The noun and kind of a named part; None after reporting an unknown name, or for a part with mistakes."""
         noun: Varying = self.names.noun_of(name.text, VARIED_NOUNS) or "thing"
         if found := [part for part in self.parts[noun] if part.name == name.text]:
             return (noun, found[0].kind) if found[0].kind else None

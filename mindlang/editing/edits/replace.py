@@ -1,7 +1,7 @@
 """`mindc edit replace`."""
 
 from mindlang.compiler.diagnostic import listed
-from mindlang.compiler.hierarchy import below
+from mindlang.compiler.hierarchy import with_descendants
 from mindlang.compiler.model import Node
 from mindlang.compiler.syntax import Influences
 from mindlang.editing.insertion import instead
@@ -34,5 +34,5 @@ def replace(project: Project, skill: str, new: str) -> MindChange:
 
 
 def _drives(project: Project, skill: str) -> set[str]:
-    hierarchy, reached = project.mind.hierarchy, below(project.mind.influences, [skill])
+    hierarchy, reached = project.mind.hierarchy, with_descendants(project.mind.influences, [skill])
     return {node.name for name in reached for node in hierarchy[Node("skill", name)] if node.noun == "actuator"}

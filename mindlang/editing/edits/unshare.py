@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping
 
 from mindlang.compiler.model import Skill
-from mindlang.compiler.references import names_in
+from mindlang.compiler.references import mentions_in
 from mindlang.compiler.splice import Splice
 from mindlang.compiler.syntax import Fact, Reads
 from mindlang.editing.insertion import first_line, indentation, insert_below, instead, instead_of_line, without_fact
@@ -46,7 +46,7 @@ def _below(skill: Skill, lines: list[str]) -> Iterator[Splice]:
 def _restated(project: Project, owner: Skill, fact: Fact, instead_of: Mapping[str, str]) -> str:
     """A fact of the owner with what is read instead."""
     text, start = fact.span.text, fact.span.start
-    names = [mention.name for mention in names_in(fact, project.names, owner.declaration)]
+    names = [mention.name for mention in mentions_in(fact, project.names, owner.declaration)]
     by_place = {name.span.start: name for name in names if isinstance(fact, Reads) or name.text in instead_of}
     for place in sorted(by_place, reverse=True):
         name = by_place[place]

@@ -49,7 +49,7 @@ def check(study: Study) -> Found:
 
 
 def _readers(study: Study) -> dict[str, Readers]:
-    """Who senses which things, for each skill with all that stand below it."""
+    """By skill, the things that it and those below it sense, each with a skill and a sensor that do."""
     found: dict[str, Readers] = {}
     for skill in study.children_first:
         own: Readers = {}

@@ -43,7 +43,7 @@ def _rates(declaration: Declaration) -> Iterator[Argument]:
 
 
 def _tells_time(study: Study, argument: Argument) -> bool:
-    """Whether a rate says for how long it is, itself or where its number is declared."""
+    """True if a rate says per which time it is, itself or where its number is declared."""
     match argument.value:
         case Numbers(amounts=(Amount(per=per, name=""),)):
             return bool(per)

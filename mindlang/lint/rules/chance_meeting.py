@@ -42,14 +42,14 @@ START = "Write another place for the robot, or which way it faces: starts at 0 0
 
 
 def check(study: Study) -> Found:
-    """What is in one place with the largest sizes, off its place as far as can be, or facing some way."""
+    """The things that can overlap: with their largest sizes and jitter, and the robot facing any way."""
     met = (_met(replace(study.beginning(task), may=True), task.span) for task in study.mind.tasks)
     return first_of_each(chain.from_iterable(met), lambda each: (each.span, *(label.span for label in each.labels)))
 
 
 def _met(begun: Beginning, here: Span) -> Iterator[Finding]:
     hint = "Write places that are farther apart, smaller sizes or a smaller jitter."
-    for one, other in begun.meeting():
+    for one, other in begun.overlapping():
         labels = (Label(other.span, "this one"),) if one is not other else ()
         yield Finding(one.span, f"{one.name} is in {other.name} when some runs begin.", hint, labels)
     if thing := begun.on_robot():

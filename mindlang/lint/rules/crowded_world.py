@@ -137,7 +137,7 @@ class DrawnWorld:
         return False
 
     def _meets(self, name: str, kind: ThingKind, size: float, place: Place) -> bool:
-        """Whether a thing at a place is in the robot, or is a goal that it has reached."""
+        """True if a thing at a place overlaps the robot, or is a goal that it has reached."""
         dx, dy = place[0] - self.robot[0], place[1] - self.robot[1]
         reach, is_goal = self.body.front + self.claw, name in self.goals
         return meets_robot(kind.is_area, kind.is_round, is_goal, size, dx, dy, self.radius, reach)
@@ -168,7 +168,7 @@ class DrawnWorld:
         return self.robot[0] + far * cos(angle), self.robot[1] + far * sin(angle)
 
     def _is_clear(self, of: Sequence[Rectangle], place: Place, margin: float) -> bool:
-        """Whether none of these comes within a margin of a place, along the axes."""
+        """True if none of the rectangles comes within a margin of a place, along the axes."""
         x, y = place
         self.looks += len(of)
         return not any(abs(x - each.x) < each.half_x + margin and abs(y - each.y) < each.half_y + margin for each in of)

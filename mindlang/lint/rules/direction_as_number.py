@@ -90,7 +90,7 @@ def _plus(one: Form, other: Form, times: float) -> Form:
 
 
 def _linear(each: Comparison) -> tuple[Form, float]:
-    """What is left less what is right, and the number more; empty where that is no sum of readings times numbers."""
+    """The linear form of left minus right, and its constant; empty where that is no sum of readings times numbers."""
 
     def leaf(word: str, operand: Any) -> Form | None:
         return {"": operand} if word == "number" else {operand: 1.0} if word == "reading" else None
@@ -117,7 +117,7 @@ def _linear(each: Comparison) -> tuple[Form, float]:
 
 
 def _reading(each: Comparison, name: str) -> Reading:
-    """Where a reading stands first in a comparison."""
+    """The first mention of a reading in a comparison."""
     terms = (*each.left.terms, *each.right.terms)
     return next(term for term in terms if isinstance(term, Reading) and term.name == name)
 
@@ -142,7 +142,7 @@ def _one_sided(when: When, known: Set[str]) -> Iterator[Finding]:
 
 
 def _is_behind(compare: str, number: float) -> bool:
-    """Whether a direction can be so to a number, and only behind the robot."""
+    """True if a direction can compare so to a number, and only behind the robot."""
     off = number if compare in UPPER else 1 - number
     return off <= 0.25 and (off > 0 or (off == 0 and compare not in STRICT))
 

@@ -8,7 +8,7 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 
 from mindlang.compiler.diagnostic import Label
-from mindlang.compiler.hierarchy import below
+from mindlang.compiler.hierarchy import with_descendants
 from mindlang.compiler.model import Lesson
 from mindlang.lint.study import Finding, Found, Study
 from mindlang.lock.status import mismatches
@@ -65,7 +65,7 @@ def _firsts(study: Study, lessons: Sequence[Lesson]) -> dict[str, int]:
     for place, lesson in enumerate(lessons):
         taught = {lesson.skill}
         if lesson.with_subskills:
-            taught = below(unseen, taught & unseen.nodes)
+            taught = with_descendants(unseen, taught & unseen.nodes)
             unseen.remove_nodes_from(taught)
         for skill in {study.skills[name].owner for name in taught} & study.learning:
             found.setdefault(skill, place)
@@ -88,6 +88,6 @@ def _early(study: Study, lessons: Sequence[Lesson], first: Mapping[str, int]) ->
 
 
 def _has_weights(study: Study, name: str) -> bool:
-    """Whether the lock has weights of a skill that fit."""
+    """True if the lock has weights that fit the skill."""
     entry = study.lock.get(name)
     return entry is not None and not mismatches(study.graph, study.graph.skills[study.graph.skill_numbers[name]], entry)

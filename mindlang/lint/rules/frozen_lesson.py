@@ -4,7 +4,7 @@ A frozen skill keeps its weights, and training passes such a lesson over. Take `
 learn again, or the lesson if it is not.
 """
 
-from mindlang.compiler.hierarchy import below
+from mindlang.compiler.hierarchy import with_descendants
 from mindlang.lint.study import Finding, Found, Study, removal
 
 GOOD = """
@@ -24,7 +24,7 @@ BAD = GOOD.replace("  reads eye", "  stays frozen\n  reads eye")
 def check(study: Study) -> Found:
     """Lessons whose learners are all frozen."""
     for lesson in study.mind.lessons:
-        taught = below(study.mind.influences, [lesson.skill]) if lesson.with_subskills else {lesson.skill}
+        taught = with_descendants(study.mind.influences, [lesson.skill]) if lesson.with_subskills else {lesson.skill}
         if taught.isdisjoint(study.learning):
             also = " and so do all that learn below it" * lesson.with_subskills
             hint = f"{study.main.edit('unfreeze', lesson.skill)} lets it learn again; else take the lesson out."

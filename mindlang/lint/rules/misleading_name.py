@@ -6,7 +6,7 @@ wherever it is used: call it `ball_drift`. Of an environment's observations and 
 
 from mindrun.kinds.registry import kinds
 
-from mindlang.lint.study import Finding, Found, Study, words
+from mindlang.lint.study import Finding, Found, Study, name_words
 
 EVERYDAY = {"arena", "battery", "cell", "contact", "disc", "genetic", "held", "inside", "item", "plain", "rule", "zone"}
 GOOD = """
@@ -26,7 +26,7 @@ def check(study: Study) -> Found:
     for noun, declarations in study.mind.names.table.items():
         known = {name: name.split("_") for name in kinds(noun) if name not in EVERYDAY}
         for name, declaration in declarations.items():
-            said, phrase = words(name), declaration.header.phrase
+            said, phrase = name_words(name), declaration.header.phrase
             own = phrase.kind.text if phrase else ""
             other = next((kind for kind, parts in known.items() if said[-len(parts) :] == parts), own)
             if other != own and name not in outside and not {*known.get(own, ())} & {*said}:

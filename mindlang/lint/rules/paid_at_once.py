@@ -12,7 +12,7 @@ from math import pi
 
 from mindrun.kinds.events.event import EventKind
 
-from mindlang.compiler.beginning import Beginning, hint_apart
+from mindlang.compiler.beginning import Beginning, first_tick_hint
 from mindlang.compiler.model import Task
 from mindlang.lint.intervals import UNIT_INTERVAL, Interval, interval, why_always
 from mindlang.lint.study import Finding, Found, Study, once_a_line
@@ -69,7 +69,7 @@ class _FirstTick:
     begun: Beginning
 
     def found(self) -> Iterator[Finding]:
-        """What is met or paid at once, line by line."""
+        """The lines of a task that end a run or pay in the first tick."""
         for end in self.task.ends:
             if end.event and (often := self._often(end.event, end.times)):
                 yield Finding(end.fact.span, f"This ends {often} in the first tick.", self._hint(end.event))
@@ -81,17 +81,17 @@ class _FirstTick:
                 yield Finding(reward.fact.span, message, self._hint(reward.on))
 
     def _hint(self, event: EventKind) -> str:
-        """What to do about an event that comes at once: which way a robot faces changes what its claw has reached."""
+        """The hint for an event that comes at once: which way a robot faces changes what its claw has reached."""
         kinds = [each.kind for each in self.task.things if each.name == event.thing]
         faces = event.outcome == "reached" and not any(kind.is_area for kind in kinds)
-        return hint_apart(event) + (" Or write which way the robot faces." if faces else "")
+        return first_tick_hint(event) + (" Or write which way the robot faces." if faces else "")
 
     def _often(self, event: EventKind, times: int) -> str:
-        """In how many runs an event happens so many times in the first tick, where the robot's place is said."""
+        """The words "every run" or "some runs" if an event comes so often in their first tick, else empty."""
         sensors = [*self.study.sensors.values()]
-        if self.begun.happenings(event, sensors) >= times:
+        if self.begun.first_tick_count(event, sensors) >= times:
             return "every run"
-        return "some runs" if replace(self.begun, may=True).happenings(event, sensors) >= times else ""
+        return "some runs" if replace(self.begun, may=True).first_tick_count(event, sensors) >= times else ""
 
     def _often_drawn(self, event: EventKind) -> str:
         """The share of runs in which the robot's place, which is drawn, is in what is rewarded, and no goal."""
@@ -105,11 +105,11 @@ class _FirstTick:
         return f"about {share:.0%} of the runs" if share >= LEAST_SHARE else ""
 
     def _size(self, size: float, is_area: bool) -> float:
-        """How large the places are at which a robot, facing anywhere, has reached a thing."""
+        """The area, in square units, of the places where a robot, facing anywhere, has reached a thing."""
         return size**2 if is_area else pi / 2 * (self.begun.claw + size / 2) ** 2
 
     def first(self, name: str) -> Interval:
-        """What a sensor or a memory reads in the first tick, as far as that is known."""
+        """The interval of a sensor's or a memory's reading in the first tick."""
         if kind := self.study.sensors.get(name):
             if kind.formula:
                 low, high = interval(kind.formula, self.first)
@@ -119,7 +119,7 @@ class _FirstTick:
         return UNIT_INTERVAL if start is None else (start, start)
 
     def is_within(self, thing: str) -> bool | None:
-        """Whether the robot begins inside of a thing; None where that is drawn."""
+        """True if the robot begins inside a thing; None where that is drawn at random."""
         if self.begun.at is None:
             return None
         if self.begun.reached(thing):

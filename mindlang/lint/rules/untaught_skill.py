@@ -5,7 +5,7 @@ subskills`; one that has been taught elsewhere and is not to change `stays froze
 """
 
 from mindlang.compiler.diagnostic import listed
-from mindlang.compiler.hierarchy import below
+from mindlang.compiler.hierarchy import with_descendants
 from mindlang.compiler.model import Skill
 from mindlang.lint.study import Finding, Found, Study
 
@@ -36,7 +36,7 @@ BAD = LEARNS
 def check(study: Study) -> Found:
     """Active skills that learn and are in no lesson; where there is no lesson at all this is said once."""
     lessons = study.mind.lessons
-    jointly = below(study.mind.influences, {lesson.skill for lesson in lessons if lesson.with_subskills})
+    jointly = with_descendants(study.mind.influences, {lesson.skill for lesson in lessons if lesson.with_subskills})
     taught = {study.skills[name].owner for name in jointly} | {lesson.skill for lesson in lessons}
     names = (study.learning & study.acting) - taught - study.lock.keys()
     untaught = [skill for skill in study.mind.skills if skill.name in names]

@@ -61,5 +61,5 @@ def _place(span: Span) -> tuple[Source, int]:
 
 
 def _is_of_use(kind: ThingKind, charges: bool, delivers: bool) -> bool:
-    """Whether it does something although nothing is about it."""
+    """True if a thing matters although no line is about it: it is solid, charges, or takes items."""
     return kind.is_solid or (kind.charges and charges) or (kind.takes_items and delivers)

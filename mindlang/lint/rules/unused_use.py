@@ -10,7 +10,7 @@ from pathlib import Path
 from networkx import DiGraph
 
 from mindlang.compiler.diagnostic import Fix
-from mindlang.compiler.hierarchy import below
+from mindlang.compiler.hierarchy import with_descendants
 from mindlang.compiler.syntax import File, Tick, Use, of_form
 from mindlang.editing.insertion import first_line, remove_lines
 from mindlang.lint.study import Finding, Found, Study
@@ -28,7 +28,7 @@ def check(study: Study) -> Found:
     known = {file.source.path: file for file in others}
     uses = of_form(main.settings, Use)
     brings = DiGraph({path: [each for each in _used(file) if each in known] for path, file in known.items()})
-    reach = [below(brings, {_path(use)} & known.keys()) for use in uses]
+    reach = [with_descendants(brings, {_path(use)} & known.keys()) for use in uses]
     for number, use in enumerate(uses):
         shared = {path for other, paths in enumerate(reach) if other != number for path in paths}
         brought = [known[path] for path in reach[number] - shared]

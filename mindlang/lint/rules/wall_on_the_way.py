@@ -6,7 +6,7 @@ follow. Lead the way around it, place by place.
 
 from itertools import product
 
-from mindlang.compiler.beginning import Outline, meet, rectangle
+from mindlang.compiler.beginning import Outline, overlap, rectangle_outline
 from mindlang.compiler.diagnostic import Label
 from mindlang.lint.study import Finding, Found, Study, once_a_line
 
@@ -25,11 +25,11 @@ BAD = (HALL.format("0 -5 to 0 5"), HALL.format("0 -5 to 15 -5 to 15 5"), HALL.fo
 def check(study: Study) -> Found:
     """Stretches of ways, the last of which leads back to the first place, that are in what is fixed."""
     for task in study.mind.tasks:
-        fixed = [(each, [rectangle(wall) for wall in each.kind.standing(task.scene)]) for each in task.things]
+        fixed = [(each, [rectangle_outline(wall) for wall in each.kind.standing(task.scene)]) for each in task.things]
         for thing in (each for each in task.things if each.kind.walks and not each.kind.wanders):
             places, radius = thing.kind.places, thing.kind.begins[0] / 2
             way = [Outline(stretch, radius) for stretch in zip(places, (*places[1:], *places[:1]), strict=True)]
-            wall = next((each for each, its in fixed if any(meet(*both) for both in product(way, its))), None)
+            wall = next((each for each, its in fixed if any(overlap(*both) for both in product(way, its))), None)
             if wall:
                 message = f"The way of {thing.name} leads through {wall.name}."
                 yield Finding(thing.span, message, "Name places around it.", (Label(wall.span, "this one"),))

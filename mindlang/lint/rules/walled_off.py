@@ -86,7 +86,7 @@ def check(study: Study) -> Found:
 
 
 def _of_task(study: Study, task: Task) -> Iterator[Finding]:
-    """What is walled off in every run, and then what is in some."""
+    """The findings of a task: what is walled off in every run, otherwise what is in some."""
     body, before = study.mind.body.kind, list[Rectangle]()
     for may in (False, True):
         walls = [
@@ -100,7 +100,7 @@ def _of_task(study: Study, task: Task) -> Iterator[Finding]:
 
 
 def _stays(task: Task, kind: ThingKind) -> bool:
-    """Whether it is a single obstacle, of which no more than the size is drawn."""
+    """True if it is a single obstacle at a fixed place, of which only the size may be drawn at random."""
     return len(kind.places) == 1 and not any(row["jitter"] for row in kind.rows(task.scene))
 
 
@@ -115,7 +115,7 @@ def _sides(task: Task, walls: Sequence[Rectangle], beyond: float) -> tuple[float
 
 
 def _findings(study: Study, task: Task, whole: "Floor", no_way: str) -> Iterator[Finding]:
-    """What is said of a floor in parts: of a thing that is out of reach, of a part that something may be drawn in."""
+    """The findings of a floor in parts: things that are out of reach, and a part that something may be drawn in."""
     at = study.beginning(task).at or (None if task.scene.is_bounded else PLAIN_START)
     there = whole.parts_near(at, 0.0) if at else {*range(len(whole.areas))}
     origin = " from where the robot starts" if at else ""
@@ -131,7 +131,7 @@ def _findings(study: Study, task: Task, whole: "Floor", no_way: str) -> Iterator
 
 
 def _part_without_way(task: Task, whole: "Floor", there: set[int] | None) -> str:
-    """What no way leads to from some parts, or from the largest; empty where that is hardly anything."""
+    """The share of the floor that no way leads to from some parts, or from the largest, in words; empty where small."""
     if not task.scene.is_bounded:
         return "" if there is None or whole.parts[0][0] in there else "what lies outside of the walls"
     there = {max(range(len(whole.areas)), key=whole.areas.__getitem__, default=0)} if there is None else there

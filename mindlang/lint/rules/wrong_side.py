@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from math import sin
 
 from mindlang.compiler.source import Span
-from mindlang.lint.study import Finding, Found, Study, words
+from mindlang.lint.study import Finding, Found, Study, name_words
 
 OPPOSITE_SIDES = {"left": "right", "right": "left"}
 GOOD = ("sensor left_eye is range_finder at 30 60 deg\n", "sensor left_eye is range_finder at 0 deg\n")
@@ -25,7 +25,7 @@ actuator right_wheel is wheel side left neutral 0.5
 def check(study: Study) -> Found:
     """Wheels, and sensors that measure on a side, named after the side on which they are not."""
     for name, side, span in _sided(study):
-        said = {*words(name)}
+        said = {*name_words(name)}
         if OPPOSITE_SIDES[side] in said and side not in said:
             hint = f"Put it on the {OPPOSITE_SIDES[side]}, or rename it: {study.main.edit('rename', name, 'NAME')}"
             yield Finding(span, f"{name} is on the {side}.", hint)

@@ -54,7 +54,7 @@ def check(study: Study) -> Found:
 
 
 def _values(study: Study) -> Iterator[tuple[Expression, When | None, Conditional, AnalysedWorld]]:
-    """What skills send, what rewards pay and what conditions compare, each with a condition under which that counts."""
+    """The expressions of edges, rewards and comparisons, each with the condition under which it counts."""
     for _, edge in study.edges:
         if edge.at:
             yield edge.at, edge.gate.when if edge.gate else None, edge, study.any_world
@@ -71,7 +71,7 @@ def _values(study: Study) -> Iterator[tuple[Expression, When | None, Conditional
 
 
 def _opposite(when: When) -> When | None:
-    """What holds where a condition of one comparison does not; None of others, of which that is not one `and`."""
+    """The negation of a condition of one comparison; None for others, whose negation is not one `and`."""
     match when.alternatives:
         case ((only,),):
             return replace(when, alternatives=((replace(only, compare=OPPOSITES[only.compare]),),))
@@ -79,7 +79,7 @@ def _opposite(when: When) -> When | None:
 
 
 def _divides_by_zero(value: Expression, when: When | None, of: Conditional, world: AnalysedWorld) -> bool:
-    """Whether something in it is divided by what can be 0 while a condition holds."""
+    """True if a divisor in the expression can be 0 while the condition holds."""
     for all_ in when.alternatives if when else ((),):
         ranges = _narrowed(world, all_)
 
