@@ -1,4 +1,4 @@
-"""What the text of a procedure's module says without being run: whether the function is there, what it takes and gives.
+"""Checks of a procedure's module by its text alone: that the function is there, how many numbers it takes and returns.
 
 The function is looked for as `from` names it: `claw.grip` is `grip` in claw.py.
 """
@@ -21,7 +21,7 @@ STANDS_ALONE = "A module stands alone: write what it needs into it."
 
 @dataclass(frozen=True, slots=True)
 class Shape:
-    """What a plain function takes: so many numbers at least, so many at most (None: any number), and what it returns.
+    """The signature of a plain function: it takes `least` to `most` numbers (None: any number).
 
     `returned` are the lines of `return` and how many values each gives, where that can be seen.
     """
@@ -44,7 +44,7 @@ def file_of(from_: str) -> str:
 
 @lru_cache(16)
 def examine(from_: str, source: str) -> Shape | None:
-    """What the function is, None where only running could tell; ProcedureError where it can be none."""
+    """The function's signature, None where only running could tell; ProcedureError where it can be no procedure."""
     try:
         return _examined(from_, source)
     except RecursionError:
@@ -109,7 +109,7 @@ def texts(from_: str, source: str) -> Iterator[tuple[int, str]]:
 
 
 def fault(from_: str, message: str, line: int = 0, hint: str = "") -> ProcedureError:
-    """What is wrong with a procedure, with the file and the line."""
+    """An error about a procedure, with the file and the line."""
     where = f" ({file_of(from_)}, line {line})" if line else ""
     return ProcedureError(f"procedure from {from_}: {message}{where}", hint)
 
@@ -137,7 +137,7 @@ def _statements(body: list[ast.stmt]) -> Iterator[ast.stmt]:
 
 
 def _given(tree: ast.Module) -> set[str]:
-    """Every name that gets a value somewhere; all names, where that cannot be seen."""
+    """Every name that is assigned or imported anywhere, `*` where a star import may bind any."""
     names: set[str] = set()
     for node in ast.walk(tree):
         match node:

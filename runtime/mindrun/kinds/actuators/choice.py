@@ -1,4 +1,4 @@
-"""One of the things that can be done in an environment, of which one is done."""
+"""One of a few actions between which an environment lets choose."""
 
 from typing import Annotated
 

@@ -1,4 +1,4 @@
-"""What is rectangular, and drives on wheels."""
+"""A rectangular body that drives on wheels."""
 
 from typing import Annotated
 

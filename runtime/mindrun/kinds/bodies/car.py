@@ -1,4 +1,4 @@
-"""What is rectangular, and is steered."""
+"""A rectangular body that is steered."""
 
 from typing import Annotated
 

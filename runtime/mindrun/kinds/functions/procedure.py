@@ -33,7 +33,7 @@ class Procedure(Function):
 
     @property
     def calls(self) -> str:
-        """That function."""
+        """The Python function that it calls, as `module.function`."""
         return self.from_
 
     def ready(self, inputs: int, outputs: int, weights: Weights, sources: Mapping[str, str]) -> Compute:

@@ -1,4 +1,4 @@
-"""Whether the robot moves ahead."""
+"""Movement ahead."""
 
 from mindrun.kinds.measures.measure import MeasureKind
 from mindrun.kinds.registry import kind

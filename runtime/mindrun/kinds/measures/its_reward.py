@@ -1,4 +1,4 @@
-"""What an environment pays."""
+"""The reward of an environment."""
 
 from mindrun.kinds.measures.measure import MeasureKind
 from mindrun.kinds.registry import kind

@@ -17,5 +17,5 @@ class Gymnasium(SceneKind):
 
     @property
     def environment(self) -> str:
-        """Its name."""
+        """The environment's name, as Gymnasium has it."""
         return self.gymnasium

@@ -11,5 +11,5 @@ class Plain(SceneKind):
     """A world without borders; the robot starts in its origin."""
 
     def distances(self, least: float) -> tuple[float, float]:
-        """Where the robot can find it."""
+        """The least and the greatest distance, so that the robot can find the thing."""
         return MIN_DISTANCE_UNITS, MAX_DISTANCE_UNITS

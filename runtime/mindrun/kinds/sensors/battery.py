@@ -1,4 +1,4 @@
-"""How full the battery is."""
+"""The charge of the battery."""
 
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -24,7 +24,7 @@ class Battery(Physical):
 
     @property
     def battery(self) -> BatteryModel:
-        """How the battery drains and charges, as the arguments of the sensor say."""
+        """The model of the battery, from the sensor's arguments."""
         return BatteryModel(self.start, self.drain, self.charge)
 
     def constant(self, world: World) -> float | None:
@@ -38,6 +38,6 @@ class Battery(Physical):
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
-        """The battery of each robot."""
+        """The charge of each robot's battery, in float32."""
         for p in range(n):
             s.readings[sensor.start, p] = F(s.battery[p])

@@ -1,4 +1,4 @@
-"""How much of a period has gone by."""
+"""The share of a period that has gone by."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class Clock(SensorKind):
     remedy = "Give it a period of more than a tick"
 
     def constant(self, world: World) -> float | None:
-        """0 where each tick begins a period."""
+        """0 where each tick begins a period, else None."""
         return 0.0 if self.period == world.tick else None
 
     def reader(self, scene: Scene) -> Reader:

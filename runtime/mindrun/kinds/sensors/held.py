@@ -1,4 +1,4 @@
-"""Whether the claw holds a thing."""
+"""The thing that the claw holds."""
 
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -22,7 +22,7 @@ class Held(Physical):
     is_about = staticmethod(lambda kind: kind.can_be_held)  # what a claw can take
 
     def constant(self, world: World) -> float | None:
-        """0 without the thing, and where no claw ever closes."""
+        """0 without the thing and where no claw ever closes, else None."""
         return Physical.constant(self, world) if world.can_hold else 0.0
 
     def first(self, begin: Begin) -> Bounds | None:

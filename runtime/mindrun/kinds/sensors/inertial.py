@@ -1,4 +1,4 @@
-"""Whether the robot moves."""
+"""Movement of the robot, whatever its direction."""
 
 from typing import TYPE_CHECKING, Annotated, Any
 

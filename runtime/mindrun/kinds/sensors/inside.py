@@ -1,4 +1,4 @@
-"""Whether the robot is inside of a thing."""
+"""The robot's being inside of a thing on the floor."""
 
 from typing import TYPE_CHECKING, Annotated, Any
 

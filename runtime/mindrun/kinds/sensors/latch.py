@@ -31,7 +31,7 @@ class Latch(SensorKind):
     remembered = 1
 
     def flaw(self, widths: Mapping[str, int]) -> Flaw | None:
-        """It lets go above where it closes."""
+        """A flaw where `above` is less than `below`."""
         if self.below <= self.above:
             return None
         hint = "Write the smaller one after below: latch of battery below 20% above 80%."
@@ -58,7 +58,7 @@ class Latch(SensorKind):
         return read
 
     def row(self, scene: Scene) -> Row:
-        """The two thresholds."""
+        """The inherited columns and the two thresholds, `low` and `high`."""
         return {**SensorKind.row(self, scene), "low": self.below, "high": self.above}
 
     @staticmethod

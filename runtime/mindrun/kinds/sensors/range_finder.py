@@ -1,4 +1,4 @@
-"""How far it is to what stands in the way, in some directions."""
+"""The distance to whatever is solid, in some directions."""
 
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -29,7 +29,7 @@ class RangeFinder(Physical):
     blank = 1.0
 
     def constant(self, world: World) -> float | None:
-        """1 where nothing is solid."""
+        """1 in a world where nothing is solid, else None."""
         return None if world.is_solid else 1.0
 
     @staticmethod

@@ -1,4 +1,4 @@
-"""A wave, for what should happen again and again."""
+"""A sine wave in time."""
 
 from __future__ import annotations
 

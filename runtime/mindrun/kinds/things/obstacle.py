@@ -1,4 +1,4 @@
-"""What stands in the way."""
+"""Solid squares that stand in the way."""
 
 from collections.abc import Iterable
 from dataclasses import replace
@@ -35,7 +35,7 @@ class Obstacle(ThingKind):
     least_distance = 0.0
 
     def grid_lines(self, scene: SceneKind | None) -> tuple[int, int]:
-        """How many columns and rows its grid has in a scene, none on its walls; there is no grid without walls."""
+        """The columns and rows of its grid in a scene, none of them on its walls; (0, 0) without a grid or walls."""
         if scene and scene.is_bounded and self.grid:
             columns, rows = (max(0, round(min(side / self.grid, MAX_GRID_LINES)) - 1) for side in scene.sides)
             return columns, rows
@@ -47,7 +47,7 @@ class Obstacle(ThingKind):
         return columns * rows if self.grid else self.count or len(self.at)
 
     def standing(self, scene: SceneKind | None, may: bool = False) -> Iterable[Rectangle]:
-        """What the smallest of them covers wherever jitter moves it; with `may` all that the largest can cover."""
+        """Squares that the smallest ones cover wherever jitter moves them; with `may`, all that the largest can."""
         least, most = sorted((self.size.first, self.size.last))
         half = most / 2 + self.jitter if may else least / 2 - self.jitter
         columns, rows = self.grid_lines(scene) if self.grid else (1, 1)
@@ -59,7 +59,7 @@ class Obstacle(ThingKind):
             )
 
     def at_places(self, places: tuple[Place, ...]) -> "Obstacle | None":
-        """As many as its count says: an obstacle without one, a grid or a place is none."""
+        """The obstacles at the places that a map draws; None where it says where it is, or has another count."""
         return None if self.at or self.grid or self.count != len(places) else replace(self, at=places, count=0)
 
     def rows(self, scene: SceneKind) -> Iterable[Row]:
@@ -70,7 +70,7 @@ class Obstacle(ThingKind):
         return [{**grid, "x": x, "y": y} for x, y in self.at or MIDDLE_UNITS]
 
     def mistake(self, scene: SceneKind | None) -> Mistake | None:
-        """A grid needs the borders of an arena and must not be too close; without one it needs a count or a place."""
+        """An error where it is not one of a count, a place or a grid in an arena, or makes too many."""
         if self.at and (self.grid or self.count):
             hint = "Write at and its place, or a count, or a grid."
             return Mistake("place-for-many", "Several things cannot stand at one place.", hint)

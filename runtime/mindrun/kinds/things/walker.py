@@ -1,4 +1,4 @@
-"""What moves by itself."""
+"""A thing that moves by itself."""
 
 from dataclasses import replace
 from itertools import pairwise
@@ -37,16 +37,16 @@ class Walker(ThingKind):
 
     @property
     def places(self) -> tuple[Place, ...]:
-        """Those of its way, where it goes along one."""
+        """The places of its way, or where it has none, those at which it begins."""
         return self.along or self.at
 
     @property
     def wanders(self) -> bool:  # type: ignore[override]
-        """Where it has no way."""
+        """True if it has no way."""
         return not self.along
 
     def mistake(self, scene: SceneKind | None) -> Mistake | None:
-        """A way goes somewhere, inside the arena, and has a place for each to begin at."""
+        """An error where its way goes nowhere or leaves the arena, or has too few places for all to begin at."""
         if not self.along:
             return ThingKind.mistake(self, scene)
         if self.at or self.away != DEFAULT_DISTANCE:

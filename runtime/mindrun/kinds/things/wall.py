@@ -34,7 +34,7 @@ class Wall(ThingKind):
 
     @property
     def walls(self) -> tuple[Rectangle, ...]:
-        """Its stretches; where one goes on into another they fill the corner."""
+        """A rectangle for each stretch; where one goes on into another they fill the corner."""
         return tuple(self._stretches())
 
     def _stretches(self) -> Iterator[Rectangle]:
@@ -49,10 +49,10 @@ class Wall(ThingKind):
                 yield Rectangle(x, (low + high) / 2, half, (high - low) / 2)
 
     def at_places(self, places: tuple[Place, ...]) -> None:
-        """No map moves it."""
+        """None: no map places a wall."""
 
     def mistake(self, scene: SceneKind | None) -> Mistake | None:
-        """Each stretch goes somewhere along one axis, inside the arena."""
+        """An error where a stretch goes nowhere, or not along an axis, or leaves the arena."""
         if len(self.from_) < 2 or any(place == next_ for place, next_ in pairwise(self.from_)):
             hint = "Write where it begins and where it ends: wall from -20 10 to 5 10."
             return Mistake("endless-wall", "This wall does not go anywhere.", hint)
