@@ -18,7 +18,7 @@ STAGES = before, run_skills, after  # what such ticks call, but for procedures t
 
 
 def changed(rollout: Rollout, changes: Sequence[Change]) -> Advance:
-    """`rollout.advance` of a tile of one lane, with changes: the same bits where none is made."""
+    """A function that advances a tile of one lane and makes changes; without any, the bits of `rollout.advance`."""
 
     def advance(tile: Tile, jobs: Jobs, ticks: int) -> int:
         working = int(jobs.lanes[0])

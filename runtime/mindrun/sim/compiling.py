@@ -1,4 +1,4 @@
-"""How the lanes are compiled: into one piece of machine code for each way in from Python.
+"""Decorators that compile the lanes, into one piece of machine code for each way in from Python.
 
 Numba would optimise every function and make machine code of it, link it into each caller, and do all that again there,
 five levels deep. Here what only compiled code calls stays as it was lowered until it is part of a way in.
@@ -28,7 +28,7 @@ part_of_tick: Decorator = numba.njit(
 
 
 def entry(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Compiled too, even what is a part of others, and alone can be called from Python; its machine code is kept."""
+    """Compile a function, even one that is a part of others, so that Python can call it; its machine code is kept."""
     function = getattr(function, "py_func", function)
     dispatcher: Any = numba.njit(pipeline_class=Outer, **OPTIONS)(function)
     keep_code(dispatcher, _code_of(function))

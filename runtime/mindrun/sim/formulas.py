@@ -29,7 +29,7 @@ class NoFormulaError(Exception):
 
 
 class Kind(Enum):
-    """What Python makes of a term: a float, a whole number or a float, a truth."""
+    """The type of a term in Python: a float, a whole number or a float, a truth."""
 
     FLOAT, NUMBER, TRUTH = range(3)
 
@@ -60,7 +60,7 @@ def named(name: str) -> str:
 
 
 def refuse(node: ast.AST) -> NoReturn:
-    """NoFormulaError, which says what is more than arithmetic."""
+    """Raise NoFormulaError, which says what is more than arithmetic."""
     text = ast.unparse(node).split("\n")[0]
     said = text if len(text) <= 40 else f"{text[:39]}…"
     raise NoFormulaError(f"`{said}` in line {getattr(node, 'lineno', '?')} is more than arithmetic with floats")
@@ -285,7 +285,7 @@ class Translation:
         return refuse(node)
 
     def _object(self, node: ast.expr) -> Any:
-        """What a name stands for outside the function, where that cannot change."""
+        """The object that a name stands for outside the function; NoFormulaError where that can change."""
         match node:
             case ast.Attribute(value=ast.Name() as of, attr=attribute) if self._object(of) is math:
                 return getattr(math, attribute, None)
@@ -297,7 +297,7 @@ class Translation:
         return refuse(node)
 
     def _is_steady(self, name: str) -> bool:
-        """Whether the module gives a name its value in one place and never again."""
+        """True if the module gives a name its value in one place and never again."""
         given = 0
         for node in ast.walk(self._tree):
             match node:

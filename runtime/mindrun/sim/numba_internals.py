@@ -1,7 +1,7 @@
-"""What is known of numba's insides, held against numba 0.63 and 0.68 (`versions`).
+"""The internals of numba, held against numba 0.63 and 0.68 (`versions`).
 
-How a function is compiled into one piece of machine code with all that it calls, called from C, kept and taken back;
-what is more is in numba's documentation, above all `numba.extending`.
+With them a function is compiled into one piece of machine code with all that it calls, called from C, kept and taken
+back; what else is used of numba is in its documentation, above all `numba.extending`.
 """
 
 import gc
@@ -101,7 +101,7 @@ class LowerOnly(NativeLowering):  # type: ignore[misc]
 
 
 class Outer(CompilerBase):  # type: ignore[misc]
-    """Numba's compiler but for its last step."""
+    """Numba's compiler of a way in from Python, whose last step is `lowering`."""
 
     lowering: type[NativeLowering] = LowerAll
 
@@ -115,13 +115,13 @@ class Outer(CompilerBase):  # type: ignore[misc]
 
 
 class Inner(Outer):
-    """The same for what only compiled code calls."""
+    """Numba's compiler of a function that only compiled code calls."""
 
     lowering = LowerOnly
 
 
 class KeptCode(_Cache):  # type: ignore[misc]
-    """What numba asks for a function's machine code before it compiles, and gives it to afterwards."""
+    """The base of caches that numba asks for machine code before it compiles a function, and gives it to afterwards."""
 
     def enable(self) -> None:
         """It always is."""
@@ -142,7 +142,7 @@ def rare_collections() -> Iterator[None]:
 
 
 def keep_code(dispatcher: Any, code: Any) -> None:
-    """A compiled function asks `code`, and is compiled by one process at a time."""
+    """Let a compiled function take its machine code from `code`, and be compiled by one process at a time."""
     dispatcher._cache = code
     find_or_compile = dispatcher.compile
 
@@ -155,7 +155,7 @@ def keep_code(dispatcher: Any, code: Any) -> None:
 
 
 def code_of(dispatcher: Any) -> Any:
-    """What it asks."""
+    """The cache of a compiled function's machine code, as `keep_code` has set it."""
     return dispatcher._cache
 
 
@@ -169,7 +169,7 @@ def callback_of(function: Callable[..., Any], signature: Any, code: Any) -> Any:
 
 
 def made_for(codegen: Any) -> tuple[str, str, str]:
-    """For which target it makes code, and for which processor with which features."""
+    """The target of a code generator: its triple, the processor and its features."""
     triple, processor, features = codegen.magic_tuple()
     return triple, processor, features
 
@@ -180,5 +180,5 @@ def packed(compiled: CompileResult) -> bytes:
 
 
 def unpacked(reduced: Any, target_context: Any) -> CompileResult:
-    """Machine code again, from what was `packed`, unpickled."""
+    """The machine code that `packed` has made bytes of, given those unpickled."""
     return CompileResult._rebuild(target_context, *reduced)

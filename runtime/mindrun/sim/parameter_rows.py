@@ -19,7 +19,7 @@ Step = tuple[int, float]  # TIMES, OVER, INVERSE or DAMPING, and the number that
 
 
 def computed(form: int, x: float, by: float) -> float:
-    """What a step makes of a number; compiled, too."""
+    """The result of a step: 1/(1 + by·x), by/x, x/by or x·by; compiled, too."""
     if form == DAMPING:
         return 1.0 / (1.0 + by * x)
     if form == INVERSE:

@@ -93,7 +93,7 @@ class Procedures:
         return load(self.calls[skill], self._sources)
 
     def explain(self, skill: str, inputs: NDArray[np.float32]) -> ProcedureError:
-        """Why a compiled procedure failed: what Python says of the same inputs."""
+        """The error of a compiled procedure that failed, which Python gives for the same inputs."""
         calls = self.calls[skill]
         try:
             procedure_call.call(calls, self.function(skill), self._outputs[skill], inputs)

@@ -98,7 +98,7 @@ class Rollout:
         return _scores(parts, shares, (len(genomes), len(seeds)), self.task.counts)
 
     def on(self, workers: int) -> Self:
-        """The same on so many cores; what is compiled and read is shared."""
+        """A copy that runs on so many cores; what is compiled and read is shared."""
         other = copy(self)
         other.workers = workers
         return other
@@ -161,7 +161,7 @@ class Rollout:
         fill(self.tables, tile.state, jobs, len(tile.state.world.tick))
 
     def advance(self, tile: Tile, jobs: Jobs, ticks: int) -> int:
-        """Run so many ticks; how many lanes are still at work. ProcedureError where a procedure fails."""
+        """Run so many ticks; return how many lanes are still at work. ProcedureError where a procedure fails."""
         if self.simulates and not self.procedures.slow:
             advance(self.tables, tile.state, jobs, ticks, self.interrupt)
             self._explain(tile)
@@ -178,17 +178,17 @@ class Rollout:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What somebody should know of the runs so far."""
+        """Sentences that a user should read about the runs so far."""
         return ()
 
     def make_again(self, genome: NDArray[np.float32], seed: int) -> None:
         """Make a run twice where it may not be the same again: the lanes' own worlds always are."""
 
     def observe(self, tile: Tile, jobs: Jobs) -> None:
-        """What comes from outside of the lanes, before a tick: nothing here."""
+        """Write readings that come from outside of the lanes, before a tick: none here."""
 
     def conclude(self, tile: Tile, jobs: Jobs) -> None:
-        """The second half of a tick, after `think`."""
+        """Make the second half of a tick, after `think`."""
         after(self.tables, tile.state, jobs, self.interrupt)
 
     def forget(self, tile: Tile, working: set[int]) -> None:
@@ -223,7 +223,7 @@ class Rollout:
 
 
 def scores_of(jobs: Jobs, task: Task) -> Scores:
-    """What came of all jobs, every genome on every seed."""
+    """The scores of all jobs, every genome on every seed."""
     return _scores([jobs], [np.arange(len(jobs.genome))], (len(jobs.genomes), len(jobs.seeds)), task.counts)
 
 
@@ -256,7 +256,7 @@ def _scores(parts: Sequence[Jobs], shares: Sequence[Array], shape: tuple[int, in
 
 
 def _in_threads(work: Callable[[T], R], items: Sequence[T], stop: Event) -> list[R]:
-    """What `work` makes of each item, each in a thread of its own, for which the caller's thread only waits.
+    """The results of `work` for each item, each in a thread of its own, for which the caller's thread only waits.
 
     So Ctrl-C reaches it whatever compiled code does, and a program that ends waits for none. `stop` is set where
     anything fails; of several errors the one of the first item is raised.

@@ -1,4 +1,4 @@
-"""What the lanes change: the state of every world in parts, the jobs to run and their results.
+"""The arrays that the lanes change: the state of every world in parts, the jobs to run and their results.
 
 Every array is declared with its room: `rows` [row, lane], `columns` [lane, column], `each` [lane]; what no lane has for
 itself says its `shape`. What stands under "for this tick" is computed anew in each.
@@ -53,7 +53,7 @@ def shape(*counts: Count, kind: Any = I8) -> Room:
 
 
 def whole_vectors(lanes: int) -> int:
-    """So many lanes, rounded up to whole vectors."""
+    """A number of lanes, rounded up to whole vectors."""
     return -(-lanes // VECTOR_LANES) * VECTOR_LANES
 
 
@@ -62,7 +62,7 @@ def _number(count: Count, n: Mapping[str, int]) -> int:
 
 
 class World(NamedTuple):
-    """Where everything is, and how it moves."""
+    """Places and motions of everything."""
 
     body: Annotated[Array, rows(6)]  # x, y, angle, their velocities
     heading: Annotated[Array, rows(2)]  # cosine and sine of the angle
@@ -90,7 +90,7 @@ class World(NamedTuple):
 
 
 class Sight(NamedTuple):
-    """What each robot can see or touch, and how far its rays go."""
+    """The boxes that each robot can see or touch, and the distances along its rays."""
 
     nearby: Annotated[Array, rows("boxes", BOX_COLUMNS)]  # what its rays or robot can meet; others are AWAY
     nearby_count: Annotated[Array, each()]
@@ -105,7 +105,7 @@ class Sight(NamedTuple):
 
 
 class Mind(NamedTuple):
-    """What is read, remembered and sent."""
+    """Readings, memories, influence and commands."""
 
     readings: Annotated[Array, rows("readings", kind=F4)]
     before: Annotated[Array, rows("before", kind=F4)]  # of a derivative what its source read before
@@ -132,7 +132,7 @@ class Mind(NamedTuple):
 
 
 class Contact(NamedTuple):
-    """What Chipmunk has to do with a lane."""
+    """The Space of each lane, and the motion in the tick that Chipmunk makes."""
 
     near: Annotated[Array, each()]  # ticks for which it still steps this lane
     touching: Annotated[Array, each()]  # bit 0 while something touches, bit 1 if something did in the tick before
@@ -151,7 +151,7 @@ class Contact(NamedTuple):
 
 
 class Judge(NamedTuple):
-    """What a task notices and pays."""
+    """Measures, events and rewards of a task."""
 
     last_commands: Annotated[Array, rows("actuators", kind=F4)]  # of the tick before
     left_changes: Annotated[Array, rows("changes")]  # how much the left wheel's command changed
@@ -168,7 +168,7 @@ class Judge(NamedTuple):
 
 
 class Run(NamedTuple):
-    """How the run of each lane stands."""
+    """The job of each lane, and its end."""
 
     job: Annotated[Array, each()]  # which it is, −1 for none
     ended: Annotated[Array, each()]  # what ended it, by its place among the task's ends, or GOING_ON, or LOST
@@ -199,7 +199,7 @@ Senses = namedtuple(
 
 
 class Jobs(NamedTuple):
-    """What to run, genome by layout, and what came of it."""
+    """The jobs to run, genome by layout, and their results."""
 
     genomes: Array  # [genomes, weights] float32
     seeds: Array  # uint64
@@ -258,7 +258,7 @@ def _empty(part: type[Part], n: Mapping[str, int], lanes: int, **known: Array) -
 
 
 def _counts(tables: Tables, sizes: Sizes) -> dict[str, int]:
-    """How many there are of what arrays have rows or columns of."""
+    """The numbers that arrays say their rows or columns by: lengths of tables, Sizes, and sums of these."""
     n = {name: len(table) for name, table in tables._asdict().items()} | asdict(sizes)
     shapes = n["things"] + n["boxes"] + chipmunk.WALL_COUNT
     return n | {

@@ -29,7 +29,7 @@ NOWHERE = range(-1, -1)  # rows of a thing that the task does not contain
 
 
 def things_of(task: Task) -> list[Thing]:
-    """What the task contains but its obstacles, in rows of the lanes: each as many times as there are copies of it."""
+    """The things of a task but its obstacles, in rows of the lanes: each as many times as there are copies of it."""
     return [thing for thing in task.things if not thing.kind.is_obstacle for _ in range(thing.kind.copies)]
 
 
@@ -42,7 +42,7 @@ def rows_by_name(task: Task) -> dict[str, range]:
 
 
 def box_count(task: Task) -> int:
-    """How many square obstacles the task's world has."""
+    """The number of rectangular obstacles in the task's world."""
     return sum(thing.kind.obstacles(task.scene) for thing in task.things)
 
 
@@ -219,10 +219,9 @@ def world_row(
 
 
 def _solidity(graph: Graph, task: Task) -> Row:
-    """How far from its middle the robot's turns swing anything, the least half side of it or of what it can hold.
-
-    How deep Chipmunk lets things stand in each other: less than by itself where something that moves is small. And the
-    side of a cell of its hash.
+    """The columns `arm`, the largest distance from its middle at which the robot's turns swing anything; `least`, the
+    least half side of it or of what it can hold; `slop`, the depth to which Chipmunk lets things stand in each other,
+    less where something that moves is small; `cell`, the side of a cell of its hash.
     """
     body, kinds = graph.body, [thing.kind for thing in task.things]
     held, loose = [kind for kind in kinds if kind.can_be_held], [kind for kind in kinds if kind.is_loose]

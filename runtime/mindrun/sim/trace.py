@@ -131,7 +131,7 @@ def things_in(rollout: Rollout, state: State, lane: int) -> NDArray[np.float64]:
 
 
 def turned_in(rollout: Rollout, state: State, lane: int) -> NDArray[np.float64]:
-    """How far each thing in a lane's world has turned [things]."""
+    """The angle by which each thing in a lane's world has turned [things]."""
     here, world = slice(lane, lane + 1), state.world
     found: NDArray[np.float64] = _turned(rollout, world.loose[:, here].T, world.direction[:, here].T)[0]
     return found
@@ -185,7 +185,7 @@ def _moments(chunks: Iterator[Ticks], number: int) -> Iterator[Moment]:
 
 
 def _written(rollout: Rollout, state: State, jobs: Jobs) -> Ticks:
-    """What has been written down since this was asked last."""
+    """The ticks that have been recorded since the last call."""
     count, tables = int(jobs.recorded[0]), rollout.tables
     jobs.recorded[0] = 0
     wide, narrow = recorded(state)
@@ -219,7 +219,7 @@ def _split(columns: Array, arrays: Sequence[Array]) -> list[Array]:
 
 
 def _turned(rollout: Rollout, loose: Array, direction: Array) -> NDArray[np.float64]:
-    """How far each thing has turned [ticks, things], from the rows of what is loose and of what wanders."""
+    """The angle by which each thing has turned [ticks, things], from the rows of what is loose and of what wanders."""
     found = np.zeros((len(loose), len(rollout.tables.things)))
     found[:, rollout.tables.loose["thing"]] = loose[:, TURN::LOOSE_ROWS][:, : len(rollout.tables.loose)]
     found[:, rollout.tables.walkers["thing"]] = direction[:, : len(rollout.tables.walkers)]

@@ -33,11 +33,11 @@ class Part:
 
     @property
     def axes(self) -> tuple[int, ...]:
-        """How long it is along each axis; a single number is an array of one."""
+        """The length along each axis; a single number is an array of one."""
         return self.shape or (1,)
 
     def place(self, index: tuple[int, ...]) -> int | None:
-        """Where the number of that index stands in the flat array; None where there is none."""
+        """The place of the number with that index in the flat array; None where there is none."""
         fits = len(index) == len(self.axes) and all(i < n for i, n in zip(index, self.axes, strict=True))
         return int(np.ravel_multi_index(index, self.axes)) if fits else None
 
@@ -86,7 +86,7 @@ class Source:
 
 
 def sources_of(parts: Mapping[str, Part], places: Sequence[Place]) -> list[Source]:
-    """Where the numbers at these places are read, one for each slot, in observations of these parts."""
+    """Readers of the numbers at these places, one for each slot, from observations of these parts."""
     sources = []
     for name in dict.fromkeys(name for name, _ in places):
         to = [slot for slot, (part, _) in enumerate(places) if part == name]
@@ -133,7 +133,7 @@ def actions_of(space: Any, acted: Mapping[str, Part], numbers: Floats) -> list[A
 
 
 def _formed(space: Any, values: Mapping[str, Any], path: tuple[Any, ...] = ()) -> Any:
-    """What a space contains, made of the values of its parts."""
+    """An element of a space, made of the values of its parts by their names."""
     within = _within(space)
     if within is None:
         return values[_name(path)]
@@ -156,7 +156,7 @@ def _name(path: tuple[Any, ...]) -> str:
 
 
 def _kinds(space: Any) -> set[str]:
-    """What a space is, by name: Gymnasium need not be imported for it."""
+    """The class names of a space, so that Gymnasium need not be imported."""
     return {each.__name__ for each in type(space).__mro__}
 
 

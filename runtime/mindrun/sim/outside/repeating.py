@@ -1,4 +1,4 @@
-"""Whether an environment does the same again: a run that was made is made once more, and held against itself."""
+"""A check that an environment repeats itself: a run that was made is made once more, and compared with itself."""
 
 from collections.abc import Iterator, Sequence
 from time import monotonic
@@ -56,9 +56,9 @@ class RecordingStepper:
         self._stepper.close(runs)
 
     def flaw(self, another: Stepper, names: Sequence[str], is_paid: bool) -> str:
-        """What is not the same when the same is done in two environments of another stepper side by side, or in the
-        first of them once more, in a sentence about the sensors of these names; nothing where all is. A reward that
-        nobody is paid may be what it likes.
+        """The first difference, as a sentence, when the same is done in two environments of another stepper side by
+        side, and then in the first of them once more; empty where there is none. `names` are those of the sensors; a reward
+        that is not `is_paid` may differ.
         """
         begun, said = list[Run](), {"name": self.environment, "seed": self._seed}
         try:
@@ -89,7 +89,7 @@ class RecordingStepper:
             yield [run.row for run in runs]
 
     def _difference(self, others: Iterator[list[Floats]], names: Sequence[str], is_paid: bool) -> str:
-        """What differs first, and in which tick."""
+        """The first number that differs, and its tick, in words; empty where none does."""
         words = *names, "its reward", "its end", "the time that it breaks off"
         for ticks, (row, rows) in enumerate(zip(self.rows, others, strict=False)):
             for other in rows:

@@ -97,7 +97,7 @@ class EnvironmentRollout(Rollout):
             probe._release(tile.kept, set())
 
     def tally(self) -> NDArray[np.int64]:
-        """How often was observed, for each sensor how often beyond its range, and what is `unreal`."""
+        """The counts `observed`, `clipped` and `unreal`, one after the other."""
         return np.array([self.observed, *self.clipped, *self.unreal], np.int64)
 
     def add(self, tally: NDArray[np.int64]) -> None:
@@ -108,7 +108,7 @@ class EnvironmentRollout(Rollout):
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What the environment does not do again, how often it gave no number, or what is beyond a sensor's range."""
+        """Sentences on what the environment does not repeat, where it gave no number, and what was beyond a range."""
         beyond = self._shares(self.wiring.names, self.clipped)
         unreal = self._shares((*self.wiring.names, "the reward"), self.unreal)
         gave = f"the environment {self.task.scene.environment} itself {GAVE_NO_NUMBER}: {unreal}" if unreal else ""
@@ -136,7 +136,7 @@ class EnvironmentRollout(Rollout):
         self._release(tile.kept, working)
 
     def observe(self, tile: Tile, jobs: Jobs) -> None:
-        """What the environments observe becomes readings; those of runs that begin are reset."""
+        """Turn the environments' observations into readings; the environments of runs that begin are made."""
         lanes, readings = int(jobs.lanes[0]), tile.state.mind.readings
         episodes = self._episodes(tile, jobs)
         wiring = self.wiring
@@ -150,7 +150,7 @@ class EnvironmentRollout(Rollout):
         readings[wiring.rows[self._measured], :lanes] = np.clip(share[self._measured], 0.0, 1.0)
 
     def conclude(self, tile: Tile, jobs: Jobs) -> None:
-        """The second half of a tick: commands, a step of every environment, and what it was worth."""
+        """Make the second half of a tick: commands, a step of every environment, and its reward."""
         state, lanes = tile.state, int(jobs.lanes[0])
         act(self.tables, state, np.int64(lanes))
         episodes = self._episodes(tile, jobs)
@@ -183,7 +183,7 @@ class EnvironmentRollout(Rollout):
         return [going_on[job] for job in working]
 
     def _release(self, episodes: Episodes, working: set[int]) -> None:
-        """The environments of runs that are over are of no use any more."""
+        """Close the environments of runs that are over."""
         over = [job for job in episodes.going_on if job not in working]
         if over:
             episodes.stepper.close([episodes.going_on.pop(job) for job in over])

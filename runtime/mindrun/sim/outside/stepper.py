@@ -28,12 +28,12 @@ class Run:
 
     @property
     def is_over(self) -> bool:
-        """Whether it can be stepped no more."""
+        """True if it can be stepped no more."""
         return bool(self.row[TERMINATED_COLUMN] or self.row[TRUNCATED_COLUMN])
 
     @property
     def where(self) -> str:
-        """How far it is, in words."""
+        """The seed and the step that it has come to, in words."""
         return place_of(self.seed, self.steps)
 
 
@@ -54,7 +54,7 @@ class LocalStepper:
 
     @cached_property
     def spaces(self) -> Spaces:
-        """What they observe and take."""
+        """The spaces of their observations and actions."""
         return spaces_of(*self._spaces)
 
     @cached_property
@@ -103,7 +103,7 @@ class LocalStepper:
                 run.row[TRUNCATED_COLUMN] = truth_of("truncated", truncated)
 
     def image(self, run: Run) -> NDArray[Any]:
-        """What is seen of a run now [height, width, 3], red first; another array where it draws nothing."""
+        """The image of a run now [height, width, 3], red first; another array where it draws nothing."""
         with self._blaming():
             self._at = run
             return np.asarray(self._open[run][0].render())
@@ -139,7 +139,7 @@ class LocalStepper:
 
     @contextmanager
     def _blaming(self) -> Iterator[None]:
-        """Around what environments are asked: whatever one raises is its fault, and says where in which run."""
+        """A context for calls of environments: whatever one raises becomes an error that says where in which run."""
         try:
             with foreign_code():
                 yield
@@ -152,7 +152,7 @@ class LocalStepper:
 
 
 def place_of(seed: int, steps: int) -> str:
-    """Where in a run something was, in words."""
+    """A place in a run, in words."""
     return f"step {steps} of the run of seed {seed}" if steps else f"the beginning of the run of seed {seed}"
 
 

@@ -101,7 +101,7 @@ class EnvironmentProcess:
 
     @property
     def has_begun(self) -> bool:
-        """Whether it is there."""
+        """True if the process has been started and is not ended."""
         return self._process is not None
 
     def ask(self, *question: Any) -> Any:
@@ -172,12 +172,12 @@ class EnvironmentProcess:
             raise LostError(f"no answer in {self._limit:g} seconds", now, is_silent=True)
 
     def _now(self) -> int:
-        """Which environment is asked."""
+        """The number of the environment, in the question, that is asked now."""
         found: int = REACHED.unpack(self._reached)[0]
         return found
 
     def _ending(self) -> str:
-        """How it has ended, in words."""
+        """The end of the process in words: its exit code or signal."""
         assert self._process is not None
         try:
             code = self._process.wait(1)
@@ -201,7 +201,7 @@ class SubprocessStepper:
 
     @cached_property
     def spaces(self) -> Spaces:
-        """What they observe and take."""
+        """The spaces of their observations and actions."""
         found: Spaces = self._ask("spaces", ())
         return found
 
@@ -223,7 +223,7 @@ class SubprocessStepper:
         _take(self._ask("step", runs, self._numbers_of(runs), actions), runs, 1)
 
     def image(self, run: Run) -> NDArray[Any]:
-        """What is seen of a run now [height, width, 3], red first; an empty array where it draws nothing."""
+        """The image of a run now [height, width, 3], red first; an empty array where it draws nothing."""
         found: NDArray[Any] = self._ask("image", [run], self._open[run])
         return found
 
@@ -250,7 +250,7 @@ class SubprocessStepper:
             raise self._blamed(method, runs, lost) from lost
 
     def _blamed(self, method: str, runs: Sequence[Run], lost: LostError) -> BrokenEnvironmentError:
-        """What an environment has done, of which nothing came back."""
+        """The error of an environment that has not answered: it is silent, or has ended its process."""
         name, where = self.environment, "being asked for its spaces"
         if runs:
             run = runs[min(lost.reached, len(runs) - 1)]
@@ -275,7 +275,7 @@ Stepper = LocalStepper | SubprocessStepper
 
 
 def stepper_for(environment: str, folder: Path | None = None) -> Stepper:
-    """A process of its own, but for what this program has registered itself: no other one knows that."""
+    """A stepper in a process of its own, but for environments that this program alone has registered."""
     if not making.is_there():
         making.library()  # says what to install
     return LocalStepper(environment, folder) if is_own(environment) else SubprocessStepper(environment, folder)
@@ -283,14 +283,14 @@ def stepper_for(environment: str, folder: Path | None = None) -> Stepper:
 
 @cache
 def known_spaces(environment: str) -> Spaces:
-    """What an environment without a module before its name observes and takes; BrokenEnvironmentError where none."""
+    """The spaces of an environment without a module before its name; BrokenEnvironmentError where there is none."""
     if is_own(environment):
         return LocalStepper(environment).spaces
     return SubprocessStepper(environment, process=_process()).spaces
 
 
 def is_own(environment: str) -> bool:
-    """Whether this program alone may know an environment: it has registered that name, or others that are like it."""
+    """True if this program alone may know an environment: it has registered that name, or others that are like it."""
     gymnasium = sys.modules.get("gymnasium")
     module, _, name = environment.rpartition(":")
     return gymnasium is not None and (name in gymnasium.registry or not module) and name not in _registered()
@@ -307,7 +307,7 @@ def _registered() -> frozenset[str]:
 
 @cache
 def _process() -> EnvironmentProcess:
-    """The one that is asked what environments are like, again and again while a mind is written."""
+    """The process that is asked for spaces, again and again while a mind is written."""
     return EnvironmentProcess()
 
 

@@ -1,4 +1,4 @@
-"""How a mind is wired to an environment: whether its sensors and actuators fit, and what its commands are there."""
+"""The wiring of a mind to an environment: checks of its sensors and actuators, and its commands as actions."""
 
 from collections import defaultdict
 from collections.abc import Collection, Iterator, Mapping
@@ -27,7 +27,7 @@ class Misfit(NamedTuple):
 
 
 def misfits(spaces: Spaces, sensors: Mapping[str, Slot], actuators: Mapping[str, Slot]) -> Iterator[Misfit]:
-    """What does not fit the spaces of an environment."""
+    """All sensors and actuators that do not fit the spaces of an environment, and actions that are missing."""
     parts, sinks = spaces.observed, spaces.acted
     for name, slot in sensors.items():
         yield from _of_place(name, "observation", slot, parts)
@@ -82,7 +82,7 @@ def _of_number(name: str, slot: Slot, part: Part, place: int) -> Iterator[Misfit
 
 
 def _of_all(slots: Collection[Slot], parts: Mapping[str, Part]) -> Iterator[Misfit]:
-    """Everything that an environment takes is given to it, and each number once."""
+    """Misfits where an action of the environment has no actuator, or a number has two."""
     places = [(name, index) for name, _, index in (found(parts, slot) for slot in slots)]
     for name, part in parts.items():
         for place in range(len(part.low)):
@@ -120,7 +120,7 @@ class Choice:
 
 @dataclass(frozen=True, slots=True)
 class Wiring:
-    """What a mind reads of an environment, and what its commands are there.
+    """The numbers that a mind reads of an environment, and the actions that its commands are there.
 
     Its sensors, in order: their `rows` among the readings, their `names`, the ends of their ranges, and the `places` of
     their numbers in an observation. An action is as many numbers as its parts have, one part after the other: of the
@@ -151,7 +151,7 @@ class Wiring:
 
 
 def wiring_of(graph: Graph, spaces: Spaces) -> Wiring:
-    """How a mind is wired to an environment of these spaces; MindError where it does not fit."""
+    """The wiring of a mind to an environment of these spaces; MindError where it does not fit."""
     sensors = {sensor.name: slot for sensor in graph.sensors if (slot := sensor.kind.slot)}
     actuators = {actuator.name: slot for actuator in graph.actuators if (slot := actuator.kind.slot)}
     for misfit in misfits(spaces, sensors, actuators):
