@@ -19,7 +19,7 @@ from mindrun.numbers.given_numbers import number, values
 
 
 @dataclass(slots=True)
-class Called:
+class RunningProcedure:
     """A procedure of one run: its function, from a module that is executed anew for each run."""
 
     calls: str
@@ -30,12 +30,12 @@ class Called:
 
     def __post_init__(self) -> None:
         """Run the module."""
-        self.function = load(self.calls, self.sources)
+        self.function = load_procedure(self.calls, self.sources)
 
     def reset(self) -> None:
         """Forget what the module remembers."""
         if self.was_called:
-            self.function, self.was_called = load(self.calls, self.sources), False
+            self.function, self.was_called = load_procedure(self.calls, self.sources), False
 
     def __call__(self, inputs: NDArray[np.float32]) -> NDArray[np.float32]:
         """The function's outputs [outputs] for inputs [inputs], before the clamp."""
@@ -43,7 +43,7 @@ class Called:
         return call(self.calls, self.function, self.outputs, inputs)
 
 
-def load(calls: str, sources: Mapping[str, str]) -> Callable[..., Any]:
+def load_procedure(calls: str, sources: Mapping[str, str]) -> Callable[..., Any]:
     """Run a procedure's module, from its text by dotted name, and give the function."""
     source = sources.get(module_of(calls))
     if source is None:

@@ -41,7 +41,7 @@ IMPORTING = {"importlib.import_module", "__import__", "builtins.__import__"}
 
 
 @dataclass(slots=True)
-class Names:
+class ModuleNames:
     """The names of a module's text; which of them are whose says Python's own table of symbols."""
 
     tree: ast.Module
@@ -207,7 +207,7 @@ def _own_parts(node: ast.AST) -> Iterator[ast.AST]:
             yield from ast.iter_child_nodes(node)
 
 
-def imports(names: Names) -> Iterator[tuple[int, str, str, bool]]:
+def imports(names: ModuleNames) -> Iterator[tuple[int, str, str, bool]]:
     """Each line that imports, the module (with a dot before what is relative), a name in it, whether it may be absent.
 
     The name is empty for the module alone, and where all of it is taken.
@@ -225,7 +225,7 @@ def imports(names: Names) -> Iterator[tuple[int, str, str, bool]]:
                 yield node.lineno, module, "", node in tried
 
 
-def drawn(names: Names) -> Iterator[tuple[int, str]]:
+def drawn(names: ModuleNames) -> Iterator[tuple[int, str]]:
     """Lines that use numbers drawn at random, from no generator with a seed, and what they use."""
     for node in ast.walk(names.tree):
         match node:
@@ -239,7 +239,7 @@ def drawn(names: Names) -> Iterator[tuple[int, str]]:
                         yield node.lineno, f"{used} without a seed"
 
 
-def opened(names: Names) -> Iterator[tuple[int, str]]:
+def opened(names: ModuleNames) -> Iterator[tuple[int, str]]:
     """Lines that read a file, and the name that does so; one that only writes is none."""
     is_streaming = any(names.paths(node) & IN_MEMORY for node in ast.walk(names.tree))
     for node in ast.walk(names.tree):
@@ -253,7 +253,7 @@ def opened(names: Names) -> Iterator[tuple[int, str]]:
                     yield node.lineno, func.attr
 
 
-def texts(names: Names) -> Iterator[tuple[int, str]]:
+def texts(names: ModuleNames) -> Iterator[tuple[int, str]]:
     """The texts in a module and their lines, without docstrings and what is only written to."""
     passed: set[ast.expr] = set()
     for node in ast.walk(names.tree):  # whoever has a node in it comes first
@@ -280,7 +280,7 @@ def _reads(used: str, call: ast.Call, is_streaming: bool) -> bool:
     return is_reader and is_named and not (last == "load" and used.startswith(STREAMED))
 
 
-def _is_of_a_path(method: str, call: ast.Call, names: Names) -> bool:
+def _is_of_a_path(method: str, call: ast.Call, names: ModuleNames) -> bool:
     """True if a method of an unknown object reads a file; `open` is a path's where the module imports pathlib."""
     knows_paths = any(each.startswith("pathlib") for each in names.imported)
     return method in OF_PATHS or (method == "open" and knows_paths and not _writes(_modes(call, 0)))

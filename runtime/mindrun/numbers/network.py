@@ -71,12 +71,12 @@ def running(forward: Forward, matrices: tuple[Matrix, ...], state_length: int) -
     One that remembers nothing takes rows of inputs [rows, inputs], too.
     """
     if state_length:
-        return Remembering(forward, matrices, state_length)
+        return StatefulNetwork(forward, matrices, state_length)
     return lambda inputs: forward(FLOAT32, matrices, inputs, NOTHING)[0]
 
 
 @dataclass(slots=True)
-class Remembering:
+class StatefulNetwork:
     """A network with a state that it remembers from one tick to the next."""
 
     forward: Forward

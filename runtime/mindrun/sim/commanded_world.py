@@ -19,7 +19,7 @@ TIME = "time"  # what ends a run that nothing else has ended
 ONE_LANE = np.ones(1, np.bool_)
 
 
-class World:
+class CommandedWorld:
     """A task's world in one lane, for a mind with `master` (default: its own) in charge.
 
     Under the commands that this mind computes from `readings`, it is bit for bit the run that `Rollout` makes of the

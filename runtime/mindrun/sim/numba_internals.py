@@ -24,7 +24,7 @@ from numba.core.typed_passes import NativeLowering
 COLLECTION_OBJECTS = 100_000  # made between two looks for garbage, while numba compiles; Python 3.11 looks after 700
 
 
-class Lowered(JITCodeLibrary):  # type: ignore[misc]
+class LoweredCode(JITCodeLibrary):  # type: ignore[misc]
     """The code of a function, and of all that it calls, before any optimisation."""
 
     def add_llvm_module(self, ll_module: Any) -> None:
@@ -43,7 +43,7 @@ class Lowered(JITCodeLibrary):  # type: ignore[misc]
         self._finalized = True
 
 
-class Whole(JITCodeLibrary):  # type: ignore[misc]
+class WholeCode(JITCodeLibrary):  # type: ignore[misc]
     """The code of a way in, with that of all that it calls."""
 
     def _optimize_final_module(self) -> None:
@@ -75,7 +75,7 @@ class LowerAll(NativeLowering):  # type: ignore[misc]
 
     def run_pass(self, state: Any) -> bool:
         """In place of numba's own."""
-        state.library = Whole(state.targetctx.codegen(), state.func_id.func_qualname)
+        state.library = WholeCode(state.targetctx.codegen(), state.func_id.func_qualname)
         state.library.enable_object_caching()
         return bool(super().run_pass(state))
 
@@ -88,7 +88,7 @@ class LowerOnly(NativeLowering):  # type: ignore[misc]
 
     def run_pass(self, state: Any) -> bool:
         """In place of numba's own."""
-        state.library = Lowered(state.targetctx.codegen(), state.func_id.func_qualname)
+        state.library = LoweredCode(state.targetctx.codegen(), state.func_id.func_qualname)
         state.flags.no_compile = True
         super().run_pass(state)
         lowered, module = state["cr"], state.func_id.module
@@ -100,7 +100,7 @@ class LowerOnly(NativeLowering):  # type: ignore[misc]
         return True
 
 
-class Outer(CompilerBase):  # type: ignore[misc]
+class EntryCompiler(CompilerBase):  # type: ignore[misc]
     """Numba's compiler of a way in from Python, whose last step is `lowering`."""
 
     lowering: type[NativeLowering] = LowerAll
@@ -114,7 +114,7 @@ class Outer(CompilerBase):  # type: ignore[misc]
         return [passes]
 
 
-class Inner(Outer):
+class InnerCompiler(EntryCompiler):
     """Numba's compiler of a function that only compiled code calls."""
 
     lowering = LowerOnly

@@ -61,7 +61,7 @@ def _number(count: Count, n: Mapping[str, int]) -> int:
     return n[count] if isinstance(count, str) else count
 
 
-class World(NamedTuple):
+class WorldState(NamedTuple):
     """Places and motions of everything."""
 
     body: Annotated[Array, rows(6)]  # x, y, angle, their velocities
@@ -89,7 +89,7 @@ class World(NamedTuple):
     begun_at: Annotated[Array, rows(PLACE_ROWS)]  # where the robot was when the tick began
 
 
-class Sight(NamedTuple):
+class SightState(NamedTuple):
     """The boxes that each robot can see or touch, and the distances along its rays."""
 
     nearby: Annotated[Array, rows("boxes", BOX_COLUMNS)]  # what its rays or robot can meet; others are AWAY
@@ -104,7 +104,7 @@ class Sight(NamedTuple):
     sight: Annotated[Array, rows("sight", kind=F4)]  # heading and place, then how far each ray goes
 
 
-class Mind(NamedTuple):
+class MindState(NamedTuple):
     """Readings, memories, influence and commands."""
 
     readings: Annotated[Array, rows("readings", kind=F4)]
@@ -131,7 +131,7 @@ class Mind(NamedTuple):
     sent: Annotated[Array, each(F4)]  # the values of an edge, −1 where nothing is sent
 
 
-class Contact(NamedTuple):
+class ContactState(NamedTuple):
     """The Space of each lane, and the motion in the tick that Chipmunk makes."""
 
     near: Annotated[Array, each()]  # ticks for which it still steps this lane
@@ -150,7 +150,7 @@ class Contact(NamedTuple):
     tally: Annotated[Array, columns(chipmunk.TALLY_WORDS, kind=I8)]  # of contacts in the last step
 
 
-class Judge(NamedTuple):
+class JudgeState(NamedTuple):
     """Measures, events and rewards of a task."""
 
     last_commands: Annotated[Array, rows("actuators", kind=F4)]  # of the tick before
@@ -167,7 +167,7 @@ class Judge(NamedTuple):
     paid: Annotated[Array, each(F8)]  # whether a line pays, or an end has come; before that, room for a measure
 
 
-class Run(NamedTuple):
+class RunState(NamedTuple):
     """The job of each lane, and its end."""
 
     job: Annotated[Array, each()]  # which it is, −1 for none
@@ -182,12 +182,12 @@ class Run(NamedTuple):
 class State(NamedTuple):
     """Everything that changes; a lane is one world with one robot in it."""
 
-    world: World
-    sight: Sight
-    mind: Mind
-    contact: Contact
-    judge: Judge
-    run: Run
+    world: WorldState
+    sight: SightState
+    mind: MindState
+    contact: ContactState
+    judge: JudgeState
+    run: RunState
 
 
 # What the lane function of a sensor's kind sees of the state, and where it writes.
@@ -223,8 +223,8 @@ def empty_state(tables: Tables, sizes: Sizes, lanes: int) -> State:
     """Room for so many lanes, all idle."""
     n = _counts(tables, sizes)
     state = State(
-        _empty(World, n, lanes), _empty(Sight, n, lanes), _empty(Mind, n, lanes),
-        _empty(Contact, n, lanes), _empty(Judge, n, lanes), _empty(Run, n, lanes),
+        _empty(WorldState, n, lanes), _empty(SightState, n, lanes), _empty(MindState, n, lanes),
+        _empty(ContactState, n, lanes), _empty(JudgeState, n, lanes), _empty(RunState, n, lanes),
     )  # fmt: skip
     nearby = state.sight.nearby
     nearby[X::BOX_COLUMNS] = nearby[Y::BOX_COLUMNS] = AWAY

@@ -114,7 +114,7 @@ class Round(BodyKind):
         return self.radius**2, 2.0
 
 
-class Rectangle(BodyKind):
+class Rectangular(BodyKind):
     """A rectangle as long and as wide as its two sizes say."""
 
     __slots__ = ()

@@ -4,7 +4,7 @@ from typing import Annotated
 
 from mindrun.kinds.events.event import EventKind, Hindrance, TaskWorld
 from mindrun.kinds.registry import kind
-from mindrun.kinds.things.thing import ThingKind, World
+from mindrun.kinds.things.thing import ThingKind, WorldFacts
 from mindrun.numbers.quantity import THING
 
 
@@ -37,7 +37,7 @@ class Delivery(EventKind):
             return None
         return Hindrance("The task has no zone to deliver to.", "Add contains drop_zone is zone size 5.")
 
-    def prevented(self, world: World) -> Hindrance | None:
+    def prevented(self, world: WorldFacts) -> Hindrance | None:
         """A hindrance where nothing closes the claw, or the item vanishes before it can be taken."""
         if self.of not in world.loose and not world.can_hold:
             return Hindrance("no skill that a master reaches drives a gripper", "Let a skill drive one.")

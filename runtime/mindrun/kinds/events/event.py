@@ -5,7 +5,7 @@ from typing import NamedTuple, Protocol
 
 from mindrun.kinds.registry import base
 from mindrun.kinds.scenes.scene import SceneKind
-from mindrun.kinds.things.thing import AboutThing, ThingKind, World
+from mindrun.kinds.things.thing import AboutThing, ThingKind, WorldFacts
 
 Row = Mapping[str, float]  # columns of the lanes' table of events
 
@@ -46,7 +46,7 @@ class EventKind(AboutThing):
         """The hindrance where its task lacks something without which it can never happen, else None."""
         return None
 
-    def prevented(self, world: World) -> Hindrance | None:
+    def prevented(self, world: WorldFacts) -> Hindrance | None:
         """The hindrance where it can never happen although its task lacks nothing, else None."""
         return None
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated, Any
 
-from mindrun.kinds.functions.function import WIDTH, Network
+from mindrun.kinds.functions.function import WIDTH, NetworkFunction
 from mindrun.kinds.functions.mlp import layer
 from mindrun.kinds.registry import kind
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:  # a lane is given its terms when it is compiled
 
 
 @kind("skill", "elman")
-class Elman(Network):
+class Elman(NetworkFunction):
     """A recurrent network with one hidden layer of `width` neurons (0: Eq. 5, max(inputs, outputs) + 2), no biases.
 
     Its neurons read the skill's inputs and what they all said when the skill last computed, 0 at the beginning of a

@@ -118,7 +118,7 @@ class Function:
         return lambda values: np.zeros(outputs, np.float32)
 
 
-class Network(Function):
+class NetworkFunction(Function):
     """A network of matrices without biases, with neurons of a `width` (0: Eq. 5, max(inputs, outputs) + 2).
 
     Without inputs or outputs it has no matrices. Its last one gives the outputs.

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.functions.elman import recall, remember
-from mindrun.kinds.functions.function import WIDTH, Network
+from mindrun.kinds.functions.function import WIDTH, NetworkFunction
 from mindrun.kinds.functions.mlp import layer
 from mindrun.kinds.registry import kind
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:  # a lane is given its terms when it is compiled
 
 
 @kind("skill", "gru")
-class Gru(Network):
+class Gru(NetworkFunction):
     """A gated recurrent unit with `width` neurons (0: Eq. 5, max(inputs, outputs) + 2), without biases.
 
     Each neuron keeps a share of what it said when the skill last computed, as its update gate says, and takes the rest

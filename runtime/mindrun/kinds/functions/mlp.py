@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from typing import TYPE_CHECKING, Annotated, Any
 
-from mindrun.kinds.functions.function import WIDTH, Network
+from mindrun.kinds.functions.function import WIDTH, NetworkFunction
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import Quantity
 
@@ -19,7 +19,7 @@ HIDDEN = Quantity("a whole number", {"": 1.0}, low=0, high=16, whole=True)
 
 
 @kind("skill", "mlp")
-class Mlp(Network):
+class Mlp(NetworkFunction):
     """A perceptron with `hidden` layers of `width` neurons (0: Eq. 5, max(inputs, outputs) + 2)."""
 
     hidden: Annotated[int, HIDDEN] = 2

@@ -38,9 +38,9 @@ class Procedure(Function):
 
     def ready(self, inputs: int, outputs: int, weights: Weights, sources: Mapping[str, str]) -> Compute:
         """The Python function, in a module of its own."""
-        from mindrun.kinds.procedure_call import Called
+        from mindrun.kinds.procedure_call import RunningProcedure
 
-        return Called(self.from_, sources, outputs)
+        return RunningProcedure(self.from_, sources, outputs)
 
 
 def module_source(calls: str, folder: Path) -> str:

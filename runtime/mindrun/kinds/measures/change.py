@@ -10,7 +10,7 @@ from mindrun.numbers.quantity import RATIO, TICKS, Reference
 
 
 @kind("measure", "change")
-class Change(MeasureKind):
+class CommandChange(MeasureKind):
     """Sum over the wheels of how much the command changed over the last `over` ticks, beyond a share of its travel."""
 
     of: Annotated[str, Reference("quantity", ("thrust",))]

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
 from mindrun.kinds.sensors.sensor import Flaw, Scene, SensorKind
-from mindrun.kinds.things.thing import World
+from mindrun.kinds.things.thing import WorldFacts
 from mindrun.numbers.expression import Formula, constant_value, fold, is_valid_program, named, placed, single
 from mindrun.numbers.quantity import EXPRESSION
 from mindrun.numbers.stack_machine import evaluate as run_program
@@ -61,7 +61,7 @@ class Computed(SensorKind):
             return Flaw("wide-reading", "at", "It has an expression that cannot be computed.", "Read single readings.")
         return None
 
-    def constant(self, world: World) -> float | None:
+    def constant(self, world: WorldFacts) -> float | None:
         """The value of an expression that names no reading; None where it names one, or is no finite number."""
         if self.sources:
             return None

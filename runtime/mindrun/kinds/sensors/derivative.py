@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
 from mindrun.kinds.sensors.sensor import Row, Scene, SensorKind
-from mindrun.kinds.things.thing import World
+from mindrun.kinds.things.thing import WorldFacts
 from mindrun.numbers.quantity import POSITIVE, RATIO, SENSOR
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
@@ -35,7 +35,7 @@ class Derivative(SensorKind):
             return SensorKind.remedy
         return f"Derive it from another sensor than {self.of}, which never changes"
 
-    def constant(self, world: World) -> float | None:
+    def constant(self, world: WorldFacts) -> float | None:
         """0.5 where the source never changes or the dead zone has every change, else None."""
         return 0.5 if world.is_constant(self.of) else SensorKind.constant(self, world)
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, Protocol
 
 from mindrun.kinds.environment import Slot
 from mindrun.kinds.registry import arguments, base, named_arguments
-from mindrun.kinds.things.thing import AboutThing, World
+from mindrun.kinds.things.thing import AboutThing, WorldFacts
 from mindrun.numbers.expression import Formula
 from mindrun.numbers.quantity import ANGLE, RATIO, SENSOR, TICKS
 
@@ -179,7 +179,7 @@ class SensorKind(AboutThing):
         the lanes (`sim/state.py` has every array), `clock` counts ticks, `sensor` is the row of the table.
         """
 
-    def constant(self, world: World) -> float | None:
+    def constant(self, world: WorldFacts) -> float | None:
         """The reading that never changes in a world, without its thing or in a dead zone that has all; else None."""
         if self.thing and self.thing not in world.things:
             return self.blank

@@ -7,7 +7,15 @@ from typing import Annotated
 
 from mindrun.kinds.registry import kind
 from mindrun.kinds.scenes.scene import SceneKind
-from mindrun.kinds.things.thing import DEFAULT_DISTANCE, DEFAULT_SIZE, MAX_OBSTACLES, Mistake, Rectangle, Row, ThingKind
+from mindrun.kinds.things.thing import (
+    DEFAULT_DISTANCE,
+    DEFAULT_SIZE,
+    MAX_OBSTACLES,
+    Rectangle,
+    Row,
+    ThingKind,
+    ThingMistake,
+)
 from mindrun.numbers.quantity import COORDINATE, LENGTH, Place, Quantity, Span
 
 COUNT = Quantity("a whole number", {"": 1.0}, low=0, high=1000, whole=True)
@@ -69,24 +77,24 @@ class Obstacle(ThingKind):
         grid = {"grid": self.grid, "jitter": self.jitter, "columns": columns, "rows": rows, "count": count}
         return [{**grid, "x": x, "y": y} for x, y in self.at or MIDDLE_UNITS]
 
-    def mistake(self, scene: SceneKind | None) -> Mistake | None:
+    def mistake(self, scene: SceneKind | None) -> ThingMistake | None:
         """An error where it is not one of a count, a place or a grid in an arena, or makes too many."""
         if self.at and (self.grid or self.count):
             hint = "Write at and its place, or a count, or a grid."
-            return Mistake("place-for-many", "Several things cannot stand at one place.", hint)
+            return ThingMistake("place-for-many", "Several things cannot stand at one place.", hint)
         if self.size.by is not None:
             small, large = sorted((self.size.first, self.size.last))
             hint = f"Write size {small:g} to {large:g}: a size between the two is drawn for each."
-            return Mistake("fixed-schedule", "An obstacle never moves, so its size has no schedule.", hint)
+            return ThingMistake("fixed-schedule", "An obstacle never moves, so its size has no schedule.", hint)
         if self.grid and self.away != DEFAULT_DISTANCE:
             hint = "Leave away out: what stands in a grid is as far away as that is."
-            return Mistake("place-and-distance", "It says where it is, and how far away.", hint)
+            return ThingMistake("place-and-distance", "It says where it is, and how far away.", hint)
         if self.grid and scene and not scene.is_bounded:
             hint = "Write in arena size 100, or count 10 instead of the grid."
-            return Mistake("endless-grid", "In a plain scene a grid of obstacles would never end.", hint)
+            return ThingMistake("endless-grid", "In a plain scene a grid of obstacles would never end.", hint)
         if (made := self.obstacles(scene)) > MAX_OBSTACLES:
             hint = f"A world takes {MAX_OBSTACLES}: space it out."
-            return Mistake("too-many-obstacles", f"That is a grid of {made} obstacles.", hint)
+            return ThingMistake("too-many-obstacles", f"That is a grid of {made} obstacles.", hint)
         if not self.grid and not self.count and not self.at:
-            return Mistake("no-obstacles", "That makes no obstacle.", "Add grid 20, or count 10, or at 30 -20.")
+            return ThingMistake("no-obstacles", "That makes no obstacle.", "Add grid 20, or count 10, or at 30 -20.")
         return ThingKind.mistake(self, scene)

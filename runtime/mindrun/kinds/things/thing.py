@@ -54,7 +54,7 @@ class Rectangle(NamedTuple):
         return abs(x - self.x) < self.half_x and abs(y - self.y) < self.half_y
 
 
-class Mistake(NamedTuple):
+class ThingMistake(NamedTuple):
     """An error that keeps a thing out of a scene: its code, a message, and what to do."""
 
     code: str
@@ -62,7 +62,7 @@ class Mistake(NamedTuple):
     hint: str
 
 
-class World(Protocol):
+class WorldFacts(Protocol):
     """The facts that are known about the worlds of a mind's tasks before anything runs in them."""
 
     @property
@@ -181,33 +181,33 @@ class ThingKind:
         """
         return ()
 
-    def mistake(self, scene: SceneKind | None) -> Mistake | None:
+    def mistake(self, scene: SceneKind | None) -> ThingMistake | None:
         """The error that keeps it out of a scene, or None; `scene` is None where that is not known."""
         if not self.at:
             return self._distance_mistake(scene)
         if self.away != DEFAULT_DISTANCE:
             hint = "Leave away out: what stands at a place is as far away as that is."
-            return Mistake("place-and-distance", "It says where it is, and how far away.", hint)
+            return ThingMistake("place-and-distance", "It says where it is, and how far away.", hint)
         if self.count > 1 and self.count != len(self.at):
             hint = "Leave the count out, or the place."
-            return Mistake("place-for-many", "Several things cannot stand at one place.", hint)
+            return ThingMistake("place-for-many", "Several things cannot stand at one place.", hint)
         if scene is None or all(scene.has_room(place, self.largest / 2) for place in self.at):
             return None
         hint = "Write a place that is in it with all of the thing; 0 0 is the middle."
-        return Mistake("outside-arena", "That is not inside the arena.", hint)
+        return ThingMistake("outside-arena", "That is not inside the arena.", hint)
 
-    def _distance_mistake(self, scene: SceneKind | None) -> Mistake | None:
+    def _distance_mistake(self, scene: SceneKind | None) -> ThingMistake | None:
         """An error where a distance has a schedule, or no two places of the scene are so far apart."""
         if self.away == DEFAULT_DISTANCE:
             return None
         if self.away.by is not None:
             near, far = sorted((self.away.first, self.away.last))
             hint = f"Write away {near:g} to {far:g}: a distance between the two is drawn each time."
-            return Mistake("distance-schedule", "A distance has no schedule.", hint)
+            return ThingMistake("distance-schedule", "A distance has no schedule.", hint)
         if scene is None or self.away.first < hypot(*scene.sides):
             return None
         hint = f"Its corners are {hypot(*scene.sides):g} apart: write a smaller distance, or a larger arena."
-        return Mistake("too-far-away", "Nothing in this arena is so far from the robot.", hint)
+        return ThingMistake("too-far-away", "Nothing in this arena is so far from the robot.", hint)
 
 
 @dataclass(frozen=True, slots=True)
@@ -244,12 +244,12 @@ class Loose(ThingKind):
     is_loose = True
     can_be_delivered = True
 
-    def mistake(self, scene: SceneKind | None) -> Mistake | None:
+    def mistake(self, scene: SceneKind | None) -> ThingMistake | None:
         """An error where it is placed so near that the robot would be in it, or where no thing could be."""
         extent = self.largest * (0.5 if self.is_round else HALF_DIAGONAL)
         if self.away != DEFAULT_DISTANCE and max(self.away.first, self.away.last) < extent:
             hint = f"Write away {self.largest:g} to {self.largest + 20:g}: it is {self.largest:g} large."
-            return Mistake("on-the-robot", "So near, it would stand on the robot.", hint)
+            return ThingMistake("on-the-robot", "So near, it would stand on the robot.", hint)
         return ThingKind.mistake(self, scene)
 
 

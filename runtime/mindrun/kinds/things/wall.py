@@ -7,7 +7,7 @@ from typing import Annotated
 
 from mindrun.kinds.registry import kind
 from mindrun.kinds.scenes.scene import SceneKind
-from mindrun.kinds.things.thing import DEFAULT_DISTANCE, DEFAULT_SIZE, Mistake, Rectangle, ThingKind
+from mindrun.kinds.things.thing import DEFAULT_DISTANCE, DEFAULT_SIZE, Rectangle, ThingKind, ThingMistake
 from mindrun.numbers.quantity import COORDINATE, LENGTH, Place
 
 THICKNESS = replace(LENGTH, low=0.01, high=1000.0)
@@ -51,16 +51,16 @@ class Wall(ThingKind):
     def at_places(self, places: tuple[Place, ...]) -> None:
         """None: no map places a wall."""
 
-    def mistake(self, scene: SceneKind | None) -> Mistake | None:
+    def mistake(self, scene: SceneKind | None) -> ThingMistake | None:
         """An error where a stretch goes nowhere, or not along an axis, or leaves the arena."""
         if len(self.from_) < 2 or any(place == next_ for place, next_ in pairwise(self.from_)):
             hint = "Write where it begins and where it ends: wall from -20 10 to 5 10."
-            return Mistake("endless-wall", "This wall does not go anywhere.", hint)
+            return ThingMistake("endless-wall", "This wall does not go anywhere.", hint)
         for (x, y), (to_x, to_y) in pairwise(self.from_):
             if x != to_x and y != to_y:
                 hint = f"Make it of walls along the axes: wall from {x:g} {y:g} to {to_x:g} {y:g} to {to_x:g} {to_y:g}."
-                return Mistake("slanting-wall", "This wall does not lie along an axis.", hint)
+                return ThingMistake("slanting-wall", "This wall does not lie along an axis.", hint)
         if scene is None or all(scene.has_room(place, 0.0) for place in self.from_):
             return None
         hint = "Write places that are in it, or on its border; 0 0 is the middle."
-        return Mistake("outside-arena", "That is not inside the arena.", hint)
+        return ThingMistake("outside-arena", "That is not inside the arena.", hint)

@@ -17,7 +17,7 @@ Place = tuple[str, int]  # of a number: the name of its part, and where it stand
 
 
 @dataclass(frozen=True, slots=True)
-class Part:
+class SpacePart:
     """An array of numbers in `low` to `high` [of its size], which are infinite where a space does not say.
 
     Where there are `choices`, they are so many at each place, and the numbers are whole, from `low` on. The keys of
@@ -55,17 +55,17 @@ class Part:
 class Spaces:
     """The parts of what an environment observes and of what it takes; `others` are of what it takes, and no numbers."""
 
-    observed: Mapping[str, Part]
-    acted: Mapping[str, Part]
+    observed: Mapping[str, SpacePart]
+    acted: Mapping[str, SpacePart]
     others: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
-class Source:
+class PartReader:
     """The numbers at some `places` of one part of an observation, which are read to the slots `to`."""
 
     name: str
-    part: Part
+    part: SpacePart
     places: NDArray[np.int64]
     to: NDArray[np.int64]
 
@@ -85,13 +85,13 @@ class Source:
         return f"{what} is of {seen.dtype}, which are no real numbers"
 
 
-def sources_of(parts: Mapping[str, Part], places: Sequence[Place]) -> list[Source]:
+def sources_of(parts: Mapping[str, SpacePart], places: Sequence[Place]) -> list[PartReader]:
     """Readers of the numbers at these places, one for each slot, from observations of these parts."""
     sources = []
     for name in dict.fromkeys(name for name, _ in places):
         to = [slot for slot, (part, _) in enumerate(places) if part == name]
         indices = np.array([places[slot][1] for slot in to], np.int64)
-        sources.append(Source(name, parts[name], indices, np.array(to, np.int64)))
+        sources.append(PartReader(name, parts[name], indices, np.array(to, np.int64)))
     return sources
 
 
@@ -101,7 +101,7 @@ def spaces_of(observed: Any, acted: Any) -> Spaces:
     return Spaces(parts_of(observed), parts_of(acted), others)
 
 
-def parts_of(space: Any) -> dict[str, Part]:
+def parts_of(space: Any) -> dict[str, SpacePart]:
     """The parts of a space by their names, `a.b` for one in another; of a text or a graph there are none.
 
     The space itself has the empty name, and those of a tuple have numbers, from 0 on.
@@ -110,7 +110,7 @@ def parts_of(space: Any) -> dict[str, Part]:
     return {_name(path): replace(part, path=path) for path, part in known if part is not None}
 
 
-def found(parts: Mapping[str, Part], slot: Slot) -> tuple[str, Part | None, tuple[int, ...]]:
+def found(parts: Mapping[str, SpacePart], slot: Slot) -> tuple[str, SpacePart | None, tuple[int, ...]]:
     """The name of the part that a slot is in, that part, None where there is none, and the index in it.
 
     The first number of a slot in a tuple says which of its parts it is; none behind it is that of a single number.
@@ -123,7 +123,7 @@ def found(parts: Mapping[str, Part], slot: Slot) -> tuple[str, Part | None, tupl
     return name, parts[name], index or (0,)
 
 
-def actions_of(space: Any, acted: Mapping[str, Part], numbers: Floats) -> list[Any]:
+def actions_of(space: Any, acted: Mapping[str, SpacePart], numbers: Floats) -> list[Any]:
     """The actions of a space that numbers are [runs, numbers]: those of its parts `acted`, one part after the other."""
     values, first = {}, 0
     for name, part in acted.items():
@@ -165,11 +165,11 @@ def _within(space: Any) -> Any:
     return getattr(space, "spaces", None) if _kinds(space) & {"Dict", "Tuple"} else None
 
 
-def _part(space: Any) -> Part | None:
+def _part(space: Any) -> SpacePart | None:
     kinds = _kinds(space)
     if "Box" in kinds:
         low, high = (np.asarray(end, np.float64).ravel() for end in (space.low, space.high))
-        return Part(tuple(space.shape), low, high, space.dtype)
+        return SpacePart(tuple(space.shape), low, high, space.dtype)
     if "Discrete" in kinds:
         return _choices((), np.array([space.n]), np.array([space.start]), space.dtype)
     if "MultiDiscrete" in kinds:
@@ -181,6 +181,6 @@ def _part(space: Any) -> Part | None:
     return None
 
 
-def _choices(shape: tuple[int, ...], counts: Any, start: Any, dtype: Any) -> Part:
+def _choices(shape: tuple[int, ...], counts: Any, start: Any, dtype: Any) -> SpacePart:
     low = np.asarray(start, np.float64)
-    return Part(shape, low, low + counts - 1, dtype, np.asarray(counts, np.int64))
+    return SpacePart(shape, low, low + counts - 1, dtype, np.asarray(counts, np.int64))

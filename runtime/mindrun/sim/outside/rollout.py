@@ -16,9 +16,9 @@ from mindrun.sim.codes import BROKEN_OFF
 from mindrun.sim.lanes.stages import act, before, conclude, run_skills
 from mindrun.sim.outside.making import GAVE_NO_NUMBER
 from mindrun.sim.outside.repeating import CHECKED_TICKS, RecordingStepper, SlowError
-from mindrun.sim.outside.stepper import REWARD_COLUMN, TERMINATED_COLUMN, Run
+from mindrun.sim.outside.stepper import REWARD_COLUMN, TERMINATED_COLUMN, EnvironmentRun
 from mindrun.sim.outside.subprocess_stepper import SilentEnvironmentError, Stepper, stepper_for
-from mindrun.sim.outside.wiring import Wiring, wiring_of
+from mindrun.sim.outside.wiring import EnvironmentWiring, wiring_of
 from mindrun.sim.rollout import SLOW_SLICE_TICKS, Rollout, Tile
 from mindrun.sim.state import Jobs, State
 
@@ -27,7 +27,7 @@ LEAST_SHARE = 0.001  # of the ticks, that is said as a number
 
 
 @dataclass(frozen=True, slots=True)
-class Episodes:
+class RunningEnvironments:
     """The environment of each run that goes on, by the number of its job, and what steps them, whoever thinks.
 
     `native` is what a tile keeps anyway.
@@ -35,7 +35,7 @@ class Episodes:
 
     native: Any
     stepper: Stepper
-    going_on: dict[int, Run] = field(default_factory=dict)
+    going_on: dict[int, EnvironmentRun] = field(default_factory=dict)
 
 
 class EnvironmentRollout(Rollout):
@@ -63,7 +63,7 @@ class EnvironmentRollout(Rollout):
         super().__init__(policy, task, master, learners, procedures=procedures, interrupt=interrupt, lanes=lanes)
         self._another_stepper = partial(steppers or stepper_for, self.task.scene.environment, procedures)
         self._stepper: Stepper = self._another_stepper()
-        self.wiring: Wiring = wiring_of(self.graph, self._stepper.spaces)
+        self.wiring: EnvironmentWiring = wiring_of(self.graph, self._stepper.spaces)
         self.slice_ticks = SLOW_SLICE_TICKS
         self._measured = self.sizes.measured[self.wiring.rows]
         self.observed, self.clipped = 0, np.zeros(len(self.wiring.rows), np.int64)
@@ -128,7 +128,7 @@ class EnvironmentRollout(Rollout):
     def tile(self, lanes: int) -> Tile:
         """Room for so many lanes, and for their environments."""
         tile = super().tile(lanes)
-        return Tile(tile.state, tile.memories, Episodes(tile.kept, self._stepper))
+        return Tile(tile.state, tile.memories, RunningEnvironments(tile.kept, self._stepper))
 
     def forget(self, tile: Tile, working: set[int]) -> None:
         """Forget all jobs but those, and give back their environments."""
@@ -171,7 +171,7 @@ class EnvironmentRollout(Rollout):
         commands[self._rough] = state.world.acting[:count, :lanes][self._rough]
         return commands
 
-    def _episodes(self, tile: Tile, jobs: Jobs) -> list[Run]:
+    def _episodes(self, tile: Tile, jobs: Jobs) -> list[EnvironmentRun]:
         """The environments of the lanes at work; a run that has not begun in one begins."""
         working, going_on = tile.state.run.job[: jobs.lanes[0]].tolist(), tile.kept.going_on
         begun = [job for job in working if job not in going_on]
@@ -182,7 +182,7 @@ class EnvironmentRollout(Rollout):
             going_on.update(zip(begun, runs, strict=True))
         return [going_on[job] for job in working]
 
-    def _release(self, episodes: Episodes, working: set[int]) -> None:
+    def _release(self, episodes: RunningEnvironments, working: set[int]) -> None:
         """Close the environments of runs that are over."""
         over = [job for job in episodes.going_on if job not in working]
         if over:

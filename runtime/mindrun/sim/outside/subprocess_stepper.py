@@ -28,7 +28,7 @@ from mindrun.errors import MindError
 from mindrun.sim.outside import making
 from mindrun.sim.outside.making import BrokenEnvironmentError
 from mindrun.sim.outside.parts import Floats, Place, Spaces
-from mindrun.sim.outside.stepper import LocalStepper, Run, place_of
+from mindrun.sim.outside.stepper import EnvironmentRun, LocalStepper, place_of
 
 STEP_SECONDS, VARIABLE = 60, "MIND_STEP_SECONDS"  # that an environment has for an answer; what says another number
 START_SECONDS = 60  # until its process takes questions
@@ -40,7 +40,7 @@ REACHED = Struct("<I")  # which environment of a question is asked, in memory th
 MAX_READ_BYTES = 1 << 20  # at once
 
 
-class Channel:
+class MessageChannel:
     """One end of a connected pair of sockets, on which questions and answers alternate: plain data, pickled.
 
     `look` is called whenever a wait has taken the socket's time limit.
@@ -132,7 +132,7 @@ class EnvironmentProcess:
         path = os.pathsep.join(each or f"{Path.cwd()}" for each in sys.path)
         ours, theirs = socketpair()
         ours.settimeout(LOOK_SECONDS)
-        self._channel = Channel(ours, self._look)
+        self._channel = MessageChannel(ours, self._look)
         with theirs, TemporaryFile() as file:
             file.truncate(REACHED.size)
             self._reached = mmap(file.fileno(), REACHED.size)
@@ -195,7 +195,7 @@ class SubprocessStepper:
         self.environment = environment
         self._about = environment, None if folder is None else folder.absolute()
         self._process = process or EnvironmentProcess()
-        self._open, self._numbers = dict[Run, int](), count(1)
+        self._open, self._numbers = dict[EnvironmentRun, int](), count(1)
         if process is None:
             finalize(self, _end, self._process, self._about, self._open)
 
@@ -205,29 +205,29 @@ class SubprocessStepper:
         found: Spaces = self._ask("spaces", ())
         return found
 
-    def begin(self, places: Sequence[Place], seeds: Sequence[int], is_seen: bool = False) -> list[Run]:
+    def begin(self, places: Sequence[Place], seeds: Sequence[int], is_seen: bool = False) -> list[EnvironmentRun]:
         """A new environment for the run of each seed, of which the numbers at these places are read, one a slot."""
-        runs = [Run(seed, len(places)) for seed in seeds]
+        runs = [EnvironmentRun(seed, len(places)) for seed in seeds]
         numbers = [next(self._numbers) for _ in runs]
         rows = self._ask("begin", runs, numbers, [*places], [*seeds], is_seen)
         self._open.update(zip(runs, numbers, strict=True))
-        _take(rows, runs, 0)
+        _put_results(rows, runs, 0)
         return runs
 
-    def reset(self, runs: Sequence[Run]) -> None:
+    def reset(self, runs: Sequence[EnvironmentRun]) -> None:
         """Begin runs again, each in its environment."""
-        _take(self._ask("reset", runs, self._numbers_of(runs)), runs, 0)
+        _put_results(self._ask("reset", runs, self._numbers_of(runs)), runs, 0)
 
-    def step(self, runs: Sequence[Run], actions: Floats) -> None:
+    def step(self, runs: Sequence[EnvironmentRun], actions: Floats) -> None:
         """Step each run: the numbers of its action, part after part [runs, numbers]."""
-        _take(self._ask("step", runs, self._numbers_of(runs), actions), runs, 1)
+        _put_results(self._ask("step", runs, self._numbers_of(runs), actions), runs, 1)
 
-    def image(self, run: Run) -> NDArray[Any]:
+    def image(self, run: EnvironmentRun) -> NDArray[Any]:
         """The image of a run now [height, width, 3], red first; an empty array where it draws nothing."""
         found: NDArray[Any] = self._ask("image", [run], self._open[run])
         return found
 
-    def close(self, runs: Sequence[Run]) -> None:
+    def close(self, runs: Sequence[EnvironmentRun]) -> None:
         """Give back what runs hold. One that ends the process by that is told where other runs end with it."""
         closed = [run for run in runs if run in self._open]
         numbers = [self._open.pop(run) for run in closed]
@@ -239,17 +239,17 @@ class SubprocessStepper:
             if are_others or isinstance(error, SilentEnvironmentError):
                 raise
 
-    def _numbers_of(self, runs: Sequence[Run]) -> list[int]:
+    def _numbers_of(self, runs: Sequence[EnvironmentRun]) -> list[int]:
         return [self._open[run] for run in runs]
 
-    def _ask(self, method: str, runs: Sequence[Run], *arguments: Any) -> Any:
+    def _ask(self, method: str, runs: Sequence[EnvironmentRun], *arguments: Any) -> Any:
         try:
             return self._process.ask(*self._about, method, *arguments)
         except LostError as lost:
             self._open.clear()
             raise self._blamed(method, runs, lost) from lost
 
-    def _blamed(self, method: str, runs: Sequence[Run], lost: LostError) -> BrokenEnvironmentError:
+    def _blamed(self, method: str, runs: Sequence[EnvironmentRun], lost: LostError) -> BrokenEnvironmentError:
         """The error of an environment that has not answered: it is silent, or has ended its process."""
         name, where = self.environment, "being asked for its spaces"
         if runs:
@@ -318,13 +318,13 @@ def _step_seconds() -> float:
     return float(given)
 
 
-def _take(rows: Floats, runs: Sequence[Run], steps: int) -> None:
+def _put_results(rows: Floats, runs: Sequence[EnvironmentRun], steps: int) -> None:
     """Put what came of a question into runs: so many steps more, or the beginning."""
     for run, row in zip(runs, rows, strict=True):
         run.row, run.steps = row, run.steps + 1 if steps else 0
 
 
-def _end(process: EnvironmentProcess, about: Sequence[Any], opened: dict[Run, int]) -> None:
+def _end(process: EnvironmentProcess, about: Sequence[Any], opened: dict[EnvironmentRun, int]) -> None:
     """Give back what the runs hold that are still open, and end the process."""
     if process.has_begun and opened:
         with suppress(Exception):
