@@ -76,7 +76,7 @@ def wake(tables, state, lanes, row):
 
 @compiled
 def awake(influence, active, lanes, own):
-    """List the lanes in which a skill has influence; all, if any, where each has its own weights. Return their count."""
+    """List the lanes in which a skill has influence; all, if any, where each has its own weights. Return the count."""
     count = 0
     for lane in range(lanes):
         active[count] = lane
