@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from mindrun.kinds.procedure_call import load_procedure
+from mindrun.kinds.procedure_call import load
 from mindrun.sim.exact import OPERATIONS, exactly
 from mindrun.sim.formulas import NoFormulaError, formula
 
@@ -97,7 +97,7 @@ def bits(values: tuple[float, ...]) -> list[bytes]:
 
 def check(source: str, inputs: list[tuple[float, float]], *, is_compiled: bool) -> bool:
     """Whether a text is a formula; and that it then is what Python computes."""
-    function = load_procedure("m.f", {"m": source})
+    function = load("m.f", {"m": source})
     try:
         made = formula(function, source, 2, 2)
     except NoFormulaError:
@@ -170,6 +170,6 @@ def test_what_a_controller_is_made_of_is_a_formula(lines: str) -> None:
     ],
 )
 def test_what_is_no_formula_says_why(source: str, why: str) -> None:
-    function = load_procedure("m.f", {"m": source})
+    function = load("m.f", {"m": source})
     with pytest.raises(NoFormulaError, match=why.replace("[", r"\[")):
         formula(function, source, 2, 2)

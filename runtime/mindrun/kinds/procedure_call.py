@@ -30,12 +30,12 @@ class RunningProcedure:
 
     def __post_init__(self) -> None:
         """Run the module."""
-        self.function = load_procedure(self.calls, self.sources)
+        self.function = load(self.calls, self.sources)
 
     def reset(self) -> None:
         """Forget what the module remembers."""
         if self.was_called:
-            self.function, self.was_called = load_procedure(self.calls, self.sources), False
+            self.function, self.was_called = load(self.calls, self.sources), False
 
     def __call__(self, inputs: NDArray[np.float32]) -> NDArray[np.float32]:
         """The function's outputs [outputs] for inputs [inputs], before the clamp."""
@@ -43,7 +43,7 @@ class RunningProcedure:
         return call(self.calls, self.function, self.outputs, inputs)
 
 
-def load_procedure(calls: str, sources: Mapping[str, str]) -> Callable[..., Any]:
+def load(calls: str, sources: Mapping[str, str]) -> Callable[..., Any]:
     """Run a procedure's module, from its text by dotted name, and give the function."""
     source = sources.get(module_of(calls))
     if source is None:

@@ -30,7 +30,7 @@ Shape = Literal["one", "list", "span", "name", "extent", "place", "places", "lin
 
 @dataclass(frozen=True, slots=True)
 class Argument:
-    """One argument of a kind."""
+    """An argument of a kind: its key in a `.mind`, its field, the type and shape of its value, and its default."""
 
     key: str
     field: str

@@ -153,7 +153,7 @@ def _write(path: Path, data: bytes) -> None:
 
 @contextmanager
 def exclusive(path: Path) -> Iterator[None]:
-    """One process at a time is in this block for a `path`; where it cannot be locked, or not for so long, any are.
+    """A context that one process at a time is in for a `path`; where locking fails, or takes too long, any number are.
 
     A POSIX lock: it ends with its process, and processes forked meanwhile do not have it. Of threads it knows nothing.
     """

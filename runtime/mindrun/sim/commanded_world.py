@@ -1,4 +1,4 @@
-"""One world whose robot is commanded from outside: what training simulates, for an engine that runs elsewhere."""
+"""One simulated world whose robot is commanded from outside, by an engine that runs elsewhere, as in a dry run."""
 
 from collections import Counter
 from collections.abc import Sequence

@@ -84,7 +84,7 @@ def number_of(term: Term) -> Term:
 
 
 def unary(op: ast.unaryop, term: Term, node: ast.expr) -> Term:
-    """A sign, or not."""
+    """A term with a sign, or negated as a truth."""
     match op:
         case ast.Not():
             return Term(f"(not {term.truth})", Kind.TRUTH)
@@ -125,7 +125,7 @@ def alike(terms: Sequence[Term]) -> list[str]:
 
 
 def either(text: str, *terms: Term) -> Term:
-    """One of several terms, whichever it is."""
+    """A term of the given text that may be any of several."""
     kinds = {term.kind for term in terms}
     return Term(text, kinds.pop() if len(kinds) == 1 else Kind.NUMBER, max(term.size for term in terms))
 
@@ -156,7 +156,7 @@ def _definition(function: Callable[..., Any], tree: ast.Module) -> ast.FunctionD
 
 
 class Translation:
-    """One function on its way to a formula."""
+    """The translation of one function into a formula."""
 
     def __init__(
         self, function: Callable[..., Any], tree: ast.Module, definition: ast.FunctionDef, outputs: int
@@ -168,7 +168,7 @@ class Translation:
         self._locals = {*self._parameters, *(node.id for node in names if not isinstance(node.ctx, ast.Load))}
 
     def text(self, inputs: int) -> str:
-        """The whole new function."""
+        """The text of the new function."""
         given = self._definition.args
         if given.vararg or given.kwarg or given.kwonlyargs or given.defaults or len(self._parameters) != inputs:
             raise NoFormulaError(f"it does not take just {inputs} numbers")

@@ -28,13 +28,13 @@ class LoweredCode(JITCodeLibrary):  # type: ignore[misc]
     """The code of a function, and of all that it calls, before any optimisation."""
 
     def add_llvm_module(self, ll_module: Any) -> None:
-        """Take the code of the function itself."""
+        """Add the code of the function itself."""
         ll_module.data_layout = self._codegen._data_layout
         without_variables_in_memory(ll_module, self._codegen, create_new_module_pass_manager())  # once, not per caller
         self._final_module.link_in(ll_module)
 
     def finalize(self) -> None:
-        """Take the code of what it calls."""
+        """Add the code of the functions that it calls."""
         self._raise_if_finalized()
         for library in dict.fromkeys(self._linking_libraries):
             self._reload_init.update(library._reload_init)
@@ -106,7 +106,7 @@ class EntryCompiler(CompilerBase):  # type: ignore[misc]
     lowering: type[NativeLowering] = LowerAll
 
     def define_pipelines(self) -> list[PassManager]:
-        """Numba's passes."""
+        """The passes of numba, with `lowering` in place of its last one."""
         passes = PassManager(self.lowering._name)
         for step, about in DefaultPassBuilder.define_nopython_pipeline(self.state).passes:
             passes.add_pass(self.lowering if step is NativeLowering else step, about)
@@ -124,10 +124,10 @@ class KeptCode(_Cache):  # type: ignore[misc]
     """The base of caches that numba asks for machine code before it compiles a function, and gives it to afterwards."""
 
     def enable(self) -> None:
-        """It always is."""
+        """Do nothing: it is always enabled."""
 
     def disable(self) -> None:
-        """It never is."""
+        """Do nothing: it cannot be disabled."""
 
 
 @contextmanager

@@ -20,7 +20,7 @@ from mindrun.errors import ProcedureError
 from mindrun.graph.graph import Graph, Skill
 from mindrun.graph.weights import reachable
 from mindrun.kinds import procedure_call
-from mindrun.kinds.procedure_call import load_procedure
+from mindrun.kinds.procedure_call import load
 from mindrun.kinds.procedure_text import module_of
 from mindrun.sim.arithmetic import F
 from mindrun.sim.compiling import call, compiled
@@ -90,7 +90,7 @@ class Procedures:
 
     def function(self, skill: str) -> Callable[..., Any]:
         """The function of a skill, in a module of its own that remembers nothing."""
-        return load_procedure(self.calls[skill], self._sources)
+        return load(self.calls[skill], self._sources)
 
     def explain(self, skill: str, inputs: NDArray[np.float32]) -> ProcedureError:
         """The error of a compiled procedure that failed, which Python gives for the same inputs."""

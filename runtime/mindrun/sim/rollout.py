@@ -34,7 +34,7 @@ SLICE_TICKS, SLOW_SLICE_TICKS = 1000, 20  # ticks between two looks at whether t
 
 @dataclass(frozen=True, slots=True)
 class Tile:
-    """Some lanes that run together, what their procedures remember, and what must outlive them."""
+    """Some lanes that run together, with the procedures' memories, and objects that must outlive them."""
 
     state: State
     memories: Memories

@@ -1,4 +1,4 @@
-"""A graph, a task and a master as plain tables: one row per sensor, skill, reward, so that no program compiles."""
+"""A graph, a task and a master as plain tables, a row per sensor, skill, reward: a new mind needs no compiling."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

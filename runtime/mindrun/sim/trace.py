@@ -1,4 +1,4 @@
-"""One run, tick by tick, as the lanes write it down: what the pictures, the videos and the tests look at."""
+"""One run, tick by tick, as the lanes record it: for pictures, videos and tests."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
@@ -118,7 +118,7 @@ def take_over(rollout: Rollout, seed: int, tick: int, other: Rollout, changes: S
 
 
 def joined(chunks: Iterable[Ticks]) -> Ticks:
-    """All ticks of some chunks."""
+    """The ticks of some chunks as one."""
     each = list(chunks)
     columns = {name: [getattr(ticks, name) for ticks in each] for name in Ticks.__slots__}
     return Ticks(**{name: np.concatenate(parts) for name, parts in columns.items()})

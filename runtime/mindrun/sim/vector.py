@@ -1,4 +1,4 @@
-"""Sixteen lanes side by side as one value of compiled code, float32: sums stay in registers while a layer is computed.
+"""A numba type of sixteen float32 lanes as one value: sums stay in registers while a layer is computed.
 
 LLVM makes of it what the processor has: one AVX-512 register, two of AVX2, four of NEON. Every operation rounds like
 its scalar twin, so a result does not depend on the width.

@@ -1,4 +1,4 @@
-"""One number of what is done in an environment."""
+"""One number of an environment's action."""
 
 from typing import Annotated
 

@@ -1,4 +1,4 @@
-"""One of a few actions between which an environment lets choose."""
+"""One of the few actions of an environment that takes one of them."""
 
 from typing import Annotated
 

@@ -1,4 +1,4 @@
-"""A world with walls around it."""
+"""A scene with walls around it."""
 
 from typing import Annotated
 

@@ -1,4 +1,4 @@
-"""A world that is somebody else's: an environment of Gymnasium."""
+"""A scene that is an environment of Gymnasium."""
 
 from typing import Annotated
 

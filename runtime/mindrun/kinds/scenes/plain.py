@@ -1,4 +1,4 @@
-"""A world without walls."""
+"""A scene without walls."""
 
 from mindrun.kinds.registry import kind
 from mindrun.kinds.scenes.scene import SceneKind

@@ -70,18 +70,18 @@ class Bumper(Physical):
             x, y = s.body[X, p], s.body[Y, p]
             for b in range(s.nearby_count[p]):
                 box = BOX_COLUMNS * b
-                dx = axis_gap(s.nearby[box + X, p] - x, s.nearby[box + HALF_X, p])
-                dy = axis_gap(s.nearby[box + Y, p] - y, s.nearby[box + HALF_Y, p])
-                press_switches(t, s, sensor, dx, dy, dx == 0.0 or dy == 0.0, p)
-            press_switches(t, s, sensor, half_x - x, 0.0, True, p)
-            press_switches(t, s, sensor, -half_x - x, 0.0, True, p)
-            press_switches(t, s, sensor, 0.0, half_y - y, True, p)
-            press_switches(t, s, sensor, 0.0, -half_y - y, True, p)
+                dx = beyond(s.nearby[box + X, p] - x, s.nearby[box + HALF_X, p])
+                dy = beyond(s.nearby[box + Y, p] - y, s.nearby[box + HALF_Y, p])
+                press(t, s, sensor, dx, dy, dx == 0.0 or dy == 0.0, p)
+            press(t, s, sensor, half_x - x, 0.0, True, p)
+            press(t, s, sensor, -half_x - x, 0.0, True, p)
+            press(t, s, sensor, 0.0, half_y - y, True, p)
+            press(t, s, sensor, 0.0, -half_y - y, True, p)
             for i in range(len(t.loose)):
-                press_loose(t, s, sensor, i, p)
+                lean(t, s, sensor, i, p)
 
 
-def press_loose(t: Any, s: Any, sensor: Any, i: Any, p: Any) -> None:
+def lean(t: Any, s: Any, sensor: Any, i: Any, p: Any) -> None:
     """Press the switches of lane p that loose thing i touches, however it is turned."""
     x, y = place_of(s.things, t.loose[i].thing, p)
     dx, dy = x - s.body[X, p], y - s.body[Y, p]
@@ -91,15 +91,15 @@ def press_loose(t: Any, s: Any, sensor: Any, i: Any, p: Any) -> None:
     if t.loose[i].is_round:
         far = np.sqrt(dx * dx + dy * dy)
         share = 1.0 - half / far if far > half else 0.0
-        press_switches(t, s, sensor, dx * share, dy * share, False, p)
+        press(t, s, sensor, dx * share, dy * share, False, p)
     else:
         sn, c = sine_cosine(s.loose[LOOSE_ROWS * i + TURN, p])
-        along, across = axis_gap(c * dx + sn * dy, half), axis_gap(c * dy - sn * dx, half)
+        along, across = beyond(c * dx + sn * dy, half), beyond(c * dy - sn * dx, half)
         is_flat = along == 0.0 or across == 0.0
-        press_switches(t, s, sensor, c * along - sn * across, sn * along + c * across, is_flat, p)
+        press(t, s, sensor, c * along - sn * across, sn * along + c * across, is_flat, p)
 
 
-def axis_gap(away: Any, side: Any) -> Any:
+def beyond(away: Any, side: Any) -> Any:
     """The signed distance along an axis to something whose middle is `away` and half side is `side`; 0 within."""
     if away > side:
         return away - side
@@ -119,7 +119,7 @@ def touches(body: Any, ahead: Any, aside: Any, is_flat: Any) -> Any:
     return ahead <= body.front and aside <= body.side
 
 
-def press_switches(t: Any, s: Any, sensor: Any, dx: Any, dy: Any, is_flat: Any, p: Any) -> None:
+def press(t: Any, s: Any, sensor: Any, dx: Any, dy: Any, is_flat: Any, p: Any) -> None:
     """Set the readings of lane p to 1 whose sector has the direction (dx, dy), if the body reaches to that point."""
     far = np.sqrt(dx * dx + dy * dy)
     if not far <= t.world[0].radius:  # infinitely far, where there is no wall, and no number, where it has vanished

@@ -1,4 +1,4 @@
-"""The speed of a wheel."""
+"""The speed of a wheel, as its encoder counts it."""
 
 from typing import TYPE_CHECKING, Annotated, Any
 

@@ -50,7 +50,7 @@ class Obstacle(ThingKind):
         return 0, 0
 
     def obstacles(self, scene: SceneKind | None) -> int:
-        """One at each point of its grid, one at its place, or its count."""
+        """The number of obstacles: one at each point of its grid, its count, or one at each place."""
         columns, rows = self.grid_lines(scene)
         return columns * rows if self.grid else self.count or len(self.at)
 

@@ -29,7 +29,7 @@ class Wall(ThingKind):
     unplaceable = "Draw walls with #, and write another letter for what stands there."
 
     def obstacles(self, scene: SceneKind | None) -> int:
-        """One for each stretch."""
+        """The number of its stretches, each a rectangle."""
         return len(self.from_) - 1
 
     @property

@@ -1,4 +1,4 @@
-"""Many ticks of many worlds, each in two halves: between them, a mind's procedures may run in Python."""
+"""Ticks of all lanes: the stages in their order, in two halves, between which procedures may run in Python."""
 
 from mindrun.numbers.arithmetic import X, Y
 from mindrun.sim.codes import GOING_ON

@@ -1,7 +1,7 @@
-"""Chipmunk from compiled code: a Space for each lane in which something could touch, and the ticks that it makes.
+"""Physics of contacts by Chipmunk: a Space for each lane in which something could touch, and the ticks that it makes.
 
 The robot's body with its shapes, the loose things, and the boxes and walls of one lane, live in a Space of the lane's
-own, opened when something could touch for the first time. `chipmunk_internals` has what is known of the library.
+own, opened when something could touch for the first time. `chipmunk_internals` has the library's functions.
 
 A tick is one step, or several strides where something in the lane is swift. In all of them everything moves on with the
 speeds that the tick has begun with, until it meets something; the force of the tick acts at its end.

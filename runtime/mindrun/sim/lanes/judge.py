@@ -1,6 +1,6 @@
 """Judge: measures, reached and delivered things, events of the tick, the rewards they earn, and what becomes of things.
 
-What is reached does not depend on whether a line of the task names the event: what measures changes nothing.
+Which things are reached does not depend on whether a line of the task names the event: measuring changes nothing.
 """
 
 import numpy as np

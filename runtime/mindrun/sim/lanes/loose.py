@@ -1,4 +1,4 @@
-"""Loose: boxes and balls while nothing touches them. They slide, turn, slow down and rest.
+"""Motion of loose things, boxes and balls, while nothing touches them: they slide, turn, slow down and rest.
 
 A thing is **settled** when it has not moved for SETTLED_TICKS: nothing looks at it again until the robot, or something
 else that moves, comes near. Where all are, a lane has nothing to do. Contacts that are still there do not change any

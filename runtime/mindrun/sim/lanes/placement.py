@@ -1,4 +1,4 @@
-"""Places drawn at random: the obstacles, where the robot starts, where things appear and reappear; and what varies.
+"""Places drawn at random, of obstacles, robots and things that appear and reappear; and the numbers that vary.
 
 Every world has its own generator (SplitMix64), seeded by the layout alone, so that all genomes of a generation meet
 the same world. Everything is placed clear of everything else, with room for the robot between.

@@ -1,4 +1,4 @@
-"""Sense: every reading of every lane, from where the robots and the things are."""
+"""Sense: every reading of every lane, from the places of the robots and the things."""
 
 from collections.abc import Callable, Sequence
 from typing import Any

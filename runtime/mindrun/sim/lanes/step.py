@@ -1,6 +1,6 @@
 """Step: one tick of physics. Free flight is plain arithmetic in Chipmunk's order; Chipmunk steps what could touch.
 
-What walks by itself touches nothing: plain arithmetic is all there is to it.
+Walkers touch nothing: they are plain arithmetic, too.
 """
 
 import numpy as np

@@ -25,7 +25,7 @@ from mindrun.sim.outside.subprocess_stepper import REACHED, MessageChannel
 
 
 class StepperServer:
-    """Steps environments as it is asked; `reached` is where it writes which one of a question is asked."""
+    """Answers questions to environments; `reached` is the memory for the number of the one that is asked now."""
 
     def __init__(self, reached: mmap) -> None:
         reach = partial(REACHED.pack_into, reached, 0)

@@ -72,7 +72,7 @@ def make(name: str, folder: Path | None = None, is_seen: bool = False) -> Any:
                 return gymnasium.make(name, max_episode_steps=NO_TIME_LIMIT, disable_env_checker=True, **drawn)
     except (gymnasium.error.UnregisteredEnv, gymnasium.error.DeprecatedEnv):
         raise UnknownEnvironmentError(
-            f"Gymnasium has no environment called {name}.", _suggestion(name, gymnasium.registry)
+            f"Gymnasium has no environment called {name}.", _instead(name, gymnasium.registry)
         ) from None
     except Exception as error:
         if _lacks_module(error, name):
@@ -180,7 +180,7 @@ def _lacks_module(error: BaseException, name: str) -> bool:
     return module is not None and f"{name.partition(':')[0]}.".startswith(f"{module}.")
 
 
-def _suggestion(name: str, known: Any) -> str:
+def _instead(name: str, known: Any) -> str:
     module, colon, own = name.partition(":")
     if near := nearest(own if colon else name, known):
         return f"Did you mean {module + colon if colon else ''}{near}?"

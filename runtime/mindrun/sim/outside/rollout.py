@@ -28,9 +28,9 @@ LEAST_SHARE = 0.001  # of the ticks, that is said as a number
 
 @dataclass(frozen=True, slots=True)
 class RunningEnvironments:
-    """The environment of each run that goes on, by the number of its job, and what steps them, whoever thinks.
+    """The environment of each run that goes on, by the number of its job, and their stepper.
 
-    `native` is what a tile keeps anyway.
+    `native` is what a tile of lanes keeps alive.
     """
 
     native: Any

@@ -211,16 +211,16 @@ class SubprocessStepper:
         numbers = [next(self._numbers) for _ in runs]
         rows = self._ask("begin", runs, numbers, [*places], [*seeds], is_seen)
         self._open.update(zip(runs, numbers, strict=True))
-        _put_results(rows, runs, 0)
+        _take(rows, runs, 0)
         return runs
 
     def reset(self, runs: Sequence[EnvironmentRun]) -> None:
         """Begin runs again, each in its environment."""
-        _put_results(self._ask("reset", runs, self._numbers_of(runs)), runs, 0)
+        _take(self._ask("reset", runs, self._numbers_of(runs)), runs, 0)
 
     def step(self, runs: Sequence[EnvironmentRun], actions: Floats) -> None:
         """Step each run: the numbers of its action, part after part [runs, numbers]."""
-        _put_results(self._ask("step", runs, self._numbers_of(runs), actions), runs, 1)
+        _take(self._ask("step", runs, self._numbers_of(runs), actions), runs, 1)
 
     def image(self, run: EnvironmentRun) -> NDArray[Any]:
         """The image of a run now [height, width, 3], red first; an empty array where it draws nothing."""
@@ -318,7 +318,7 @@ def _step_seconds() -> float:
     return float(given)
 
 
-def _put_results(rows: Floats, runs: Sequence[EnvironmentRun], steps: int) -> None:
+def _take(rows: Floats, runs: Sequence[EnvironmentRun], steps: int) -> None:
     """Put what came of a question into runs: so many steps more, or the beginning."""
     for run, row in zip(runs, rows, strict=True):
         run.row, run.steps = row, run.steps + 1 if steps else 0
