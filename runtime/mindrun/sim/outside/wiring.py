@@ -111,7 +111,7 @@ def _written(name: str, index: tuple[int, ...]) -> str:
 
 @dataclass(frozen=True, slots=True)
 class ActionChoice:
-    """A choice at a `place` of an action: of `numbers`, the one whose command, in the same of `rows`, is the largest."""
+    """A choice at a `place` of an action: `numbers[k]` of the largest command, that of the actuator in `rows[k]`."""
 
     place: int
     rows: NDArray[np.int64]
