@@ -33,7 +33,7 @@ READERS = {
     **dict.fromkeys(("FileInput", "input"), ("fileinput.",)),
     "FileIO": ("io.", "_io."),
     "connect": ("sqlite3.",),
-}  # functions that read the file they are given the name of, and how the names of those begin that have them
+}  # functions that read a file given by name, and prefixes of the modules or classes that have them
 OF_PATHS = {"read_text", "read_bytes"}  # methods that nothing but a file has
 STREAMED = "json.", "marshal.", "pickle.", "tomllib.", "yaml."  # modules whose `load` is given what is open
 IN_MEMORY = {"io.BytesIO", "io.StringIO"}

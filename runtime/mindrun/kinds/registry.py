@@ -86,7 +86,7 @@ def _import_all(room: str) -> None:
 
 
 def base(noun: str) -> Callable[[type[T]], type[T]]:
-    """Say that a class is what the kinds of a noun have in common: an annotation with it takes each of them."""
+    """Register a class as the base of the kinds of a noun: an annotation with it takes each of them."""
 
     def register(cls: type[T]) -> type[T]:
         _bases[cls] = noun

@@ -26,10 +26,7 @@ def genome(found: Iterable[Matrix]) -> Weights:
 
 
 def padded(matrix: Matrix, shape: tuple[int, int], cut: int, place: int) -> Matrix:
-    """A matrix in the corner of a larger one, of so many values in and out, that is 0 elsewhere.
-
-    The columns from `cut` on stand there from `place` on.
-    """
+    """A matrix enlarged with zeros to a shape (values in, values out); its columns from `cut` on move to `place`."""
     found = np.zeros(shape[::-1], np.float32)
     rows, columns = matrix.shape
     found[:rows, :cut], found[:rows, place : place + columns - cut] = matrix[:, :cut], matrix[:, cut:]

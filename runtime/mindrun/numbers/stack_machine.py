@@ -28,7 +28,7 @@ def evaluate(
     count: Any,
     everywhere: Any,
 ) -> None:
-    """Leave the program's values for the lanes active[0..count] in stack[0]; `each` is the row "for each" is at.
+    """Leave the program's values for the lanes active[0..count] in stack[0]; `each` is the row of an "each" reading.
 
     With `everywhere` those are the lanes 0..count.
     """

@@ -67,7 +67,7 @@ def refuse(node: ast.AST) -> NoReturn:
 
 
 def constant(value: Any, node: ast.expr) -> Term:
-    """A number or a truth that is known."""
+    """The term of a constant; NoFormulaError where it is neither a truth nor an exact number."""
     match value:
         case bool():
             return Term(str(value), Kind.TRUTH)
@@ -79,12 +79,12 @@ def constant(value: Any, node: ast.expr) -> Term:
 
 
 def number_of(term: Term) -> Term:
-    """A term that is calculated with: a truth is 1 or 0."""
+    """A term as a number, for calculating: a truth becomes 1 or 0."""
     return Term(term.number, Kind.NUMBER) if term.kind is Kind.TRUTH else term
 
 
 def unary(op: ast.unaryop, term: Term, node: ast.expr) -> Term:
-    """A term with a sign, or negated as a truth."""
+    """The term of a unary operation: a sign, or `not`."""
     match op:
         case ast.Not():
             return Term(f"(not {term.truth})", Kind.TRUTH)
@@ -96,7 +96,7 @@ def unary(op: ast.unaryop, term: Term, node: ast.expr) -> Term:
 
 
 def binary(op: ast.operator, left: Term, right: Term, node: ast.expr) -> Term:
-    """An operation on two numbers; whole ones must stay exact."""
+    """The term of an operation on two numbers; NoFormulaError where whole ones may not stay exact."""
     a, b = number_of(left), number_of(right)
     if isinstance(op, ast.Pow):
         if b.whole is None or abs(b.whole) > MAX_POWER:
@@ -120,12 +120,12 @@ def binary(op: ast.operator, left: Term, right: Term, node: ast.expr) -> Term:
 
 
 def alike(terms: Sequence[Term]) -> list[str]:
-    """Terms any of which may be taken: as truths where all are, else as numbers."""
+    """The texts of terms of which any may be taken: as truths where all are, else as numbers."""
     return [term.text if all(each.kind is Kind.TRUTH for each in terms) else term.number for term in terms]
 
 
 def either(text: str, *terms: Term) -> Term:
-    """A term of the given text that may be any of several."""
+    """The term of a text that gives any of several terms."""
     kinds = {term.kind for term in terms}
     return Term(text, kinds.pop() if len(kinds) == 1 else Kind.NUMBER, max(term.size for term in terms))
 
@@ -134,7 +134,7 @@ Known = dict[str, Term]  # the variables that surely have a value
 
 
 def formula(function: Callable[..., Any], source: str, inputs: int, outputs: int) -> Callable[..., Any]:
-    """The function anew, for numba: `wrong` and the inputs to a tuple of floats. NoFormulaError where it is none."""
+    """A function for numba that computes the same, of `wrong` and the inputs, as a tuple; NoFormulaError for no formula."""
     try:
         tree = ast.parse(source)
         definition = _definition(function, tree)
@@ -183,7 +183,7 @@ class Translation:
         return "\n ".join([f"def formula({head}):", *lines])
 
     def _block(self, statements: Sequence[ast.stmt], known: Known) -> tuple[list[str], Known | None]:
-        """The lines, and what is known after them; None where nothing comes after."""
+        """The lines of statements, and the variables known after them; None where nothing comes after."""
         lines, now = ["pass"], dict(known)
         for statement in statements:
             match statement:

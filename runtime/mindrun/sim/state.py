@@ -71,7 +71,7 @@ class WorldState(NamedTuple):
     loose: Annotated[Array, rows("loose", LOOSE_ROWS)]  # how far each loose thing has turned, its velocity and spin
     still: Annotated[Array, rows("loose", kind=I8)]  # for how many ticks each has not moved, up to SETTLED_TICKS
     restless: Annotated[Array, each()]  # how many have not settled
-    direction: Annotated[Array, rows("walkers")]  # in which each wanders
+    direction: Annotated[Array, rows("walkers")]  # of each that wanders, an angle
     goal: Annotated[Array, rows("walkers", kind=I8)]  # the place of its way that each goes to
     held: Annotated[Array, each()]  # the thing that the claw holds, or −1
     reached: Annotated[Array, rows("things", kind=U1)]  # bit 0 while it is in reach, bit 1 if it was in the tick before
@@ -84,7 +84,7 @@ class WorldState(NamedTuple):
     trail: Annotated[Array, rows(TRAIL_TICKS, PLACE_ROWS)]  # where the robot was in the last ticks
     # for this tick
     push: Annotated[Array, rows(PUSH_ROWS)]  # force along the heading, torque, the force's x and y, force to the left
-    acting: Annotated[Array, rows("actuators", kind=F4)]  # the commands of what is rough, with its noise
+    acting: Annotated[Array, rows("actuators", kind=F4)]  # commands of actuators with noise or failures, as they act
     grip: Annotated[Array, rows("actuators")]  # the share of its force that each keeps
     begun_at: Annotated[Array, rows(PLACE_ROWS)]  # where the robot was when the tick began
 
@@ -138,11 +138,11 @@ class ContactState(NamedTuple):
     touching: Annotated[Array, each()]  # bit 0 while something touches, bit 1 if something did in the tick before
     handles: Annotated[Array, columns("handles", kind=U8)]  # space, body, shapes: robot, held, boxes, walls
     loose: Annotated[Array, columns("loose", chipmunk.LOOSE_HANDLES, kind=U8)]  # body and shape of each loose thing
-    sizes: Annotated[Array, columns("loose")]  # of which size these are
+    sizes: Annotated[Array, columns("loose")]  # for which these shapes are made
     placed: Annotated[Array, columns("loose", kind=U1)]  # 1 where a body stands still just where its settled thing does
     last: Annotated[Array, each(F8)]  # seconds of its last step, infinitely many where nothing can have touched
     # for this tick
-    gap: Annotated[Array, each(F8)]  # to what is nearest after it
+    gap: Annotated[Array, each(F8)]  # from the robot's next centre to what is nearest
     swift: Annotated[Array, each()]  # 1 where something is so fast that it could pass something, until the tick is made
     ways: Annotated[Array, columns("movers", WAY)]  # where what moves was and is (lanes/solid)
     floats: Annotated[Array, columns(chipmunk.BODY_FLOATS)]  # a body's state on its way to Chipmunk and back
@@ -170,7 +170,7 @@ class JudgeState(NamedTuple):
 class RunState(NamedTuple):
     """The job of each lane, and its end."""
 
-    job: Annotated[Array, each()]  # which it is, −1 for none
+    job: Annotated[Array, each()]  # the number of its job, −1 for none
     ended: Annotated[Array, each()]  # what ended it, by its place among the task's ends, or GOING_ON, or LOST
     met: Annotated[Array, each()]  # the end that came first, or GOING_ON; where nothing interrupts, the run goes on
     faults: Annotated[Array, each()]  # values that were not sent

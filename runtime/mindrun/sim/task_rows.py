@@ -34,7 +34,7 @@ def things_of(task: Task) -> list[Thing]:
 
 
 def rows_by_name(task: Task) -> dict[str, range]:
-    """The rows of `things_of` that a name has. A name that is not there has none, as has the empty one: NOWHERE."""
+    """The rows of `things_of` that each name has; the empty name has NOWHERE."""
     found = {"": NOWHERE}
     for row, thing in enumerate(things_of(task)):
         found[thing.name] = range(found[thing.name].start if thing.name in found else row, row + 1)
@@ -61,7 +61,7 @@ def boxes_by_name(task: Task) -> dict[str, range]:
 
 
 def thing_rows(graph: Graph, task: Task) -> Array:
-    """Rows of THING, the items, zones and powers in the order of the source."""
+    """Rows of THING: all things of the task but obstacles, as in `things_of`."""
     rows: list[Row] = []
     asked = {(event.outcome, event.thing) for event in task.events if event.outcome}
     never = goals(graph, task)

@@ -94,7 +94,7 @@ class Trace(ShortRepr):
 def trace(
     rollout: Rollout, seed: int, genome: NDArray[np.float32] | None = None, changes: Sequence[Change] = ()
 ) -> Trace:
-    """The run that `rollout.score` would make of that genome and seed; with changes, what had become of it then."""
+    """The run that `rollout.score` would make of a genome and a seed; with `changes`, the run that these make of it."""
     genomes = np.zeros((1, 0), np.float32) if genome is None else genome[None].astype(np.float32)
     tile, jobs = _begun(rollout, genomes, seed)
     return _traced(rollout, tile, jobs, changes)

@@ -18,7 +18,7 @@ class Hindrance(NamedTuple):
 
 
 class TaskWorld(Protocol):
-    """The facts about a task's world on which it depends which events can happen."""
+    """The facts about a task's world that decide which events can happen."""
 
     @property
     def scene(self) -> SceneKind | None: ...  # None where it is not known

@@ -20,7 +20,7 @@ class MeasureKind(AboutThing):
 
     @property
     def remembered(self) -> int:
-        """The number of past ticks whose commands the lanes keep for it."""
+        """The number of ticks whose changes of commands the lanes keep for it."""
         return 0
 
     def row(self) -> Row:

@@ -32,7 +32,7 @@ def act(tables, state, lanes):
 
 @compiled
 def recall(tables, mind, run, lanes):
-    """The memory cells as they are read in the next tick: a reward of this one has them as its skills had.
+    """Update the memory cells for the next tick; rewards of this one have read them as its skills did.
 
     decay·cell + (1 − decay)·command where a skill drives a cell, else decay·cell.
     """
@@ -47,7 +47,7 @@ def recall(tables, mind, run, lanes):
 
 @compiled
 def means(total, weight, neutral, out, faults, lanes):
-    """The influence-weighted mean of the commands (Eq. 3); `neutral` where there are none.
+    """Write the influence-weighted mean of the commands (Eq. 3) to `out`; `neutral` where there are none.
 
     A mean that is no finite number, because sums overflowed, is a fault and gives `neutral` too.
     """

@@ -95,7 +95,7 @@ def drive(commands, actuator, strength, kept, push, lanes):
 
 @compiled
 def roll(tables, world, commands, lanes):
-    """Leave a car's velocity the motion that its axles let through, of which kinetic energy is nearest: v ahead,
+    """Replace a car's velocity by the one nearest to it, in kinetic energy, that its axles allow: v ahead,
     v·tan δ / 2 to the left and a turn of v·tan δ / distance of the axles.
     """
     body, heading, constants = world.body, world.heading, tables.world[0]
