@@ -1,4 +1,4 @@
-"""Environments of others: numbers of what they observe or take, and the module beside a mind that has one."""
+"""Environments of Gymnasium: the numbers of their observations and actions, and the module that has one."""
 
 from dataclasses import dataclass
 from pathlib import Path

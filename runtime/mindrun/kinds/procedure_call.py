@@ -29,11 +29,11 @@ class RunningProcedure:
     was_called: bool = False
 
     def __post_init__(self) -> None:
-        """Run the module."""
+        """Run the module, and keep its function."""
         self.function = load(self.calls, self.sources)
 
     def reset(self) -> None:
-        """Forget what the module remembers."""
+        """Run the module anew, if the function has been called, so that it remembers nothing."""
         if self.was_called:
             self.function, self.was_called = load(self.calls, self.sources), False
 

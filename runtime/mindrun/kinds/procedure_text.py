@@ -76,7 +76,7 @@ def _examined(from_: str, source: str) -> FunctionSignature | None:
 
 
 def fit(from_: str, source: str, inputs: int, outputs: int) -> None:
-    """ProcedureError where the function cannot take so many readings, or give so many numbers."""
+    """Raise ProcedureError where the function cannot take so many readings, or return so many numbers."""
     shape = examine(from_, source)
     if shape is None or outputs == 0:
         return

@@ -60,7 +60,7 @@ TALLIED, BODIES_OF, FIRST_BODY, SECOND_BODY, FIRST_PLACE, SECOND_PLACE, FIXED_BO
 
 
 def refuse_another() -> None:
-    """MindError where the library that pymunk ships is not the one that is known here."""
+    """Raise MindError where the library that pymunk ships is not the one that is known here."""
     names = (*FUNCTIONS, *MOTION_FIELDS, *PUSH_FIELDS)
     if not (
         all(hasattr(lib, name) for name in names)

@@ -38,7 +38,7 @@ def divide(wrong, a, b):
 
 @exactly
 def modulo(wrong, a, b):
-    """a % b: of the sign of b."""
+    """a % b, with the sign of b."""
     if b == 0.0:
         wrong[0] = 1
         return 0.0

@@ -134,7 +134,7 @@ Known = dict[str, Term]  # the variables that surely have a value
 
 
 def formula(function: Callable[..., Any], source: str, inputs: int, outputs: int) -> Callable[..., Any]:
-    """A function for numba that computes the same, of `wrong` and the inputs, as a tuple; NoFormulaError for no formula."""
+    """A function rewritten for numba, of `wrong` and inputs, that returns a tuple. NoFormulaError if it is none."""
     try:
         tree = ast.parse(source)
         definition = _definition(function, tree)

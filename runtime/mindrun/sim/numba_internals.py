@@ -74,7 +74,7 @@ class LowerAll(NativeLowering):  # type: ignore[misc]
     _name = "lower_all"
 
     def run_pass(self, state: Any) -> bool:
-        """In place of numba's own."""
+        """Lower the function into WholeCode."""
         state.library = WholeCode(state.targetctx.codegen(), state.func_id.func_qualname)
         state.library.enable_object_caching()
         return bool(super().run_pass(state))
@@ -87,7 +87,7 @@ class LowerOnly(NativeLowering):  # type: ignore[misc]
     _name = "lower_only"
 
     def run_pass(self, state: Any) -> bool:
-        """In place of numba's own."""
+        """Lower the function into LoweredCode, known to its callers by an object that nobody can call."""
         state.library = LoweredCode(state.targetctx.codegen(), state.func_id.func_qualname)
         state.flags.no_compile = True
         super().run_pass(state)
@@ -132,7 +132,7 @@ class KeptCode(_Cache):  # type: ignore[misc]
 
 @contextmanager
 def rare_collections() -> Iterator[None]:
-    """Looks for garbage are rare: compiling makes millions of objects, most of which are needed until it is done."""
+    """A context of rare garbage collections: compiling makes millions of objects, most of them needed until its end."""
     before = gc.get_threshold()
     gc.set_threshold(COLLECTION_OBJECTS, *before[1:])
     try:
@@ -175,7 +175,7 @@ def made_for(codegen: Any) -> tuple[str, str, str]:
 
 
 def packed(compiled: CompileResult) -> bytes:
-    """Machine code as bytes."""
+    """A compiled function's machine code as bytes."""
     return bytes(dumps(compiled._reduce()))
 
 

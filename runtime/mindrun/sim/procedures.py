@@ -137,7 +137,7 @@ class Memories:
                 mind.hidden[:outputs, k] = procedure_call.call(self.procedures.calls[skill], function, outputs, inputs)
 
     def forget(self, but: set[int]) -> None:
-        """Forget the runs that are over."""
+        """Forget the procedures of all runs but these jobs'."""
         for key in [key for key in self.functions if key[1] not in but]:
             del self.functions[key]
 

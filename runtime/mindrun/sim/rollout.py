@@ -83,7 +83,7 @@ class Rollout:
         seeds: Sequence[int],
         ran: Callable[[float], None] = lambda runs: None,
     ) -> Scores:
-        """Every genome [genomes, genome_length] on every seed; ValueError where a weight is not finite.
+        """Score every genome [genomes, genome_length] on every seed; ValueError where a weight is not finite.
 
         `ran` is told now and then, from any thread, how many more runs have been made, parts of them too. Ctrl-C stops
         all workers.
@@ -136,7 +136,7 @@ class Rollout:
             entry(self.tables, state, *arguments[entry])
 
     def tile(self, lanes: int) -> Tile:
-        """Room for so many lanes."""
+        """A tile with room for so many lanes."""
         state = empty_state(self.tables, self.sizes, lanes)
         holds = [float(thing["hold"]) if thing["kind"] == ITEM else None for thing in self.tables.things]
         contact = state.contact
@@ -192,7 +192,7 @@ class Rollout:
         after(self.tables, tile.state, jobs, self.interrupt)
 
     def forget(self, tile: Tile, working: set[int]) -> None:
-        """Forget all jobs but those."""
+        """Forget what procedures remember of all jobs but those at work."""
         tile.memories.forget(working)
 
     def think(self, tile: Tile, jobs: Jobs, first: int, last: int) -> None:
@@ -211,7 +211,7 @@ class Rollout:
                 send(tables, state, row, 0, count, lanes)
 
     def _explain(self, tile: Tile) -> None:
-        """ProcedureError where a procedure has failed."""
+        """Raise ProcedureError where a compiled procedure has failed."""
         failed = tile.state.run.failed
         if (row := failed[FAILED_SKILL]) >= 0:
             inputs = tile.state.mind.gathered[: int(self.tables.skills[row]["inputs"]), failed[FAILED_COLUMN]]
@@ -228,7 +228,7 @@ def scores_of(jobs: Jobs, task: Task) -> Scores:
 
 
 def lanes_for(jobs: int, most: int) -> int:
-    """Lanes for so many jobs: no more than `most`, few rounds, whole vectors of 16."""
+    """The number of lanes for so many jobs: no more than `most`, few rounds, whole vectors of 16."""
     lanes = -(-jobs // max(1, -(-jobs // most)))
     return max(1, min(most, whole_vectors(lanes) if lanes > 1 else 1))
 

@@ -33,17 +33,17 @@ F4, F8, I8, U1, U8 = np.float32, np.float64, np.int64, np.uint8, np.uint64
 
 
 def rows(count: Count, times: int = 1, kind: Any = F8) -> Room:
-    """[row, lane], and at least one row: whole vectors of lanes, as the perceptrons take sixteen at a time."""
+    """An array [row, lane] of at least one row, in whole vectors of lanes: networks compute sixteen at a time."""
     return lambda n, lanes: np.zeros((max(1, times * _number(count, n)), whole_vectors(lanes)), kind)
 
 
 def columns(count: Count, times: int = 1, kind: Any = F8) -> Room:
-    """[lane, column]."""
+    """An array [lane, column]."""
     return lambda n, lanes: np.zeros((lanes, times * _number(count, n)), kind)
 
 
 def each(kind: Any = I8) -> Room:
-    """[lane]."""
+    """An array [lane]."""
     return lambda n, lanes: np.zeros(lanes, kind)
 
 
@@ -220,7 +220,7 @@ class Jobs(NamedTuple):
 
 
 def empty_state(tables: Tables, sizes: Sizes, lanes: int) -> State:
-    """Room for so many lanes, all idle."""
+    """A state with room for so many lanes, all idle."""
     n = _counts(tables, sizes)
     state = State(
         _empty(WorldState, n, lanes), _empty(SightState, n, lanes), _empty(MindState, n, lanes),

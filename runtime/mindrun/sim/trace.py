@@ -227,7 +227,7 @@ def _turned(rollout: Rollout, loose: Array, direction: Array) -> NDArray[np.floa
 
 
 def _refuse_another_world(rollout: Rollout, other: Rollout) -> None:
-    """ChangeError where two minds have not the same body, sensors, memories, actuators and task."""
+    """Raise ChangeError where two minds have not the same body, sensors, memories, actuators and task."""
     unlike = [name for name in PARTS if getattr(rollout.graph, name) != getattr(other.graph, name)]
     unlike += [f"task {other.task.name}"] if rollout.task != other.task else []
     ours, theirs = rollout.tables, other.tables

@@ -51,7 +51,7 @@ def warm_up() -> None:
 
 
 def main(words: Sequence[str]) -> None:
-    """Compile; once another process that is at it has done so, or, with `behind`, not at all then."""
+    """Compile, after any other process that does; with `behind`, at low priority, and not at all beside another one."""
     behind = IN_BACKGROUND in words
     with (cache.folder() / "warming").open("w") as file:
         try:

@@ -193,7 +193,7 @@ class NetworkFunction(Function):
         return genome(found)
 
     def ready(self, inputs: int, outputs: int, weights: Weights, sources: Mapping[str, str]) -> Compute:
-        """Eq. 1 with these weights, from tick to tick."""
+        """The network with these weights (Eq. 1), from tick to tick, as a function of inputs."""
         from mindrun.numbers.network import matrices, running
 
         shapes = self.matrix_shapes(inputs, outputs)

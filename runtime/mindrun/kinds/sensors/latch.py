@@ -38,7 +38,7 @@ class Latch(SensorKind):
         return Flaw("latch-backwards", "above", "This latch lets go before it closes.", hint)
 
     def first(self, begin: Begin) -> Bounds:
-        """1 where its source is below, 0 where it is not."""
+        """The bounds of its first reading: 1 where its source is `below`, else 0."""
         low, high = begin.first(self.of)
         return 0.0 if high >= self.below else 1.0, 1.0 if low < self.below else 0.0
 

@@ -71,7 +71,7 @@ class Map(ThingKind):
         return self.cell * (column - (columns - 1) / 2), self.cell * ((rows - 1) / 2 - row)
 
     def at_places(self, places: tuple[Place, ...]) -> None:
-        """None: no map places another."""
+        """None: a map is placed by no other map."""
 
     def mistake(self, scene: SceneKind | None) -> ThingMistake | None:
         """An error where its lines differ in length, have no floor, are too many or do not fit into the arena."""

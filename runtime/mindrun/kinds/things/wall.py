@@ -49,7 +49,7 @@ class Wall(ThingKind):
                 yield Rectangle(x, (low + high) / 2, half, (high - low) / 2)
 
     def at_places(self, places: tuple[Place, ...]) -> None:
-        """None: no map places a wall."""
+        """None: a wall is placed by no map."""
 
     def mistake(self, scene: SceneKind | None) -> ThingMistake | None:
         """An error where a stretch goes nowhere, or not along an axis, or leaves the arena."""

@@ -1,4 +1,4 @@
-"""Runs in lanes: how one begins, and what becomes of its lane when it is over: the next run, or the last lane's."""
+"""Runs in lanes: one begins in a lane, and when it is over the next one does, or the last lane moves there."""
 
 import numpy as np
 

@@ -154,7 +154,7 @@ def _newest(name: str, gymnasium: Any) -> str | None:
 
 
 def _refuse_another(name: str, path: Path) -> None:
-    """BrokenEnvironmentError where this program has another module of that name, or an older text of this one."""
+    """Raise BrokenEnvironmentError where this program has another module of that name, or an older text of this one."""
     module, text = name.partition(":")[0].partition(".")[0], path.read_bytes()
     message = f"The environment {name} cannot be made."
     if (loaded := sys.modules.get(module)) is not None:

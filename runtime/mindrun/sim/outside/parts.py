@@ -46,7 +46,7 @@ class SpacePart:
         return " and ".join(f"0 to {n - 1}" if n > 1 else "0" for n in self.axes)
 
     def values(self, numbers: Floats) -> list[Any]:
-        """Numbers [runs, of its size] as such an array for each run; a single choice is a number."""
+        """Turn numbers [runs, size] into an array of its shape and type for each run; a single choice is a number."""
         values = numbers.astype(self.dtype).reshape(-1, *self.shape)
         return [*values] if self.shape or self.choices is not None else [np.asarray(value) for value in values]
 

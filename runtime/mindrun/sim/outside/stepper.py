@@ -129,7 +129,7 @@ class LocalStepper:
             yield run
 
     def _refuse_other_spaces(self, environment: Any, run: EnvironmentRun) -> None:
-        """BrokenEnvironmentError where it has other spaces than the first of its name, to which a mind is wired."""
+        """Raise BrokenEnvironmentError where its spaces are not those of the first of its name, wired to a mind."""
         now = making.spaces_in(self.environment, environment)
         for verb, first, other in zip(("observes", "takes"), self._spaces, now, strict=True):
             if first != other:

@@ -119,7 +119,7 @@ class EnvironmentProcess:
         return answer
 
     def end(self) -> None:
-        """Kill it, whatever it does."""
+        """Kill the process, whatever it does."""
         if self._process is not None:
             with self._process as process:
                 process.kill()
@@ -161,7 +161,7 @@ class EnvironmentProcess:
             raise LostError(self._ending(), self._now()) from error
 
     def _look(self) -> None:
-        """EOFError where it has ended, and a process that it has begun has its end; LostError where it is silent."""
+        """Raise EOFError if it has ended, even if its child has the socket, and LostError if it is silent too long."""
         assert self._process is not None
         if self._process.poll() is not None:
             raise EOFError
@@ -319,7 +319,7 @@ def _step_seconds() -> float:
 
 
 def _take(rows: Floats, runs: Sequence[EnvironmentRun], steps: int) -> None:
-    """Put what came of a question into runs: so many steps more, or the beginning."""
+    """Put the rows of an answer into runs: with `steps`, one step later, else at the beginning."""
     for run, row in zip(runs, rows, strict=True):
         run.row, run.steps = row, run.steps + 1 if steps else 0
 
