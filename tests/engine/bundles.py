@@ -14,7 +14,7 @@ from mindrun.kinds.events.visit import Visit
 from mindrun.kinds.functions.mlp import Mlp
 from mindrun.kinds.functions.procedure import Procedure
 from mindrun.kinds.learners import Restarting
-from mindrun.kinds.measures.change import Change
+from mindrun.kinds.measures.change import CommandChange
 from mindrun.kinds.measures.progress import Retreat
 from mindrun.kinds.scenes.arena import Arena
 from mindrun.kinds.things.item import Item
@@ -32,7 +32,7 @@ THINGS = (
 )
 EACH = Reward("Σ", (("each", 0), ("measure", 1), ("*", 0)), None, (0, 1), (("reading", 0), ("number", 0.5), ("<", 0)))
 TASK = Task(
-    "Carry", Arena(40.0), THINGS, 100, (Retreat("ball"), Change("thrust", 0.5)),
+    "Carry", Arena(40.0), THINGS, 100, (Retreat("ball"), CommandChange("thrust", 0.5)),
     (Delivery("ball"), Reach("home"), Visit("patch", 8.0)), (End(2),), (Reward("1", (("number", 1.0),), 0), EACH), (1,),
 )  # fmt: skip
 LESSON = Lesson("All", "Go+On", "Carry", "Top", 5, False, True, Restarting())

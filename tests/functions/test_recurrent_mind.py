@@ -16,7 +16,7 @@ from mindrun.robot.loop import Loop, Rate
 from mindrun.robot.recording import About, Recorder
 from mindrun.robot.replay import replay
 from mindrun.robot.sensing import ReadingFilter, Sampler
-from mindrun.sim.commanded_world import World
+from mindrun.sim.commanded_world import CommandedWorld
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 
@@ -56,7 +56,7 @@ def policy(seed: int = 1) -> Policy:
 @pytest.mark.parametrize("seed", range(3))
 def test_commanded_from_outside_it_is_the_run_of_the_rollout(seed: int) -> None:
     mind = policy()
-    world, engine = World(mind.graph, "World", seed), Engine(mind)
+    world, engine = CommandedWorld(mind.graph, "World", seed), Engine(mind)
     for moment in trace(Rollout(mind, "World", "Top"), seed).moments:
         assert np.array_equal(world.readings()[[0, 2]], moment.readings[[0, 2]])
         commands = engine.tick(world.readings())

@@ -7,7 +7,7 @@ from mindrun.graph.graph import Edge, End, Graph, Reward, Skill
 from mindrun.kinds.functions.mlp import Mlp
 from mindrun.kinds.functions.rule import Rule
 from mindrun.kinds.learners import Genetic
-from mindrun.kinds.measures.change import Change
+from mindrun.kinds.measures.change import CommandChange
 from mindrun.kinds.measures.forward import Forward
 from mindrun.kinds.scenes.arena import Arena
 from mindrun.kinds.sensors.sine import Sine
@@ -117,7 +117,7 @@ def test_the_task_avoid(graph: Graph) -> None:
     task = next(task for task in graph.tasks if task.name == "Avoid")
     assert task.scene == Arena(100.0)
     assert task.things[0].kind == Obstacle(size=Span(4, 8), grid=20, jitter=1)
-    assert task.measures == (Forward(), Change("thrust", 0.2, 10))
+    assert task.measures == (Forward(), CommandChange("thrust", 0.2, 10))
     assert len(task.events) == 2
     assert task.ends == (End(task.rewards[1].on),)
     assert task.counts == (task.rewards[0].on,)

@@ -182,14 +182,14 @@ def test_a_dry_run_is_refused_before_it_is_begun(mindc: Call, mind: Path, tmp_pa
 
 def test_no_other_simulator_takes_it(mindc: Call, mind: Path) -> None:
     from mindrun.errors import MindError
-    from mindrun.sim.commanded_world import World
+    from mindrun.sim.commanded_world import CommandedWorld
 
     from mindlang.compiler.compile import load
 
     graph = load(mind).graph
     assert graph
     with pytest.raises(MindError, match="in the environment tests/Line-v0"):
-        World(graph, "Go", 1, None)
+        CommandedWorld(graph, "Go", 1, None)
 
 
 def test_a_bundle_thinks_for_readings_from_anywhere(mindc: Call, mind: Path, tmp_path: Path) -> None:

@@ -26,7 +26,7 @@ from mindrun.graph.weights import genes
 from mindrun.robot.guardian import plan
 from mindrun.robot.recording import About, Recorder
 from mindrun.robot.replay import replay
-from mindrun.sim.commanded_world import World
+from mindrun.sim.commanded_world import CommandedWorld
 from mindrun.train import checkpoint
 from mindrun.train.manifest import hashes
 from mindrun.train.progress import LINES, read_progress
@@ -106,7 +106,7 @@ def use_bundle(folder: Path) -> object:
         commands = engine.tick(np.full(bundle.graph.width, reading))
         assert ((commands >= 0) & (commands <= 1)).all()
     for task in bundle.graph.tasks:
-        world = World(bundle.graph, task.name, 1)
+        world = CommandedWorld(bundle.graph, task.name, 1)
         for _ in range(5):
             world.step([1.0] * len(bundle.graph.actuators))
         assert np.isfinite(world.readings()).all()

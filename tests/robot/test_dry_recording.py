@@ -18,7 +18,7 @@ from mindrun.robot.dry_run import MAX_END_TICKS, DryRun, SeenWorld
 from mindrun.robot.recording import read
 from mindrun.robot.replay import replay_recording
 from mindrun.robot.world_server import Server, SimulatedScene, listening
-from mindrun.sim.commanded_world import World
+from mindrun.sim.commanded_world import CommandedWorld
 from mindrun.terminal.standard_streams import StatusLine
 
 from mindlang.compiler.compile import load
@@ -32,7 +32,7 @@ NEVER_SECONDS = 1e6  # no tick of the world but those of the test
 class Hesitant(SimulatedScene):
     """A world that answers while it is let."""
 
-    def __init__(self, world: World) -> None:
+    def __init__(self, world: CommandedWorld) -> None:
         super().__init__(world)
         self.answers = Event()
         self.answers.set()
@@ -101,7 +101,7 @@ def test_a_run_whose_recording_never_gets_the_end_ends(rules: Path) -> None:
     """So it is where a recording for a viewer alone was given up."""
     graph = load(rules).graph
     assert graph
-    world = World(graph, "Roam", 3)
+    world = CommandedWorld(graph, "Roam", 3)
     with served(SimulatedScene(world)) as path:
         seen = SeenWorld(world.task, 3, path)
         loop, line = SimpleNamespace(engine=Engine(Policy(graph, {}))), StatusLine(lambda sentence: None)
@@ -121,7 +121,7 @@ def test_a_recorder_waits_for_no_world(rules: Path, monkeypatch: pytest.MonkeyPa
     monkeypatch.setattr("mindrun.robot.simulated_world.EXCHANGE_SECONDS", PATIENCE)
     graph = load(rules).graph
     assert graph
-    world = World(graph, "Roam", 3)
+    world = CommandedWorld(graph, "Roam", 3)
     scene = Hesitant(world)
     with served(scene) as path:
         seen = SeenWorld(world.task, 3, path)
@@ -155,7 +155,7 @@ def test_a_world_is_the_run_of_mindc_column_by_column(rules: Path) -> None:
     setup = set_up(str(rules), load(rules), "Roam", None)
     run = record_run(setup, setup.rollout(), 3)
     graph = setup.ready.policy.graph
-    world, engine = World(graph, "Roam", 3), Engine(Policy(graph, {}))
+    world, engine = CommandedWorld(graph, "Roam", 3), Engine(Policy(graph, {}))
     for tick in range(run.ticks):
         now = world.columns()
         assert np.array_equal(now["pose"], run.body[tick])

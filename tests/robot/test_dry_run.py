@@ -14,7 +14,7 @@ from mindrun.graph.graph import Graph, Task, Thing
 from mindrun.graph.policy import Policy
 from mindrun.robot.dry_run import MAX_THINGS_NAMED, DryRun, beginning, outcome
 from mindrun.robot.recording import read
-from mindrun.sim.commanded_world import World
+from mindrun.sim.commanded_world import CommandedWorld
 from mindrun.sim.rollout import Rollout
 from mindrun.terminal.standard_streams import CLEAR, PLAIN_SECONDS, StatusLine, error_columns
 
@@ -93,7 +93,7 @@ def test_a_score_that_is_no_number_is_said(roam: Graph) -> None:
 def test_the_world_is_paid_as_the_same_run_of_mindc(roam: Graph, task: str) -> None:
     """Every reward line to the last bit: before the end of the run, and after it."""
     rollout = Rollout(Policy(roam, {}), task, roam.master)
-    world, engine = World(roam, task, 3), Engine(Policy(roam, {}))
+    world, engine = CommandedWorld(roam, task, 3), Engine(Policy(roam, {}))
     while world.ended is None:
         last = world.by_line
         world.step(engine.tick(world.readings()))
@@ -116,7 +116,7 @@ def test_lines_of_one_text_come_to_the_score_of_mindc_in_their_order(tmp_path: P
     graph = load(tmp_path / "roam.mind").graph
     assert graph
     rollout = Rollout(Policy(graph, {}), "Roam", graph.master)
-    world, engine = World(graph, "Roam", 3), Engine(Policy(graph, {}))
+    world, engine = CommandedWorld(graph, "Roam", 3), Engine(Policy(graph, {}))
     while world.ended is None:
         world.step(engine.tick(world.readings()))
     assert world.score == rollout.score(np.zeros((1, 0), np.float32), [3]).total[0, 0]

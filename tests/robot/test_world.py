@@ -29,7 +29,7 @@ from mindrun.robot.drivers.simulated import SimulatedActuator, SimulatedSensor
 from mindrun.robot.dry_run import dry
 from mindrun.robot.simulated_world import READ, REQUEST, STATUS, WRITE, WorldConnection, simulated, status
 from mindrun.robot.world_server import Server, SimulatedScene, listening
-from mindrun.sim.commanded_world import World
+from mindrun.sim.commanded_world import CommandedWorld
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 
@@ -71,8 +71,8 @@ def until(holds: Callable[[], object]) -> None:
 
 
 def follow(graph: Graph, weights: dict[str, np.ndarray], task: str, seed: int, most: int = 500) -> int:
-    """The engine in a World and the lanes: the same readings, commands and places; for how many ticks."""
-    world, engine = World(graph, task, seed), Engine(Policy(graph, weights))
+    """The engine in a CommandedWorld and the lanes: the same readings, commands and places; for how many ticks."""
+    world, engine = CommandedWorld(graph, task, seed), Engine(Policy(graph, weights))
     delayed = any(actuator.kind.delay for actuator in graph.actuators)
     moments = trace(Rollout(Policy(graph, weights), task, graph.master), seed).moments
     for moment, _ in zip(moments, range(most), strict=False):
@@ -117,7 +117,7 @@ def roam(tmp_path: Path) -> Graph:
 
 
 def test_a_run_that_has_ended_stands_still_until_another_begins(roam: Graph) -> None:
-    world, other = World(roam, "Roam", 1), World(roam, "Roam", 2)
+    world, other = CommandedWorld(roam, "Roam", 1), CommandedWorld(roam, "Roam", 2)
     while world.ended is None:
         world.step([1, 1])
     tick, pose = world.tick, world.pose
@@ -135,14 +135,14 @@ def test_a_run_that_has_ended_stands_still_until_another_begins(roam: Graph) -> 
 
 def test_a_run_ends_with_its_time_even_where_nothing_can_happen(tmp_path: Path) -> None:
     (tmp_path / "still.mind").write_text(RULES.partition("task Chase")[0] + STILL, encoding="utf-8")
-    world = World(graph_of(tmp_path / "still.mind"), "Still", 1)
+    world = CommandedWorld(graph_of(tmp_path / "still.mind"), "Still", 1)
     for _ in range(5):
         world.step([0.5, 0.5])
     assert (world.tick, world.ended, world.events) == (3, "time", {})
 
 
 def test_a_command_that_is_no_number_is_neutral(roam: Graph) -> None:
-    world, other = World(roam, "Roam", 1), World(roam, "Roam", 1)
+    world, other = CommandedWorld(roam, "Roam", 1), CommandedWorld(roam, "Roam", 1)
     for command in (nan, inf, -inf):
         world.step([0.8, command])
         other.step([0.8, 0.5])
@@ -151,9 +151,9 @@ def test_a_command_that_is_no_number_is_neutral(roam: Graph) -> None:
 
 def test_there_must_be_such_a_task_and_master(roam: Graph) -> None:
     with pytest.raises(MindError, match="there is no task Fly"):
-        World(roam, "Fly", 1)
+        CommandedWorld(roam, "Fly", 1)
     with pytest.raises(MindError, match="there is no skill Fly"):
-        World(roam, "Roam", 1, "Fly")
+        CommandedWorld(roam, "Roam", 1, "Fly")
 
 
 # What clients are told

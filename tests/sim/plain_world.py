@@ -19,7 +19,7 @@ from mindrun.kinds.events.exhaustion import Exhaustion
 from mindrun.kinds.events.reach import Reach
 from mindrun.kinds.events.success import Success
 from mindrun.kinds.events.visit import Visit
-from mindrun.kinds.measures.change import Change
+from mindrun.kinds.measures.change import CommandChange
 from mindrun.kinds.measures.forward import Forward
 from mindrun.kinds.measures.progress import Advance, Progress, Retreat
 from mindrun.kinds.scenes.arena import Arena
@@ -71,7 +71,7 @@ class PlainWorld:
         self.trail = deque([(self.x, self.y)] * TRAIL, TRAIL)
         self.commands = [a.kind.neutral for a in graph.actuators]
         self.late = [deque([f(a.kind.neutral)] * a.kind.delay) for a in graph.actuators]
-        self.turns = {i: deque() for i, m in enumerate(task.measures) if isinstance(m, Change)}
+        self.turns = {i: deque() for i, m in enumerate(task.measures) if isinstance(m, CommandChange)}
         self.counts = [0] * len(task.events)
         self.visited = [{self.patch(event)} for event in task.events]
         self.lines = [np.float64(0)] * len(task.rewards)
@@ -329,7 +329,7 @@ class PlainWorld:
                     found.append(max(0.0, closed[of]))
                 case Retreat(from_=of):
                     found.append(max(0.0, -closed[of]))
-                case Change(beyond=beyond, over=over):
+                case CommandChange(beyond=beyond, over=over):
                     found.append(self.thrust_changed(self.turns[i], beyond, over))
         return found
 

@@ -25,7 +25,7 @@ from mindrun.kinds.events.reach import Reach
 from mindrun.kinds.events.success import Success
 from mindrun.kinds.events.visit import Visit
 from mindrun.kinds.learners import Learner
-from mindrun.kinds.measures.change import Change
+from mindrun.kinds.measures.change import CommandChange
 from mindrun.kinds.measures.forward import Forward
 from mindrun.kinds.measures.measure import MeasureKind
 from mindrun.kinds.measures.progress import Advance, Progress, Retreat
@@ -228,7 +228,7 @@ def _things(draw: st.DrawFn, scene: SceneKind) -> tuple[Thing, ...]:
 @st.composite
 def _measures(draw: st.DrawFn, things: tuple[Thing, ...]) -> tuple[MeasureKind, ...]:
     named = [thing.name for thing in things if not thing.kind.is_obstacle]
-    measures: list[MeasureKind] = [Forward(), Change("thrust", 0.2, 4), Change("thrust", 0.0, 1)]
+    measures: list[MeasureKind] = [Forward(), CommandChange("thrust", 0.2, 4), CommandChange("thrust", 0.0, 1)]
     for name in named:
         measures += [Progress(name), Advance(name), Retreat(name)]
     return tuple(draw(st.lists(st.sampled_from(measures), unique=True, min_size=1, max_size=4)))

@@ -1,1 +1,1 @@
-"""The kinds: dataclasses whose fields are their arguments, and which say of themselves what the rest asks."""
+"""The kinds of sensors, actuators, things …: dataclasses whose fields are the arguments that a `.mind` gives them."""

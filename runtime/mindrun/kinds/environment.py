@@ -1,4 +1,4 @@
-"""Environments of others: numbers of what they observe or take, and the module beside a mind that has one."""
+"""Environments of Gymnasium: the numbers of their observations and actions, and the module that has one."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -23,7 +23,7 @@ class Slot:
 
     @property
     def has_two_ends(self) -> bool:
-        """Whether its range, where it has one, goes from a number to a greater one."""
+        """True if it has no range, or one from a number to a greater one."""
         return self.range is None or (self.range.by is None and self.range.first < self.range.last)
 
 

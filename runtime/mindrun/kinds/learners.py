@@ -1,4 +1,4 @@
-"""Kinds of curricula: how the lessons are learnt. `train/ask_and_tell.py` knows who does it."""
+"""Kinds of curricula: learners and their parameters. `train/ask_and_tell.py` has the learner of each."""
 
 from dataclasses import replace
 from typing import Annotated
@@ -41,7 +41,7 @@ class Genetic:
     rungs: Annotated[int, RUNGS] = 0
 
     def standstill(self, weights: int, generations: int) -> str:
-        """Why it finds nothing in so many generations that its first genomes are not, as a sentence; empty if it may.
+        """A sentence on why so many generations find nothing beyond the first genomes; empty if they may.
 
         `weights` is how many a genome has.
         """
@@ -91,12 +91,12 @@ class EvolutionStrategy:
     rungs: Annotated[int, RUNGS] = 0
 
     def standstill(self, weights: int, generations: int) -> str:
-        """Why it comes nowhere in so many generations, as a sentence; empty where it may."""
+        """A sentence on why so many generations come nowhere; empty if they may."""
         return _no_steps(self.mutation, generations)
 
 
 def _no_steps(spread: float, generations: int) -> str:
-    """That steps of a spread come nowhere, where no weight is elsewhere after so many of them."""
+    """A sentence where so many steps of this spread leave every weight where it was, else empty."""
     if spread * generations >= NEAR_WEIGHT:
         return ""
     return f"Steps of {spread:g} leave every weight where it was, in {generations} generations"

@@ -1,4 +1,4 @@
-"""Procedures at work: their modules run, their functions called."""
+"""Running procedures: their modules are executed, and their functions called with readings."""
 
 import sys
 from collections.abc import Callable, Mapping
@@ -19,8 +19,8 @@ from mindrun.numbers.given_numbers import number, values
 
 
 @dataclass(slots=True)
-class Called:
-    """A procedure at work: its function, of a module that is run anew for each run that calls it."""
+class RunningProcedure:
+    """A procedure of one run: its function, from a module that is executed anew for each run."""
 
     calls: str
     sources: Mapping[str, str]
@@ -29,16 +29,16 @@ class Called:
     was_called: bool = False
 
     def __post_init__(self) -> None:
-        """Run the module."""
+        """Run the module, and keep its function."""
         self.function = load(self.calls, self.sources)
 
     def reset(self) -> None:
-        """Forget what the module remembers."""
+        """Run the module anew, if the function has been called, so that it remembers nothing."""
         if self.was_called:
             self.function, self.was_called = load(self.calls, self.sources), False
 
     def __call__(self, inputs: NDArray[np.float32]) -> NDArray[np.float32]:
-        """Its outputs, before the clamp."""
+        """The function's outputs [outputs] for inputs [inputs], before the clamp."""
         self.was_called = True
         return call(self.calls, self.function, self.outputs, inputs)
 
@@ -89,7 +89,7 @@ def call(calls: str, function: Callable[..., Any], outputs: int, inputs: NDArray
 
 
 def _error_text(error: BaseException, path: str) -> str:
-    """Where in the module an error arose, where it did, and what it says."""
+    """The line of the module in which an error arose, if it did there, and the error's type and text."""
     lines = [line for frame, line in walk_tb(error.__traceback__) if frame.f_code.co_filename == path]
     where = f" in {path}, line {lines[-1]}" if lines else ""
     try:

@@ -1,4 +1,4 @@
-"""What the names in a module's text stand for, each in its own scope, and what it uses so: modules, files, chance."""
+"""Name resolution in a module's text, each name in its own scope: which modules, files and random numbers it uses."""
 
 import ast
 import builtins
@@ -33,7 +33,7 @@ READERS = {
     **dict.fromkeys(("FileInput", "input"), ("fileinput.",)),
     "FileIO": ("io.", "_io."),
     "connect": ("sqlite3.",),
-}  # functions that read the file they are given the name of, and how the names of those begin that have them
+}  # functions that read a file given by name, and prefixes of the modules or classes that have them
 OF_PATHS = {"read_text", "read_bytes"}  # methods that nothing but a file has
 STREAMED = "json.", "marshal.", "pickle.", "tomllib.", "yaml."  # modules whose `load` is given what is open
 IN_MEMORY = {"io.BytesIO", "io.StringIO"}
@@ -41,7 +41,7 @@ IMPORTING = {"importlib.import_module", "__import__", "builtins.__import__"}
 
 
 @dataclass(slots=True)
-class Names:
+class ModuleNames:
     """The names of a module's text; which of them are whose says Python's own table of symbols."""
 
     tree: ast.Module
@@ -71,7 +71,7 @@ class Names:
         return frozenset(found)
 
     def _spread(self) -> None:
-        """Let each name stand for what the names stand for that it is given."""
+        """Give each name all that the names assigned to it stand for, until nothing new is found."""
         given_to: dict[Key, list[tuple[Key, str]]] = defaultdict(list)
         left: list[tuple[Key, str]] = []
         for key, each in ((key, each) for key, given in self._bound.items() for each in given):
@@ -94,7 +94,7 @@ class Names:
         return self._paths.get(key) or self._of_python(key)
 
     def _of_python(self, key: Key) -> list[str]:
-        """What a name is to which the text gives nothing."""
+        """The dotted names of a name that the text never binds: a builtin, `__file__`, or one from a star import."""
         home, name = key
         if key in self._bound or _is_bound(name, home):
             return []
@@ -102,7 +102,7 @@ class Names:
         return [*(f"{module}.{name}" for module in self._everything_of), *[name] * is_known]
 
     def _bind(self, node: ast.AST, scopes: Scopes, inner: Scopes) -> None:
-        """Remember what a node makes names stand for."""
+        """Record the names that a node binds, and to what."""
         match node:
             case ast.Import(names=aliases):
                 for alias in aliases:
@@ -144,7 +144,7 @@ class Names:
 
 
 def _names(node: ast.AST) -> Iterator[tuple[ast.Name, str]]:
-    """The names of which an expression is one, each with the attributes that are taken of it."""
+    """The names that an expression may be, each with the attributes that are taken of it."""
     left = [(node, "")]
     while left:
         match left.pop():
@@ -170,7 +170,7 @@ def _home(name: str, scopes: Scopes) -> symtable.SymbolTable:
 
 
 def _is_bound(name: str, scope: symtable.SymbolTable) -> bool:
-    """Whether the text itself gives the name a value in a scope."""
+    """True if the text itself binds the name in a scope."""
     symbol = _symbol(name, scope)
     return symbol is not None and (symbol.is_local() or symbol.is_assigned() or symbol.is_imported())
 
@@ -207,7 +207,7 @@ def _own_parts(node: ast.AST) -> Iterator[ast.AST]:
             yield from ast.iter_child_nodes(node)
 
 
-def imports(names: Names) -> Iterator[tuple[int, str, str, bool]]:
+def imports(names: ModuleNames) -> Iterator[tuple[int, str, str, bool]]:
     """Each line that imports, the module (with a dot before what is relative), a name in it, whether it may be absent.
 
     The name is empty for the module alone, and where all of it is taken.
@@ -225,7 +225,7 @@ def imports(names: Names) -> Iterator[tuple[int, str, str, bool]]:
                 yield node.lineno, module, "", node in tried
 
 
-def drawn(names: Names) -> Iterator[tuple[int, str]]:
+def drawn(names: ModuleNames) -> Iterator[tuple[int, str]]:
     """Lines that use numbers drawn at random, from no generator with a seed, and what they use."""
     for node in ast.walk(names.tree):
         match node:
@@ -239,8 +239,8 @@ def drawn(names: Names) -> Iterator[tuple[int, str]]:
                         yield node.lineno, f"{used} without a seed"
 
 
-def opened(names: Names) -> Iterator[tuple[int, str]]:
-    """Lines that read a file, and by what; one that only writes is none."""
+def opened(names: ModuleNames) -> Iterator[tuple[int, str]]:
+    """Lines that read a file, and the name that does so; one that only writes is none."""
     is_streaming = any(names.paths(node) & IN_MEMORY for node in ast.walk(names.tree))
     for node in ast.walk(names.tree):
         match node:
@@ -253,7 +253,7 @@ def opened(names: Names) -> Iterator[tuple[int, str]]:
                     yield node.lineno, func.attr
 
 
-def texts(names: Names) -> Iterator[tuple[int, str]]:
+def texts(names: ModuleNames) -> Iterator[tuple[int, str]]:
     """The texts in a module and their lines, without docstrings and what is only written to."""
     passed: set[ast.expr] = set()
     for node in ast.walk(names.tree):  # whoever has a node in it comes first
@@ -271,7 +271,7 @@ def _opens(paths: frozenset[str]) -> bool:
 
 
 def _reads(used: str, call: ast.Call, is_streaming: bool) -> bool:
-    """Whether a function of a module reads a file; one that may be given what is in memory is believed to be."""
+    """True if the call of a function named `used` reads a file; not where what it is given may be in memory."""
     last = used.rpartition(".")[2]
     if last == "open":
         return not _writes(_modes(call, 1))
@@ -280,19 +280,19 @@ def _reads(used: str, call: ast.Call, is_streaming: bool) -> bool:
     return is_reader and is_named and not (last == "load" and used.startswith(STREAMED))
 
 
-def _is_of_a_path(method: str, call: ast.Call, names: Names) -> bool:
-    """Whether a method of something reads a file: what has an `open` is a path where the module knows any."""
+def _is_of_a_path(method: str, call: ast.Call, names: ModuleNames) -> bool:
+    """True if a method of an unknown object reads a file; `open` is a path's where the module imports pathlib."""
     knows_paths = any(each.startswith("pathlib") for each in names.imported)
     return method in OF_PATHS or (method == "open" and knows_paths and not _writes(_modes(call, 0)))
 
 
 def _modes(call: ast.Call, place: int) -> list[ast.expr]:
-    """What a call of an `open` says of its mode, by a keyword or as the argument at a place."""
+    """The modes or flags that a call of an `open` is given, by keyword or as the argument at a place."""
     return [*call.args[place : place + 1], *(each.value for each in call.keywords if each.arg in ("mode", "flags"))]
 
 
 def _writes(modes: list[ast.expr]) -> bool:
-    """Whether the mode of an `open` says that nothing is read."""
+    """True if the modes or flags of an `open` say that nothing is read."""
     said = [each.value for each in modes if isinstance(each, ast.Constant) and isinstance(each.value, str)]
     flags = {each.attr for mode in modes for each in ast.walk(mode) if isinstance(each, ast.Attribute)}
     return "O_WRONLY" in flags or any(mode.strip("bt")[:1] in {"w", "a", "x"} and "+" not in mode for mode in said)

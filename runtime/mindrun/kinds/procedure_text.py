@@ -1,4 +1,4 @@
-"""What the text of a procedure's module says without being run: whether the function is there, what it takes and gives.
+"""Checks of a procedure's module by its text alone: that the function is there, how many numbers it takes and returns.
 
 The function is looked for as `from` names it: `claw.grip` is `grip` in claw.py.
 """
@@ -12,7 +12,7 @@ from warnings import catch_warnings
 
 from mindrun.errors import ProcedureError
 from mindrun.kinds import procedure_names as use
-from mindrun.kinds.procedure_names import Names
+from mindrun.kinds.procedure_names import ModuleNames
 
 BLOCKS = ast.If | ast.Try | ast.With | ast.For | ast.While
 FUNCTIONS = ast.FunctionDef | ast.AsyncFunctionDef
@@ -20,8 +20,8 @@ STANDS_ALONE = "A module stands alone: write what it needs into it."
 
 
 @dataclass(frozen=True, slots=True)
-class Shape:
-    """What a plain function takes: so many numbers at least, so many at most (None: any number), and what it returns.
+class FunctionSignature:
+    """The signature of a plain function: it takes `least` to `most` numbers (None: any number).
 
     `returned` are the lines of `return` and how many values each gives, where that can be seen.
     """
@@ -43,15 +43,15 @@ def file_of(from_: str) -> str:
 
 
 @lru_cache(16)
-def examine(from_: str, source: str) -> Shape | None:
-    """What the function is, None where only running could tell; ProcedureError where it can be none."""
+def examine(from_: str, source: str) -> FunctionSignature | None:
+    """The function's signature, None where only running could tell; ProcedureError where it can be no procedure."""
     try:
         return _examined(from_, source)
     except RecursionError:
         raise fault(from_, "its module is nested too deep") from None
 
 
-def _examined(from_: str, source: str) -> Shape | None:
+def _examined(from_: str, source: str) -> FunctionSignature | None:
     names, name = _parsed(from_, source), from_.rpartition(".")[2]
     tree = names.tree
     functions = [node for node in _statements(tree.body) if isinstance(node, FUNCTIONS) and node.name == name]
@@ -72,11 +72,11 @@ def _examined(from_: str, source: str) -> Shape | None:
         raise fault(from_, "is async, and a procedure answers at once", function.lineno, hint)
     if any(isinstance(node, ast.Yield | ast.YieldFrom) for node in inside):
         raise fault(from_, "yields, and a procedure returns", function.lineno, "Write return instead of yield.")
-    return None if function.decorator_list else _shape(function, inside)
+    return None if function.decorator_list else _signature(function, inside)
 
 
 def fit(from_: str, source: str, inputs: int, outputs: int) -> None:
-    """ProcedureError where the function cannot take so many readings, or give so many numbers."""
+    """Raise ProcedureError where the function cannot take so many readings, or return so many numbers."""
     shape = examine(from_, source)
     if shape is None or outputs == 0:
         return
@@ -109,17 +109,17 @@ def texts(from_: str, source: str) -> Iterator[tuple[int, str]]:
 
 
 def fault(from_: str, message: str, line: int = 0, hint: str = "") -> ProcedureError:
-    """What is wrong with a procedure, with the file and the line."""
+    """An error about a procedure, with the file and the line."""
     where = f" ({file_of(from_)}, line {line})" if line else ""
     return ProcedureError(f"procedure from {from_}: {message}{where}", hint)
 
 
 @lru_cache(16)
-def _parsed(from_: str, source: str) -> Names:
+def _parsed(from_: str, source: str) -> ModuleNames:
     try:
         with catch_warnings(action="ignore"):
             compile(source, file_of(from_), "exec")  # finds more than the parser does: return outside of a function
-            return Names(ast.parse(source), symtable(source, file_of(from_), "exec"))
+            return ModuleNames(ast.parse(source), symtable(source, file_of(from_), "exec"))
     except SyntaxError as error:
         raise fault(from_, f"SyntaxError: {error.msg}", error.lineno or 1) from error
     except (ValueError, RecursionError, MemoryError) as error:
@@ -137,7 +137,7 @@ def _statements(body: list[ast.stmt]) -> Iterator[ast.stmt]:
 
 
 def _given(tree: ast.Module) -> set[str]:
-    """Every name that gets a value somewhere; all names, where that cannot be seen."""
+    """Every name that is assigned or imported anywhere, `*` where a star import may bind any."""
     names: set[str] = set()
     for node in ast.walk(tree):
         match node:
@@ -158,7 +158,7 @@ def _own(function: ast.AST) -> Iterator[ast.AST]:
             left.extend(ast.iter_child_nodes(node))
 
 
-def _shape(function: ast.FunctionDef, inside: list[ast.AST]) -> Shape:
+def _signature(function: ast.FunctionDef, inside: list[ast.AST]) -> FunctionSignature:
     given = function.args
     plain = len(given.posonlyargs) + len(given.args)
     returned = []
@@ -171,4 +171,5 @@ def _shape(function: ast.FunctionDef, inside: list[ast.AST]) -> Shape:
                 returned.append((node.lineno, 0))
     if not any(isinstance(node, ast.Return | ast.Raise) for node in inside):
         returned.append((function.lineno, 0))
-    return Shape(plain - len(given.defaults), None if given.vararg else plain, tuple(returned), function.lineno)
+    most = None if given.vararg else plain
+    return FunctionSignature(plain - len(given.defaults), most, tuple(returned), function.lineno)

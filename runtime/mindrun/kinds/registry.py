@@ -30,7 +30,7 @@ Shape = Literal["one", "list", "span", "name", "extent", "place", "places", "lin
 
 @dataclass(frozen=True, slots=True)
 class Argument:
-    """One argument of a kind."""
+    """An argument of a kind: its key in a `.mind`, its field, the type and shape of its value, and its default."""
 
     key: str
     field: str
@@ -40,7 +40,7 @@ class Argument:
 
     @property
     def required(self) -> bool:
-        """Whether the argument must be written."""
+        """True if it has no default, so that it must be written."""
         return self.default is MISSING
 
 
@@ -66,7 +66,7 @@ def kinds(noun: str) -> dict[str, type[Any]]:
 
 
 def find_kind(noun: str, name: str) -> type[Any] | None:
-    """The kind of that name, whose module alone is imported where it has the kind's name; None where there is none."""
+    """The kind of that name, or None. A module called as the kind is imported alone, else all modules of its noun."""
     known, module = _kinds.get(SHARED_NOUNS.get(noun, noun), {}), name.replace(" ", "_")
     if name not in known and noun in ROOMS and module in _modules(ROOMS[noun]):
         import_module(f"{ROOMS[noun]}.{module}")
@@ -86,7 +86,7 @@ def _import_all(room: str) -> None:
 
 
 def base(noun: str) -> Callable[[type[T]], type[T]]:
-    """Say that a class is what the kinds of a noun have in common: an annotation with it takes each of them."""
+    """Register a class as the base of the kinds of a noun: an annotation with it takes each of them."""
 
     def register(cls: type[T]) -> type[T]:
         _bases[cls] = noun
@@ -113,7 +113,7 @@ def arguments(cls: type[Any]) -> tuple[Argument, ...]:
 
 
 def named_arguments(cls: type[Any]) -> tuple[Argument, ...]:
-    """Those that are written with their keys: what stands behind the kind itself, as in `observation 1`, is none."""
+    """The arguments that are written with their keys: not what stands behind the kind itself, as in `observation 1`."""
     return tuple(each for each in arguments(cls) if each.key != _names[cls] and each.type != SLOT)
 
 

@@ -49,7 +49,7 @@ MAX_FLOAT32 = np.finfo(F).max
 
 
 def clamp(v: Any) -> Any:
-    """`v` within 0..1; the caller has looked whether it is finite."""
+    """`v` clamped to 0..1; the caller has made sure that it is finite."""
     v = v if v > ZERO else ZERO
     return v if v < ONE else ONE
 
@@ -61,12 +61,12 @@ def wrapped(v: Any) -> Any:
 
 
 def short_way(d: Any) -> Any:
-    """What lies between two directions whose difference is `d`, the short way round: −0.5 to 0.5."""
+    """The difference `d` of two directions, the short way round: −0.5 to 0.5 of a turn."""
     return d - np.rint(d)
 
 
 def finite(v: Any) -> Any:
-    """Whether a float32 is neither infinite nor NaN."""
+    """True if a float32 is neither infinite nor NaN."""
     return abs(v) <= MAX_FLOAT32
 
 
@@ -119,12 +119,12 @@ def bearing(x: Any, y: Any) -> Any:
 
 
 def place_of(things: Any, i: Any, p: Any) -> Any:
-    """Where thing i is in the world of lane p: its x and y. Whatever reads or moves things does it by these five."""
+    """The x and y of thing i in the world of lane p. Whatever reads or moves things does it by these five functions."""
     return things[THING_ROWS * i + X, p], things[THING_ROWS * i + Y, p]
 
 
 def put_thing(things: Any, i: Any, x: Any, y: Any, p: Any) -> None:
-    """Thing i to a place in the world of lane p."""
+    """Move thing i to a place in the world of lane p."""
     things[THING_ROWS * i + X, p], things[THING_ROWS * i + Y, p] = x, y
 
 
@@ -139,7 +139,7 @@ def resize_thing(things: Any, i: Any, size: Any, p: Any) -> None:
 
 
 def distance_of(things: Any, i: Any, p: Any) -> Any:
-    """How far the robot of lane p was from thing i as the tick began."""
+    """The distance between the robot of lane p and thing i as the tick began."""
     return things[THING_ROWS * i + DISTANCE, p]
 
 
@@ -150,7 +150,7 @@ def box_of(boxes: Any, b: Any, p: Any) -> Any:
 
 
 def in_claw(body: Any, heading: Any, things: Any, front: Any, reach: Any, i: Any, p: Any) -> Any:
-    """Whether thing i is ahead of the claw, `front` ahead of the body's middle, and its rim within reach, in lane p."""
+    """True if thing i is ahead of the claw, `front` ahead of the body's middle, and its rim within reach, in lane p."""
     x, y = place_of(things, i, p)
     dx, dy = x - body[X, p], y - body[Y, p]
     ahead = heading[COSINE, p] * dx + heading[SINE, p] * dy - front
@@ -160,7 +160,7 @@ def in_claw(body: Any, heading: Any, things: Any, front: Any, reach: Any, i: Any
 
 
 def inside(things: Any, i: Any, x: Any, y: Any, p: Any) -> Any:
-    """Whether a point is inside the square of thing i, in lane p."""
+    """True if a point is inside the square of thing i, in lane p."""
     its_x, its_y = place_of(things, i, p)
     half = size_of(things, i, p) / 2
     return (abs(its_x - x) <= half) & (abs(its_y - y) <= half)
@@ -195,9 +195,9 @@ def nearest(s: Any, sensor: Any, n: Any) -> Any:
 
 
 def find_nearest_point(s: Any, sensor: Any, n: Any) -> None:
-    """The same of a sensor's boxes, into `s.nearest`: the point of any of them that is nearest to the robot's middle.
+    """Write the point of a sensor's boxes that is nearest to the robot's middle into `s.nearest`, with size 0.
 
-    It has no size. The first where two are as near; the middle itself where that is in a box.
+    The first where two are as near; the robot's middle itself where that is in a box.
     """
     found, asked = s.nearest, -2 - sensor.box
     if s.nearest_of[0] == asked:
@@ -223,7 +223,7 @@ LANES = 16  # side by side, as one value
 
 
 def splat(value: Any) -> Any:
-    """The same number in sixteen lanes."""
+    """Sixteen lanes of one number."""
     return np.full(LANES, value, F)
 
 
@@ -238,7 +238,7 @@ def load(array: Any, row: Any, lane: Any) -> Any:
 
 
 def store(array: Any, row: Any, lane: Any, value: Any) -> None:
-    """Sixteen lanes into a row of an array [row, lane], from `lane` on."""
+    """Write sixteen lanes into a row of an array [row, lane], from `lane` on."""
     array[row, lane : lane + LANES] = value
 
 
@@ -269,7 +269,7 @@ def sigmoids(values: Any) -> Any:
 
 
 def terms(function: FunctionType) -> dict[str, Any]:
-    """What the names in a function of a kind's file stand for: what that file has, else what stands here."""
+    """The global names that a function of a kind's file uses, with their values: that file's, else this one's."""
     known = globals() | function.__globals__
     names = {each.argval for each in get_instructions(function) if each.opname == "LOAD_GLOBAL"}
     return {name: known[name] for name in names & known.keys()}

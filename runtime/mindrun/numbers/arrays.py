@@ -1,4 +1,4 @@
-"""The arrays that kinds, engine and learning hand to one another, and what makes one of another."""
+"""The types of arrays that kinds, engine and learning exchange, and of functions between them."""
 
 from collections.abc import Callable
 

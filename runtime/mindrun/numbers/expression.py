@@ -25,9 +25,9 @@ def fold(
     negated: Callable[[T], T],
     combined: Callable[[str, T, T], T],
 ) -> T:
-    """What a program comes to, from its leaves up: `leaf` gets a word such as "number" or "reading" and its operand.
+    """Evaluate a program from its leaves up: `leaf` gets a word such as "number" or "reading" and its operand.
 
-    `combined` gets an operator, what is left of it and what is right. IndexError where the program is not whole.
+    `combined` gets an operator and the results left and right of it. IndexError where the program is not whole.
     """
     stack: list[T] = []
     for word, operand in program:
@@ -55,12 +55,12 @@ def leaves(program: Program, leaf: str) -> set[int]:
 
 
 def is_condition(program: Program) -> bool:
-    """Whether a program says 1 or 0: a comparison, or several with `and` and `or`."""
+    """True if a program gives 1 or 0: a comparison, or several with `and` and `or`."""
     return is_valid_program(program) and program[-1][0] in TRUTHS
 
 
 def is_valid_program(program: Program) -> bool:
-    """Whether a program never takes from an empty stack and leaves exactly one value."""
+    """True if a program never takes from an empty stack and leaves exactly one value."""
     height = 0
     for operator, _ in program:
         takes = 2 if operator in OPERATORS else 1 if operator == "negate" else 0

@@ -1,4 +1,4 @@
-"""Numbers as code of a user gives them: Python's, numpy's, those of any library that can be made a float."""
+"""Numbers that a user's code returns: Python's, numpy's, those of any library that can be made a float."""
 
 from collections.abc import Sequence
 from numbers import Complex, Real
@@ -24,12 +24,12 @@ def number(value: Any) -> float:
 
 
 def is_truth(value: Any) -> bool:
-    """Whether it is True or False, of Python or of another library."""
+    """True if a value is a truth value, of Python or of another library."""
     return isinstance(value, bool) or "bool" in str(getattr(value, "dtype", ""))
 
 
 def values(given: Any) -> list[Any] | None:
-    """What a list, a tuple, or an array of any shape has in it, one after the other; None of what is none of these."""
+    """The items of a list, a tuple, or an array of any shape, one after the other; None of anything else."""
     if getattr(given, "ndim", None) and hasattr(given, "ravel"):
         return [*given.ravel()]
     return [*given] if isinstance(given, Sequence) and not isinstance(given, TEXT) else None

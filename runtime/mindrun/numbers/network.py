@@ -1,4 +1,4 @@
-"""Networks at work (Eq. 1): genomes as matrices, and what comes out of them, in float32 and in a fixed order."""
+"""Networks (Eq. 1): genomes as matrices, and the outputs for inputs, in float32 and in a fixed order."""
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
@@ -21,15 +21,12 @@ def matrices(weights: Weights, shape: Layers) -> tuple[Matrix, ...]:
 
 
 def genome(found: Iterable[Matrix]) -> Weights:
-    """Matrices as a genome."""
+    """Matrices as a genome: one after the other, row by row."""
     return np.concatenate([matrix.ravel() for matrix in found])
 
 
 def padded(matrix: Matrix, shape: tuple[int, int], cut: int, place: int) -> Matrix:
-    """A matrix in the corner of a larger one, of so many values in and out, that is 0 elsewhere.
-
-    The columns from `cut` on stand there from `place` on.
-    """
+    """A matrix enlarged with zeros to a shape (values in, values out); its columns from `cut` on move to `place`."""
     found = np.zeros(shape[::-1], np.float32)
     rows, columns = matrix.shape
     found[:rows, :cut], found[:rows, place : place + columns - cut] = matrix[:, :cut], matrix[:, cut:]
@@ -37,7 +34,7 @@ def padded(matrix: Matrix, shape: tuple[int, int], cut: int, place: int) -> Matr
 
 
 class Terms(NamedTuple):
-    """What a network computes with, on arrays or tensors [..., values]."""
+    """The operations of a network, on arrays or tensors [..., values]."""
 
     product: Callable[[Any, Any], Any]  # of values and a matrix [values out, values in]: the sums, from the first on
     sigmoid: Callable[[Any], Any]
@@ -66,18 +63,18 @@ Forward = Callable[[Terms, Sequence[Any], Any, Any], tuple[Any, Any]]
 
 
 def running(forward: Forward, matrices: tuple[Matrix, ...], state_length: int) -> Compute:
-    """A network with these matrices, from tick to tick: inputs [inputs] to outputs, before the clamp (Eq. 1).
+    """A function of a tick's inputs [inputs] to the outputs of these matrices, before the clamp (Eq. 1).
 
     One that remembers nothing takes rows of inputs [rows, inputs], too.
     """
     if state_length:
-        return Remembering(forward, matrices, state_length)
+        return StatefulNetwork(forward, matrices, state_length)
     return lambda inputs: forward(FLOAT32, matrices, inputs, NOTHING)[0]
 
 
 @dataclass(slots=True)
-class Remembering:
-    """A network at work that remembers, from one tick to the next."""
+class StatefulNetwork:
+    """A network with a state that it remembers from one tick to the next."""
 
     forward: Forward
     matrices: tuple[Matrix, ...]
@@ -85,14 +82,14 @@ class Remembering:
     state: Matrix = field(init=False)
 
     def __post_init__(self) -> None:
-        """Begin with nothing."""
+        """Begin with a state of zeros."""
         self.reset()
 
     def reset(self) -> None:
-        """Forget."""
+        """Set the state to zeros."""
         self.state = np.zeros(self.length, np.float32)
 
     def __call__(self, inputs: Matrix) -> Matrix:
-        """Its outputs, before the clamp."""
+        """The outputs for inputs [inputs], before the clamp; the state goes on."""
         outputs, self.state = self.forward(FLOAT32, self.matrices, inputs, self.state)
         return outputs  # type: ignore[no-any-return]

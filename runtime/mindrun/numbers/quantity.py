@@ -24,7 +24,7 @@ class Quantity:
     rate: Rate = ""
 
     def in_tick(self, in_second: float, tick_seconds: float) -> float:
-        """What a rate per second is per tick: of what is kept, a power; the same bits on every machine."""
+        """A rate per second as a rate per tick: of what is kept, a power; the same bits on every machine."""
         if self.rate == "kept":
             return float(Decimal(in_second) ** Decimal(tick_seconds)) if in_second > 0 else 0.0
         return in_second * tick_seconds
@@ -55,7 +55,7 @@ LEAST_STEP = 1e-9  # of a schedule
 
 
 def fits(meaning: Quantity | Reference, value: object) -> bool:
-    """Whether a stored value is what its argument may be: `neutral` is a share, a wheel's side left or right."""
+    """True if a stored value is allowed for its argument: `neutral` is a share, a wheel's side left or right."""
     match meaning, value:
         case Quantity(low=low, high=high), int() | float():
             return low <= value <= high

@@ -1,4 +1,4 @@
-"""What a value looks like in a notebook: its type and what it has, in one line, however much that is."""
+"""Short reprs for notebooks: a value's type and fields in one line, however much it has."""
 
 from collections.abc import Collection
 from dataclasses import fields
@@ -19,7 +19,7 @@ class ShortRepr:
 
 
 def full_repr(of: Any) -> str:
-    """All that is in such a value, as the repr of any other dataclass says it."""
+    """The usual repr of a dataclass that is a ShortRepr, with all that is in it."""
     return _called(of, repr)
 
 

@@ -28,7 +28,7 @@ def evaluate(
     count: Any,
     everywhere: Any,
 ) -> None:
-    """Leave the program's values for the lanes active[0..count] in stack[0]; `each` is the row "for each" is at.
+    """Leave the program's values for the lanes active[0..count] in stack[0]; `each` is the row of an "each" reading.
 
     With `everywhere` those are the lanes 0..count.
     """
@@ -57,7 +57,7 @@ def evaluate(
 
 
 def pick(row: Any, out: Any, active: Any, count: Any, everywhere: Any) -> None:
-    """The values of a row in some lanes, side by side."""
+    """Copy the values of a row in some lanes to `out`, side by side."""
     if everywhere:
         for k in range(count):
             out[k] = row[k]
@@ -107,6 +107,6 @@ def compare(op: Any, left: Any, right: Any, count: Any) -> None:
 
 
 def _held(holds: Any, a: Any, b: Any) -> Any:
-    """A comparison as a number; without a branch, so that lanes go side by side."""
+    """A comparison as 1, 0 or NaN; without a branch, so that lanes go side by side."""
     found = 1.0 if holds else 0.0
     return nan if (a != a) | (b != b) else found

@@ -56,14 +56,14 @@ def main() -> None:
 
 
 def _world(options: Namespace) -> Any:
-    """The world of a bundle, `mindrun.sim.commanded_world.World`. Here alone the simulator is imported."""
+    """The world of a bundle, `mindrun.sim.commanded_world.CommandedWorld`. Here alone the simulator is imported."""
     try:
         simulator = import_module("mindrun.sim.commanded_world")
     except ImportError as error:
         raise MindError(f"there is no simulator here ({error})", "pip install mindlang") from error
     graph = read_bundle(options.bundle).graph
     try:
-        return simulator.World(graph, options.task, options.seed, options.master or None)
+        return simulator.CommandedWorld(graph, options.task, options.seed, options.master or None)
     except MemoryError as error:
         raise MindError(f"this computer has too little memory for task {options.task}") from error
 

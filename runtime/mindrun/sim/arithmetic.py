@@ -1,4 +1,4 @@
-"""`mindrun.numbers.arithmetic`, compiled; and what kinds say in its terms."""
+"""`mindrun.numbers.arithmetic`, compiled, and the lane functions of kinds that call it."""
 
 from collections.abc import Callable
 from types import FunctionType
@@ -38,7 +38,7 @@ def compiled_lane(function: Any) -> Callable[..., Any]:
 
 
 def _calling_compiled(function: Any) -> FunctionType:
-    """The same function, which calls what is compiled."""
+    """A copy of a function that calls the compiled versions of the functions it calls."""
     names = {
         name: compiled_lane(value) if isinstance(value, FunctionType) and value is not function else value
         for name, value in arithmetic.terms(function).items()

@@ -39,7 +39,7 @@ KINDS = "../kinds/sensors/*.py", "../kinds/functions/*.py"
 
 @cache
 def stamp() -> str:
-    """What all machine code depends on but the processor: numba would not notice when a callee elsewhere changes."""
+    """A hash of all that machine code depends on but the processor: numba misses changes of callees in other files."""
     versions = f"{sys.implementation.cache_tag} {numba.__version__} {llvmlite.__version__}"
     digest = sha256(versions.encode())
     compiled = ("*.py", "lanes/*.py", "../numbers/*.py", "../graph/beginning.py", *KINDS)
@@ -50,7 +50,7 @@ def stamp() -> str:
 
 @cache
 def folder() -> Path:
-    """Where machine code is kept: the user's cache; where that cannot be written, a folder of this process alone."""
+    """The folder of machine code: in the user's cache; where that cannot be written, one of this process alone."""
     return writable(f"compiled-{stamp()}")
 
 
@@ -75,7 +75,7 @@ class MachineCode(KeptCode):
 
     @property
     def cache_path(self) -> str:
-        """Where it is kept."""
+        """The folder in which it is kept."""
         return str(folder())
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
@@ -86,13 +86,13 @@ class MachineCode(KeptCode):
         return None
 
     def places(self, sig: Any, target_context: Any) -> list[Path]:
-        """Where it is looked for: what is kept, then what was shipped."""
+        """The files that may have it: what is kept, then what was shipped."""
         triple, *processor = made_for(target_context.codegen())
         kept = folder() / self.file(sig, triple, *processor)
         return [kept, *(SHIPPED / self.file(sig, triple, kind, PROCESSORS[kind]) for kind in fitting())]
 
     def exclusive(self, sig: Any, target_context: Any) -> AbstractContextManager[None]:
-        """For compiling: where nothing is found, one process at a time, so that the next finds what the first made."""
+        """A context to compile in: where no file is found, of one process at a time: the next finds what it made."""
         kept, *shipped = self.places(sig, target_context)
         is_found = any(path.is_file() for path in (kept, *shipped))
         return nullcontext() if is_found else exclusive(kept.with_suffix(".lock"))
@@ -103,21 +103,21 @@ class MachineCode(KeptCode):
             _write(folder() / self.file(sig, *made_for(data.codegen)), packed(data))
 
     def file(self, sig: Any, triple: str, processor: str, features: str) -> str:
-        """The name of a file."""
+        """The name of the file for a signature and a target."""
         digest = sha256(f"{stamp()} {triple} {features} {sig}".encode()).hexdigest()[:16]
         return f"{self.function}-{processor}-{digest}.code"
 
     def is_native(self) -> bool:
-        """Whether some is kept that was made for this very processor."""
+        """True if some is kept that was made for this very processor."""
         return any(folder().glob(f"{self.function}-{processor()}-*.code"))
 
     def is_there(self) -> bool:
-        """Whether there is some for this processor, as far as one can see without the types."""
+        """True if there is some for this processor, as far as one can see without the types."""
         shipped = (path for kind in fitting() for path in SHIPPED.glob(f"{self.function}-{kind}-*.code"))
         return self.is_native() or any(shipped)
 
     def flush(self) -> None:
-        """Forget what is kept."""
+        """Delete all that is kept of this function."""
         for path in folder().glob(f"{self.function}-*.code"):
             path.unlink(missing_ok=True)
 
@@ -128,7 +128,7 @@ def processor() -> str:
 
 
 def fitting() -> list[str]:
-    """The kinds of processors of which this one is; none where a user wants another's code."""
+    """The kinds of PROCESSORS whose code this one can run; none where a user wants another's code."""
     if numba.config.CPU_NAME:
         return []
     has = {f"+{name}" for name, is_there in get_host_cpu_features().items() if is_there}
@@ -136,7 +136,7 @@ def fitting() -> list[str]:
 
 
 def _read(path: Path) -> bytes | None:
-    """What was written, or None where nothing was, or something else."""
+    """The data that `_write` put into a file; None where it is missing or damaged."""
     with suppress(OSError):
         data = path.read_bytes()
         if sha256(data[HASH_BYTES:]).digest() == data[:HASH_BYTES]:
@@ -145,7 +145,7 @@ def _read(path: Path) -> bytes | None:
 
 
 def _write(path: Path, data: bytes) -> None:
-    """Beside, then renamed: another process may be reading."""
+    """Write a file beside, then rename it: another process may be reading."""
     with tempfile.NamedTemporaryFile(dir=path.parent, delete=False) as file:
         file.write(sha256(data).digest() + data)
     Path(file.name).replace(path)
@@ -153,7 +153,7 @@ def _write(path: Path, data: bytes) -> None:
 
 @contextmanager
 def exclusive(path: Path) -> Iterator[None]:
-    """One process at a time is in this block for a `path`; where it cannot be locked, or not for so long, any are.
+    """A context that one process at a time is in for a `path`; where locking fails, or takes too long, any number are.
 
     A POSIX lock: it ends with its process, and processes forked meanwhile do not have it. Of threads it knows nothing.
     """
@@ -164,7 +164,7 @@ def exclusive(path: Path) -> Iterator[None]:
 
 
 def _lock(file: IO[bytes]) -> None:
-    """Wait for it; OSError after WAIT_SECONDS."""
+    """Wait for the lock of a file; OSError after WAIT_SECONDS."""
     patience = time.monotonic() + WAIT_SECONDS
     while True:
         try:

@@ -18,7 +18,7 @@ STAGES = before, run_skills, after  # what such ticks call, but for procedures t
 
 
 def changed(rollout: Rollout, changes: Sequence[Change]) -> Advance:
-    """`rollout.advance` of a tile of one lane, with changes: the same bits where none is made."""
+    """A function that advances a tile of one lane and makes changes; without any, the bits of `rollout.advance`."""
 
     def advance(tile: Tile, jobs: Jobs, ticks: int) -> int:
         working = int(jobs.lanes[0])
@@ -34,7 +34,7 @@ def changed(rollout: Rollout, changes: Sequence[Change]) -> Advance:
 
 
 def _tick(rollout: Rollout, tile: Tile, jobs: Jobs, made: Changed) -> int:
-    """One tick with what is changed in it; ProcedureError where a procedure fails."""
+    """Make one tick with its changes; ProcedureError where a procedure fails."""
     readings = tile.state.mind.readings
     for row, value in made.memory.items():
         readings[row, 0] = value
@@ -46,7 +46,7 @@ def _tick(rollout: Rollout, tile: Tile, jobs: Jobs, made: Changed) -> int:
 
 
 def _sense(tables: Tables, state: State, jobs: Jobs, replaced: Mapping[int, float]) -> None:
-    """The first half of a tick, in parts of the table of sensors: each ends with one that is replaced, or the last."""
+    """Make the first half of a tick in parts of the table of sensors, each of which ends with one that is replaced."""
     starts, widths = tables.sensors["start"], tables.sensors["width"]
     ends = {int(i) + 1 for row in replaced for i in ((starts <= row) & (row < starts + widths)).nonzero()[0]}
     for begin, end in pairwise([0, *sorted({*ends, len(tables.sensors)})]):
@@ -57,7 +57,7 @@ def _sense(tables: Tables, state: State, jobs: Jobs, replaced: Mapping[int, floa
 
 
 def _think(rollout: Rollout, tile: Tile, jobs: Jobs, replaced: Mapping[int, float]) -> None:
-    """All skills in their order, in parts: each begins with one whose influence is replaced."""
+    """Run all skills in their order, in parts: each begins with one whose influence is replaced."""
     skills, begin = rollout.tables.skills["index"], 0
     for row in [i for i, index in enumerate(skills) if int(index) in replaced]:
         rollout.think(tile, jobs, begin, row)

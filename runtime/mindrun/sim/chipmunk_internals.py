@@ -1,4 +1,4 @@
-"""What is known of Chipmunk and of the library that pymunk ships, held against pymunk 7.2 and 7.3 (`versions`).
+"""The internals of Chipmunk and of the library that pymunk ships, held against pymunk 7.2 and 7.3 (`versions`).
 
 Compiled code calls its functions by their addresses, and pymunk's batches carry a body's state there and back: only
 pointers, whole numbers and doubles cross. `tests/sim` holds it against a loop of plain pymunk, bit for bit.
@@ -60,7 +60,7 @@ TALLIED, BODIES_OF, FIRST_BODY, SECOND_BODY, FIRST_PLACE, SECOND_PLACE, FIXED_BO
 
 
 def refuse_another() -> None:
-    """MindError where the library that pymunk ships is not the one that is known here."""
+    """Raise MindError where the library that pymunk ships is not the one that is known here."""
     names = (*FUNCTIONS, *MOTION_FIELDS, *PUSH_FIELDS)
     if not (
         all(hasattr(lib, name) for name in names)
@@ -117,7 +117,7 @@ def prepare(handles: Any, floats: Any, batch: Any, tally: Any, body: BodyKind, h
 
 
 def _outline(body: BodyKind) -> Any:
-    """The shape of a body that is in no Space yet."""
+    """A new Chipmunk shape of a body, in no Space yet."""
     if not body.outline:
         return lib.cpCircleShapeNew(ffi.NULL, body.radius, (0.0, 0.0))
     return lib.cpPolyShapeNew(ffi.NULL, len(body.outline), body.outline, UNMOVED_TRANSFORM, 0.0)

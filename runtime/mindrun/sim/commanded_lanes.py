@@ -27,7 +27,7 @@ ENDLESS_TICKS = 1 << 62
 
 
 class CommandedLanes:
-    """So many runs of a rollout's task. All begin with the seed 0; `begin` replaces them."""
+    """A number of runs of a rollout's task. All begin with the seed 0; `begin` replaces them."""
 
     def __init__(self, rollout: Rollout, lanes: int) -> None:
         self.rollout, self.count = rollout, lanes
@@ -44,7 +44,7 @@ class CommandedLanes:
         self._lost = np.zeros(lanes, np.bool_)
 
     def begin(self, lanes: NDArray[np.bool_], seeds: ArrayLike) -> None:
-        """In the marked lanes [lanes] begin the runs of these seeds, one for each; `sense` says what they read."""
+        """Begin the runs of these seeds in the marked lanes [lanes], one for each; `sense` takes their readings."""
         self.jobs.seeds[lanes] = np.asarray(seeds, np.uint64)
         self.jobs.lanes[0] = self.count
         begin_again(self.rollout.tables, self.state, self.jobs, lanes)
@@ -52,18 +52,18 @@ class CommandedLanes:
         self.tile.memories.forget({*np.flatnonzero(~lanes).tolist()})
 
     def sense(self) -> None:
-        """What the robots read now; once in each tick, for noise draws random numbers."""
+        """Take the robots' readings; once in each tick, for noise draws random numbers."""
         before(self.rollout.tables, self.state, self.jobs)
 
     def command(self, commands: NDArray[np.float32]) -> None:
-        """Commands [lanes, actuators] for this tick; one that is not finite is neutral."""
+        """Set the commands [lanes, actuators] of this tick; one that is not finite is neutral."""
         mind, count = self.state.mind, commands.shape[1]
         # Eq. 3 with the influence 1 gives back the command itself.
         mind.command_sums[:count, : self.count] = commands.T
         mind.influence_sums[:count, : self.count] = 1.0
 
     def play(self, row: int, outputs: NDArray[np.float32]) -> None:
-        """Outputs [lanes, outputs] of the skill in this row of the tables; all other skills compute theirs."""
+        """Set the outputs [lanes, outputs] of the skill in this row of the tables; all other skills compute theirs."""
         tables, state, lanes = self.rollout.tables, self.state, int(self.jobs.lanes[0])
         self.rollout.think(self.tile, self.jobs, 0, row)
         count = wake(tables, state, lanes, row)
@@ -73,14 +73,14 @@ class CommandedLanes:
         self.rollout.think(self.tile, self.jobs, row + 1, len(tables.skills))
 
     def act(self) -> None:
-        """The rest of the tick. A run that is over goes on in its lane, unseen, until another begins there."""
+        """Make the rest of the tick. A run that is over goes on in its lane, unseen, until another begins there."""
         # A robot beyond all places leaves its lane at once: another run takes it, or it stays empty where it is alone.
         self.jobs.next[0] = 0 if self.count > 1 else 1
         after(self._endless, self.state, self.jobs, False)
         self._lost |= (self.state.world.tick == 0) | (self.state.run.job < 0)
 
     def sensed_aside(self, lanes: NDArray[np.bool_]) -> State:
-        """What the marked lanes would read now, in the first lanes of another state; nothing here is changed."""
+        """Another state whose first lanes have what the marked lanes [lanes] would read now; nothing here changes."""
         if self._aside is None:
             self._aside = self.rollout.tile(self.count).state
         chosen = np.flatnonzero(lanes)
@@ -92,22 +92,22 @@ class CommandedLanes:
 
     @property
     def terminated(self) -> NDArray[np.bool_]:
-        """In which lanes an end was met, or the robot is beyond all places."""
+        """True for the lanes [lanes] in which an end was met, or the robot is beyond all places."""
         return np.asarray((self.state.run.met != GOING_ON) | self._lost)
 
     @property
     def timed_out(self) -> NDArray[np.bool_]:
-        """In which lanes the run has lasted its time."""
+        """True for the lanes [lanes] in which the run has lasted its time."""
         return np.asarray(self.state.world.tick >= self.rollout.task.ticks)
 
     @property
     def ended_by(self) -> NDArray[np.int64]:
-        """The end that each run has met, as `Scores.ended_by`: GOING_ON where none, also when time is up."""
+        """The end that each run has met [lanes], as `Scores.ended_by`: GOING_ON where none, also when time is up."""
         return np.asarray(np.where(self._lost, LOST, self.state.run.met))
 
     @property
     def lines(self) -> NDArray[np.float64]:
-        """What each reward line has paid in each run [lanes, lines]."""
+        """The sum that each reward line has paid in each run [lanes, lines]."""
         paid = self.state.judge.lines[:, : self.count].T.copy()
         if self._lost.any():
             paid[self._lost] = self.jobs.lines[self._lost]
@@ -115,12 +115,12 @@ class CommandedLanes:
 
     @property
     def scores(self) -> NDArray[np.float64]:
-        """What all reward lines have paid in each run [lanes]."""
+        """The sum that all reward lines have paid in each run [lanes]."""
         return np.asarray(score_of(self.lines))
 
     @property
     def counts(self) -> NDArray[np.int64]:
-        """How often each event of the task has happened in each run [lanes, events]."""
+        """The number of times that each event of the task has happened in each run [lanes, events]."""
         happened = self.state.judge.counts[: len(self.rollout.task.events), : self.count].T.copy()
         if self._lost.any():
             happened[self._lost] = self.jobs.counts[self._lost, : happened.shape[1]]
@@ -148,7 +148,7 @@ class CommandedLanes:
 
 
 def commanded_lanes(graph: Graph, task: str, master: str, lanes: int = 1) -> CommandedLanes:
-    """Lanes in which no skill runs, so that none needs its weights or its procedure: what they read is all that counts.
+    """Lanes in which no skill runs, so that none needs weights or procedures: only the readings count.
 
     As in training, a sensor that neither a skill below the master nor a reward reads is not measured and reads NaN: its
     noise would draw random numbers.
@@ -158,7 +158,7 @@ def commanded_lanes(graph: Graph, task: str, master: str, lanes: int = 1) -> Com
 
 
 def _copy(source: Any, lanes: NDArray[np.int64], target: Any, count: int) -> None:
-    """Some lanes of a part of the state to the first ones of another."""
+    """Copy some lanes of a part of the state to the first ones of another."""
     for name, rows, others in zip(source._fields, source, target, strict=True):
         if name in BY_LANE_FIRST:
             others[: len(lanes)] = rows[lanes]

@@ -1,4 +1,4 @@
-"""One world whose robot is commanded from outside: what training simulates, for an engine that runs elsewhere."""
+"""One simulated world whose robot is commanded from outside, by an engine that runs elsewhere, as in a dry run."""
 
 from collections import Counter
 from collections.abc import Sequence
@@ -19,7 +19,7 @@ TIME = "time"  # what ends a run that nothing else has ended
 ONE_LANE = np.ones(1, np.bool_)
 
 
-class World:
+class CommandedWorld:
     """A task's world in one lane, for a mind with `master` (default: its own) in charge.
 
     Under the commands that this mind computes from `readings`, it is bit for bit the run that `Rollout` makes of the
@@ -48,14 +48,14 @@ class World:
         self._lanes.sense()
 
     def readings(self) -> NDArray[np.float32]:
-        """What every sensor reads now [graph.width], NaN where nobody reads it.
+        """The readings of all sensors [graph.width], NaN where nobody reads them; the last ones when the run has ended.
 
-        Memories and what derives from them are the engine's to fill in. When the run has ended: what they read last.
+        Memories and what derives from them are the engine's to fill in.
         """
         return self._state.mind.readings[: self.graph.width, 0].copy()
 
     def step(self, commands: ArrayLike) -> None:
-        """One tick under these commands [actuators]; one that is not finite is neutral. Nothing once it has ended."""
+        """Make a tick under commands [actuators]; one that is not finite is neutral. Nothing once it has ended."""
         if self.ended is not None:
             return
         self._lanes.command(np.asarray(commands, np.float32)[None])
@@ -65,7 +65,7 @@ class World:
 
     @property
     def tick(self) -> int:
-        """How many ticks the run has lasted."""
+        """The number of ticks that the run has lasted."""
         return int(self._state.world.tick[0])
 
     @property
@@ -76,7 +76,7 @@ class World:
 
     @property
     def events(self) -> dict[str, int]:
-        """How often each event of the task has happened in this run."""
+        """The number of times that each event of the task has happened in this run, by its text."""
         counts: Counter[str] = Counter()
         for event, happened in zip(self.task.events, self._lanes.counts[0].tolist(), strict=True):
             counts[_written(event)] += happened
@@ -93,24 +93,24 @@ class World:
 
     @property
     def by_line(self) -> dict[str, float]:
-        """What each reward line has paid in this run, by its text."""
+        """The sum that each reward line has paid in this run, by its text."""
         return {text: float(paid) for text, paid in paid_by_text(self.task.rewards, self._lanes.lines[0]).items()}
 
     @property
     def score(self) -> float:
-        """What all reward lines have paid in this run."""
+        """The sum that all reward lines have paid in this run."""
         return float(self._lanes.scores[0])
 
     @property
     def ended(self) -> str | None:
-        """What has ended the run: an event or a condition, or "time"; None while it goes on."""
+        """The event or condition that has ended the run, in words, or "time"; None while it goes on."""
         if not (self._lanes.terminated[0] or self._lanes.timed_out[0]):
             return None
         return ended_by(self.task, int(self._lanes.ended_by[0]))
 
 
 def ended_by(task: Task, number: int) -> str:
-    """What has ended a run in words, by its `Scores.ended_by`."""
+    """The end of a run in words, by its `Scores.ended_by`."""
     if number < 0:
         return TIME
     end = task.ends[number]

@@ -1,4 +1,4 @@
-"""How the lanes are compiled: into one piece of machine code for each way in from Python.
+"""Decorators that compile the lanes, into one piece of machine code for each way in from Python.
 
 Numba would optimise every function and make machine code of it, link it into each caller, and do all that again there,
 five levels deep. Here what only compiled code calls stays as it was lowered until it is part of a way in.
@@ -13,24 +13,26 @@ from numba import types
 from numba.extending import intrinsic
 
 from mindrun.sim.cache import MachineCode
-from mindrun.sim.numba_internals import Inner, Outer, callback_of, keep_code
+from mindrun.sim.numba_internals import EntryCompiler, InnerCompiler, callback_of, keep_code
 
 Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
 # They own no array and make none. With `_nrt` numba would count the references of all that they are handed, at every
 # call: half of the time of a tick.
 OPTIONS = {"nogil": True, "error_model": "numpy", "_nrt": False}
-compiled: Decorator = numba.njit(pipeline_class=Inner, no_cpython_wrapper=True, no_cfunc_wrapper=True, **OPTIONS)
+compiled: Decorator = numba.njit(
+    pipeline_class=InnerCompiler, no_cpython_wrapper=True, no_cfunc_wrapper=True, **OPTIONS
+)
 inlined: Decorator = numba.njit(inline="always", **OPTIONS)
 # A part of a tick becomes a part of its caller: a call would hand over a hundred arrays, which takes as long as a lane.
 part_of_tick: Decorator = numba.njit(
-    pipeline_class=Inner, no_cpython_wrapper=True, no_cfunc_wrapper=True, forceinline=True, **OPTIONS
+    pipeline_class=InnerCompiler, no_cpython_wrapper=True, no_cfunc_wrapper=True, forceinline=True, **OPTIONS
 )
 
 
 def entry(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Compiled too, even what is a part of others, and alone can be called from Python; its machine code is kept."""
+    """Compile a function, even one that is a part of others, so that Python can call it; its machine code is kept."""
     function = getattr(function, "py_func", function)
-    dispatcher: Any = numba.njit(pipeline_class=Outer, **OPTIONS)(function)
+    dispatcher: Any = numba.njit(pipeline_class=EntryCompiler, **OPTIONS)(function)
     keep_code(dispatcher, _code_of(function))
     return dispatcher  # type: ignore[no-any-return]
 

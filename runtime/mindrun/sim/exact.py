@@ -29,7 +29,7 @@ _pow, _fmod = _from_c("pow", 2), _from_c("fmod", 2)
 
 @exactly
 def divide(wrong, a, b):
-    """a / b."""
+    """a / b, as Python divides floats."""
     if b == 0.0:
         wrong[0] = 1
         return 0.0
@@ -38,7 +38,7 @@ def divide(wrong, a, b):
 
 @exactly
 def modulo(wrong, a, b):
-    """a % b: of the sign of b."""
+    """a % b, with the sign of b."""
     if b == 0.0:
         wrong[0] = 1
         return 0.0

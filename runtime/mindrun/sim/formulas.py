@@ -29,7 +29,7 @@ class NoFormulaError(Exception):
 
 
 class Kind(Enum):
-    """What Python makes of a term: a float, a whole number or a float, a truth."""
+    """The type of a term in Python: a float, a whole number or a float, a truth."""
 
     FLOAT, NUMBER, TRUTH = range(3)
 
@@ -60,14 +60,14 @@ def named(name: str) -> str:
 
 
 def refuse(node: ast.AST) -> NoReturn:
-    """NoFormulaError, which says what is more than arithmetic."""
+    """Raise NoFormulaError, which says what is more than arithmetic."""
     text = ast.unparse(node).split("\n")[0]
     said = text if len(text) <= 40 else f"{text[:39]}…"
     raise NoFormulaError(f"`{said}` in line {getattr(node, 'lineno', '?')} is more than arithmetic with floats")
 
 
 def constant(value: Any, node: ast.expr) -> Term:
-    """A number or a truth that is known."""
+    """The term of a constant; NoFormulaError where it is neither a truth nor an exact number."""
     match value:
         case bool():
             return Term(str(value), Kind.TRUTH)
@@ -79,12 +79,12 @@ def constant(value: Any, node: ast.expr) -> Term:
 
 
 def number_of(term: Term) -> Term:
-    """A term that is calculated with: a truth is 1 or 0."""
+    """A term as a number, for calculating: a truth becomes 1 or 0."""
     return Term(term.number, Kind.NUMBER) if term.kind is Kind.TRUTH else term
 
 
 def unary(op: ast.unaryop, term: Term, node: ast.expr) -> Term:
-    """A sign, or not."""
+    """The term of a unary operation: a sign, or `not`."""
     match op:
         case ast.Not():
             return Term(f"(not {term.truth})", Kind.TRUTH)
@@ -96,7 +96,7 @@ def unary(op: ast.unaryop, term: Term, node: ast.expr) -> Term:
 
 
 def binary(op: ast.operator, left: Term, right: Term, node: ast.expr) -> Term:
-    """An operation on two numbers; whole ones must stay exact."""
+    """The term of an operation on two numbers; NoFormulaError where whole ones may not stay exact."""
     a, b = number_of(left), number_of(right)
     if isinstance(op, ast.Pow):
         if b.whole is None or abs(b.whole) > MAX_POWER:
@@ -120,12 +120,12 @@ def binary(op: ast.operator, left: Term, right: Term, node: ast.expr) -> Term:
 
 
 def alike(terms: Sequence[Term]) -> list[str]:
-    """Terms any of which may be taken: as truths where all are, else as numbers."""
+    """The texts of terms of which any may be taken: as truths where all are, else as numbers."""
     return [term.text if all(each.kind is Kind.TRUTH for each in terms) else term.number for term in terms]
 
 
 def either(text: str, *terms: Term) -> Term:
-    """One of several terms, whichever it is."""
+    """The term of a text that gives any of several terms."""
     kinds = {term.kind for term in terms}
     return Term(text, kinds.pop() if len(kinds) == 1 else Kind.NUMBER, max(term.size for term in terms))
 
@@ -134,7 +134,7 @@ Known = dict[str, Term]  # the variables that surely have a value
 
 
 def formula(function: Callable[..., Any], source: str, inputs: int, outputs: int) -> Callable[..., Any]:
-    """The function anew, for numba: `wrong` and the inputs to a tuple of floats. NoFormulaError where it is none."""
+    """A function rewritten for numba, of `wrong` and inputs, that returns a tuple. NoFormulaError if it is none."""
     try:
         tree = ast.parse(source)
         definition = _definition(function, tree)
@@ -156,7 +156,7 @@ def _definition(function: Callable[..., Any], tree: ast.Module) -> ast.FunctionD
 
 
 class Translation:
-    """One function on its way to a formula."""
+    """The translation of one function into a formula."""
 
     def __init__(
         self, function: Callable[..., Any], tree: ast.Module, definition: ast.FunctionDef, outputs: int
@@ -168,7 +168,7 @@ class Translation:
         self._locals = {*self._parameters, *(node.id for node in names if not isinstance(node.ctx, ast.Load))}
 
     def text(self, inputs: int) -> str:
-        """The whole new function."""
+        """The text of the new function."""
         given = self._definition.args
         if given.vararg or given.kwarg or given.kwonlyargs or given.defaults or len(self._parameters) != inputs:
             raise NoFormulaError(f"it does not take just {inputs} numbers")
@@ -183,7 +183,7 @@ class Translation:
         return "\n ".join([f"def formula({head}):", *lines])
 
     def _block(self, statements: Sequence[ast.stmt], known: Known) -> tuple[list[str], Known | None]:
-        """The lines, and what is known after them; None where nothing comes after."""
+        """The lines of statements, and the variables known after them; None where nothing comes after."""
         lines, now = ["pass"], dict(known)
         for statement in statements:
             match statement:
@@ -285,7 +285,7 @@ class Translation:
         return refuse(node)
 
     def _object(self, node: ast.expr) -> Any:
-        """What a name stands for outside the function, where that cannot change."""
+        """The object that a name stands for outside the function; NoFormulaError where that can change."""
         match node:
             case ast.Attribute(value=ast.Name() as of, attr=attribute) if self._object(of) is math:
                 return getattr(math, attribute, None)
@@ -297,7 +297,7 @@ class Translation:
         return refuse(node)
 
     def _is_steady(self, name: str) -> bool:
-        """Whether the module gives a name its value in one place and never again."""
+        """True if the module gives a name its value in one place and never again."""
         given = 0
         for node in ast.walk(self._tree):
             match node:

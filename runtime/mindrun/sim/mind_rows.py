@@ -27,7 +27,7 @@ class Programs:
     depth: int = 1
 
     def add(self, program: Program) -> tuple[int, int]:
-        """Where the program begins, and how long it is."""
+        """Add a program; return the row at which it begins, and its length."""
         first, depth = len(self.rows), 0
         for name, value in program:
             op = OPERATIONS[name]

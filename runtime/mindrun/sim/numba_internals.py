@@ -1,7 +1,7 @@
-"""What is known of numba's insides, held against numba 0.63 and 0.68 (`versions`).
+"""The internals of numba, held against numba 0.63 and 0.68 (`versions`).
 
-How a function is compiled into one piece of machine code with all that it calls, called from C, kept and taken back;
-what is more is in numba's documentation, above all `numba.extending`.
+With them a function is compiled into one piece of machine code with all that it calls, called from C, kept and taken
+back; what else is used of numba is in its documentation, above all `numba.extending`.
 """
 
 import gc
@@ -24,17 +24,17 @@ from numba.core.typed_passes import NativeLowering
 COLLECTION_OBJECTS = 100_000  # made between two looks for garbage, while numba compiles; Python 3.11 looks after 700
 
 
-class Lowered(JITCodeLibrary):  # type: ignore[misc]
+class LoweredCode(JITCodeLibrary):  # type: ignore[misc]
     """The code of a function, and of all that it calls, before any optimisation."""
 
     def add_llvm_module(self, ll_module: Any) -> None:
-        """Take the code of the function itself."""
+        """Add the code of the function itself."""
         ll_module.data_layout = self._codegen._data_layout
         without_variables_in_memory(ll_module, self._codegen, create_new_module_pass_manager())  # once, not per caller
         self._final_module.link_in(ll_module)
 
     def finalize(self) -> None:
-        """Take the code of what it calls."""
+        """Add the code of the functions that it calls."""
         self._raise_if_finalized()
         for library in dict.fromkeys(self._linking_libraries):
             self._reload_init.update(library._reload_init)
@@ -43,7 +43,7 @@ class Lowered(JITCodeLibrary):  # type: ignore[misc]
         self._finalized = True
 
 
-class Whole(JITCodeLibrary):  # type: ignore[misc]
+class WholeCode(JITCodeLibrary):  # type: ignore[misc]
     """The code of a way in, with that of all that it calls."""
 
     def _optimize_final_module(self) -> None:
@@ -74,8 +74,8 @@ class LowerAll(NativeLowering):  # type: ignore[misc]
     _name = "lower_all"
 
     def run_pass(self, state: Any) -> bool:
-        """In place of numba's own."""
-        state.library = Whole(state.targetctx.codegen(), state.func_id.func_qualname)
+        """Lower the function into WholeCode."""
+        state.library = WholeCode(state.targetctx.codegen(), state.func_id.func_qualname)
         state.library.enable_object_caching()
         return bool(super().run_pass(state))
 
@@ -87,8 +87,8 @@ class LowerOnly(NativeLowering):  # type: ignore[misc]
     _name = "lower_only"
 
     def run_pass(self, state: Any) -> bool:
-        """In place of numba's own."""
-        state.library = Lowered(state.targetctx.codegen(), state.func_id.func_qualname)
+        """Lower the function into LoweredCode, known to its callers by an object that nobody can call."""
+        state.library = LoweredCode(state.targetctx.codegen(), state.func_id.func_qualname)
         state.flags.no_compile = True
         super().run_pass(state)
         lowered, module = state["cr"], state.func_id.module
@@ -100,13 +100,13 @@ class LowerOnly(NativeLowering):  # type: ignore[misc]
         return True
 
 
-class Outer(CompilerBase):  # type: ignore[misc]
-    """Numba's compiler but for its last step."""
+class EntryCompiler(CompilerBase):  # type: ignore[misc]
+    """Numba's compiler of a way in from Python, whose last step is `lowering`."""
 
     lowering: type[NativeLowering] = LowerAll
 
     def define_pipelines(self) -> list[PassManager]:
-        """Numba's passes."""
+        """The passes of numba, with `lowering` in place of its last one."""
         passes = PassManager(self.lowering._name)
         for step, about in DefaultPassBuilder.define_nopython_pipeline(self.state).passes:
             passes.add_pass(self.lowering if step is NativeLowering else step, about)
@@ -114,25 +114,25 @@ class Outer(CompilerBase):  # type: ignore[misc]
         return [passes]
 
 
-class Inner(Outer):
-    """The same for what only compiled code calls."""
+class InnerCompiler(EntryCompiler):
+    """Numba's compiler of a function that only compiled code calls."""
 
     lowering = LowerOnly
 
 
 class KeptCode(_Cache):  # type: ignore[misc]
-    """What numba asks for a function's machine code before it compiles, and gives it to afterwards."""
+    """The base of caches that numba asks for machine code before it compiles a function, and gives it to afterwards."""
 
     def enable(self) -> None:
-        """It always is."""
+        """Do nothing: it is always enabled."""
 
     def disable(self) -> None:
-        """It never is."""
+        """Do nothing: it cannot be disabled."""
 
 
 @contextmanager
 def rare_collections() -> Iterator[None]:
-    """Looks for garbage are rare: compiling makes millions of objects, most of which are needed until it is done."""
+    """A context of rare garbage collections: compiling makes millions of objects, most of them needed until its end."""
     before = gc.get_threshold()
     gc.set_threshold(COLLECTION_OBJECTS, *before[1:])
     try:
@@ -142,7 +142,7 @@ def rare_collections() -> Iterator[None]:
 
 
 def keep_code(dispatcher: Any, code: Any) -> None:
-    """A compiled function asks `code`, and is compiled by one process at a time."""
+    """Let a compiled function take its machine code from `code`, and be compiled by one process at a time."""
     dispatcher._cache = code
     find_or_compile = dispatcher.compile
 
@@ -155,7 +155,7 @@ def keep_code(dispatcher: Any, code: Any) -> None:
 
 
 def code_of(dispatcher: Any) -> Any:
-    """What it asks."""
+    """The cache of a compiled function's machine code, as `keep_code` has set it."""
     return dispatcher._cache
 
 
@@ -169,16 +169,16 @@ def callback_of(function: Callable[..., Any], signature: Any, code: Any) -> Any:
 
 
 def made_for(codegen: Any) -> tuple[str, str, str]:
-    """For which target it makes code, and for which processor with which features."""
+    """The target of a code generator: its triple, the processor and its features."""
     triple, processor, features = codegen.magic_tuple()
     return triple, processor, features
 
 
 def packed(compiled: CompileResult) -> bytes:
-    """Machine code as bytes."""
+    """A compiled function's machine code as bytes."""
     return bytes(dumps(compiled._reduce()))
 
 
 def unpacked(reduced: Any, target_context: Any) -> CompileResult:
-    """Machine code again, from what was `packed`, unpickled."""
+    """The machine code that `packed` has made bytes of, given those unpickled."""
     return CompileResult._rebuild(target_context, *reduced)

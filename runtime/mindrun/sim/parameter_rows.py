@@ -1,4 +1,4 @@
-"""Numbers of a world that may differ from run to run: what draws them, and what is computed of those that are drawn.
+"""Numbers of a world that may differ from run to run: how each is drawn, or computed from one that is drawn.
 
 Each is a row of `world.numbers` [row, lane], the same in every lane where nothing varies.
 """
@@ -19,7 +19,7 @@ Step = tuple[int, float]  # TIMES, OVER, INVERSE or DAMPING, and the number that
 
 
 def computed(form: int, x: float, by: float) -> float:
-    """What a step makes of a number; compiled, too."""
+    """The result of a step: 1/(1 + by·x), by/x, x/by or x·by; compiled, too."""
     if form == DAMPING:
         return 1.0 / (1.0 + by * x)
     if form == INVERSE:
@@ -41,7 +41,7 @@ class Parameters:
         self._failing = {each.actuator: self._add(FAILING, low=1.0 - each.rate) for each in task.fails}
 
     def row(self, noun: Varying, of: str, argument: str, value: float, *steps: Step) -> int:
-        """The row of an argument that is `value` where it does not vary, or of what steps make of it."""
+        """The row of an argument, or of what `steps` make of it; it is `value` where it does not vary."""
         if (noun, of, argument) not in self._drawn:
             for form, by in steps:
                 value = computed(form, value, by)

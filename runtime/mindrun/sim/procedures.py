@@ -93,7 +93,7 @@ class Procedures:
         return load(self.calls[skill], self._sources)
 
     def explain(self, skill: str, inputs: NDArray[np.float32]) -> ProcedureError:
-        """Why a compiled procedure failed: what Python says of the same inputs."""
+        """The error of a compiled procedure that failed, which Python gives for the same inputs."""
         calls = self.calls[skill]
         try:
             procedure_call.call(calls, self.function(skill), self._outputs[skill], inputs)
@@ -137,7 +137,7 @@ class Memories:
                 mind.hidden[:outputs, k] = procedure_call.call(self.procedures.calls[skill], function, outputs, inputs)
 
     def forget(self, but: set[int]) -> None:
-        """Forget the runs that are over."""
+        """Forget the procedures of all runs but these jobs'."""
         for key in [key for key in self.functions if key[1] not in but]:
             del self.functions[key]
 

@@ -34,7 +34,7 @@ SLICE_TICKS, SLOW_SLICE_TICKS = 1000, 20  # ticks between two looks at whether t
 
 @dataclass(frozen=True, slots=True)
 class Tile:
-    """Some lanes that run together, what their procedures remember, and what must outlive them."""
+    """Some lanes that run together, with the procedures' memories, and objects that must outlive them."""
 
     state: State
     memories: Memories
@@ -83,7 +83,7 @@ class Rollout:
         seeds: Sequence[int],
         ran: Callable[[float], None] = lambda runs: None,
     ) -> Scores:
-        """Every genome [genomes, genome_length] on every seed; ValueError where a weight is not finite.
+        """Score every genome [genomes, genome_length] on every seed; ValueError where a weight is not finite.
 
         `ran` is told now and then, from any thread, how many more runs have been made, parts of them too. Ctrl-C stops
         all workers.
@@ -98,7 +98,7 @@ class Rollout:
         return _scores(parts, shares, (len(genomes), len(seeds)), self.task.counts)
 
     def on(self, workers: int) -> Self:
-        """The same on so many cores; what is compiled and read is shared."""
+        """A copy that runs on so many cores; what is compiled and read is shared."""
         other = copy(self)
         other.workers = workers
         return other
@@ -136,7 +136,7 @@ class Rollout:
             entry(self.tables, state, *arguments[entry])
 
     def tile(self, lanes: int) -> Tile:
-        """Room for so many lanes."""
+        """A tile with room for so many lanes."""
         state = empty_state(self.tables, self.sizes, lanes)
         holds = [float(thing["hold"]) if thing["kind"] == ITEM else None for thing in self.tables.things]
         contact = state.contact
@@ -161,7 +161,7 @@ class Rollout:
         fill(self.tables, tile.state, jobs, len(tile.state.world.tick))
 
     def advance(self, tile: Tile, jobs: Jobs, ticks: int) -> int:
-        """Run so many ticks; how many lanes are still at work. ProcedureError where a procedure fails."""
+        """Run so many ticks; return how many lanes are still at work. ProcedureError where a procedure fails."""
         if self.simulates and not self.procedures.slow:
             advance(self.tables, tile.state, jobs, ticks, self.interrupt)
             self._explain(tile)
@@ -178,21 +178,21 @@ class Rollout:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What somebody should know of the runs so far."""
+        """Sentences that a user should read about the runs so far."""
         return ()
 
     def make_again(self, genome: NDArray[np.float32], seed: int) -> None:
         """Make a run twice where it may not be the same again: the lanes' own worlds always are."""
 
     def observe(self, tile: Tile, jobs: Jobs) -> None:
-        """What comes from outside of the lanes, before a tick: nothing here."""
+        """Write readings that come from outside of the lanes, before a tick: none here."""
 
     def conclude(self, tile: Tile, jobs: Jobs) -> None:
-        """The second half of a tick, after `think`."""
+        """Make the second half of a tick, after `think`."""
         after(self.tables, tile.state, jobs, self.interrupt)
 
     def forget(self, tile: Tile, working: set[int]) -> None:
-        """Forget all jobs but those."""
+        """Forget what procedures remember of all jobs but those at work."""
         tile.memories.forget(working)
 
     def think(self, tile: Tile, jobs: Jobs, first: int, last: int) -> None:
@@ -211,7 +211,7 @@ class Rollout:
                 send(tables, state, row, 0, count, lanes)
 
     def _explain(self, tile: Tile) -> None:
-        """ProcedureError where a procedure has failed."""
+        """Raise ProcedureError where a compiled procedure has failed."""
         failed = tile.state.run.failed
         if (row := failed[FAILED_SKILL]) >= 0:
             inputs = tile.state.mind.gathered[: int(self.tables.skills[row]["inputs"]), failed[FAILED_COLUMN]]
@@ -223,12 +223,12 @@ class Rollout:
 
 
 def scores_of(jobs: Jobs, task: Task) -> Scores:
-    """What came of all jobs, every genome on every seed."""
+    """The scores of all jobs, every genome on every seed."""
     return _scores([jobs], [np.arange(len(jobs.genome))], (len(jobs.genomes), len(jobs.seeds)), task.counts)
 
 
 def lanes_for(jobs: int, most: int) -> int:
-    """Lanes for so many jobs: no more than `most`, few rounds, whole vectors of 16."""
+    """The number of lanes for so many jobs: no more than `most`, few rounds, whole vectors of 16."""
     lanes = -(-jobs // max(1, -(-jobs // most)))
     return max(1, min(most, whole_vectors(lanes) if lanes > 1 else 1))
 
@@ -256,7 +256,7 @@ def _scores(parts: Sequence[Jobs], shares: Sequence[Array], shape: tuple[int, in
 
 
 def _in_threads(work: Callable[[T], R], items: Sequence[T], stop: Event) -> list[R]:
-    """What `work` makes of each item, each in a thread of its own, for which the caller's thread only waits.
+    """The results of `work` for each item, each in a thread of its own, for which the caller's thread only waits.
 
     So Ctrl-C reaches it whatever compiled code does, and a program that ends waits for none. `stop` is set where
     anything fails; of several errors the one of the first item is raised.

@@ -1,4 +1,4 @@
-"""Which rollout a task takes: the one place that knows."""
+"""The choice between the lanes' own worlds and environments, by a task's scene: no other place knows."""
 
 from collections.abc import Sequence
 from pathlib import Path

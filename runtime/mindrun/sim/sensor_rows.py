@@ -60,7 +60,7 @@ def sensor_rows(
 
 
 def _roughness(sensor: Sensor, parameters: Parameters) -> Row:
-    """What is not perfect about it; `blank` is what is read where one is lost, −1 for the same as before."""
+    """The columns of a sensor's imperfections; `blank` is read where a reading is lost, −1 for the one before."""
     kind, name = sensor.kind, sensor.name
     if not isinstance(kind, Physical):
         return {}

@@ -1,4 +1,4 @@
-"""What the lanes change: the state of every world in parts, the jobs to run and their results.
+"""The arrays that the lanes change: the state of every world in parts, the jobs to run and their results.
 
 Every array is declared with its room: `rows` [row, lane], `columns` [lane, column], `each` [lane]; what no lane has for
 itself says its `shape`. What stands under "for this tick" is computed anew in each.
@@ -33,17 +33,17 @@ F4, F8, I8, U1, U8 = np.float32, np.float64, np.int64, np.uint8, np.uint64
 
 
 def rows(count: Count, times: int = 1, kind: Any = F8) -> Room:
-    """[row, lane], and at least one row: whole vectors of lanes, as the perceptrons take sixteen at a time."""
+    """An array [row, lane] of at least one row, in whole vectors of lanes: networks compute sixteen at a time."""
     return lambda n, lanes: np.zeros((max(1, times * _number(count, n)), whole_vectors(lanes)), kind)
 
 
 def columns(count: Count, times: int = 1, kind: Any = F8) -> Room:
-    """[lane, column]."""
+    """An array [lane, column]."""
     return lambda n, lanes: np.zeros((lanes, times * _number(count, n)), kind)
 
 
 def each(kind: Any = I8) -> Room:
-    """[lane]."""
+    """An array [lane]."""
     return lambda n, lanes: np.zeros(lanes, kind)
 
 
@@ -53,7 +53,7 @@ def shape(*counts: Count, kind: Any = I8) -> Room:
 
 
 def whole_vectors(lanes: int) -> int:
-    """So many lanes, rounded up to whole vectors."""
+    """A number of lanes, rounded up to whole vectors."""
     return -(-lanes // VECTOR_LANES) * VECTOR_LANES
 
 
@@ -61,8 +61,8 @@ def _number(count: Count, n: Mapping[str, int]) -> int:
     return n[count] if isinstance(count, str) else count
 
 
-class World(NamedTuple):
-    """Where everything is, and how it moves."""
+class WorldState(NamedTuple):
+    """Places and motions of everything."""
 
     body: Annotated[Array, rows(6)]  # x, y, angle, their velocities
     heading: Annotated[Array, rows(2)]  # cosine and sine of the angle
@@ -71,7 +71,7 @@ class World(NamedTuple):
     loose: Annotated[Array, rows("loose", LOOSE_ROWS)]  # how far each loose thing has turned, its velocity and spin
     still: Annotated[Array, rows("loose", kind=I8)]  # for how many ticks each has not moved, up to SETTLED_TICKS
     restless: Annotated[Array, each()]  # how many have not settled
-    direction: Annotated[Array, rows("walkers")]  # in which each wanders
+    direction: Annotated[Array, rows("walkers")]  # of each that wanders, an angle
     goal: Annotated[Array, rows("walkers", kind=I8)]  # the place of its way that each goes to
     held: Annotated[Array, each()]  # the thing that the claw holds, or −1
     reached: Annotated[Array, rows("things", kind=U1)]  # bit 0 while it is in reach, bit 1 if it was in the tick before
@@ -84,13 +84,13 @@ class World(NamedTuple):
     trail: Annotated[Array, rows(TRAIL_TICKS, PLACE_ROWS)]  # where the robot was in the last ticks
     # for this tick
     push: Annotated[Array, rows(PUSH_ROWS)]  # force along the heading, torque, the force's x and y, force to the left
-    acting: Annotated[Array, rows("actuators", kind=F4)]  # the commands of what is rough, with its noise
+    acting: Annotated[Array, rows("actuators", kind=F4)]  # commands of actuators with noise or failures, as they act
     grip: Annotated[Array, rows("actuators")]  # the share of its force that each keeps
     begun_at: Annotated[Array, rows(PLACE_ROWS)]  # where the robot was when the tick began
 
 
-class Sight(NamedTuple):
-    """What each robot can see or touch, and how far its rays go."""
+class SightState(NamedTuple):
+    """The boxes that each robot can see or touch, and the distances along its rays."""
 
     nearby: Annotated[Array, rows("boxes", BOX_COLUMNS)]  # what its rays or robot can meet; others are AWAY
     nearby_count: Annotated[Array, each()]
@@ -104,8 +104,8 @@ class Sight(NamedTuple):
     sight: Annotated[Array, rows("sight", kind=F4)]  # heading and place, then how far each ray goes
 
 
-class Mind(NamedTuple):
-    """What is read, remembered and sent."""
+class MindState(NamedTuple):
+    """Readings, memories, influence and commands."""
 
     readings: Annotated[Array, rows("readings", kind=F4)]
     before: Annotated[Array, rows("before", kind=F4)]  # of a derivative what its source read before
@@ -131,18 +131,18 @@ class Mind(NamedTuple):
     sent: Annotated[Array, each(F4)]  # the values of an edge, −1 where nothing is sent
 
 
-class Contact(NamedTuple):
-    """What Chipmunk has to do with a lane."""
+class ContactState(NamedTuple):
+    """The Space of each lane, and the motion in the tick that Chipmunk makes."""
 
     near: Annotated[Array, each()]  # ticks for which it still steps this lane
     touching: Annotated[Array, each()]  # bit 0 while something touches, bit 1 if something did in the tick before
     handles: Annotated[Array, columns("handles", kind=U8)]  # space, body, shapes: robot, held, boxes, walls
     loose: Annotated[Array, columns("loose", chipmunk.LOOSE_HANDLES, kind=U8)]  # body and shape of each loose thing
-    sizes: Annotated[Array, columns("loose")]  # of which size these are
+    sizes: Annotated[Array, columns("loose")]  # for which these shapes are made
     placed: Annotated[Array, columns("loose", kind=U1)]  # 1 where a body stands still just where its settled thing does
     last: Annotated[Array, each(F8)]  # seconds of its last step, infinitely many where nothing can have touched
     # for this tick
-    gap: Annotated[Array, each(F8)]  # to what is nearest after it
+    gap: Annotated[Array, each(F8)]  # from the robot's next centre to what is nearest
     swift: Annotated[Array, each()]  # 1 where something is so fast that it could pass something, until the tick is made
     ways: Annotated[Array, columns("movers", WAY)]  # where what moves was and is (lanes/solid)
     floats: Annotated[Array, columns(chipmunk.BODY_FLOATS)]  # a body's state on its way to Chipmunk and back
@@ -150,8 +150,8 @@ class Contact(NamedTuple):
     tally: Annotated[Array, columns(chipmunk.TALLY_WORDS, kind=I8)]  # of contacts in the last step
 
 
-class Judge(NamedTuple):
-    """What a task notices and pays."""
+class JudgeState(NamedTuple):
+    """Measures, events and rewards of a task."""
 
     last_commands: Annotated[Array, rows("actuators", kind=F4)]  # of the tick before
     left_changes: Annotated[Array, rows("changes")]  # how much the left wheel's command changed
@@ -167,10 +167,10 @@ class Judge(NamedTuple):
     paid: Annotated[Array, each(F8)]  # whether a line pays, or an end has come; before that, room for a measure
 
 
-class Run(NamedTuple):
-    """How the run of each lane stands."""
+class RunState(NamedTuple):
+    """The job of each lane, and its end."""
 
-    job: Annotated[Array, each()]  # which it is, −1 for none
+    job: Annotated[Array, each()]  # the number of its job, −1 for none
     ended: Annotated[Array, each()]  # what ended it, by its place among the task's ends, or GOING_ON, or LOST
     met: Annotated[Array, each()]  # the end that came first, or GOING_ON; where nothing interrupts, the run goes on
     faults: Annotated[Array, each()]  # values that were not sent
@@ -182,12 +182,12 @@ class Run(NamedTuple):
 class State(NamedTuple):
     """Everything that changes; a lane is one world with one robot in it."""
 
-    world: World
-    sight: Sight
-    mind: Mind
-    contact: Contact
-    judge: Judge
-    run: Run
+    world: WorldState
+    sight: SightState
+    mind: MindState
+    contact: ContactState
+    judge: JudgeState
+    run: RunState
 
 
 # What the lane function of a sensor's kind sees of the state, and where it writes.
@@ -199,7 +199,7 @@ Senses = namedtuple(
 
 
 class Jobs(NamedTuple):
-    """What to run, genome by layout, and what came of it."""
+    """The jobs to run, genome by layout, and their results."""
 
     genomes: Array  # [genomes, weights] float32
     seeds: Array  # uint64
@@ -220,11 +220,11 @@ class Jobs(NamedTuple):
 
 
 def empty_state(tables: Tables, sizes: Sizes, lanes: int) -> State:
-    """Room for so many lanes, all idle."""
+    """A state with room for so many lanes, all idle."""
     n = _counts(tables, sizes)
     state = State(
-        _empty(World, n, lanes), _empty(Sight, n, lanes), _empty(Mind, n, lanes),
-        _empty(Contact, n, lanes), _empty(Judge, n, lanes), _empty(Run, n, lanes),
+        _empty(WorldState, n, lanes), _empty(SightState, n, lanes), _empty(MindState, n, lanes),
+        _empty(ContactState, n, lanes), _empty(JudgeState, n, lanes), _empty(RunState, n, lanes),
     )  # fmt: skip
     nearby = state.sight.nearby
     nearby[X::BOX_COLUMNS] = nearby[Y::BOX_COLUMNS] = AWAY
@@ -258,7 +258,7 @@ def _empty(part: type[Part], n: Mapping[str, int], lanes: int, **known: Array) -
 
 
 def _counts(tables: Tables, sizes: Sizes) -> dict[str, int]:
-    """How many there are of what arrays have rows or columns of."""
+    """The numbers that arrays say their rows or columns by: lengths of tables, Sizes, and sums of these."""
     n = {name: len(table) for name, table in tables._asdict().items()} | asdict(sizes)
     shapes = n["things"] + n["boxes"] + chipmunk.WALL_COUNT
     return n | {

@@ -1,4 +1,4 @@
-"""A graph, a task and a master as plain tables: one row per sensor, skill, reward, so that no program compiles."""
+"""A graph, a task and a master as plain tables, a row per sensor, skill, reward: a new mind needs no compiling."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -21,7 +21,7 @@ Floats = NDArray[np.float32]
 
 
 class Tables(NamedTuple):
-    """What the lanes run: everything about the program and its task that is the same in every lane."""
+    """Everything about the program and its task that is the same in every lane."""
 
     world: Array
     sensors: Array
@@ -53,7 +53,7 @@ class Tables(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Sizes:
-    """How much room a lane needs; `measured` [graph.width] says which readings anybody writes."""
+    """The room that a lane needs, in numbers; `measured` [graph.width] says which readings anybody writes."""
 
     readings: int
     skills: int
@@ -109,6 +109,6 @@ def build(
 
 
 def genome_length(graph: Graph, learners: Sequence[str]) -> int:
-    """How many weights the learners have together."""
+    """The number of weights of all learners together."""
     learning = {*learners}
     return sum(genes(skill) for skill in graph.skills if skill.name in learning)

@@ -29,12 +29,12 @@ NOWHERE = range(-1, -1)  # rows of a thing that the task does not contain
 
 
 def things_of(task: Task) -> list[Thing]:
-    """What the task contains but its obstacles, in rows of the lanes: each as many times as there are copies of it."""
+    """The things of a task but its obstacles, in rows of the lanes: each as many times as there are copies of it."""
     return [thing for thing in task.things if not thing.kind.is_obstacle for _ in range(thing.kind.copies)]
 
 
 def rows_by_name(task: Task) -> dict[str, range]:
-    """The rows of `things_of` that a name has. A name that is not there has none, as has the empty one: NOWHERE."""
+    """The rows of `things_of` that each name has; the empty name has NOWHERE."""
     found = {"": NOWHERE}
     for row, thing in enumerate(things_of(task)):
         found[thing.name] = range(found[thing.name].start if thing.name in found else row, row + 1)
@@ -42,7 +42,7 @@ def rows_by_name(task: Task) -> dict[str, range]:
 
 
 def box_count(task: Task) -> int:
-    """How many square obstacles the task's world has."""
+    """The number of rectangular obstacles in the task's world."""
     return sum(thing.kind.obstacles(task.scene) for thing in task.things)
 
 
@@ -61,7 +61,7 @@ def boxes_by_name(task: Task) -> dict[str, range]:
 
 
 def thing_rows(graph: Graph, task: Task) -> Array:
-    """Rows of THING, the items, zones and powers in the order of the source."""
+    """Rows of THING: all things of the task but obstacles, as in `things_of`."""
     rows: list[Row] = []
     asked = {(event.outcome, event.thing) for event in task.events if event.outcome}
     never = goals(graph, task)
@@ -219,10 +219,9 @@ def world_row(
 
 
 def _solidity(graph: Graph, task: Task) -> Row:
-    """How far from its middle the robot's turns swing anything, the least half side of it or of what it can hold.
-
-    How deep Chipmunk lets things stand in each other: less than by itself where something that moves is small. And the
-    side of a cell of its hash.
+    """The columns `arm`, the largest distance from its middle at which the robot's turns swing anything; `least`, the
+    least half side of it or of what it can hold; `slop`, the depth to which Chipmunk lets things stand in each other,
+    less where something that moves is small; `cell`, the side of a cell of its hash.
     """
     body, kinds = graph.body, [thing.kind for thing in task.things]
     held, loose = [kind for kind in kinds if kind.can_be_held], [kind for kind in kinds if kind.is_loose]

@@ -1,4 +1,4 @@
-"""One run, tick by tick, as the lanes write it down: what the pictures, the videos and the tests look at."""
+"""One run, tick by tick, as the lanes record it: for pictures, videos and tests."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
@@ -94,7 +94,7 @@ class Trace(ShortRepr):
 def trace(
     rollout: Rollout, seed: int, genome: NDArray[np.float32] | None = None, changes: Sequence[Change] = ()
 ) -> Trace:
-    """The run that `rollout.score` would make of that genome and seed; with changes, what had become of it then."""
+    """The run that `rollout.score` would make of a genome and a seed; with `changes`, the run that these make of it."""
     genomes = np.zeros((1, 0), np.float32) if genome is None else genome[None].astype(np.float32)
     tile, jobs = _begun(rollout, genomes, seed)
     return _traced(rollout, tile, jobs, changes)
@@ -118,7 +118,7 @@ def take_over(rollout: Rollout, seed: int, tick: int, other: Rollout, changes: S
 
 
 def joined(chunks: Iterable[Ticks]) -> Ticks:
-    """All ticks of some chunks."""
+    """The ticks of some chunks as one."""
     each = list(chunks)
     columns = {name: [getattr(ticks, name) for ticks in each] for name in Ticks.__slots__}
     return Ticks(**{name: np.concatenate(parts) for name, parts in columns.items()})
@@ -131,7 +131,7 @@ def things_in(rollout: Rollout, state: State, lane: int) -> NDArray[np.float64]:
 
 
 def turned_in(rollout: Rollout, state: State, lane: int) -> NDArray[np.float64]:
-    """How far each thing in a lane's world has turned [things]."""
+    """The angle by which each thing in a lane's world has turned [things]."""
     here, world = slice(lane, lane + 1), state.world
     found: NDArray[np.float64] = _turned(rollout, world.loose[:, here].T, world.direction[:, here].T)[0]
     return found
@@ -185,7 +185,7 @@ def _moments(chunks: Iterator[Ticks], number: int) -> Iterator[Moment]:
 
 
 def _written(rollout: Rollout, state: State, jobs: Jobs) -> Ticks:
-    """What has been written down since this was asked last."""
+    """The ticks that have been recorded since the last call."""
     count, tables = int(jobs.recorded[0]), rollout.tables
     jobs.recorded[0] = 0
     wide, narrow = recorded(state)
@@ -219,7 +219,7 @@ def _split(columns: Array, arrays: Sequence[Array]) -> list[Array]:
 
 
 def _turned(rollout: Rollout, loose: Array, direction: Array) -> NDArray[np.float64]:
-    """How far each thing has turned [ticks, things], from the rows of what is loose and of what wanders."""
+    """The angle by which each thing has turned [ticks, things], from the rows of what is loose and of what wanders."""
     found = np.zeros((len(loose), len(rollout.tables.things)))
     found[:, rollout.tables.loose["thing"]] = loose[:, TURN::LOOSE_ROWS][:, : len(rollout.tables.loose)]
     found[:, rollout.tables.walkers["thing"]] = direction[:, : len(rollout.tables.walkers)]
@@ -227,7 +227,7 @@ def _turned(rollout: Rollout, loose: Array, direction: Array) -> NDArray[np.floa
 
 
 def _refuse_another_world(rollout: Rollout, other: Rollout) -> None:
-    """ChangeError where two minds have not the same body, sensors, memories, actuators and task."""
+    """Raise ChangeError where two minds have not the same body, sensors, memories, actuators and task."""
     unlike = [name for name in PARTS if getattr(rollout.graph, name) != getattr(other.graph, name)]
     unlike += [f"task {other.task.name}"] if rollout.task != other.task else []
     ours, theirs = rollout.tables, other.tables

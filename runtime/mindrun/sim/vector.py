@@ -1,4 +1,4 @@
-"""Sixteen lanes side by side as one value of compiled code, float32: sums stay in registers while a layer is computed.
+"""A numba type of sixteen float32 lanes as one value: sums stay in registers while a layer is computed.
 
 LLVM makes of it what the processor has: one AVX-512 register, two of AVX2, four of NEON. Every operation rounds like
 its scalar twin, so a result does not depend on the width.
@@ -45,12 +45,12 @@ def _splat(builder: Any, value: Any) -> Any:
 
 @intrinsic
 def splat(typingctx, value):
-    """The same number in every lane."""
+    """A vector with one number in every lane."""
     return vector(types.float32), lambda context, builder, signature, args: _splat(builder, args[0])
 
 
 def _pointer(context: Any, builder: Any, kind: Any, array: Any, *indices: Any) -> Any:
-    """Where an element stands; whether an index is negative is not looked at."""
+    """A pointer to an element of an array; indices are not checked for being negative."""
     view = context.make_array(kind)(context, builder, array)
     return cgutils.get_item_pointer(context, builder, kind, view, indices, wraparound=False)
 
@@ -82,7 +82,7 @@ def load(typingctx, array, row, lane):
 
 @intrinsic
 def store(typingctx, array, row, lane, value):
-    """Sixteen lanes into a row of a float32 array [row, lane], from `lane` on."""
+    """Write sixteen lanes into a row of a float32 array [row, lane], from `lane` on."""
 
     def generate(context, builder, signature, args):
         where = _address(context, builder, signature.args[0], *args[:3])

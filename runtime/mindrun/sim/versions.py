@@ -12,7 +12,7 @@ KNOWN: Mapping[str, str] = {"llvmlite": ">=0.46,<0.51", "numba": ">=0.63,<0.69",
 
 
 def refuse_unknown() -> None:
-    """MindError where a version is installed whose insides nobody has looked at."""
+    """Raise MindError where a version is installed whose internals are not known here."""
     for name, known in KNOWN.items():
         found = version(name)
         if not SpecifierSet(known).contains(found, prereleases=True):

@@ -26,12 +26,12 @@ LOWEST_NICENESS = 19  # how little a process matters that works while others wai
 
 
 def is_there(entries: Iterable[Any]) -> bool:
-    """Whether there is machine code that numba would take of all of these functions."""
+    """True if there is machine code that numba would take of all of these functions."""
     return all(code_of(entry).is_there() for entry in entries)
 
 
 def is_native(entries: Iterable[Any] = (advance,)) -> bool:
-    """Whether all of these functions are compiled for this very processor."""
+    """True if all of these functions are compiled for this very processor."""
     return all(code_of(entry).is_native() for entry in entries)
 
 
@@ -51,7 +51,7 @@ def warm_up() -> None:
 
 
 def main(words: Sequence[str]) -> None:
-    """Compile; once another process that is at it has done so, or, with `behind`, not at all then."""
+    """Compile, after any other process that does; with `behind`, at low priority, and not at all beside another one."""
     behind = IN_BACKGROUND in words
     with (cache.folder() / "warming").open("w") as file:
         try:

@@ -1,4 +1,4 @@
-"""One number of what is done in an environment."""
+"""One number of an environment's action."""
 
 from typing import Annotated
 
@@ -25,5 +25,5 @@ class Action(ActuatorKind):
 
     @property
     def slot(self) -> Slot:
-        """That number."""
+        """The number of the environment's action that the arguments name."""
         return Slot(self.part, self.action, None if self.range == UNSAID else self.range)

@@ -1,4 +1,4 @@
-"""What every kind of actuator says of itself: the rest of the program asks, and knows no kind by name."""
+"""The base classes of actuators: the rest of the program asks a kind for these, and knows none by name."""
 
 from collections.abc import Mapping
 from typing import Literal
@@ -38,12 +38,12 @@ class ActuatorKind:
 
     @property
     def is_outside(self) -> bool:
-        """Whether it belongs to an environment."""
+        """True if it belongs to an environment."""
         return self.slot is not None
 
     @property
     def moves_body(self) -> bool:
-        """Whether it can move the robot."""
+        """True if it can move the robot."""
         return self.drive is not None
 
     @property
@@ -53,17 +53,17 @@ class ActuatorKind:
 
     @property
     def reach(self) -> float | None:
-        """How far ahead of the body it takes items, in world units; None where it takes none."""
+        """The distance ahead of the body within which it takes items, in world units; None where it takes none."""
         return None
 
     @property
     def can_hold(self) -> bool:
-        """Whether it can close around an item."""
+        """True if it can close around an item."""
         return self.reach is not None
 
     @property
     def acts_at_rest(self) -> bool:
-        """Whether its neutral command does something in the world."""
+        """True if its neutral command does something in the world."""
         return False
 
     @property
@@ -72,11 +72,11 @@ class ActuatorKind:
         return self.neutral
 
     def push(self, body: BodyKind) -> tuple[Point, Point] | None:
-        """Where on a body it pushes and to where, a vector of length 1; None where no single point is pushed."""
+        """The point of a body that it pushes and the direction, of length 1; None where it pushes no single point."""
         return None
 
     def row(self, body: BodyKind) -> Row:
-        """What the lanes are told of it on a body: its reach, its noise, how it pushes or steers."""
+        """Its columns of the lanes' table on a body: its reach, its noise, how it pushes or steers."""
         return {}
 
 
@@ -92,21 +92,21 @@ class Pushing(ActuatorKind):
     varying = ("thrust", "delay", "noise", "slip")
 
     def place(self, body: BodyKind) -> Point:
-        """Where on the body it pushes."""
+        """The point of the body that it pushes."""
         return 0.0, 0.0
 
     @property
     def direction(self) -> Point:
-        """Where it pushes to, as a vector of length 1."""
+        """The direction in which it pushes, of length 1, in the body's frame."""
         return 1.0, 0.0
 
     @property
     def acts_at_rest(self) -> bool:
-        """Whether it pushes."""
+        """True if it pushes at its neutral command, or may with its noise."""
         return (self.neutral != STOPPED_COMMAND or self.noise > 0) and self.thrust != 0.0
 
     def row(self, body: BodyKind) -> Row:
-        """How strongly it pushes ahead and aside, with which arm, and on which side."""
+        """Its thrust, the direction and the lever arm, its side, noise and slip."""
         (x, y), (ahead, aside) = self.place(body), self.direction
         return {
             "thrust": self.thrust, "ahead": ahead, "aside": aside, "arm": x * aside - y * ahead, "is_right": y < 0,

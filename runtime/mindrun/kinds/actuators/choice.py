@@ -1,4 +1,4 @@
-"""One of the things that can be done in an environment, of which one is done."""
+"""One of the few actions of an environment that takes one of them."""
 
 from typing import Annotated
 

@@ -1,4 +1,4 @@
-"""What takes items."""
+"""A claw, which takes items."""
 
 from typing import Annotated
 
@@ -29,9 +29,9 @@ class Gripper(ActuatorKind):
 
     @property
     def acts_at_rest(self) -> bool:
-        """Whether it is closed, or may be."""
+        """True if it is closed at its neutral command, or may be with its noise."""
         return self.neutral + self.noise > CLOSED_COMMAND
 
     def row(self, body: BodyKind) -> Row:
-        """How far it reaches."""
+        """Its reach in world units, and its noise."""
         return {"reach": self.reach, "noise": self.noise}

@@ -1,4 +1,4 @@
-"""What shines."""
+"""A lamp, which pictures show."""
 
 from typing import Annotated
 

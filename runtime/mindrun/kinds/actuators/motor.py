@@ -1,4 +1,4 @@
-"""What drives a car."""
+"""The drive of a car."""
 
 from typing import Annotated
 

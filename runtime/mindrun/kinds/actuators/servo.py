@@ -1,4 +1,4 @@
-"""What turns something on the robot."""
+"""A servo, which moves nothing in the simulated world."""
 
 from typing import Annotated
 

@@ -1,4 +1,4 @@
-"""What steers a car."""
+"""The front wheels of a car, which steer it."""
 
 from math import pi
 from typing import Annotated
@@ -29,9 +29,9 @@ class Steering(ActuatorKind):
 
     @property
     def acts_at_rest(self) -> bool:
-        """Whether it turns."""
+        """True if it turns at its neutral command, or may with its noise."""
         return (self.neutral != STOPPED_COMMAND or self.noise > 0) and self.range != 0.0
 
     def row(self, body: BodyKind) -> Row:
-        """How far it turns."""
+        """The largest angle, in radians, and its noise."""
         return {"turn": self.range, "noise": self.noise}

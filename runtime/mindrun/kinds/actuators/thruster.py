@@ -1,4 +1,4 @@
-"""What pushes the body at a point of it."""
+"""A force on a point of the body."""
 
 from typing import Annotated
 
@@ -30,14 +30,14 @@ class Thruster(Pushing):
     drive = "thruster"
 
     def place(self, body: BodyKind) -> Point:
-        """Where it is said to be."""
+        """The point of the body that its argument `at` names."""
         return self.at
 
     @property
     def direction(self) -> Point:
-        """Its angle."""
+        """The vector of length 1 at the angle that its argument `facing` says."""
         return cosine(self.facing), sine(self.facing)
 
     def push(self, body: BodyKind) -> tuple[Point, Point]:
-        """There and thither."""
+        """Its place on the body and its direction."""
         return self.at, self.direction

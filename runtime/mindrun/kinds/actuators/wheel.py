@@ -1,4 +1,4 @@
-"""What drives the body."""
+"""A wheel beside the body, which drives it."""
 
 from typing import Annotated, get_args
 
@@ -29,9 +29,9 @@ class Wheel(Pushing):
 
     @property
     def mounted(self) -> Side:
-        """Its side."""
+        """The side of the body that it is on."""
         return self.side
 
     def place(self, body: BodyKind) -> Point:
-        """Beside the middle."""
+        """A point beside the body's middle, on the wheel's side."""
         return 0.0, body.side if self.side == "left" else -body.side

@@ -1,4 +1,4 @@
-"""What every kind of body says of itself: the rest of the program asks, and knows no kind by name."""
+"""The base classes of bodies: the rest of the program asks a kind for these, and knows none by name."""
 
 from dataclasses import dataclass
 from math import cos, hypot, pi, sin
@@ -40,12 +40,12 @@ class BodyKind:
 
     @property
     def outline(self) -> tuple[Point, ...]:
-        """Its corners, counterclockwise; none where it is round."""
+        """The corners in the body's frame, counterclockwise; none where it is round."""
         return ()
 
     @property
     def axle_distance(self) -> float:
-        """How far apart two axles are that do not slip sideways; 0 where it has none."""
+        """The distance between two axles that do not slip sideways; 0 where it has none."""
         return 0.0
 
     @property
@@ -55,12 +55,12 @@ class BodyKind:
 
     @property
     def front(self) -> float:
-        """How far ahead of its middle it ends."""
+        """The distance from its middle to its front end."""
         return self.radius
 
     @property
     def side(self) -> float:
-        """How far beside its middle it ends, where its wheels are."""
+        """The distance from its middle to its side, where its wheels are."""
         return self.radius
 
     @property
@@ -84,7 +84,7 @@ class BodyKind:
         return self.mass * self.gyration[0] / self.gyration[1]
 
     def rim(self, angle: float) -> float:
-        """How far from its middle it ends in a direction, counterclockwise from straight ahead."""
+        """The distance from its middle to its rim in a direction, counterclockwise from straight ahead."""
         return self.radius
 
 
@@ -105,16 +105,16 @@ class Round(BodyKind):
 
     @property
     def area(self) -> tuple[float, float]:
-        """Of a disc: π·r²."""
+        """π·r², the area of a disc, as its factors."""
         return pi, self.radius**2
 
     @property
     def gyration(self) -> tuple[float, float]:
-        """Of a disc: r² / 2."""
+        """r² / 2, the squared radius of gyration of a disc, as (numerator, denominator)."""
         return self.radius**2, 2.0
 
 
-class Rectangle(BodyKind):
+class Rectangular(BodyKind):
     """A rectangle as long and as wide as its two sizes say."""
 
     __slots__ = ()
@@ -123,12 +123,12 @@ class Rectangle(BodyKind):
 
     @property
     def sides(self) -> Point:
-        """Its length and its width."""
+        """The length and the width; one number stands for both."""
         return self.size if isinstance(self.size, tuple) else (self.size, self.size)
 
     @property
     def outline(self) -> tuple[Point, ...]:
-        """Its corners, counterclockwise from the right one behind."""
+        """The four corners in the body's frame, counterclockwise from the right one behind."""
         x, y = self.front, self.side
         return (-x, -y), (x, -y), (x, y), (-x, y)
 
@@ -149,15 +149,15 @@ class Rectangle(BodyKind):
 
     @property
     def area(self) -> tuple[float, float]:
-        """Its sides."""
+        """The two sides, whose product is the area."""
         return self.sides
 
     @property
     def gyration(self) -> tuple[float, float]:
-        """Of a rectangle: (a² + b²) / 12."""
+        """(a² + b²) / 12, the squared radius of gyration of a rectangle, as (numerator, denominator)."""
         return self.sides[0] * self.sides[0] + self.sides[1] * self.sides[1], 12.0
 
     def rim(self, angle: float) -> float:
-        """Where a ray from the middle leaves it."""
+        """The distance from the middle at which a ray leaves the rectangle."""
         ahead, aside = max(abs(cos(angle)), LEAST_COSINE), max(abs(sin(angle)), LEAST_COSINE)
         return min(self.front / ahead, self.side / aside)

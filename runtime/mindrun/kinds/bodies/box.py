@@ -1,4 +1,4 @@
-"""What is rectangular, and drives on wheels."""
+"""A rectangular body that drives on wheels."""
 
 from typing import Annotated
 
@@ -10,14 +10,14 @@ from mindrun.kinds.bodies.body import (
     FRICTION,
     FRICTION_COEFFICIENT,
     LINEAR_DAMPING,
-    Rectangle,
+    Rectangular,
 )
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import Extent
 
 
 @kind("body", "box")
-class Box(Rectangle):
+class Box(Rectangular):
     """A rectangular body, `size` being its length and its width, or both, with wheels at its sides, or thrusters.
 
     Every tick of length dt its velocity is divided by 1 + dt·damping.

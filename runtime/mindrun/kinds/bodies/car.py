@@ -1,4 +1,4 @@
-"""What is rectangular, and is steered."""
+"""A rectangular body that is steered."""
 
 from typing import Annotated
 
@@ -10,7 +10,7 @@ from mindrun.kinds.bodies.body import (
     FRICTION,
     FRICTION_COEFFICIENT,
     LINEAR_DAMPING,
-    Rectangle,
+    Rectangular,
 )
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import Extent, Quantity
@@ -19,7 +19,7 @@ WHEELBASE = Quantity("a share of its length", {"": 1.0, "%": 0.01}, low=0.01, hi
 
 
 @kind("body", "car")
-class Car(Rectangle):
+class Car(Rectangular):
     """A rectangular body with a motor and a steering, `size` its length and its width, or both: the bicycle model.
 
     Its two axles, `wheelbase` of its length apart, do not slip sideways: with the steering at δ, a speed of v along its

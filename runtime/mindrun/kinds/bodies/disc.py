@@ -1,4 +1,4 @@
-"""What is round, and drives on wheels."""
+"""A round body that drives on wheels."""
 
 from mindrun.kinds.bodies.body import Round
 from mindrun.kinds.registry import kind

@@ -1,4 +1,4 @@
-"""What is round, and is pushed in any direction."""
+"""A round body that is pushed in any direction."""
 
 from mindrun.kinds.bodies.body import Round
 from mindrun.kinds.registry import kind

@@ -4,7 +4,7 @@ from typing import Annotated
 
 from mindrun.kinds.events.event import EventKind, Hindrance, TaskWorld
 from mindrun.kinds.registry import kind
-from mindrun.kinds.things.thing import ThingKind, World
+from mindrun.kinds.things.thing import ThingKind, WorldFacts
 from mindrun.numbers.quantity import THING
 
 
@@ -23,22 +23,22 @@ class Delivery(EventKind):
 
     @staticmethod
     def is_about(kind: type[ThingKind]) -> bool:
-        """What a claw can take, and what can be pushed."""
+        """True for things that a claw can take or that can be pushed."""
         return kind.can_be_delivered
 
     @classmethod
     def accepts(cls, argument: str, kind: type[ThingKind]) -> bool:
-        """A zone to deliver to."""
+        """True for a zone, where `argument` is `to`; else for things that can be delivered."""
         return kind.takes_items if argument == "to" else cls.is_about(kind)
 
     def missing(self, task: TaskWorld) -> Hindrance | None:
-        """A place to deliver to."""
+        """A hindrance where the task has no zone to deliver to."""
         if any(kind.takes_items for kind in task.kinds):
             return None
         return Hindrance("The task has no zone to deliver to.", "Add contains drop_zone is zone size 5.")
 
-    def prevented(self, world: World) -> Hindrance | None:
-        """Nobody closes the claw, or the item is gone before."""
+    def prevented(self, world: WorldFacts) -> Hindrance | None:
+        """A hindrance where nothing closes the claw, or the item vanishes before it can be taken."""
         if self.of not in world.loose and not world.can_hold:
             return Hindrance("no skill that a master reaches drives a gripper", "Let a skill drive one.")
         if self.of in world.fleeting:

@@ -1,24 +1,24 @@
-"""What every kind of event says of itself: the rest of the program asks, and knows no kind by name."""
+"""The base class of events: the rest of the program asks a kind for these, and knows none by name."""
 
 from collections.abc import Collection, Mapping
 from typing import NamedTuple, Protocol
 
 from mindrun.kinds.registry import base
 from mindrun.kinds.scenes.scene import SceneKind
-from mindrun.kinds.things.thing import AboutThing, ThingKind, World
+from mindrun.kinds.things.thing import AboutThing, ThingKind, WorldFacts
 
 Row = Mapping[str, float]  # columns of the lanes' table of events
 
 
 class Hindrance(NamedTuple):
-    """Why an event cannot happen, as a sentence, and what to do about it."""
+    """The reason why an event cannot happen, as a sentence, and a hint what to do about it."""
 
     reason: str
     hint: str
 
 
 class TaskWorld(Protocol):
-    """What a task says of its world."""
+    """The facts about a task's world that decide which events can happen."""
 
     @property
     def scene(self) -> SceneKind | None: ...  # None where it is not known
@@ -43,15 +43,13 @@ class EventKind(AboutThing):
     is_of_battery = False  # whether it depends on the battery, of which it names no sensor
 
     def missing(self, task: TaskWorld) -> Hindrance | None:
-        """What its task lacks, without which it can never happen."""
+        """The hindrance where its task lacks something without which it can never happen, else None."""
         return None
 
-    def prevented(self, world: World) -> Hindrance | None:
-        """What keeps it from ever happening in a world that has all that it needs."""
+    def prevented(self, world: WorldFacts) -> Hindrance | None:
+        """The hindrance where it can never happen although its task lacks nothing, else None."""
         return None
 
     def row(self, scene: SceneKind) -> Row:
-        """What the lanes are told of it beside the thing that it is about: the `columns` and
-        `rows` of patches, and their side.
-        """
+        """Its columns of the lanes' table beside its thing: `columns` and `rows` of patches, and `patch`, a side."""
         return {}

@@ -11,7 +11,7 @@ class Success(EventKind):
     is_of_success = True
 
     def missing(self, task: TaskWorld) -> Hindrance | None:
-        """A line that says when."""
+        """A hindrance where no line of the task says when a run succeeds."""
         if task.can_succeed:
             return None
         return Hindrance("The task does not say what a success is.", "Add a line: succeeds on 5 delivery of red.")

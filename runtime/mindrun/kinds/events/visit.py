@@ -21,12 +21,12 @@ class Visit(EventKind):
     needs_walls = True
 
     def missing(self, task: TaskWorld) -> Hindrance | None:
-        """Walls: without them there is no end to the patches."""
+        """A hindrance where the scene has no walls, and so no end of patches."""
         if task.scene is None or task.scene.is_bounded:
             return None
         return Hindrance("A plain scene has no patches to visit.", "Patches are of an arena: write in arena size 100.")
 
     def row(self, scene: SceneKind) -> Row:
-        """How large the patches are, and how many stand side by side and one above the other."""
+        """The number of patches along each axis, rounded up, and their side in world units."""
         width, depth = scene.sides
         return {"columns": ceil(width / self.size), "rows": ceil(depth / self.size), "patch": self.size}

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated, Any
 
-from mindrun.kinds.functions.function import WIDTH, Network
+from mindrun.kinds.functions.function import WIDTH, NetworkFunction
 from mindrun.kinds.functions.mlp import layer
 from mindrun.kinds.registry import kind
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:  # a lane is given its terms when it is compiled
 
 
 @kind("skill", "elman")
-class Elman(Network):
+class Elman(NetworkFunction):
     """A recurrent network with one hidden layer of `width` neurons (0: Eq. 5, max(inputs, outputs) + 2), no biases.
 
     Its neurons read the skill's inputs and what they all said when the skill last computed, 0 at the beginning of a
@@ -28,27 +28,27 @@ class Elman(Network):
     opaque = "remembers what it computed"
 
     def state_length(self, inputs: int, outputs: int) -> int:
-        """What its hidden neurons said."""
+        """One number for each hidden neuron: its last output."""
         return self.neurons(inputs, outputs)
 
     def matrix_shapes(self, inputs: int, outputs: int) -> Layers:
-        """That of the hidden neurons, which read the inputs and what they said, and that of the outputs."""
+        """The hidden neurons' matrix, over the inputs and their own last outputs, and the outputs' matrix."""
         width = self.neurons(inputs, outputs)
         return ((inputs + width, width), (width, outputs)) if width else ()
 
     def forward(self, of: Terms, matrices: Sequence[Any], inputs: Any, state: Any) -> tuple[Any, Any]:
-        """What its neurons say now, and the outputs of that."""
+        """h' = σ(H·[x, h]), and the outputs O·h'; h are the hidden neurons' last outputs, h' the new state."""
         hidden, last = matrices
         said = of.sigmoid(of.product(of.joined(inputs, state), hidden))
         return of.product(said, last), said
 
     def scratch(self, inputs: int, outputs: int) -> int:
-        """Its neurons and its outputs."""
+        """One row for each neuron and each output."""
         return self.neurons(inputs, outputs) + outputs
 
     @staticmethod
     def lane(t: Any, s: Any, skill: Any, n: int) -> int:
-        """What is not sound is not remembered."""
+        """Write the outputs of `forward` behind the hidden neurons, which are remembered."""
         width: int = skill.width
         recall(s, skill, n)
         last = layer(t, s, skill, skill.weights, s.gathered, skill.inputs + width, s.hidden, width, False, n)
@@ -58,14 +58,14 @@ class Elman(Network):
 
 
 def recall(s: Any, skill: Any, n: int) -> None:
-    """What a skill remembers, behind its inputs."""
+    """Copy a skill's memory behind its inputs, into `s.gathered`."""
     for j in range(skill.width):
         for k in range(n):
             s.gathered[skill.inputs + j, k] = s.recurrent[skill.state + j, s.active[k]]
 
 
 def remember(s: Any, skill: Any, said: Any, n: int) -> None:
-    """What its neurons said, in the worlds where the skill has influence and all of its inputs are sound."""
+    """Store the neurons' outputs `said` [neuron, world], where the skill has influence and all its inputs are sound."""
     for j in range(skill.width):
         for k in range(n):
             if s.sound[k] == ZERO and s.influence[skill.index, s.active[k]] != ZERO:

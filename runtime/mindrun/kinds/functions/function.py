@@ -1,4 +1,4 @@
-"""What every kind of internal function says of itself (Eq. 1); the rest of the program asks, and knows no kind."""
+"""The base classes of internal functions (Eq. 1): the rest of the program asks a kind, and knows none by name."""
 
 from __future__ import annotations
 
@@ -72,15 +72,15 @@ class Function:
         raise NotImplementedError
 
     def state_length(self, inputs: int, outputs: int) -> int:
-        """How many numbers it remembers from one tick to the next, 0 at the beginning of a run."""
+        """The number of values it remembers from one tick to the next; they are 0 at the beginning of a run."""
         return 0
 
     def row(self, inputs: int, outputs: int) -> Mapping[str, int]:
-        """What its lane function is told beside what all are: `hidden` and `width`, columns of the table of skills."""
+        """Its own columns of the lanes' table of skills: `hidden` and `width`."""
         return {}
 
     def scratch(self, inputs: int, outputs: int) -> int:
-        """How many rows of `s.hidden` its lane function writes, its outputs among them."""
+        """The number of rows of `s.hidden` that its lane function writes, its outputs among them."""
         return outputs
 
     @staticmethod
@@ -94,7 +94,7 @@ class Function:
         return 0
 
     def genome_length(self, inputs: int, outputs: int) -> int:
-        """How many weights it learns."""
+        """The number of weights it learns."""
         return sum(before * after for before, after in self.matrix_shapes(inputs, outputs))
 
     def draw(self, inputs: int, outputs: int, count: int, rng: np.random.Generator) -> Weights:
@@ -112,13 +112,13 @@ class Function:
         return weights
 
     def ready(self, inputs: int, outputs: int, weights: Weights, sources: Mapping[str, str]) -> Compute:
-        """Its float32 inputs to its float32 outputs, not yet clamped; `sources` are the texts of modules by name."""
+        """A function of float32 inputs to float32 outputs, not yet clamped; `sources` are modules' texts by name."""
         import numpy as np
 
         return lambda values: np.zeros(outputs, np.float32)
 
 
-class Network(Function):
+class NetworkFunction(Function):
     """A network of matrices without biases, with neurons of a `width` (0: Eq. 5, max(inputs, outputs) + 2).
 
     Without inputs or outputs it has no matrices. Its last one gives the outputs.
@@ -147,7 +147,7 @@ class Network(Function):
         return replace(self, width=self.neurons(inputs, outputs))  # type: ignore[type-var]
 
     def row(self, inputs: int, outputs: int) -> Mapping[str, int]:
-        """Its width."""
+        """The number of neurons of a hidden layer, as `width`."""
         return {"width": self.neurons(inputs, outputs)}
 
     def draw(self, inputs: int, outputs: int, count: int, rng: np.random.Generator) -> Weights:
@@ -193,7 +193,7 @@ class Network(Function):
         return genome(found)
 
     def ready(self, inputs: int, outputs: int, weights: Weights, sources: Mapping[str, str]) -> Compute:
-        """Eq. 1 with these weights, from tick to tick."""
+        """The network with these weights (Eq. 1), from tick to tick, as a function of inputs."""
         from mindrun.numbers.network import matrices, running
 
         shapes = self.matrix_shapes(inputs, outputs)

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.functions.elman import recall, remember
-from mindrun.kinds.functions.function import WIDTH, Network
+from mindrun.kinds.functions.function import WIDTH, NetworkFunction
 from mindrun.kinds.functions.mlp import layer
 from mindrun.kinds.registry import kind
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:  # a lane is given its terms when it is compiled
 
 
 @kind("skill", "gru")
-class Gru(Network):
+class Gru(NetworkFunction):
     """A gated recurrent unit with `width` neurons (0: Eq. 5, max(inputs, outputs) + 2), without biases.
 
     Each neuron keeps a share of what it said when the skill last computed, as its update gate says, and takes the rest
@@ -32,11 +32,11 @@ class Gru(Network):
     readers = 3
 
     def state_length(self, inputs: int, outputs: int) -> int:
-        """What its neurons said."""
+        """One number for each neuron: its last output."""
         return self.neurons(inputs, outputs)
 
     def matrix_shapes(self, inputs: int, outputs: int) -> Layers:
-        """Those of the reset gates, the update gates and the candidates, and that of the outputs."""
+        """The matrices of the reset gates, the update gates, the candidates and the outputs, in this order."""
         width = self.neurons(inputs, outputs)
         return (*[(inputs + width, width)] * 3, (width, outputs)) if width else ()
 
@@ -50,12 +50,12 @@ class Gru(Network):
         return of.product(said, last), said
 
     def scratch(self, inputs: int, outputs: int) -> int:
-        """Gates, candidates and outputs."""
+        """One row for each of two gates and the candidate of every neuron, and for each output."""
         return 3 * self.neurons(inputs, outputs) + outputs
 
     @staticmethod
     def lane(t: Any, s: Any, skill: Any, n: int) -> int:
-        """The same sums and products, sixteen lanes at a time."""
+        """Compute `forward` with its sums and products in the same order, sixteen lanes at a time."""
         inputs: int = skill.inputs
         width: int = skill.width
         reset, kept, new = s.hidden[:width], s.hidden[width : 2 * width], s.hidden[2 * width : 3 * width]

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from typing import TYPE_CHECKING, Annotated, Any
 
-from mindrun.kinds.functions.function import WIDTH, Network
+from mindrun.kinds.functions.function import WIDTH, NetworkFunction
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import Quantity
 
@@ -19,7 +19,7 @@ HIDDEN = Quantity("a whole number", {"": 1.0}, low=0, high=16, whole=True)
 
 
 @kind("skill", "mlp")
-class Mlp(Network):
+class Mlp(NetworkFunction):
     """A perceptron with `hidden` layers of `width` neurons (0: Eq. 5, max(inputs, outputs) + 2)."""
 
     hidden: Annotated[int, HIDDEN] = 2
@@ -30,12 +30,12 @@ class Mlp(Network):
         return self.matrix_shapes(inputs, outputs)
 
     def matrix_shapes(self, inputs: int, outputs: int) -> Layers:
-        """One for each hidden layer, and that of the outputs; none where the skill has no inputs or outputs."""
+        """A matrix for each hidden layer, and the outputs'; none where the skill has no inputs or outputs."""
         widths = [self.neurons(inputs, outputs)] * self.hidden
         return tuple(pairwise((inputs, *widths, outputs))) if inputs and outputs else ()
 
     def forward(self, of: Terms, matrices: Sequence[Any], inputs: Any, state: Any) -> tuple[Any, Any]:
-        """Layer after layer."""
+        """Compute each layer from the one before: sigmoids of the sums, but for the last layer's."""
         *hidden, last = matrices
         values = inputs
         for matrix in hidden:
@@ -43,17 +43,17 @@ class Mlp(Network):
         return of.product(values, last), state
 
     def row(self, inputs: int, outputs: int) -> Mapping[str, int]:
-        """Its hidden layers; it has none where it has nothing to compute."""
+        """The number of hidden layers and their width; empty where it has none, or nothing to compute."""
         shapes = self.layers(inputs, outputs)
         return {"hidden": self.hidden, "width": shapes[0][1]} if len(shapes) > 1 else {}
 
     def scratch(self, inputs: int, outputs: int) -> int:
-        """Two layers."""
+        """Rows for two layers, of which each is computed from the other by turns."""
         return 2 * max(self.neurons(inputs, outputs) if self.hidden else 0, outputs)
 
     @staticmethod
     def lane(t: Any, s: Any, skill: Any, n: int) -> int:
-        """Layer after layer, in the two halves of `s.hidden` by turns."""
+        """Compute the layers into the two halves of `s.hidden` by turns."""
         half: int = s.hidden.shape[0] // 2
         source, inputs, place = s.gathered, skill.inputs, skill.weights
         base = half
@@ -70,9 +70,9 @@ class Mlp(Network):
 def layer(
     t: Any, s: Any, skill: Any, place: Any, source: Any, inputs: int, target: Any, outputs: int, last: bool, n: int
 ) -> Any:
-    """Rows of `target` from rows of `source`, with the weights from `place` on; where the weights behind them begin.
+    """Compute `target` [outputs, lane] from `source` [inputs, lane] with the weights from `place` on; return their end.
 
-    The sigmoid of the sums, or where it is the `last` layer these. The weights are each lane's own, or those of all.
+    The sigmoids of the sums, or the sums where it is the `last` layer. The weights are each lane's own, or all lanes'.
     """
     if skill.own:
         dense_own(s.genome[place:], source, inputs, target, outputs, last, n)

@@ -33,14 +33,14 @@ class Procedure(Function):
 
     @property
     def calls(self) -> str:
-        """That function."""
+        """The Python function that it calls, as `module.function`."""
         return self.from_
 
     def ready(self, inputs: int, outputs: int, weights: Weights, sources: Mapping[str, str]) -> Compute:
         """The Python function, in a module of its own."""
-        from mindrun.kinds.procedure_call import Called
+        from mindrun.kinds.procedure_call import RunningProcedure
 
-        return Called(self.from_, sources, outputs)
+        return RunningProcedure(self.from_, sources, outputs)
 
 
 def module_source(calls: str, folder: Path) -> str:

@@ -1,4 +1,4 @@
-"""A rule: every edge says its own value."""
+"""A rule, which computes nothing: every edge says its own value."""
 
 from mindrun.kinds.functions.function import Function
 from mindrun.kinds.registry import kind

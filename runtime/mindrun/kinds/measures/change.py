@@ -1,4 +1,4 @@
-"""How restless the wheels are."""
+"""The change of the wheels' commands."""
 
 from dataclasses import replace
 from math import inf
@@ -10,7 +10,7 @@ from mindrun.numbers.quantity import RATIO, TICKS, Reference
 
 
 @kind("measure", "change")
-class Change(MeasureKind):
+class CommandChange(MeasureKind):
     """Sum over the wheels of how much the command changed over the last `over` ticks, beyond a share of its travel."""
 
     of: Annotated[str, Reference("quantity", ("thrust",))]
@@ -21,9 +21,9 @@ class Change(MeasureKind):
 
     @property
     def remembered(self) -> int:
-        """So many, and at least one."""
+        """The ticks of the argument `over`, at least one."""
         return max(1, self.over)
 
     def row(self) -> Row:
-        """From where on it counts."""
+        """The share of a wheel's travel beyond which a change counts."""
         return {"beyond": self.beyond}

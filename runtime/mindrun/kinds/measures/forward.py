@@ -1,4 +1,4 @@
-"""Whether the robot moves ahead."""
+"""A measure of whether the robot moves ahead."""
 
 from mindrun.kinds.measures.measure import MeasureKind
 from mindrun.kinds.registry import kind

@@ -1,4 +1,4 @@
-"""What an environment pays."""
+"""The reward of a Gymnasium environment, as a measure."""
 
 from mindrun.kinds.measures.measure import MeasureKind
 from mindrun.kinds.registry import kind

@@ -1,4 +1,4 @@
-"""What every kind of measure says of itself: the rest of the program asks, and knows no kind by name."""
+"""The base class of measures: the rest of the program asks a kind for these, and knows none by name."""
 
 from collections.abc import Mapping
 from math import inf
@@ -20,9 +20,9 @@ class MeasureKind(AboutThing):
 
     @property
     def remembered(self) -> int:
-        """Of how many ticks the lanes remember what it is made of."""
+        """The number of ticks whose changes of commands the lanes keep for it."""
         return 0
 
     def row(self) -> Row:
-        """What the lanes are told of it beside its thing: the share `beyond` which it counts."""
+        """Its columns of the lanes' table beside its thing: the share `beyond` which it counts."""
         return {}

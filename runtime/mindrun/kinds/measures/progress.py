@@ -1,4 +1,4 @@
-"""How much nearer to a thing the robot has come: three kinds that differ in which direction counts."""
+"""The change of the distance to a thing: three kinds that differ in which direction counts."""
 
 from math import inf
 from typing import Annotated

@@ -1,4 +1,4 @@
-"""A world with walls around it."""
+"""A scene with walls around it."""
 
 from typing import Annotated
 
@@ -17,5 +17,5 @@ class Arena(SceneKind):
 
     @property
     def sides(self) -> tuple[float, float]:
-        """Its size, both ways where it is one number."""
+        """Its lengths along x and y; a size of one number is both."""
         return self.size if isinstance(self.size, tuple) else (self.size, self.size)

@@ -1,4 +1,4 @@
-"""A world that is somebody else's: an environment of Gymnasium."""
+"""A scene that is an environment of Gymnasium."""
 
 from typing import Annotated
 
@@ -17,5 +17,5 @@ class Gymnasium(SceneKind):
 
     @property
     def environment(self) -> str:
-        """Its name."""
+        """The environment's name, as Gymnasium has it."""
         return self.gymnasium

@@ -1,4 +1,4 @@
-"""A world without walls."""
+"""A scene without walls."""
 
 from mindrun.kinds.registry import kind
 from mindrun.kinds.scenes.scene import SceneKind
@@ -11,5 +11,5 @@ class Plain(SceneKind):
     """A world without borders; the robot starts in its origin."""
 
     def distances(self, least: float) -> tuple[float, float]:
-        """Where the robot can find it."""
+        """The least and the greatest distance, so that the robot can find the thing."""
         return MIN_DISTANCE_UNITS, MAX_DISTANCE_UNITS

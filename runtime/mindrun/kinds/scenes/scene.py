@@ -1,4 +1,4 @@
-"""What every kind of scene says of itself: the rest of the program asks, and knows no kind by name."""
+"""The base class of scenes: the rest of the program asks a kind for these, and knows none by name."""
 
 from math import hypot, inf
 
@@ -28,16 +28,16 @@ class SceneKind:
 
     @property
     def is_bounded(self) -> bool:
-        """Whether walls stand around it."""
+        """True if walls stand around it."""
         return self.sides[0] < inf
 
     def has_room(self, place: Place, extent: float) -> bool:
-        """Whether something of that half size, at a place, is inside its walls."""
+        """True if something of half size `extent` at a place is inside the walls, or touches them."""
         return all(abs(at) + extent <= side / 2 + TOUCHING_UNITS for at, side in zip(place, self.sides, strict=True))
 
     def distances(self, least: float) -> tuple[float, float]:
-        """How near to the robot and how far from it a thing is placed that does not say so.
+        """The least and the greatest distance from the robot of a thing that does not say its own.
 
-        `least` is how far away such a thing is where walls keep it near, and leave so much room.
+        `least` is that of such a thing where walls keep it near, if they leave so much room.
         """
         return min(least, hypot(*self.sides) * DISTANCE_SHARE), inf

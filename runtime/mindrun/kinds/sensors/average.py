@@ -31,11 +31,11 @@ class Average(SensorKind):
 
     @property
     def remembered(self) -> int:  # type: ignore[override]
-        """The readings of the last ticks."""
+        """One number for each tick of the window."""
         return self.over
 
     def reader(self, scene: Scene) -> Reader:
-        """The sum in float64, in the order in which the last readings lie in a ring, over how many they are."""
+        """The mean in float64 of a ring of the last readings, summed in the order in which they lie there."""
         import numpy as np
 
         from mindrun.numbers.arithmetic import short_way
@@ -59,7 +59,7 @@ class Average(SensorKind):
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
-        """The mean of a ring of readings."""
+        """Put each reading into its ring, and average the ring in float64, in the order of `reader`."""
         total = s.stack[0]
         for k in range(sensor.width):
             first = sensor.before + k * sensor.over

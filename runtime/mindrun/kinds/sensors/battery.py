@@ -1,10 +1,10 @@
-"""How full the battery is."""
+"""The charge of the battery."""
 
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
 from mindrun.kinds.sensors.sensor import BatteryModel, Begin, Bounds, Physical
-from mindrun.kinds.things.thing import World
+from mindrun.kinds.things.thing import WorldFacts
 from mindrun.numbers.quantity import RATE, RATIO
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
@@ -24,10 +24,10 @@ class Battery(Physical):
 
     @property
     def battery(self) -> BatteryModel:
-        """How the battery drains and charges, as the arguments of the sensor say."""
+        """The model of the battery, from the sensor's arguments."""
         return BatteryModel(self.start, self.drain, self.charge)
 
-    def constant(self, world: World) -> float | None:
+    def constant(self, world: WorldFacts) -> float | None:
         """The charge of a battery that nothing drains, and that nothing charges or that is full; else None."""
         is_still = self.drain == 0 and (self.start == 1 or not (self.charge and world.charges))
         return self.start if is_still else None
@@ -38,6 +38,6 @@ class Battery(Physical):
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
-        """The battery of each robot."""
+        """The charge of each robot's battery, in float32."""
         for p in range(n):
             s.readings[sensor.start, p] = F(s.battery[p])

@@ -1,4 +1,4 @@
-"""In which direction a thing is."""
+"""The direction of a thing."""
 
 from math import inf
 from typing import TYPE_CHECKING, Annotated, Any
@@ -30,7 +30,7 @@ class Bearing(Physical):
     is_about = staticmethod(lambda kind: True)  # whatever there is
 
     def row(self, scene: Scene) -> Row:
-        """How far away the thing may be."""
+        """The inherited columns, with an infinite range where none is given."""
         return {**Physical.row(self, scene), "range": self.range or inf}
 
     @staticmethod

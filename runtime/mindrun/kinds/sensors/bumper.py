@@ -1,11 +1,11 @@
-"""Where the body touches something solid."""
+"""Switches around the body that feel what is solid."""
 
 from math import pi
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
 from mindrun.kinds.sensors.sensor import Physical
-from mindrun.kinds.things.thing import World
+from mindrun.kinds.things.thing import WorldFacts
 from mindrun.numbers.quantity import ANGLE, Quantity
 from mindrun.numbers.trigonometry import cosine, sine
 
@@ -56,13 +56,13 @@ class Bumper(Physical):
         """The cosine of half the width, then cosine and sine of each angle."""
         return cosine(self.width_ / 2), *(f(angle) for angle in self.at for f in (cosine, sine))
 
-    def constant(self, world: World) -> float | None:
-        """0 where nothing is solid."""
+    def constant(self, world: WorldFacts) -> float | None:
+        """0 in a world where nothing is solid, else None."""
         return None if world.is_solid else 0.0
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
-        """The nearest point of each box and of each wall, where it is not outside of the body."""
+        """Press the switches that the nearest point of a box, a wall or a loose thing touches."""
         half_x, half_y = t.world[0].half_x, t.world[0].half_y
         for p in range(n):
             for k in range(sensor.width):
@@ -82,7 +82,7 @@ class Bumper(Physical):
 
 
 def lean(t: Any, s: Any, sensor: Any, i: Any, p: Any) -> None:
-    """The same of loose thing i, however it is turned."""
+    """Press the switches of lane p that loose thing i touches, however it is turned."""
     x, y = place_of(s.things, t.loose[i].thing, p)
     dx, dy = x - s.body[X, p], y - s.body[Y, p]
     half = size_of(s.things, t.loose[i].thing, p) / 2
@@ -100,16 +100,17 @@ def lean(t: Any, s: Any, sensor: Any, i: Any, p: Any) -> None:
 
 
 def beyond(away: Any, side: Any) -> Any:
-    """How far along an axis the nearest point is of what reaches so far to both sides of its middle; 0 within."""
+    """The signed distance along an axis to something whose middle is `away` and half side is `side`; 0 within."""
     if away > side:
         return away - side
     return away + side if away < -side else 0.0
 
 
 def touches(body: Any, ahead: Any, aside: Any, is_flat: Any) -> Any:
-    """Whether the nearest point of something inside of the circle around a body is not outside of the body.
+    """True if something touches the body, by its nearest point, which is within the circle around the body.
 
-    What is flat there meets a corner of a rectangle before that point is in it.
+    `ahead` and `aside` are that point's distances along the body's axes. What `is_flat` there meets a corner of a
+    rectangle before that point is in it.
     """
     if body.is_round:
         return True
@@ -119,7 +120,7 @@ def touches(body: Any, ahead: Any, aside: Any, is_flat: Any) -> Any:
 
 
 def press(t: Any, s: Any, sensor: Any, dx: Any, dy: Any, is_flat: Any, p: Any) -> None:
-    """1 for the switches of lane p that a point so far from the body's middle presses, if it is not outside of it."""
+    """Set the readings of lane p to 1 whose sector has the direction (dx, dy), if the body reaches to that point."""
     far = np.sqrt(dx * dx + dy * dy)
     if not far <= t.world[0].radius:  # infinitely far, where there is no wall, and no number, where it has vanished
         return

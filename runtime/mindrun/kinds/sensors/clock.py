@@ -1,4 +1,4 @@
-"""How much of a period has gone by."""
+"""The share of a period that has gone by."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
 from mindrun.kinds.sensors.sensor import Scene, SensorKind
-from mindrun.kinds.things.thing import World
+from mindrun.kinds.things.thing import WorldFacts
 from mindrun.numbers.quantity import SECONDS
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
@@ -26,8 +26,8 @@ class Clock(SensorKind):
     still = 0.0
     remedy = "Give it a period of more than a tick"
 
-    def constant(self, world: World) -> float | None:
-        """0 where each tick begins a period."""
+    def constant(self, world: WorldFacts) -> float | None:
+        """0 where each tick begins a period, else None."""
         return 0.0 if self.period == world.tick else None
 
     def reader(self, scene: Scene) -> Reader:

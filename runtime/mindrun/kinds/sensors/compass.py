@@ -1,4 +1,4 @@
-"""In which direction north is."""
+"""The direction of north."""
 
 from typing import TYPE_CHECKING, Annotated, Any
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
 from mindrun.kinds.sensors.sensor import Flaw, Scene, SensorKind
-from mindrun.kinds.things.thing import World
+from mindrun.kinds.things.thing import WorldFacts
 from mindrun.numbers.expression import Formula, constant_value, fold, is_valid_program, named, placed, single
 from mindrun.numbers.quantity import EXPRESSION
 from mindrun.numbers.stack_machine import evaluate as run_program
@@ -33,7 +33,7 @@ class Computed(SensorKind):
 
     @property
     def sources(self) -> tuple[str, ...]:
-        """All that it names."""
+        """The sensors and memories that the expression names, each once."""
         return named(self.at)
 
     @property
@@ -42,7 +42,7 @@ class Computed(SensorKind):
         return self.at
 
     def goes_round(self, directions: Collection[str]) -> bool:
-        """Whether it is one direction, taken once, more or less numbers."""
+        """True if it is one direction, taken once, more or less numbers."""
 
         def leaf(word: str, operand: Any) -> int | None:
             return 0 if word == "number" else 1 if operand in directions else None
@@ -55,13 +55,13 @@ class Computed(SensorKind):
         return fold(self.at, leaf, lambda count: None if count is None else -count, combined) in (1, -1)
 
     def flaw(self, widths: Mapping[str, int]) -> Flaw | None:
-        """An expression takes one number of each reading that it names."""
+        """A flaw where the expression is not whole, or names what has not a single reading."""
         starts = dict.fromkeys(self.sources, 0)
         if not (is_valid_program(placed(self.at, starts)) and all(widths.get(name) == 1 for name in self.sources)):
             return Flaw("wide-reading", "at", "It has an expression that cannot be computed.", "Read single readings.")
         return None
 
-    def constant(self, world: World) -> float | None:
+    def constant(self, world: WorldFacts) -> float | None:
         """The value of an expression that names no reading; None where it names one, or is no finite number."""
         if self.sources:
             return None
@@ -69,7 +69,7 @@ class Computed(SensorKind):
         return min(max(0.0, value), 1.0) if isfinite(value) else None
 
     def reader(self, scene: Scene) -> Reader:
-        """How the engine computes the expression: as a float32, clamped, of a direction less whole turns; NaN else."""
+        """The expression as a float32, clamped to 0..1, a direction without whole turns; NaN if it is not finite."""
         import numpy as np
 
         from mindrun.numbers.arithmetic import NAN, clamp
@@ -87,7 +87,7 @@ class Computed(SensorKind):
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
-        """The program over all lanes."""
+        """Run the program over all lanes in float64, and clamp as `reader` does."""
         codes, out = t.codes[sensor.code : sensor.code + sensor.length], s.readings[sensor.start]
         run_program(codes, s.readings, s.stack, s.readings, 0, s.stack, s.active, n, True)
         for p in range(n):

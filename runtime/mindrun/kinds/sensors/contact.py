@@ -1,4 +1,4 @@
-"""Whether the claw can take a thing."""
+"""Contact of the claw with a thing that it can take."""
 
 from typing import TYPE_CHECKING, Annotated, Any
 

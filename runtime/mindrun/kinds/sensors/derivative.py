@@ -1,4 +1,4 @@
-"""How fast another sensor changes."""
+"""The change of another sensor."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
 from mindrun.kinds.sensors.sensor import Row, Scene, SensorKind
-from mindrun.kinds.things.thing import World
+from mindrun.kinds.things.thing import WorldFacts
 from mindrun.numbers.quantity import POSITIVE, RATIO, SENSOR
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
@@ -30,17 +30,17 @@ class Derivative(SensorKind):
 
     @property
     def remedy(self) -> str:  # type: ignore[override]
-        """What to do about one that never changes."""
+        """A hint for one that never changes: a smaller dead zone, or another source."""
         if self.dead_zone > 0.5:
             return SensorKind.remedy
         return f"Derive it from another sensor than {self.of}, which never changes"
 
-    def constant(self, world: World) -> float | None:
-        """0.5 where the sensor never changes, and where every change is in the dead zone."""
+    def constant(self, world: WorldFacts) -> float | None:
+        """0.5 where the source never changes or the dead zone has every change, else None."""
         return 0.5 if world.is_constant(self.of) else SensorKind.constant(self, world)
 
     def reader(self, scene: Scene) -> Reader:
-        """0.5 in the first tick, NaN where a reading of the source is not finite now or was not."""
+        """0.5 + change · gain; 0.5 in the first tick, NaN where the source is not finite now or was not before."""
         import numpy as np
 
         from mindrun.numbers.arithmetic import HALF, NAN, ONE, short_way
@@ -62,7 +62,7 @@ class Derivative(SensorKind):
         return read
 
     def row(self, scene: Scene) -> Row:
-        """The change that reads 1, as a gain."""
+        """The inherited columns and `gain`: 0.5 / (range · tick)."""
         return {**SensorKind.row(self, scene), "gain": 0.5 / (scene.tick * self.range)}
 
     @staticmethod

@@ -1,4 +1,4 @@
-"""How far away a thing is."""
+"""The distance of a thing."""
 
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -51,7 +51,7 @@ class Distance(Physical):
 
 
 def rim_towards(body: Any, s: Any, thing: Any, p: Any) -> Any:
-    """How far from its middle a rectangle ends in the direction of a thing: as far as the thing's middle at most."""
+    """The distance from a rectangular body's middle to its rim towards a thing, at most to the thing's middle."""
     dx, dy = thing[X, p] - s.body[X, p], thing[Y, p] - s.body[Y, p]
     cosine, sine = s.heading[COSINE, p], s.heading[SINE, p]
     ahead, aside = abs(cosine * dx + sine * dy) / body.front, abs(cosine * dy - sine * dx) / body.side

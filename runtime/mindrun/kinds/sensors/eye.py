@@ -1,4 +1,4 @@
-"""How far a thing is in some directions: one line of a camera that sees its colour alone."""
+"""The distance of a thing in some directions: one line of a camera that sees its colour alone."""
 
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -76,7 +76,7 @@ class Eye(Physical):
 
 
 def locate(body: Any, things: Any, i: Any, frame: Any, n: Any) -> None:
-    """Where thing i is from each robot's middle, and half of its size along x and y, in float32."""
+    """Write thing i into `frame`: its middle from each robot's, and half of its size along x and y, in float32."""
     for p in range(n):
         x, y = place_of(things, i, p)
         frame[X, p], frame[Y, p] = F(x - body[X, p]), F(y - body[Y, p])
@@ -84,7 +84,7 @@ def locate(body: Any, things: Any, i: Any, frame: Any, n: Any) -> None:
 
 
 def locate_box(body: Any, boxes: Any, b: Any, frame: Any, n: Any) -> None:
-    """The same of box number b."""
+    """Write box b into `frame`: its middle from each robot's, and half of its sides along x and y, in float32."""
     for p in range(n):
         x, y, wide, high = box_of(boxes, b, p)
         frame[X, p], frame[Y, p] = F(x - body[X, p]), F(y - body[Y, p])
@@ -92,7 +92,7 @@ def locate_box(body: Any, boxes: Any, b: Any, frame: Any, n: Any) -> None:
 
 
 def meet_disc(heading: Any, frame: Any, cosine: Any, sine: Any, out: Any, n: Any) -> None:
-    """`out` lowered to the distance from each robot's middle along a ray to a disc, where that is less."""
+    """Lower `out` to the distance from each robot's middle along a ray to the disc in `frame`, where that is less."""
     for p in range(n):
         c = heading[COSINE, p] * cosine - heading[SINE, p] * sine
         s = heading[SINE, p] * cosine + heading[COSINE, p] * sine
@@ -106,7 +106,7 @@ def meet_disc(heading: Any, frame: Any, cosine: Any, sine: Any, out: Any, n: Any
 
 
 def meet_rectangle(heading: Any, frame: Any, cosine: Any, sine: Any, out: Any, n: Any) -> None:
-    """The same to a rectangle (the slab method)."""
+    """Lower `out` to the distance along a ray to the rectangle in `frame`, where that is less (the slab method)."""
     for p in range(n):
         ix = ONE / (heading[COSINE, p] * cosine - heading[SINE, p] * sine)
         iy = ONE / (heading[SINE, p] * cosine + heading[COSINE, p] * sine)

@@ -1,4 +1,4 @@
-"""What lies under some points of the robot."""
+"""Sensors that look at the floor under some points of the robot."""
 
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -28,12 +28,12 @@ class Floor(Physical):
 
     @property
     def spots(self) -> tuple[tuple[float, float], ...]:
-        """Its places on the bar."""
+        """The point of each reading on the bar: x ahead of the body's middle, y to its left."""
         return tuple((self.ahead, left) for left in self.at)
 
     @property
     def numbers(self) -> tuple[float, ...]:
-        """How far ahead they are, then how far to the left each is."""
+        """The distance of the bar ahead of the middle, then the distance of each point to the left."""
         return self.ahead, *self.at
 
     @staticmethod
@@ -55,7 +55,7 @@ class Floor(Physical):
 
 
 def in_disc(things: Any, i: Any, x: Any, y: Any, p: Any) -> Any:
-    """Whether a point is inside the disc of thing i, in lane p."""
+    """True if a point is inside the disc of thing i, in lane p."""
     its_x, its_y = place_of(things, i, p)
     dx, dy, half = its_x - x, its_y - y, size_of(things, i, p) / 2
     return dx * dx + dy * dy <= half * half

@@ -1,10 +1,10 @@
-"""Whether the claw holds a thing."""
+"""The thing that the claw holds."""
 
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
 from mindrun.kinds.sensors.sensor import Begin, Bounds, Physical
-from mindrun.kinds.things.thing import World
+from mindrun.kinds.things.thing import WorldFacts
 from mindrun.numbers.quantity import THING
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
@@ -21,8 +21,8 @@ class Held(Physical):
     remedy = "Let a skill that acts drive a gripper"
     is_about = staticmethod(lambda kind: kind.can_be_held)  # what a claw can take
 
-    def constant(self, world: World) -> float | None:
-        """0 without the thing, and where no claw ever closes."""
+    def constant(self, world: WorldFacts) -> float | None:
+        """0 without the thing and where no claw ever closes, else None."""
         return Physical.constant(self, world) if world.can_hold else 0.0
 
     def first(self, begin: Begin) -> Bounds | None:

@@ -1,4 +1,4 @@
-"""Whether the robot moves."""
+"""Movement of the robot, whatever its direction."""
 
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -16,7 +16,7 @@ TRAIL_TICKS = 20  # over which the displacement is taken
 
 @kind("sensor", "inertial")
 class Inertial(Physical):
-    """Whether the robot moves: its displacement over the last 20 ticks as a mean speed, 1 from `range` units/s on."""
+    """Movement of the robot: its displacement over the last 20 ticks as a mean speed, 1 from `range` units/s on."""
 
     range: Annotated[float, POSITIVE] = 1.0
     dead_zone: Annotated[float, RATIO] = 0.0

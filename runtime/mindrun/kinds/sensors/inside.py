@@ -1,4 +1,4 @@
-"""Whether the robot is inside of a thing."""
+"""The robot's being inside of a thing on the floor."""
 
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -19,7 +19,7 @@ class Inside(Physical):
     is_about = staticmethod(lambda kind: kind.is_area)  # what lies on the floor
 
     def first(self, begin: Begin) -> Bounds | None:
-        """1 where the robot begins inside of the thing, 0 where it does not."""
+        """1 where the robot begins inside of the thing, 0 where not; None where noise hides that, or it is drawn."""
         there = None if self.noise else begin.is_within(self.of)
         return None if there is None else (float(there), float(there))
 

@@ -31,14 +31,14 @@ class Latch(SensorKind):
     remembered = 1
 
     def flaw(self, widths: Mapping[str, int]) -> Flaw | None:
-        """It lets go above where it closes."""
+        """A flaw where `above` is less than `below`."""
         if self.below <= self.above:
             return None
         hint = "Write the smaller one after below: latch of battery below 20% above 80%."
         return Flaw("latch-backwards", "above", "This latch lets go before it closes.", hint)
 
     def first(self, begin: Begin) -> Bounds:
-        """1 where its source is below, 0 where it is not."""
+        """The bounds of its first reading: 1 where its source is `below`, else 0."""
         low, high = begin.first(self.of)
         return 0.0 if high >= self.below else 1.0, 1.0 if low < self.below else 0.0
 
@@ -58,7 +58,7 @@ class Latch(SensorKind):
         return read
 
     def row(self, scene: Scene) -> Row:
-        """The two thresholds."""
+        """The inherited columns and the two thresholds, `low` and `high`."""
         return {**SensorKind.row(self, scene), "low": self.below, "high": self.above}
 
     @staticmethod

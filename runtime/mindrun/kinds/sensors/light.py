@@ -1,4 +1,4 @@
-"""How bright a thing is from where the robot is."""
+"""The light of a thing where the robot is."""
 
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -42,7 +42,7 @@ class Light(Physical):
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
-        """The square law, and nothing in the shadow."""
+        """1 / (1 + (distance / range)²) of the nearest thing, and 0 in the shadow of anything solid."""
         out = s.readings[sensor.start]
         if sensor.things == 0:
             for p in range(n):
@@ -65,7 +65,7 @@ class Light(Physical):
 
 
 def is_shaded(boxes: Any, x: Any, y: Any, half_x: Any, half_y: Any, p: Any) -> Any:
-    """Whether a box of lane p meets a straight line, given by its middle and half of its way."""
+    """True if a box of lane p meets a straight line, given by its middle (x, y) and half of its way."""
     for b in range(boxes.shape[1] // BOX_COLUMNS):
         its_x, its_y, wide, high = box_of(boxes, b, p)
         if meets_rectangle(x - its_x, y - its_y, half_x, half_y, wide, high):
@@ -74,7 +74,7 @@ def is_shaded(boxes: Any, x: Any, y: Any, half_x: Any, half_y: Any, p: Any) -> A
 
 
 def is_shaded_by_loose(t: Any, s: Any, sensor: Any, x: Any, y: Any, half_x: Any, half_y: Any, p: Any) -> Any:
-    """The same of boxes and balls that can be pushed, however they are turned, but for those the sensor is about."""
+    """True if a loose thing of lane p meets that line, however it is turned; not one of those the sensor is about."""
     for i in range(len(t.loose)):
         thing = t.loose[i].thing
         if (sensor.thing <= thing) & (thing < sensor.thing + sensor.things):
@@ -93,7 +93,7 @@ def is_shaded_by_loose(t: Any, s: Any, sensor: Any, x: Any, y: Any, half_x: Any,
 
 
 def meets_rectangle(dx: Any, dy: Any, half_x: Any, half_y: Any, wide: Any, high: Any) -> Any:
-    """Whether a line, whose middle is so far from a rectangle's, meets it: no axis separates them; False of NaN."""
+    """True if a line, whose middle is (dx, dy) from a rectangle's, meets it: no axis separates them; False of NaN."""
     return (
         abs(dx) <= wide + abs(half_x)
         and abs(dy) <= high + abs(half_y)
@@ -102,7 +102,7 @@ def meets_rectangle(dx: Any, dy: Any, half_x: Any, half_y: Any, wide: Any, high:
 
 
 def meets_disc(dx: Any, dy: Any, half_x: Any, half_y: Any, radius: Any) -> Any:
-    """The same of a disc: the point of the line that is nearest to its middle, an end or one between, is in it."""
+    """True if a line, whose middle is (dx, dy) from a disc's, meets it: its nearest point, perhaps an end, is in it."""
     along, square = dx * half_x + dy * half_y, half_x * half_x + half_y * half_y
     if abs(along) < square:
         aside = half_x * dy - half_y * dx

@@ -1,4 +1,4 @@
-"""One number of what an environment observes."""
+"""One number of an environment's observation."""
 
 from collections.abc import Mapping
 from typing import Annotated, Any
@@ -25,11 +25,11 @@ class Observation(Physical):
 
     @property
     def slot(self) -> Slot:
-        """That number."""
+        """The number of the observation that the arguments name, and its range."""
         return Slot(self.part, self.observation, self.range)
 
     def flaw(self, widths: Mapping[str, int]) -> Flaw | None:
-        """Its range has two ends."""
+        """A flaw where its range has not two ends."""
         if self.slot.has_two_ends:
             return None
         hint = "Write the least and the greatest number that it will be: range -0.5 to 2."
@@ -37,4 +37,4 @@ class Observation(Physical):
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
-        """Its reading stands there: whoever stepped the environment wrote it."""
+        """Do nothing: whoever stepped the environment has written the reading."""

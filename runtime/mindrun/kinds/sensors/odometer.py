@@ -1,4 +1,4 @@
-"""How fast a wheel rolls."""
+"""The speed of a wheel, as its encoder counts it."""
 
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -28,7 +28,7 @@ class Odometer(Physical):
     blank = rest = still = 0.5
 
     def row(self, scene: Scene) -> Row:
-        """What a unit a second adds, and the side: −1 left, 1 right."""
+        """The gain of a unit a second, and the side as `part`: −1 left, 1 right."""
         return {"gain": 0.5 / self.range, "part": 1 if self.side == "right" else -1}
 
     @staticmethod

@@ -1,4 +1,4 @@
-"""Where the robot is along an axis of its world."""
+"""The place of the robot along an axis of its world."""
 
 from typing import TYPE_CHECKING, Annotated, Any, Literal, get_args
 
@@ -27,7 +27,7 @@ class Position(Physical):
     blank = 0.5
 
     def row(self, scene: Scene) -> Row:
-        """What a unit adds, and the axis as a row of the body."""
+        """The gain of a unit, and the axis as `part`, a row of the body."""
         from mindrun.numbers.arithmetic import X, Y
 
         return {"gain": 0.5 / self.range, "part": X if self.along == "x" else Y}

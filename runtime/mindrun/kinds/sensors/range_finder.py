@@ -1,10 +1,10 @@
-"""How far it is to what stands in the way, in some directions."""
+"""The distance to whatever is solid, in some directions."""
 
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
 from mindrun.kinds.sensors.sensor import Physical
-from mindrun.kinds.things.thing import World
+from mindrun.kinds.things.thing import WorldFacts
 from mindrun.numbers.quantity import ANGLE, POSITIVE, RATIO
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
@@ -28,8 +28,8 @@ class RangeFinder(Physical):
     unit = "m"
     blank = 1.0
 
-    def constant(self, world: World) -> float | None:
-        """1 where nothing is solid."""
+    def constant(self, world: WorldFacts) -> float | None:
+        """1 in a world where nothing is solid, else None."""
         return None if world.is_solid else 1.0
 
     @staticmethod

@@ -23,14 +23,14 @@ class Reading(SensorKind):
     circular = None
 
     def flaw(self, widths: Mapping[str, int]) -> Flaw | None:
-        """There are so many readings."""
+        """A flaw where the source has not so many readings."""
         if self.reading <= (width := widths.get(self.of, 0)):
             return None
         has = f"{self.of} has {width} reading{'s' * (width != 1)}."
         return Flaw("no-such-reading", "reading", has, f"Write a number from 1 to {width}.")
 
     def reader(self, scene: Scene) -> Reader:
-        """That reading."""
+        """A slice of all readings: the one of the source with that number."""
         place = scene.starts[self.of] + self.reading - 1
 
         def read(number: int, now: Readings, before: Readings | None) -> Readings:
@@ -39,11 +39,11 @@ class Reading(SensorKind):
         return read
 
     def row(self, scene: Scene) -> Row:
-        """Where it stands."""
+        """The row of that reading, as `source`."""
         return {"source": scene.starts[self.of] + self.reading - 1}
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
-        """That reading."""
+        """Copy that reading of the source."""
         for p in range(n):
             s.readings[sensor.start, p] = s.readings[sensor.source, p]

@@ -1,4 +1,4 @@
-"""What every kind of sensor says of itself: the rest of the program asks, and knows no kind by name."""
+"""The base classes of sensors: the rest of the program asks a kind for these, and knows none by name."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, Protocol
 
 from mindrun.kinds.environment import Slot
 from mindrun.kinds.registry import arguments, base, named_arguments
-from mindrun.kinds.things.thing import AboutThing, World
+from mindrun.kinds.things.thing import AboutThing, WorldFacts
 from mindrun.numbers.expression import Formula
 from mindrun.numbers.quantity import ANGLE, RATIO, SENSOR, TICKS
 
@@ -22,14 +22,14 @@ Bounds = tuple[float, float]  # the least and the greatest
 
 
 class Begin(Protocol):
-    """What is known of how a run begins."""
+    """The facts that are known about the beginning of a run."""
 
     def is_within(self, thing: str) -> bool | None: ...  # whether the robot is in a thing; None where that is drawn
     def first(self, name: str) -> Bounds: ...  # what a sensor or a memory reads in the first tick
 
 
 class Flaw(NamedTuple):
-    """What is wrong with a sensor: a code, the field of the argument, a sentence, and what to do."""
+    """An error in a sensor's arguments: a code, the field of the argument, a sentence, and what to do."""
 
     code: str
     field: str
@@ -38,7 +38,7 @@ class Flaw(NamedTuple):
 
 
 class BatteryModel(NamedTuple):
-    """With how much a battery starts, what it loses in a tick, and what it gains in one where it charges; 1 is full."""
+    """The charge with which a battery starts, its loss in a tick, and its gain in one where it charges; 1 is full."""
 
     start: float
     drain: float
@@ -47,7 +47,7 @@ class BatteryModel(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Scene:
-    """What a sensor can depend on beside its own arguments.
+    """All that a sensor can depend on beside its own arguments.
 
     The length of a `tick` in seconds, where the readings of each sensor and memory stand, and which are directions.
     """
@@ -58,7 +58,7 @@ class Scene:
 
     @property
     def starts(self) -> Mapping[str, int]:
-        """Where the readings of each sensor and memory begin."""
+        """The row at which the readings of each sensor and memory begin."""
         return {name: place.start for name, place in self.places.items()}
 
 
@@ -89,12 +89,12 @@ class SensorKind(AboutThing):
 
     @property
     def is_outside(self) -> bool:
-        """Whether it belongs to an environment."""
+        """True if it belongs to an environment."""
         return self.slot is not None
 
     @property
     def shape(self) -> Shape | None:
-        """How its readings lie: one for each of a list that it takes, else a single one; None: as its source's."""
+        """The shape of its readings: one for each item of its list argument, else a single one; None: its source's."""
         lists = [getattr(self, each.field) for each in named_arguments(type(self)) if each.shape == "list"]
         return (len(lists[0]),) if lists else ()
 
@@ -110,41 +110,41 @@ class SensorKind(AboutThing):
 
     @property
     def formula(self) -> Formula:
-        """What it computes, where that is said in an expression."""
+        """The expression that it computes; empty where it computes none."""
         return ()
 
     def goes_round(self, directions: Collection[str]) -> bool:
-        """Whether its reading is a direction, where those of these sensors are."""
+        """True if its reading is a direction, given the names of other sensors whose readings are."""
         return self.source in directions if self.circular is None else self.circular
 
     def flaw(self, widths: Mapping[str, int]) -> Flaw | None:
-        """What is wrong with it beside other sensors and memories, of which it is told how many readings they have."""
+        """The error in its arguments, or None; `widths` has the number of readings of each sensor and memory."""
         return None
 
     @property
     def battery(self) -> BatteryModel | None:
-        """How the battery that it reads drains and charges."""
+        """The model of the battery that it reads; None where it reads none."""
         return None
 
     @property
     def directions(self) -> tuple[float, ...]:
-        """Where around the robot it measures, one angle for each reading, counterclockwise from straight ahead."""
+        """The angles at which it measures, one for each reading, counterclockwise from straight ahead."""
         lists = (each for each in arguments(type(self)) if each.shape == "list" and each.type is ANGLE)
         return next((getattr(self, each.field) for each in lists), ())
 
     @property
     def rays(self) -> tuple[float, ...]:
-        """The directions in which it looks."""
+        """The angles along which it looks; none where it casts no rays."""
         return self.directions if self.looks else ()
 
     @property
     def reach(self) -> float:
-        """How far it looks, in world units."""
+        """The length of its rays in world units; 0 where it casts none."""
         return getattr(self, "range", 0.0) if self.looks else 0.0
 
     @property
     def ends(self) -> tuple[float, float]:
-        """What its readings 0 and 1 are in units of the world, of what has a `unit`; both ways where 0.5 is nothing."""
+        """The values of the readings 0 and 1, of what has a `unit`: 0 to `range`, or ±range where 0.5 is nothing."""
         high = getattr(self, "range", 0.0) if self.unit else 0.0
         return (-high, high) if high and self.blank == 0.5 else (0.0, high)
 
@@ -155,19 +155,16 @@ class SensorKind(AboutThing):
 
     @property
     def sector(self) -> float:
-        """How wide a part of the rim feels a touch around each of its directions, an angle; 0 where none does."""
+        """The angle, around each of its directions, in which it feels a touch; 0 where it feels none."""
         return 0.0
 
     @property
     def numbers(self) -> tuple[float, ...]:
-        """What its lane function reads beside its row: `t.numbers`, from `sensor.number` on."""
+        """The numbers that its lane function reads beside its row: `t.numbers`, from `sensor.number` on."""
         return ()
 
     def row(self, scene: Scene) -> Row:
-        """What its lane function is told beside what each is: its source, and its arguments that are TOLD.
-
-        A period is told in ticks.
-        """
+        """Its own columns of the lanes' table: its source, and its arguments that are TOLD, a period in ticks."""
         plain = (each.field for each in arguments(type(self)) if each.shape == "one" and each.field in TOLD)
         told = {name: getattr(self, name) for name in plain}
         told |= {"period": told["period"] / scene.tick} if "period" in told else {}
@@ -182,8 +179,8 @@ class SensorKind(AboutThing):
         the lanes (`sim/state.py` has every array), `clock` counts ticks, `sensor` is the row of the table.
         """
 
-    def constant(self, world: World) -> float | None:
-        """What it always reads in a world, as without its thing, or in a dead zone that all is in; else None."""
+    def constant(self, world: WorldFacts) -> float | None:
+        """The reading that never changes in a world, without its thing or in a dead zone that has all; else None."""
         if self.thing and self.thing not in world.things:
             return self.blank
         return self.rest if self.dead_zone > max(self.rest, 1 - self.rest) else None
@@ -195,16 +192,16 @@ class SensorKind(AboutThing):
         return None if self.still is None else (self.still, self.still)
 
     def reader(self, scene: Scene) -> Reader | None:
-        """How the engine computes it, from the number of the tick and the readings now and before; None where measured.
+        """A function of the tick's number, the readings now and those before, for the engine; None if it is measured.
 
-        A reader may remember: it is asked in every tick, from the first on, and made anew for another run.
+        It may remember: it is called in every tick, from the first on, and made anew for another run.
         """
         return None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Physical(SensorKind):
-    """What is not perfect about a sensor that measures something, and is so in training.
+    """The base of sensors that measure something, with imperfections that training has, too.
 
     It is read `every` so many ticks and says the same in between. `noise` is how far off a reading may be, `lost` the
     share of readings that fail: they read as if there were nothing (of a battery: as before). What a skill sees is
@@ -219,11 +216,11 @@ class Physical(SensorKind):
     varying = ("noise", "lost", "delay")
 
     def first(self, begin: Begin) -> Bounds | None:
-        """What it reads of a robot that stands, give or take the noise."""
+        """The bounds of its reading of a robot that stands, give or take the noise; None where nobody knows."""
         return None if self.still is None else self.around(self.still)
 
     def around(self, value: float) -> Bounds:
-        """The least and greatest reading of what it measures."""
+        """The least and the greatest reading where the true value is `value`, with noise and failures."""
         low, high = max(0.0, value - self.noise), min(1.0, value + self.noise)
         return (min(low, self.blank), max(high, self.blank)) if self.lost and not self.keeps_lost else (low, high)
 

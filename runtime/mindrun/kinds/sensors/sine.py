@@ -1,4 +1,4 @@
-"""A wave, for what should happen again and again."""
+"""A sine wave in time."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
 from mindrun.kinds.sensors.sensor import Scene, SensorKind
-from mindrun.kinds.things.thing import World
+from mindrun.kinds.things.thing import WorldFacts
 from mindrun.numbers.quantity import SECONDS
 from mindrun.numbers.trigonometry import sine
 
@@ -27,7 +27,7 @@ class Sine(SensorKind):
     still = 0.5
     remedy = "Give it a period of more than two ticks"
 
-    def constant(self, world: World) -> float | None:
+    def constant(self, world: WorldFacts) -> float | None:
         """0.5 where every tick meets the wave there: it lasts one tick or two, or goes round in a part of one."""
         halves = 2 * world.tick / self.period
         return 0.5 if halves > 0.5 and isclose(halves, round(halves)) else None

@@ -1,4 +1,4 @@
-"""How fast the robot drives."""
+"""The robot's speed along its heading."""
 
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -25,7 +25,7 @@ class Speed(Physical):
     blank = rest = still = 0.5
 
     def row(self, scene: Scene) -> Row:
-        """What a unit a second adds."""
+        """The inherited columns and the gain of a unit a second."""
         return {**Physical.row(self, scene), "gain": 0.5 / self.range}
 
     @staticmethod

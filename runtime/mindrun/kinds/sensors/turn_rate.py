@@ -1,4 +1,4 @@
-"""How fast the robot turns."""
+"""The robot's rate of turn."""
 
 from math import pi
 from typing import TYPE_CHECKING, Annotated, Any
@@ -27,7 +27,7 @@ class TurnRate(Physical):
     blank = rest = still = 0.5
 
     def row(self, scene: Scene) -> Row:
-        """What a radian a second adds."""
+        """The inherited columns and the gain of a radian a second."""
         return {**Physical.row(self, scene), "gain": 0.5 / self.range}
 
     @staticmethod

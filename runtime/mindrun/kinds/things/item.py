@@ -1,4 +1,4 @@
-"""What a claw can take."""
+"""A thing that a claw can take."""
 
 from typing import Annotated
 

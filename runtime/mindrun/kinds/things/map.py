@@ -7,7 +7,7 @@ from typing import Annotated
 
 from mindrun.kinds.registry import kind
 from mindrun.kinds.scenes.scene import SceneKind
-from mindrun.kinds.things.thing import DEFAULT_DISTANCE, DEFAULT_SIZE, Mistake, Rectangle, ThingKind
+from mindrun.kinds.things.thing import DEFAULT_DISTANCE, DEFAULT_SIZE, Rectangle, ThingKind, ThingMistake
 from mindrun.numbers.quantity import LENGTH, Place, Reference
 
 WALL, FLOOR = "#", "."
@@ -37,12 +37,12 @@ class Map(ThingKind):
     unplaceable = "Draw walls with #, and write another letter for what stands there."
 
     def obstacles(self, scene: SceneKind | None) -> int:
-        """As many rectangles as its walls make."""
+        """The number of rectangles that its walls make."""
         return len(_rectangles(self.from_))
 
     @property
     def walls(self) -> tuple[Rectangle, ...]:
-        """Its `#`, side by side as one."""
+        """The rectangles of its walls: `#` side by side are one."""
         found = []
         for column, row, wide, high in _rectangles(self.from_):
             (x, y), (to_x, to_y) = self._place(column, row), self._place(column + wide - 1, row + high - 1)
@@ -52,12 +52,12 @@ class Map(ThingKind):
 
     @property
     def drawing(self) -> Lines:
-        """That of its file."""
+        """The lines of its file."""
         return self.from_
 
     @property
     def letters(self) -> Mapping[str, tuple[Place, ...]]:
-        """Where each letter stands, line by line."""
+        """The places at which each letter stands, line by line."""
         found: dict[str, list[Place]] = {}
         for row, line in enumerate(self.from_):
             for column, letter in enumerate(line):
@@ -71,26 +71,26 @@ class Map(ThingKind):
         return self.cell * (column - (columns - 1) / 2), self.cell * ((rows - 1) / 2 - row)
 
     def at_places(self, places: tuple[Place, ...]) -> None:
-        """No map moves it."""
+        """None: a map is placed by no other map."""
 
-    def mistake(self, scene: SceneKind | None) -> Mistake | None:
-        """Its lines are of one length, have floor, are not too many and fit into the arena."""
+    def mistake(self, scene: SceneKind | None) -> ThingMistake | None:
+        """An error where its lines differ in length, have no floor, are too many or do not fit into the arena."""
         columns = max(map(len, self.from_), default=0)
         for number, line in enumerate(self.from_, 1):
             if len(line) != columns:
                 long = f"Line {number} has {len(line)} characters, the longest has {columns}"
                 hint = f"{long}: fill it up with {FLOOR} or {WALL}."
-                return Mistake("ragged-map", "The lines of this map are of different lengths.", hint)
+                return ThingMistake("ragged-map", "The lines of this map are of different lengths.", hint)
         if columns * len(self.from_) > MAX_MAP_CELLS:
             hint = f"A map has up to {MAX_MAP_CELLS} squares: draw it coarser, with a larger cell."
-            return Mistake("map-too-large", f"This map has {columns * len(self.from_)} squares.", hint)
+            return ThingMistake("map-too-large", f"This map has {columns * len(self.from_)} squares.", hint)
         if not any(letter != WALL for line in self.from_ for letter in line):
-            return Mistake("map-without-floor", "This map has no floor.", f"Draw {FLOOR} where the robot can be.")
+            return ThingMistake("map-without-floor", "This map has no floor.", f"Draw {FLOOR} where the robot can be.")
         half_x, half_y = self.cell * columns / 2, self.cell * len(self.from_) / 2
         if scene is None or scene.has_room((half_x, half_y), 0.0):
             return None
         hint = f"It is {2 * half_x:g} wide and {2 * half_y:g} deep: write a smaller cell or a larger arena."
-        return Mistake("outside-arena", "This map is larger than the arena.", hint)
+        return ThingMistake("outside-arena", "This map is larger than the arena.", hint)
 
 
 @lru_cache(64)

@@ -1,4 +1,4 @@
-"""What stands in the way."""
+"""Solid squares that stand in the way."""
 
 from collections.abc import Iterable
 from dataclasses import replace
@@ -7,7 +7,15 @@ from typing import Annotated
 
 from mindrun.kinds.registry import kind
 from mindrun.kinds.scenes.scene import SceneKind
-from mindrun.kinds.things.thing import DEFAULT_DISTANCE, DEFAULT_SIZE, MAX_OBSTACLES, Mistake, Rectangle, Row, ThingKind
+from mindrun.kinds.things.thing import (
+    DEFAULT_DISTANCE,
+    DEFAULT_SIZE,
+    MAX_OBSTACLES,
+    Rectangle,
+    Row,
+    ThingKind,
+    ThingMistake,
+)
 from mindrun.numbers.quantity import COORDINATE, LENGTH, Place, Quantity, Span
 
 COUNT = Quantity("a whole number", {"": 1.0}, low=0, high=1000, whole=True)
@@ -35,19 +43,19 @@ class Obstacle(ThingKind):
     least_distance = 0.0
 
     def grid_lines(self, scene: SceneKind | None) -> tuple[int, int]:
-        """How many columns and rows its grid has in a scene, none on its walls; there is no grid without walls."""
+        """The columns and rows of its grid in a scene, none of them on its walls; (0, 0) without a grid or walls."""
         if scene and scene.is_bounded and self.grid:
             columns, rows = (max(0, round(min(side / self.grid, MAX_GRID_LINES)) - 1) for side in scene.sides)
             return columns, rows
         return 0, 0
 
     def obstacles(self, scene: SceneKind | None) -> int:
-        """One at each point of its grid, one at its place, or its count."""
+        """The number of obstacles: one at each point of its grid, its count, or one at each place."""
         columns, rows = self.grid_lines(scene)
         return columns * rows if self.grid else self.count or len(self.at)
 
     def standing(self, scene: SceneKind | None, may: bool = False) -> Iterable[Rectangle]:
-        """What the smallest of them covers wherever jitter moves it; with `may` all that the largest can cover."""
+        """Squares that the smallest ones cover wherever jitter moves them; with `may`, all that the largest can."""
         least, most = sorted((self.size.first, self.size.last))
         half = most / 2 + self.jitter if may else least / 2 - self.jitter
         columns, rows = self.grid_lines(scene) if self.grid else (1, 1)
@@ -59,7 +67,7 @@ class Obstacle(ThingKind):
             )
 
     def at_places(self, places: tuple[Place, ...]) -> "Obstacle | None":
-        """As many as its count says: an obstacle without one, a grid or a place is none."""
+        """The obstacles at the places that a map draws; None where it says where it is, or has another count."""
         return None if self.at or self.grid or self.count != len(places) else replace(self, at=places, count=0)
 
     def rows(self, scene: SceneKind) -> Iterable[Row]:
@@ -69,24 +77,24 @@ class Obstacle(ThingKind):
         grid = {"grid": self.grid, "jitter": self.jitter, "columns": columns, "rows": rows, "count": count}
         return [{**grid, "x": x, "y": y} for x, y in self.at or MIDDLE_UNITS]
 
-    def mistake(self, scene: SceneKind | None) -> Mistake | None:
-        """A grid needs the borders of an arena and must not be too close; without one it needs a count or a place."""
+    def mistake(self, scene: SceneKind | None) -> ThingMistake | None:
+        """An error where it is not one of a count, a place or a grid in an arena, or makes too many."""
         if self.at and (self.grid or self.count):
             hint = "Write at and its place, or a count, or a grid."
-            return Mistake("place-for-many", "Several things cannot stand at one place.", hint)
+            return ThingMistake("place-for-many", "Several things cannot stand at one place.", hint)
         if self.size.by is not None:
             small, large = sorted((self.size.first, self.size.last))
             hint = f"Write size {small:g} to {large:g}: a size between the two is drawn for each."
-            return Mistake("fixed-schedule", "An obstacle never moves, so its size has no schedule.", hint)
+            return ThingMistake("fixed-schedule", "An obstacle never moves, so its size has no schedule.", hint)
         if self.grid and self.away != DEFAULT_DISTANCE:
             hint = "Leave away out: what stands in a grid is as far away as that is."
-            return Mistake("place-and-distance", "It says where it is, and how far away.", hint)
+            return ThingMistake("place-and-distance", "It says where it is, and how far away.", hint)
         if self.grid and scene and not scene.is_bounded:
             hint = "Write in arena size 100, or count 10 instead of the grid."
-            return Mistake("endless-grid", "In a plain scene a grid of obstacles would never end.", hint)
+            return ThingMistake("endless-grid", "In a plain scene a grid of obstacles would never end.", hint)
         if (made := self.obstacles(scene)) > MAX_OBSTACLES:
             hint = f"A world takes {MAX_OBSTACLES}: space it out."
-            return Mistake("too-many-obstacles", f"That is a grid of {made} obstacles.", hint)
+            return ThingMistake("too-many-obstacles", f"That is a grid of {made} obstacles.", hint)
         if not self.grid and not self.count and not self.at:
-            return Mistake("no-obstacles", "That makes no obstacle.", "Add grid 20, or count 10, or at 30 -20.")
+            return ThingMistake("no-obstacles", "That makes no obstacle.", "Add grid 20, or count 10, or at 30 -20.")
         return ThingKind.mistake(self, scene)

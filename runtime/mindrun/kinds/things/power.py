@@ -1,4 +1,4 @@
-"""Where the battery charges."""
+"""A square on which the battery charges."""
 
 from mindrun.kinds.registry import kind
 from mindrun.kinds.things.thing import Placed

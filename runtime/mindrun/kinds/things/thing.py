@@ -1,4 +1,4 @@
-"""What every kind of thing says of itself: the rest of the program asks, and knows no kind by name."""
+"""The base classes of things: the rest of the program asks a kind for these, and knows none by name."""
 
 from collections.abc import Iterable, Mapping, Set
 from dataclasses import dataclass, replace
@@ -41,7 +41,7 @@ HALF_DIAGONAL = 0.7071  # of a square with side 1, and a little less
 
 
 class Rectangle(NamedTuple):
-    """Something solid along the axes: its middle, and half of its sides along x and y."""
+    """A solid rectangle along the axes: its middle, and half of its sides along x and y."""
 
     x: float
     y: float
@@ -49,21 +49,21 @@ class Rectangle(NamedTuple):
     half_y: float
 
     def holds(self, place: Place) -> bool:
-        """Whether a place is inside it."""
+        """True if a place is inside it, not on its rim."""
         x, y = place
         return abs(x - self.x) < self.half_x and abs(y - self.y) < self.half_y
 
 
-class Mistake(NamedTuple):
-    """Why a thing cannot be in a scene as it is said: the code of the error, its message, and what to do."""
+class ThingMistake(NamedTuple):
+    """An error that keeps a thing out of a scene: its code, a message, and what to do."""
 
     code: str
     message: str
     hint: str
 
 
-class World(Protocol):
-    """What is known of the worlds of a mind's tasks before anything runs in them."""
+class WorldFacts(Protocol):
+    """The facts that are known about the worlds of a mind's tasks before anything runs in them."""
 
     @property
     def things(self) -> Set[str]: ...  # that a sensor can be about
@@ -123,7 +123,7 @@ class ThingKind:
 
     @property
     def copies(self) -> int:
-        """How many things of its name there are: each has a row of its own, one after the other."""
+        """The number of things of its name: each has a row of its own, one after the other."""
         return len(self.at) or self.count
 
     @property
@@ -139,29 +139,26 @@ class ThingKind:
 
     @property
     def outcomes(self) -> Mapping[str, Outcome]:
-        """What becomes of it, by what happens to it: `reached`, `delivered`. It stays where nothing is said."""
+        """The outcome of each event that it may say something about: `reached`, `delivered`."""
         return {each.field: getattr(self, each.field) for each in arguments(type(self)) if each.type is OUTCOME}
 
     def distances(self, scene: SceneKind) -> tuple[float, float]:
-        """How near to the robot and how far from it it is placed."""
+        """The least and the greatest distance from the robot at which it is placed."""
         return (
             (self.away.first, self.away.last) if self.away != DEFAULT_DISTANCE else scene.distances(self.least_distance)
         )
 
     def obstacles(self, scene: SceneKind | None) -> int:
-        """How many squares it puts in the way; `scene` is None where that is not known."""
+        """The number of rectangles that it puts in the way; `scene` is None where that is not known."""
         return 0
 
     def standing(self, scene: SceneKind | None, may: bool = False) -> Iterable[Rectangle]:
-        """What it fills with something solid in every run, or in some, where it `may`.
-
-        `scene` is None where that is not known.
-        """
+        """Rectangles that it fills in every run, or with `may` in any; `scene` is None where that is not known."""
         return self.walls
 
     @property
     def walls(self) -> tuple[Rectangle, ...]:
-        """What it fills with something solid that is known before any run."""
+        """Rectangles that it fills in the same places in every run."""
         return ()
 
     @property
@@ -175,47 +172,47 @@ class ThingKind:
         return {}
 
     def at_places(self, places: tuple[Place, ...]) -> "ThingKind | None":
-        """Itself where a map draws it; None where its own line says otherwise."""
+        """The thing at the places that a map draws; None where its own line says other ones, or another count."""
         return None if self.places or self.count not in (1, len(places)) else replace(self, at=places)  # type: ignore[type-var]
 
     def rows(self, scene: SceneKind) -> Iterable[Row]:
-        """What the lanes are told of its obstacles: the spacing of their `grid` and how many `columns` and `rows` it
-        has around `x` and `y`, their `jitter` and `count`.
+        """Its rows of the lanes' table of obstacles: a `grid`'s spacing, its `columns` and `rows` around `x` and `y`,
+        the `jitter`, and the `count`.
         """
         return ()
 
-    def mistake(self, scene: SceneKind | None) -> Mistake | None:
-        """Why it cannot be in a scene; `scene` is None where that is not known."""
+    def mistake(self, scene: SceneKind | None) -> ThingMistake | None:
+        """The error that keeps it out of a scene, or None; `scene` is None where that is not known."""
         if not self.at:
             return self._distance_mistake(scene)
         if self.away != DEFAULT_DISTANCE:
             hint = "Leave away out: what stands at a place is as far away as that is."
-            return Mistake("place-and-distance", "It says where it is, and how far away.", hint)
+            return ThingMistake("place-and-distance", "It says where it is, and how far away.", hint)
         if self.count > 1 and self.count != len(self.at):
             hint = "Leave the count out, or the place."
-            return Mistake("place-for-many", "Several things cannot stand at one place.", hint)
+            return ThingMistake("place-for-many", "Several things cannot stand at one place.", hint)
         if scene is None or all(scene.has_room(place, self.largest / 2) for place in self.at):
             return None
         hint = "Write a place that is in it with all of the thing; 0 0 is the middle."
-        return Mistake("outside-arena", "That is not inside the arena.", hint)
+        return ThingMistake("outside-arena", "That is not inside the arena.", hint)
 
-    def _distance_mistake(self, scene: SceneKind | None) -> Mistake | None:
-        """A distance is drawn anew each time, and is one that two places of the scene can have."""
+    def _distance_mistake(self, scene: SceneKind | None) -> ThingMistake | None:
+        """An error where a distance has a schedule, or no two places of the scene are so far apart."""
         if self.away == DEFAULT_DISTANCE:
             return None
         if self.away.by is not None:
             near, far = sorted((self.away.first, self.away.last))
             hint = f"Write away {near:g} to {far:g}: a distance between the two is drawn each time."
-            return Mistake("distance-schedule", "A distance has no schedule.", hint)
+            return ThingMistake("distance-schedule", "A distance has no schedule.", hint)
         if scene is None or self.away.first < hypot(*scene.sides):
             return None
         hint = f"Its corners are {hypot(*scene.sides):g} apart: write a smaller distance, or a larger arena."
-        return Mistake("too-far-away", "Nothing in this arena is so far from the robot.", hint)
+        return ThingMistake("too-far-away", "Nothing in this arena is so far from the robot.", hint)
 
 
 @dataclass(frozen=True, slots=True)
 class Placed(ThingKind):
-    """What stands or lies somewhere until it is reached."""
+    """A thing that touches nothing, and stays in its place until it is reached."""
 
     size: Annotated[Span, LENGTH] = DEFAULT_SIZE
     away: Annotated[Span, LENGTH] = DEFAULT_DISTANCE
@@ -226,7 +223,7 @@ class Placed(ThingKind):
 
 @dataclass(frozen=True, slots=True)
 class Loose(ThingKind):
-    """What is solid and not fixed: the robot pushes it, and so does what it pushes.
+    """A solid thing that is not fixed: the robot pushes it, and so does what it pushes.
 
     Every tick of length dt its velocity and its spin are divided by 1 + dt·damping. Where two things touch, the product
     of their `friction` counts; the robot's is 0.2, that of walls and obstacles 1.
@@ -247,12 +244,12 @@ class Loose(ThingKind):
     is_loose = True
     can_be_delivered = True
 
-    def mistake(self, scene: SceneKind | None) -> Mistake | None:
-        """It is not placed so near that the robot would be in it."""
+    def mistake(self, scene: SceneKind | None) -> ThingMistake | None:
+        """An error where it is placed so near that the robot would be in it, or where no thing could be."""
         extent = self.largest * (0.5 if self.is_round else HALF_DIAGONAL)
         if self.away != DEFAULT_DISTANCE and max(self.away.first, self.away.last) < extent:
             hint = f"Write away {self.largest:g} to {self.largest + 20:g}: it is {self.largest:g} large."
-            return Mistake("on-the-robot", "So near, it would stand on the robot.", hint)
+            return ThingMistake("on-the-robot", "So near, it would stand on the robot.", hint)
         return ThingKind.mistake(self, scene)
 
 
@@ -267,15 +264,15 @@ class AboutThing:
         return self.named(THING)
 
     def named(self, reference: Reference) -> str:
-        """What its first argument of a type names; empty where it has none."""
+        """The value of its first argument of a type; empty where it has none."""
         return next((getattr(self, each.field) for each in arguments(type(self)) if each.type is reference), "")
 
     @staticmethod
     def is_about(kind: type[ThingKind]) -> bool:
-        """Whether it can be about things of a kind."""
+        """True if it can be about things of a kind."""
         return not kind.is_obstacle
 
     @classmethod
     def accepts(cls, argument: str, kind: type[ThingKind]) -> bool:
-        """Whether an argument of it can name things of a kind."""
+        """True if an argument of it can name things of a kind."""
         return cls.is_about(kind)

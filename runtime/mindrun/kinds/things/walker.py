@@ -1,4 +1,4 @@
-"""What moves by itself."""
+"""A thing that moves by itself."""
 
 from dataclasses import replace
 from itertools import pairwise
@@ -7,7 +7,7 @@ from typing import Annotated
 
 from mindrun.kinds.registry import kind
 from mindrun.kinds.scenes.scene import SceneKind
-from mindrun.kinds.things.thing import DEFAULT_DISTANCE, DEFAULT_SIZE, OUTCOME, STAYS, Mistake, Outcome, ThingKind
+from mindrun.kinds.things.thing import DEFAULT_DISTANCE, DEFAULT_SIZE, OUTCOME, STAYS, Outcome, ThingKind, ThingMistake
 from mindrun.numbers.quantity import ANGLE, COORDINATE, COUNT, LENGTH, POSITIVE, Place, Span
 
 SPEED = replace(POSITIVE, name="a speed in world units per second", high=1e4)
@@ -37,28 +37,28 @@ class Walker(ThingKind):
 
     @property
     def places(self) -> tuple[Place, ...]:
-        """Those of its way, where it goes along one."""
+        """The places of its way, or where it has none, those at which it begins."""
         return self.along or self.at
 
     @property
     def wanders(self) -> bool:  # type: ignore[override]
-        """Where it has no way."""
+        """True if it has no way."""
         return not self.along
 
-    def mistake(self, scene: SceneKind | None) -> Mistake | None:
-        """A way goes somewhere, inside the arena, and has a place for each to begin at."""
+    def mistake(self, scene: SceneKind | None) -> ThingMistake | None:
+        """An error where its way goes nowhere or leaves the arena, or has too few places for all to begin at."""
         if not self.along:
             return ThingKind.mistake(self, scene)
         if self.at or self.away != DEFAULT_DISTANCE:
             hint = "Leave at and away out: it begins where its way does."
-            return Mistake("place-and-way", "It says where it goes, and where it stands.", hint)
+            return ThingMistake("place-and-way", "It says where it goes, and where it stands.", hint)
         if len(self.along) < 2 or any(place == next_ for place, next_ in pairwise((*self.along, self.along[0]))):
             hint = "Write places of which none is the next, nor the last the first: along 0 0 to 10 0 to 10 10."
-            return Mistake("endless-way", "This way does not go anywhere.", hint)
+            return ThingMistake("endless-way", "This way does not go anywhere.", hint)
         if self.count > len(self.along):
             hint = f"Each begins at another place of the way: name {self.count} places, or write a smaller count."
-            return Mistake("place-for-many", "Several things cannot stand at one place.", hint)
+            return ThingMistake("place-for-many", "Several things cannot stand at one place.", hint)
         if scene is None or all(scene.has_room(place, self.largest / 2) for place in self.along):
             return None
         hint = "Write places that are in it with all of the thing; 0 0 is the middle."
-        return Mistake("outside-arena", "That is not inside the arena.", hint)
+        return ThingMistake("outside-arena", "That is not inside the arena.", hint)

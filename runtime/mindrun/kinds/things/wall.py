@@ -7,7 +7,7 @@ from typing import Annotated
 
 from mindrun.kinds.registry import kind
 from mindrun.kinds.scenes.scene import SceneKind
-from mindrun.kinds.things.thing import DEFAULT_DISTANCE, DEFAULT_SIZE, Mistake, Rectangle, ThingKind
+from mindrun.kinds.things.thing import DEFAULT_DISTANCE, DEFAULT_SIZE, Rectangle, ThingKind, ThingMistake
 from mindrun.numbers.quantity import COORDINATE, LENGTH, Place
 
 THICKNESS = replace(LENGTH, low=0.01, high=1000.0)
@@ -29,12 +29,12 @@ class Wall(ThingKind):
     unplaceable = "Draw walls with #, and write another letter for what stands there."
 
     def obstacles(self, scene: SceneKind | None) -> int:
-        """One for each stretch."""
+        """The number of its stretches, each a rectangle."""
         return len(self.from_) - 1
 
     @property
     def walls(self) -> tuple[Rectangle, ...]:
-        """Its stretches; where one goes on into another they fill the corner."""
+        """A rectangle for each stretch; where one goes on into another they fill the corner."""
         return tuple(self._stretches())
 
     def _stretches(self) -> Iterator[Rectangle]:
@@ -49,18 +49,18 @@ class Wall(ThingKind):
                 yield Rectangle(x, (low + high) / 2, half, (high - low) / 2)
 
     def at_places(self, places: tuple[Place, ...]) -> None:
-        """No map moves it."""
+        """None: a wall is placed by no map."""
 
-    def mistake(self, scene: SceneKind | None) -> Mistake | None:
-        """Each stretch goes somewhere along one axis, inside the arena."""
+    def mistake(self, scene: SceneKind | None) -> ThingMistake | None:
+        """An error where a stretch goes nowhere, or not along an axis, or leaves the arena."""
         if len(self.from_) < 2 or any(place == next_ for place, next_ in pairwise(self.from_)):
             hint = "Write where it begins and where it ends: wall from -20 10 to 5 10."
-            return Mistake("endless-wall", "This wall does not go anywhere.", hint)
+            return ThingMistake("endless-wall", "This wall does not go anywhere.", hint)
         for (x, y), (to_x, to_y) in pairwise(self.from_):
             if x != to_x and y != to_y:
                 hint = f"Make it of walls along the axes: wall from {x:g} {y:g} to {to_x:g} {y:g} to {to_x:g} {to_y:g}."
-                return Mistake("slanting-wall", "This wall does not lie along an axis.", hint)
+                return ThingMistake("slanting-wall", "This wall does not lie along an axis.", hint)
         if scene is None or all(scene.has_room(place, 0.0) for place in self.from_):
             return None
         hint = "Write places that are in it, or on its border; 0 0 is the middle."
-        return Mistake("outside-arena", "That is not inside the arena.", hint)
+        return ThingMistake("outside-arena", "That is not inside the arena.", hint)

@@ -1,4 +1,4 @@
-"""Where items are delivered."""
+"""A square into which items are delivered."""
 
 from mindrun.kinds.registry import kind
 from mindrun.kinds.things.thing import Placed

@@ -12,7 +12,7 @@ UNDRIVEN = F(-1)
 
 @part_of_tick
 def act(tables, state, lanes):
-    """Commands as they act in this tick, and what the claw holds."""
+    """Compute the commands as they act in this tick, and close or open the claw."""
     mind, world, faults = state.mind, state.world, state.run.faults
     for i in range(len(tables.actuators)):
         actuator, commands = tables.actuators[i], mind.commands[i]
@@ -32,7 +32,7 @@ def act(tables, state, lanes):
 
 @compiled
 def recall(tables, mind, run, lanes):
-    """The memory cells as they are read in the next tick: a reward of this one has them as its skills had.
+    """Update the memory cells for the next tick; rewards of this one have read them as its skills did.
 
     decay·cell + (1 − decay)·command where a skill drives a cell, else decay·cell.
     """
@@ -47,7 +47,7 @@ def recall(tables, mind, run, lanes):
 
 @compiled
 def means(total, weight, neutral, out, faults, lanes):
-    """The influence-weighted mean of the commands (Eq. 3); `neutral` where there are none.
+    """Write the influence-weighted mean of the commands (Eq. 3) to `out`; `neutral` where there are none.
 
     A mean that is no finite number, because sums overflowed, is a fault and gives `neutral` too.
     """
@@ -71,7 +71,7 @@ def wait(commands, late, ring, delays, tick, lanes):
 
 @compiled
 def disturb(world, actuator, commands, acting, lanes):
-    """Each command as it acts, the mind knows only what it has sent: with up to `noise` more or less; or stuck."""
+    """Write each command as it acts into `acting`: with up to `noise` more or less, or stuck at neutral."""
     noise, stuck = world.numbers[actuator.noise], world.numbers[max(actuator.fails, 0)]
     for lane in range(lanes):
         acting[lane] = commands[lane]
@@ -98,7 +98,7 @@ def grip(commands, tables, world, reach, lanes):
 
 @compiled
 def has_room(tables, world, i, lane):
-    """Whether nothing solid is between the robot and the rim of item i in its claw, or in the item's way there."""
+    """True if nothing solid is between the robot and the rim of item i in its claw, or in the item's way there."""
     hold, cosine, sine = tables.things[i].hold, world.heading[COSINE, lane], world.heading[SINE, lane]
     x, y = place_of(world.things, i, lane)
     half, own_x, own_y = size_of(world.things, i, lane) / 2, world.body[X, lane], world.body[Y, lane]
@@ -117,7 +117,7 @@ def has_room(tables, world, i, lane):
 
 @compiled
 def carry(world, kinds, lanes):
-    """A held item moves with the claw."""
+    """Move a held item with the claw."""
     body, heading = world.body, world.heading
     for lane in range(lanes):
         if world.held[lane] >= 0:

@@ -1,4 +1,4 @@
-"""Many ticks of many worlds, each in two halves: between them, a mind's procedures may run in Python."""
+"""Ticks of all lanes: the stages in their order, in two halves, between which procedures may run in Python."""
 
 from mindrun.numbers.arithmetic import X, Y
 from mindrun.sim.codes import GOING_ON
@@ -30,14 +30,14 @@ def advance(tables, state, jobs, ticks, interrupt):
 
 @part_of_tick
 def before(tables, state, jobs):
-    """The first half of a tick: sense, and the master's influence."""
+    """Make the first half of a tick: sense, and the master's influence."""
     sense(tables, state, jobs.lanes[0], jobs.clock[0])
     begin(tables, state.mind, jobs.lanes[0])
 
 
 @part_of_tick
 def after(tables, state, jobs, interrupt):
-    """The second half of a tick: act, step, judge, recall."""
+    """Make the second half of a tick: act, step, judge, recall."""
     lanes, world = jobs.lanes[0], state.world
     act(tables, state, lanes)
     for lane in range(lanes):
@@ -48,9 +48,9 @@ def after(tables, state, jobs, interrupt):
 
 @part_of_tick
 def conclude(tables, state, jobs, interrupt):
-    """What follows a step: judge, recall; where somebody wants to know, it is written down.
+    """Judge a step, record it where there is room, and recall; then end the runs that are over.
 
-    Lanes whose run is over write their result and begin the next.
+    Their lanes write their result and begin the next job.
     """
     lanes, clock, world = jobs.lanes[0], jobs.clock[0], state.world
     judge(tables, state, lanes, clock, interrupt)
@@ -67,7 +67,7 @@ def conclude(tables, state, jobs, interrupt):
 
 @compiled
 def going_on(body, ended, tick, ticks, lanes):
-    """In how many lanes the run is not over: most often in all of them, and then nothing else looks."""
+    """The number of lanes whose run is not over: most often all of them."""
     count = 0
     for lane in range(lanes):
         over = is_lost(body, lane) | (ended[lane] != GOING_ON) | (tick[lane] >= ticks)
@@ -97,7 +97,7 @@ def record(state, jobs):
 
 @compiled
 def copy(rows, target, at):
-    """The first lane of all rows, from `at` on; where the next ones begin."""
+    """Copy the first lane of all rows into `target` from `at` on; return where the next ones begin."""
     for row in range(len(rows)):
         target[at + row] = rows[row, 0]
     return at + len(rows)

@@ -1,7 +1,7 @@
-"""Chipmunk from compiled code: a Space for each lane in which something could touch, and the ticks that it makes.
+"""Physics of contacts by Chipmunk: a Space for each lane in which something could touch, and the ticks that it makes.
 
 The robot's body with its shapes, the loose things, and the boxes and walls of one lane, live in a Space of the lane's
-own, opened when something could touch for the first time. `chipmunk_internals` has what is known of the library.
+own, opened when something could touch for the first time. `chipmunk_internals` has the library's functions.
 
 A tick is one step, or several strides where something in the lane is swift. In all of them everything moves on with the
 speeds that the tick has begun with, until it meets something; the force of the tick acts at its end.
@@ -39,7 +39,7 @@ GONE_UNITS, APART_UNITS = 1e8, 1e4  # where a Space keeps what is gone, each far
 
 @compiled
 def make_tick(tables, world, contact, lane):
-    """One tick of a lane in its Space; how often its robot has run into what never moves."""
+    """Make one tick of a lane in its Space; return how often its robot has run into what never moves."""
     dt, is_swift, touching = tables.world[0].dt, contact.swift[lane] > 0, 0
     contact.swift[lane] = 0
     left = dt
@@ -70,7 +70,7 @@ def make_tick(tables, world, contact, lane):
 
 @compiled
 def glides(body, seconds, lane):
-    """Whether a robot stays where worlds are; one that does not goes there by itself, and its run ends."""
+    """True if a robot stays where worlds are; else it is moved on without Chipmunk, and its run ends."""
     x, y = body[X, lane] + body[SPEED_X, lane] * seconds, body[Y, lane] + body[SPEED_Y, lane] * seconds
     angle = body[ANGLE, lane] + body[SPIN, lane] * seconds
     if within(x, y, angle):
@@ -81,7 +81,7 @@ def glides(body, seconds, lane):
 
 @compiled
 def open_space(tables, world, contact, lane):
-    """A Space with a lane's obstacles and walls, and its robot with the circles that it can hold."""
+    """Open a Space with a lane's obstacles, walls, robot with the circles that it can hold, and loose things."""
     library, constants, handles = tables.library, tables.world[0], contact.handles[lane]
     space = call(library[cp.SPACE_NEW])
     call(library[cp.SPACE_ITERATIONS], space, SOLVER_ITERATIONS)
@@ -104,7 +104,7 @@ def open_space(tables, world, contact, lane):
 
 @compiled
 def add_boxes(tables, space, boxes, handles, corners, lane):
-    """The obstacles of a lane, and the walls of an arena; their shapes into `handles`, after those of the things."""
+    """Add the obstacles of a lane and the walls of an arena; their shapes go to `handles`, after the things'."""
     library, constants = tables.library, tables.world[0]
     static = call(library[cp.SPACE_STATIC], space)
     count, shape = boxes.shape[1] // BOX_COLUMNS, cp.FIRST_HELD + len(tables.things)
@@ -123,7 +123,7 @@ def add_boxes(tables, space, boxes, handles, corners, lane):
 
 @compiled
 def add_box(library, space, static, corners, left, low, right, high):
-    """A solid rectangle that never moves; its shape. `corners` is room for eight floats."""
+    """Add a solid rectangle that never moves; return its shape. `corners` is room for eight floats."""
     put_corners(corners, left, low, right, high)
     shape = call(library[cp.POLY_NEW], static, 4, corners.ctypes.data, 0.0)
     call(library[cp.SHAPE_FRICTION], shape, 1.0)
@@ -160,8 +160,8 @@ def close_space(tables, contact, lane):
 
 @compiled
 def push_body(tables, world, contact, share, lane):
-    """A lane's state, a share of its force and torque into its body; what the claw holds becomes solid, what it dropped
-    does not.
+    """Write a lane's state, and a share of its force and torque, into its body; what the claw holds becomes solid, what
+    it dropped does not.
     """
     library, floats, batch, handles = tables.library, contact.floats[lane], contact.batch[lane], contact.handles[lane]
     for i in range(cp.MOTION_FLOATS):
@@ -198,7 +198,7 @@ def step_space(tables, world, contact, seconds, lane):
 
 @compiled
 def add_loose(tables, world, space, contact, lane):
-    """The loose things into a new Space, after its robot; of which size each is, is said when it is put."""
+    """Add the loose things to a new Space, after its robot; `push_loose` gives them their sizes."""
     library, handles, corners = tables.library, contact.loose[lane], contact.floats[lane]
     for i in range(len(tables.loose)):
         body = call(library[cp.BODY_NEW], 1.0, 1.0)
@@ -216,14 +216,14 @@ def add_loose(tables, world, space, contact, lane):
 
 @compiled
 def put_corners(corners, left, low, right, high):
-    """The corners of a rectangle, into room for eight floats."""
+    """Write the corners of a rectangle into room for eight floats."""
     corners[0], corners[1], corners[2], corners[3] = left, low, right, low
     corners[4], corners[5], corners[6], corners[7] = right, high, left, high
 
 
 @compiled
 def push_loose(tables, world, contact, lane):
-    """Where each loose thing of a lane is and how it moves, into its body."""
+    """Write the place and the motion of each loose thing of a lane into its body."""
     library, floats, batch, handles = tables.library, contact.floats[lane], contact.batch[lane], contact.loose[lane]
     for i in range(len(tables.loose)):
         if world.still[i, lane] >= SETTLED_TICKS:
@@ -245,7 +245,7 @@ def push_loose(tables, world, contact, lane):
 
 @compiled
 def resize(tables, world, contact, i, size, lane):
-    """Loose thing i has another size, and with it another mass and moment of inertia."""
+    """Give loose thing i another size, and with it another mass and moment of inertia."""
     library, handles, half = tables.library, contact.loose[lane], size / 2
     body, shape = handles[cp.LOOSE_HANDLES * i + cp.LOOSE_BODY], handles[cp.LOOSE_HANDLES * i + cp.LOOSE_SHAPE]
     density = world.numbers[tables.loose[i].density, lane]
@@ -265,7 +265,7 @@ def resize(tables, world, contact, i, size, lane):
 
 @compiled
 def take_loose(tables, world, contact, lane):
-    """Where the loose things are after a step; what has moved has not settled."""
+    """Read the places and motions of the loose things after a step; what has moved has not settled."""
     library, floats, batch, handles = tables.library, contact.floats[lane], contact.batch[lane], contact.loose[lane]
     for i in range(len(tables.loose)):
         row, thing = LOOSE_ROWS * i, tables.loose[i].thing

@@ -1,6 +1,6 @@
 """Judge: measures, reached and delivered things, events of the tick, the rewards they earn, and what becomes of things.
 
-What is reached does not depend on whether a line of the task names the event: what measures changes nothing.
+Which things are reached does not depend on whether a line of the task names the event: measuring changes nothing.
 """
 
 import numpy as np
@@ -20,7 +20,7 @@ REACH_BEGUN = 1  # in this tick and not in the one before
 
 @part_of_tick
 def judge(tables, state, lanes, clock, interrupt):
-    """Everything that a task does with a tick once the robot has moved."""
+    """Do everything that a task does with a tick once the robot has moved."""
     world, judged = state.world, state.judge
     take_measures(tables, world, state.mind.commands, judged, lanes, clock)
     if tables.world[0].battery:
@@ -46,7 +46,7 @@ def judge(tables, state, lanes, clock, interrupt):
 
 @compiled
 def drain(tables, world, lanes):
-    """The battery charges inside a power zone, and empties elsewhere."""
+    """Charge the battery inside a power zone, and drain it elsewhere."""
     charge, drained = tables.world[0].charge, tables.world[0].drain
     for lane in range(lanes):
         charged = False
@@ -59,7 +59,7 @@ def drain(tables, world, lanes):
 
 @compiled
 def notice(tables, world, contact, judged, event, out, lanes):
-    """How often the event happened in this tick, per lane; returns in how many."""
+    """Write how often the event happened in this tick to `out` [lane]; return the number of lanes in which it did."""
     if event.kind == codes.REACH:
         begun_of(out, world.reached, event, lanes)
     elif event.kind == DELIVERY and event.tos == 0:
@@ -85,7 +85,7 @@ def notice(tables, world, contact, judged, event, out, lanes):
 
 @compiled
 def visit(out, constants, body, visited, event, lanes):
-    """1 where the robot's centre is in a patch for the first time."""
+    """Set `out` to 1 where the robot's centre is in a patch for the first time, else to 0."""
     for lane in range(lanes):
         patch = event.board + patch_of(body, constants, event, lane)
         out[lane] = 1 - visited[lane, patch]
@@ -121,7 +121,7 @@ def reward(tables, mind, judged, line, total, lanes):
 
 @compiled
 def find_paid(tables, mind, judged, line, paid, each, lanes):
-    """How often a line is paid in this tick: once, or as often as its event happens, where its condition holds."""
+    """Set how often a line is paid in this tick: once, or as often as its event happens, where its condition holds."""
     for lane in range(lanes):
         paid[lane] = judged.events[line.on, lane] if line.on >= 0 else 1.0
     if line.whens > 0:
@@ -165,7 +165,7 @@ def meet_end(tables, state, end, i, lanes, interrupt):
 
 @compiled
 def mark_success(tables, judged, lanes):
-    """The event of a success happens where a run has succeeded in this tick."""
+    """Let the event of a success happen where a run has succeeded in this tick."""
     for i in range(len(tables.events)):
         if tables.events[i].kind == codes.SUCCESS:
             for lane in range(lanes):
@@ -177,7 +177,7 @@ def mark_success(tables, judged, lanes):
 
 @compiled
 def take_measures(tables, world, commands, judged, lanes, clock):
-    """The measures of the tick."""
+    """Compute the measures of the tick."""
     for i in range(len(tables.measures)):
         measure, out = tables.measures[i], judged.measures[i]
         if measure.kind == codes.CHANGE:
@@ -190,7 +190,7 @@ def take_measures(tables, world, commands, judged, lanes, clock):
 
 @compiled
 def progress(out, now, body, things, measure, lanes):
-    """The distance to the nearest of the things that this tick closed, or its positive or negative part.
+    """Write the distance to the nearest of the things that this tick closed, or its positive or negative part.
 
     0 where all have vanished. `now` is room for the square of what is left of the distance.
     """
@@ -215,7 +215,7 @@ def progress(out, now, body, things, measure, lanes):
 
 @compiled
 def forward(out, body, heading, begun_at, lanes):
-    """1 where the robot moved forward in this tick."""
+    """Set `out` to 1 where the robot moved forward in this tick, else to 0."""
     for lane in range(lanes):
         dx, dy = body[X, lane] - begun_at[X, lane], body[Y, lane] - begun_at[Y, lane]
         along = dx * heading[COSINE, lane] + dy * heading[SINE, lane]
@@ -224,7 +224,7 @@ def forward(out, body, heading, begun_at, lanes):
 
 @compiled
 def change(tables, commands, judged, measure, out, lanes, clock):
-    """How much each side's wheel command changed over the last ticks, beyond a share: ΣΔ of the paper's Table 5."""
+    """Sum the changes of each side's commands over the last ticks, beyond a share: ΣΔ of the paper's Table 5."""
     now = measure.ring + clock % measure.over
     for lane in range(lanes):
         judged.left_changes[now, lane] = 0.0
@@ -249,9 +249,9 @@ def change(tables, commands, judged, measure, out, lanes, clock):
 
 @compiled
 def meet(tables, world, lanes):
-    """Note which things are in reach and which are delivered, those of which anything depends on it.
+    """Set the bits of `reached` and `delivered`, of things that an event asks about or that then move or vanish.
 
-    How many begin to be so, in all lanes.
+    Returns how many begin to be either, in all lanes.
     """
     body, things, begun = world.body, world.things, 0
     front, claw = tables.world[0].front, tables.world[0].claw
@@ -275,14 +275,14 @@ def meet(tables, world, lanes):
 
 @compiled
 def note(rows, i, lane, now):
-    """One more tick of thing i; 1 where it begins to be so."""
+    """Shift `now` into the bits of thing i, one for each of two ticks; return 1 where it begins, else 0."""
     rows[i, lane] = (rows[i, lane] & 1) << 1 | (1 if now else 0)
     return 1 if rows[i, lane] == REACH_BEGUN else 0
 
 
 @compiled
 def in_zone(tables, things, i, lane):
-    """Whether the middle of thing i is inside any zone."""
+    """True if the middle of thing i is inside any zone."""
     x, y = place_of(things, i, lane)
     found = False
     for zone in range(len(tables.things)):
@@ -292,7 +292,7 @@ def in_zone(tables, things, i, lane):
 
 @compiled
 def begun_of(out, rows, event, lanes):
-    """How many of the things that an event is about begin to be reached, or delivered."""
+    """Count the things that an event is about and that begin to be reached, or delivered, into `out` [lane]."""
     out[:lanes] = 0
     for i in range(event.thing, event.thing + event.things):
         for lane in range(lanes):
@@ -301,7 +301,7 @@ def begun_of(out, rows, event, lanes):
 
 @compiled
 def begins(row, lanes):
-    """In how many lanes a thing begins to be reached, or delivered."""
+    """The number of lanes in which a thing begins to be reached, or delivered."""
     count = 0
     for lane in range(lanes):
         count += 1 if row[lane] == REACH_BEGUN else 0
@@ -310,7 +310,7 @@ def begins(row, lanes):
 
 @compiled
 def arrivals(world, arrived, event, lane):
-    """How many of the items that an event is about begin to be delivered into one of its zones."""
+    """The number of things that an event is about and that begin to be delivered into one of its zones."""
     things, begun = world.things, 0
     for k in range(event.things):
         found = False
@@ -323,7 +323,7 @@ def arrivals(world, arrived, event, lane):
 
 @compiled
 def become(tables, world, lanes):
-    """What has been reached or delivered moves or vanishes where its kind says so; once, where it was both."""
+    """Move or remove what has been reached or delivered, as its arguments say; once, where it was both."""
     for i in range(len(tables.things)):
         thing = tables.things[i]
         if thing.reached == STAYS and thing.delivered == STAYS:

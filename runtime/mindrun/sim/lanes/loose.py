@@ -1,4 +1,4 @@
-"""Loose: boxes and balls while nothing touches them. They slide, turn, slow down and rest.
+"""Motion of loose things, boxes and balls, while nothing touches them: they slide, turn, slow down and rest.
 
 A thing is **settled** when it has not moved for SETTLED_TICKS: nothing looks at it again until the robot, or something
 else that moves, comes near. Where all are, a lane has nothing to do. Contacts that are still there do not change any
@@ -45,13 +45,13 @@ def slow_down(tables, world, placed, lane):
 
 @compiled
 def is_at_rest(vx, vy, spin):
-    """Whether something moves and turns so slowly that it rests."""
+    """True if something moves and turns so slowly that it rests."""
     return abs(vx) < REST_SPEED and abs(vy) < REST_SPEED and abs(spin) < REST_SPEED
 
 
 @compiled
 def put_motion(loose, row, vx, vy, spin, rests, lane):
-    """How the loose thing whose rows begin there moves on, if it does not rest."""
+    """Set the velocity and the spin of the loose thing whose rows begin at `row`; 0 if it rests."""
     loose[row + PUSHED_X, lane] = 0.0 if rests else vx
     loose[row + PUSHED_Y, lane] = 0.0 if rests else vy
     loose[row + PUSHED_SPIN, lane] = 0.0 if rests else spin
@@ -59,7 +59,7 @@ def put_motion(loose, row, vx, vy, spin, rests, lane):
 
 @compiled
 def next_place_of(tables, world, i, lane):
-    """Where loose thing i is after this tick, if it touches nothing."""
+    """The x and y of loose thing i after this tick, if it touches nothing."""
     row, dt = LOOSE_ROWS * i, tables.world[0].dt
     x, y = place_of(world.things, tables.loose[i].thing, lane)
     return x + world.loose[row + PUSHED_X, lane] * dt, y + world.loose[row + PUSHED_Y, lane] * dt
@@ -67,7 +67,7 @@ def next_place_of(tables, world, i, lane):
 
 @compiled
 def could_touch(tables, world, lane):
-    """Whether something that has not settled could touch anything but the robot after this tick."""
+    """True if something that has not settled could touch anything but the robot after this tick."""
     for i in range(len(tables.loose)):
         if world.still[i, lane] < SETTLED_TICKS:
             x, y = next_place_of(tables, world, i, lane)
@@ -79,7 +79,7 @@ def could_touch(tables, world, lane):
 
 @compiled
 def meets_loose(tables, world, i, x, y, extent, lane):
-    """Whether a loose thing that is not number i could come within `extent` of a point in this tick."""
+    """True if a loose thing other than number i could come within `extent` of a point in this tick."""
     for j in range(len(tables.loose)):
         if j != i:
             its_x, its_y = next_place_of(tables, world, j, lane)
@@ -91,7 +91,7 @@ def meets_loose(tables, world, i, x, y, extent, lane):
 
 @compiled
 def approach_loose(tables, world, gap, lanes):
-    """`gap` lowered to the distance between the robot's next centre and each loose thing."""
+    """Lower `gap` to the distance between the robot's next centre and each loose thing, where that is less."""
     body, dt = world.body, tables.world[0].dt
     for i in range(len(tables.loose)):
         of_size = 0.5 if tables.loose[i].is_round else HALF_DIAGONAL
@@ -105,7 +105,7 @@ def approach_loose(tables, world, gap, lanes):
 
 @compiled
 def slide(tables, world, lane):
-    """Chipmunk's step of what touches nothing."""
+    """Make Chipmunk's step of loose things that touch nothing."""
     for i in range(len(tables.loose)):
         if world.still[i, lane] == 0:
             row = LOOSE_ROWS * i
@@ -116,6 +116,6 @@ def slide(tables, world, lane):
 
 @compiled
 def stand(world, i, lane):
-    """Loose thing i stands straight and still where it has been placed; it may have been placed against something."""
+    """Let loose thing i stand straight and still where it has been placed, unsettled: something may touch it there."""
     world.loose[LOOSE_ROWS * i : LOOSE_ROWS * (i + 1), lane] = 0.0
     world.still[i, lane], world.restless[lane] = 0, 1

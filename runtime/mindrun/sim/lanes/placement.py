@@ -1,4 +1,4 @@
-"""Places drawn at random: the obstacles, where the robot starts, where things appear and reappear; and what varies.
+"""Places drawn at random, of obstacles, robots and things that appear and reappear; and the numbers that vary.
 
 Every world has its own generator (SplitMix64), seeded by the layout alone, so that all genomes of a generation meet
 the same world. Everything is placed clear of everything else, with room for the robot between.
@@ -36,7 +36,7 @@ def uniform(random, lane, low, high):
 
 @compiled
 def draw(tables, world, lane):
-    """A fresh world in a lane: obstacles with a place, the robot, things with a place, other obstacles, other things.
+    """Draw a world into a lane: obstacles with a place, the robot, things with a place, other obstacles, other things.
 
     Of each the first in the source come first.
     """
@@ -67,7 +67,7 @@ def draw(tables, world, lane):
 
 @compiled
 def appear(tables, world, i, lane):
-    """Thing i in the size that it begins with, in its place or somewhere."""
+    """Put thing i, in the size that it begins with, in its place or somewhere."""
     thing = tables.things[i]
     size = uniform(world.random, lane, thing.first, thing.last) if thing.drawn else thing.first
     resize_thing(world.things, i, size, lane)
@@ -79,7 +79,7 @@ def appear(tables, world, i, lane):
 
 @compiled
 def draw_grid(world, obstacle, box, lane):
-    """One obstacle at each crossing of the grid, a little off it; the number of the next box."""
+    """Put an obstacle at each crossing of the grid, a little off it; return the number of the next box."""
     random, jitter = world.random, obstacle.jitter
     middle_x, middle_y = (obstacle.columns - 1) / 2, (obstacle.rows - 1) / 2
     for row in range(obstacle.rows):
@@ -94,7 +94,7 @@ def draw_grid(world, obstacle, box, lane):
 
 @compiled
 def start(tables, world, lane):
-    """The robot at rest: where its task says, or in the origin of a plain scene, or anywhere clear in an arena.
+    """Put the robot at rest where its task says, in the origin of a plain scene, or anywhere clear in an arena.
 
     Clear by its own width all around, and on no goal; where no try succeeds, the last of the best: touching something
     solid is worse than a goal, and that is worse than being near to something.
@@ -122,7 +122,7 @@ def start(tables, world, lane):
 
 @compiled
 def start_room(half, radius):
-    """How far from the middle of an arena the robot may begin: its own width from the border, if there is room."""
+    """The distance from an arena's middle at which the robot may begin: its width from the border, if there is room."""
     return half - 3 * radius if half > 3 * radius else max(half - radius, 0.0)
 
 
@@ -164,7 +164,7 @@ def find(tables, world, low, high, room, extent, but, lane):
 
 @compiled
 def put(tables, world, i, lane):
-    """Thing i somewhere else."""
+    """Put thing i somewhere else."""
     thing = tables.things[i]
     x, y = find(tables, world, thing.low, thing.high, 0.0, size_of(world.things, i, lane) / 2, i, lane)
     put_at(tables, world, i, x, y, lane)
@@ -172,7 +172,7 @@ def put(tables, world, i, lane):
 
 @compiled
 def put_at(tables, world, i, x, y, lane):
-    """Thing i at a place."""
+    """Put thing i at a place."""
     put_thing(world.things, i, x, y, lane)
     if tables.things[i].loose >= 0:
         stand(world, tables.things[i].loose, lane)
@@ -182,7 +182,7 @@ def put_at(tables, world, i, x, y, lane):
 
 @compiled
 def succeed(tables, world, i, lane):
-    """Thing i moves: it takes the next step of its schedule and appears elsewhere, let go and not yet reached."""
+    """Move thing i elsewhere with the next size of its schedule, let go and not yet reached."""
     thing = tables.things[i]
     size = size_of(world.things, i, lane)
     if thing.drawn:
@@ -198,21 +198,21 @@ def succeed(tables, world, i, lane):
 
 @compiled
 def vanish(tables, world, i, lane):
-    """Thing i is nowhere for the rest of the run: a place that is no number is in nobody's reach or way."""
+    """Remove thing i for the rest of the run: a place that is NaN is in nobody's reach or way."""
     forget(world, i, lane)
     put_at(tables, world, i, np.nan, np.nan, lane)
 
 
 @compiled
 def forget(world, i, lane):
-    """Thing i is let go, and where it has been reached or delivered does not count any more."""
+    """Let thing i go, and clear the bits of its being reached and delivered."""
     world.held[lane] = -1 if world.held[lane] == i else world.held[lane]
     world.reached[i, lane], world.delivered[i, lane] = 0, 0
 
 
 @compiled
 def clear_of_all(tables, world, x, y, margin, lane):
-    """Whether no obstacle, and no box or ball with a place of its own, comes within `margin` of a point."""
+    """True if no obstacle, and no box or ball with a place of its own, comes within `margin` of a point."""
     if not is_clear(world.boxes, x, y, margin, lane):
         return False
     for i in range(len(tables.loose)):
@@ -225,7 +225,7 @@ def clear_of_all(tables, world, x, y, margin, lane):
 
 @compiled
 def clear_of_things(things, x, y, extent, but, lane):
-    """Whether something of that half size would cover no thing at a place, thing number `but` aside."""
+    """True if something of half size `extent` at a place would cover no thing, thing number `but` aside."""
     for i in range(things.shape[0] // THING_ROWS):
         its_x, its_y = place_of(things, i, lane)
         gap = extent + size_of(things, i, lane) / 2
@@ -236,7 +236,7 @@ def clear_of_things(things, x, y, extent, but, lane):
 
 @compiled
 def is_open(tables, x, y):
-    """Whether nothing with a place of its own keeps a robot from beginning at a point."""
+    """True if nothing with a place of its own keeps a robot from beginning at a point."""
     for i in range(len(tables.things)):
         thing = tables.things[i]
         size = max(thing.first, thing.last) if thing.drawn else thing.first
@@ -247,7 +247,7 @@ def is_open(tables, x, y):
 
 @compiled
 def stands_on(tables, i, size, dx, dy):
-    """Whether the robot, so far from the middle of thing i, would be in it, or would have reached it as a goal."""
+    """True if the robot, (dx, dy) from the middle of thing i, would be in it, or would have reached it as a goal."""
     thing, constants = tables.things[i], tables.world[0]
     is_area, is_round, is_goal = thing.is_area == 1, thing.is_round == 1, thing.is_goal == 1
     return meets(is_area, is_round, is_goal, size, dx, dy, constants.radius, constants.front + constants.claw)
@@ -255,7 +255,7 @@ def stands_on(tables, i, size, dx, dy):
 
 @compiled
 def set_numbers(tables, world, lane):
-    """The numbers of a lane whose world has been drawn: it is the same world whatever varies in it."""
+    """Draw the numbers of a lane that vary, after its world: it is the same world whatever varies in it."""
     numbers, random = world.numbers, world.random
     for i in range(len(tables.parameters)):
         row = tables.parameters[i]

@@ -1,4 +1,4 @@
-"""Runs in lanes: how one begins, and what becomes of its lane when it is over: the next run, or the last lane's."""
+"""Runs in lanes: one begins in a lane, and when it is over the next one does, or the last lane moves there."""
 
 import numpy as np
 
@@ -28,7 +28,7 @@ def fill(tables, state, jobs, lanes):
 
 @compiled
 def end(tables, state, jobs, lane):
-    """A lane's run written down where it is over, and the next one begun, or the last lane in its place."""
+    """Write a lane's run down where it is over, and begin the next one, or move the last lane to its place."""
     run = state.run
     if is_lost(state.world.body, lane):
         run.faults[lane] += 1
@@ -44,7 +44,7 @@ def end(tables, state, jobs, lane):
 
 @compiled
 def begin_job(tables, state, jobs, lane):
-    """A lane begins the next job from nothing; False where there is none."""
+    """Begin the next job in a lane; False where there is none."""
     job, world, mind = jobs.next[0], state.world, state.mind
     if job >= len(jobs.genome):
         return False
@@ -63,7 +63,7 @@ def begin_job(tables, state, jobs, lane):
 
 @compiled
 def reset(tables, state, lane):
-    """Everything of a lane that is not its world, its genome or its generator, as at the beginning of a run."""
+    """Set all of a lane but its world, its genome and its generator to the beginning of a run."""
     world, mind, judge, run = state.world, state.mind, state.judge, state.run
     world.held[lane], world.tick[lane], world.battery[lane] = -1, 0, tables.world[0].start
     world.heading[SINE, lane], world.heading[COSINE, lane] = sine_cosine(world.body[ANGLE, lane])
@@ -108,7 +108,7 @@ def finish(tables, state, jobs, lane):
 
 @compiled
 def move(state, source, target):
-    """A lane takes the place of one whose run is over. What is of this tick stays; the circles go with their Space."""
+    """Move a lane to the place of one whose run is over, but for what is of this tick; circles go with their Space."""
     world, mind, sight, judge = state.world, state.mind, state.sight, state.judge
     contact, run = state.contact, state.run
     for rows in (world.body, world.heading, world.things, world.trail, world.loose, world.numbers, world.direction):
@@ -141,13 +141,13 @@ def move(state, source, target):
 
 @compiled
 def copy_lane(rows, source, target):
-    """One lane of rows [row, lane] to another."""
+    """Copy one lane of rows [row, lane] to another."""
     for i in range(rows.shape[0]):
         rows[i, target] = rows[i, source]
 
 
 @compiled
 def copy_row(columns, source, target):
-    """One lane of columns [lane, column] to another."""
+    """Copy one lane of columns [lane, column] to another."""
     for i in range(columns.shape[1]):
         columns[target, i] = columns[source, i]

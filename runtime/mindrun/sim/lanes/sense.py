@@ -1,4 +1,4 @@
-"""Sense: every reading of every lane, from where the robots and the things are."""
+"""Sense: every reading of every lane, from the places of the robots and the things."""
 
 from collections.abc import Callable, Sequence
 from typing import Any
@@ -93,7 +93,7 @@ def sense(tables, state, lanes, clock):
 
 @compiled
 def roughen(world, mind, sensor, k, lanes):
-    """Reading k of a sensor as it is measured: now and then, with noise, sometimes not at all, and seen later."""
+    """Make reading k of a sensor imperfect: taken now and then, with noise, sometimes lost, and seen later."""
     out, measured, tick = mind.readings[sensor.start + k], mind.measured[sensor.held + k], world.tick
     random = world.random_aside if sensor.is_aside else world.random
     for lane in range(lanes):
@@ -115,7 +115,7 @@ def roughen(world, mind, sensor, k, lanes):
 
 @compiled
 def measure(random, numbers, sensor, true, before, lane):
-    """What is measured of a true value."""
+    """The measured value of a true one: with noise, or where it is lost, `blank` or the one before."""
     lost, noise = F(numbers[sensor.lost, lane]), F(numbers[sensor.noise, lane])
     if lost > ZERO and uniform(random, lane, 0.0, 1.0) < lost:
         return before if sensor.blank < ZERO else sensor.blank
@@ -127,7 +127,7 @@ def measure(random, numbers, sensor, true, before, lane):
 
 @compiled
 def measure_distances(body, things, count, lanes):
-    """The distance of every thing when the tick begins."""
+    """Compute the distance between the robot and every thing as the tick begins."""
     for i in range(count):
         for lane in range(lanes):
             x, y = place_of(things, i, lane)
@@ -137,7 +137,7 @@ def measure_distances(body, things, count, lanes):
 
 @compiled
 def look(tables, world, sight, lanes):
-    """The distance from each robot's centre along each ray, into `sight` after heading and place."""
+    """Compute the distance from each robot's centre along each ray into `sight`, after heading and place."""
     rows, count, constants = sight.sight, sight.nearby_most[0], tables.world[0]
     half_x, half_y = F(constants.half_x), F(constants.half_y)
     for k in range(count):
@@ -192,7 +192,7 @@ def choose(world, sight, reach, lanes):
 
 @compiled
 def choose_in(boxes, sight, reach, lane):
-    """The boxes around the anchor of a lane."""
+    """Copy the boxes around the anchor of a lane, and count them."""
     nearby, x, y = sight.nearby[:, lane], sight.anchor[X, lane], sight.anchor[Y, lane]
     found = 0
     for b in range(boxes.shape[1] // BOX_COLUMNS):
@@ -207,7 +207,7 @@ def choose_in(boxes, sight, reach, lane):
 
 @compiled
 def place(body, box, sides, lanes):
-    """The sides of a box of each lane relative to the robot; no ray meets one that is AWAY before a wall."""
+    """Write the sides of a box of each lane relative to the robot; no ray meets one that is AWAY before a wall."""
     for lane in range(lanes):
         dx, dy = F(box[X, lane] - body[X, lane]), F(box[Y, lane] - body[Y, lane])
         half_x, half_y = F(box[HALF_X, lane]), F(box[HALF_Y, lane])
@@ -234,7 +234,7 @@ def look_at_loose(tables, world, sight, lanes):
 
 @compiled
 def enter_frame(tables, world, frame, i, lanes):
-    """Where loose thing i is as it sees it itself: its middle from the robot, in axes that turn with it."""
+    """Write the frame of loose thing i: how it is turned, its middle from the robot's in axes that turn with it."""
     body, thing = world.body, tables.loose[i].thing
     for lane in range(lanes):
         x, y = place_of(world.things, thing, lane)
@@ -248,7 +248,7 @@ def enter_frame(tables, world, frame, i, lanes):
 
 @compiled
 def meet_ball(rows, frame, cosine, sine, out, lanes):
-    """A ray of each lane, and the disc around its frame's middle."""
+    """Shorten a ray of each lane to the disc of its frame, where it meets that before."""
     for lane in range(lanes):
         c, s = direction(rows, frame, cosine, sine, lane)
         x, y, radius = frame[parts.LOOSE_X, lane], frame[parts.LOOSE_Y, lane], frame[parts.LOOSE_HALF, lane]
@@ -261,7 +261,7 @@ def meet_ball(rows, frame, cosine, sine, out, lanes):
 
 @compiled
 def meet_box(rows, frame, cosine, sine, out, lanes):
-    """A ray of each lane, and the square around its frame's middle (the slab method)."""
+    """Shorten a ray of each lane to the square of its frame, where it meets that before (the slab method)."""
     for lane in range(lanes):
         c, s = direction(rows, frame, cosine, sine, lane)
         x, y, half = frame[parts.LOOSE_X, lane], frame[parts.LOOSE_Y, lane], frame[parts.LOOSE_HALF, lane]

@@ -1,4 +1,4 @@
-"""Solid: what a straight way leads through, how far that is, and that nothing passes anything within a tick.
+"""Collision tests of straight ways, and the rules by which nothing passes anything within a tick.
 
 A lane in which something is so swift that a tick takes it by more than SWIFT_SHARE of its least half side makes its
 tick in several **strides**: in each everything moves by at most STRIDE_SHARE of that, or by what is free around it.
@@ -41,26 +41,26 @@ DEEPEST_SHARE = 0.5  # of the smaller's half side: so deep in one another come t
 
 @compiled
 def within(x, y, angle):
-    """Whether Chipmunk can say anything of such a place; not where it is no number."""
+    """True if a place is one at which Chipmunk can compute: none of its numbers is NaN or beyond FAR."""
     return (abs(x) <= FAR) & (abs(y) <= FAR) & (abs(angle) <= FAR)
 
 
 @compiled
 def is_lost(body, lane):
-    """Whether a lane's robot is where no world is."""
+    """True if a lane's robot is beyond all places."""
     return not within(body[X, lane], body[Y, lane], body[ANGLE, lane])
 
 
 @compiled
 def put_box(boxes, b, x, y, wide, high):
-    """Box number b of a lane: its middle, and half of its sides."""
+    """Write box b of a lane: its middle, and half of its sides."""
     box = BOX_COLUMNS * b
     boxes[box + X], boxes[box + Y], boxes[box + HALF_X], boxes[box + HALF_Y] = x, y, wide, high
 
 
 @compiled
 def is_clear(boxes, x, y, margin, lane):
-    """Whether no obstacle comes within `margin` of a point, along the axes."""
+    """True if no obstacle comes within `margin` of a point, along the axes."""
     for b in range(boxes.shape[1] // BOX_COLUMNS):
         its_x, its_y, wide, high = box_of(boxes, b, lane)
         if abs(its_x - x) < wide + margin and abs(its_y - y) < high + margin:
@@ -70,21 +70,21 @@ def is_clear(boxes, x, y, margin, lane):
 
 @compiled
 def is_free(tables, world, x, y, half, lane):
-    """Whether what reaches so far to each side of a point meets no wall and no obstacle."""
+    """True if a square of half side `half` around a point meets no wall and no obstacle."""
     half_x, half_y = tables.world[0].half_x, tables.world[0].half_y
     return half_x - abs(x) >= half and half_y - abs(y) >= half and is_clear(world.boxes, x, y, half, lane)
 
 
 @compiled
 def extent_of(tables, world, i, lane):
-    """How far loose thing i reaches from its middle."""
+    """The radius of a circle around loose thing i, however it is turned."""
     body = tables.loose[i]
     return size_of(world.things, body.thing, lane) * (0.5 if body.is_round else HALF_DIAGONAL)
 
 
 @compiled
 def is_barred(boxes, constants, x, y, to_x, to_y, half, lane):
-    """Whether something of that half size meets an obstacle or the border on its way between two places.
+    """True if something of half size `half` meets an obstacle or the border on its way between two places.
 
     What it stands in when it begins bars nothing: it may get out.
     """
@@ -101,7 +101,7 @@ def is_barred(boxes, constants, x, y, to_x, to_y, half, lane):
 
 @compiled
 def is_walled(boxes, x, y, to_x, to_y, lane):
-    """Whether an obstacle lies wholly within the way between two places: neither is in it."""
+    """True if the way between two places leads through an obstacle that neither of them is in."""
     dx, dy = to_x - x, to_y - y
     for b in range(boxes.shape[1] // BOX_COLUMNS):
         its_x, its_y, wide, high = box_of(boxes, b, lane)
@@ -113,7 +113,7 @@ def is_walled(boxes, x, y, to_x, to_y, lane):
 
 @compiled
 def is_blocked(tables, world, x, y, to_x, to_y, lane):
-    """Whether the way between two places leads through a loose thing, as large as half its least side around it."""
+    """True if the way between two places leads through the square around a loose thing, which does not turn with it."""
     for i in range(len(tables.loose)):
         its_x, its_y = place_of(world.things, tables.loose[i].thing, lane)
         half = size_of(world.things, tables.loose[i].thing, lane) / 2
@@ -124,7 +124,7 @@ def is_blocked(tables, world, x, y, to_x, to_y, lane):
 
 @compiled
 def meets(x, y, dx, dy, wide, high):
-    """Whether a way by (dx, dy) that begins outside meets a rectangle around (x, y): no axis keeps them apart."""
+    """True if a way by (dx, dy) that begins outside meets a rectangle around (x, y): no axis keeps them apart."""
     if abs(x) < wide and abs(y) < high:
         return False
     beside = abs(x - dx / 2) < wide + abs(dx) / 2 and abs(y - dy / 2) < high + abs(dy) / 2
@@ -133,9 +133,9 @@ def meets(x, y, dx, dy, wide, high):
 
 @compiled
 def find_swift(tables, world, swift, lanes):
-    """In how many lanes something may be swift; which of them have to make strides into `swift`, where any may be.
+    """Set `swift` [lane] to 1 where a lane has to make strides, if anything may be swift; return how many may be.
 
-    Who makes a lane's tick sets it back to 0.
+    `make_tick` sets a lane's back to 0.
     """
     body, held, constants, count = world.body, world.held, tables.world[0], 0
     own_arm, own_least = 0.0 if constants.is_round else constants.radius, min(constants.front, constants.side)
@@ -155,7 +155,7 @@ def find_swift(tables, world, swift, lanes):
 
 @compiled
 def speed_of_loose(tables, world, i, lane):
-    """How far any point of loose thing i may come in a second."""
+    """An upper bound of the speed of any point of loose thing i, in units per second."""
     row, arm = LOOSE_ROWS * i, 0.0 if tables.loose[i].is_round else extent_of(tables, world, i, lane)
     speed = abs(world.loose[row + PUSHED_X, lane]) + abs(world.loose[row + PUSHED_Y, lane])
     return speed + abs(world.loose[row + PUSHED_SPIN, lane]) * arm
@@ -163,7 +163,7 @@ def speed_of_loose(tables, world, i, lane):
 
 @compiled
 def stride(tables, world, lane):
-    """For how many seconds a lane may go on at once; infinitely many where nothing in it is swift."""
+    """The seconds for which a lane may go on at once; infinite where nothing in it is swift."""
     body, constants, held = world.body, tables.world[0], world.held[lane]
     half, reach = min(constants.front, constants.side), constants.radius
     arm = 0.0 if constants.is_round else reach
@@ -181,7 +181,7 @@ def stride(tables, world, lane):
 
 @compiled
 def stride_of(tables, world, i, x, y, reach, lane):
-    """For how many seconds loose thing i may go on at once beside a robot that reaches so far around its middle."""
+    """The seconds for which loose thing i may go on at once beside a robot at (x, y) of radius `reach`."""
     thing, speed = tables.loose[i].thing, speed_of_loose(tables, world, i, lane)
     half, extent = size_of(world.things, thing, lane) / 2, extent_of(tables, world, i, lane)
     if not speed * tables.world[0].dt > SWIFT_SHARE * half:
@@ -194,9 +194,9 @@ def stride_of(tables, world, i, x, y, reach, lane):
 
 @compiled
 def room_around(tables, world, x, y, extent, but, lane):
-    """How far what reaches so far around a point may move in any direction before it meets something.
+    """The distance that something of radius `extent` at a point may move in any direction before it meets something.
 
-    Of what is free between it and a loose thing, thing number `but` aside, half is its own.
+    Of the gap to a loose thing, thing number `but` aside, half counts: the other half is that one's.
     """
     boxes, constants = world.boxes, tables.world[0]
     room = min(constants.half_x - abs(x), constants.half_y - abs(y)) - extent
@@ -213,7 +213,7 @@ def room_around(tables, world, x, y, extent, but, lane):
 
 @part_of_tick
 def note_begin(tables, world, ways, lane):
-    """Where everything that moves is when a tick begins, and half its least side; NaN where nothing is held."""
+    """Write the places of everything that moves as a tick begins, and half of its least side, into `ways`."""
     constants, held = tables.world[0], world.held[lane]
     ways[BEGIN_X], ways[BEGIN_Y] = world.body[X, lane], world.body[Y, lane]
     ways[HALF] = min(constants.front, constants.side)
@@ -229,7 +229,7 @@ def note_begin(tables, world, ways, lane):
 
 @part_of_tick
 def note_places(tables, world, ways, x, y, lane):
-    """Where everything that moves is before a step of Chipmunk, or after it: into columns `x` and `y` of its way."""
+    """Write the places of everything that moves into columns `x` and `y` of its way; NaN where nothing is held."""
     ways[x], ways[y] = world.body[X, lane], world.body[Y, lane]
     ways[HELD + x], ways[HELD + y] = np.nan, np.nan
     if world.held[lane] >= 0:
@@ -243,7 +243,7 @@ def note_places(tables, world, ways, x, y, lane):
 
 @part_of_tick
 def note_before(tables, world, ways, lane):
-    """Where everything that moves is before a step, and how it is turned."""
+    """Write the places of everything that moves before a step, and how it is turned, into `ways`."""
     note_places(tables, world, ways, FROM_X, FROM_Y, lane)
     ways[FROM_ANGLE] = world.body[ANGLE, lane]
     for i in range(len(tables.loose)):
@@ -265,7 +265,7 @@ def hold_back(tables, world, ways, lane):
 
 @compiled
 def passes(tables, world, ways, way, last, lane):
-    """Whether something that this step has moved has come through what never moves, or through what does."""
+    """True if what this step has moved has passed an obstacle, the border or another mover since the tick began."""
     x, y, to_x, to_y = ways[way + BEGIN_X], ways[way + BEGIN_Y], ways[way + TO_X], ways[way + TO_Y]
     if np.isnan(to_x) or (to_x == ways[way + FROM_X] and to_y == ways[way + FROM_Y]):
         return False
@@ -283,7 +283,7 @@ def passes(tables, world, ways, way, last, lane):
 
 @compiled
 def comes_nearer(x, y, dx, dy, near):
-    """Whether a way by (dx, dy) leads nearer to a place (x, y) than that, and than where it begins."""
+    """True if a way by (dx, dy) comes nearer than `near` to the place (x, y), and nearer than it begins."""
     along, length = x * dx + y * dy, dx * dx + dy * dy
     if along <= 0.0 or length == 0.0:
         return False
@@ -294,7 +294,7 @@ def comes_nearer(x, y, dx, dy, near):
 
 @compiled
 def put_back(tables, world, ways, way, lane):
-    """Something, the robot with what it holds, to where it was before the step, without any speed."""
+    """Put a mover, the robot with what it holds, back to its place before the step, without any speed."""
     if way < FIRST_LOOSE:
         world.body[X, lane], world.body[Y, lane], world.body[ANGLE, lane] = ways[FROM_X], ways[FROM_Y], ways[FROM_ANGLE]
         world.body[SPEED_X, lane], world.body[SPEED_Y, lane], world.body[SPIN, lane] = 0.0, 0.0, 0.0

@@ -1,6 +1,6 @@
 """Step: one tick of physics. Free flight is plain arithmetic in Chipmunk's order; Chipmunk steps what could touch.
 
-What walks by itself touches nothing: plain arithmetic is all there is to it.
+Walkers touch nothing: they are plain arithmetic, too.
 """
 
 import numpy as np
@@ -35,7 +35,7 @@ CONTACT_TICKS = PERSISTENCE_TICKS + 2  # for which Chipmunk goes on with a lane 
 
 @part_of_tick
 def step(tables, state, lanes):
-    """Damp, push, move; then the headings and the held items follow, and what walks by itself takes its step."""
+    """Damp, push and move the robots and the loose things; then headings, held items and walkers follow."""
     world, contact, constants = state.world, state.contact, tables.world[0]
     thrust(tables, world, state.mind.commands, lanes)
     for lane in range(lanes if len(tables.loose) > 0 else 0):
@@ -60,7 +60,7 @@ def step(tables, state, lanes):
 
 @compiled
 def thrust(tables, world, commands, lanes):
-    """Damped velocities into the body, those of a car as its axles let it move; force and torque into `push`."""
+    """Damp the body's velocities, a car's as its axles let it move, and sum force and torque in `push`."""
     push, constants, is_aside = world.push, tables.world[0], False
     push[FORCE, :lanes] = 0.0
     push[TORQUE, :lanes] = 0.0
@@ -83,7 +83,7 @@ def thrust(tables, world, commands, lanes):
 
 @compiled
 def drive(commands, actuator, strength, kept, push, lanes):
-    """(2v − 1)·thrust, less what slips, in the actuator's direction at a point of the body: a wheel's on its rim."""
+    """Add an actuator's force (2v − 1)·thrust, less what slips, and its torque to `push`."""
     ahead, aside, arm, slips = actuator.ahead, actuator.aside, actuator.arm, actuator.is_slipping
     for lane in range(lanes):
         pushed = (2.0 * commands[lane] - 1.0) * strength[lane]
@@ -95,7 +95,7 @@ def drive(commands, actuator, strength, kept, push, lanes):
 
 @compiled
 def roll(tables, world, commands, lanes):
-    """Leave a car's velocity the motion that its axles let through, of which kinetic energy is nearest: v ahead,
+    """Replace a car's velocity by the one nearest to it, in kinetic energy, that its axles allow: v ahead,
     v·tan δ / 2 to the left and a turn of v·tan δ / distance of the axles.
     """
     body, heading, constants = world.body, world.heading, tables.world[0]
@@ -117,7 +117,7 @@ def roll(tables, world, commands, lanes):
 
 @compiled
 def steered(tables, world, commands, lane):
-    """How far to the left a car's wheels are turned."""
+    """The angle by which a car's front wheels are turned to the left."""
     angle = 0.0
     for i in range(len(tables.actuators)):
         actuator = tables.actuators[i]
@@ -129,7 +129,7 @@ def steered(tables, world, commands, lane):
 
 @compiled
 def damp(body, heading, push, linear, angular, lanes):
-    """v / (1 + dt·c), as JBox2D does; and the force turned into the world."""
+    """Multiply the velocities by 1 / (1 + dt·c), as JBox2D does, and turn the force into the world's axes."""
     for lane in range(lanes):
         body[SPEED_X, lane] = body[SPEED_X, lane] * linear[lane]
         body[SPEED_Y, lane] = body[SPEED_Y, lane] * linear[lane]
@@ -140,7 +140,7 @@ def damp(body, heading, push, linear, angular, lanes):
 
 @compiled
 def fly(world, near, constants, lanes):
-    """Chipmunk's step of a body that touches nothing: move with the old velocity, then add force and torque.
+    """Make Chipmunk's step of a body that touches nothing: move with the old velocity, then add force and torque.
 
     A lane that Chipmunk will step keeps its state.
     """
@@ -194,7 +194,7 @@ def find_near(tables, world, sight, contact, lanes):
 
 @compiled
 def clearance(body, half_x, half_y, dt, gap, lanes):
-    """The distance between the robot's next centre and the walls."""
+    """Set `gap` to the distance between the robot's next centre and the walls."""
     for lane in range(lanes):
         x = half_x - abs(body[X, lane] + body[SPEED_X, lane] * dt)
         y = half_y - abs(body[Y, lane] + body[SPEED_Y, lane] * dt)
@@ -203,7 +203,7 @@ def clearance(body, half_x, half_y, dt, gap, lanes):
 
 @compiled
 def approach(box, body, dt, gap, lanes):
-    """`gap` lowered to the distance along the axes between the robot's next centre and a box of each lane."""
+    """Lower `gap` to the distance along the axes between the robot's next centre and a box of each lane."""
     for lane in range(lanes):
         x = abs(body[X, lane] + body[SPEED_X, lane] * dt - box[X, lane]) - box[HALF_X, lane]
         y = abs(body[Y, lane] + body[SPEED_Y, lane] * dt - box[Y, lane]) - box[HALF_Y, lane]
@@ -213,7 +213,7 @@ def approach(box, body, dt, gap, lanes):
 
 @compiled
 def walk(tables, world, lanes):
-    """Every walker that has not vanished takes its step."""
+    """Let every walker that has not vanished take its step."""
     for i in range(len(tables.walkers)):
         for lane in range(lanes):
             x, y = place_of(world.things, tables.walkers[i].thing, lane)
@@ -227,7 +227,7 @@ def walk(tables, world, lanes):
 
 @compiled
 def wander(tables, world, i, x, y, lane):
-    """A step ahead, and its direction drifts; where that is not free it stands, and faces anywhere."""
+    """Step ahead, and let the direction drift; where that is not free, stand and face anywhere."""
     sine, cosine = sine_cosine(world.direction[i, lane])
     walker = tables.walkers[i]
     step, half = walker.step, size_of(world.things, walker.thing, lane) / 2
@@ -241,7 +241,7 @@ def wander(tables, world, i, x, y, lane):
 
 @compiled
 def may_step(tables, world, step, x, y, to_x, to_y, half, lane):
-    """Whether nothing is in the way of a square of that half side; of its middle alone where it has no room already.
+    """True if a square of half side `half` is free to step; its middle alone, where it has no room already.
 
     What steps by no more than a quarter of its side passes nothing where it arrives free.
     """
@@ -255,7 +255,7 @@ def may_step(tables, world, step, x, y, to_x, to_y, half, lane):
 
 @compiled
 def go_along(tables, world, i, x, y, lane):
-    """A step towards the next place of its way; where it would come past that it stops there for this tick."""
+    """Step towards the next place of its way; where it would come past that, stop there for this tick."""
     walker = tables.walkers[i]
     goal = walker.first + world.goal[i, lane]
     to_x, to_y = tables.ways[goal, X], tables.ways[goal, Y]

@@ -35,7 +35,7 @@ compute = _chain([kinds("skill")[name].lane for name in function_codes()])
 
 @compiled
 def begin(tables, mind, lanes):
-    """No influence but the master's, which is 1."""
+    """Set all influence to 0 but the master's, which is 1."""
     mind.influence[:, :lanes] = ZERO
     mind.command_sums[:, :lanes] = ZERO
     mind.influence_sums[:, :lanes] = ZERO
@@ -65,7 +65,7 @@ def think(tables, state, lanes, first, last):
 
 @compiled
 def wake(tables, state, lanes, row):
-    """Gather the inputs of a skill in the lanes where it has influence; how many those are."""
+    """Gather the inputs of a skill in the lanes where it has influence; return their number."""
     skill, mind = tables.skills[row], state.mind
     count = awake(mind.influence[skill.index], mind.active, lanes, skill.own)
     if count > 0:
@@ -76,7 +76,7 @@ def wake(tables, state, lanes, row):
 
 @compiled
 def awake(influence, active, lanes, own):
-    """The lanes in which a skill has influence; all of them, if any, where every lane has weights of its own."""
+    """List the lanes in which a skill has influence; all, if any, where each has its own weights. Return the count."""
     count = 0
     for lane in range(lanes):
         active[count] = lane
@@ -90,7 +90,7 @@ def awake(influence, active, lanes, own):
 
 @compiled
 def gather(rows, readings, gathered, active, sound, count, everywhere):
-    """The inputs of a skill side by side; `sound` becomes 0 where all of them are finite, else NaN."""
+    """Copy the inputs of a skill side by side; `sound` becomes 0 where all of them are finite, else NaN."""
     sound[:count] = ZERO
     for j in range(len(rows)):
         source, target = readings[rows[j]], gathered[j]
@@ -107,7 +107,7 @@ def gather(rows, readings, gathered, active, sound, count, everywhere):
 
 @compiled
 def send(tables, state, row, out, count, lanes):
-    """Every edge's value, times the skill's influence, to where it goes; a value that is not finite is not sent."""
+    """Send every edge's value, times the skill's influence, to its target; a value that is not finite is not sent."""
     skill, mind, everywhere = tables.skills[row], state.mind, count == lanes
     influence, sent = mind.influence[skill.index], mind.sent
     for e in range(skill.edge, skill.edge + skill.edges):
@@ -137,7 +137,7 @@ def send(tables, state, row, out, count, lanes):
 
 @compiled
 def value(codes, mind, measures, out, count, everywhere):
-    """The values of a program over the readings, as they are sent."""
+    """Evaluate a program over the readings into `out`, in float32."""
     evaluate(codes, mind.readings, measures, mind.commands, 0, mind.stack, mind.active, count, everywhere)
     for k in range(count):
         out[k] = F(mind.stack[0, k])
@@ -145,7 +145,7 @@ def value(codes, mind, measures, out, count, everywhere):
 
 @compiled
 def gate(tables, mind, measures, edge, values, count, everywhere):
-    """The values of an edge where its condition holds, of `otherwise` where not, and NaN where that is not known."""
+    """Write the values of an edge where its condition holds, those of `otherwise` where not, NaN where nobody knows."""
     value(tables.codes[edge.when : edge.when + edge.whens], mind, measures, mind.opened, count, everywhere)
     other = mind.other
     for k in range(count):
@@ -159,7 +159,7 @@ def gate(tables, mind, measures, edge, values, count, everywhere):
 
 @compiled
 def check(values, sound, sent, active, faults, influence, count):
-    """What is sent: the values clamped to 0..1; −1 where one is not finite, which is a fault, or not sound."""
+    """Write the values clamped to 0..1 to `sent`; −1, and a fault, where one or an input of its skill is not finite."""
     broken = 0
     for k in range(count):
         fine = finite(values[k]) & (sound[k] == ZERO)

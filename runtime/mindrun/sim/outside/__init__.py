@@ -1,1 +1,1 @@
-"""Worlds that are environments of Gymnasium: what they observe and take, one that is stepped, many that are scored."""
+"""Worlds that are environments of Gymnasium: their spaces, steppers in this or another process, and rollouts."""

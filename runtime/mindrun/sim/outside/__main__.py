@@ -20,17 +20,17 @@ import numpy as np
 from mindrun.errors import MindError
 from mindrun.sim.outside import making
 from mindrun.sim.outside.parts import Spaces
-from mindrun.sim.outside.stepper import LocalStepper, Run
-from mindrun.sim.outside.subprocess_stepper import REACHED, Channel
+from mindrun.sim.outside.stepper import EnvironmentRun, LocalStepper
+from mindrun.sim.outside.subprocess_stepper import REACHED, MessageChannel
 
 
-class Server:
-    """Steps environments as it is asked; `reached` is where it writes which one of a question is asked."""
+class StepperServer:
+    """Answers questions to environments; `reached` is the memory for the number of the one that is asked now."""
 
     def __init__(self, reached: mmap) -> None:
         reach = partial(REACHED.pack_into, reached, 0)
         self._stepper = cache(lambda name, folder: LocalStepper(name, folder, reach))
-        self._runs: dict[int, Run] = {}
+        self._runs: dict[int, EnvironmentRun] = {}
 
     def answer(self, question: tuple[Any, ...]) -> tuple[bool, Any]:
         """The answer to a question, or False and the error that it is."""
@@ -66,7 +66,8 @@ class Server:
 def main() -> None:
     """Answer questions until no more come."""
     end_with_standard_input()
-    channel, server = Channel(socket(fileno=int(sys.argv[1]))), Server(mmap(int(sys.argv[2]), REACHED.size))
+    channel = MessageChannel(socket(fileno=int(sys.argv[1])))
+    server = StepperServer(mmap(int(sys.argv[2]), REACHED.size))
     libc = CDLL(None)
     with suppress(EOFError, OSError):
         if making.is_there():

@@ -1,4 +1,4 @@
-"""Environments by their names: Gymnasium asked, and what it answers in the words of this house."""
+"""Environments made by their names: Gymnasium is called, and its errors become errors of this program."""
 
 import os
 import sys
@@ -32,7 +32,7 @@ class BrokenEnvironmentError(MindError):
 
 
 class UnknownEnvironmentError(BrokenEnvironmentError):
-    """One that there is not."""
+    """An environment that does not exist."""
 
 
 def library() -> ModuleType:
@@ -48,7 +48,7 @@ def library() -> ModuleType:
 
 
 def is_there() -> bool:
-    """Whether the package gymnasium is installed."""
+    """True if the package gymnasium is installed."""
     return find_spec("gymnasium") is not None
 
 
@@ -107,7 +107,7 @@ def close(environment: Any) -> None:
 
 @contextmanager
 def foreign_code() -> Iterator[None]:
-    """Around such code: what it raises is an `Exception`, sys.exit too. Ctrl-C stays what it is.
+    """A context for somebody else's code: what it raises is an `Exception`, sys.exit too. Ctrl-C stays what it is.
 
     A child that it has forked, and that comes back to here, ends as it was to.
     """
@@ -123,7 +123,7 @@ def foreign_code() -> Iterator[None]:
 
 
 def first_line(error: BaseException) -> str:
-    """What an error of somebody else's code says, short enough for one line."""
+    """The type and the first line of an error of somebody else's code, in up to 200 characters."""
     try:
         lines = str(error).splitlines()
     except Exception:  # it is somebody else's code that says it
@@ -134,7 +134,7 @@ def first_line(error: BaseException) -> str:
 
 @contextmanager
 def _silence() -> Iterator[None]:
-    """No warnings, and nothing on standard output, where the document of a command may go, or an editor listens."""
+    """A context without warnings or standard output, where the document of a command may go, or an editor listens."""
     _set(WITHOUT_GREETING)
     with warnings.catch_warnings(), redirect_stdout(sys.stderr):
         warnings.simplefilter("ignore")
@@ -142,7 +142,7 @@ def _silence() -> Iterator[None]:
 
 
 def _newest(name: str, gymnasium: Any) -> str | None:
-    """Which version of a name that says none Gymnasium would take, tomorrow another one; None where it says one."""
+    """The newest version of a name that says none; None where it says one, or where there is none."""
     module, colon, own = name.rpartition(":")
     if colon:
         import_module(module)  # registers it
@@ -154,7 +154,7 @@ def _newest(name: str, gymnasium: Any) -> str | None:
 
 
 def _refuse_another(name: str, path: Path) -> None:
-    """BrokenEnvironmentError where this program has another module of that name, or an older text of this one."""
+    """Raise BrokenEnvironmentError where this program has another module of that name, or an older text of this one."""
     module, text = name.partition(":")[0].partition(".")[0], path.read_bytes()
     message = f"The environment {name} cannot be made."
     if (loaded := sys.modules.get(module)) is not None:
@@ -168,13 +168,13 @@ def _refuse_another(name: str, path: Path) -> None:
 
 
 def _set(variables: Mapping[str, str]) -> None:
-    """What a package asks the system for, where a user has not said otherwise."""
+    """Set environment variables that a package reads, where a user has not set them."""
     for name, value in variables.items():
         os.environ.setdefault(name, value)
 
 
 def _lacks_module(error: BaseException, name: str) -> bool:
-    """Whether it is the module before the name that is not there, and not one that this imports."""
+    """True if an error says that the module before a name is missing, and not one that this imports."""
     cause = error.__cause__ or error
     module = cause.name if isinstance(cause, ModuleNotFoundError) else None
     return module is not None and f"{name.partition(':')[0]}.".startswith(f"{module}.")

@@ -17,7 +17,7 @@ Place = tuple[str, int]  # of a number: the name of its part, and where it stand
 
 
 @dataclass(frozen=True, slots=True)
-class Part:
+class SpacePart:
     """An array of numbers in `low` to `high` [of its size], which are infinite where a space does not say.
 
     Where there are `choices`, they are so many at each place, and the numbers are whole, from `low` on. The keys of
@@ -33,11 +33,11 @@ class Part:
 
     @property
     def axes(self) -> tuple[int, ...]:
-        """How long it is along each axis; a single number is an array of one."""
+        """The length along each axis; a single number is an array of one."""
         return self.shape or (1,)
 
     def place(self, index: tuple[int, ...]) -> int | None:
-        """Where the number of that index stands in the flat array; None where there is none."""
+        """The place of the number with that index in the flat array; None where there is none."""
         fits = len(index) == len(self.axes) and all(i < n for i, n in zip(index, self.axes, strict=True))
         return int(np.ravel_multi_index(index, self.axes)) if fits else None
 
@@ -46,7 +46,7 @@ class Part:
         return " and ".join(f"0 to {n - 1}" if n > 1 else "0" for n in self.axes)
 
     def values(self, numbers: Floats) -> list[Any]:
-        """Numbers [runs, of its size] as such an array for each run; a single choice is a number."""
+        """Turn numbers [runs, size] into an array of its shape and type for each run; a single choice is a number."""
         values = numbers.astype(self.dtype).reshape(-1, *self.shape)
         return [*values] if self.shape or self.choices is not None else [np.asarray(value) for value in values]
 
@@ -55,17 +55,17 @@ class Part:
 class Spaces:
     """The parts of what an environment observes and of what it takes; `others` are of what it takes, and no numbers."""
 
-    observed: Mapping[str, Part]
-    acted: Mapping[str, Part]
+    observed: Mapping[str, SpacePart]
+    acted: Mapping[str, SpacePart]
     others: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
-class Source:
+class PartReader:
     """The numbers at some `places` of one part of an observation, which are read to the slots `to`."""
 
     name: str
-    part: Part
+    part: SpacePart
     places: NDArray[np.int64]
     to: NDArray[np.int64]
 
@@ -85,13 +85,13 @@ class Source:
         return f"{what} is of {seen.dtype}, which are no real numbers"
 
 
-def sources_of(parts: Mapping[str, Part], places: Sequence[Place]) -> list[Source]:
-    """Where the numbers at these places are read, one for each slot, in observations of these parts."""
+def sources_of(parts: Mapping[str, SpacePart], places: Sequence[Place]) -> list[PartReader]:
+    """Readers of the numbers at these places, one for each slot, from observations of these parts."""
     sources = []
     for name in dict.fromkeys(name for name, _ in places):
         to = [slot for slot, (part, _) in enumerate(places) if part == name]
         indices = np.array([places[slot][1] for slot in to], np.int64)
-        sources.append(Source(name, parts[name], indices, np.array(to, np.int64)))
+        sources.append(PartReader(name, parts[name], indices, np.array(to, np.int64)))
     return sources
 
 
@@ -101,7 +101,7 @@ def spaces_of(observed: Any, acted: Any) -> Spaces:
     return Spaces(parts_of(observed), parts_of(acted), others)
 
 
-def parts_of(space: Any) -> dict[str, Part]:
+def parts_of(space: Any) -> dict[str, SpacePart]:
     """The parts of a space by their names, `a.b` for one in another; of a text or a graph there are none.
 
     The space itself has the empty name, and those of a tuple have numbers, from 0 on.
@@ -110,7 +110,7 @@ def parts_of(space: Any) -> dict[str, Part]:
     return {_name(path): replace(part, path=path) for path, part in known if part is not None}
 
 
-def found(parts: Mapping[str, Part], slot: Slot) -> tuple[str, Part | None, tuple[int, ...]]:
+def found(parts: Mapping[str, SpacePart], slot: Slot) -> tuple[str, SpacePart | None, tuple[int, ...]]:
     """The name of the part that a slot is in, that part, None where there is none, and the index in it.
 
     The first number of a slot in a tuple says which of its parts it is; none behind it is that of a single number.
@@ -123,7 +123,7 @@ def found(parts: Mapping[str, Part], slot: Slot) -> tuple[str, Part | None, tupl
     return name, parts[name], index or (0,)
 
 
-def actions_of(space: Any, acted: Mapping[str, Part], numbers: Floats) -> list[Any]:
+def actions_of(space: Any, acted: Mapping[str, SpacePart], numbers: Floats) -> list[Any]:
     """The actions of a space that numbers are [runs, numbers]: those of its parts `acted`, one part after the other."""
     values, first = {}, 0
     for name, part in acted.items():
@@ -133,7 +133,7 @@ def actions_of(space: Any, acted: Mapping[str, Part], numbers: Floats) -> list[A
 
 
 def _formed(space: Any, values: Mapping[str, Any], path: tuple[Any, ...] = ()) -> Any:
-    """What a space contains, made of the values of its parts."""
+    """An element of a space, made of the values of its parts by their names."""
     within = _within(space)
     if within is None:
         return values[_name(path)]
@@ -156,7 +156,7 @@ def _name(path: tuple[Any, ...]) -> str:
 
 
 def _kinds(space: Any) -> set[str]:
-    """What a space is, by name: Gymnasium need not be imported for it."""
+    """The class names of a space, so that Gymnasium need not be imported."""
     return {each.__name__ for each in type(space).__mro__}
 
 
@@ -165,11 +165,11 @@ def _within(space: Any) -> Any:
     return getattr(space, "spaces", None) if _kinds(space) & {"Dict", "Tuple"} else None
 
 
-def _part(space: Any) -> Part | None:
+def _part(space: Any) -> SpacePart | None:
     kinds = _kinds(space)
     if "Box" in kinds:
         low, high = (np.asarray(end, np.float64).ravel() for end in (space.low, space.high))
-        return Part(tuple(space.shape), low, high, space.dtype)
+        return SpacePart(tuple(space.shape), low, high, space.dtype)
     if "Discrete" in kinds:
         return _choices((), np.array([space.n]), np.array([space.start]), space.dtype)
     if "MultiDiscrete" in kinds:
@@ -181,6 +181,6 @@ def _part(space: Any) -> Part | None:
     return None
 
 
-def _choices(shape: tuple[int, ...], counts: Any, start: Any, dtype: Any) -> Part:
+def _choices(shape: tuple[int, ...], counts: Any, start: Any, dtype: Any) -> SpacePart:
     low = np.asarray(start, np.float64)
-    return Part(shape, low, low + counts - 1, dtype, np.asarray(counts, np.int64))
+    return SpacePart(shape, low, low + counts - 1, dtype, np.asarray(counts, np.int64))

@@ -1,4 +1,4 @@
-"""Whether an environment does the same again: a run that was made is made once more, and held against itself."""
+"""A check that an environment repeats itself: a run that was made is made once more, and compared with itself."""
 
 from collections.abc import Iterator, Sequence
 from time import monotonic
@@ -7,7 +7,7 @@ import numpy as np
 
 from mindrun.errors import MindError
 from mindrun.sim.outside.parts import Floats, Place
-from mindrun.sim.outside.stepper import Run
+from mindrun.sim.outside.stepper import EnvironmentRun
 from mindrun.sim.outside.subprocess_stepper import Stepper
 
 CHECKED_TICKS = 1000  # of a run: what is the same so far is taken to stay so
@@ -37,30 +37,30 @@ class RecordingStepper:
         self._seed = 0
         self.actions, self.rows = list[Floats](), list[Floats]()
 
-    def begin(self, places: Sequence[Place], seeds: Sequence[int], is_seen: bool = False) -> list[Run]:
+    def begin(self, places: Sequence[Place], seeds: Sequence[int], is_seen: bool = False) -> list[EnvironmentRun]:
         """A new environment for the run."""
         self._places, [self._seed] = places, seeds
         [run] = self._stepper.begin(places, seeds, is_seen)
         self.rows.append(run.row.copy())
         return [run]
 
-    def step(self, runs: Sequence[Run], actions: Floats) -> None:
+    def step(self, runs: Sequence[EnvironmentRun], actions: Floats) -> None:
         """Step it."""
         self._refuse_late()
         self._stepper.step(runs, actions)
         self.actions.append(actions[0])
         self.rows.append(runs[0].row.copy())
 
-    def close(self, runs: Sequence[Run]) -> None:
+    def close(self, runs: Sequence[EnvironmentRun]) -> None:
         """Give back what the run holds."""
         self._stepper.close(runs)
 
     def flaw(self, another: Stepper, names: Sequence[str], is_paid: bool) -> str:
-        """What is not the same when the same is done in two environments of another stepper side by side, or in the
-        first of them once more, in a sentence about the sensors of these names; nothing where all is. A reward that
-        nobody is paid may be what it likes.
+        """The first difference, as a sentence, when the same is done in two environments of another stepper side by
+        side, and then in the first of them once more; empty where there is none. `names` are those of the sensors; a
+        reward that is not `is_paid` may differ.
         """
-        begun, said = list[Run](), {"name": self.environment, "seed": self._seed}
+        begun, said = list[EnvironmentRun](), {"name": self.environment, "seed": self._seed}
         try:
             # What a process keeps of its first run is now of this one.
             another.close(another.begin(self._places, [self._seed ^ 1]))
@@ -78,7 +78,7 @@ class RecordingStepper:
             another.close(begun)
         return ""
 
-    def _again(self, stepper: Stepper, runs: Sequence[Run]) -> Iterator[list[Floats]]:
+    def _again(self, stepper: Stepper, runs: Sequence[EnvironmentRun]) -> Iterator[list[Floats]]:
         """The rows of runs that have begun, tick after tick, in which the same is done."""
         yield [run.row for run in runs]
         for action in self.actions:
@@ -89,7 +89,7 @@ class RecordingStepper:
             yield [run.row for run in runs]
 
     def _difference(self, others: Iterator[list[Floats]], names: Sequence[str], is_paid: bool) -> str:
-        """What differs first, and in which tick."""
+        """The first number that differs, and its tick, in words; empty where none does."""
         words = *names, "its reward", "its end", "the time that it breaks off"
         for ticks, (row, rows) in enumerate(zip(self.rows, others, strict=False)):
             for other in rows:

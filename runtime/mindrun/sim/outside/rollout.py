@@ -16,9 +16,9 @@ from mindrun.sim.codes import BROKEN_OFF
 from mindrun.sim.lanes.stages import act, before, conclude, run_skills
 from mindrun.sim.outside.making import GAVE_NO_NUMBER
 from mindrun.sim.outside.repeating import CHECKED_TICKS, RecordingStepper, SlowError
-from mindrun.sim.outside.stepper import REWARD_COLUMN, TERMINATED_COLUMN, Run
+from mindrun.sim.outside.stepper import REWARD_COLUMN, TERMINATED_COLUMN, EnvironmentRun
 from mindrun.sim.outside.subprocess_stepper import SilentEnvironmentError, Stepper, stepper_for
-from mindrun.sim.outside.wiring import Wiring, wiring_of
+from mindrun.sim.outside.wiring import EnvironmentWiring, wiring_of
 from mindrun.sim.rollout import SLOW_SLICE_TICKS, Rollout, Tile
 from mindrun.sim.state import Jobs, State
 
@@ -27,15 +27,15 @@ LEAST_SHARE = 0.001  # of the ticks, that is said as a number
 
 
 @dataclass(frozen=True, slots=True)
-class Episodes:
-    """The environment of each run that goes on, by the number of its job, and what steps them, whoever thinks.
+class RunningEnvironments:
+    """The environment of each run that goes on, by the number of its job, and their stepper.
 
-    `native` is what a tile keeps anyway.
+    `native` is what a tile of lanes keeps alive.
     """
 
     native: Any
     stepper: Stepper
-    going_on: dict[int, Run] = field(default_factory=dict)
+    going_on: dict[int, EnvironmentRun] = field(default_factory=dict)
 
 
 class EnvironmentRollout(Rollout):
@@ -63,7 +63,7 @@ class EnvironmentRollout(Rollout):
         super().__init__(policy, task, master, learners, procedures=procedures, interrupt=interrupt, lanes=lanes)
         self._another_stepper = partial(steppers or stepper_for, self.task.scene.environment, procedures)
         self._stepper: Stepper = self._another_stepper()
-        self.wiring: Wiring = wiring_of(self.graph, self._stepper.spaces)
+        self.wiring: EnvironmentWiring = wiring_of(self.graph, self._stepper.spaces)
         self.slice_ticks = SLOW_SLICE_TICKS
         self._measured = self.sizes.measured[self.wiring.rows]
         self.observed, self.clipped = 0, np.zeros(len(self.wiring.rows), np.int64)
@@ -97,7 +97,7 @@ class EnvironmentRollout(Rollout):
             probe._release(tile.kept, set())
 
     def tally(self) -> NDArray[np.int64]:
-        """How often was observed, for each sensor how often beyond its range, and what is `unreal`."""
+        """The counts `observed`, `clipped` and `unreal`, one after the other."""
         return np.array([self.observed, *self.clipped, *self.unreal], np.int64)
 
     def add(self, tally: NDArray[np.int64]) -> None:
@@ -108,7 +108,7 @@ class EnvironmentRollout(Rollout):
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What the environment does not do again, how often it gave no number, or what is beyond a sensor's range."""
+        """Sentences on what the environment does not repeat, where it gave no number, and what was beyond a range."""
         beyond = self._shares(self.wiring.names, self.clipped)
         unreal = self._shares((*self.wiring.names, "the reward"), self.unreal)
         gave = f"the environment {self.task.scene.environment} itself {GAVE_NO_NUMBER}: {unreal}" if unreal else ""
@@ -128,7 +128,7 @@ class EnvironmentRollout(Rollout):
     def tile(self, lanes: int) -> Tile:
         """Room for so many lanes, and for their environments."""
         tile = super().tile(lanes)
-        return Tile(tile.state, tile.memories, Episodes(tile.kept, self._stepper))
+        return Tile(tile.state, tile.memories, RunningEnvironments(tile.kept, self._stepper))
 
     def forget(self, tile: Tile, working: set[int]) -> None:
         """Forget all jobs but those, and give back their environments."""
@@ -136,7 +136,7 @@ class EnvironmentRollout(Rollout):
         self._release(tile.kept, working)
 
     def observe(self, tile: Tile, jobs: Jobs) -> None:
-        """What the environments observe becomes readings; those of runs that begin are reset."""
+        """Turn the environments' observations into readings; the environments of runs that begin are made."""
         lanes, readings = int(jobs.lanes[0]), tile.state.mind.readings
         episodes = self._episodes(tile, jobs)
         wiring = self.wiring
@@ -150,7 +150,7 @@ class EnvironmentRollout(Rollout):
         readings[wiring.rows[self._measured], :lanes] = np.clip(share[self._measured], 0.0, 1.0)
 
     def conclude(self, tile: Tile, jobs: Jobs) -> None:
-        """The second half of a tick: commands, a step of every environment, and what it was worth."""
+        """Make the second half of a tick: commands, a step of every environment, and its reward."""
         state, lanes = tile.state, int(jobs.lanes[0])
         act(self.tables, state, np.int64(lanes))
         episodes = self._episodes(tile, jobs)
@@ -171,7 +171,7 @@ class EnvironmentRollout(Rollout):
         commands[self._rough] = state.world.acting[:count, :lanes][self._rough]
         return commands
 
-    def _episodes(self, tile: Tile, jobs: Jobs) -> list[Run]:
+    def _episodes(self, tile: Tile, jobs: Jobs) -> list[EnvironmentRun]:
         """The environments of the lanes at work; a run that has not begun in one begins."""
         working, going_on = tile.state.run.job[: jobs.lanes[0]].tolist(), tile.kept.going_on
         begun = [job for job in working if job not in going_on]
@@ -182,8 +182,8 @@ class EnvironmentRollout(Rollout):
             going_on.update(zip(begun, runs, strict=True))
         return [going_on[job] for job in working]
 
-    def _release(self, episodes: Episodes, working: set[int]) -> None:
-        """The environments of runs that are over are of no use any more."""
+    def _release(self, episodes: RunningEnvironments, working: set[int]) -> None:
+        """Close the environments of runs that are over."""
         over = [job for job in episodes.going_on if job not in working]
         if over:
             episodes.stepper.close([episodes.going_on.pop(job) for job in over])

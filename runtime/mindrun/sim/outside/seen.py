@@ -1,4 +1,4 @@
-"""What is seen of a run in an environment: the same run made again, in one that draws itself."""
+"""The images of a run in an environment: the run is made again, in one that draws itself."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -34,8 +34,9 @@ class SeenEpisode:
         self._image: NDArray[np.uint8] | None = None  # after that tick
 
     def image(self, tick: int) -> NDArray[np.uint8]:
-        """What is seen after a tick, 0 for the beginning [height, width, 3], red first; BrokenEnvironmentError where
-        it draws nothing, or the run is another one when it is made again.
+        """The image after a tick, 0 for the beginning [height, width, 3], red first.
+
+        BrokenEnvironmentError where it draws nothing, or the run is another one when it is made again.
         """
         if tick == self._tick and self._image is not None:
             return self._image

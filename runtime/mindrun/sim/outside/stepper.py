@@ -13,13 +13,13 @@ from numpy.typing import NDArray
 
 from mindrun.sim.outside import making
 from mindrun.sim.outside.making import BrokenEnvironmentError, first_line, foreign_code
-from mindrun.sim.outside.parts import Floats, Place, Source, Spaces, actions_of, sources_of, spaces_of
+from mindrun.sim.outside.parts import Floats, PartReader, Place, Spaces, actions_of, sources_of, spaces_of
 
 SEED_LIMIT = 1 << 31  # some environments take no larger ones
 REWARD_COLUMN, TERMINATED_COLUMN, TRUNCATED_COLUMN = -3, -2, -1  # where they stand in a row, behind what is observed
 
 
-class Run:
+class EnvironmentRun:
     """An environment in the run of a seed, after so many `steps`: the `row` of what it said last [slots + 3]."""
 
     def __init__(self, seed: int, slots: int) -> None:
@@ -28,12 +28,12 @@ class Run:
 
     @property
     def is_over(self) -> bool:
-        """Whether it can be stepped no more."""
+        """True if it can be stepped no more."""
         return bool(self.row[TERMINATED_COLUMN] or self.row[TRUNCATED_COLUMN])
 
     @property
     def where(self) -> str:
-        """How far it is, in words."""
+        """The seed and the step that it has come to, in words."""
         return place_of(self.seed, self.steps)
 
 
@@ -48,13 +48,14 @@ class LocalStepper:
         self, environment: str, folder: Path | None = None, reached: Callable[[int], object] = lambda number: None
     ) -> None:
         self.environment, self._folder, self._reached = environment, folder, reached
-        self._open: dict[Run, tuple[Any, Sequence[Source]]] = {}  # its environment, and what is read of it
-        self._at = Run(0, 0)  # the run of which the environment is asked
+        # The environment of each run that is open, and what reads its observations.
+        self._open: dict[EnvironmentRun, tuple[Any, Sequence[PartReader]]] = {}
+        self._at = EnvironmentRun(0, 0)  # the run of which the environment is asked
         finalize(self, _close, self._open)
 
     @cached_property
     def spaces(self) -> Spaces:
-        """What they observe and take."""
+        """The spaces of their observations and actions."""
         return spaces_of(*self._spaces)
 
     @cached_property
@@ -66,10 +67,10 @@ class LocalStepper:
         finally:
             making.close(environment)
 
-    def begin(self, places: Sequence[Place], seeds: Sequence[int], is_seen: bool = False) -> list[Run]:
+    def begin(self, places: Sequence[Place], seeds: Sequence[int], is_seen: bool = False) -> list[EnvironmentRun]:
         """A new environment for the run of each seed, of which the numbers at these places are read, one a slot."""
         sources = sources_of(self.spaces.observed, places)
-        runs = [Run(seed, len(places)) for seed in seeds]
+        runs = [EnvironmentRun(seed, len(places)) for seed in seeds]
         try:
             for run in self._each(runs):
                 environment = making.make(self.environment, self._folder, is_seen)
@@ -82,13 +83,13 @@ class LocalStepper:
             raise
         return runs
 
-    def reset(self, runs: Sequence[Run]) -> None:
+    def reset(self, runs: Sequence[EnvironmentRun]) -> None:
         """Begin runs again, each in its environment."""
         with self._blaming():
             for run in self._each(runs):
                 self._reset(run)
 
-    def step(self, runs: Sequence[Run], actions: Floats) -> None:
+    def step(self, runs: Sequence[EnvironmentRun], actions: Floats) -> None:
         """Step each run: the numbers of its action, part after part [runs, numbers]."""
         _, acted = self._spaces
         with self._blaming():
@@ -102,33 +103,33 @@ class LocalStepper:
                 run.row[TERMINATED_COLUMN] = truth_of("terminated", terminated)
                 run.row[TRUNCATED_COLUMN] = truth_of("truncated", truncated)
 
-    def image(self, run: Run) -> NDArray[Any]:
-        """What is seen of a run now [height, width, 3], red first; another array where it draws nothing."""
+    def image(self, run: EnvironmentRun) -> NDArray[Any]:
+        """The image of a run now [height, width, 3], red first; another array where it draws nothing."""
         with self._blaming():
             self._at = run
             return np.asarray(self._open[run][0].render())
 
-    def close(self, runs: Sequence[Run]) -> None:
+    def close(self, runs: Sequence[EnvironmentRun]) -> None:
         """Give back what runs hold; those that have not begun hold nothing."""
         for run in self._each(runs):
             if run in self._open:
                 making.close(self._open.pop(run)[0])
 
-    def _reset(self, run: Run) -> None:
+    def _reset(self, run: EnvironmentRun) -> None:
         environment, sources = self._open[run]
         run.row[:], run.steps = 0.0, 0
         observation, _ = environment.reset(seed=run.seed % SEED_LIMIT)
         for source in sources:
             source.read(observation, run.row)
 
-    def _each(self, runs: Sequence[Run]) -> Iterator[Run]:
+    def _each(self, runs: Sequence[EnvironmentRun]) -> Iterator[EnvironmentRun]:
         for number, run in enumerate(runs):
             self._reached(number)
             self._at = run
             yield run
 
-    def _refuse_other_spaces(self, environment: Any, run: Run) -> None:
-        """BrokenEnvironmentError where it has other spaces than the first of its name, to which a mind is wired."""
+    def _refuse_other_spaces(self, environment: Any, run: EnvironmentRun) -> None:
+        """Raise BrokenEnvironmentError where its spaces are not those of the first of its name, wired to a mind."""
         now = making.spaces_in(self.environment, environment)
         for verb, first, other in zip(("observes", "takes"), self._spaces, now, strict=True):
             if first != other:
@@ -139,7 +140,7 @@ class LocalStepper:
 
     @contextmanager
     def _blaming(self) -> Iterator[None]:
-        """Around what environments are asked: whatever one raises is its fault, and says where in which run."""
+        """A context for calls of environments: whatever one raises becomes an error that says where in which run."""
         try:
             with foreign_code():
                 yield
@@ -152,7 +153,7 @@ class LocalStepper:
 
 
 def place_of(seed: int, steps: int) -> str:
-    """Where in a run something was, in words."""
+    """A place in a run, in words."""
     return f"step {steps} of the run of seed {seed}" if steps else f"the beginning of the run of seed {seed}"
 
 
@@ -172,6 +173,6 @@ def truth_of(what: str, value: Any) -> bool:
     raise TypeError(f"{what} is {value!r:.40}, which is neither true nor false")
 
 
-def _close(opened: Mapping[Run, tuple[Any, Sequence[Source]]]) -> None:
+def _close(opened: Mapping[EnvironmentRun, tuple[Any, Sequence[PartReader]]]) -> None:
     for environment, _ in opened.values():
         making.close(environment)

@@ -28,7 +28,7 @@ from mindrun.errors import MindError
 from mindrun.sim.outside import making
 from mindrun.sim.outside.making import BrokenEnvironmentError
 from mindrun.sim.outside.parts import Floats, Place, Spaces
-from mindrun.sim.outside.stepper import LocalStepper, Run, place_of
+from mindrun.sim.outside.stepper import EnvironmentRun, LocalStepper, place_of
 
 STEP_SECONDS, VARIABLE = 60, "MIND_STEP_SECONDS"  # that an environment has for an answer; what says another number
 START_SECONDS = 60  # until its process takes questions
@@ -40,7 +40,7 @@ REACHED = Struct("<I")  # which environment of a question is asked, in memory th
 MAX_READ_BYTES = 1 << 20  # at once
 
 
-class Channel:
+class MessageChannel:
     """One end of a connected pair of sockets, on which questions and answers alternate: plain data, pickled.
 
     `look` is called whenever a wait has taken the socket's time limit.
@@ -101,7 +101,7 @@ class EnvironmentProcess:
 
     @property
     def has_begun(self) -> bool:
-        """Whether it is there."""
+        """True if the process has been started and is not ended."""
         return self._process is not None
 
     def ask(self, *question: Any) -> Any:
@@ -119,7 +119,7 @@ class EnvironmentProcess:
         return answer
 
     def end(self) -> None:
-        """Kill it, whatever it does."""
+        """Kill the process, whatever it does."""
         if self._process is not None:
             with self._process as process:
                 process.kill()
@@ -132,7 +132,7 @@ class EnvironmentProcess:
         path = os.pathsep.join(each or f"{Path.cwd()}" for each in sys.path)
         ours, theirs = socketpair()
         ours.settimeout(LOOK_SECONDS)
-        self._channel = Channel(ours, self._look)
+        self._channel = MessageChannel(ours, self._look)
         with theirs, TemporaryFile() as file:
             file.truncate(REACHED.size)
             self._reached = mmap(file.fileno(), REACHED.size)
@@ -161,7 +161,7 @@ class EnvironmentProcess:
             raise LostError(self._ending(), self._now()) from error
 
     def _look(self) -> None:
-        """EOFError where it has ended, and a process that it has begun has its end; LostError where it is silent."""
+        """Raise EOFError if it has ended, even if its child has the socket, and LostError if it is silent too long."""
         assert self._process is not None
         if self._process.poll() is not None:
             raise EOFError
@@ -172,12 +172,12 @@ class EnvironmentProcess:
             raise LostError(f"no answer in {self._limit:g} seconds", now, is_silent=True)
 
     def _now(self) -> int:
-        """Which environment is asked."""
+        """The number of the environment, in the question, that is asked now."""
         found: int = REACHED.unpack(self._reached)[0]
         return found
 
     def _ending(self) -> str:
-        """How it has ended, in words."""
+        """The end of the process in words: its exit code or signal."""
         assert self._process is not None
         try:
             code = self._process.wait(1)
@@ -195,39 +195,39 @@ class SubprocessStepper:
         self.environment = environment
         self._about = environment, None if folder is None else folder.absolute()
         self._process = process or EnvironmentProcess()
-        self._open, self._numbers = dict[Run, int](), count(1)
+        self._open, self._numbers = dict[EnvironmentRun, int](), count(1)
         if process is None:
             finalize(self, _end, self._process, self._about, self._open)
 
     @cached_property
     def spaces(self) -> Spaces:
-        """What they observe and take."""
+        """The spaces of their observations and actions."""
         found: Spaces = self._ask("spaces", ())
         return found
 
-    def begin(self, places: Sequence[Place], seeds: Sequence[int], is_seen: bool = False) -> list[Run]:
+    def begin(self, places: Sequence[Place], seeds: Sequence[int], is_seen: bool = False) -> list[EnvironmentRun]:
         """A new environment for the run of each seed, of which the numbers at these places are read, one a slot."""
-        runs = [Run(seed, len(places)) for seed in seeds]
+        runs = [EnvironmentRun(seed, len(places)) for seed in seeds]
         numbers = [next(self._numbers) for _ in runs]
         rows = self._ask("begin", runs, numbers, [*places], [*seeds], is_seen)
         self._open.update(zip(runs, numbers, strict=True))
         _take(rows, runs, 0)
         return runs
 
-    def reset(self, runs: Sequence[Run]) -> None:
+    def reset(self, runs: Sequence[EnvironmentRun]) -> None:
         """Begin runs again, each in its environment."""
         _take(self._ask("reset", runs, self._numbers_of(runs)), runs, 0)
 
-    def step(self, runs: Sequence[Run], actions: Floats) -> None:
+    def step(self, runs: Sequence[EnvironmentRun], actions: Floats) -> None:
         """Step each run: the numbers of its action, part after part [runs, numbers]."""
         _take(self._ask("step", runs, self._numbers_of(runs), actions), runs, 1)
 
-    def image(self, run: Run) -> NDArray[Any]:
-        """What is seen of a run now [height, width, 3], red first; an empty array where it draws nothing."""
+    def image(self, run: EnvironmentRun) -> NDArray[Any]:
+        """The image of a run now [height, width, 3], red first; an empty array where it draws nothing."""
         found: NDArray[Any] = self._ask("image", [run], self._open[run])
         return found
 
-    def close(self, runs: Sequence[Run]) -> None:
+    def close(self, runs: Sequence[EnvironmentRun]) -> None:
         """Give back what runs hold. One that ends the process by that is told where other runs end with it."""
         closed = [run for run in runs if run in self._open]
         numbers = [self._open.pop(run) for run in closed]
@@ -239,18 +239,18 @@ class SubprocessStepper:
             if are_others or isinstance(error, SilentEnvironmentError):
                 raise
 
-    def _numbers_of(self, runs: Sequence[Run]) -> list[int]:
+    def _numbers_of(self, runs: Sequence[EnvironmentRun]) -> list[int]:
         return [self._open[run] for run in runs]
 
-    def _ask(self, method: str, runs: Sequence[Run], *arguments: Any) -> Any:
+    def _ask(self, method: str, runs: Sequence[EnvironmentRun], *arguments: Any) -> Any:
         try:
             return self._process.ask(*self._about, method, *arguments)
         except LostError as lost:
             self._open.clear()
             raise self._blamed(method, runs, lost) from lost
 
-    def _blamed(self, method: str, runs: Sequence[Run], lost: LostError) -> BrokenEnvironmentError:
-        """What an environment has done, of which nothing came back."""
+    def _blamed(self, method: str, runs: Sequence[EnvironmentRun], lost: LostError) -> BrokenEnvironmentError:
+        """The error of an environment that has not answered: it is silent, or has ended its process."""
         name, where = self.environment, "being asked for its spaces"
         if runs:
             run = runs[min(lost.reached, len(runs) - 1)]
@@ -275,7 +275,7 @@ Stepper = LocalStepper | SubprocessStepper
 
 
 def stepper_for(environment: str, folder: Path | None = None) -> Stepper:
-    """A process of its own, but for what this program has registered itself: no other one knows that."""
+    """A stepper in a process of its own, but for environments that this program alone has registered."""
     if not making.is_there():
         making.library()  # says what to install
     return LocalStepper(environment, folder) if is_own(environment) else SubprocessStepper(environment, folder)
@@ -283,14 +283,14 @@ def stepper_for(environment: str, folder: Path | None = None) -> Stepper:
 
 @cache
 def known_spaces(environment: str) -> Spaces:
-    """What an environment without a module before its name observes and takes; BrokenEnvironmentError where none."""
+    """The spaces of an environment without a module before its name; BrokenEnvironmentError where there is none."""
     if is_own(environment):
         return LocalStepper(environment).spaces
     return SubprocessStepper(environment, process=_process()).spaces
 
 
 def is_own(environment: str) -> bool:
-    """Whether this program alone may know an environment: it has registered that name, or others that are like it."""
+    """True if this program alone may know an environment: it has registered that name, or others that are like it."""
     gymnasium = sys.modules.get("gymnasium")
     module, _, name = environment.rpartition(":")
     return gymnasium is not None and (name in gymnasium.registry or not module) and name not in _registered()
@@ -307,7 +307,7 @@ def _registered() -> frozenset[str]:
 
 @cache
 def _process() -> EnvironmentProcess:
-    """The one that is asked what environments are like, again and again while a mind is written."""
+    """The process that is asked for spaces, again and again while a mind is written."""
     return EnvironmentProcess()
 
 
@@ -318,13 +318,13 @@ def _step_seconds() -> float:
     return float(given)
 
 
-def _take(rows: Floats, runs: Sequence[Run], steps: int) -> None:
-    """Put what came of a question into runs: so many steps more, or the beginning."""
+def _take(rows: Floats, runs: Sequence[EnvironmentRun], steps: int) -> None:
+    """Put the rows of an answer into runs: with `steps`, one step later, else at the beginning."""
     for run, row in zip(runs, rows, strict=True):
         run.row, run.steps = row, run.steps + 1 if steps else 0
 
 
-def _end(process: EnvironmentProcess, about: Sequence[Any], opened: dict[Run, int]) -> None:
+def _end(process: EnvironmentProcess, about: Sequence[Any], opened: dict[EnvironmentRun, int]) -> None:
     """Give back what the runs hold that are still open, and end the process."""
     if process.has_begun and opened:
         with suppress(Exception):

@@ -1,4 +1,4 @@
-"""How a mind is wired to an environment: whether its sensors and actuators fit, and what its commands are there."""
+"""The wiring of a mind to an environment: checks of its sensors and actuators, and its commands as actions."""
 
 from collections import defaultdict
 from collections.abc import Collection, Iterator, Mapping
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from mindrun.errors import MindError
 from mindrun.graph.graph import Graph
 from mindrun.kinds.environment import Slot
-from mindrun.sim.outside.parts import Floats, Part, Place, Spaces, found
+from mindrun.sim.outside.parts import Floats, Place, SpacePart, Spaces, found
 
 WRAP = "Wrap the environment in one that has numbers instead, registered in a module beside the mind."
 
@@ -27,7 +27,7 @@ class Misfit(NamedTuple):
 
 
 def misfits(spaces: Spaces, sensors: Mapping[str, Slot], actuators: Mapping[str, Slot]) -> Iterator[Misfit]:
-    """What does not fit the spaces of an environment."""
+    """All sensors and actuators that do not fit the spaces of an environment, and actions that are missing."""
     parts, sinks = spaces.observed, spaces.acted
     for name, slot in sensors.items():
         yield from _of_place(name, "observation", slot, parts)
@@ -37,7 +37,7 @@ def misfits(spaces: Spaces, sensors: Mapping[str, Slot], actuators: Mapping[str,
     yield from wrong or _of_all(actuators.values(), sinks)
 
 
-def _of_place(name: str, noun: str, slot: Slot, parts: Mapping[str, Part]) -> Iterator[Misfit]:
+def _of_place(name: str, noun: str, slot: Slot, parts: Mapping[str, SpacePart]) -> Iterator[Misfit]:
     _, part, index = found(parts, slot)
     if part is None:
         known = [each for each in parts if each]
@@ -52,7 +52,7 @@ def _of_place(name: str, noun: str, slot: Slot, parts: Mapping[str, Part]) -> It
         yield Misfit("unknown-slot", name, f"The environment has no {noun} {slot}.", hint)
 
 
-def _of_actuator(name: str, slot: Slot, parts: Mapping[str, Part]) -> Iterator[Misfit]:
+def _of_actuator(name: str, slot: Slot, parts: Mapping[str, SpacePart]) -> Iterator[Misfit]:
     _, part, index = found(parts, slot)
     place = part.place(index) if part else None
     if part is None or place is None:
@@ -67,7 +67,7 @@ def _of_actuator(name: str, slot: Slot, parts: Mapping[str, Part]) -> Iterator[M
         yield Misfit("unknown-slot", name, f"The environment has no choice {slot.chosen}.", hint)
 
 
-def _of_number(name: str, slot: Slot, part: Part, place: int) -> Iterator[Misfit]:
+def _of_number(name: str, slot: Slot, part: SpacePart, place: int) -> Iterator[Misfit]:
     if part.choices is not None:
         hint = f"Write one actuator for each that is to be chosen: choice {part.low[place]:.0f}."
         yield Misfit("unfit-action", name, "The environment takes one of a few actions, and no numbers.", hint)
@@ -81,8 +81,8 @@ def _of_number(name: str, slot: Slot, part: Part, place: int) -> Iterator[Misfit
         yield Misfit("out-of-range", name, "The range goes beyond what the environment takes.", hint)
 
 
-def _of_all(slots: Collection[Slot], parts: Mapping[str, Part]) -> Iterator[Misfit]:
-    """Everything that an environment takes is given to it, and each number once."""
+def _of_all(slots: Collection[Slot], parts: Mapping[str, SpacePart]) -> Iterator[Misfit]:
+    """Misfits where an action of the environment has no actuator, or a number has two."""
     places = [(name, index) for name, _, index in (found(parts, slot) for slot in slots)]
     for name, part in parts.items():
         for place in range(len(part.low)):
@@ -110,8 +110,8 @@ def _written(name: str, index: tuple[int, ...]) -> str:
 
 
 @dataclass(frozen=True, slots=True)
-class Choice:
-    """A choice at a `place` of an action: the one of `numbers` whose command, at the same of `rows`, is the largest."""
+class ActionChoice:
+    """A choice at a `place` of an action: `numbers[k]` of the largest command, that of the actuator in `rows[k]`."""
 
     place: int
     rows: NDArray[np.int64]
@@ -119,8 +119,8 @@ class Choice:
 
 
 @dataclass(frozen=True, slots=True)
-class Wiring:
-    """What a mind reads of an environment, and what its commands are there.
+class EnvironmentWiring:
+    """The numbers that a mind reads of an environment, and the actions that its commands are there.
 
     Its sensors, in order: their `rows` among the readings, their `names`, the ends of their ranges, and the `places` of
     their numbers in an observation. An action is as many numbers as its parts have, one part after the other: of the
@@ -137,7 +137,7 @@ class Wiring:
     to: NDArray[np.int64]
     least: Floats
     most: Floats
-    choices: tuple[Choice, ...]
+    choices: tuple[ActionChoice, ...]
 
     def actions(self, commands: NDArray[np.float32]) -> Floats:
         """The actions [lanes, action_numbers] that commands [actuators, lanes] are."""
@@ -150,8 +150,8 @@ class Wiring:
         return actions
 
 
-def wiring_of(graph: Graph, spaces: Spaces) -> Wiring:
-    """How a mind is wired to an environment of these spaces; MindError where it does not fit."""
+def wiring_of(graph: Graph, spaces: Spaces) -> EnvironmentWiring:
+    """The wiring of a mind to an environment of these spaces; MindError where it does not fit."""
     sensors = {sensor.name: slot for sensor in graph.sensors if (slot := sensor.kind.slot)}
     actuators = {actuator.name: slot for actuator in graph.actuators if (slot := actuator.kind.slot)}
     for misfit in misfits(spaces, sensors, actuators):
@@ -169,7 +169,7 @@ def wiring_of(graph: Graph, spaces: Spaces) -> Wiring:
                 chosen[to].append((row, slot.chosen))
     low, high = np.array([_ends(slot) for slot in sensors.values()], np.float64).reshape(-1, 2).T
     rows, places, least, most = np.array(driven, np.float64).reshape(-1, 4).T
-    return Wiring(
+    return EnvironmentWiring(
         rows=np.array([sensor.start for sensor in graph.sensors if sensor.name in sensors], np.int64),
         names=tuple(sensors),
         low=low,
@@ -180,11 +180,11 @@ def wiring_of(graph: Graph, spaces: Spaces) -> Wiring:
         to=places.astype(np.int64),
         least=least,
         most=most,
-        choices=tuple(Choice(to, *np.array(pairs, np.int64).T) for to, pairs in chosen.items()),
+        choices=tuple(ActionChoice(to, *np.array(pairs, np.int64).T) for to, pairs in chosen.items()),
     )
 
 
-def _place(parts: Mapping[str, Part], slot: Slot) -> Place:
+def _place(parts: Mapping[str, SpacePart], slot: Slot) -> Place:
     name, part, index = found(parts, slot)
     place = part.place(index) if part else None
     assert place is not None
