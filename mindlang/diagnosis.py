@@ -1,4 +1,4 @@
-"""What `mindc doctor` looks at: one function a check, in the order in which they are told.
+"""The checks of `mindc doctor`: one function each, in the order in which they are told.
 
 Packages are imported where they are checked, so that one that is broken hides no other check.
 """

@@ -1,4 +1,4 @@
-"""What breakpoints say once their names are found: when a run, or a robot's recording, stops."""
+"""Breakpoints whose names are found: each says when a run, or a robot's recording, stops."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -73,7 +73,7 @@ def breakpoints_of(source: Source, subject: Subject | None) -> BreakpointFile:
 
 @dataclass(frozen=True, slots=True)
 class _Resolver:
-    """What lines are about, and what is found to be wrong with them."""
+    """Resolves the lines of a .break file against their subject, and notes what is wrong with them."""
 
     subject: Subject
     findings: Findings
@@ -198,7 +198,7 @@ class _Resolver:
         return model.Comparison(model.Expression(terms, written.span), "<" if written.level == "below" else ">", right)
 
     def _transmission(self, written: Transmits, to: Receiver) -> Transmission | None:
-        """What a skill that takes part in the run sends to a target itself."""
+        """The transmission of a skill of the run to a target over its own edges; None after reporting why there is none."""
         graph, skill, target = self.subject.graph, written.skill.text, written.to.text
         targets = {"skill": len(graph.skills), "actuator": len(graph.actuators), "memory": len(graph.memories)}
         index = next(place for place in range(targets[to]) if graph.named(to, place) == target)
@@ -223,7 +223,7 @@ class _Resolver:
 def _named(
     program: Program, transmissions: tuple[Transmission, ...], subject: Subject
 ) -> Iterator[tuple[str, tuple[str, int]]]:
-    """What a condition is about, each as it is written and with its word and operand in the program, once."""
+    """The operands of a condition, each once: its text, and its word and operand in the program; numbers are none."""
     words = {("reading", start): name for name, (start, _) in subject.places.readings.items()}
     words |= {("command", place): name for name, place in subject.places.actuators.items()}
     for number, each in enumerate(transmissions):

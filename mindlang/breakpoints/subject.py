@@ -1,4 +1,4 @@
-"""What breakpoints are about: a run of the simulator, or what a robot has recorded."""
+"""The subject of breakpoints: a run of the simulator, or a robot's recording."""
 
 from __future__ import annotations
 

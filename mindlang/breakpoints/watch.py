@@ -147,7 +147,7 @@ def over(program: Program, leaf: Leaf, rows: int) -> NDArray[np.float64]:
 
 
 def _leaf(rows: Rows, measures: Sequence[NDArray[np.float64]]) -> Leaf:
-    """What a number, a reading, a command or a measure is in each row, in float64 as the engine takes them."""
+    """A function for the value of a number, a reading, a command or a measure in each row, float64 as in the engine."""
 
     def column(word: str, operand: Any) -> Any:
         match word:

@@ -1,4 +1,4 @@
-"""What options and arguments may be: numbers that say both of their bounds, files, names that a shell completes."""
+"""Types of options and arguments: numbers that say both of their bounds, files, names that a shell completes."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass

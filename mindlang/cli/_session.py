@@ -1,4 +1,4 @@
-"""What commands that simulate share: a run set up, the simulator compiled, progress shown, recordings refused."""
+"""Shared by the commands that simulate: a run set up, the simulator compiled, progress shown, recordings refused."""
 
 import os
 import signal

@@ -1,4 +1,4 @@
-"""What every command prints: data and results on stdout, talk on stderr; and how it ends."""
+"""The output of every command: data and results on stdout, talk on stderr; and the exit codes with which it ends."""
 
 from __future__ import annotations
 

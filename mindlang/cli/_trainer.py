@@ -172,7 +172,7 @@ class Trainer:
                     each.close()
 
     def _command(self, run: RunFolder) -> str:
-        """What goes on with a run."""
+        """The command that goes on with a run."""
         return command_line("mindc", "train", "--resume", run.folder) + " --tensorboard" * self.event_files
 
     def _say(self, *lines: str) -> None:

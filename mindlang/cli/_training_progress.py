@@ -1,4 +1,4 @@
-"""What a user sees of a lesson while it is taught: a bar on a terminal, a line now and then elsewhere."""
+"""The progress of a lesson while it is taught: a bar on a terminal, a line now and then elsewhere."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -113,7 +113,7 @@ class TimeLeft:
         )
 
     def _reevaluated(self, record: Record) -> str:
-        """What the best scored on fresh layouts, now or in an earlier generation of this attempt."""
+        """The score of the best on fresh layouts, now or earlier in this attempt; "" where there is none."""
         attempt, generation, score = self.reevaluated or (0, 0, 0.0)
         if attempt != record.attempt:
             return ""

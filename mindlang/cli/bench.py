@@ -192,7 +192,7 @@ class Bench:
         return self.session.prepare(who.file, chosen, self.workers, self.runs)
 
     def _score(self, prepared: Prepared, seeds: Sequence[int], whose: str = "") -> tuple[Scores, dict[str, Any]]:
-        """What came of each run, and of all of them as data; notes on stderr say `whose` they are."""
+        """The score of each run, and the data of all of them; notes on stderr say `whose` they are."""
         from mindlang.run.outcome import bench_data, over_at_once
 
         setup, rollout = prepared

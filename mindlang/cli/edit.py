@@ -180,7 +180,7 @@ def _refuse(diagnostic: Diagnostic, as_json: bool) -> NoReturn:
 
 
 def _verified(edited: Edited) -> str:
-    """What has been verified, by running it; EditError where a trained skill would do something else."""
+    """Run the trained skills before and after, and say which do the same; EditError where one does something else."""
     from mindlang.cli._session import ensure_compiled
     from mindlang.editing.verify import verify_unchanged
 

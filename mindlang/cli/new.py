@@ -75,7 +75,7 @@ def _chosen(robot: str | None, task: str | None) -> tuple[Robot, Task]:
 
 
 def _asks() -> bool:
-    """Whether there is somebody to answer."""
+    """True if there is somebody to answer."""
     return sys.stdin.isatty() and sys.stderr.isatty()
 
 

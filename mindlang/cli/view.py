@@ -154,7 +154,7 @@ def _show_recording(file: str, bundle: Path, follow: bool, breaks: Path | None, 
 
 
 def _watching(breaks: Path) -> Watching:
-    """What makes the watcher of a recording, for the breakpoints of a file."""
+    """A function that makes the watcher of a recording, for the breakpoints of a file."""
     from mindlang.breakpoints.watch import RecordingWatcher, recording_subject
     from mindlang.cli._session import read_breakpoints
 

@@ -35,7 +35,7 @@ class EditedNeighbour:
 
 @dataclass(frozen=True, slots=True)
 class Edited:
-    """What an edit comes to: the new texts by path, what they compile to, the locks as they are and as they follow."""
+    """The result of an edit: the new texts by path, the graph of these, the locks as they are and as they follow."""
 
     project: Project
     change: MindChange
@@ -107,7 +107,7 @@ def _refuse_captured(project: Project, change: MindChange, graph: Graph) -> None
 
 
 def _compiled(project: Project, texts: dict[Path, str]) -> Graph:
-    """What the files of a project come to with these texts; EditError where they do not compile.
+    """The graph of a project with these texts; EditError where they do not compile.
 
     What was wrong with a procedure before may stay so.
     """

@@ -34,7 +34,7 @@ class SourceLine:
 
     @property
     def text(self) -> str:
-        """What stands on it, comment and indentation included."""
+        """The text of the line, comment and indentation included."""
         return self.source.text[self.start : self.end]
 
     @property
@@ -44,12 +44,12 @@ class SourceLine:
 
     @property
     def is_blank(self) -> bool:
-        """Whether nothing stands on it."""
+        """True if nothing but white space stands on the line."""
         return not self.text.strip()
 
     @property
     def is_comment(self) -> bool:
-        """Whether only a comment stands on it."""
+        """True if only a comment stands on the line."""
         return self.text.lstrip().startswith("#")
 
     def above(self) -> Iterator["SourceLine"]:
@@ -156,7 +156,7 @@ def above_fact(fact: Fact, texts: Iterable[str]) -> Splice:
 
 
 def indentation(declaration: Declaration) -> str:
-    """What stands before the facts of a declaration."""
+    """The white space before the facts of a declaration."""
     if declaration.facts:
         return first_line(declaration.facts[-1].span).indent
     return first_line(declaration.header.span).indent + INDENT
@@ -251,7 +251,7 @@ def _leading(line: SourceLine) -> list[SourceLine]:
 
 
 def _closing(last: SourceLine, margin: int) -> list[SourceLine]:
-    """What stands below the last fact of a declaration, down to the last comment that belongs to it.
+    """The lines below the last fact of a declaration, down to the last comment that belongs to it.
 
     Such a comment stands right below or, after blank lines, farther in than the header, and does not lead what follows.
     """

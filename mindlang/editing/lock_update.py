@@ -38,7 +38,7 @@ def locks_of(sources: Iterable[Path]) -> dict[Path, dict[str, Entry]]:
 
 
 def merged(locks: Locks, sources: Iterable[Path]) -> Lock:
-    """What the locks of these files say, the first that knows a skill; main file first."""
+    """The entries of the locks of these files, main file first; for a skill in several locks that of the first."""
     known: dict[str, Entry] = {}
     for path in map(lock_path, sources):
         known = {**locks.get(path, {}), **known}

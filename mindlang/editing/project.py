@@ -1,4 +1,4 @@
-"""What an edit works on: the files of a mind, main one first, and what their names mean."""
+"""The project that an edit works on: the files of a mind, main one first, and the declarations of their names."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -76,7 +76,7 @@ class Unshared:
 
 @dataclass(frozen=True, slots=True)
 class MindChange:
-    """What an edit does: `splices` of the sources, `created` files, and which names the weights have to follow."""
+    """A change of a mind: `splices` of the sources, `created` files, and the names that the weights have to follow."""
 
     splices: tuple[Splice, ...]
     renamed: tuple[Renamed, ...] = ()
@@ -264,7 +264,7 @@ def influence(kind: str, skill: str) -> str:
 
 
 def has_outputs(kind: str) -> bool:
-    """Whether the functions of a kind have outputs that edges without `at` send."""
+    """True if the functions of a kind have outputs that edges without `at` send."""
     cls: type[Function] = kinds("skill").get(kind, Function)
     return cls.has_outputs
 
@@ -297,7 +297,7 @@ def refuse_lines(text: str) -> None:
 
 
 def _is_name(noun: str, name: str) -> bool:
-    """Whether a line that gives this name can be read, and gives this and no other."""
+    """True if a line that gives this name can be read, and gives this and no other."""
     line = f"contains {name} is item" if noun == "thing" else f"{noun} {name} {'in' if noun == 'task' else 'is'} kind"
     findings = Findings()
     if noun == "number":

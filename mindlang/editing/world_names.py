@@ -78,7 +78,7 @@ class Renaming:
     minds: Sequence[Graph]
 
     def name(self, text: str, *nouns: str) -> str:
-        """What something with one of these nouns is called now."""
+        """The present name of something with one of these nouns."""
         return now_called(text, self.names, *nouns)
 
     def relabelled(self, world: TrainingWorld) -> TrainingWorld:

@@ -50,7 +50,7 @@ def scorer_on(
     workers: int,
     say: Callable[[str], object] = lambda line: None,
 ) -> Iterator[Rollout | JobScorer]:
-    """What scores as a rollout does, where --on says; its workers are sent away in the end, whatever they do.
+    """A scorer that does as a rollout does, where --on says; its workers are sent away in the end, whatever they do.
 
     Where --on says nothing the rollout does it in threads; in environments so many processes do, unless 0, since a step
     leaves no thread the interpreter.

@@ -58,7 +58,7 @@ WireAnswer = tuple[str, bytes] | tuple[str, str, str]  # built-ins alone: whoeve
 
 @cache
 def cluster_build() -> Build:
-    """What jobs and their answers depend on: the build of mindrun, and what is pickled."""
+    """The build on which jobs and their answers depend: that of mindrun, and a hash of this room, which is pickled."""
     return {**own_build(), "mindlang": sources_hash(Path(__file__).parent)}
 
 
@@ -214,7 +214,7 @@ def answer_here(build: Build, assignment: bytes, work: bytes) -> WireAnswer:
 
 
 def _scorer(assignment: bytes) -> Any:
-    """What does the jobs of an assignment in a thread of this worker, on its share of the cores.
+    """The scorer for the jobs of an assignment in a thread of this worker, on its share of the cores.
 
     An environment is stepped in as many processes: it would leave other threads no interpreter, and may end or hang.
     """

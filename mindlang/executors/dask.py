@@ -33,7 +33,7 @@ TLS = 'TLS="--protocol tls --tls-ca-file tls.pem --tls-cert tls.pem --tls-key tl
 
 @dataclass(frozen=True, slots=True)
 class Destination:
-    """What stands behind `dask:`: an address or a scheduler file, and how it is reached.
+    """The argument of `dask:`: an address or a scheduler file, and how it is reached.
 
     `pem` is a file with a certificate and its key, which everybody in the cluster has; empty where Dask's own
     configuration says it. With `is_trusted` nothing needs to be encrypted.
@@ -73,13 +73,13 @@ def sbatch(path: str) -> tuple[str, str]:
 
 
 def destination(argument: str) -> Destination:
-    """What an argument says."""
+    """The destination in an argument of `dask:`."""
     place, _, how = argument.partition(",")
     return Destination(place, is_trusted=True) if how == TRUSTED else Destination(place, how)
 
 
 def flaw_of(argument: str) -> str:
-    """What is wrong with an argument by itself; nothing where nothing is."""
+    """The flaw of an argument by itself; "" where it has none."""
     place = destination(argument).place
     if not place or argument.endswith(","):
         return "it says no scheduler"
@@ -87,7 +87,7 @@ def flaw_of(argument: str) -> str:
 
 
 def flaw(argument: str) -> str:
-    """What is wrong with an address; nothing where nothing is. MindError without Dask, or a way there that is safe."""
+    """The flaw of an address; "" where it has none. MindError without Dask, or a way there that is safe."""
     refuse_without(("distributed",), "a cluster is reached with", "cluster")
     if not (found := flaw_of(argument)):
         destination(argument).address()

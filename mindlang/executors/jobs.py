@@ -56,7 +56,7 @@ class WorkError(MindError):
 
 @dataclass(frozen=True, slots=True)
 class Assignment:
-    """What all jobs of a training or a bench share: a task under a master, and the packed bundle that has both.
+    """The common part of all jobs of a training or a bench: a task under a master, and the packed bundle that has both.
 
     A genome has the weights of the `learners`, one after the other. In `folder`, which no other machine is told, a
     module may stand that registers an environment.
@@ -72,7 +72,7 @@ class Assignment:
 
 @dataclass(frozen=True, slots=True)
 class Done:
-    """What came of a job, the seconds that it took, and what its scorer counted meanwhile beside the results."""
+    """The result of a job, the seconds that it took, and what its scorer counted meanwhile beside the results."""
 
     result: Any
     seconds: float
@@ -106,7 +106,7 @@ def answer(scorer: Callable[[], Any], work: Work) -> Done | Failed:
 
 
 def tally_of(scorer: Any) -> Tally:
-    """What a scorer has counted beside its results, as `mindrun.sim.outside.rollout` does; others count nothing."""
+    """The counts of a scorer beside its results, as `mindrun.sim.outside.rollout` has them; empty of one without."""
     return scorer.tally() if hasattr(scorer, "tally") else np.zeros(0, np.int64)
 
 
@@ -151,7 +151,7 @@ class JobExecutor:
         raise NotImplementedError
 
     def has_room(self) -> bool:
-        """Whether a worker would wait without another job."""
+        """True if a worker would wait without another job."""
         return len(self._open) < self.workers
 
     def submit(self, number: int, work: Work) -> None:
@@ -212,7 +212,7 @@ class StretchExecutor:
     scorer: Any = None
 
     def has_room(self) -> bool:
-        """Whether a worker would wait without another stretch."""
+        """True if a worker would wait without another stretch."""
         return self.jobs.has_room()
 
     def submit(self, job: int, stretch: Stretch) -> None:
@@ -256,7 +256,7 @@ class JobScorer:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What somebody should know of the runs so far."""
+        """Notes for the user on the runs so far."""
         notes: tuple[str, ...] = self.rollout.notes
         return notes
 
@@ -296,7 +296,7 @@ class JobScorer:
         return whole
 
     def tally(self) -> Tally:
-        """What was counted beside the results, by all workers."""
+        """The counts of all workers beside the results."""
         return tally_of(self.rollout)
 
     def add(self, tally: Tally) -> None:
@@ -333,7 +333,7 @@ def runs_in_a_job(runs: int, workers: int, seconds: float | None) -> int:
 
 
 class Blocks:
-    """What is left of genomes × seeds: whole genomes while a job is for more runs than there are seeds."""
+    """Genomes × seeds cut into blocks: whole genomes while a job is for at least as many runs as there are seeds."""
 
     def __init__(self, genomes: int, seeds: int) -> None:
         self._genomes, self._seeds, self._done = genomes, seeds, 0

@@ -43,7 +43,7 @@ Make = Callable[[Assignment, int], Any]
 
 
 def flaw(argument: str) -> str:
-    """What is wrong with a number of processes; nothing where nothing is."""
+    """The flaw of a number of processes; "" where it has none."""
     if not (argument.isascii() and argument.isdigit() and len(argument) <= MAX_DIGITS):
         return "it is no whole number"
     return "" if 1 <= int(argument) <= MAX_PROCESSES else f"it is not from 1 to {MAX_PROCESSES}"
@@ -172,7 +172,7 @@ _scorer: Callable[[], Any]  # of this process
 
 
 def _begin(assignment: Assignment, threads: int, make: Make) -> None:
-    """What a process does first: it ends with the one that began it, and has no part in its streams and signals."""
+    """Set a new process up: it ends with the one that began it, and has no part in its streams and signals."""
     global _scorer
     _scorer = lru_cache(lambda: make(assignment, threads))
     os.setsid()  # Ctrl-C at the terminal is for who asks, who lets the work go on to be saved

@@ -53,7 +53,7 @@ class LockError(MindError):
 
 @dataclass(frozen=True, slots=True)
 class Signature:
-    """What a genome fits: the function with its arguments, and by name what it reads and sends, in its order."""
+    """The signature of a genome: its function with arguments, and the names that it reads and sends, in its order."""
 
     function: str
     reads: tuple[str, ...]  # a sensor with several readings says how many: proximity:10
@@ -257,7 +257,7 @@ def write_lock(path: Path, entries: Lock) -> None:
 
 @dataclass(frozen=True, slots=True)
 class MergedLock:
-    """What two branches agree on, and by skill what each of them says where both have changed it; None: nothing."""
+    """The lines on which two branches agree, and by skill both lines where both have changed it; None: no line."""
 
     entries: Lock
     conflicts: Mapping[str, tuple[Entry | None, Entry | None]]

@@ -53,7 +53,7 @@ class Row:
 
     @property
     def is_fine(self) -> bool:
-        """Whether it can act."""
+        """True if the skill can act."""
         return isinstance(self.status, Trained | NotLearning) and not self.damage
 
     @property

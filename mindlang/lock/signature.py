@@ -1,4 +1,4 @@
-"""What a genome fits, by name: taken from a graph, compared with another, and a graph in the order of its weights."""
+"""Signatures of genomes: taken from a graph, compared with another, and a graph in the order of its weights."""
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
@@ -29,7 +29,7 @@ def signature(graph: Graph, skill: Skill) -> Signature:
 
 
 def differences(old: Signature, new: Signature, derived: Collection[str]) -> tuple[str, ...]:
-    """What keeps weights from fitting, as sentences; order is no difference.
+    """The differences that keep weights from fitting, in sentences; order is none.
 
     The arguments in `derived` are not told where what is read or sent tells it already, from which they follow.
     """

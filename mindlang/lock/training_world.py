@@ -131,7 +131,7 @@ def _no_number(text: str) -> NoReturn:
 
 
 def _fits(value: Any, form: Any) -> bool:
-    """Whether a value has a form."""
+    """True if a value has a form."""
     try:
         convert(value, form, dec_hook=_checked)
     except (ValidationError, OverflowError):
@@ -140,7 +140,7 @@ def _fits(value: Any, form: Any) -> bool:
 
 
 def _checked(form: type[Kind | Argument], value: Any) -> Kind | Argument:
-    """What stands for a kind or an argument of one; ValueError where the value is none."""
+    """An instance of the form, once the value is checked to be a kind or an argument; ValueError where it is none."""
     if form is Argument:
         is_one = any(_fits(value, each) for each in ARGUMENTS)
     else:

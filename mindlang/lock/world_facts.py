@@ -118,7 +118,7 @@ class Worlds:
         return of_sensors + [memory.name for memory in self.graph.memories]
 
     def _skill(self, skill: Skill) -> dict[str, Any]:
-        """What a skill does beside what its weights say: all of it where it does not learn."""
+        """The facts of a skill that its weights do not say: all of it where it does not learn."""
         fixed = [edge for edge in skill.edges if edge.programs or edge.cuts]
         sends = [self._sends(edge) for edge in fixed]
         if skill.like:
@@ -133,7 +133,7 @@ class Worlds:
         return {**function, "reads": reads, "answers": answers, "sends": sorted(sends)}
 
     def _sends(self, edge: Edge) -> str:
-        """What an edge sends beside its output, as it is written."""
+        """The target, value, gate and cut of an edge, as they are written."""
         words = [self.graph.named(edge.to, edge.target)]
         words += [f"at {infix(edge.value, self._leaf)}"] if edge.output is None else []
         if edge.gate:
@@ -142,7 +142,7 @@ class Worlds:
         return " ".join([*words, *([f"cuts below {number(edge.cuts)}"] if edge.cuts else [])])
 
     def _read_instead(self, skill: Skill) -> list[str]:
-        """What a skill that is like another reads in place of what: the other's line in a lock has its order."""
+        """The readings of a skill that is like another, as `own for other`; the order is in the other's line in a lock."""
         owner = next(each for each in self.graph.skills if each.name == skill.like)
         pairs = zip(skill.inputs, owner.inputs, strict=True)
         names = dict.fromkeys((self._names[own], self._names[other]) for own, other in pairs)
@@ -162,7 +162,7 @@ class Worlds:
         return sha256(path.read_bytes()).hexdigest() if path else ""
 
     def _ends(self, task: Task, succeeds: bool) -> Iterator[str]:
-        """What ends a run, as a success or not."""
+        """The ends of a run: those that are a success, or those that are none."""
         for end in task.ends:
             if end.succeeds == succeeds:
                 times = f"{end.times} " if end.times > 1 else ""
@@ -245,7 +245,7 @@ def argument(noun: str, kind: str, field: str, value: Any) -> str:
 
 
 def meaning_of(noun: str, kind: str, field: str) -> Quantity | Reference | None:
-    """What an argument of a kind is; None of what this version does not know."""
+    """The quantity or reference that an argument of a kind is; None for one that this version does not know."""
     known = {each.field: each for each in arguments(kinds(noun)[kind])} if kind in kinds(noun) else {}
     return known[field].type if field in known else None
 

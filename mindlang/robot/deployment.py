@@ -83,7 +83,7 @@ class Release:
     size: int
 
     def named(self, moment: str) -> str:
-        """What it is called on the robot: names sort by their age."""
+        """Its name on the robot: names sort by their age."""
         return f"{moment}-{self.fingerprint[:8]}"
 
 
@@ -154,14 +154,14 @@ class Deployed:
 
 @dataclass(frozen=True, slots=True)
 class ReleaseState:
-    """What is on a robot: its releases, oldest first, which of them is current, and what it lacks."""
+    """The state of a robot: its releases, oldest first, which of them is current, and what it lacks."""
 
     current: str
     releases: tuple[Deployed, ...]
     lacks: tuple[str, ...]
 
     def has(self, fingerprint: str) -> bool:
-        """Whether the current release is this one, and whole."""
+        """True if the current release is this one, and whole."""
         return self.current.endswith(f"-{fingerprint[:8]}") and self.current in self._whole
 
     def before(self) -> str:
@@ -171,7 +171,7 @@ class ReleaseState:
         raise DeployError("There is no whole release before the current one.", "mindc deploy HOST --list")
 
     def is_gone(self) -> bool:
-        """Whether somebody has deleted the current release on the robot."""
+        """True if somebody has deleted the current release on the robot."""
         return bool(self.current) and self.current not in {each.name for each in self.releases}
 
     def moment(self, now: datetime) -> str:

@@ -61,7 +61,7 @@ class DriverOption:
 
     @property
     def required(self) -> bool:
-        """Whether it must be given."""
+        """True if it must be given."""
         return self.default is MISSING
 
 
@@ -164,7 +164,7 @@ def _section_schema(noun: str) -> dict[str, Any]:
 
 
 def _wire_schema(noun: str, name: str, cls: type[Any]) -> dict[str, Any]:
-    """What can be said of a sensor or actuator with this driver."""
+    """The JSON Schema of a sensor or actuator with this driver."""
     its, own = driver_options(cls), own_options(noun)
     text = " ".join(str(cls.__doc__).split())
     said = {option.key: _option_schema(option, OPTION_DESCRIPTIONS[option.key]) for option in own}

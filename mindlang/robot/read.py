@@ -170,7 +170,7 @@ class _Reader:
         return self._table(nodes, span) if isinstance(event, yaml.MappingStartEvent) else Items(tuple(nodes), span)
 
     def _check_unmarked(self, event: yaml.NodeEvent) -> bool:
-        """Whether a value has an anchor or a tag, which is reported."""
+        """True if a value has an anchor or a tag, after reporting it."""
         start = event.start_mark.index
         word = self.source.text[start : start + 200].split(maxsplit=1)[0] if event.anchor or event.tag else ""
         span = Span(self.source, start, start + len(word))
@@ -228,12 +228,12 @@ class _Reader:
 
 
 def first_line(span: Span) -> Span:
-    """As much of a span as stands on its first line."""
+    """The part of a span on its first line."""
     return Span(span.source, span.start, span.start + len(span.text.split("\n")[0].rstrip()))
 
 
 def shortened(text: str) -> str:
-    """What was written, if it is not too long for a message."""
+    """A text, cut off where it is too long for a message."""
     return text if len(text) <= MAX_SHOWN_CHARACTERS else f"{text[: MAX_SHOWN_CHARACTERS - 1]}…"
 
 
@@ -250,7 +250,7 @@ def check_tabs(source: Source) -> Answer | None:
 
 
 def misread(error: Exception, source: Source, at: int) -> Answer:
-    """What the parser's error means; `at` is how far it came."""
+    """The code, span, message and hint for an error of the parser; `at` is how far it came."""
     if isinstance(error, yaml.reader.ReaderError):
         message = f"The character U+{ord(source.text[error.position]):04X} cannot stand in YAML."
         return "yaml-character", Span(source, error.position, error.position + 1), message, "Remove it."
@@ -288,7 +288,7 @@ def _all_digits(text: str) -> str:
 
 
 def _decimal(text: str) -> str:
-    """What digits of another base may stand for."""
+    """The decimal numbers for which digits of another base may stand."""
     base = 2 if "b" in text else 8
     digits = re.sub("^[-+]?0[ob]?", "", text).replace("_", "")
     decimal = digits.lstrip("0") or "0"
@@ -313,7 +313,7 @@ def _text(text: str) -> str:
 
 
 class Surprise(NamedTuple):
-    """What YAML takes for something else; message and hint have `text` as written, and what it is `meant` as."""
+    """A text that YAML takes for something else; message and hint have `text` as written, and what it is `meant` as."""
 
     pattern: re.Pattern[str]
     code: str

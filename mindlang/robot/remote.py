@@ -90,7 +90,7 @@ class RemoteRobot:
 
     @property
     def _shell(self) -> list[str]:
-        """What runs a script there: no word of anybody, since the login shell may be any."""
+        """The command that runs a script there; no other word is in it, since the login shell may be any."""
         return ["ssh", *self.options, "--", self.host, "sh -s"]
 
     def copy(self, folder: Path, to: str) -> None:

@@ -35,7 +35,7 @@ W = TypeVar("W", SensorWire, ActuatorWire)
 
 @dataclass(frozen=True, slots=True)
 class Checked:
-    """What became of a wiring; `wiring` is None where the diagnostics hold an error."""
+    """A wiring with its diagnostics; `wiring` is None where they hold an error."""
 
     wiring: Wiring | None
     diagnostics: tuple[Diagnostic, ...]
@@ -107,7 +107,7 @@ def _section(
     wire: Callable[[Wired, P], W | None],
     findings: Findings,
 ) -> Iterator[tuple[Wired, W | None]]:
-    """What is wired to sensors or actuators, in the order of the mind; without a wire where one is wrong."""
+    """The drivers of sensors or actuators in the order of the mind, each with its wire, None where that is wrong."""
     if entry is None:
         return
     value = entry.value

@@ -1,4 +1,4 @@
-"""What flows over each edge of a hierarchy, tick by tick, computed by the engine's own functions."""
+"""The flow over each edge of a hierarchy, tick by tick, computed by the engine's own functions."""
 
 from collections.abc import Callable, Container, Iterator, Mapping
 from dataclasses import dataclass
@@ -128,7 +128,7 @@ class EdgeFlows:
                 kept.go_on(end)
 
     def _sent(self, rows: Places, readings: Singles, influence: Singles) -> Singles:
-        """What each skill sent over its edges [rows, edges], before the clamp; NaN where nothing is sent."""
+        """The values that each skill sent over its edges [rows, edges], before the clamp; NaN where nothing is sent."""
         is_influenced = influence[:, self.skills] != 0
         sent: list[np.float32] = []
         for row, place in np.argwhere(is_influenced).tolist():
@@ -142,7 +142,7 @@ class EdgeFlows:
 
 
 class _Kept:
-    """What a skill that remembers has sent so far; like the engine it computes only where it is influenced."""
+    """The values that a skill with a memory has sent so far, computed only where it is influenced, as in the engine."""
 
     def __init__(self, skill: Ready, rows: Rows, begins: Container[int]) -> None:
         self.blocks: list[Singles] = []  # [BLOCK_ROWS, edges] each

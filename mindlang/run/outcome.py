@@ -1,4 +1,4 @@
-"""What came of one run, and of many, as plain data: the contents of `--json`."""
+"""The outcome of one run, and of many, as plain data: the contents of `--json`."""
 
 from __future__ import annotations
 

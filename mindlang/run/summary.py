@@ -1,4 +1,4 @@
-"""What came of a run, of many runs, and of two minds on the same layouts, for reading."""
+"""The outcome of a run, of many runs, and of two minds on the same layouts, as text to read."""
 
 from collections.abc import Collection, Iterator, Sequence
 from typing import Any

@@ -75,7 +75,7 @@ def sharing(workspace: Workspace, view: MindView) -> Iterator[MindView]:
 
 
 def symbols(file: File) -> list[Symbol]:
-    """What a file declares, in its order."""
+    """The declarations of a file, in its order."""
     found = []
     for declaration in file.declarations:
         header = declaration.header

@@ -67,7 +67,7 @@ def completed(ls: MindServer, params: types.CompletionParams) -> types.Completio
 
 
 def asked_above(ls: MindServer, params: types.CodeLensParams) -> list[types.CodeLens]:
-    """What stands above lines: commands of mindc, which the editor runs in a terminal."""
+    """The code lenses of a file: commands of mindc above lines, which the editor runs in a terminal."""
     path = ls.session.lsp.path(params.text_document.uri)
     view = ls.session.workspace.view(path)
     folder = str(view.main.parent)

@@ -108,7 +108,7 @@ def shut_down(ls: MindServer, params: None) -> None:
 
 
 def prepared(ls: MindServer, params: types.PrepareRenameParams) -> types.PrepareRenamePlaceholder | None:
-    """What would be renamed; MindError where the mind has to compile first."""
+    """The name at a place and its range, None where none is; refused where the mind does not compile."""
     view, path, offset = ls.session.place(params.text_document.uri, params.position)
     mention = view.mention_at(path, offset)
     if mention is None:
@@ -157,7 +157,7 @@ def acted(ls: MindServer, params: types.CodeActionParams) -> list[types.CodeActi
 
 
 def _wants(only: Any, kind: str) -> bool:
-    """Whether actions of a kind, or below it, were asked for."""
+    """True if `only` asks for actions of a kind, of one above or of one below it; True without `only`."""
     asked = [str(getattr(each, "value", each)) for each in only or ()]
     return not asked or any(f"{kind}.".startswith(f"{each}.") or f"{each}.".startswith(f"{kind}.") for each in asked)
 

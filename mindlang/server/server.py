@@ -193,7 +193,7 @@ class Session:
         return {path: _first(path, each) for path, each in by_file.items()}
 
     def _stop_findings(self, path: Path) -> list[Diagnostic]:
-        """What is wrong with a file of breakpoints; no names are looked for in a mind that does not compile."""
+        """The diagnostics of a .break file; no names are looked for in a mind that does not compile."""
         mind = self.workspace.view(path).compiled
         subject = subject_of_mind(mind) if mind.graph else None
         return [*breakpoints_of(Source(str(path), self.workspace.text(path), path.parent), subject).diagnostics]
@@ -253,7 +253,7 @@ class MindServer(LanguageServer):
 
     @property
     def knows_documents(self) -> bool:
-        """Whether the editor takes edits that make files and name versions of texts."""
+        """True if the editor takes edits that make files and name versions of texts."""
         workspace = self.client_capabilities.workspace
         edits = workspace.workspace_edit if workspace else None
         made = types.ResourceOperationKind.Create in (edits.resource_operations or ()) if edits else False

@@ -51,7 +51,7 @@ def _mind(robot: Robot, task: Task) -> str:
 
 
 def _wiring(robot: Robot, task: Task) -> str:
-    """What is wired: all that the task needs, and what moves the robot."""
+    """The text of robot.yaml: the wiring of all that the task needs, and of what moves the robot."""
     sensors = _joined(part.wiring for part in _needed(robot.sense, task))
     actuators = _joined(part.wiring for part in (robot, *_needed(robot.act, task)))
     return _text("robot.yaml").replace("$sensors\n", sensors).replace("$actuators\n", actuators)

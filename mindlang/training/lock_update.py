@@ -1,4 +1,4 @@
-"""What becomes of what a lesson has taught: it goes to the lock, unless what is there does better."""
+"""Weights that a lesson has taught go to the lock, unless those that are there do better."""
 
 from dataclasses import dataclass
 from math import isfinite

@@ -1,4 +1,4 @@
-"""What a lesson is taught from: a mind with its lock, and the run that a lesson of it becomes."""
+"""The subject of a lesson, a mind with its lock, and the run that a lesson of it becomes."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass

@@ -85,7 +85,7 @@ def compare_recording(path: Path, bundle: Path, request: Request, other: Bundle 
 
 
 def _compared(master: str, was: dict[str, Columns], now: dict[str, Columns], tick: int) -> OpenLoop:
-    """What differs from a tick on; another mind has read along before, and sent nothing."""
+    """The differences from a tick on; another mind has read along before, and sent nothing."""
     begin, ticks = tick - 1, len(next(iter(was["command"].values())))
     found = first_differences(_from(was, begin), _from(now, begin))
     both = [name for name in was["command"] if name in now["command"]]
