@@ -198,7 +198,7 @@ class _Resolver:
         return model.Comparison(model.Expression(terms, written.span), "<" if written.level == "below" else ">", right)
 
     def _transmission(self, written: Transmits, to: Receiver) -> Transmission | None:
-        """The transmission of a skill of the run to a target over its own edges; None after reporting why there is none."""
+        """The transmission of a skill of the run to a target over its own edges; None after reporting an error."""
         graph, skill, target = self.subject.graph, written.skill.text, written.to.text
         targets = {"skill": len(graph.skills), "actuator": len(graph.actuators), "memory": len(graph.memories)}
         index = next(place for place in range(targets[to]) if graph.named(to, place) == target)

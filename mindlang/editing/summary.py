@@ -79,7 +79,7 @@ def broken_sentences(edited: Edited) -> list[str]:
 
 
 def _neighbour_sentences(edited: Edited) -> list[str]:
-    """Sentences on skills that become stale in neighbours, whose locks may have other weights of them than the mind's."""
+    """Sentences on skills that become stale in neighbours whose locks have other lines of them than the mind's."""
     found: dict[str, list[str]] = {}
     own = merged(edited.locks, edited.project.taught)
     for other in edited.beside:
