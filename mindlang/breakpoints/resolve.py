@@ -100,7 +100,7 @@ class _Resolver:
         return None if tick is None else Reaches(int(tick))
 
     def _event(self, written: Phrase) -> EventKind | RobotEvent | None:
-        """An event that somebody notices in what is stopped."""
+        """The event of a line, of a robot or of the world; None after reporting that there can be none."""
         word = written.kind.text
         if word in ROBOT_WORDS:
             return self._robot_event(written)

@@ -57,7 +57,7 @@ class Subject:
 
     @cached_property
     def places(self) -> lower.Places:
-        """Where the readings and the commands stand in a row."""
+        """The places of the readings and the commands in a row."""
         readings = {each.name: (each.start, each.width) for each in self.graph.sensors}
         readings |= {each.name: (each.start, 1) for each in self.graph.memories}
         return lower.Places(readings, {each.name: place for place, each in enumerate(self.graph.actuators)})
@@ -111,7 +111,7 @@ def mind_of(path: str, given: Mapping[str, Compiled]) -> Compiled | None:
 
 
 def subject_of_mind(compiled: Compiled, task: str | None = None, master: str | None = None) -> Subject:
-    """A run of a mind, with the task and the master of these names or those of a run by default.
+    """The subject of a mind's run, with the task and the master of these names or those of a run by default.
 
     Events of the task and of a robot count both: a file may be for both. SetupError where there is none of that name.
     """
@@ -123,7 +123,7 @@ def subject_of_mind(compiled: Compiled, task: str | None = None, master: str | N
 
 
 def subject_of_bundle(bundle: Bundle, task: str | None = None, master: str | None = None) -> Subject:
-    """The recording of a robot with this bundle, or with a task of its dry run; SetupError for a name that is none."""
+    """The subject of a robot's recording with this bundle, or of a task's dry run; SetupError for an unknown name."""
     graph = bundle.graph
     wired = [wire.sensor for wire in bundle.wiring.sensors] if bundle.wiring and not task else physical(graph)
     chosen = task_of(graph, task)[0] if task else None

@@ -80,7 +80,7 @@ def _option(option: click.Option, context: click.Context) -> Parameter:
 
 
 def _parameter(action: Action) -> Parameter:
-    """An option or an argument of argparse, in the same way."""
+    """An option or an argument of argparse, with the name of its value and its default, unless its help says that."""
     about, default = action.help or "", action.default
     if not action.option_strings:
         return Parameter(_argument(action), about, "" if action.nargs == "?" else None)

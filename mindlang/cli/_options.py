@@ -117,7 +117,7 @@ class NewFile(click.Path):
 
 
 def refuse_ineffective(what_they_are: str, *names: str) -> None:
-    """UsageError where one of these parameters of the command was said, since nothing would come of it."""
+    """UsageError where one of these parameters of the command was given, since it would have no effect."""
     context = click.get_current_context()
     all_of_them = [each for each in context.command.params if each.name in names]
     if any(context.get_parameter_source(name) is ParameterSource.COMMANDLINE for name in names):

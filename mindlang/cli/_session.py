@@ -84,7 +84,7 @@ class RunSession:
 
     @terminal.procedures_talk()
     def set_up(self, file: str, compiled: Compiled, chosen: RunChoice) -> RunSetup:
-        """Who plays what in a run of a file that is compiled."""
+        """The task, the master and the weights for a run of a compiled file; ends the program where it cannot begin."""
         with refusing_setups():
             found = set_up(file, compiled, chosen.task, chosen.master)
         self.say(*(f"note: {note}" for note in (*found.ready.notes, found.note) if note))
@@ -105,7 +105,7 @@ class RunSession:
     def scorer(
         self, prepared: Prepared, interrupt: bool, where: Where | None, workers: int
     ) -> AbstractContextManager[Rollout | JobScorer]:
-        """Who makes many runs: so many `workers` of this machine, or as --on says."""
+        """The scorer of many runs, on so many `workers` of this machine, or as --on says."""
         setup, rollout = prepared
         return scorer_on(where, rollout, lambda: setup.assignment(interrupt), workers, self.say)
 
@@ -131,7 +131,7 @@ class RunSession:
         terminal.tell(*lines, quiet=self.quiet)
 
     def progress(self) -> Progress:
-        """A bar on stderr, where somebody looks at it."""
+        """A progress bar on stderr, hidden where that is no terminal."""
         columns = (TextColumn("{task.description}", markup=False), BarColumn(30), TaskProgressColumn())
         talk = terminal.console(stderr=True)
         hidden = self.quiet or not talk.is_terminal

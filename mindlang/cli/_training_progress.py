@@ -32,7 +32,7 @@ class ProgressText:
     left: str
 
     def text(self) -> str:
-        """All of it."""
+        """The figures and the words."""
         return self._with(self.where, self.best, self.reevaluated, self.rate)
 
     def shorter(self) -> Iterator[tuple[str, int]]:
@@ -51,7 +51,7 @@ class ProgressText:
 
 @dataclass(slots=True)
 class TimeLeft:
-    """How fast generations pass since this process took the lesson up at `began`; `generations` are of all attempts.
+    """The pace of generations since this process took the lesson up at `began`; `generations` are of all attempts.
 
     `first` says how many generations the first one of an attempt is worth, with all its founders; `reevaluated` is the
     attempt, the generation and the score on fresh layouts of the last champion that has one. `ticks` were simulated.
@@ -83,7 +83,7 @@ class TimeLeft:
         self.ahead = ahead
 
     def share(self, done: int) -> float:
-        """Which part of all has been done, in its turn or ahead."""
+        """The share of all generations that has been done, in its turn or ahead."""
         return (done + self.ahead.generations) / self.generations
 
     def standing(self, record: Record, done: int, now: float) -> ProgressText:

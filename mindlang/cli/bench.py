@@ -117,7 +117,7 @@ class Contender:
 
 
 def contenders(files: Sequence[str], masters: Sequence[str]) -> list[Contender]:
-    """Who runs: one mind, two minds, or one mind under two masters; of two minds each may have a master of its own."""
+    """The contenders: one mind, two minds, each with its own master if it has one, or one mind under two masters."""
     if len(files) > MAX_COMPARED or len(masters) > MAX_COMPARED:
         fail("Two are compared, not more.", "mindc bench A.mind B.mind, or one FILE with --master X --master Y", MISUSE)
     count = max(len(files), len(masters))
@@ -202,7 +202,7 @@ class Bench:
         return scores, data | {"notes": setup.notes(rollout, *over_at_once(setup.task, scores))}
 
     def _by(self) -> dict[str, int | str]:
-        """Who makes the runs."""
+        """The workers that make the runs, as data."""
         return {"workers": self.workers} if self.where is None else {"on": f"{self.where}"}
 
     def _write(self, path: Path, table: Table, runs: str) -> None:

@@ -163,7 +163,7 @@ def _watching(breaks: Path) -> Watching:
 
 @dataclass(frozen=True, slots=True)
 class ViewOutput:
-    """In the file `export`, or at a `port` of this machine, None for any that is free."""
+    """The output of `mindc view`: the file `export`, or a page served at a `port`, None for any that is free."""
 
     port: int | None
     opens_browser: bool

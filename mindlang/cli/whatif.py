@@ -139,7 +139,7 @@ def _compare_runs(
 
 
 def _draw(compared: Compared, request: Request, path: Path) -> str:
-    """Draw both runs; what the picture shows."""
+    """Draw both runs, and say what the picture shows."""
     from mindlang.pictures.picture import png
 
     if compared.was.run.task.scene.environment:

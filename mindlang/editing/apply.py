@@ -86,7 +86,7 @@ def apply_edit(project: Project, change: MindChange, keep_weights: bool) -> Edit
 
 
 def _refuse_under_alias(change: MindChange) -> None:
-    """EditError where lines of a file change that has other names for what it declares than this mind."""
+    """EditError where the edit changes a file that is used under a name: its declarations have other names there."""
     for splice in change.splices:
         if alias := splice.source.alias:
             name = splice.source.name

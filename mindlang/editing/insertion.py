@@ -219,7 +219,7 @@ def text_of(declarations: Sequence[Declaration]) -> str:
 
 
 def _paragraphs(declarations: Iterable[Declaration]) -> list[Extent]:
-    """From where to where declarations of one file stand; those that follow one another as one."""
+    """The extents of declarations of one file; those that follow one another are one extent."""
     found: list[Extent] = []
     for first, last in map(_extent, sorted(declarations, key=_start)):
         above = next((line for line in first.above() if not line.is_blank), None)

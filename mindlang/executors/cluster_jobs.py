@@ -231,7 +231,7 @@ def _scorer(assignment: bytes) -> Any:
 
 
 class Scorers(local):
-    """Those of each thread of a worker, by the assignment."""
+    """The scorers of each thread of a worker, by the assignment."""
 
     def __init__(self) -> None:
         self.of = lru_cache(KEPT_SCORERS)(_scorer)

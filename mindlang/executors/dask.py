@@ -44,9 +44,9 @@ class Destination:
     is_trusted: bool = False
 
     def address(self) -> str:
-        """The address of the scheduler, as scheme://host:port. WorkError where there is no file that says one.
+        """The address of the scheduler, as scheme://host:port.
 
-        And where it leads to another machine, and nothing is encrypted on the way.
+        WorkError where there is no file that says one, or nothing is encrypted on the way to another machine.
         """
         address = self.place if _parts(self.place) else _address_in(Path(self.place))
         self.refuse_open(address)
@@ -95,7 +95,7 @@ def flaw(argument: str) -> str:
 
 
 def begin(argument: str, assignment: Assignment, say: Callable[[str], object]) -> JobExecutor:
-    """Whoever is connected to the scheduler, now or later."""
+    """An executor on the workers that are connected to the scheduler, now or later."""
     from mindlang.executors.cluster_jobs import ClusterJobs
 
     return ClusterJobs(connect(destination(argument)), assignment, say)

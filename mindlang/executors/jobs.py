@@ -127,7 +127,7 @@ def rollout_of(assignment: Assignment, threads: int) -> Rollout:
 
 @dataclass(slots=True)
 class Job:
-    """A job that somebody is at: `worker` is who, where that is one of ours."""
+    """A job that is being done; `worker` does it, where that is one of ours."""
 
     number: int
     work: Work
@@ -155,7 +155,7 @@ class JobExecutor:
         return len(self._open) < self.workers
 
     def submit(self, number: int, work: Work) -> None:
-        """Ask for a job."""
+        """Have a job done."""
         self._ask(Job(number, work))
 
     def take(self) -> tuple[int, Done] | None:
@@ -216,7 +216,7 @@ class StretchExecutor:
         return self.jobs.has_room()
 
     def submit(self, job: int, stretch: Stretch) -> None:
-        """Ask for a stretch."""
+        """Have a stretch done."""
         self.jobs.submit(job, partial(_advance, self.course, stretch))
 
     def take(self) -> tuple[int, Segment] | None:
@@ -233,7 +233,7 @@ def _advance(course: Course, stretch: Stretch, scorer: Any) -> Segment:
 
 
 def refuse_without(packages: tuple[str, ...], who: str, extra: str) -> None:
-    """MindError where one of these packages, which somebody is asked by, is not installed."""
+    """MindError where one of these packages is not installed; `who` begins the sentence, `extra` would bring them."""
     for name in packages:
         if find_spec(name) is None:
             hint = f"pip install 'mindlang[{extra}]'"
@@ -319,12 +319,12 @@ class Block:
 
     @property
     def runs(self) -> int:
-        """How many runs it is."""
+        """The number of runs."""
         return int((self.genomes.stop - self.genomes.start) * (self.seeds.stop - self.seeds.start))
 
 
 def runs_in_a_job(runs: int, workers: int, seconds: float | None) -> int:
-    """How many of all the runs make a good job, where a run takes so many seconds (None: nobody knows)."""
+    """The number of runs for one job out of all, where a run takes so many seconds (None: nobody knows)."""
     if seconds is None:
         return FIRST_RUNS
     share = runs / (max(1, workers) * JOBS_PER_WORKER)
@@ -340,7 +340,7 @@ class Blocks:
 
     @property
     def left(self) -> int:
-        """How many runs are left."""
+        """The number of runs that are left."""
         return self._genomes * self._seeds - self._done
 
     def next(self, runs: int) -> Block:
@@ -356,7 +356,7 @@ class Blocks:
 
 
 def empty_scores(genomes: int, seeds: int, task: Task) -> Scores:
-    """Room for what comes of all: arrays of zeros."""
+    """Arrays of zeros for the scores of all genomes on all seeds."""
     more = {"by_line": (max(1, len(task.rewards)),), "by_event": (len(task.events),)}
     whole: dict[str, NDArray[Any]] = {}
     for name in (*SUMMED, *COUNTED):
@@ -365,6 +365,6 @@ def empty_scores(genomes: int, seeds: int, task: Task) -> Scores:
 
 
 def place(block: Block, part: Any, whole: Scores) -> None:
-    """Put what came of a block into its place."""
+    """Write the scores of a block into those of all genomes and seeds."""
     for name in (*SUMMED, *COUNTED):
         getattr(whole, name)[block.genomes, block.seeds] = getattr(part, name)

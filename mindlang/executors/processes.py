@@ -50,7 +50,7 @@ def flaw(argument: str) -> str:
 
 
 def begin(argument: str, assignment: Assignment, say: Callable[[str], object]) -> "ProcessJobs":
-    """So many processes."""
+    """An executor on so many processes."""
     count = int(argument)
     return ProcessJobs(count, max(1, cores() // count), assignment)
 
@@ -71,7 +71,7 @@ class ProcessJobs(JobExecutor):
 
     @property
     def workers(self) -> int:
-        """How many there are."""
+        """The number of processes."""
         return len(self.members)
 
     def close(self) -> None:

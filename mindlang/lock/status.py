@@ -216,12 +216,12 @@ def trained_weights(graph: Graph, lock: Lock, skills: Collection[str]) -> tuple[
 
 
 def key_of(lesson: Lesson) -> LessonKey:
-    """Which lesson it is, whatever its curriculum says of how it is learnt."""
+    """The key of a lesson: which one it is, whatever its curriculum says of how it is learnt."""
     return LessonKey(lesson.task, lesson.master, lesson.with_subskills)
 
 
 def key_of_taught(taught: Taught) -> LessonKey:
-    """Which lesson it was that a line of a lock tells of last."""
+    """The key of the lesson that a line of a lock tells of last."""
     return LessonKey(taught.task, taught.master, taught.jointly)
 
 

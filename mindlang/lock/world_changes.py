@@ -169,7 +169,7 @@ def _reward_changes(old: Sequence[Sequence[str]], now: Sequence[Sequence[str]]) 
 
 
 def _beginning(lesson: Mapping[str, Any]) -> str:
-    """With which weights a lesson begins."""
+    """The weights with which a lesson begins, in words."""
     if lesson["from_scratch"]:
         return "from scratch"
     return f"from {lesson['starts_from']}" if "starts_from" in lesson else "from its weights"

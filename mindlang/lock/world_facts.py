@@ -142,7 +142,7 @@ class Worlds:
         return " ".join([*words, *([f"cuts below {number(edge.cuts)}"] if edge.cuts else [])])
 
     def _read_instead(self, skill: Skill) -> list[str]:
-        """Readings of a skill that is like another, as `own for other`; the line of the other in a lock has the order."""
+        """Readings of a skill that is like another, as `own for other`; the other's line in a lock has the order."""
         owner = next(each for each in self.graph.skills if each.name == skill.like)
         pairs = zip(skill.inputs, owner.inputs, strict=True)
         names = dict.fromkeys((self._names[own], self._names[other]) for own, other in pairs)

@@ -112,7 +112,7 @@ def _option(field: Field[Any], hint: Any) -> DriverOption:
 
 
 def _without_none(hint: Any) -> Any:
-    """The type of what may also be None, when it is said."""
+    """The type of an option without None: float for `float | None`."""
     if get_origin(hint) in (Union, UnionType):
         return next(part for part in get_args(hint) if part is not NoneType)
     return hint

@@ -64,7 +64,7 @@ class Comparison:
 
 
 def compare(first: Benched, second: Benched, is_one_world: bool = False) -> Comparison:
-    """The differences in what both say in the same words; of the score only where it is paid for the same.
+    """The differences in the figures that both name in the same words; in the score only where it is paid for the same.
 
     In one world, where nothing is drawn for either, each has made its only run.
     """
@@ -147,5 +147,5 @@ def amount(name: str, value: float, found: Difference) -> str:
 
 
 def _words(name: str) -> tuple[str, str]:
-    """The verb of a figure, and what there is more of."""
+    """The verb for a figure, and the words behind `more` or `less`."""
     return {SCORE: ("scores", ""), SUCCESS: ("succeeds", " often")}.get(name, ("counts", f" ({name})"))

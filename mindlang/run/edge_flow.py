@@ -83,7 +83,7 @@ class EdgeFlows:
 
     @cached_property
     def links_to(self) -> Mapping[Sink, list[int]]:
-        """The places of the links to each."""
+        """The places in `links` of the edges that lead to each sink."""
         found: dict[Sink, list[int]] = {}
         for place, link in enumerate(self.links):
             found.setdefault(link.target, []).append(place)

@@ -54,7 +54,7 @@ class Difference:
 
     @property
     def differing(self) -> int:
-        """How many runs came to something else."""
+        """The number of pairs that differ."""
         return self.more + self.less
 
     @property

@@ -27,8 +27,8 @@ REAPPEARANCE_UNITS = 0.5  # nothing is moved that far in a tick but what reappea
 
 @dataclass(frozen=True, slots=True)
 class RecordedRun:
-    """Row 0 of `body` [ticks + 1, 3], `things` [ticks + 1, things, 3], `turned` [ticks + 1, things] and
-    `held` is the beginning.
+    """A run tick by tick; row 0 of `body` [ticks + 1, 3], `things` [ticks + 1, things, 3], `turned` [ticks + 1, things]
+    and `held` [ticks + 1] is the beginning.
 
     `readings` as its skills read them, `influence`, `commands` before the noise of their actuators, `lines` (the sum of
     each reward line so far), `touching`, `battery`, `events` (how often each has happened so far) and `counts` (of the

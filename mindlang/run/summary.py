@@ -141,7 +141,7 @@ def _difference(name: str, found: Difference) -> tuple[str, str]:
 
 
 def _told(name: str, found: Difference) -> Iterator[str]:
-    """How many runs did better, and, where they do not tell, what would."""
+    """Sentences: how many runs did better and, where they do not tell the minds apart, how many would."""
     more = {SCORE: "B scores more", SUCCESS: "B alone succeeds"}.get(name, f"B has more ({name})")
     less = {SUCCESS: "A alone"}.get(name, "less")
     yield f"{more} in {found.more:,} runs, {less} in {found.less:,}, as much in {found.equal:,}"

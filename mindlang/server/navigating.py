@@ -32,7 +32,7 @@ class Symbol:
 
 
 def definitions(view: MindView, path: Path, offset: int) -> list[Span]:
-    """Where that is declared which stands at an offset; of a used file or a procedure, where it stands."""
+    """The places of the declaration of what stands at an offset; of a used file or a procedure, where it stands."""
     file = view.file(path)
     if file is None:
         return []

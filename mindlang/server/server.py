@@ -39,7 +39,7 @@ _LINE_END = re.compile(r"\r\n|\n|\r")
 
 @dataclass
 class LspConverter:
-    """How paths and offsets are said to one editor: its URIs, and the units that its columns count."""
+    """Converts paths and offsets for one editor: its URIs, and the units that its columns count."""
 
     codec: PositionCodec = field(default_factory=PositionCodec)
     uris: dict[Path, str] = field(default_factory=dict)  # of the open files, as the editor says them
@@ -153,7 +153,7 @@ class Session:
     _told: dict[Path, Report] = field(default_factory=dict)
 
     def set(self, uri: str, version: int, text: str) -> None:
-        """A file has this text now."""
+        """Set the text that a file has now."""
         path = self.lsp.path(uri)
         self.lsp.uris[path], self.lsp.versions[path] = uri, version
         self.workspace.texts[path] = text

@@ -50,7 +50,7 @@ class TrainOptions:
             raise MindError(f"scale cannot be {self.scale!r}", f"scale is a number above 0, and at most {MAX_SCALE}")
 
     def applied(self, lesson: Lesson) -> Lesson:
-        """The lesson as it is wished for; of one with fewer generations than it says, nothing is needed."""
+        """The lesson with these numbers; one with fewer generations than in the source `needs` nothing."""
         learner = replace(
             lesson.learner,
             population=self.population or lesson.learner.population,

@@ -37,7 +37,7 @@ class Comparison:
         return self.new < self.old
 
     def __str__(self) -> str:
-        """Which stay, and why."""
+        """A sentence that says why the old weights stay."""
         return (
             f"the weights that were there do better: {number(self.old)} against {number(self.new)} "
             f"on the same {COMPARED_LAYOUTS} fresh layouts"
@@ -163,7 +163,7 @@ def _record(
 
 
 def declared(subject: Subject, lesson: Lesson) -> Lesson:
-    """A lesson as it stands in the source: what the command line said of it once is no reason to teach it again."""
+    """The lesson as the source has it: what the command line said of it once is no reason to teach it again."""
     alike = (
         each
         for each in subject.graph.lessons

@@ -74,7 +74,7 @@ class Subject:
         return frozenset(name for name, each in status(self.graph, self.lock).items() if isinstance(each, Trained))
 
     def standing(self, lesson: Lesson) -> dict[str, Status]:
-        """How the learners of a lesson stand to that lock."""
+        """The status of each learner of a lesson in the lock of `keep_path`."""
         found = status(self.graph, read_lock(self.keep_path(lesson)), self.folder)
         return {skill: found[skill] for skill in learners(self.graph, lesson)}
 
@@ -172,7 +172,7 @@ def refuse_changed(subject: Subject, run: RunFolder) -> None:
 
 
 def origin_weights(graph: Graph, lock: Lock, lesson: Lesson, shown: Path) -> dict[str, Weights]:
-    """The weights with which its skill begins; none where the lesson starts from no other. The graph is `arrange`d.
+    """The weights with which a lesson's skill begins; none where it starts from no other. The graph is `arrange`d.
 
     RunError where the other skill, or one that learns with the learner, has none that fit, and how to teach it in the
     file that is `shown`.

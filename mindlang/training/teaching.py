@@ -102,7 +102,7 @@ def workers_of(
 def _stretches(
     course: Course, rollout: Rollout, scorer: Scorer, clock: Clock
 ) -> StretchExecutor | StretchThreads | None:
-    """Who does several attempts side by side: the workers of a scorer, else threads; None where nobody does.
+    """The executor of attempts side by side: the workers of a scorer, else threads; None where they go one by one.
 
     Attempts of a lesson that ends with the first that passes go one by one here: the others would be for nothing.
     """

@@ -23,7 +23,7 @@ Prepared = tuple[RunSetup, Rollout]  # a run that is set up, in the simulator
 
 @dataclass(frozen=True, slots=True)
 class Difference:
-    """A number of a tick, counted from 1: what it `was`, and what it `is` with the changes."""
+    """A number of a tick, counted from 1: what it `was`, and what it is `now`, with the changes."""
 
     tick: int
     what: str

@@ -30,7 +30,7 @@ OPEN_LOOP = "open loop: the readings are those of the recording, whatever other 
 
 @dataclass(frozen=True, slots=True)
 class Sent:
-    """By how much a command is another in the mean and at most, in how many ticks, and when most, None where never."""
+    """How far a command is from the recorded one: ticks that differ, mean, most and when that was, None where never."""
 
     ticks: int
     mean: float

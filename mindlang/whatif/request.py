@@ -50,7 +50,7 @@ class Request:
 
     @property
     def words(self) -> str:
-        """For reading: without Avoid and proximity=0.5, from tick 812 on."""
+        """The changes in words: without Avoid and proximity=0.5, from tick 812 on."""
         if self.ticks is not None:
             groups: list[tuple[tuple[str, ...], int | None]] = [(self.parts, self.ticks)]
         else:
