@@ -38,7 +38,7 @@ from mindlang.server.completing import complete
 from mindlang.server.hovering import hover
 from mindlang.server.navigating import definitions, everything, highlights, references, symbols
 from mindlang.server.proposals import Selection, all_mended, mendings, proposals
-from mindlang.server.server import Session
+from mindlang.server.server import EditorSession
 
 LINEAR_RATIO = 2.8  # what shapes with names of more digits, or that change into one another, come to by themselves
 
@@ -55,9 +55,9 @@ class Case:
         """A text compiled as this file."""
         return compile_source(Source("mind.mind", text, self.path.parent), self.path)
 
-    def session(self) -> Session:
+    def session(self) -> EditorSession:
         """An editor that has the file open, and has been told what is found in it."""
-        session = Session()
+        session = EditorSession()
         session.set(self.path.as_uri(), 1, self.text)
         list(session.news())
         return session

@@ -25,7 +25,7 @@ from mindlang.breakpoints.breakpoint import (
     Stopped,
     Transmission,
 )
-from mindlang.breakpoints.subject import Subject
+from mindlang.breakpoints.subject import BreakpointSubject
 from mindlang.compiler import lower, model
 from mindlang.compiler.compile import read_main
 from mindlang.compiler.diagnostic import Diagnostic, Findings, did_you_mean, listed
@@ -51,13 +51,13 @@ class BreakpointFile:
     diagnostics: tuple[Diagnostic, ...]
 
 
-def load_breakpoints(path: Path | str, subject: Subject | None) -> BreakpointFile:
+def load_breakpoints(path: Path | str, subject: BreakpointSubject | None) -> BreakpointFile:
     """The breakpoints of the file at `path`, or with "-" of standard input."""
     source = read_main(path)
     return BreakpointFile((), (source,)) if isinstance(source, Diagnostic) else breakpoints_of(source, subject)
 
 
-def breakpoints_of(source: Source, subject: Subject | None) -> BreakpointFile:
+def breakpoints_of(source: Source, subject: BreakpointSubject | None) -> BreakpointFile:
     """The breakpoints of a text; none where nobody knows what they are about, and its lines are only read."""
     findings = Findings()
     lines = parse_stops(source, findings)
@@ -75,7 +75,7 @@ def breakpoints_of(source: Source, subject: Subject | None) -> BreakpointFile:
 class _Resolver:
     """Resolves the lines of a .break file against their subject, and notes what is wrong with them."""
 
-    subject: Subject
+    subject: BreakpointSubject
     findings: Findings
 
     def breakpoints(self, lines: list[Stop]) -> Iterator[Breakpoint]:
@@ -221,7 +221,7 @@ class _Resolver:
 
 
 def _named(
-    program: Program, transmissions: tuple[Transmission, ...], subject: Subject
+    program: Program, transmissions: tuple[Transmission, ...], subject: BreakpointSubject
 ) -> Iterator[tuple[str, tuple[str, int]]]:
     """The operands of a condition, each once: its text, and its word and operand in the program; numbers are none."""
     words = {("reading", start): name for name, (start, _) in subject.places.readings.items()}

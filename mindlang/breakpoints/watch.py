@@ -26,7 +26,7 @@ from mindlang.breakpoints.breakpoint import (
     Transmission,
     robot_events,
 )
-from mindlang.breakpoints.subject import Subject
+from mindlang.breakpoints.subject import BreakpointSubject
 from mindlang.run.edge_flow import EdgeFlow, EdgeFlows, Places, Singles, accumulated
 from mindlang.run.recorded_run import RecordedRun
 from mindlang.run.recording import recorded_task
@@ -37,7 +37,7 @@ Measured = Mapping[Transmission, NDArray[np.float64]]
 
 
 @dataclass(frozen=True, slots=True)
-class Part:
+class RowBlock:
     """Some rows of a run, one a tick: `readings` [rows, width] as the skills read them, `influence` [rows, skills] and
     `commands` [rows, actuators].
 
@@ -51,7 +51,7 @@ class Part:
     events: NDArray[np.int64]
 
 
-Rows = Part | RecordedRun
+Rows = RowBlock | RecordedRun
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,7 +104,7 @@ class Watcher:
                 columns = [("times", times[1:])]
             case Holds(program, transmissions, named):
                 leaf = _leaf(rows, [weights[transmission] for transmission in transmissions])
-                holds = self._after(place, over(program, leaf, count) > 0)
+                holds = self._after(place, evaluate_rows(program, leaf, count) > 0)
                 is_met = holds[1:] & ~holds[:-1]
                 columns = [(name, leaf(*operand)) for name, operand in named]
         for row in np.flatnonzero(is_met):
@@ -136,7 +136,7 @@ def watcher(breakpoints: Sequence[Breakpoint], setup: RunSetup) -> Watcher:
     return Watcher(breakpoints, setup.task.events, graph, hierarchy(setup.ready.policy, sources, setup.master))
 
 
-def over(program: Program, leaf: Leaf, rows: int) -> NDArray[np.float64]:
+def evaluate_rows(program: Program, leaf: Leaf, rows: int) -> NDArray[np.float64]:
     """The value of an expression in each of so many rows, `leaf` giving those of its readings [rows]."""
 
     def combined(operator: str, left: Any, right: Any) -> Any:
@@ -209,9 +209,9 @@ def _weights(flows: EdgeFlows, flow: EdgeFlow, asked: Transmission) -> NDArray[n
         return np.where(sent == 0, 0.0, sent / accumulated(flow.transmitted[:, arriving]).astype(np.float64))
 
 
-def recording_subject(of: About, mind: Bundle) -> Subject:
+def recording_subject(of: About, mind: Bundle) -> BreakpointSubject:
     """The subject of a recording's breakpoints, made with the mind of this bundle."""
-    return Subject.of_recording(mind.graph, of.master, of.sensors, recorded_task(of, mind))
+    return BreakpointSubject.of_recording(mind.graph, of.master, of.sensors, recorded_task(of, mind))
 
 
 class RecordingWatcher:
@@ -234,5 +234,5 @@ class RecordingWatcher:
         self._before, self._times = facts[-1:], np.concatenate([self._times, happened])[-1:]
         if "world" in (rows.dtype.names or ()):
             happened = np.concatenate([happened, rows["world"]["events"].astype(np.int64)], axis=1)
-        part = Part(readings, rows["influence"], rows["commands"], happened)
+        part = RowBlock(readings, rows["influence"], rows["commands"], happened)
         return self._watcher.feed(part, np.flatnonzero(rows["tick"] == 0))

@@ -19,7 +19,7 @@ from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, T
 
 from mindlang.breakpoints.breakpoint import Breakpoint
 from mindlang.breakpoints.resolve import load_breakpoints
-from mindlang.breakpoints.subject import Subject
+from mindlang.breakpoints.subject import BreakpointSubject
 from mindlang.cli import _terminal as terminal
 from mindlang.cli._diagnostic_printer import print_report
 from mindlang.cli._options import RunChoice
@@ -166,10 +166,10 @@ def refusing_recordings() -> Iterator[None]:
 def breakpoints_of_run(path: Path, compiled: Compiled, setup: RunSetup) -> tuple[Breakpoint, ...]:
     """The breakpoints of a run that is set up, in the .break file at `path`."""
     assert compiled.mind
-    return read_breakpoints(path, Subject.of_run(compiled.mind.names, setup))
+    return read_breakpoints(path, BreakpointSubject.of_run(compiled.mind.names, setup))
 
 
-def read_breakpoints(path: Path, subject: Subject) -> tuple[Breakpoint, ...]:
+def read_breakpoints(path: Path, subject: BreakpointSubject) -> tuple[Breakpoint, ...]:
     """The breakpoints of a .break file; a mistake in it is reported, and ends the program before anything runs."""
     found = load_breakpoints(path, subject)
     print_report(found.diagnostics, terminal.console(stderr=True))

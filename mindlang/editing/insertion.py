@@ -111,13 +111,13 @@ def owners(fact: str) -> tuple[str, ...]:
     return tuple(noun for noun, verbs in OWNERS.items() if verb in verbs)
 
 
-def instead(span: Span, text: str) -> Splice:
+def replace_span(span: Span, text: str) -> Splice:
     """Replace the text of a span, with a space where it would join a neighbouring word: `at-eye` becomes `at 0`."""
     is_glued = span.source.text[span.start - 1 : span.start].isalnum() and text[:1].isalnum()
     return Splice(span.source, span.start, span.end, f" {text}" if is_glued else text)
 
 
-def instead_of_line(fact: Fact, texts: Iterable[str]) -> Splice:
+def replace_line(fact: Fact, texts: Iterable[str]) -> Splice:
     """Replace the line of a fact, with its comment, by other lines."""
     line = first_line(fact.span)
     return Splice(line.source, line.start, line.end, newline(line.source).join(texts))

@@ -36,7 +36,7 @@ from mindlang.compiler.references import READABLE_NOUNS, names_in
 from mindlang.compiler.source import Source
 from mindlang.compiler.splice import spliced
 from mindlang.compiler.syntax import Declaration, Fact
-from mindlang.editing.insertion import instead
+from mindlang.editing.insertion import replace_span
 from mindlang.lock.training_world import TrainingWorld
 from mindlang.lock.world_facts import Worlds
 
@@ -150,7 +150,7 @@ class Renaming:
             return text
         known = Names({noun: cast(dict[str, Declaration], named) for noun, named in self.names.items()})
         mentions = names_in(fact, known, None)
-        splices = (instead(each.name.span, self.name(each.name.text, each.noun)) for each in mentions)
+        splices = (replace_span(each.name.span, self.name(each.name.text, each.noun)) for each in mentions)
         return spliced(source, splices).removeprefix(before).removesuffix(after)
 
 

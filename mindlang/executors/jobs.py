@@ -291,7 +291,7 @@ class JobScorer:
                 done = taken[1]
                 done.count_in(self.rollout)
                 self._seconds = done.seconds / block_done.runs
-                place(block_done, done.result, whole)
+                write_scores(block_done, done.result, whole)
                 ran(block_done.runs)
         return whole
 
@@ -364,7 +364,7 @@ def empty_scores(genomes: int, seeds: int, task: Task) -> Scores:
     return Scores(**whole)
 
 
-def place(block: Block, part: Any, whole: Scores) -> None:
+def write_scores(block: Block, part: Any, whole: Scores) -> None:
     """Write the scores of a block into those of all genomes and seeds."""
     for name in (*SUMMED, *COUNTED):
         getattr(whole, name)[block.genomes, block.seeds] = getattr(part, name)

@@ -83,7 +83,7 @@ class ProcessJobs(JobExecutor):
 
     def _future_of(self, job: Job) -> "Future[Done | Failed]":
         member = job.worker = self._idle.pop()
-        return member.ask(job.work)
+        return member.submit(job.work)
 
     def _answer(self, future: "Future[Done | Failed]", job: Job) -> Done | Failed | None:
         self._idle.append(job.worker)
@@ -115,7 +115,7 @@ class Member:
                 self._loaded = self._pool.submit(_load)
         return self._pool
 
-    def ask(self, work: Work) -> "Future[Done | Failed]":
+    def submit(self, work: Work) -> "Future[Done | Failed]":
         """Have the process do a job."""
         try:
             return self.begin().submit(_answer, work)

@@ -34,7 +34,7 @@ NEGATION_PRECEDENCE, EXTREME_PRECEDENCE, ATOM_PRECEDENCE = 3, 4, 5
 UNSAID_VALUES: tuple[Any, ...] = ([], "", None, {"by": None, "first": UNSAID.first, "last": UNSAID.last})
 
 Leaf = Callable[[str, float], str]
-Part = tuple[str, int]  # of an expression: its text, and how tightly it binds
+ExpressionPart = tuple[str, int]  # of an expression: its text, and how tightly it binds
 
 
 @dataclass(frozen=True)
@@ -200,13 +200,13 @@ class Worlds:
 def infix(program: Program, leaf: Leaf) -> str:
     """An expression as it is written; `leaf` says a reading or a measure by its word and its index."""
 
-    def part(word: str, operand: float | int) -> Part:
+    def part(word: str, operand: float | int) -> ExpressionPart:
         return number(operand) if word == "number" else leaf(word, operand), ATOM_PRECEDENCE
 
-    def negated(value: Part) -> Part:
+    def negated(value: ExpressionPart) -> ExpressionPart:
         return f"-{_within(value, NEGATION_PRECEDENCE)}", NEGATION_PRECEDENCE
 
-    def combined(operator: str, left: Part, right: Part) -> Part:
+    def combined(operator: str, left: ExpressionPart, right: ExpressionPart) -> ExpressionPart:
         if operator not in PRECEDENCE:
             sides = f"{_within(left, ATOM_PRECEDENCE)} {_within(right, ATOM_PRECEDENCE)}"
             return f"{operator} of {sides}", EXTREME_PRECEDENCE
@@ -216,7 +216,7 @@ def infix(program: Program, leaf: Leaf) -> str:
     return fold(program, part, negated, combined)[0] if program else ""
 
 
-def _within(part: Part, binding: int) -> str:
+def _within(part: ExpressionPart, binding: int) -> str:
     text, own = part
     return text if own >= binding else f"({text})"
 

@@ -197,7 +197,7 @@ def moment_of(release: str) -> datetime | None:
 
 def read_state(robot: RemoteRobot) -> ReleaseState:
     """The releases on a robot; changes nothing there."""
-    return parse_state(robot.ask("look"))
+    return parse_state(robot.run_verb("look"))
 
 
 def parse_state(told: Sequence[RobotEvent]) -> ReleaseState:
@@ -263,10 +263,10 @@ class Deployment:
             name = release.named(state.moment(now))
             self._tell_of(f"copy {release.size / 1024:,.0f} KiB to {self.robot.host} as {name}")
             if not self.try_only:
-                for _, detail in self.robot.ask("prepare"):
+                for _, detail in self.robot.run_verb("prepare"):
                     self.tell(detail)
                 self.robot.copy(release.folder, f"mind/incoming/{release.fingerprint}")
-                self.robot.ask("accept", release.fingerprint, name)
+                self.robot.run_verb("accept", release.fingerprint, name)
                 self.tell("it has arrived whole, and the robot can read it")
             return self._switch(state, name)
 
@@ -301,7 +301,7 @@ class Deployment:
         self._tell_of(f"switch from {before or 'nothing'} to {name}, {MANNERS[how.unit]}")
         if self.try_only:
             return DeployResult(before, before)
-        told = self.robot.ask(
+        told = self.robot.run_verb(
             "switch", name, how.unit, f"{how.keep}", f"{how.watch}", "yes" if how.go_back else "no", left
         )
         users = (user for event, user in told if event == "unlingering")

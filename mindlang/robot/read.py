@@ -155,7 +155,7 @@ class _Reader:
             hint = "Write out what it stands for: every sensor and actuator is read by itself."
             self.findings.error("yaml-alias", span, f"{shortened(span.text)} stands for another place.", hint)
             return Lost(span)
-        is_marked = self._check_unmarked(event)
+        is_marked = self._is_marked(event)
         if isinstance(event, yaml.ScalarEvent):
             return Lost(self._span(event)) if is_marked else self._scalar(event)
         start = event.start_mark.index
@@ -169,7 +169,7 @@ class _Reader:
         span = Span(self.source, start, max(start, self.loader.get_event().end_mark.index))
         return self._table(nodes, span) if isinstance(event, yaml.MappingStartEvent) else Items(tuple(nodes), span)
 
-    def _check_unmarked(self, event: yaml.NodeEvent) -> bool:
+    def _is_marked(self, event: yaml.NodeEvent) -> bool:
         """True if a value has an anchor or a tag, after reporting it."""
         start = event.start_mark.index
         word = self.source.text[start : start + 200].split(maxsplit=1)[0] if event.anchor or event.tag else ""

@@ -50,7 +50,7 @@ class RemoteRobot:
     host: str
     options: tuple[str, ...]
 
-    def ask(self, verb: str, *words: str) -> list[RobotEvent]:
+    def run_verb(self, verb: str, *words: str) -> list[RobotEvent]:
         """Run one verb of robot.sh on the robot; the events that it printed. DeployError where it fails."""
         done = subprocess.run(
             self._shell,

@@ -22,7 +22,7 @@ BLOCK_ROWS = 1024  # of what functions that remember have sent, kept together
 PART_EDGES = 1_000_000  # edges times rows that are computed at once, a few dozen bytes each
 
 
-class Thought(Protocol):
+class ReadingsAndInfluence(Protocol):
     """A run as its skills had it: readings [ticks, graph.width] and the influence that they made [ticks, skills]."""
 
     @property
@@ -89,7 +89,7 @@ class EdgeFlows:
             found.setdefault(link.target, []).append(place)
         return found
 
-    def over(self, rows: Places | range) -> EdgeFlow:
+    def flow_at(self, rows: Places | range) -> EdgeFlow:
         """The flow over `links` in rows in rising order; IndexError where one of these is not there."""
         places = np.asarray(rows, np.int64)
         with self._computing, np.errstate(all="ignore"):
@@ -107,7 +107,7 @@ class EdgeFlows:
         most = max(1, PART_EDGES // max(1, len(self.links)))
         for first in range(0, len(rows), most):
             part = slice(first, first + most)
-            yield part, self.over(rows[part])
+            yield part, self.flow_at(rows[part])
 
     def transmitted(self, rows: Places) -> Singles:
         """The influence over each edge [rows, edges], 0 to 1."""
@@ -175,7 +175,7 @@ def _numbers(skill: Ready, readings: Singles) -> list[np.float32]:
 
 
 def edge_flows(
-    policy: Policy, sources: Mapping[str, str], master: str, run: Thought, begins: Container[int] = ()
+    policy: Policy, sources: Mapping[str, str], master: str, run: ReadingsAndInfluence, begins: Container[int] = ()
 ) -> EdgeFlows:
     """The flows of a run that is over; WeightsError or ProcedureError where a skill cannot be made ready."""
 

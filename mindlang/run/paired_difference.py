@@ -27,7 +27,7 @@ BEND_TOLERANCE = 1e-9  # from which on skewness bends an interval
 
 
 @dataclass(frozen=True, slots=True)
-class Difference:
+class PairedDifference:
     """The second less the first, over `runs` pairs, of which in `more` it was more, in `less` less, in `equal` neither.
 
     `low` to `high` is the 95 % confidence interval of the mean; None of a single pair, and where no pair differs.
@@ -79,7 +79,7 @@ class Difference:
         return asdict(self)
 
 
-def difference(first: NDArray[np.float64], second: NDArray[np.float64]) -> Difference:
+def difference(first: NDArray[np.float64], second: NDArray[np.float64]) -> PairedDifference:
     """The difference of two minds, of what each came to in each run [runs]."""
     finite = np.isfinite(first) & np.isfinite(second)
     with np.errstate(invalid="ignore"):  # −∞ less −∞
@@ -88,21 +88,21 @@ def difference(first: NDArray[np.float64], second: NDArray[np.float64]) -> Diffe
     told = each[finite]
     counts = runs, int((told > 0).sum()), int((told < 0).sum()), int((told == 0).sum()), runs - len(told)
     if not finite.all():
-        return Difference(*counts)
+        return PairedDifference(*counts)
     mean = float(each.mean())
     if runs < MIN_RUNS:
-        return Difference(*counts, mean)
+        return PairedDifference(*counts, mean)
     std = float(each.std(ddof=1))
     error = std / sqrt(runs)
     if counts[1] + counts[2] == 0:
-        return Difference(*counts, mean, std, error)
+        return PairedDifference(*counts, mean, std, error)
     farthest = _farthest(first, second)
     unseen = unseen_share(runs) * farthest
     below, above = _sides(each, mean, std)
     low, high = mean - max(below, unseen), mean + max(above, unseen)
     detectable = max(NORMAL_TWO_SIDED * error, unseen) + NORMAL_POWER * error
     needed = _runs_to_tell(abs(mean), std, farthest)
-    return Difference(*counts, mean, std, error, low, high, unseen, detectable, needed)
+    return PairedDifference(*counts, mean, std, error, low, high, unseen, detectable, needed)
 
 
 def _sides(each: NDArray[np.float64], mean: float, std: float) -> tuple[float, float]:

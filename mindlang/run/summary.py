@@ -9,9 +9,9 @@ from rich.console import Group, RenderableType
 from rich.text import Text
 
 from mindlang.number_format import duration, score, speed
-from mindlang.run.comparison import PERCENT, SCORE, SUCCESS, Comparison, amount
+from mindlang.run.comparison import PERCENT, SCORE, SUCCESS, MindComparison, amount
 from mindlang.run.outcome import TIME
-from mindlang.run.paired_difference import MAX_RUNS, Difference
+from mindlang.run.paired_difference import MAX_RUNS, PairedDifference
 
 
 def run_summary(found: dict[str, Any]) -> RenderableType:
@@ -93,7 +93,7 @@ def _facts(*rows: tuple[str, str]) -> Text:
     return aligned([(Text(name, "dim"), value) for name, value in rows if value], left=(1,))
 
 
-def comparison_summary(found: dict[str, Any], comparison: Comparison) -> RenderableType:
+def comparison_summary(found: dict[str, Any], comparison: MindComparison) -> RenderableType:
     """Both means of each figure, their difference with its interval, how often which did better, and what that says."""
     runs, seed, is_one_world = found["runs"], found["seed"], comparison.is_one_world
     where = f"on the same layouts, {runs:,} run{'s' * (runs != 1)} from seed {seed}"
@@ -126,7 +126,7 @@ def _figure(name: str, value: float) -> str:
     return score(float(value) if np.isfinite(value) else None)
 
 
-def _difference(name: str, found: Difference) -> tuple[str, str]:
+def _difference(name: str, found: PairedDifference) -> tuple[str, str]:
     """The difference and its interval."""
 
     def bound(value: float) -> str:
@@ -140,7 +140,7 @@ def _difference(name: str, found: Difference) -> tuple[str, str]:
     return difference, f"{bound(found.low)} to {bound(found.high)}"
 
 
-def _told(name: str, found: Difference) -> Iterator[str]:
+def _told(name: str, found: PairedDifference) -> Iterator[str]:
     """Sentences: how many runs did better and, where they do not tell the minds apart, how many would."""
     more = {SCORE: "B scores more", SUCCESS: "B alone succeeds"}.get(name, f"B has more ({name})")
     less = {SUCCESS: "A alone"}.get(name, "less")

@@ -119,7 +119,7 @@ def _procedure(file: File, offset: int) -> list[Span]:
     return []
 
 
-def everything(workspace: Workspace, folders: Iterable[Path], query: str) -> list[Symbol]:
+def matching_symbols(workspace: Workspace, folders: Iterable[Path], query: str) -> list[Symbol]:
     """The declarations whose names hold the letters of a query in their order, by file."""
     paths = dict.fromkeys(chain(workspace.texts, (path for folder in folders for path in files_below(folder))))
     files = within_read_limits((path, workspace.text(path)) for path in paths)

@@ -144,7 +144,7 @@ def lines_of(text: str) -> TextLines:
 
 
 @dataclass
-class Session:
+class EditorSession:
     """The state of one editor: open files, reported findings, and pending renames of locks."""
 
     workspace: Workspace = field(default_factory=Workspace)
@@ -230,7 +230,7 @@ class MindServer(LanguageServer):
     def __init__(self) -> None:
         sync = types.TextDocumentSyncKind.Full
         super().__init__("mindc", version("mindlang"), text_document_sync_kind=sync)
-        self.session = Session()
+        self.session = EditorSession()
         self.is_shut_down = False  # whether the editor has said that all is over
         self._due: asyncio.TimerHandle | None = None
 

@@ -11,7 +11,7 @@ from string import Template
 from mindrun.errors import MindError
 from mindrun.files.atomic_write import sync_folder
 
-from mindlang.templates import TEMPLATES, Part, Robot, Task
+from mindlang.templates import TEMPLATES, Robot, RobotPart, Task
 
 DRIVES = "  drives $drives\n"
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
@@ -57,7 +57,7 @@ def _wiring(robot: Robot, task: Task) -> str:
     return _text("robot.yaml").replace("$sensors\n", sensors).replace("$actuators\n", actuators)
 
 
-def _needed(parts: Mapping[str, Part], task: Task) -> list[Part]:
+def _needed(parts: Mapping[str, RobotPart], task: Task) -> list[RobotPart]:
     return [part for need, part in parts.items() if need in task.needs]
 
 

@@ -25,7 +25,7 @@ COMPARED_LAYOUTS = 50  # common to the weights that a lock has and to the new on
 
 
 @dataclass(frozen=True, slots=True)
-class Comparison:
+class WeightsComparison:
     """The mean scores of the weights that stood in the lock and of the new ones, on the same fresh layouts."""
 
     old: float
@@ -49,7 +49,7 @@ class Kept:
     """The end of a lesson: whether the new weights are in the lock, and how those that were there compare, if any."""
 
     is_new: bool
-    comparison: Comparison | None
+    comparison: WeightsComparison | None
 
 
 def keep(run: RunFolder, subject: Subject, state: LessonState, scorer: Scorer, force: bool) -> Kept:
@@ -116,11 +116,11 @@ def _refuse_failed(run: RunFolder, state: LessonState, scorer: Scorer) -> None:
     )
 
 
-def compare(run: RunFolder, scorer: Scorer, genomes: Genomes) -> Comparison:
+def compare(run: RunFolder, scorer: Scorer, genomes: Genomes) -> WeightsComparison:
     """Two genomes on layouts that neither has seen: the mean of each; -inf where something was not finite."""
     seeds = layouts(run.manifest.seed, 0, run.manifest.lesson.generations, COMPARED_LAYOUTS, Purpose.COMPARISON)
     old, new = mark(scorer, genomes, seeds).scores
-    return Comparison(float(old), float(new))
+    return WeightsComparison(float(old), float(new))
 
 
 def needed_success(lesson: Lesson, scorer: Scorer, genome: Genomes, seeds: Seeds) -> float | None:

@@ -22,14 +22,14 @@ from numpy.typing import NDArray
 
 from mindlang.compiler.diagnostic import listed
 from mindlang.run.recording import running_bundle
-from mindlang.whatif.comparison import Columns, Difference, first_differences, mind_columns
+from mindlang.whatif.comparison import Columns, TickDifference, first_differences, mind_columns
 from mindlang.whatif.request import Request, changes_of
 
 OPEN_LOOP = "open loop: the readings are those of the recording, whatever other commands would have led to"
 
 
 @dataclass(frozen=True, slots=True)
-class Sent:
+class CommandDifference:
     """How far a command is from the recorded one: ticks that differ, mean, most and when that was, None where never."""
 
     ticks: int
@@ -44,8 +44,8 @@ class OpenLoop:
 
     master: str
     ticks: int
-    differences: list[Difference]
-    sent: dict[str, Sent]
+    differences: list[TickDifference]
+    sent: dict[str, CommandDifference]
 
 
 def compare_recording(path: Path, bundle: Path, request: Request, other: Bundle | None = None) -> OpenLoop:
@@ -113,7 +113,9 @@ def _from(columns: dict[str, Columns], begin: int) -> dict[str, Columns]:
     return {kind: {name: rows[begin:] for name, rows in of.items()} for kind, of in columns.items()}
 
 
-def _sent(was: NDArray[np.float32], now: NDArray[np.float32], begin: int) -> Sent:
+def _sent(was: NDArray[np.float32], now: NDArray[np.float32], begin: int) -> CommandDifference:
     apart = np.abs(now[begin:].astype(np.float64) - was[begin:])
     ticks = int(np.count_nonzero(apart))
-    return Sent(ticks, float(apart.mean()), float(apart.max()), begin + 1 + int(apart.argmax()) if ticks else None)
+    return CommandDifference(
+        ticks, float(apart.mean()), float(apart.max()), begin + 1 + int(apart.argmax()) if ticks else None
+    )
