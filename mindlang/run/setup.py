@@ -19,7 +19,7 @@ from mindrun.processors import cpu_seconds
 from mindrun.terminal.command_line import command_line
 
 from mindlang.compiler.compile import Compiled
-from mindlang.executors.jobs import Assignment, Block, JobScorer, empty_scores, place
+from mindlang.executors.jobs import Assignment, Block, JobScorer, empty_scores, write_scores
 from mindlang.limits import as_runs, as_seed
 from mindlang.lock.ready import ReadyMind, make_ready
 from mindlang.run.chosen_task import SetupError, master_of, task_of
@@ -117,7 +117,7 @@ def run_all(
     whole = empty_scores(1, len(seeds), scorer.task)
     for first in range(0, len(seeds), SLICE_RUNS):
         block = Block(slice(0, 1), slice(first, min(len(seeds), first + SLICE_RUNS)))
-        place(block, scorer.score(NO_GENOME, seeds[block.seeds], ran), whole)
+        write_scores(block, scorer.score(NO_GENOME, seeds[block.seeds], ran), whole)
     return whole
 
 
