@@ -42,7 +42,7 @@ def _of_group(group: click.Group, before: str, context: click.Context) -> Iterat
 
 
 def mindrun_articles() -> Iterator[Article]:
-    """The program itself, then its tools."""
+    """The articles of mindrun: the program itself, then its tools."""
     yield _of_parser(PROGRAM, ("program", "program", PROGRAM), driving_parser())
     for name in tools():
         yield _of_parser(name, (PROGRAM, f"tool of {PROGRAM}", PROGRAM), tool_parser(name))

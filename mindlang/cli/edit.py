@@ -47,7 +47,7 @@ NAMED = {
 
 
 class Edits(Suggesting):
-    """The edits that there are, each imported when it is asked for, and what takes the last one back."""
+    """The edits as commands, each imported when it is asked for, and `undo`."""
 
     noun = "edit"
 

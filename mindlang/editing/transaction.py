@@ -77,7 +77,7 @@ def noted_in(folder: Path) -> Path | None:
 
 
 def undo(folder: Path) -> tuple[Files, Files]:
-    """Take back the last edit that was written in a folder; its files as they were until now, and as they are.
+    """Take back the last edit that was written in a folder; returns its files as they were until now, and as they are.
 
     What was done before that edit is not kept. TransactionError where a file has been changed since.
     """

@@ -72,7 +72,7 @@ _AROUND_SENTENCE: Mapping[Role, Callable[[str], tuple[str, str]]] = {
 
 @dataclass(frozen=True)
 class Renaming:
-    """New names, and the minds, with the old names or the new ones, whose worlds say where they stand."""
+    """New names by noun, and the minds in whose worlds the texts with these names are looked up."""
 
     names: NounNames
     minds: Sequence[Graph]

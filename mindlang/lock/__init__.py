@@ -82,7 +82,7 @@ class Taught:
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """One line: a trained skill. `weights` and those of the `subskills` that it was taught with are SHA-256.
+    """A line of a lock: a trained skill. `weights` and those of the `subskills` that it was taught with are SHA-256.
 
     `origin` is the other skill with whose weights it began, and their SHA-256; or the file that they were brought in,
     as `file:NAME`, and its SHA-256; there may be none.
@@ -175,7 +175,7 @@ def lock_path(source: Path) -> Path:
 
 
 def lock_sources(sources: Iterable[Source]) -> list[Path]:
-    """The files of a mind whose locks count: the skills of one that is used under a name are others than it has."""
+    """The files of a mind whose locks count: those not used under a name, under which skills have other names."""
     return [source.path for source in sources if not source.alias]
 
 

@@ -116,8 +116,8 @@ def _due(graph: Graph, skill: str, states: Mapping[str, Status]) -> tuple[Lesson
     return tuple(lesson for lesson, learning in standing.items() if is_due(graph, lesson, learning))
 
 
-def made(row: Row) -> str:
-    """Which weights a skill has, and how they came about."""
+def weights_text(row: Row) -> str:
+    """The weights of a skill and how they came about, in words."""
     if not isinstance(row.status, Trained):
         return f"like {row.like}" * bool(row.like)
     entry = row.status.entry

@@ -74,9 +74,9 @@ def width(name: str) -> int:
 
 
 def places(of: Sequence[str], among: Sequence[str], counterparts: Mapping[str, str]) -> list[int]:
-    """For each value that these names stand for its place among those of the other names, in their order.
+    """The place of each value of the names `of` among the values of the names `among`, in their order.
 
-    `counterparts` are the names among the others of those that are called otherwise there.
+    `counterparts` has the name `among` them of one that is called otherwise there.
     """
     starts = dict(zip(among, accumulate(map(width, among), initial=0), strict=False))
     return [starts[counterparts.get(name, name)] + number for name in of for number in range(width(name))]

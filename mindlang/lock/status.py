@@ -244,7 +244,7 @@ def in_question(lessons: Sequence[Lesson], last: Lesson | None) -> Sequence[Less
 def lessons_of(
     graph: Graph, world: TrainingWorld, entry: Entry, teaching: Iterable[Lesson], last: Lesson | None
 ) -> Sequence[Lesson]:
-    """Those of the lessons `teaching` a skill that a world of its line may be of; `last` is the one taught last.
+    """The lessons, of those `teaching` a skill, that a world of its line may be of; `last` is the one taught last.
 
     A task or a master that is gone may have another name now: then they are those that the line does not know.
     """

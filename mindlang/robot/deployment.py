@@ -1,4 +1,4 @@
-"""A deployment from the first look to the last: every step may be the last one, and may be done again.
+"""Deploys a bundle to a robot. Every step may be the last one, and may be done again.
 
 What is brought is a release: a folder with the bundle, the mindrun that reads it and its services. Its name stands for
 every byte.
@@ -196,7 +196,7 @@ def moment_of(release: str) -> datetime | None:
 
 
 def read_state(robot: RemoteRobot) -> ReleaseState:
-    """The releases on a robot; changes nothing there."""
+    """Ask a robot for its state; changes nothing there."""
     return parse_state(robot.run_verb("look"))
 
 
@@ -277,7 +277,7 @@ class Deployment:
             return self._switch(state, state.before(), left=state.current)
 
     def _alone(self) -> AbstractContextManager[None]:
-        """A robot that can do it, and no other deployment to it meanwhile; who changes nothing there need not wait."""
+        """Hold the lock of a robot that has all that a deployment needs; a trial changes nothing, and takes no lock."""
         lacks = read_state(self.robot).lacks
         if missing := [tool for tool in lacks if tool != SYSTEMD]:
             hint = "sudo apt install rsync python3 coreutils util-linux"
@@ -290,7 +290,7 @@ class Deployment:
         return self.robot.locked(lambda: self.tell(waiting))
 
     def _looked(self) -> ReleaseState:
-        """The state of the robot; what somebody has deleted there is told."""
+        """The state of the robot; says so where its current release has been deleted."""
         state = read_state(self.robot)
         if state.is_gone():
             self.tell(f"the current release, {state.current}, has been deleted on {self.robot.host}")

@@ -1,6 +1,6 @@
-"""The driver of a sensor or an actuator: found by name, one of one's own too, with its options checked.
+"""The driver of a sensor or an actuator: found by name, also one of a user, with its options checked.
 
-One's own is found beside `robot.yaml` or in an installed package, and asked what it is. Its code runs in a process of
+A user's driver is found beside `robot.yaml` or in an installed package, and inspected. Its code runs in a process of
 its own that may take some seconds, and only here: where a bundle is built.
 """
 
@@ -68,7 +68,7 @@ class Wired:
         return self.table.entries.get(key)
 
     def span(self, *keys: str) -> Span:
-        """Where the value of the first of these keys stands that is said, or else the name."""
+        """The span of the value of the first of these keys that is written, or else of the name."""
         said = [entry for entry in map(self.entry, keys) if entry]
         return first_line(said[0].value.span) if said else self.name.span
 

@@ -1,6 +1,6 @@
 """`robot.yaml` → Wiring, checked against a mind; for any text without an exception.
 
-Of its sensors and actuators it is each that is written, and each that is not but has to be.
+Every sensor and actuator that is written is checked, and one that the mind needs and that is missing is an error.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Set

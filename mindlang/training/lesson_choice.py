@@ -77,7 +77,7 @@ def lessons_to_teach(
     force: bool = False,
     note: Callable[[str], object] = lambda line: None,
 ) -> Iterator[tuple[Subject, Lesson]]:
-    """The lessons of a file that are due, or those asked for, each as it is wished for with the lock as it is by then.
+    """The lessons of a file that are due, or those asked for, each with the options and the lock as it is by then.
 
     With `force` also what is not due. `note` is told what is not taught, or taught otherwise than the source says.
     """
@@ -127,7 +127,7 @@ def chosen_lessons(
 
 
 def _by_need(graph: Graph, lessons: Sequence[Lesson], known: Collection[str]) -> tuple[Lesson, ...]:
-    """Lessons in their order, those that others wait for before these; where all wait for one another, in order.
+    """Lessons sorted so that each comes after those it waits for, else in their order; the first one ends a circle.
 
     A lesson waits for those that teach what it needs, and for those before it that teach the same skill.
     """

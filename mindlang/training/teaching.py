@@ -1,4 +1,4 @@
-"""A run of a lesson from beginning to end: what scores its genomes, and what came of it, as data and in words."""
+"""A run of a lesson from beginning to end: the workers that score its genomes, and its result as data and in words."""
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -117,7 +117,7 @@ def _stretches(
 def teach(run: RunFolder, subject: Subject, workers: int, watch: Watch, where: Where | None = None) -> Result | None:
     """Go on with a run to its end, and put what it has taught into the lock; None where `watch` stopped it.
 
-    What came of it, where it has ended before. Its attempts are done `where` it is said, else in so many threads; in
+    A run that has ended before gives its result. Its attempts are done `where` it is said, else in so many threads; in
     environments with more than one worker in so many processes.
     """
     if (result := read_result(run.folder)) is not None:
