@@ -120,7 +120,7 @@ class RunSession:
 
     @terminal.procedures_talk()
     def record(self, setup: RunSetup, rollout: Rollout, seed: int) -> RunResult:
-        """A run written down tick by tick, and what came of it."""
+        """A run written down tick by tick, and its outcome."""
         rollout.make_again(NO_GENOME[0], seed)
         made = run_result(setup, rollout, seed)
         self.say(*(f"note: {note}" for note in rollout.notes))

@@ -95,7 +95,7 @@ def command(
 
 
 def _run(file: str, chosen: RunChoice, seed: int, breaks: Path | None, files: RunFiles, as_json: bool) -> int:
-    """Run to the end or to a line of the .break file, print and write what came of it; how the program ends."""
+    """Run to the end or to a line of the .break file, print and write the outcome; the exit code."""
     from rich.console import Group
 
     from mindlang.breakpoints.watch import noticing, watcher

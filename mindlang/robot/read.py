@@ -1,4 +1,4 @@
-"""The text of `robot.yaml` → its tree, for any text without an exception: each value has its span, none is checked yet.
+"""Parses `robot.yaml` into a tree of values with their spans; raises nothing for any text, and checks no value yet.
 
 It is made from the events of PyYAML's parser, which makes no object. Nothing is followed, expanded or nested deep, so
 what is read is never larger than what was written. What PyYAML cannot read, or reads as another thing than was meant,
@@ -144,7 +144,7 @@ class _Reader:
         return node
 
     def _node(self, depth: int) -> Node:
-        """The next value, which stands in so many others."""
+        """The next value, `depth` lists and tables deep."""
         event = self.loader.get_event()
         self.values += 1
         if self.values > MAX_VALUES:
@@ -238,7 +238,7 @@ def shortened(text: str) -> str:
 
 
 def check_tabs(source: Source) -> Answer | None:
-    """The first tab of a text, which YAML takes in some places and not in others."""
+    """The finding of the first tab of a text, None without one: YAML takes tabs in some places and not in others."""
     start = 0
     for line in source.text.split("\n") if "\t" in source.text else ():
         if found := re.search("\t+", NUMBER_SIGN.sub("", line)):
@@ -302,7 +302,7 @@ def _decimal(text: str) -> str:
 
 
 def _whole(text: str) -> str:
-    """A number with digits before its point, and behind it."""
+    """A number with digits before its point, and no point without digits behind it."""
     sign = "-" if text[0] == "-" else ""
     whole, _, part = text.lstrip("+-").partition(".")
     return f"{sign}{whole or '0'}{'.' * bool(part)}{part}"

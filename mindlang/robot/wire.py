@@ -1,4 +1,4 @@
-"""`robot.yaml` → Wiring, checked against a mind; for any text without an exception.
+"""Compiles `robot.yaml` to a Wiring, checked against a mind; raises nothing for any text.
 
 Every sensor and actuator that is written is checked, and one that the mind needs and that is missing is an error.
 """

@@ -26,7 +26,7 @@ MIN_DIGITS = 2  # behind the point
 
 @dataclass(frozen=True, slots=True)
 class Benched:
-    """A mind that has run: what it is called beside the other, its task, and what came of each layout."""
+    """A mind that was benched: its name beside the other, its task, and the scores of one genome on each layout."""
 
     name: str
     task: Task
@@ -42,7 +42,7 @@ class Benched:
 
 @dataclass(frozen=True, slots=True)
 class MindComparison:
-    """Two minds, and how much the second differs from the first in each figure by name; the first one decides."""
+    """Two minds, and how much the second differs from the first in each figure by name; the first figure decides."""
 
     first: Benched
     second: Benched
@@ -90,7 +90,7 @@ def _paid_for(task: Task) -> list[str]:
 
 
 def conclusion(first: str, second: str, task: str, differences: Mapping[str, PairedDifference]) -> str:
-    """Which of two minds does better on a task, by the first of the figures."""
+    """A sentence that says which of two minds does better on a task, by the first of the figures."""
     if not differences:
         return "There is no figure that both have: they are paid for other rewards, and count other events."
     name, found = next(iter(differences.items()))
@@ -124,7 +124,7 @@ def conclusion(first: str, second: str, task: str, differences: Mapping[str, Pai
 
 
 def one_world_conclusion(first: str, second: str, task: str, differences: Mapping[str, PairedDifference]) -> str:
-    """Which of two minds does better where nothing is drawn: each has one run, and that says it all."""
+    """A sentence that says which of two minds does better where nothing is drawn: each has one run."""
     name, found = next(iter(differences.items()), ("", None))
     if found is None:
         return conclusion(first, second, task, differences)

@@ -48,7 +48,7 @@ class RunSetup:
 
     @property
     def world_notes(self) -> list[str]:
-        """That there is one world, where it is so."""
+        """A note that there is one world, where it is so."""
         said = f"nothing is drawn in {self.task.name}, so that one run is made, and any other would be the same"
         return [f"1 world: {said}"] if self.is_one_world else []
 
@@ -57,7 +57,7 @@ class RunSetup:
         return layouts(seed, runs)[: 1 if self.is_one_world else None]
 
     def notes(self, rollout: Rollout, *more: str) -> list[str]:
-        """Sentences that somebody should know of runs that have been made."""
+        """Notes for the user on runs that have been made."""
         return [*self.ready.notes, *self.world_notes, *rollout.notes, *more]
 
     def rollout(self, interrupt: bool = True, workers: int = 1) -> Rollout:

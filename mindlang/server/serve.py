@@ -38,7 +38,7 @@ def make() -> MindServer:
 
 
 def serve(messages: BinaryIO, answers: BinaryIO) -> int:
-    """Serve until the editor says that it is over, or is gone; how the program ends."""
+    """Serve until the editor says that it is over, or is gone; the exit code."""
     logging.getLogger("pygls.protocol.json_rpc").addFilter(_is_fault)
     server = make()
     server.start_io(messages, answers)

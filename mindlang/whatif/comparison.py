@@ -66,7 +66,7 @@ def compare(
 
 
 def _continued(was: RecordedRun, rest: RecordedRun, ticks: int) -> RecordedRun:
-    """So many ticks of a run, and what came after them under another mind of the same sensors and actuators."""
+    """So many ticks of a run, and those after them under another mind with the same sensors and actuators."""
     before, known = was.until(ticks), was.graph.skill_numbers
     influence = np.full((ticks, len(rest.graph.skills)), np.nan, np.float32)  # NaN of skills that it has alone
     for column, skill in enumerate(rest.graph.skills):
@@ -82,7 +82,7 @@ def _continued(was: RecordedRun, rest: RecordedRun, ticks: int) -> RecordedRun:
 
 
 def _columns(run: RecordedRun) -> dict[str, Columns]:
-    """All numbers of each tick by name, in the order in which one comes of the other."""
+    """All numbers of each tick by name, causes before effects."""
     pose = dict(zip(("x", "y", "angle"), run.body[1:].T, strict=True))
     return {
         **mind_columns(run.graph, run.readings, run.influence, run.commands),

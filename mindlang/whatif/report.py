@@ -49,7 +49,7 @@ def comparison_summary(request: Request, compared: Compared) -> RenderableType:
 
 
 def _column(found: dict[str, Any], was: dict[str, Any], now: dict[str, Any]) -> Iterator[tuple[str, str]]:
-    """How a run ended, what it counted, what each reward line paid: all that there is of either."""
+    """The figures of one run by name, for a table of both; – for what only the other one has."""
     yield "ticks", f"{found['ticks']:,}"
     yield "ended by", found["ended_by"] or "time"
     if "succeeded" in was or "succeeded" in now:
