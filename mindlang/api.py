@@ -69,7 +69,7 @@ class Mind(ShortRepr):
 
     @property
     def is_valid(self) -> bool:
-        """True where it compiles, and its procedures can be called.
+        """True if it compiles, and its procedures can be called.
 
         >>> mind.is_valid
         True

@@ -1,4 +1,4 @@
-"""Where breakpoints stop a run or a robot's recording, found in its rows, which may come in parts of any size."""
+"""Finds where breakpoints stop a run or a robot's recording, in its rows, which may come in parts of any size."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -56,7 +56,7 @@ Rows = RowBlock | RecordedRun
 
 @dataclass(frozen=True, slots=True)
 class Stop:
-    """A breakpoint is met in a tick, counted from 1; `values` are the readings and commands that its line names.
+    """A tick, counted from 1, in which a breakpoint is met; `values` are the readings and commands that its line names.
 
     Of an event that is how often it has happened.
     """
@@ -67,7 +67,7 @@ class Stop:
 
 
 class Watcher:
-    """Where breakpoints stop a run, of whose rows it has been fed the first `ticks`."""
+    """Finds where breakpoints stop a run, of whose rows it has been fed the first `ticks`."""
 
     def __init__(
         self, breakpoints: Sequence[Breakpoint], events: Sequence[EventKind | RobotEvent], graph: Graph, mind: Hierarchy
@@ -111,14 +111,14 @@ class Watcher:
             yield Stop(self.ticks + 1 + int(row), each, tuple((name, float(of[row])) for name, of in columns))
 
     def _after(self, place: int, rows: NDArray[Any]) -> NDArray[Any]:
-        """Rows behind what the last row fed before them has, 0 or False at the beginning of a run."""
+        """The rows behind the last one fed before, which is 0 or False at the beginning of a run."""
         found = np.concatenate([[self._before[place]], rows]).astype(rows.dtype)
         self._before[place] = found[-1]
         return found
 
 
 def noticing(setup: RunSetup, breakpoints: Sequence[Breakpoint]) -> RunSetup:
-    """The setup of the same run, whose task also notices the events of breakpoints that none of its lines is about."""
+    """The setup of the same run, with the events of breakpoints that its task does not notice added to the task."""
     asked = dict.fromkeys(each.cause.event for each in breakpoints if isinstance(each.cause, Happens))
     missing = [event for event in asked if isinstance(event, EventKind) and event not in setup.task.events]
     if not missing:
@@ -215,7 +215,7 @@ def recording_subject(of: About, mind: Bundle) -> BreakpointSubject:
 
 
 class RecordingWatcher:
-    """Where breakpoints stop a recording, of which it has been fed some rows from the first on."""
+    """Finds where breakpoints stop a recording, of which it has been fed some rows from the first on."""
 
     def __init__(self, breakpoints: Sequence[Breakpoint], of: About, mind: Bundle) -> None:
         """WeightsError or ProcedureError where a skill of the bundle cannot be made ready."""

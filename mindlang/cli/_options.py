@@ -79,7 +79,7 @@ class TickSpan(click.ParamType[tuple[int, int]]):
 
 
 class WhereOption(click.ParamType[Any]):
-    """Where jobs are done: threads, or a kind of executor and what is said of it."""
+    """An option for the executor of jobs: threads, or a kind and its argument."""
 
     name = "where"
 
@@ -211,7 +211,7 @@ OF_RUNS_ALONE = "of runs, not of recordings"
 
 @dataclass(frozen=True, slots=True)
 class RunChoice:
-    """Which run of a mind is made, or with `mindc bench` which of several; None for what was not said."""
+    """The run of a mind to make, or with `mindc bench` the runs; None for what was not said."""
 
     task: str | None
     seed: int | None

@@ -134,7 +134,7 @@ def contenders(files: Sequence[str], masters: Sequence[str]) -> list[Contender]:
 
 @dataclass(frozen=True, slots=True)
 class Bench:
-    """Which runs are made, and where: in so many `workers` of this machine, or as --on says; and what is printed."""
+    """The runs to make, the workers that make them, so many of this machine or those of --on, and the output."""
 
     session: RunSession
     chosen: RunChoice

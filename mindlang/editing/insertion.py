@@ -73,7 +73,7 @@ def first_line(span: Span) -> SourceLine:
 
 
 def newline(source: Source) -> str:
-    """How lines end in a source."""
+    """The line end of a source."""
     return "\r\n" if "\r\n" in source.text else "\n"
 
 

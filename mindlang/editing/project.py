@@ -186,7 +186,7 @@ class Project:
         return lock_sources(file.source for file in self.files)
 
     def mentions(self, noun: str, name: str) -> Iterator[Mention]:
-        """Where a name stands, in all files."""
+        """The mentions of a name in all files."""
         return (m for m in mentions(self.files, self.names) if m.noun == noun and m.name.text == name)
 
     def sharing(self, noun: str, name: str) -> list["Project"]:
@@ -199,7 +199,7 @@ class Project:
         ]
 
     def everywhere(self, noun: str, name: str) -> Iterator[Mention]:
-        """Where a name stands, in all files and in those of the neighbours that share it."""
+        """The mentions of a name in all files and in those of the neighbours that share it."""
         yield from self.mentions(noun, name)
         seen = set(self.paths)
         for other in self.sharing(noun, name):
@@ -228,7 +228,7 @@ class Project:
             self.find(reading, *READABLE_NOUNS)
 
     def places(self, skill: str) -> Iterator[Mention]:
-        """Where a skill has its place in the hierarchy: where skills influence it, and where it is the master."""
+        """The mentions that place a skill in the hierarchy: as a subskill, and as the master."""
         for parent in self.parents(skill):
             yield from (Mention("skill", f.name, parent) for f in facts(parent, Influences) if f.name.text == skill)
         masters = (setting.name for setting in self.main.settings if isinstance(setting, Master))

@@ -100,7 +100,7 @@ class Renaming:
         return TrainingWorld({**now, "lesson": {**lesson, **named}})
 
     def _texts(self, world: TrainingWorld) -> dict[tuple[Role, str], str]:
-        """Every text in the world of the same lesson, where a mind has it, by its role and as it was: as it is now."""
+        """The new text for each role and old text, from the worlds of the same lesson in the minds."""
         found: dict[tuple[Role, str], str] = {}
 
         def noted(role: Role, text: str) -> str:

@@ -1,4 +1,4 @@
-"""Where jobs are done, by what --on says: one file a kind, `begin(argument, assignment, say)` opens it."""
+"""Executors of jobs by what --on says: one file a kind, `begin(argument, assignment, say)` opens it."""
 
 from __future__ import annotations
 
@@ -86,5 +86,5 @@ def where(text: str) -> Where | None:
 
 
 def kinds_by_usage() -> dict[str, str]:
-    """How each kind is said, by its name."""
+    """The usage of each kind, by its name."""
     return {kind: import_module(f"{__name__}.{kind}").USAGE for kind in KINDS}

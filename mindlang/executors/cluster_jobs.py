@@ -114,7 +114,7 @@ class ClusterJobs(JobExecutor):
 
     @property
     def workers(self) -> int:
-        """How many jobs can be at work at once: the threads of all workers that are connected."""
+        """The number of jobs that can be at work at once: the threads of all workers that are connected."""
         if (now := monotonic()) - self._looked >= LOOK_SECONDS:
             self._slots, self._looked = self._found_slots(), now
             self._tell(now)

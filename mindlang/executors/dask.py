@@ -116,7 +116,7 @@ def connect(there: Destination) -> Client:
 
 
 def _security_of(there: Destination, address: str) -> Security:
-    """How a connection is encrypted; WorkError where it has to be, and there is no certificate."""
+    """The encryption of a connection; WorkError where it has to be encrypted, and there is no certificate."""
     from distributed.security import Security
 
     if not address.startswith("tls:"):

@@ -147,7 +147,7 @@ class JobExecutor:
 
     @property
     def workers(self) -> int:
-        """How many jobs can be at work at once, as far as is known; it may change."""
+        """The number of jobs that can be at work at once, as far as is known; it may change."""
         raise NotImplementedError
 
     def has_room(self) -> bool:

@@ -33,7 +33,7 @@ class Machine:
 
     @property
     def options(self) -> dict[str, Any]:
-        """How asyncssh connects to it; ports, keys and other names are read in ~/.ssh/config."""
+        """The options with which asyncssh connects to it; ports, keys and other names are read in ~/.ssh/config."""
         return {**OPTIONS, "username": self.user} if self.user else OPTIONS
 
     async def run(self, command: str, given: str = "") -> Any:

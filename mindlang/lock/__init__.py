@@ -62,7 +62,7 @@ class Signature:
 
 @dataclass(frozen=True, slots=True)
 class Taught:
-    """How a genome came about: where, `jointly` with its subskills or theirs, and after how many generations.
+    """The lesson that made a genome: where, `jointly` with its subskills or theirs, and after how many generations.
 
     It was lesson `number` of a curriculum; 0 and "" where the lock does not say, as those of older versions. `success`
     is the share of runs that succeeded, where its lesson needs some.

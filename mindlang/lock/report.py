@@ -1,4 +1,4 @@
-"""How the skills of a mind stand to their weights, for people and for programs, and what a person accepts of that."""
+"""The status of the skills of a mind, for people and for programs, and what a person accepts of that."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ class Row:
 
     @property
     def word(self) -> str:
-        """How it stands, in a word or two."""
+        """The status of the skill in a word or two."""
         if self.damage:
             return "damaged"
         match self.status:
@@ -155,7 +155,7 @@ def as_data(row: Row) -> dict[str, Any]:
 
 
 def survival(found: Sequence[Row]) -> list[str]:
-    """Which weights still fit, as sentences: those that do in one, each of the others in its own."""
+    """Sentences on which weights still fit: those that do in one, each of the others in its own."""
     found = [row for row in found if not row.like]  # what is said of the others' weights holds for theirs
     trained = [row.skill for row in found if isinstance(row.status, Trained) and not row.damage]
     lines = [f"weights of {listed(trained, 'and')} fit"] if trained else []

@@ -68,7 +68,7 @@ def reordered(entry: Entry, graph: Graph) -> tuple[str, ...]:
 
 
 def width(name: str) -> int:
-    """How many values a name in a signature stands for: proximity:7 for seven, bearing for one."""
+    """The number of values for which a name in a signature stands: proximity:7 for seven, bearing for one."""
     digits = name.partition(":")[2]
     return int(digits[:MAX_WIDTH_DIGITS]) if digits.isdecimal() else 1
 

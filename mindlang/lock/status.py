@@ -1,4 +1,4 @@
-"""Which skills of a mind have weights that fit, what is different about those that do not, and which lesson is due."""
+"""The status of skills: weights that fit, what is different about those that do not; and which lesson is due."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ def mismatches(graph: Graph, skill: Skill, entry: Entry) -> tuple[str, ...]:
 
 
 def status(graph: Graph, lock: Lock, folder: Path | None = None) -> dict[str, Status]:
-    """How each skill of a mind stands to its lock, one that is like another as that one; reads no weights.
+    """The status of each skill of a mind by its lock, one that is like another as that one; reads no weights.
 
     Procedures count where they are found in `folder`.
     """
@@ -88,7 +88,7 @@ class _Standing:
     folder: Path | None
 
     def of(self, index: int) -> Status:
-        """How the skill of an index stands."""
+        """The status of the skill with an index."""
         skill = self.graph.skills[index]
         if genes(skill) == 0:
             return NotLearning()
@@ -226,7 +226,7 @@ def key_of_taught(taught: Taught) -> LessonKey:
 
 
 def last_lesson(lessons: Iterable[Lesson], taught: Taught) -> Lesson | None:
-    """Which of these lessons a line of a lock tells of; None where it does not say, or another stands there."""
+    """The one of these lessons that a line of a lock tells of; None where it does not say, or tells of another."""
     said = taught.number, taught.curriculum, key_of_taught(taught)
     return next((each for each in lessons if (each.number, each.curriculum, key_of(each)) == said), None)
 

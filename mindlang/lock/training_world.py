@@ -66,7 +66,7 @@ FORMS = {
 
 @dataclass(frozen=True, slots=True)
 class LessonKey:
-    """Which lesson it was: a skill can be taught on several tasks, under several masters, alone or `jointly`."""
+    """The key of a lesson: a skill can be taught on several tasks, under several masters, alone or `jointly`."""
 
     task: str
     master: str
@@ -91,7 +91,7 @@ class TrainingWorld:
         return LessonKey(lesson["task"], lesson["master"], lesson["with_subskills"])
 
     def text(self) -> str:
-        """Its block in a lock."""
+        """The block of the world in a lock."""
         return "\n".join([f"world {self.name}", *self._lines()])
 
     def _lines(self) -> Iterator[str]:

@@ -170,7 +170,7 @@ class Worlds:
                 yield f"{times}{event}" if event else f"when {infix(end.when or (), self._leaf_of(task))}"
 
     def _leaf_of(self, task: Task) -> Leaf:
-        """How the expressions of a task say what they name."""
+        """The function that writes the leaves of a task's expressions."""
 
         def leaf(word: str, operand: float | int) -> str:
             match word:

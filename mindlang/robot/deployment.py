@@ -220,7 +220,7 @@ def parse_state(told: Sequence[RobotEvent]) -> ReleaseState:
 
 @dataclass(frozen=True, slots=True)
 class Settings:
-    """How a release is run: by a service, armed or not, or by none; watched for some seconds at its start."""
+    """The settings of a deployment: a service, armed or not, or none, and how many seconds its start is watched."""
 
     service: bool = True
     armed: bool = False

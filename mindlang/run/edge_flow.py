@@ -118,7 +118,7 @@ class EdgeFlows:
 
     @property
     def kept_bytes(self) -> int:
-        """How many bytes are kept of rows that have been asked for."""
+        """The number of bytes kept of rows that have been asked for."""
         return sum(block.nbytes for kept in self._kept.values() for block in kept.blocks)
 
     def go_on(self, end: int) -> None:

@@ -64,7 +64,7 @@ class RecordedRun:
 
     @property
     def ticks(self) -> int:
-        """How many ticks the run had."""
+        """The number of ticks of the run."""
         return len(self.body) - 1
 
     @property

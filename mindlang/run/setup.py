@@ -43,7 +43,7 @@ class RunSetup:
 
     @property
     def is_one_world(self) -> bool:
-        """True where nothing of the task is drawn, so that all of its runs are one."""
+        """True if nothing of the task is drawn, so that all of its runs are one."""
         return is_one_world(self.ready.policy.graph, self.task, self.master)
 
     @property

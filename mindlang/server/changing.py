@@ -150,7 +150,7 @@ def _followed(minds: Sequence[Compiled], locks: Locks, change: MindChange) -> Lo
 
 
 def _fitting(minds: Sequence[Compiled], locks: Locks) -> int:
-    """How many skills of the minds have weights that fit."""
+    """The number of skills of the minds that have weights that fit."""
     count = 0
     for mind in minds:
         if mind.graph:

@@ -46,7 +46,7 @@ def definitions(view: MindView, path: Path, offset: int) -> list[Span]:
 
 
 def references(workspace: Workspace, view: MindView, path: Path, offset: int, with_declaration: bool) -> list[Span]:
-    """Where a name stands, in the files of the mind and in those of the minds that share them."""
+    """The places of a name in the files of the mind and in those of the minds that share them."""
     mention = view.mention_at(path, offset)
     if mention is None:
         return []
@@ -59,7 +59,7 @@ def references(workspace: Workspace, view: MindView, path: Path, offset: int, wi
 
 
 def highlights(view: MindView, path: Path, offset: int) -> list[Span]:
-    """Where a name stands in its own file."""
+    """The places of a name in its own file."""
     mention = view.mention_at(path, offset)
     return [span for span in _places(view, mention) if span.source.path == path] if mention else []
 
@@ -89,7 +89,7 @@ def symbols(file: File) -> list[Symbol]:
 
 
 def _introduced(view: MindView, mention: Mention) -> Iterable[Mention]:
-    """Where a name is declared; a thing in the task that names it, if that contains it."""
+    """The places where a name is declared; of a thing in the task that names it, if that contains it."""
     same = [m for m in introductions(view.files) if (m.noun, m.name.text) == (mention.noun, mention.name.text)]
     return [m for m in same if m.noun == "thing" and m.by is mention.by] or same
 

@@ -194,7 +194,7 @@ async def edited(ls: MindServer, *arguments: Any) -> types.Location | None:
 
 
 def _place_of(ls: MindServer, outcome: EditOutcome, fresh: str) -> types.Location | None:
-    """Where a new name will stand first once an edit is made."""
+    """The first place of a new name once an edit is made."""
     for source in {id(splice.source): splice.source for splice in outcome.change.splices}.values():
         text = spliced(source, outcome.change.splices)
         at = text.find(f" {fresh} ") + 1 if fresh else 0

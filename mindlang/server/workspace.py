@@ -46,7 +46,7 @@ class MindView:
 
     @property
     def paths(self) -> list[Path]:
-        """Where the files stand."""
+        """The paths of the files."""
         return [file.source.path for file in self.files]
 
     def file(self, path: Path) -> File | None:

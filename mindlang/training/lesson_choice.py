@@ -1,4 +1,4 @@
-"""Which lessons to teach: those of a curriculum, those asked for, and what must be taught before them."""
+"""The lessons to teach: those of a curriculum, those asked for, and what must be taught before them."""
 
 from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, replace

@@ -33,7 +33,7 @@ class WeightsComparison:
 
     @property
     def is_worse(self) -> bool:
-        """True where the new weights do worse."""
+        """True if the new weights do worse."""
         return self.new < self.old
 
     def __str__(self) -> str:

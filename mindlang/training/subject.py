@@ -40,7 +40,7 @@ class Subject:
 
     @property
     def folder(self) -> Path:
-        """Where the source stands, and the procedures beside it."""
+        """The folder of the source, with the procedures beside it."""
         return self.source.parent
 
     @property
@@ -50,7 +50,7 @@ class Subject:
         return self.source.relative_to(here) if self.source.is_relative_to(here) else self.source
 
     def takes(self, lesson: Lesson, is_named: bool) -> bool:
-        """True where a lesson is to be taught: it is due, or somebody has named it.
+        """True if a lesson is to be taught: it is due, or somebody has named it.
 
         RunError where one that is named stands on a skill that has not what its own lesson needs.
         """
@@ -79,7 +79,7 @@ class Subject:
         return {skill: found[skill] for skill in learners(self.graph, lesson)}
 
     def is_due(self, lesson: Lesson) -> bool:
-        """True where a lesson has yet to be taught."""
+        """True if a lesson has yet to be taught."""
         return is_due(self.graph, lesson, self.standing(lesson))
 
 

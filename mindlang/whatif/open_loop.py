@@ -94,7 +94,7 @@ def _compared(master: str, was: dict[str, Columns], now: dict[str, Columns], tic
 
 
 def _places(about: About, graph: Graph, other: Graph, master: str, file: str) -> NDArray[np.intp]:
-    """Where in a recorded row each reading of a mind stands; the place after the last is what nobody measured."""
+    """The place in a recorded row of each reading of a mind; the place after the last is what nobody measured."""
     known = {name: sensor for name, sensor in physical(graph).items() if name in about.sensors}
     wanted = physical(other)
     found = [name for name in wanted if name in known and known[name].width == wanted[name].width]

@@ -74,7 +74,7 @@ def _refuse_under_alias(declared: Mention, new: str, noun: str) -> None:
 
 
 def _declared(project: Project, name: str, noun: str) -> Mention:
-    """Where a name is declared with a noun, or with the only one that has it."""
+    """The declaration of a name with a noun, or with the only one that has it."""
     if noun:
         refuse_no_noun(noun, (*NOUNS, "thing", "number"))
     known = [mention for mention in introductions(project.files) if noun in ("", mention.noun)]
