@@ -164,7 +164,7 @@ class Bench:
 
     def compare(self, who: Sequence[Contender]) -> None:
         """Run both on the same layouts, the second on the task of the first, and print what differs."""
-        from mindlang.run.comparison import Benched, compare, differing_tasks
+        from mindlang.run.comparison import Benched, compare_minds, differing_tasks
         from mindlang.run.summary import comparison_summary
         from mindlang.run.tables import joined, runs_table
 
@@ -179,7 +179,7 @@ class Bench:
             scores, data = self._score(prepared, seeds, f"{each.name}: ")
             benched.append(Benched(each.name, prepared.setup.task, scores))
             minds.append({"name": each.name, "file": each.file, "master": prepared.setup.master, **data})
-        compared = compare(benched[0], benched[1], is_one_world)
+        compared = compare_minds(benched[0], benched[1], is_one_world)
         found: dict[str, Any] = {"task": first.setup.task.name, "seed": self.seed, "runs": len(seeds), **self._by()}
         found |= {"minds": minds, **compared.data(), "notes": notes}
         if self.table:

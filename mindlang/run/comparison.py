@@ -63,7 +63,7 @@ class MindComparison:
         return {"confidence": CONFIDENCE_LEVEL, "differences": differences, "conclusion": self.conclusion}
 
 
-def compare(first: Benched, second: Benched, is_one_world: bool = False) -> MindComparison:
+def compare_minds(first: Benched, second: Benched, is_one_world: bool = False) -> MindComparison:
     """The differences in the figures that both name in the same words; in the score only where it is paid for the same.
 
     In one world, where nothing is drawn for either, each has made its only run.

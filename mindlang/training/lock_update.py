@@ -67,7 +67,7 @@ def keep(run: RunFolder, subject: Subject, state: LessonState, scorer: Scorer, f
     lesson, new, found = run.manifest.lesson, state.kept[0], None
     old = _genome_there(run, subject)
     if old is not None and not np.array_equal(old, new):
-        found = compare(run, scorer, np.stack([old, new]))
+        found = compare_genomes(run, scorer, np.stack([old, new]))
         seeds = verdict_layouts(run.manifest.seed, lesson.generations)  # on which the new weights have what is needed
         stays = not force and found.is_worse
         if stays and (not lesson.needs or has_needed(lesson, scorer.task, scorer.score(old[None], seeds))):
@@ -116,7 +116,7 @@ def _refuse_failed(run: RunFolder, state: LessonState, scorer: Scorer) -> None:
     )
 
 
-def compare(run: RunFolder, scorer: Scorer, genomes: Genomes) -> WeightsComparison:
+def compare_genomes(run: RunFolder, scorer: Scorer, genomes: Genomes) -> WeightsComparison:
     """Two genomes on layouts that neither has seen: the mean of each; -inf where something was not finite."""
     seeds = layouts(run.manifest.seed, 0, run.manifest.lesson.generations, COMPARED_LAYOUTS, Purpose.COMPARISON)
     old, new = mark(scorer, genomes, seeds).scores

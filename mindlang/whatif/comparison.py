@@ -45,7 +45,7 @@ class Compared:
     differences: list[TickDifference]
 
 
-def compare(
+def compare_runs(
     ours: Prepared, seed: int, tick: int, changes: Sequence[Change], theirs: Prepared | None = None
 ) -> Compared:
     """Run a seed as it is, and with changes or with another mind from a tick on.
