@@ -184,7 +184,7 @@ class Trainer:
 
 
 class StoppedWhileIdleError(KeyboardInterrupt):
-    """Nobody is at work yet, so that there is nothing to wait for when a run is to be stopped."""
+    """A run is to be stopped before anybody is at work: there is nothing to wait for."""
 
 
 @contextmanager
