@@ -1,7 +1,7 @@
-"""Jobs: pure functions of what they say and of their assignment, done by any worker, in any order, any number of times.
+"""Jobs: pure functions of their own data and of their assignment, done by any worker, in any order, any number of times.
 
-A job is a stretch of an attempt, or genomes to be scored on seeds. What came of it is an answer; why it was not done is
-one, too, in plain words. Genomes × seeds become jobs, and the arrays that come of them are those of one machine.
+A job is a stretch of an attempt, or genomes to be scored on seeds. Its result is an answer, and so is, in plain
+words, why it was not done. Genomes × seeds become jobs, whose results are the arrays that one machine would make.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ FATAL = (
 )
 
 Tally = NDArray[np.int64]
-Work = Callable[[Any], Any]  # what comes of a job, by what scores its assignment; it is pickled
+Work = Callable[[Any], Any]  # a job: the scorer of its assignment to the job's result; it is pickled
 
 
 class WorkError(MindError):
@@ -93,7 +93,7 @@ class Failed:
 
 
 def answer(scorer: Callable[[], Any], work: Work) -> Done | Failed:
-    """The answer to a job, by what makes the scorer of its assignment; whatever is raised is an answer, too."""
+    """Do a job with the scorer that `scorer()` makes of its assignment; whatever is raised is an answer, too."""
     try:
         made = scorer()
         before, began = tally_of(made), perf_counter()
