@@ -1,4 +1,4 @@
-"""Jobs: pure functions of their own data and of their assignment, done by any worker, in any order, any number of times.
+"""Jobs: pure functions of their own data and their assignment, done by any worker, in any order, any number of times.
 
 A job is a stretch of an attempt, or genomes to be scored on seeds. Its result is an answer, and so is, in plain
 words, why it was not done. Genomes × seeds become jobs, whose results are the arrays that one machine would make.
