@@ -36,7 +36,7 @@ from mindlang.proofs.proof import prove
 from mindlang.server.changing import perform
 from mindlang.server.completing import complete
 from mindlang.server.hovering import hover
-from mindlang.server.navigating import definitions, everything, highlights, references, symbols
+from mindlang.server.navigating import definitions, highlights, matching_symbols, references, symbols
 from mindlang.server.proposals import Selection, all_mended, mendings, proposals
 from mindlang.server.server import EditorSession
 
@@ -167,7 +167,7 @@ def _outlined(case: Case) -> None:
     if file := session.workspace.view(case.path).file(case.path):
         for symbol in symbols(file):
             session.lsp.range(symbol.whole)
-    everything(session.workspace, [case.path.parent], "g")
+    matching_symbols(session.workspace, [case.path.parent], "g")
     for splice in format_splices(Source("mind.mind", case.text, case.path.parent)):
         session.lsp.text_edit(splice)
 
