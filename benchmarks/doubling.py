@@ -36,9 +36,9 @@ from mindlang.proofs.proof import prove
 from mindlang.server.changing import perform
 from mindlang.server.completing import complete
 from mindlang.server.hovering import hover
-from mindlang.server.navigating import definitions, everything, highlights, references, symbols
+from mindlang.server.navigating import definitions, highlights, matching_symbols, references, symbols
 from mindlang.server.proposals import Selection, all_mended, mendings, proposals
-from mindlang.server.server import Session
+from mindlang.server.server import EditorSession
 
 LINEAR_RATIO = 2.8  # what shapes with names of more digits, or that change into one another, come to by themselves
 
@@ -55,9 +55,9 @@ class Case:
         """A text compiled as this file."""
         return compile_source(Source("mind.mind", text, self.path.parent), self.path)
 
-    def session(self) -> Session:
+    def session(self) -> EditorSession:
         """An editor that has the file open, and has been told what is found in it."""
-        session = Session()
+        session = EditorSession()
         session.set(self.path.as_uri(), 1, self.text)
         list(session.news())
         return session
@@ -167,7 +167,7 @@ def _outlined(case: Case) -> None:
     if file := session.workspace.view(case.path).file(case.path):
         for symbol in symbols(file):
             session.lsp.range(symbol.whole)
-    everything(session.workspace, [case.path.parent], "g")
+    matching_symbols(session.workspace, [case.path.parent], "g")
     for splice in format_splices(Source("mind.mind", case.text, case.path.parent)):
         session.lsp.text_edit(splice)
 

@@ -69,7 +69,7 @@ class Mind(ShortRepr):
 
     @property
     def is_valid(self) -> bool:
-        """True where it compiles, and its procedures can be called.
+        """True if it compiles, and its procedures can be called.
 
         >>> mind.is_valid
         True
@@ -249,7 +249,7 @@ class Mind(ShortRepr):
         return set_up(str(self.path), self._without_errors(), task, master)
 
     def _without_errors(self) -> Compiled:
-        """What it compiled to; MindError where its text has errors."""
+        """The compiled mind; MindError where its text has errors."""
         if self.compiled.graph is None:
             first = next((each for each in self.diagnostics if each.severity == "error"), self.diagnostics[0])
             raise MindError(first.message, first.hint or "mind.diagnostics says all that is wrong, and where")

@@ -1,4 +1,4 @@
-"""What `mindc doctor` looks at: one function a check, in the order in which they are told.
+"""The checks of `mindc doctor`: one function each, in the order in which they are told.
 
 Packages are imported where they are checked, so that one that is broken hides no other check.
 """
@@ -27,7 +27,7 @@ LISTED_PACKAGES = 3  # of an extra; of more only their number is told
 
 
 @dataclass(frozen=True, slots=True)
-class Finding:
+class DoctorFinding:
     """One thing that was looked at: how it is, what was seen, and the line that mends it, where it is not ok.
 
     Nothing is wrong with what is absent: it is needed only for what is said of it.
@@ -39,32 +39,32 @@ class Finding:
     mend: str = ""
 
 
-def findings() -> Iterator[Finding]:
+def findings() -> Iterator[DoctorFinding]:
     """All that the checks have seen. One that fails is itself a finding: a broken package must not hide the others."""
     for check in CHECKS:
         try:
             yield from check()
         except Exception as error:
             name = check.__name__.replace("_", " ")
-            yield Finding(name, "wrong", f"{type(error).__name__}: {error}".split("\n")[0])
+            yield DoctorFinding(name, "wrong", f"{type(error).__name__}: {error}".split("\n")[0])
 
 
-def programs() -> Iterator[Finding]:
+def programs() -> Iterator[DoctorFinding]:
     """mindc and mindrun: which they are, and that both are of one version."""
     place = Path(mindlang.__file__).parent
     known = _version("mindlang")
     if known is None:
-        yield Finding("mindc", "wrong", f"in {place}, not installed as a package", "pip install .")
+        yield DoctorFinding("mindc", "wrong", f"in {place}, not installed as a package", "pip install .")
     else:
-        yield Finding("mindc", "ok", f"{known}, in {place}")
+        yield DoctorFinding("mindc", "ok", f"{known}, in {place}")
     runtime = f"{mindrun.VERSION}, in {Path(mindrun.__file__).parent}"
     if known and known != mindrun.VERSION:
         mend = "pip uninstall mindrun mindlang, then pip install mindlang, which brings mindrun along"
-        yield Finding("mindrun", "wrong", f"{runtime}; mindc is {known}", mend)
+        yield DoctorFinding("mindrun", "wrong", f"{runtime}; mindc is {known}", mend)
     elif _version("mindrun") is not None:
-        yield Finding("mindrun", "wrong", f"{runtime}, and installed by itself as well", "pip uninstall mindrun")
+        yield DoctorFinding("mindrun", "wrong", f"{runtime}, and installed by itself as well", "pip uninstall mindrun")
     else:
-        yield Finding("mindrun", "ok", runtime)
+        yield DoctorFinding("mindrun", "ok", runtime)
 
 
 def _version(package: str) -> str | None:
@@ -74,40 +74,40 @@ def _version(package: str) -> str | None:
         return None
 
 
-def python() -> Iterator[Finding]:
+def python() -> Iterator[DoctorFinding]:
     """A version of Python for which mind is made."""
     bounds, found = SpecifierSet(metadata("mindlang")["Requires-Python"] or ""), platform.python_version()
     if bounds.contains(found, prereleases=True):
-        yield Finding("Python", "ok", f"{found}, {sys.executable}")
+        yield DoctorFinding("Python", "ok", f"{found}, {sys.executable}")
     else:
         mend = f"python3 -m venv .venv with a Python {bounds}, and install mind there"
-        yield Finding("Python", "wrong", f"{found}, and mind is made for {bounds}", mend)
+        yield DoctorFinding("Python", "wrong", f"{found}, and mind is made for {bounds}", mend)
 
 
-def machine() -> Iterator[Finding]:
+def machine() -> Iterator[DoctorFinding]:
     """The processor, how many cores this process may use, and how much memory is free."""
     all_cores, usable = os.cpu_count() or 1, cores()
     words = f"{usable} cores" if usable == all_cores else f"{usable} of {all_cores} cores"
-    yield Finding("machine", "ok", f"{platform.machine()}, {platform.system()}, {words} to use")
+    yield DoctorFinding("machine", "ok", f"{platform.machine()}, {platform.system()}, {words} to use")
     free = limits.available()
     if free is None:
-        yield Finding("memory", "absent", "nobody knows how much is free", "nothing to do: it is not limited")
+        yield DoctorFinding("memory", "absent", "nobody knows how much is free", "nothing to do: it is not limited")
     elif free < SMALL_MEMORY_BYTES:
         mend = "end other programs: compiling the simulator takes about 500 MiB"
-        yield Finding("memory", "wrong", f"{free >> 20} MiB free", mend)
+        yield DoctorFinding("memory", "wrong", f"{free >> 20} MiB free", mend)
     else:
-        yield Finding("memory", "ok", f"{free / 2**30:.1f} GiB free")
+        yield DoctorFinding("memory", "ok", f"{free / 2**30:.1f} GiB free")
 
 
-def packages() -> Iterator[Finding]:
+def packages() -> Iterator[DoctorFinding]:
     """The packages without which nothing runs, each in a version that is known."""
     for each in requirements():
         found = _version(each.name)
         if _is_met(each):
-            yield Finding(each.name, "ok", f"{found}")
+            yield DoctorFinding(each.name, "ok", f"{found}")
         else:
             seen = f"{found}, and {each.specifier} is needed" if found else "not installed"
-            yield Finding(each.name, "wrong", seen, f"pip install '{each.name}{each.specifier}'")
+            yield DoctorFinding(each.name, "wrong", seen, f"pip install '{each.name}{each.specifier}'")
 
 
 def requirements(extra: str = "") -> list[Requirement]:
@@ -125,7 +125,7 @@ def _is_met(package: Requirement) -> bool:
     return found is not None and package.specifier.contains(found, prereleases=True)
 
 
-def machine_code() -> Iterator[Finding]:
+def machine_code() -> Iterator[DoctorFinding]:
     """The simulator's machine code: its folder, whether any is there, and what older versions left."""
     from mindrun.sim import cache, warmup
     from mindrun.sim.lanes.advance import advance
@@ -133,49 +133,49 @@ def machine_code() -> Iterator[Finding]:
     folder = cache.folder()
     is_kept = folder.name == f"compiled-{cache.stamp()}"
     if is_kept:
-        yield Finding("compiler cache", "ok", f"{_mebibytes(folder)} MiB in {folder}")
+        yield DoctorFinding("compiler cache", "ok", f"{_mebibytes(folder)} MiB in {folder}")
     else:
         mend = "let XDG_CACHE_HOME name a folder that can be written"
-        yield Finding("compiler cache", "wrong", "no folder can be written: every start compiles anew", mend)
+        yield DoctorFinding("compiler cache", "wrong", "no folder can be written: every start compiles anew", mend)
     if warmup.is_native():
-        yield Finding("simulator", "ok", f"compiled for {cache.processor()}")
+        yield DoctorFinding("simulator", "ok", f"compiled for {cache.processor()}")
     elif warmup.is_there((advance,)):
         seen = "shipped for any processor of this kind; made for this one while the first lesson runs"
-        yield Finding("simulator", "ok", seen)
+        yield DoctorFinding("simulator", "ok", seen)
     else:
         seen = "not compiled yet: the first lesson, run or bench does it, in about a minute"
-        yield Finding("simulator", "absent", seen, "mindc warmup")
+        yield DoctorFinding("simulator", "absent", seen, "mindc warmup")
     older = sum(_mebibytes(each) for each in folder.parent.glob("compiled-*") if each != folder) if is_kept else 0
     if older << 20 > SEVERAL_BYTES:
         mend = f"if you use no older version any more: rm -r {folder.parent}/compiled-*, then mindc warmup"
-        yield Finding("older caches", "absent", f"{older} MiB of other versions in {folder.parent}", mend)
+        yield DoctorFinding("older caches", "absent", f"{older} MiB of other versions in {folder.parent}", mend)
 
 
 def _mebibytes(folder: Path) -> int:
     return sum(path.stat().st_size for path in folder.glob("*") if path.is_file()) >> 20
 
 
-def viewer() -> Iterator[Finding]:
+def viewer() -> Iterator[DoctorFinding]:
     """The page of `mindc view`, which is built before a package is made."""
     page = Path(mindlang.__file__).parent / "view" / "page" / "index.html"
     if page.is_file():
-        yield Finding("viewer", "ok", "its page is there")
+        yield DoctorFinding("viewer", "ok", "its page is there")
     else:
-        yield Finding("viewer", "wrong", f"{page} is missing", "cd viewer && npm ci && npm run build")
+        yield DoctorFinding("viewer", "wrong", f"{page} is missing", "cd viewer && npm ci && npm run build")
 
 
-def browser() -> Iterator[Finding]:
+def browser() -> Iterator[DoctorFinding]:
     """A browser, which `mindc view` opens where there is one."""
     try:
         found = webbrowser.get()
     except webbrowser.Error:
         mend = "open the address that mindc view prints, from any machine that reaches it"
-        yield Finding("browser", "absent", "none found", mend)
+        yield DoctorFinding("browser", "absent", "none found", mend)
     else:
-        yield Finding("browser", "ok", str(getattr(found, "name", "found")))
+        yield DoctorFinding("browser", "ok", str(getattr(found, "name", "found")))
 
 
-def extra_packages() -> Iterator[Finding]:
+def extra_packages() -> Iterator[DoctorFinding]:
     """The extras, which not everybody needs."""
     for extra in extras():
         needed = requirements(extra)
@@ -184,11 +184,11 @@ def extra_packages() -> Iterator[Finding]:
         ]
         if missing:
             seen = f"without {', '.join(missing)}"
-            yield Finding(f"[{extra}]", "absent", seen, f"pip install 'mindlang[{extra}]'")
+            yield DoctorFinding(f"[{extra}]", "absent", seen, f"pip install 'mindlang[{extra}]'")
         elif len(needed) > LISTED_PACKAGES:
-            yield Finding(f"[{extra}]", "ok", f"all {len(needed)} packages")
+            yield DoctorFinding(f"[{extra}]", "ok", f"all {len(needed)} packages")
         else:
-            yield Finding(f"[{extra}]", "ok", ", ".join(f"{each.name} {_version(each.name)}" for each in needed))
+            yield DoctorFinding(f"[{extra}]", "ok", ", ".join(f"{each.name} {_version(each.name)}" for each in needed))
 
 
 def extras() -> list[str]:

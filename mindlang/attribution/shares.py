@@ -97,7 +97,7 @@ def shares(flows: EdgeFlows, target: Sink, rows: range, paths: int = NAMED_PATHS
     It takes as long as thinking these rows does, and for so many paths as long as they are, however many there are in
     all.
     """
-    carried, order = flows.over(rows), _above(flows, target)
+    carried, order = flows.flow_at(rows), _above(flows, target)
     _refuse_replaced(flows, carried, [*order, *([target[1]] if target[0] == "skill" else [])])
     if target == ("skill", flows.skills[0]):
         return _master_shares(flows, len(rows))

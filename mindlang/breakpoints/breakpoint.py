@@ -1,4 +1,4 @@
-"""What breakpoints say once their names are found: when a run, or a robot's recording, stops."""
+"""Breakpoints whose names are found: each says when a run, or a robot's recording, stops."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -14,12 +14,12 @@ ROBOT_WORDS = (STOPPED, FAULT)
 
 @dataclass(frozen=True, slots=True)
 class Stopped:
-    """All actuators of a robot become neutral, whatever the skills command."""
+    """The event that all actuators of a robot become neutral, whatever the skills command."""
 
 
 @dataclass(frozen=True, slots=True)
 class Fault:
-    """A sensor becomes faulty: the one of that name, or any of those that are wired where it is empty."""
+    """The event that a sensor becomes faulty: the one of that name, or any that is wired where it is empty."""
 
     sensor: str = ""
 
@@ -47,7 +47,7 @@ class Transmission(MeasureKind):
 
 @dataclass(frozen=True, slots=True)
 class Holds:
-    """A condition begins to hold. In the program ("measure", i) is what `transmissions[i]` is.
+    """The cause that a condition begins to hold. In the program ("measure", i) is what `transmissions[i]` is.
 
     `named` are the readings, commands and measures in it: how they are written, and the word and the operand that they
     have in the program.
@@ -60,7 +60,7 @@ class Holds:
 
 @dataclass(frozen=True, slots=True)
 class Happens:
-    """An event happens: for the time number `times`, or whenever it does where that is 0."""
+    """The cause that an event happens: for the time number `times`, or whenever it does where that is 0."""
 
     event: EventKind | RobotEvent
     times: int
@@ -68,7 +68,7 @@ class Happens:
 
 @dataclass(frozen=True, slots=True)
 class Reaches:
-    """The run comes to a tick, counted from 1."""
+    """The cause that the run comes to a tick, counted from 1."""
 
     tick: int
 

@@ -25,7 +25,7 @@ from mindlang.breakpoints.breakpoint import (
     Stopped,
     Transmission,
 )
-from mindlang.breakpoints.subject import Subject
+from mindlang.breakpoints.subject import BreakpointSubject
 from mindlang.compiler import lower, model
 from mindlang.compiler.compile import read_main
 from mindlang.compiler.diagnostic import Diagnostic, Findings, did_you_mean, listed
@@ -51,13 +51,13 @@ class BreakpointFile:
     diagnostics: tuple[Diagnostic, ...]
 
 
-def load_breakpoints(path: Path | str, subject: Subject | None) -> BreakpointFile:
+def load_breakpoints(path: Path | str, subject: BreakpointSubject | None) -> BreakpointFile:
     """The breakpoints of the file at `path`, or with "-" of standard input."""
     source = read_main(path)
     return BreakpointFile((), (source,)) if isinstance(source, Diagnostic) else breakpoints_of(source, subject)
 
 
-def breakpoints_of(source: Source, subject: Subject | None) -> BreakpointFile:
+def breakpoints_of(source: Source, subject: BreakpointSubject | None) -> BreakpointFile:
     """The breakpoints of a text; none where nobody knows what they are about, and its lines are only read."""
     findings = Findings()
     lines = parse_stops(source, findings)
@@ -73,9 +73,9 @@ def breakpoints_of(source: Source, subject: Subject | None) -> BreakpointFile:
 
 @dataclass(frozen=True, slots=True)
 class _Resolver:
-    """What lines are about, and what is found to be wrong with them."""
+    """Resolves the lines of a .break file against their subject, and notes what is wrong with them."""
 
-    subject: Subject
+    subject: BreakpointSubject
     findings: Findings
 
     def breakpoints(self, lines: list[Stop]) -> Iterator[Breakpoint]:
@@ -100,7 +100,7 @@ class _Resolver:
         return None if tick is None else Reaches(int(tick))
 
     def _event(self, written: Phrase) -> EventKind | RobotEvent | None:
-        """An event that somebody notices in what is stopped."""
+        """The event of a line, of a robot or of the world; None after reporting that there can be none."""
         word = written.kind.text
         if word in ROBOT_WORDS:
             return self._robot_event(written)
@@ -200,7 +200,7 @@ class _Resolver:
         return model.Comparison(model.Expression(terms, written.span), "<" if written.level == "below" else ">", right)
 
     def _transmission(self, written: Transmits, to: Receiver) -> Transmission | None:
-        """What a skill that takes part in the run sends to a target itself."""
+        """The transmission of a skill of the run to a target over its own edges; None after reporting an error."""
         graph, skill, target = self.subject.graph, written.skill.text, written.to.text
         targets = {"skill": len(graph.skills), "actuator": len(graph.actuators), "memory": len(graph.memories)}
         index = next(place for place in range(targets[to]) if graph.named(to, place) == target)
@@ -223,9 +223,9 @@ class _Resolver:
 
 
 def _named(
-    program: Program, transmissions: tuple[Transmission, ...], subject: Subject
+    program: Program, transmissions: tuple[Transmission, ...], subject: BreakpointSubject
 ) -> Iterator[tuple[str, tuple[str, int]]]:
-    """What a condition is about, each as it is written and with its word and operand in the program, once."""
+    """The operands of a condition, each once: its text, and its word and operand in the program; numbers are none."""
     words = {("reading", start): name for name, (start, _) in subject.places.readings.items()}
     words |= {("command", place): name for name, place in subject.places.actuators.items()}
     for number, each in enumerate(transmissions):

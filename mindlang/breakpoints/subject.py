@@ -1,4 +1,4 @@
-"""What breakpoints are about: a run of the simulator, or what a robot has recorded."""
+"""The subject of breakpoints: a run of the simulator, or a robot's recording."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ NOWHERE = Span(Source("", ""), 0, 0)  # where what is in a graph was declared
 
 
 @dataclass(frozen=True)
-class Subject:
+class BreakpointSubject:
     """The names of a mind and its graph, who is in charge, and the task, None where nobody noticed its events.
 
     `sensors` are those that a robot has wired, which can be faulty; None where there was no robot. What `is_recorded`
@@ -46,18 +46,20 @@ class Subject:
     is_recorded: bool = False
 
     @classmethod
-    def of_run(cls, names: Names, setup: RunSetup) -> Subject:
+    def of_run(cls, names: Names, setup: RunSetup) -> BreakpointSubject:
         """A run that is set up: its skills and readings stand where its lock has them, not where they are declared."""
         return cls(names, setup.ready.policy.graph, setup.master, setup.task)
 
     @classmethod
-    def of_recording(cls, graph: Graph, master: str, sensors: tuple[str, ...], task: Task | None = None) -> Subject:
+    def of_recording(
+        cls, graph: Graph, master: str, sensors: tuple[str, ...], task: Task | None = None
+    ) -> BreakpointSubject:
         """The recording of a robot with these wired sensors and the graph of a bundle, in a world if any."""
         return cls(names_in(graph), graph, master, task, sensors, is_recorded=True)
 
     @cached_property
     def places(self) -> lower.Places:
-        """Where the readings and the commands stand in a row."""
+        """The places of the readings and the commands in a row."""
         readings = {each.name: (each.start, each.width) for each in self.graph.sensors}
         readings |= {each.name: (each.start, 1) for each in self.graph.memories}
         return lower.Places(readings, {each.name: place for place, each in enumerate(self.graph.actuators)})
@@ -110,8 +112,8 @@ def mind_of(path: str, given: Mapping[str, Compiled]) -> Compiled | None:
     return found if found and found.graph else None
 
 
-def subject_of_mind(compiled: Compiled, task: str | None = None, master: str | None = None) -> Subject:
-    """A run of a mind, with the task and the master of these names or those of a run by default.
+def subject_of_mind(compiled: Compiled, task: str | None = None, master: str | None = None) -> BreakpointSubject:
+    """The subject of a mind's run, with the task and the master of these names or those of a run by default.
 
     Events of the task and of a robot count both: a file may be for both. SetupError where there is none of that name.
     """
@@ -119,12 +121,12 @@ def subject_of_mind(compiled: Compiled, task: str | None = None, master: str | N
     assert compiled.graph
     graph, sensors = compiled.graph, tuple(physical(compiled.graph))
     chosen = task_of(graph, task)[0] if graph.tasks or task else None
-    return Subject(compiled.mind.names, graph, master_of(graph, chosen, master), chosen, sensors)
+    return BreakpointSubject(compiled.mind.names, graph, master_of(graph, chosen, master), chosen, sensors)
 
 
-def subject_of_bundle(bundle: Bundle, task: str | None = None, master: str | None = None) -> Subject:
-    """The recording of a robot with this bundle, or with a task of its dry run; SetupError for a name that is none."""
+def subject_of_bundle(bundle: Bundle, task: str | None = None, master: str | None = None) -> BreakpointSubject:
+    """The subject of a robot's recording with this bundle, or of a task's dry run; SetupError for an unknown name."""
     graph = bundle.graph
     wired = [wire.sensor for wire in bundle.wiring.sensors] if bundle.wiring and not task else physical(graph)
     chosen = task_of(graph, task)[0] if task else None
-    return Subject.of_recording(graph, master_of(graph, None, master), tuple(wired), chosen)
+    return BreakpointSubject.of_recording(graph, master_of(graph, None, master), tuple(wired), chosen)

@@ -1,4 +1,4 @@
-"""Where breakpoints stop a run or a robot's recording, found in its rows, which may come in parts of any size."""
+"""Finds where breakpoints stop a run or a robot's recording, in its rows, which may come in parts of any size."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -26,7 +26,7 @@ from mindlang.breakpoints.breakpoint import (
     Transmission,
     robot_events,
 )
-from mindlang.breakpoints.subject import Subject
+from mindlang.breakpoints.subject import BreakpointSubject
 from mindlang.run.edge_flow import EdgeFlow, EdgeFlows, Places, Singles, accumulated
 from mindlang.run.recorded_run import RecordedRun
 from mindlang.run.recording import recorded_task
@@ -37,7 +37,7 @@ Measured = Mapping[Transmission, NDArray[np.float64]]
 
 
 @dataclass(frozen=True, slots=True)
-class Part:
+class RowBlock:
     """Some rows of a run, one a tick: `readings` [rows, width] as the skills read them, `influence` [rows, skills] and
     `commands` [rows, actuators].
 
@@ -51,12 +51,12 @@ class Part:
     events: NDArray[np.int64]
 
 
-Rows = Part | RecordedRun
+Rows = RowBlock | RecordedRun
 
 
 @dataclass(frozen=True, slots=True)
 class Stop:
-    """A breakpoint is met in a tick, counted from 1; `values` are the readings and commands that its line names.
+    """A tick, counted from 1, in which a breakpoint is met; `values` are the readings and commands that its line names.
 
     Of an event that is how often it has happened.
     """
@@ -67,7 +67,7 @@ class Stop:
 
 
 class Watcher:
-    """Where breakpoints stop a run, of whose rows it has been fed the first `ticks`."""
+    """Finds where breakpoints stop a run, of whose rows it has been fed the first `ticks`."""
 
     def __init__(
         self, breakpoints: Sequence[Breakpoint], events: Sequence[EventKind | RobotEvent], graph: Graph, mind: Hierarchy
@@ -104,21 +104,21 @@ class Watcher:
                 columns = [("times", times[1:])]
             case Holds(program, transmissions, named):
                 leaf = _leaf(rows, [weights[transmission] for transmission in transmissions])
-                holds = self._after(place, over(program, leaf, count) > 0)
+                holds = self._after(place, evaluate_rows(program, leaf, count) > 0)
                 is_met = holds[1:] & ~holds[:-1]
                 columns = [(name, leaf(*operand)) for name, operand in named]
         for row in np.flatnonzero(is_met):
             yield Stop(self.ticks + 1 + int(row), each, tuple((name, float(of[row])) for name, of in columns))
 
     def _after(self, place: int, rows: NDArray[Any]) -> NDArray[Any]:
-        """Rows behind what the last row fed before them has, 0 or False at the beginning of a run."""
+        """The rows behind the last one fed before, which is 0 or False at the beginning of a run."""
         found = np.concatenate([[self._before[place]], rows]).astype(rows.dtype)
         self._before[place] = found[-1]
         return found
 
 
 def noticing(setup: RunSetup, breakpoints: Sequence[Breakpoint]) -> RunSetup:
-    """The setup of the same run, whose task also notices the events of breakpoints that none of its lines is about."""
+    """The setup of the same run, with the events of breakpoints that its task does not notice added to the task."""
     asked = dict.fromkeys(each.cause.event for each in breakpoints if isinstance(each.cause, Happens))
     missing = [event for event in asked if isinstance(event, EventKind) and event not in setup.task.events]
     if not missing:
@@ -136,7 +136,7 @@ def watcher(breakpoints: Sequence[Breakpoint], setup: RunSetup) -> Watcher:
     return Watcher(breakpoints, setup.task.events, graph, hierarchy(setup.ready.policy, sources, setup.master))
 
 
-def over(program: Program, leaf: Leaf, rows: int) -> NDArray[np.float64]:
+def evaluate_rows(program: Program, leaf: Leaf, rows: int) -> NDArray[np.float64]:
     """The value of an expression in each of so many rows, `leaf` giving those of its readings [rows]."""
 
     def combined(operator: str, left: Any, right: Any) -> Any:
@@ -147,7 +147,7 @@ def over(program: Program, leaf: Leaf, rows: int) -> NDArray[np.float64]:
 
 
 def _leaf(rows: Rows, measures: Sequence[NDArray[np.float64]]) -> Leaf:
-    """What a number, a reading, a command or a measure is in each row, in float64 as the engine takes them."""
+    """A function for the value of a number, a reading, a command or a measure in each row, float64 as in the engine."""
 
     def column(word: str, operand: Any) -> Any:
         match word:
@@ -209,13 +209,13 @@ def _weights(flows: EdgeFlows, flow: EdgeFlow, asked: Transmission) -> NDArray[n
         return np.where(sent == 0, 0.0, sent / accumulated(flow.transmitted[:, arriving]).astype(np.float64))
 
 
-def recording_subject(of: About, mind: Bundle) -> Subject:
+def recording_subject(of: About, mind: Bundle) -> BreakpointSubject:
     """The subject of a recording's breakpoints, made with the mind of this bundle."""
-    return Subject.of_recording(mind.graph, of.master, of.sensors, recorded_task(of, mind))
+    return BreakpointSubject.of_recording(mind.graph, of.master, of.sensors, recorded_task(of, mind))
 
 
 class RecordingWatcher:
-    """Where breakpoints stop a recording, of which it has been fed some rows from the first on."""
+    """Finds where breakpoints stop a recording, of which it has been fed some rows from the first on."""
 
     def __init__(self, breakpoints: Sequence[Breakpoint], of: About, mind: Bundle) -> None:
         """WeightsError or ProcedureError where a skill of the bundle cannot be made ready."""
@@ -234,5 +234,5 @@ class RecordingWatcher:
         self._before, self._times = facts[-1:], np.concatenate([self._times, happened])[-1:]
         if "world" in (rows.dtype.names or ()):
             happened = np.concatenate([happened, rows["world"]["events"].astype(np.int64)], axis=1)
-        part = Part(readings, rows["influence"], rows["commands"], happened)
+        part = RowBlock(readings, rows["influence"], rows["commands"], happened)
         return self._watcher.feed(part, np.flatnonzero(rows["tick"] == 0))

@@ -20,7 +20,7 @@ YOUNG_COLLECTIONS = 1  # before it looks among older ones, too
 
 
 class Suggesting(click.Group):
-    """Commands of which one that is nearly right is suggested; `noun` is what one is called."""
+    """A group of commands that suggests one for a name that is nearly right; `noun` is the word for one."""
 
     noun = "command"
 

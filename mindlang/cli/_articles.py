@@ -42,7 +42,7 @@ def _of_group(group: click.Group, before: str, context: click.Context) -> Iterat
 
 
 def mindrun_articles() -> Iterator[Article]:
-    """The program itself, then its tools."""
+    """The articles of mindrun: the program itself, then its tools."""
     yield _of_parser(PROGRAM, ("program", "program", PROGRAM), driving_parser())
     for name in tools():
         yield _of_parser(name, (PROGRAM, f"tool of {PROGRAM}", PROGRAM), tool_parser(name))
@@ -80,7 +80,7 @@ def _option(option: click.Option, context: click.Context) -> Parameter:
 
 
 def _parameter(action: Action) -> Parameter:
-    """An option or an argument of argparse, in the same way."""
+    """An option or an argument of argparse, with the name of its value and its default, unless its help says that."""
     about, default = action.help or "", action.default
     if not action.option_strings:
         return Parameter(_argument(action), about, "" if action.nargs == "?" else None)

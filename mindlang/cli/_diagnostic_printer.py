@@ -93,5 +93,5 @@ def _excerpt(span: Span, mark: str, style: str) -> Iterator[Segment]:
 
 
 def _cells(text: str) -> int:
-    """How many columns a terminal gives to a text."""
+    """The number of columns that a terminal gives to a text."""
     return sum(0 if combining(c) else 2 if east_asian_width(c) in "WF" else 1 for c in text)

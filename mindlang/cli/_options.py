@@ -1,4 +1,4 @@
-"""What options and arguments may be: numbers that say both of their bounds, files, names that a shell completes."""
+"""Types of options and arguments: numbers that say both of their bounds, files, names that a shell completes."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -79,7 +79,7 @@ class TickSpan(click.ParamType[tuple[int, int]]):
 
 
 class WhereOption(click.ParamType[Any]):
-    """Where jobs are done: threads, or a kind of executor and what is said of it."""
+    """An option for the executor of jobs: threads, or a kind and its argument."""
 
     name = "where"
 
@@ -117,7 +117,7 @@ class NewFile(click.Path):
 
 
 def refuse_ineffective(what_they_are: str, *names: str) -> None:
-    """UsageError where one of these parameters of the command was said, since nothing would come of it."""
+    """UsageError where one of these parameters of the command was given, since it would have no effect."""
     context = click.get_current_context()
     all_of_them = [each for each in context.command.params if each.name in names]
     if any(context.get_parameter_source(name) is ParameterSource.COMMANDLINE for name in names):
@@ -211,7 +211,7 @@ OF_RUNS_ALONE = "of runs, not of recordings"
 
 @dataclass(frozen=True, slots=True)
 class RunChoice:
-    """Which run of a mind is made, or with `mindc bench` which of several; None for what was not said."""
+    """The run of a mind to make, or with `mindc bench` the runs; None for what was not said."""
 
     task: str | None
     seed: int | None

@@ -1,4 +1,4 @@
-"""What commands that simulate share: a run set up, the simulator compiled, progress shown, recordings refused."""
+"""Shared by the commands that simulate: a run set up, the simulator compiled, progress shown, recordings refused."""
 
 import os
 import signal
@@ -19,7 +19,7 @@ from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, T
 
 from mindlang.breakpoints.breakpoint import Breakpoint
 from mindlang.breakpoints.resolve import load_breakpoints
-from mindlang.breakpoints.subject import Subject
+from mindlang.breakpoints.subject import BreakpointSubject
 from mindlang.cli import _terminal as terminal
 from mindlang.cli._diagnostic_printer import print_report
 from mindlang.cli._options import RunChoice
@@ -84,7 +84,7 @@ class RunSession:
 
     @terminal.procedures_talk()
     def set_up(self, file: str, compiled: Compiled, chosen: RunChoice) -> RunSetup:
-        """Who plays what in a run of a file that is compiled."""
+        """The task, the master and the weights for a run of a compiled file; ends the program where it cannot begin."""
         with refusing_setups():
             found = set_up(file, compiled, chosen.task, chosen.master)
         self.say(*(f"note: {note}" for note in (*found.ready.notes, found.note) if note))
@@ -105,7 +105,7 @@ class RunSession:
     def scorer(
         self, prepared: Prepared, interrupt: bool, where: Where | None, workers: int
     ) -> AbstractContextManager[Rollout | JobScorer]:
-        """Who makes many runs: so many `workers` of this machine, or as --on says."""
+        """The scorer of many runs, on so many `workers` of this machine, or as --on says."""
         setup, rollout = prepared
         return scorer_on(where, rollout, lambda: setup.assignment(interrupt), workers, self.say)
 
@@ -120,7 +120,7 @@ class RunSession:
 
     @terminal.procedures_talk()
     def record(self, setup: RunSetup, rollout: Rollout, seed: int) -> RunResult:
-        """A run written down tick by tick, and what came of it."""
+        """A run written down tick by tick, and its outcome."""
         rollout.make_again(NO_GENOME[0], seed)
         made = run_result(setup, rollout, seed)
         self.say(*(f"note: {note}" for note in rollout.notes))
@@ -131,7 +131,7 @@ class RunSession:
         terminal.tell(*lines, quiet=self.quiet)
 
     def progress(self) -> Progress:
-        """A bar on stderr, where somebody looks at it."""
+        """A progress bar on stderr, hidden where that is no terminal."""
         columns = (TextColumn("{task.description}", markup=False), BarColumn(30), TaskProgressColumn())
         talk = terminal.console(stderr=True)
         hidden = self.quiet or not talk.is_terminal
@@ -166,10 +166,10 @@ def refusing_recordings() -> Iterator[None]:
 def breakpoints_of_run(path: Path, compiled: Compiled, setup: RunSetup) -> tuple[Breakpoint, ...]:
     """The breakpoints of a run that is set up, in the .break file at `path`."""
     assert compiled.mind
-    return read_breakpoints(path, Subject.of_run(compiled.mind.names, setup))
+    return read_breakpoints(path, BreakpointSubject.of_run(compiled.mind.names, setup))
 
 
-def read_breakpoints(path: Path, subject: Subject) -> tuple[Breakpoint, ...]:
+def read_breakpoints(path: Path, subject: BreakpointSubject) -> tuple[Breakpoint, ...]:
     """The breakpoints of a .break file; a mistake in it is reported, and ends the program before anything runs."""
     found = load_breakpoints(path, subject)
     print_report(found.diagnostics, terminal.console(stderr=True))

@@ -1,4 +1,4 @@
-"""What every command prints: data and results on stdout, talk on stderr; and how it ends."""
+"""The output of every command: data and results on stdout, talk on stderr; and the exit codes with which it ends."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ def refusing(code: int = FINDINGS, end: str = "", of: type[MindError] = MindErro
 
 
 def print_result(as_json: bool, data: object, text: Callable[[], RenderableType], end: str = "\n") -> None:
-    """Print what came of a command on stdout: its data as one JSON document, or else its text."""
+    """Print the result of a command on stdout: its data as one JSON document, or else its text."""
     if as_json:
         print_json(data)
     else:

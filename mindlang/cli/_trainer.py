@@ -101,7 +101,7 @@ class Trainer:
             pace = TimeLeft.of(run, perf_counter())
             try:
                 state = self._watched(run, scorer, executor, pace)
-            except StoppedError:
+            except StoppedWhileIdleError:
                 state = None
             if state is None or not is_over(run.manifest.lesson, state):
                 tell(f"saved; to go on: {self._command(run)}")
@@ -148,7 +148,7 @@ class Trainer:
             if display:
                 display.close()
             if isinstance(scorer, JobScorer) and not scorer.jobs.has_begun:
-                raise StoppedError
+                raise StoppedWhileIdleError
             what = "saving; what workers are at is done again then" if executor else "finishing this generation"
             self._say(f"{what}; Ctrl-C again stops at once, to go on then: {self._command(run)}")
 
@@ -172,7 +172,7 @@ class Trainer:
                     each.close()
 
     def _command(self, run: RunFolder) -> str:
-        """What goes on with a run."""
+        """The command that goes on with a run."""
         return command_line("mindc", "train", "--resume", run.folder) + " --tensorboard" * self.event_files
 
     def _say(self, *lines: str) -> None:
@@ -183,8 +183,8 @@ class Trainer:
             print(json.dumps(result, allow_nan=False), flush=True)
 
 
-class StoppedError(KeyboardInterrupt):
-    """Nobody is at work yet, so that there is nothing to wait for when a run is to be stopped."""
+class StoppedWhileIdleError(KeyboardInterrupt):
+    """A run is to be stopped before anybody is at work: there is nothing to wait for."""
 
 
 @contextmanager

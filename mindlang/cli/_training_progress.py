@@ -1,4 +1,4 @@
-"""What a user sees of a lesson while it is taught: a bar on a terminal, a line now and then elsewhere."""
+"""The progress of a lesson while it is taught: a bar on a terminal, a line now and then elsewhere."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -22,7 +22,7 @@ MAX_BAR_COLUMNS, MIN_BAR_COLUMNS = 20, 8  # columns of a bar, the space behind i
 
 @dataclass(frozen=True, slots=True)
 class ProgressText:
-    """Where a lesson stands after a generation: in words and, before them, in a few figures."""
+    """The progress of a lesson after a generation, in parts; `briefly` is `where` in a few characters."""
 
     where: str
     briefly: str
@@ -32,11 +32,11 @@ class ProgressText:
     left: str
 
     def text(self) -> str:
-        """All of it."""
+        """All parts in one text."""
         return self._with(self.where, self.best, self.reevaluated, self.rate)
 
     def shorter(self) -> Iterator[tuple[str, int]]:
-        """Ever shorter texts, each with the columns that its bar needs; how long it will take is in all of them."""
+        """Ever shorter texts, each with the columns that its bar needs; the time left is in all of them."""
         without_rate = self._with(self.where, self.best, self.reevaluated)
         yield self.text(), MIN_BAR_COLUMNS
         yield without_rate, MIN_BAR_COLUMNS
@@ -51,7 +51,7 @@ class ProgressText:
 
 @dataclass(slots=True)
 class TimeLeft:
-    """How fast generations pass since this process took the lesson up at `began`; `generations` are of all attempts.
+    """The pace of generations since this process took the lesson up at `began`; `generations` are of all attempts.
 
     `first` says how many generations the first one of an attempt is worth, with all its founders; `reevaluated` is the
     attempt, the generation and the score on fresh layouts of the last champion that has one. `ticks` were simulated.
@@ -83,11 +83,11 @@ class TimeLeft:
         self.ahead = ahead
 
     def share(self, done: int) -> float:
-        """Which part of all has been done, in its turn or ahead."""
+        """The share of all generations that has been done, in its turn or ahead."""
         return (done + self.ahead.generations) / self.generations
 
     def standing(self, record: Record, done: int, now: float) -> ProgressText:
-        """Where the lesson stands after a generation, when `done` of all attempts have been made."""
+        """The progress after a generation, when `done` of all attempts have been made."""
         self.ticks += record.ticks
         self.seen += self.first if record.generation == 1 else 1.0
         ahead = self.ahead.generations + self.ahead.attempts * (self.first - 1.0)
@@ -113,7 +113,7 @@ class TimeLeft:
         )
 
     def _reevaluated(self, record: Record) -> str:
-        """What the best scored on fresh layouts, now or in an earlier generation of this attempt."""
+        """The score of the best on fresh layouts, now or earlier in this attempt; "" where there is none."""
         attempt, generation, score = self.reevaluated or (0, 0, 0.0)
         if attempt != record.attempt:
             return ""
@@ -149,7 +149,7 @@ class LessonDisplay:
 
 @dataclass(frozen=True, slots=True)
 class ProgressLine:
-    """A lesson's name, how much of it is done, and as much of how it stands as the terminal has columns for."""
+    """A lesson's name, a bar, and as much of its progress as the terminal has columns for."""
 
     name: str
     standing: ProgressText | None

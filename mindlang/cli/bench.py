@@ -117,7 +117,7 @@ class Contender:
 
 
 def contenders(files: Sequence[str], masters: Sequence[str]) -> list[Contender]:
-    """Who runs: one mind, two minds, or one mind under two masters; of two minds each may have a master of its own."""
+    """The contenders: one mind, two minds, each with its own master if it has one, or one mind under two masters."""
     if len(files) > MAX_COMPARED or len(masters) > MAX_COMPARED:
         fail("Two are compared, not more.", "mindc bench A.mind B.mind, or one FILE with --master X --master Y", MISUSE)
     count = max(len(files), len(masters))
@@ -134,7 +134,7 @@ def contenders(files: Sequence[str], masters: Sequence[str]) -> list[Contender]:
 
 @dataclass(frozen=True, slots=True)
 class Bench:
-    """Which runs are made, and where: in so many `workers` of this machine, or as --on says; and what is printed."""
+    """The runs to make, the workers that make them, so many of this machine or those of --on, and the output."""
 
     session: RunSession
     chosen: RunChoice
@@ -164,7 +164,7 @@ class Bench:
 
     def compare(self, who: Sequence[Contender]) -> None:
         """Run both on the same layouts, the second on the task of the first, and print what differs."""
-        from mindlang.run.comparison import Benched, compare, differing_tasks
+        from mindlang.run.comparison import Benched, compare_minds, differing_tasks
         from mindlang.run.summary import comparison_summary
         from mindlang.run.tables import joined, runs_table
 
@@ -179,7 +179,7 @@ class Bench:
             scores, data = self._score(prepared, seeds, f"{each.name}: ")
             benched.append(Benched(each.name, prepared.setup.task, scores))
             minds.append({"name": each.name, "file": each.file, "master": prepared.setup.master, **data})
-        compared = compare(benched[0], benched[1], is_one_world)
+        compared = compare_minds(benched[0], benched[1], is_one_world)
         found: dict[str, Any] = {"task": first.setup.task.name, "seed": self.seed, "runs": len(seeds), **self._by()}
         found |= {"minds": minds, **compared.data(), "notes": notes}
         if self.table:
@@ -192,7 +192,7 @@ class Bench:
         return self.session.prepare(who.file, chosen, self.workers, self.runs)
 
     def _score(self, prepared: Prepared, seeds: Sequence[int], whose: str = "") -> tuple[Scores, dict[str, Any]]:
-        """What came of each run, and of all of them as data; notes on stderr say `whose` they are."""
+        """The score of each run, and the data of all of them; notes on stderr say `whose` they are."""
         from mindlang.run.outcome import bench_data, over_at_once
 
         setup, rollout = prepared
@@ -202,7 +202,7 @@ class Bench:
         return scores, data | {"notes": setup.notes(rollout, *over_at_once(setup.task, scores))}
 
     def _by(self) -> dict[str, int | str]:
-        """Who makes the runs."""
+        """The workers that make the runs, as data."""
         return {"workers": self.workers} if self.where is None else {"on": f"{self.where}"}
 
     def _write(self, path: Path, table: Table, runs: str) -> None:

@@ -91,7 +91,7 @@ def _refuse_missing(ready: ReadyMind, file: str) -> None:
 
 
 def _needed_modules(ready: ReadyMind, folder: Path) -> list[str]:
-    """What has to be installed on the robot beside mindrun, in a sentence."""
+    """A sentence with the modules that the robot needs beside mindrun; no sentence where it needs none."""
     from mindrun.graph.skill_sets import reachable
 
     from mindlang.compiler.procedures import needed_modules
@@ -116,7 +116,7 @@ def _refuse_procedures(graph: Graph, mind: Mind, folder: Path) -> None:
 
 
 def _wiring(path: Path, graph: Graph, unit_metres: float | None) -> Wiring:
-    """What the mind is wired to; its report goes to stderr, and one with errors ends the program."""
+    """The wiring in a file, its report printed on stderr; one with errors ends the program."""
     from mindlang.robot.wire import load_wiring
 
     checked = load_wiring(path, graph, unit_metres)

@@ -47,12 +47,12 @@ NAMED = {
 
 
 class Edits(Suggesting):
-    """The edits that there are, each imported when it is asked for, and what takes the last one back."""
+    """The edits as commands, each imported when it is asked for, and `undo`."""
 
     noun = "edit"
 
     def list_commands(self, ctx: click.Context) -> list[str]:
-        """Their names."""
+        """The names of all edits, and of `undo`."""
         from mindlang.editing.edits import names
 
         return sorted([*names(), UNDO])
@@ -106,7 +106,7 @@ def _command(of: Edit) -> click.Command:
 
 
 def _file_first(of: Edit, first: str, said: dict[str, Any]) -> tuple[str, dict[str, Any]]:
-    """The file stands first; where only the last word is one, it is that, as it was until 0.1."""
+    """The file of an edit and its other words: the first word, or the last where only that is a file, as until 0.1."""
     words = [first, *(word for name, many in of.arguments for word in (said[name] if many else [said[name]]))]
     is_first = _is_mind(first) and not _is_mind(words[-1])
     if is_first or not (_is_mind(words[-1]) or _is_file(words[-1])) or (_is_file(first) and not _is_mind(words[-1])):
@@ -180,7 +180,7 @@ def _refuse(diagnostic: Diagnostic, as_json: bool) -> NoReturn:
 
 
 def _verified(edited: Edited) -> str:
-    """What has been verified, by running it; EditError where a trained skill would do something else."""
+    """Run the trained skills before and after, and say which do the same; EditError where one does something else."""
     from mindlang.cli._session import ensure_compiled
     from mindlang.editing.verify import verify_unchanged
 
@@ -192,7 +192,7 @@ def _verified(edited: Edited) -> str:
 
 
 def _ending(edited: Edited, is_written: bool) -> str:
-    """Which files are written, or would be."""
+    """A line that says which files are written, or would be."""
     locks = [path.name for path in edited.changed_locks]
     if is_written:
         return f"written: {listed([*(path.name for path in edited.texts), *locks], 'and')}"

@@ -20,7 +20,7 @@ Examples:
 
 
 def _names() -> dict[str, str]:
-    """Whatever there is an article of."""
+    """The names of all articles, with the sort of each."""
     from mindlang.cli._articles import command_articles
     from mindlang.explaining.collection import articles
 

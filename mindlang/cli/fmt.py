@@ -43,7 +43,7 @@ def command(files: tuple[str, ...], check: bool, diff: bool) -> None:
 
 
 def _tidy(file: str, check: bool, diff: bool) -> int:
-    """Tidy one file, or only look; how the program would end if it were the only one."""
+    """Tidy one file, or only look; the exit code if it were the only one."""
     from mindlang.compiler.compile import read_main
     from mindlang.compiler.format import formatted
     from mindlang.compiler.parse import parse, parse_stops

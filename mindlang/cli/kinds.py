@@ -26,7 +26,7 @@ def _known() -> tuple[Article, ...]:
 
 
 def _nouns() -> dict[str, str]:
-    """Their nouns, of which a shell says nothing more."""
+    """The nouns of all kinds and drivers, as completions without a description."""
     return dict.fromkeys((each.noun for each in _known()), "")
 
 

@@ -31,7 +31,7 @@ FORMATS = ("text", "json", "github", "sarif")
 
 
 def _rules(context: click.Context, parameter: click.Parameter, begun: str) -> list[CompletionItem]:
-    """What a shell may complete: the last of several codes with commas between them."""
+    """Completions of the last of several codes with commas between them."""
     from mindlang.lint.rules import all_rules
 
     before, comma, last = begun.rpartition(",")

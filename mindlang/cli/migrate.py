@@ -29,7 +29,7 @@ def command(files: tuple[str, ...], write: bool) -> None:
 
 
 def _migrate(file: str, write: bool) -> int:
-    """Migrate one file; how the program would end if it were the only one."""
+    """Migrate one file; the exit code if it were the only one."""
     from mindlang.compiler.compile import read_main
     from mindlang.compiler.migration import migrated_text
     from mindlang.editing.unified_diff import unified

@@ -75,7 +75,7 @@ def _chosen(robot: str | None, task: str | None) -> tuple[Robot, Task]:
 
 
 def _asks() -> bool:
-    """Whether there is somebody to answer."""
+    """True if there is somebody to answer."""
     return sys.stdin.isatty() and sys.stderr.isatty()
 
 
@@ -102,7 +102,7 @@ def _asked_name() -> str:
 
 
 def _print_list(as_json: bool) -> None:
-    """Which robots and tasks there are, and what goes together."""
+    """Print the robots and tasks that there are, and which go together."""
     if as_json:
         print_json(
             {

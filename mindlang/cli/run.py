@@ -95,7 +95,7 @@ def command(
 
 
 def _run(file: str, chosen: RunChoice, seed: int, breaks: Path | None, files: RunFiles, as_json: bool) -> int:
-    """Run to the end or to a line of the .break file, print and write what came of it; how the program ends."""
+    """Run to the end or to a line of the .break file, print and write the outcome; the exit code."""
     from rich.console import Group
 
     from mindlang.breakpoints.watch import noticing, watcher
@@ -154,7 +154,7 @@ def stopped_data(stops: Sequence[Stop], file: str, tick_seconds: float) -> dict[
 
 
 def stop_summary(stopped: dict[str, Any] | None) -> Text:
-    """Where a run stopped, and the values that made the lines true."""
+    """A text: the tick in which a run stopped, and the values that made the lines true."""
     from rich.text import Text
 
     if stopped is None:
@@ -179,7 +179,7 @@ class RunFiles:
     record: Path | None
 
     def any(self) -> bool:
-        """True where there is something to write."""
+        """True if there is something to write."""
         return bool(self.picture or self.video or self.trace or self.record)
 
     @terminal.procedures_talk()

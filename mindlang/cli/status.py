@@ -76,11 +76,11 @@ def report(found: Sequence[Row], console: Console) -> Text:
     """The rows as lines that a console has room for."""
     from rich.text import Text
 
-    from mindlang.lock.report import made
+    from mindlang.lock.report import weights_text
 
     lines = []
     for row in found:
         word = f"{row.word}, frozen" if row.is_frozen else row.word
-        about = Text("\n".join(filter(None, (made(row), *row.remarks))))
+        about = Text("\n".join(filter(None, (weights_text(row), *row.remarks))))
         lines.append(((Text(row.skill), Text(word, COLOURS[row.word])), about))
     return terminal.text_columns(console, lines)

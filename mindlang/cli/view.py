@@ -154,7 +154,7 @@ def _show_recording(file: str, bundle: Path, follow: bool, breaks: Path | None, 
 
 
 def _watching(breaks: Path) -> Watching:
-    """What makes the watcher of a recording, for the breakpoints of a file."""
+    """A function that makes the watcher of a recording, for the breakpoints of a file."""
     from mindlang.breakpoints.watch import RecordingWatcher, recording_subject
     from mindlang.cli._session import read_breakpoints
 
@@ -163,7 +163,7 @@ def _watching(breaks: Path) -> Watching:
 
 @dataclass(frozen=True, slots=True)
 class ViewOutput:
-    """In the file `export`, or at a `port` of this machine, None for any that is free."""
+    """The output of `mindc view`: the file `export`, or a page served at a `port`, None for any that is free."""
 
     port: int | None
     opens_browser: bool

@@ -133,7 +133,7 @@ def export_weights(file: str, skill: str, weights: Path) -> None:
 
 
 def _subject(file: str) -> Subject:
-    """The mind of a file with its lock, of which this ends the program where it is damaged."""
+    """The mind of a file with its lock; a damaged lock ends the program."""
     from mindlang.training.subject import open_subject
 
     if file == "-":

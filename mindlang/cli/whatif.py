@@ -110,7 +110,7 @@ def _compare_runs(
     from mindrun.engine.changes import ChangeError
 
     from mindlang.cli._session import RunSession, ensure_stages_compiled, refusing_recordings
-    from mindlang.whatif.comparison import compare
+    from mindlang.whatif.comparison import compare_runs
     from mindlang.whatif.report import comparison_data, comparison_summary
     from mindlang.whatif.request import changes_of
 
@@ -126,7 +126,7 @@ def _compare_runs(
     with refusing_recordings():
         changes = changes_of(request, setup.ready.policy.graph, setup.master, Path(file))
     with terminal.refusing(terminal.MISUSE, of=ChangeError), terminal.procedures_talk():
-        compared = compare(ours, seed, request.tick, changes, theirs)
+        compared = compare_runs(ours, seed, request.tick, changes, theirs)
     # A sensor that was replaced for as long as a recording lasts reads what it measures after that.
     ends = {change.last for change in changes if request.ticks is None and change.last and len(change.values) > 1}
     for end in sorted(ends):
@@ -139,7 +139,7 @@ def _compare_runs(
 
 
 def _draw(compared: Compared, request: Request, path: Path) -> str:
-    """Draw both runs; what the picture shows."""
+    """Draw both runs, and say what the picture shows."""
     from mindlang.pictures.picture import png
 
     if compared.was.run.task.scene.environment:

@@ -35,7 +35,7 @@ class EditedNeighbour:
 
 @dataclass(frozen=True, slots=True)
 class Edited:
-    """What an edit comes to: the new texts by path, what they compile to, the locks as they are and as they follow."""
+    """The result of an edit: the new texts by path, the graph of these, the locks as they are and as they follow."""
 
     project: Project
     change: MindChange
@@ -86,7 +86,7 @@ def apply_edit(project: Project, change: MindChange, keep_weights: bool) -> Edit
 
 
 def _refuse_under_alias(change: MindChange) -> None:
-    """EditError where lines of a file change that has other names for what it declares than this mind."""
+    """EditError where the edit changes a file that is used under a name: its declarations have other names there."""
     for splice in change.splices:
         if alias := splice.source.alias:
             name = splice.source.name
@@ -107,7 +107,7 @@ def _refuse_captured(project: Project, change: MindChange, graph: Graph) -> None
 
 
 def _compiled(project: Project, texts: dict[Path, str]) -> Graph:
-    """What the files of a project come to with these texts; EditError where they do not compile.
+    """The graph of a project with these texts; EditError where they do not compile.
 
     What was wrong with a procedure before may stay so.
     """

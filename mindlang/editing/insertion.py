@@ -34,7 +34,7 @@ class SourceLine:
 
     @property
     def text(self) -> str:
-        """What stands on it, comment and indentation included."""
+        """The text of the line, comment and indentation included."""
         return self.source.text[self.start : self.end]
 
     @property
@@ -44,12 +44,12 @@ class SourceLine:
 
     @property
     def is_blank(self) -> bool:
-        """Whether nothing stands on it."""
+        """True if nothing but white space stands on the line."""
         return not self.text.strip()
 
     @property
     def is_comment(self) -> bool:
-        """Whether only a comment stands on it."""
+        """True if only a comment stands on the line."""
         return self.text.lstrip().startswith("#")
 
     def above(self) -> Iterator["SourceLine"]:
@@ -73,7 +73,7 @@ def first_line(span: Span) -> SourceLine:
 
 
 def newline(source: Source) -> str:
-    """How lines end in a source."""
+    """The line end of a source."""
     return "\r\n" if "\r\n" in source.text else "\n"
 
 
@@ -111,13 +111,13 @@ def owners(fact: str) -> tuple[str, ...]:
     return tuple(noun for noun, verbs in OWNERS.items() if verb in verbs)
 
 
-def instead(span: Span, text: str) -> Splice:
+def replace_span(span: Span, text: str) -> Splice:
     """Replace the text of a span, with a space where it would join a neighbouring word: `at-eye` becomes `at 0`."""
     is_glued = span.source.text[span.start - 1 : span.start].isalnum() and text[:1].isalnum()
     return Splice(span.source, span.start, span.end, f" {text}" if is_glued else text)
 
 
-def instead_of_line(fact: Fact, texts: Iterable[str]) -> Splice:
+def replace_line(fact: Fact, texts: Iterable[str]) -> Splice:
     """Replace the line of a fact, with its comment, by other lines."""
     line = first_line(fact.span)
     return Splice(line.source, line.start, line.end, newline(line.source).join(texts))
@@ -156,7 +156,7 @@ def above_fact(fact: Fact, texts: Iterable[str]) -> Splice:
 
 
 def indentation(declaration: Declaration) -> str:
-    """What stands before the facts of a declaration."""
+    """The white space before the facts of a declaration."""
     if declaration.facts:
         return first_line(declaration.facts[-1].span).indent
     return first_line(declaration.header.span).indent + INDENT
@@ -219,7 +219,7 @@ def text_of(declarations: Sequence[Declaration]) -> str:
 
 
 def _paragraphs(declarations: Iterable[Declaration]) -> list[Extent]:
-    """From where to where declarations of one file stand; those that follow one another as one."""
+    """The extents of declarations of one file; those that follow one another are one extent."""
     found: list[Extent] = []
     for first, last in map(_extent, sorted(declarations, key=_start)):
         above = next((line for line in first.above() if not line.is_blank), None)
@@ -251,7 +251,7 @@ def _leading(line: SourceLine) -> list[SourceLine]:
 
 
 def _closing(last: SourceLine, margin: int) -> list[SourceLine]:
-    """What stands below the last fact of a declaration, down to the last comment that belongs to it.
+    """The lines below the last fact of a declaration, down to the last comment that belongs to it.
 
     Such a comment stands right below or, after blank lines, farther in than the header, and does not lead what follows.
     """

@@ -38,7 +38,7 @@ def locks_of(sources: Iterable[Path]) -> dict[Path, dict[str, Entry]]:
 
 
 def merged(locks: Locks, sources: Iterable[Path]) -> Lock:
-    """What the locks of these files say, the first that knows a skill; main file first."""
+    """The entries of the locks of these files, main file first; for a skill in several locks that of the first."""
     known: dict[str, Entry] = {}
     for path in map(lock_path, sources):
         known = {**locks.get(path, {}), **known}
@@ -139,7 +139,7 @@ def _with_copy(lock: Lock, unshared: Unshared, graph: Graph) -> dict[str, Entry]
 
 
 def _beside(entry: Entry, unshared: Unshared, graph: Graph) -> Entry:
-    """A line of a skill that may have been taught with the shared weights."""
+    """The line of a skill other than the one unshared; if taught with the shared weights, then with the copy, too."""
     shared = dict(entry.subskills).get(unshared.owner)
     worlds = tuple(_without_likeness(world, unshared.skill) for world in entry.worlds)
     if entry.skill not in graph.skill_numbers or not shared:

@@ -32,6 +32,6 @@ def minds(files: Iterable[str]) -> dict[str, Compiled]:
 
 
 def _is_part(compiled: Compiled, used: Collection[Path]) -> bool:
-    """Whether a file is one of those `used`, or a mind beside it or above uses it."""
+    """True if a file is one of those `used`, or a mind beside it or above uses it."""
     path = compiled.sources[0].path
     return path in used or next(neighbours([path]), None) is not None

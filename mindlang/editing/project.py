@@ -1,4 +1,4 @@
-"""What an edit works on: the files of a mind, main one first, and what their names mean."""
+"""The project that an edit works on: the files of a mind, main one first, and the declarations of their names."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -76,7 +76,7 @@ class Unshared:
 
 @dataclass(frozen=True, slots=True)
 class MindChange:
-    """What an edit does: `splices` of the sources, `created` files, and which names the weights have to follow."""
+    """A change of a mind: `splices` of the sources, `created` files, and the names that the weights have to follow."""
 
     splices: tuple[Splice, ...]
     renamed: tuple[Renamed, ...] = ()
@@ -186,7 +186,7 @@ class Project:
         return lock_sources(file.source for file in self.files)
 
     def mentions(self, noun: str, name: str) -> Iterator[Mention]:
-        """Where a name stands, in all files."""
+        """The mentions of a name in all files."""
         return (m for m in mentions(self.files, self.names) if m.noun == noun and m.name.text == name)
 
     def sharing(self, noun: str, name: str) -> list["Project"]:
@@ -199,7 +199,7 @@ class Project:
         ]
 
     def everywhere(self, noun: str, name: str) -> Iterator[Mention]:
-        """Where a name stands, in all files and in those of the neighbours that share it."""
+        """The mentions of a name in all files and in those of the neighbours that share it."""
         yield from self.mentions(noun, name)
         seen = set(self.paths)
         for other in self.sharing(noun, name):
@@ -228,7 +228,7 @@ class Project:
             self.find(reading, *READABLE_NOUNS)
 
     def places(self, skill: str) -> Iterator[Mention]:
-        """Where a skill has its place in the hierarchy: where skills influence it, and where it is the master."""
+        """The mentions that place a skill in the hierarchy: as a subskill, and as the master."""
         for parent in self.parents(skill):
             yield from (Mention("skill", f.name, parent) for f in facts(parent, Influences) if f.name.text == skill)
         masters = (setting.name for setting in self.main.settings if isinstance(setting, Master))
@@ -264,7 +264,7 @@ def influence(kind: str, skill: str) -> str:
 
 
 def has_outputs(kind: str) -> bool:
-    """Whether the functions of a kind have outputs that edges without `at` send."""
+    """True if the functions of a kind have outputs that edges without `at` send."""
     cls: type[Function] = kinds("skill").get(kind, Function)
     return cls.has_outputs
 
@@ -297,7 +297,7 @@ def refuse_lines(text: str) -> None:
 
 
 def _is_name(noun: str, name: str) -> bool:
-    """Whether a line that gives this name can be read, and gives this and no other."""
+    """True if a line that gives this name can be read, and gives this and no other."""
     line = f"contains {name} is item" if noun == "thing" else f"{noun} {name} {'in' if noun == 'task' else 'is'} kind"
     findings = Findings()
     if noun == "number":

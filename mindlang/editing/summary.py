@@ -1,4 +1,4 @@
-"""What an edit does to sources and to trained weights, for people."""
+"""The effects of an edit on sources and on trained weights, in sentences and as a diff."""
 
 import os
 import re
@@ -79,7 +79,7 @@ def broken_sentences(edited: Edited) -> list[str]:
 
 
 def _neighbour_sentences(edited: Edited) -> list[str]:
-    """What becomes stale in neighbours, whose locks may say something else of a skill than the mind's own."""
+    """Sentences on skills that become stale in neighbours whose locks have other lines of them than the mind's."""
     found: dict[str, list[str]] = {}
     own = merged(edited.locks, edited.project.taught)
     for other in edited.beside:
@@ -99,7 +99,7 @@ def _neighbour_sentences(edited: Edited) -> list[str]:
 
 
 def _old_names(edited: Edited, after: Statuses) -> dict[str, str]:
-    """What skills were called before the edit."""
+    """The name that each skill had before the edit."""
     renamed = {rename.new: rename.old for rename in edited.change.renamed if rename.noun == "skill"}
     return {skill: renamed.get(skill, skill) for skill in after}
 

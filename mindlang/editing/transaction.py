@@ -30,7 +30,7 @@ class TransactionError(MindError):
 
 
 class _Noted(msgspec.Struct, frozen=True):
-    """What a file was, and a hash of what it is going to be; None and "" where there is none."""
+    """The contents of a file before an edit, and the hash of those after it; None and "" where there is no file."""
 
     was: bytes | None
     becomes: str
@@ -77,7 +77,7 @@ def noted_in(folder: Path) -> Path | None:
 
 
 def undo(folder: Path) -> tuple[Files, Files]:
-    """Take back the last edit that was written in a folder; its files as they were until now, and as they are.
+    """Take back the last edit that was written in a folder; returns its files as they were until now, and as they are.
 
     What was done before that edit is not kept. TransactionError where a file has been changed since.
     """
@@ -95,7 +95,7 @@ def undo(folder: Path) -> tuple[Files, Files]:
 
 
 def _before(folder: Path) -> Files:
-    """What the files of the last edit were before it; TransactionError where one is neither that nor what it became."""
+    """The files of the last edit as they were before it; TransactionError where one has been changed since."""
     note = folder / UNDO_NAME
     try:
         noted = msgspec.json.decode(read_whole(note, MAX_FILE_BYTES), type=dict[str, _Noted])
@@ -151,7 +151,7 @@ def _exchange(path: Path, data: bytes | None, was: bytes | None) -> None:
 
 
 def _is_ours(folder: Path, path: Path) -> bool:
-    """Whether a path leads to a file in a folder, of those that mindc changes."""
+    """True if a path leads into the folder, to a file of a kind that mindc changes."""
     return path.suffix in CHANGED_SUFFIXES and not path.is_symlink() and path.resolve().is_relative_to(folder.resolve())
 
 

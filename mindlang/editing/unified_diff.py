@@ -48,7 +48,7 @@ def _hunks(before: list[str], after: list[str]) -> Iterator[str]:
 
 
 def _common(before: list[str], after: list[str]) -> int:
-    """How many lines two texts begin with that are the same."""
+    """The number of lines with which both texts begin."""
     pairs = enumerate(zip(before, after, strict=False))
     return next((place for place, (a, b) in pairs if a != b), min(len(before), len(after)))
 

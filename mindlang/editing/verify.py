@@ -89,7 +89,7 @@ def verify_unchanged(edited: Edited, prepare: Callable[[Rollout], None] = Rollou
 def _is_untouched(
     before: Graph, old: Mapping[str, Weights], after: Graph, new: Mapping[str, Weights], master: str, names: NounNames
 ) -> bool:
-    """Whether all that a skill reaches is declared as before, or has been widened to do as before.
+    """True if all that a skill reaches is declared as before, or has been widened to do as before.
 
     `before` has the names that are called otherwise now, and `old` the weights by the names that they had.
     """
@@ -106,7 +106,7 @@ def _is_untouched(
 
 
 def _shape(graph: Graph, skill: Skill) -> object:
-    """What a skill reads and sends, by name."""
+    """The function, readings and edges of a skill, all by name, so that two graphs can be compared."""
     readings = _readings(graph)
     edges = [
         (
@@ -149,7 +149,7 @@ def _hold(recorded: NDArray[np.float32], before: Graph, after: Graph, old: Engin
 def _recorded(
     side: MindVersion, skill: str, task: str, weights: Mapping[str, Weights], prepare: Callable[[Rollout], None]
 ) -> NDArray[np.float32]:
-    """What a skill reads [ticks, graph.width] in a run of the task on which it was taught; 0 of what it does not."""
+    """The readings [ticks, graph.width] of a run of the task on which a skill was taught; 0 for those that are NaN."""
     tasks = [each.name for each in side.graph.tasks]
     policy = Policy(side.graph, weights)
     rollout = rollout_for(policy, task if task in tasks else tasks[0], skill, procedures=side.folder)

@@ -36,7 +36,7 @@ from mindlang.compiler.references import READABLE_NOUNS, mentions_in
 from mindlang.compiler.source import Source
 from mindlang.compiler.splice import spliced
 from mindlang.compiler.syntax import Declaration, Fact
-from mindlang.editing.insertion import instead
+from mindlang.editing.insertion import replace_span
 from mindlang.lock.training_world import TrainingWorld
 from mindlang.lock.world_facts import Worlds
 
@@ -72,13 +72,13 @@ _AROUND_SENTENCE: Mapping[Role, Callable[[str], tuple[str, str]]] = {
 
 @dataclass(frozen=True)
 class Renaming:
-    """New names, and the minds, with the old names or the new ones, whose worlds say where they stand."""
+    """New names by noun, and the minds in whose worlds the texts with these names are looked up."""
 
     names: NounNames
     minds: Sequence[Graph]
 
     def name(self, text: str, *nouns: str) -> str:
-        """What something with one of these nouns is called now."""
+        """The present name of something with one of these nouns."""
         return now_called(text, self.names, *nouns)
 
     def relabelled(self, world: TrainingWorld) -> TrainingWorld:
@@ -100,7 +100,7 @@ class Renaming:
         return TrainingWorld({**now, "lesson": {**lesson, **named}})
 
     def _texts(self, world: TrainingWorld) -> dict[tuple[Role, str], str]:
-        """Every text in the world of the same lesson, where a mind has it, by its role and as it was: as it is now."""
+        """The new text for each role and old text, from the worlds of the same lesson in the minds."""
         found: dict[tuple[Role, str], str] = {}
 
         def noted(role: Role, text: str) -> str:
@@ -150,7 +150,7 @@ class Renaming:
             return text
         known = Names({noun: cast(dict[str, Declaration], named) for noun, named in self.names.items()})
         mentions = mentions_in(fact, known, None)
-        splices = (instead(each.name.span, self.name(each.name.text, each.noun)) for each in mentions)
+        splices = (replace_span(each.name.span, self.name(each.name.text, each.noun)) for each in mentions)
         return spliced(source, splices).removeprefix(before).removesuffix(after)
 
 

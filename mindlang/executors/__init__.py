@@ -1,4 +1,4 @@
-"""Where jobs are done, by what --on says: one file a kind, `begin(argument, assignment, say)` opens it."""
+"""Executors of jobs by what --on says: one file a kind, `begin(argument, assignment, say)` opens it."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def scorer_on(
     workers: int,
     say: Callable[[str], object] = lambda line: None,
 ) -> Iterator[Rollout | JobScorer]:
-    """What scores as a rollout does, where --on says; its workers are sent away in the end, whatever they do.
+    """A scorer that does as a rollout does, where --on says; its workers are sent away in the end, whatever they do.
 
     Where --on says nothing the rollout does it in threads; in environments so many processes do, unless 0, since a step
     leaves no thread the interpreter.
@@ -86,5 +86,5 @@ def where(text: str) -> Where | None:
 
 
 def kinds_by_usage() -> dict[str, str]:
-    """How each kind is said, by its name."""
+    """The usage of each kind, by its name."""
     return {kind: import_module(f"{__name__}.{kind}").USAGE for kind in KINDS}

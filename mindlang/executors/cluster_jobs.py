@@ -58,7 +58,7 @@ WireAnswer = tuple[str, bytes] | tuple[str, str, str]  # built-ins alone: whoeve
 
 @cache
 def cluster_build() -> Build:
-    """What jobs and their answers depend on: the build of mindrun, and what is pickled."""
+    """The build on which jobs and their answers depend: that of mindrun, and a hash of this room, which is pickled."""
     return {**own_build(), "mindlang": sources_hash(Path(__file__).parent)}
 
 
@@ -114,7 +114,7 @@ class ClusterJobs(JobExecutor):
 
     @property
     def workers(self) -> int:
-        """How many jobs can be at work at once: the threads of all workers that are connected."""
+        """The number of jobs that can be at work at once: the threads of all workers that are connected."""
         if (now := monotonic()) - self._looked >= LOOK_SECONDS:
             self._slots, self._looked = self._found_slots(), now
             self._tell(now)
@@ -214,7 +214,7 @@ def answer_here(build: Build, assignment: bytes, work: bytes) -> WireAnswer:
 
 
 def _scorer(assignment: bytes) -> Any:
-    """What does the jobs of an assignment in a thread of this worker, on its share of the cores.
+    """The scorer for the jobs of an assignment in a thread of this worker, on its share of the cores.
 
     An environment is stepped in as many processes: it would leave other threads no interpreter, and may end or hang.
     """
@@ -231,7 +231,7 @@ def _scorer(assignment: bytes) -> Any:
 
 
 class Scorers(local):
-    """Those of each thread of a worker, by the assignment."""
+    """The scorers of each thread of a worker, by the assignment."""
 
     def __init__(self) -> None:
         self.of = lru_cache(KEPT_SCORERS)(_scorer)

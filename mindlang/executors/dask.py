@@ -33,7 +33,7 @@ TLS = 'TLS="--protocol tls --tls-ca-file tls.pem --tls-cert tls.pem --tls-key tl
 
 @dataclass(frozen=True, slots=True)
 class Destination:
-    """What stands behind `dask:`: an address or a scheduler file, and how it is reached.
+    """The argument of `dask:`: an address or a scheduler file, and how it is reached.
 
     `pem` is a file with a certificate and its key, which everybody in the cluster has; empty where Dask's own
     configuration says it. With `is_trusted` nothing needs to be encrypted.
@@ -44,9 +44,9 @@ class Destination:
     is_trusted: bool = False
 
     def address(self) -> str:
-        """The address of the scheduler, as scheme://host:port. WorkError where there is no file that says one.
+        """The address of the scheduler, as scheme://host:port.
 
-        And where it leads to another machine, and nothing is encrypted on the way.
+        WorkError where there is no file that says one, or nothing is encrypted on the way to another machine.
         """
         address = self.place if _parts(self.place) else _address_in(Path(self.place))
         self.refuse_open(address)
@@ -73,13 +73,13 @@ def sbatch(path: str) -> tuple[str, str]:
 
 
 def destination(argument: str) -> Destination:
-    """What an argument says."""
+    """The destination in an argument of `dask:`."""
     place, _, how = argument.partition(",")
     return Destination(place, is_trusted=True) if how == TRUSTED else Destination(place, how)
 
 
 def flaw_of(argument: str) -> str:
-    """What is wrong with an argument by itself; nothing where nothing is."""
+    """The flaw of an argument by itself; "" where it has none."""
     place = destination(argument).place
     if not place or argument.endswith(","):
         return "it says no scheduler"
@@ -87,7 +87,7 @@ def flaw_of(argument: str) -> str:
 
 
 def flaw(argument: str) -> str:
-    """What is wrong with an address; nothing where nothing is. MindError without Dask, or a way there that is safe."""
+    """The flaw of an address; "" where it has none. MindError without Dask, or a way there that is safe."""
     refuse_without(("distributed",), "a cluster is reached with", "cluster")
     if not (found := flaw_of(argument)):
         destination(argument).address()
@@ -95,7 +95,7 @@ def flaw(argument: str) -> str:
 
 
 def begin(argument: str, assignment: Assignment, say: Callable[[str], object]) -> JobExecutor:
-    """Whoever is connected to the scheduler, now or later."""
+    """An executor on the workers that are connected to the scheduler, now or later."""
     from mindlang.executors.cluster_jobs import ClusterJobs
 
     return ClusterJobs(connect(destination(argument)), assignment, say)
@@ -116,7 +116,7 @@ def connect(there: Destination) -> Client:
 
 
 def _security_of(there: Destination, address: str) -> Security:
-    """How a connection is encrypted; WorkError where it has to be, and there is no certificate."""
+    """The encryption of a connection; WorkError where it has to be encrypted, and there is no certificate."""
     from distributed.security import Security
 
     if not address.startswith("tls:"):

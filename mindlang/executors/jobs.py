@@ -1,7 +1,7 @@
-"""Jobs: pure functions of what they say and of their assignment, done by any worker, in any order, any number of times.
+"""Jobs: pure functions of their own data and their assignment, done by any worker, in any order, any number of times.
 
-A job is a stretch of an attempt, or genomes to be scored on seeds. What came of it is an answer; why it was not done is
-one, too, in plain words. Genomes × seeds become jobs, and the arrays that come of them are those of one machine.
+A job is a stretch of an attempt, or genomes to be scored on seeds. Its result is an answer, and so is, in plain
+words, why it was not done. Genomes × seeds become jobs, whose results are the arrays that one machine would make.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ FATAL = (
 )
 
 Tally = NDArray[np.int64]
-Work = Callable[[Any], Any]  # what comes of a job, by what scores its assignment; it is pickled
+Work = Callable[[Any], Any]  # a job: the scorer of its assignment to the job's result; it is pickled
 
 
 class WorkError(MindError):
@@ -56,7 +56,7 @@ class WorkError(MindError):
 
 @dataclass(frozen=True, slots=True)
 class Assignment:
-    """What all jobs of a training or a bench share: a task under a master, and the packed bundle that has both.
+    """The common part of all jobs of a training or a bench: a task under a master, and the packed bundle that has both.
 
     A genome has the weights of the `learners`, one after the other. In `folder`, which no other machine is told, a
     module may stand that registers an environment.
@@ -72,7 +72,7 @@ class Assignment:
 
 @dataclass(frozen=True, slots=True)
 class Done:
-    """What came of a job, the seconds that it took, and what its scorer counted meanwhile beside the results."""
+    """The result of a job, the seconds that it took, and what its scorer counted meanwhile beside the results."""
 
     result: Any
     seconds: float
@@ -93,7 +93,7 @@ class Failed:
 
 
 def answer(scorer: Callable[[], Any], work: Work) -> Done | Failed:
-    """The answer to a job, by what makes the scorer of its assignment; whatever is raised is an answer, too."""
+    """Do a job with the scorer that `scorer()` makes of its assignment; whatever is raised is an answer, too."""
     try:
         made = scorer()
         before, began = tally_of(made), perf_counter()
@@ -106,7 +106,7 @@ def answer(scorer: Callable[[], Any], work: Work) -> Done | Failed:
 
 
 def tally_of(scorer: Any) -> Tally:
-    """What a scorer has counted beside its results, as `mindrun.sim.outside.rollout` does; others count nothing."""
+    """The counts of a scorer beside its results, as `mindrun.sim.outside.rollout` has them; empty of one without."""
     return scorer.tally() if hasattr(scorer, "tally") else np.zeros(0, np.int64)
 
 
@@ -127,7 +127,7 @@ def rollout_of(assignment: Assignment, threads: int) -> Rollout:
 
 @dataclass(slots=True)
 class Job:
-    """A job that somebody is at: `worker` is who, where that is one of ours."""
+    """A job that is being done; `worker` does it, where that is one of ours."""
 
     number: int
     work: Work
@@ -147,15 +147,15 @@ class JobExecutor:
 
     @property
     def workers(self) -> int:
-        """How many jobs can be at work at once, as far as is known; it may change."""
+        """The number of jobs that can be at work at once, as far as is known; it may change."""
         raise NotImplementedError
 
     def has_room(self) -> bool:
-        """Whether a worker would wait without another job."""
+        """True if a worker would wait without another job."""
         return len(self._open) < self.workers
 
     def submit(self, number: int, work: Work) -> None:
-        """Ask for a job."""
+        """Have a job done."""
         self._ask(Job(number, work))
 
     def take(self) -> tuple[int, Done] | None:
@@ -212,11 +212,11 @@ class StretchExecutor:
     scorer: Any = None
 
     def has_room(self) -> bool:
-        """Whether a worker would wait without another stretch."""
+        """True if a worker would wait without another stretch."""
         return self.jobs.has_room()
 
     def submit(self, job: int, stretch: Stretch) -> None:
-        """Ask for a stretch."""
+        """Have a stretch done."""
         self.jobs.submit(job, partial(_advance, self.course, stretch))
 
     def take(self) -> tuple[int, Segment] | None:
@@ -233,7 +233,7 @@ def _advance(course: Course, stretch: Stretch, scorer: Any) -> Segment:
 
 
 def refuse_without(packages: tuple[str, ...], who: str, extra: str) -> None:
-    """MindError where one of these packages, which somebody is asked by, is not installed."""
+    """MindError where one of these packages is not installed; `who` begins the sentence, `extra` would bring them."""
     for name in packages:
         if find_spec(name) is None:
             hint = f"pip install 'mindlang[{extra}]'"
@@ -256,7 +256,7 @@ class JobScorer:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What somebody should know of the runs so far."""
+        """Notes for the user on the runs so far."""
         notes: tuple[str, ...] = self.rollout.notes
         return notes
 
@@ -291,12 +291,12 @@ class JobScorer:
                 done = taken[1]
                 done.count_in(self.rollout)
                 self._seconds = done.seconds / block_done.runs
-                place(block_done, done.result, whole)
+                write_scores(block_done, done.result, whole)
                 ran(block_done.runs)
         return whole
 
     def tally(self) -> Tally:
-        """What was counted beside the results, by all workers."""
+        """The counts of all workers beside the results."""
         return tally_of(self.rollout)
 
     def add(self, tally: Tally) -> None:
@@ -319,12 +319,12 @@ class Block:
 
     @property
     def runs(self) -> int:
-        """How many runs it is."""
+        """The number of runs."""
         return int((self.genomes.stop - self.genomes.start) * (self.seeds.stop - self.seeds.start))
 
 
 def runs_in_a_job(runs: int, workers: int, seconds: float | None) -> int:
-    """How many of all the runs make a good job, where a run takes so many seconds (None: nobody knows)."""
+    """The number of runs for one job out of all, where a run takes so many seconds (None: nobody knows)."""
     if seconds is None:
         return FIRST_RUNS
     share = runs / (max(1, workers) * JOBS_PER_WORKER)
@@ -333,14 +333,14 @@ def runs_in_a_job(runs: int, workers: int, seconds: float | None) -> int:
 
 
 class Blocks:
-    """What is left of genomes × seeds: whole genomes while a job is for more runs than there are seeds."""
+    """Genomes × seeds cut into blocks: whole genomes while a job is for at least as many runs as there are seeds."""
 
     def __init__(self, genomes: int, seeds: int) -> None:
         self._genomes, self._seeds, self._done = genomes, seeds, 0
 
     @property
     def left(self) -> int:
-        """How many runs are left."""
+        """The number of runs that are left."""
         return self._genomes * self._seeds - self._done
 
     def next(self, runs: int) -> Block:
@@ -356,7 +356,7 @@ class Blocks:
 
 
 def empty_scores(genomes: int, seeds: int, task: Task) -> Scores:
-    """Room for what comes of all: arrays of zeros."""
+    """Arrays of zeros for the scores of all genomes on all seeds."""
     more = {"by_line": (max(1, len(task.rewards)),), "by_event": (len(task.events),)}
     whole: dict[str, NDArray[Any]] = {}
     for name in (*SUMMED, *COUNTED):
@@ -364,7 +364,7 @@ def empty_scores(genomes: int, seeds: int, task: Task) -> Scores:
     return Scores(**whole)
 
 
-def place(block: Block, part: Any, whole: Scores) -> None:
-    """Put what came of a block into its place."""
+def write_scores(block: Block, part: Any, whole: Scores) -> None:
+    """Write the scores of a block into those of all genomes and seeds."""
     for name in (*SUMMED, *COUNTED):
         getattr(whole, name)[block.genomes, block.seeds] = getattr(part, name)

@@ -43,14 +43,14 @@ Make = Callable[[Assignment, int], Any]
 
 
 def flaw(argument: str) -> str:
-    """What is wrong with a number of processes; nothing where nothing is."""
+    """The flaw of a number of processes; "" where it has none."""
     if not (argument.isascii() and argument.isdigit() and len(argument) <= MAX_DIGITS):
         return "it is no whole number"
     return "" if 1 <= int(argument) <= MAX_PROCESSES else f"it is not from 1 to {MAX_PROCESSES}"
 
 
 def begin(argument: str, assignment: Assignment, say: Callable[[str], object]) -> "ProcessJobs":
-    """So many processes."""
+    """An executor on so many processes."""
     count = int(argument)
     return ProcessJobs(count, max(1, cores() // count), assignment)
 
@@ -71,7 +71,7 @@ class ProcessJobs(JobExecutor):
 
     @property
     def workers(self) -> int:
-        """How many there are."""
+        """The number of processes."""
         return len(self.members)
 
     def close(self) -> None:
@@ -83,7 +83,7 @@ class ProcessJobs(JobExecutor):
 
     def _future_of(self, job: Job) -> "Future[Done | Failed]":
         member = job.worker = self._idle.pop()
-        return member.ask(job.work)
+        return member.submit(job.work)
 
     def _answer(self, future: "Future[Done | Failed]", job: Job) -> Done | Failed | None:
         self._idle.append(job.worker)
@@ -115,7 +115,7 @@ class Member:
                 self._loaded = self._pool.submit(_load)
         return self._pool
 
-    def ask(self, work: Work) -> "Future[Done | Failed]":
+    def submit(self, work: Work) -> "Future[Done | Failed]":
         """Have the process do a job."""
         try:
             return self.begin().submit(_answer, work)
@@ -172,7 +172,7 @@ _scorer: Callable[[], Any]  # of this process
 
 
 def _begin(assignment: Assignment, threads: int, make: Make) -> None:
-    """What a process does first: it ends with the one that began it, and has no part in its streams and signals."""
+    """Set a new process up: it ends with the one that began it, and has no part in its streams and signals."""
     global _scorer
     _scorer = lru_cache(lambda: make(assignment, threads))
     os.setsid()  # Ctrl-C at the terminal is for who asks, who lets the work go on to be saved

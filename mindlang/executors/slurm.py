@@ -15,7 +15,7 @@ MAX_CORES = 10_000
 
 
 def flaw(argument: str) -> str:
-    """What is wrong with a number of jobs and what they are; nothing where nothing is.
+    """The flaw of a number of jobs with their options; "" where they have none.
 
     MindError without dask-jobqueue.
     """

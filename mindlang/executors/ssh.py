@@ -33,11 +33,11 @@ class Machine:
 
     @property
     def options(self) -> dict[str, Any]:
-        """How asyncssh connects to it; ports, keys and other names are read in ~/.ssh/config."""
+        """The options with which asyncssh connects to it; ports, keys and other names are read in ~/.ssh/config."""
         return {**OPTIONS, "username": self.user} if self.user else OPTIONS
 
     async def run(self, command: str, given: str = "") -> Any:
-        """What a command has come to there, whose standard input is given."""
+        """Run a command there with `given` on its standard input, and return how it ended."""
         import asyncssh
 
         async with asyncssh.connect(self.host, **self.options) as connection:
@@ -68,7 +68,7 @@ def machines(argument: str) -> list[Machine]:
 
 
 def flaw(argument: str) -> str:
-    """What is wrong with a list of machines; nothing where nothing is. MindError where Dask or asyncssh is missing."""
+    """The flaw of a list of machines; "" where it has none. MindError where Dask or asyncssh is missing."""
     refuse_without(("distributed", "asyncssh"), "machines are reached with", "cluster")
     if not all(machine.host for machine in machines(argument)):
         return "a machine has no name"
@@ -109,7 +109,7 @@ def begin(argument: str, assignment: Assignment, say: Callable[[str], object]) -
 
 
 def arguments(there: Sequence[Machine]) -> dict[str, Any]:
-    """What SSHCluster is told of machines: the first, which has the scheduler, comes twice."""
+    """The arguments of SSHCluster for machines: the first, which has the scheduler, comes twice."""
     all_of_them = [there[0], *there]
     return {
         "hosts": [each.host for each in all_of_them],

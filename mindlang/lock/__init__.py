@@ -53,7 +53,7 @@ class LockError(MindError):
 
 @dataclass(frozen=True, slots=True)
 class Signature:
-    """What a genome fits: the function with its arguments, and by name what it reads and sends, in its order."""
+    """The signature of a genome: its function with arguments, and the names that it reads and sends, in its order."""
 
     function: str
     reads: tuple[str, ...]  # a sensor with several readings says how many: proximity:10
@@ -62,7 +62,7 @@ class Signature:
 
 @dataclass(frozen=True, slots=True)
 class Taught:
-    """How a genome came about: where, `jointly` with its subskills or theirs, and after how many generations.
+    """The lesson that made a genome: where, `jointly` with its subskills or theirs, and after how many generations.
 
     It was lesson `number` of a curriculum; 0 and "" where the lock does not say, as those of older versions. `success`
     is the share of runs that succeeded, where its lesson needs some.
@@ -82,7 +82,7 @@ class Taught:
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """One line: a trained skill. `weights` and those of the `subskills` that it was taught with are SHA-256.
+    """A line of a lock: a trained skill. `weights` and those of the `subskills` that it was taught with are SHA-256.
 
     `origin` is the other skill with whose weights it began, and their SHA-256; or the file that they were brought in,
     as `file:NAME`, and its SHA-256; there may be none.
@@ -175,7 +175,7 @@ def lock_path(source: Path) -> Path:
 
 
 def lock_sources(sources: Iterable[Source]) -> list[Path]:
-    """The files of a mind whose locks count: the skills of one that is used under a name are others than it has."""
+    """The files of a mind whose locks count: those not used under a name, under which skills have other names."""
     return [source.path for source in sources if not source.alias]
 
 
@@ -257,7 +257,7 @@ def write_lock(path: Path, entries: Lock) -> None:
 
 @dataclass(frozen=True, slots=True)
 class MergedLock:
-    """What two branches agree on, and by skill what each of them says where both have changed it; None: nothing."""
+    """The lines on which two branches agree, and by skill both lines where both have changed it; None: no line."""
 
     entries: Lock
     conflicts: Mapping[str, tuple[Entry | None, Entry | None]]

@@ -1,4 +1,4 @@
-"""How the skills of a mind stand to their weights, for people and for programs, and what a person accepts of that."""
+"""The status of the skills of a mind, for people and for programs, and what a person accepts of that."""
 
 from __future__ import annotations
 
@@ -53,12 +53,12 @@ class Row:
 
     @property
     def is_fine(self) -> bool:
-        """Whether it can act."""
+        """True if the skill can act."""
         return isinstance(self.status, Trained | NotLearning) and not self.damage
 
     @property
     def word(self) -> str:
-        """How it stands, in a word or two."""
+        """The status of the skill in a word or two."""
         if self.damage:
             return "damaged"
         match self.status:
@@ -116,8 +116,8 @@ def _due(graph: Graph, skill: str, states: Mapping[str, Status]) -> tuple[Lesson
     return tuple(lesson for lesson, learning in standing.items() if is_due(graph, lesson, learning))
 
 
-def made(row: Row) -> str:
-    """Which weights a skill has, and how they came about."""
+def weights_text(row: Row) -> str:
+    """The weights of a skill and how they came about, in words."""
     if not isinstance(row.status, Trained):
         return f"like {row.like}" * bool(row.like)
     entry = row.status.entry
@@ -155,7 +155,7 @@ def as_data(row: Row) -> dict[str, Any]:
 
 
 def survival(found: Sequence[Row]) -> list[str]:
-    """Which weights still fit, as sentences: those that do in one, each of the others in its own."""
+    """Sentences on which weights still fit: those that do in one, each of the others in its own."""
     found = [row for row in found if not row.like]  # what is said of the others' weights holds for theirs
     trained = [row.skill for row in found if isinstance(row.status, Trained) and not row.damage]
     lines = [f"weights of {listed(trained, 'and')} fit"] if trained else []

@@ -1,4 +1,4 @@
-"""What a genome fits, by name: taken from a graph, compared with another, and a graph in the order of its weights."""
+"""Signatures of genomes: taken from a graph, compared with another, and a graph in the order of its weights."""
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
@@ -29,7 +29,7 @@ def signature(graph: Graph, skill: Skill) -> Signature:
 
 
 def differences(old: Signature, new: Signature, derived: Collection[str]) -> tuple[str, ...]:
-    """What keeps weights from fitting, as sentences; order is no difference.
+    """The differences that keep weights from fitting, in sentences; order is none.
 
     The arguments in `derived` are not told where what is read or sent tells it already, from which they follow.
     """
@@ -68,15 +68,15 @@ def reordered(entry: Entry, graph: Graph) -> tuple[str, ...]:
 
 
 def width(name: str) -> int:
-    """How many values a name in a signature stands for: proximity:7 for seven, bearing for one."""
+    """The number of values for which a name in a signature stands: proximity:7 for seven, bearing for one."""
     digits = name.partition(":")[2]
     return int(digits[:MAX_WIDTH_DIGITS]) if digits.isdecimal() else 1
 
 
 def places(of: Sequence[str], among: Sequence[str], counterparts: Mapping[str, str]) -> list[int]:
-    """For each value that these names stand for its place among those of the other names, in their order.
+    """The place of each value of the names `of` among the values of the names `among`, in their order.
 
-    `counterparts` are the names among the others of those that are called otherwise there.
+    `counterparts` has the name `among` them of one that is called otherwise there.
     """
     starts = dict(zip(among, accumulate(map(width, among), initial=0), strict=False))
     return [starts[counterparts.get(name, name)] + number for name in of for number in range(width(name))]

@@ -1,4 +1,4 @@
-"""Which skills of a mind have weights that fit, what is different about those that do not, and which lesson is due."""
+"""The status of skills: weights that fit, what is different about those that do not; and which lesson is due."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ class Trained:
 
     @property
     def is_elsewhere(self) -> bool:
-        """Whether the world in which it was taught is known, and is another now."""
+        """True if the world in which it was taught is known, and is another now."""
         return bool(self.changes)
 
 
@@ -65,12 +65,12 @@ Status = Trained | Stale | Untaught | NotLearning
 
 
 def mismatches(graph: Graph, skill: Skill, entry: Entry) -> tuple[str, ...]:
-    """What differs between a skill and the declaration that the weights of its line in a lock fit, in sentences."""
+    """The differences between a skill and the declaration that the weights of its line in a lock fit, in sentences."""
     return differences(entry.signature, signature(graph, skill), skill.function.derived)
 
 
 def status(graph: Graph, lock: Lock, folder: Path | None = None) -> dict[str, Status]:
-    """How each skill of a mind stands to its lock, one that is like another as that one; reads no weights.
+    """The status of each skill of a mind by its lock, one that is like another as that one; reads no weights.
 
     Procedures count where they are found in `folder`.
     """
@@ -88,7 +88,7 @@ class _Standing:
     folder: Path | None
 
     def of(self, index: int) -> Status:
-        """How the skill of an index stands."""
+        """The status of the skill with an index."""
         skill = self.graph.skills[index]
         if genes(skill) == 0:
             return NotLearning()
@@ -122,7 +122,7 @@ class _Standing:
         return Trained(entry, tuple(dict.fromkeys((*subskills, *changed))), frozenset(outdated), last)
 
     def _world_changes(self, world: TrainingWorld, lesson: Lesson | None) -> list[str]:
-        """What has changed in the world of a lesson; None where none of the mind is of it."""
+        """The changes of a training world; `lesson` is the mind's own that teaches in it, None where there is none."""
         key = world.lesson
         if lesson:
             return changes(world, self._worlds.of(lesson))
@@ -133,7 +133,7 @@ class _Standing:
         return changes(world, self._worlds.of_gone(key, world.facts["lesson"]))
 
     def _subskill_changes(self, index: int, entry: Entry) -> Iterator[str]:
-        """What is different about the learnt skills below one, but for what a lesson changed that it took part in."""
+        """The differences in the learnt skills below one, except those made by a lesson in which it took part."""
         subskills = {*owners(below(self.graph, index))} - {entry.skill}
         for skill, weights in entry.subskills:
             now = self.lock.get(skill)
@@ -147,7 +147,7 @@ class _Standing:
         yield from (f"taught without {skill}" for skill in sorted(subskills - known))
 
     def _other_origin(self, entry: Entry) -> Iterator[str]:
-        """What is different about another skill's weights that a skill began with, but for lessons of both."""
+        """The difference in the weights of the skill from which one began, except by a lesson in which it took part."""
         if entry.origin is None or entry.origin_file:
             return
         name, weights = entry.origin
@@ -158,7 +158,7 @@ class _Standing:
             yield f"began with another {name} ({weights[:4]}…, now {now.weights[:4]}…)"
 
     def _took_part(self, skill: str, taught: Entry) -> bool:
-        """Whether a skill acted in the lesson that another was taught in."""
+        """True if a skill acted in the lesson in which another was taught."""
         master = taught.taught.master
         if master not in self._acting:
             acting = reachable(self.graph, master) if master in self.graph.skill_numbers else ()
@@ -216,17 +216,17 @@ def trained_weights(graph: Graph, lock: Lock, skills: Collection[str]) -> tuple[
 
 
 def key_of(lesson: Lesson) -> LessonKey:
-    """Which lesson it is, whatever its curriculum says of how it is learnt."""
+    """The key of a lesson: which one it is, whatever its curriculum says of how it is learnt."""
     return LessonKey(lesson.task, lesson.master, lesson.with_subskills)
 
 
 def key_of_taught(taught: Taught) -> LessonKey:
-    """Which lesson it was that a line of a lock tells of last."""
+    """The key of the lesson that a line of a lock tells of last."""
     return LessonKey(taught.task, taught.master, taught.jointly)
 
 
 def last_lesson(lessons: Iterable[Lesson], taught: Taught) -> Lesson | None:
-    """Which of these lessons a line of a lock tells of; None where it does not say, or another stands there."""
+    """The one of these lessons that a line of a lock tells of; None where it does not say, or tells of another."""
     said = taught.number, taught.curriculum, key_of_taught(taught)
     return next((each for each in lessons if (each.number, each.curriculum, key_of(each)) == said), None)
 
@@ -244,7 +244,7 @@ def in_question(lessons: Sequence[Lesson], last: Lesson | None) -> Sequence[Less
 def lessons_of(
     graph: Graph, world: TrainingWorld, entry: Entry, teaching: Iterable[Lesson], last: Lesson | None
 ) -> Sequence[Lesson]:
-    """Those of the lessons `teaching` a skill that a world of its line may be of; `last` is the one taught last.
+    """The lessons, of those `teaching` a skill, that a world of its line may be of; `last` is the one taught last.
 
     A task or a master that is gone may have another name now: then they are those that the line does not know.
     """
@@ -276,7 +276,7 @@ def subskills(graph: Graph, lesson: Lesson) -> tuple[str, ...]:
 
 
 def is_due(graph: Graph, lesson: Lesson, states: Mapping[str, Status]) -> bool:
-    """Whether a lesson has yet to be taught, by how its learners stand.
+    """True if a lesson has yet to be taught, by how its learners stand.
 
     Skills whose weights fit are left alone, except where they came from an earlier lesson that taught them, where the
     world of the lesson is another than the one in which they were taught, and where they are not known to have what it

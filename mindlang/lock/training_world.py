@@ -23,11 +23,11 @@ MOST_FACT_CHARACTERS = 1 << 20
 _FACT = re.compile(r"  (?P<subject>[^\s=]+(?: [^\s=]+)?) = (?P<value>.+)")
 
 
-class Kind:
+class KindForm:
     """A kind as `mindrun.graph.codec` says it: its name and its arguments."""
 
 
-class Argument:
+class ArgumentForm:
     """An argument of a kind, in one of the forms ARGUMENTS."""
 
 
@@ -43,22 +43,22 @@ ARGUMENTS: tuple[Any, ...] = (
     list[tuple[Number, Number]],
     list[tuple[str, str | Number]],  # an expression over readings, of words with a number or a name each
 )
-NAMED = {**dict.fromkeys(("actuator", "memory", "sensor", "thing"), Kind), "skill": dict[str, str | list[str]]}
+NAMED = {**dict.fromkeys(("actuator", "memory", "sensor", "thing"), KindForm), "skill": dict[str, str | list[str]]}
 FORMS = {
     "tick": Annotated[float, Meta(gt=0, lt=1e300)],
     "claw": Number,
-    "body": Kind,
+    "body": KindForm,
     "task": _table(
-        "Task", ("scene", Kind), ("ticks", Number), ("ends", list[str]), ("succeeds", list[str], field(default=[]))
+        "Task", ("scene", KindForm), ("ticks", Number), ("ends", list[str]), ("succeeds", list[str], field(default=[]))
     ),
     "environment": _table("Environment", ("text", str)),
     "physics": _table("Physics", ("pymunk", str), ("world", int)),
-    "start": _table("Start", ("at", Argument), ("facing", Argument)),
+    "start": _table("Start", ("at", ArgumentForm), ("facing", ArgumentForm)),
     "varying": list[str],
     "rewards": list[tuple[str, str]],
     "lesson": _table(
         "Lesson",
-        *(("task", str), ("master", str), ("with_subskills", bool), ("from_scratch", bool), ("learner", Kind)),
+        *(("task", str), ("master", str), ("with_subskills", bool), ("from_scratch", bool), ("learner", KindForm)),
         ("starts_from", str, ""),
     ),
 }  # what a fact may be, by its subject or, of those with a name, by the noun in NAMED
@@ -66,7 +66,7 @@ FORMS = {
 
 @dataclass(frozen=True, slots=True)
 class LessonKey:
-    """Which lesson it was: a skill can be taught on several tasks, under several masters, alone or `jointly`."""
+    """The key of a lesson: a skill can be taught on several tasks, under several masters, alone or `jointly`."""
 
     task: str
     master: str
@@ -91,7 +91,7 @@ class TrainingWorld:
         return LessonKey(lesson["task"], lesson["master"], lesson["with_subskills"])
 
     def text(self) -> str:
-        """Its block in a lock."""
+        """The block of the world in a lock."""
         return "\n".join([f"world {self.name}", *self._lines()])
 
     def _lines(self) -> Iterator[str]:
@@ -131,7 +131,7 @@ def _no_number(text: str) -> NoReturn:
 
 
 def _fits(value: Any, form: Any) -> bool:
-    """Whether a value has a form."""
+    """True if a value has a form."""
     try:
         convert(value, form, dec_hook=_checked)
     except (ValidationError, OverflowError):
@@ -139,13 +139,13 @@ def _fits(value: Any, form: Any) -> bool:
     return True
 
 
-def _checked(form: type[Kind | Argument], value: Any) -> Kind | Argument:
-    """What stands for a kind or an argument of one; ValueError where the value is none."""
-    if form is Argument:
+def _checked(form: type[KindForm | ArgumentForm], value: Any) -> KindForm | ArgumentForm:
+    """An instance of the form, once the value is checked to be a kind or an argument; ValueError where it is none."""
+    if form is ArgumentForm:
         is_one = any(_fits(value, each) for each in ARGUMENTS)
     else:
         is_named = isinstance(value, dict) and isinstance(value.get("is"), str)
-        is_one = is_named and all(_fits(argument, Argument) for argument in value.values())
+        is_one = is_named and all(_fits(argument, ArgumentForm) for argument in value.values())
     if not is_one:
         raise ValueError("it cannot be so")
     return form()

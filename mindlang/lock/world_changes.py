@@ -1,4 +1,4 @@
-"""What is different between the world in which a skill was taught and the one that its lesson teaches in now."""
+"""The differences between the world in which a skill was taught and the one in which its lesson teaches now."""
 
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
@@ -58,7 +58,7 @@ def _tick(seconds: float) -> str:
 
 
 def _kind_changes(noun: str, name: str, old: Mapping[str, Any], now: Mapping[str, Any]) -> Iterator[str]:
-    """What is said of a part otherwise. An argument that only one version of mindc knows is none."""
+    """The differences of a part, in sentences. An argument that only one version of mindc knows is none."""
     if old["is"] != now["is"]:
         yield f"taught with {name} as {old['is']}, now {now['is']}"
         return
@@ -71,7 +71,7 @@ def _kind_changes(noun: str, name: str, old: Mapping[str, Any], now: Mapping[str
 
 
 def _are_one_direction(old: Any, now: Any) -> bool:
-    """Whether directions are those of before, each perhaps written otherwise: -90 deg is 270 deg."""
+    """True if directions are those of before, each perhaps written otherwise: -90 deg is 270 deg."""
     before, after = (value if isinstance(value, list) else [value] for value in (old, now))
     known = len(before) == len(after) and all(isinstance(each, int | float) for each in (*before, *after))
     return known and all(abs(sin((a - b) / 2)) < SAME_DIRECTION for a, b in zip(before, after, strict=True))
@@ -89,7 +89,7 @@ def _skill_changes(name: str, old: Mapping[str, Any], now: Mapping[str, Any]) ->
 
 
 def _skill_words(skill: Mapping[str, Any]) -> Counter[str]:
-    """What is said of a skill, but for the text of its procedure."""
+    """The facts of a skill as words, each with its count, without the text of its procedure."""
     said = {key: [value] if isinstance(value, str) else value for key, value in skill.items() if key != "text"}
     return Counter(f"{word} {each}" for word, values in said.items() for each in values)
 
@@ -169,7 +169,7 @@ def _reward_changes(old: Sequence[Sequence[str]], now: Sequence[Sequence[str]]) 
 
 
 def _beginning(lesson: Mapping[str, Any]) -> str:
-    """With which weights a lesson begins."""
+    """The weights with which a lesson begins, in words."""
     if lesson["from_scratch"]:
         return "from scratch"
     return f"from {lesson['starts_from']}" if "starts_from" in lesson else "from its weights"

@@ -34,7 +34,7 @@ NEGATION_PRECEDENCE, EXTREME_PRECEDENCE, ATOM_PRECEDENCE = 3, 4, 5
 UNSAID_VALUES: tuple[Any, ...] = ([], "", None, {"by": None, "first": UNSAID.first, "last": UNSAID.last})
 
 Leaf = Callable[[str, float], str]
-Part = tuple[str, int]  # of an expression: its text, and how tightly it binds
+ExpressionPart = tuple[str, int]  # of an expression: its text, and how tightly it binds
 
 
 @dataclass(frozen=True)
@@ -120,7 +120,7 @@ class Worlds:
         return of_sensors + [memory.name for memory in self.graph.memories]
 
     def _skill(self, skill: Skill) -> dict[str, Any]:
-        """What a skill does beside what its weights say: all of it where it does not learn."""
+        """The facts of a skill that its weights do not say: all of it where it does not learn."""
         fixed = [edge for edge in skill.edges if edge.programs or edge.cuts]
         sends = [self._sends(edge) for edge in fixed]
         if skill.like:
@@ -135,7 +135,7 @@ class Worlds:
         return {**function, "reads": reads, "answers": answers, "sends": sorted(sends)}
 
     def _sends(self, edge: Edge) -> str:
-        """What an edge sends beside its output, as it is written."""
+        """The target, value, gate and cut of an edge, as they are written."""
         words = [self.graph.named(edge.to, edge.target)]
         words += [f"at {infix(edge.value, self._leaf)}"] if edge.output is None else []
         if edge.gate:
@@ -144,7 +144,7 @@ class Worlds:
         return " ".join([*words, *([f"cuts below {number(edge.cuts)}"] if edge.cuts else [])])
 
     def _read_instead(self, skill: Skill) -> list[str]:
-        """What a skill that is like another reads in place of what: the other's line in a lock has its order."""
+        """Readings of a skill that is like another, as `own for other`; the other's line in a lock has the order."""
         owner = next(each for each in self.graph.skills if each.name == skill.like)
         pairs = zip(skill.inputs, owner.inputs, strict=True)
         names = dict.fromkeys((self._names[own], self._names[other]) for own, other in pairs)
@@ -164,7 +164,7 @@ class Worlds:
         return sha256(path.read_bytes()).hexdigest() if path else ""
 
     def _ends(self, task: Task, succeeds: bool) -> Iterator[str]:
-        """What ends a run, as a success or not."""
+        """The ends of a run: those that are a success, or those that are none."""
         for end in task.ends:
             if end.succeeds == succeeds:
                 times = f"{end.times} " if end.times > 1 else ""
@@ -172,7 +172,7 @@ class Worlds:
                 yield f"{times}{event}" if event else f"when {infix(end.when or (), self._leaf_of(task))}"
 
     def _leaf_of(self, task: Task) -> Leaf:
-        """How the expressions of a task say what they name."""
+        """The function that writes the leaves of a task's expressions."""
 
         def leaf(word: str, operand: float | int) -> str:
             match word:
@@ -202,13 +202,13 @@ class Worlds:
 def infix(program: Program, leaf: Leaf) -> str:
     """An expression as it is written; `leaf` says a reading or a measure by its word and its index."""
 
-    def part(word: str, operand: float | int) -> Part:
+    def part(word: str, operand: float | int) -> ExpressionPart:
         return number(operand) if word == "number" else leaf(word, operand), ATOM_PRECEDENCE
 
-    def negated(value: Part) -> Part:
+    def negated(value: ExpressionPart) -> ExpressionPart:
         return f"-{_within(value, NEGATION_PRECEDENCE)}", NEGATION_PRECEDENCE
 
-    def combined(operator: str, left: Part, right: Part) -> Part:
+    def combined(operator: str, left: ExpressionPart, right: ExpressionPart) -> ExpressionPart:
         if operator not in PRECEDENCE:
             sides = f"{_within(left, ATOM_PRECEDENCE)} {_within(right, ATOM_PRECEDENCE)}"
             return f"{operator} of {sides}", EXTREME_PRECEDENCE
@@ -218,7 +218,7 @@ def infix(program: Program, leaf: Leaf) -> str:
     return fold(program, part, negated, combined)[0] if program else ""
 
 
-def _within(part: Part, binding: int) -> str:
+def _within(part: ExpressionPart, binding: int) -> str:
     text, own = part
     return text if own >= binding else f"({text})"
 
@@ -247,7 +247,7 @@ def argument(noun: str, kind: str, field: str, value: Any) -> str:
 
 
 def meaning_of(noun: str, kind: str, field: str) -> Quantity | Reference | None:
-    """What an argument of a kind is; None of what this version does not know."""
+    """The quantity or reference that an argument of a kind is; None for one that this version does not know."""
     known = {each.field: each for each in arguments(kinds(noun)[kind])} if kind in kinds(noun) else {}
     return known[field].type if field in known else None
 

@@ -45,7 +45,7 @@ class HierarchyPanel:
 
     def draw(self, canvas: Canvas, tick: int) -> None:
         """Draw the hierarchy in a tick, the first of which is 1."""
-        flow = self._flows.over(range(tick - 1, tick))
+        flow = self._flows.flow_at(range(tick - 1, tick))
         links = zip(self._stops, flow.value[0].tolist(), flow.transmitted[0].tolist(), strict=True)
         for stops, command, transmitted in sorted(links, key=itemgetter(2)):  # what is bright lies on top
             self._link(canvas, stops, command, transmitted)

@@ -1,4 +1,4 @@
-"""What a wiring uses: pins, addresses and channels, each of which belongs to one, and time, which has to suffice.
+"""The claims of a wiring: pins, addresses and channels, each of which belongs to one, and time, which has to suffice.
 
 How much time is what drivers say of themselves, beside how often wires ask for it.
 """

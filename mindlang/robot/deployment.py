@@ -1,4 +1,4 @@
-"""A deployment from the first look to the last: every step may be the last one, and may be done again.
+"""Deploys a bundle to a robot. Every step may be the last one, and may be done again.
 
 What is brought is a release: a folder with the bundle, the mindrun that reads it and its services. Its name stands for
 every byte.
@@ -83,7 +83,7 @@ class Release:
     size: int
 
     def named(self, moment: str) -> str:
-        """What it is called on the robot: names sort by their age."""
+        """Its name on the robot: names sort by their age."""
         return f"{moment}-{self.fingerprint[:8]}"
 
 
@@ -154,14 +154,14 @@ class Deployed:
 
 @dataclass(frozen=True, slots=True)
 class ReleaseState:
-    """What is on a robot: its releases, oldest first, which of them is current, and what it lacks."""
+    """The state of a robot: its releases, oldest first, which of them is current, and what it lacks."""
 
     current: str
     releases: tuple[Deployed, ...]
     lacks: tuple[str, ...]
 
     def has(self, fingerprint: str) -> bool:
-        """Whether the current release is this one, and whole."""
+        """True if the current release is this one, and whole."""
         return self.current.endswith(f"-{fingerprint[:8]}") and self.current in self._whole
 
     def before(self) -> str:
@@ -171,7 +171,7 @@ class ReleaseState:
         raise DeployError("There is no whole release before the current one.", "mindc deploy HOST --list")
 
     def is_gone(self) -> bool:
-        """Whether somebody has deleted the current release on the robot."""
+        """True if somebody has deleted the current release on the robot."""
         return bool(self.current) and self.current not in {each.name for each in self.releases}
 
     def moment(self, now: datetime) -> str:
@@ -196,8 +196,8 @@ def moment_of(release: str) -> datetime | None:
 
 
 def read_state(robot: RemoteRobot) -> ReleaseState:
-    """The releases on a robot; changes nothing there."""
-    return parse_state(robot.ask("look"))
+    """Ask a robot for its state; changes nothing there."""
+    return parse_state(robot.run_verb("look"))
 
 
 def parse_state(told: Sequence[RobotEvent]) -> ReleaseState:
@@ -220,7 +220,7 @@ def parse_state(told: Sequence[RobotEvent]) -> ReleaseState:
 
 @dataclass(frozen=True, slots=True)
 class Settings:
-    """How a release is run: by a service, armed or not, or by none; watched for some seconds at its start."""
+    """The settings of a deployment: a service, armed or not, or none, and how many seconds its start is watched."""
 
     service: bool = True
     armed: bool = False
@@ -263,10 +263,10 @@ class Deployment:
             name = release.named(state.moment(now))
             self._tell_of(f"copy {release.size / 1024:,.0f} KiB to {self.robot.host} as {name}")
             if not self.try_only:
-                for _, detail in self.robot.ask("prepare"):
+                for _, detail in self.robot.run_verb("prepare"):
                     self.tell(detail)
                 self.robot.copy(release.folder, f"mind/incoming/{release.fingerprint}")
-                self.robot.ask("accept", release.fingerprint, name)
+                self.robot.run_verb("accept", release.fingerprint, name)
                 self.tell("it has arrived whole, and the robot can read it")
             return self._switch(state, name)
 
@@ -277,7 +277,7 @@ class Deployment:
             return self._switch(state, state.before(), left=state.current)
 
     def _alone(self) -> AbstractContextManager[None]:
-        """A robot that can do it, and no other deployment to it meanwhile; who changes nothing there need not wait."""
+        """Hold the lock of a robot that has all that a deployment needs; a trial changes nothing, and takes no lock."""
         lacks = read_state(self.robot).lacks
         if missing := [tool for tool in lacks if tool != SYSTEMD]:
             hint = "sudo apt install rsync python3 coreutils util-linux"
@@ -290,7 +290,7 @@ class Deployment:
         return self.robot.locked(lambda: self.tell(waiting))
 
     def _looked(self) -> ReleaseState:
-        """The state of the robot; what somebody has deleted there is told."""
+        """The state of the robot; says so where its current release has been deleted."""
         state = read_state(self.robot)
         if state.is_gone():
             self.tell(f"the current release, {state.current}, has been deleted on {self.robot.host}")
@@ -301,7 +301,7 @@ class Deployment:
         self._tell_of(f"switch from {before or 'nothing'} to {name}, {MANNERS[how.unit]}")
         if self.try_only:
             return DeployResult(before, before)
-        told = self.robot.ask(
+        told = self.robot.run_verb(
             "switch", name, how.unit, f"{how.keep}", f"{how.watch}", "yes" if how.go_back else "no", left
         )
         users = (user for event, user in told if event == "unlingering")

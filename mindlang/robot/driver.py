@@ -1,6 +1,6 @@
-"""The driver of a sensor or an actuator: found by name, one of one's own too, with its options checked.
+"""The driver of a sensor or an actuator: found by name, also one of a user, with its options checked.
 
-One's own is found beside `robot.yaml` or in an installed package, and asked what it is. Its code runs in a process of
+A user's driver is found beside `robot.yaml` or in an installed package, and inspected. Its code runs in a process of
 its own that may take some seconds, and only here: where a bundle is built.
 """
 
@@ -41,7 +41,7 @@ class BrokenDriverError(MindError):
 
 @dataclass(frozen=True, slots=True)
 class DriverClass:
-    """What a driver can be told, and how it is made of that, with its timing."""
+    """The options of a driver, and the function that makes it of their values, with its timing."""
 
     options: tuple[DriverOption, ...]
     make: Callable[..., tuple[Any, Timing]]
@@ -64,17 +64,17 @@ class Wired:
     values: Mapping[str, Any]
 
     def entry(self, key: str) -> TableEntry | None:
-        """What is said under a key."""
+        """The entry with a key; None where there is none."""
         return self.table.entries.get(key)
 
     def span(self, *keys: str) -> Span:
-        """Where the value of the first of these keys stands that is said, or else the name."""
+        """The span of the value of the first of these keys that is written, or else of the name."""
         said = [entry for entry in map(self.entry, keys) if entry]
         return first_line(said[0].value.span) if said else self.name.span
 
 
 def wired(noun: str, name: Scalar, table: Table, findings: Findings) -> Wired | None:
-    """What a table says, its keys and values checked; None after reporting why there is no driver."""
+    """The driver that a table wires, its keys and values checked; None after reporting why there is none."""
     before = len(errors(findings.diagnostics))
     cls = _class(noun, name, table, findings)
     if cls is None:
@@ -225,7 +225,7 @@ def _made(noun: str, code: DriverCode, **options: Any) -> tuple[Any, Timing]:
 
 @cache
 def _ask(code: DriverCode, noun: str, options: str | None) -> dict[str, Any]:
-    """What a driver answers; BrokenDriverError where it has no answer that is one."""
+    """Inspect a driver in a process of its own, and return its answer; BrokenDriverError where none is fit."""
     question = json.dumps({"code": asdict(code), "noun": noun, "options": options})
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
     try:
@@ -262,5 +262,5 @@ def _option(data: dict[str, Any]) -> DriverOption:
 
 
 def _as_tuple(value: Any) -> Any:
-    """What was a tuple before it became JSON."""
+    """A list of JSON as the tuple that it was before; any other value as it is."""
     return tuple(value) if isinstance(value, list) else value

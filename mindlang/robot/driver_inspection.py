@@ -1,4 +1,4 @@
-"""What a driver says of itself: its options, the values that it measures, and how much time it needs.
+"""The inspection of a driver: its options, the values that it measures, and how much time it needs.
 
 A user's driver is asked in a process of its own, `python -m mindlang.robot.driver_inspection`, which takes a question
 on standard input and gives an answer on standard output, both as JSON. What the driver's code prints goes elsewhere,
@@ -34,7 +34,7 @@ class UnfitDriverError(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Timing:
-    """What a driver can do, in the words of `SensorDriver`; `queue` is empty where nothing has to wait for another."""
+    """The timing of a driver, in the words of `SensorDriver`; `queue` is "" where nothing has to wait for another."""
 
     seconds: float = 0.0
     bus_seconds: float = 0.0
@@ -44,7 +44,7 @@ class Timing:
 
 
 def timing_of(driver: object, noun: str) -> Timing:
-    """What a driver says of its time; UnfitDriverError where that cannot be."""
+    """The timing that a driver states; UnfitDriverError where it cannot be."""
     names = Timing.__dataclass_fields__.keys() | {"device"}
     said = {name: getattr(driver, name) for name in names if getattr_static(driver, name, ABSENT) is not ABSENT}
     queue = said.get("queue", said.get("device", "") if noun == "actuator" else "")
@@ -105,7 +105,7 @@ def _answer(question: Mapping[str, Any]) -> Answer:
 
 
 def _reason(error: BaseException, code: DriverCode) -> str:
-    """What was raised, and on which line of the driver's file."""
+    """The exception in words, and the last line of the driver's file that it came through."""
     frames = traceback.extract_tb(error.__traceback__)
     lines = [frame.lineno for frame in frames if frame.filename == code.origin]
     line = error.lineno if isinstance(error, SyntaxError) else lines[-1] if lines else None
@@ -130,7 +130,7 @@ def _plain(option: DriverOption) -> Answer:
 
 
 def _facts(cls: Any, noun: str, options: Mapping[str, Any]) -> Answer:
-    """What a driver with these options says of itself."""
+    """The facts that a driver with these options states about itself, or why it is impossible."""
     try:
         driver = cls(**options)
         device = getattr(driver, "device", "")
@@ -143,7 +143,7 @@ def _facts(cls: Any, noun: str, options: Mapping[str, Any]) -> Answer:
 
 
 def _sensor_facts(driver: Any) -> Answer:
-    """What a sensor's driver says of its values."""
+    """The facts that a sensor's driver states about its values; UnfitDriverError where one is missing or cannot be."""
     for name in ("unit", "readings", "usual"):
         if not hasattr(driver, name):
             raise UnfitDriverError(f"says no {name}, so it is for no sensor")

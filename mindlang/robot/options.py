@@ -61,7 +61,7 @@ class DriverOption:
 
     @property
     def required(self) -> bool:
-        """Whether it must be given."""
+        """True if it must be given."""
         return self.default is MISSING
 
 
@@ -112,7 +112,7 @@ def _option(field: Field[Any], hint: Any) -> DriverOption:
 
 
 def _without_none(hint: Any) -> Any:
-    """The type of what may also be None, when it is said."""
+    """The type of an option without None: float for `float | None`."""
     if get_origin(hint) in (Union, UnionType):
         return next(part for part in get_args(hint) if part is not NoneType)
     return hint
@@ -164,7 +164,7 @@ def _section_schema(noun: str) -> dict[str, Any]:
 
 
 def _wire_schema(noun: str, name: str, cls: type[Any]) -> dict[str, Any]:
-    """What can be said of a sensor or actuator with this driver."""
+    """The JSON Schema of a sensor or actuator with this driver."""
     its, own = driver_options(cls), own_options(noun)
     text = " ".join(str(cls.__doc__).split())
     said = {option.key: _option_schema(option, OPTION_DESCRIPTIONS[option.key]) for option in own}

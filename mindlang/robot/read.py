@@ -1,4 +1,4 @@
-"""The text of `robot.yaml` → its tree, for any text without an exception: each value has its span, none is checked yet.
+"""Parses `robot.yaml` into a tree of values with their spans; raises nothing for any text, and checks no value yet.
 
 It is made from the events of PyYAML's parser, which makes no object. Nothing is followed, expanded or nested deep, so
 what is read is never larger than what was written. What PyYAML cannot read, or reads as another thing than was meant,
@@ -144,7 +144,7 @@ class _Reader:
         return node
 
     def _node(self, depth: int) -> Node:
-        """The next value, which stands in so many others."""
+        """The next value, `depth` lists and tables deep."""
         event = self.loader.get_event()
         self.values += 1
         if self.values > MAX_VALUES:
@@ -155,7 +155,7 @@ class _Reader:
             hint = "Write out what it stands for: every sensor and actuator is read by itself."
             self.findings.error("yaml-alias", span, f"{shortened(span.text)} stands for another place.", hint)
             return Lost(span)
-        is_marked = self._check_unmarked(event)
+        is_marked = self._is_marked(event)
         if isinstance(event, yaml.ScalarEvent):
             return Lost(self._span(event)) if is_marked else self._scalar(event)
         start = event.start_mark.index
@@ -169,8 +169,8 @@ class _Reader:
         span = Span(self.source, start, max(start, self.loader.get_event().end_mark.index))
         return self._table(nodes, span) if isinstance(event, yaml.MappingStartEvent) else Items(tuple(nodes), span)
 
-    def _check_unmarked(self, event: yaml.NodeEvent) -> bool:
-        """Whether a value has an anchor or a tag, which is reported."""
+    def _is_marked(self, event: yaml.NodeEvent) -> bool:
+        """True if a value has an anchor or a tag, after reporting it."""
         start = event.start_mark.index
         word = self.source.text[start : start + 200].split(maxsplit=1)[0] if event.anchor or event.tag else ""
         span = Span(self.source, start, start + len(word))
@@ -228,17 +228,17 @@ class _Reader:
 
 
 def first_line(span: Span) -> Span:
-    """As much of a span as stands on its first line."""
+    """The part of a span on its first line."""
     return Span(span.source, span.start, span.start + len(span.text.split("\n")[0].rstrip()))
 
 
 def shortened(text: str) -> str:
-    """What was written, if it is not too long for a message."""
+    """A text, cut off where it is too long for a message."""
     return text if len(text) <= MAX_SHOWN_CHARACTERS else f"{text[: MAX_SHOWN_CHARACTERS - 1]}…"
 
 
 def check_tabs(source: Source) -> Answer | None:
-    """The first tab of a text, which YAML takes in some places and not in others."""
+    """The finding of the first tab of a text, None without one: YAML takes tabs in some places and not in others."""
     start = 0
     for line in source.text.split("\n") if "\t" in source.text else ():
         if found := re.search("\t+", NUMBER_SIGN.sub("", line)):
@@ -250,7 +250,7 @@ def check_tabs(source: Source) -> Answer | None:
 
 
 def misread(error: Exception, source: Source, at: int) -> Answer:
-    """What the parser's error means; `at` is how far it came."""
+    """The code, span, message and hint for an error of the parser; `at` is how far it came."""
     if isinstance(error, yaml.reader.ReaderError):
         message = f"The character U+{ord(source.text[error.position]):04X} cannot stand in YAML."
         return "yaml-character", Span(source, error.position, error.position + 1), message, "Remove it."
@@ -288,7 +288,7 @@ def _all_digits(text: str) -> str:
 
 
 def _decimal(text: str) -> str:
-    """What digits of another base may stand for."""
+    """The decimal numbers for which digits of another base may stand."""
     base = 2 if "b" in text else 8
     digits = re.sub("^[-+]?0[ob]?", "", text).replace("_", "")
     decimal = digits.lstrip("0") or "0"
@@ -302,7 +302,7 @@ def _decimal(text: str) -> str:
 
 
 def _whole(text: str) -> str:
-    """A number with digits before its point, and behind it."""
+    """A number with digits before its point, and no point without digits behind it."""
     sign = "-" if text[0] == "-" else ""
     whole, _, part = text.lstrip("+-").partition(".")
     return f"{sign}{whole or '0'}{'.' * bool(part)}{part}"
@@ -313,7 +313,7 @@ def _text(text: str) -> str:
 
 
 class Surprise(NamedTuple):
-    """What YAML takes for something else; message and hint have `text` as written, and what it is `meant` as."""
+    """A text that YAML takes for something else; message and hint have `text` as written, and what it is `meant` as."""
 
     pattern: re.Pattern[str]
     code: str

@@ -50,7 +50,7 @@ class RemoteRobot:
     host: str
     options: tuple[str, ...]
 
-    def ask(self, verb: str, *words: str) -> list[RobotEvent]:
+    def run_verb(self, verb: str, *words: str) -> list[RobotEvent]:
         """Run one verb of robot.sh on the robot; the events that it printed. DeployError where it fails."""
         done = subprocess.run(
             self._shell,
@@ -90,7 +90,7 @@ class RemoteRobot:
 
     @property
     def _shell(self) -> list[str]:
-        """What runs a script there: no word of anybody, since the login shell may be any."""
+        """The command that runs a script there; no other word is in it, since the login shell may be any."""
         return ["ssh", *self.options, "--", self.host, "sh -s"]
 
     def copy(self, folder: Path, to: str) -> None:

@@ -61,7 +61,7 @@ def sensor_wire(wired: Wired, sensor: Sensor, unit_metres: float | None, finding
 
 
 def _seeing_as_far(wired: Wired, sensor: Sensor, unit_metres: float | None) -> Wired:
-    """A driver whose range nobody says sees as far as the sensor of the mind, where that says how long a unit is."""
+    """The driver with the range of the mind's sensor, where it has none and the mind says how long a unit is."""
     option = next((each for each in driver_options(type(wired.driver)) if each.key == RANGE), None)
     metres = (unit_metres or 0.0) * sensor.kind.ends[1]
     is_length = sensor.kind.unit == wired.driver.unit != ""
@@ -74,7 +74,7 @@ def _seeing_as_far(wired: Wired, sensor: Sensor, unit_metres: float | None) -> W
 
 
 def _end(wired: Wired, index: int, usual: tuple[float, float], findings: Findings) -> float | None:
-    """The value that is the reading 0, or 1."""
+    """The value that is the reading 0 or, with `index` 1, the reading 1."""
     unit = wired.driver.unit
     entry = wired.entry(ENDS[index])
     if entry is None:
@@ -87,7 +87,7 @@ def _end(wired: Wired, index: int, usual: tuple[float, float], findings: Finding
 
 
 def _check_readings(wired: Wired, sensor: Sensor, findings: Findings) -> None:
-    """One value for each reading, and where there are pins, as many in each list."""
+    """Report a driver that has not one value for each reading, or not as many pins in a list."""
     count, name = wired.driver.readings, wired.name.text
     lists = [option.key for option in wired.options if option.shape == "numbers"]
     if count != sensor.width:

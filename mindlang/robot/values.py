@@ -134,7 +134,7 @@ def table(node: Node, what: str, example: str, findings: Findings) -> Table | No
 
 
 def is_empty(entry: TableEntry, findings: Findings) -> bool:
-    """Whether nothing stands after a key; reports it."""
+    """True if nothing stands after a key, after reporting it."""
     if not isinstance(entry.value, Scalar) or entry.value.text or not entry.value.plain:
         return False
     hint = "Write a value after the colon, or remove the line; what belongs to it stands below it, farther in."

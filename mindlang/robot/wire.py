@@ -1,6 +1,6 @@
-"""`robot.yaml` → Wiring, checked against a mind; for any text without an exception.
+"""Compiles `robot.yaml` to a Wiring, checked against a mind; raises nothing for any text.
 
-Of its sensors and actuators it is each that is written, and each that is not but has to be.
+Every sensor and actuator that is written is checked, and one that the mind needs and that is missing is an error.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Set
@@ -35,7 +35,7 @@ W = TypeVar("W", SensorWire, ActuatorWire)
 
 @dataclass(frozen=True, slots=True)
 class Checked:
-    """What became of a wiring; `wiring` is None where the diagnostics hold an error."""
+    """A wiring with its diagnostics; `wiring` is None where they hold an error."""
 
     wiring: Wiring | None
     diagnostics: tuple[Diagnostic, ...]
@@ -107,7 +107,7 @@ def _section(
     wire: Callable[[Wired, P], W | None],
     findings: Findings,
 ) -> Iterator[tuple[Wired, W | None]]:
-    """What is wired to sensors or actuators, in the order of the mind; without a wire where one is wrong."""
+    """The drivers of sensors or actuators in the order of the mind, each with its wire, None where that is wrong."""
     if entry is None:
         return
     value = entry.value

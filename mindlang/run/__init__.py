@@ -1,1 +1,1 @@
-"""One run of a task, or many: who plays, what is seen of it, and what came of it."""
+"""One run of a task, or many: set up, written down tick by tick, and the outcome as data, text and tables."""

@@ -29,7 +29,7 @@ def task_of(graph: Graph, name: str | None) -> tuple[Task, str]:
 
 
 def master_of(graph: Graph, task: Task | None, name: str | None) -> str:
-    """Who is in charge of a task: the skill of that name; without one, the master of the task's first lesson.
+    """The master in charge of a task: the skill of that name; without one, the master of the task's first lesson.
 
     The mind's own master where a lesson on the task is under it, or none is on the task, or there is no task.
     """
@@ -40,7 +40,7 @@ def master_of(graph: Graph, task: Task | None, name: str | None) -> str:
 
 
 def skill_of(graph: Graph, name: str) -> str:
-    """The name, which a skill has; SetupError where none does."""
+    """The name itself, if a skill has it; else SetupError."""
     skills = [skill.name for skill in graph.skills]
     return name if name in skills else unknown("skill", name, skills)
 

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from mindlang.number_format import score
 from mindlang.run.outcome import events
-from mindlang.run.paired_difference import CONFIDENCE_LEVEL, Difference, difference
+from mindlang.run.paired_difference import CONFIDENCE_LEVEL, PairedDifference, difference
 
 if TYPE_CHECKING:
     from mindrun.graph.run_scores import Scores
@@ -26,7 +26,7 @@ MIN_DIGITS = 2  # behind the point
 
 @dataclass(frozen=True, slots=True)
 class Benched:
-    """A mind that has run: what it is called beside the other, its task, and what came of each layout."""
+    """A mind that was benched: its name beside the other, its task, and the scores of one genome on each layout."""
 
     name: str
     task: Task
@@ -41,12 +41,12 @@ class Benched:
 
 
 @dataclass(frozen=True, slots=True)
-class Comparison:
-    """Two minds, and how much the second differs from the first in each figure by name; the first one decides."""
+class MindComparison:
+    """Two minds, and how much the second differs from the first in each figure by name; the first figure decides."""
 
     first: Benched
     second: Benched
-    differences: Mapping[str, Difference]
+    differences: Mapping[str, PairedDifference]
     is_one_world: bool = False
 
     @property
@@ -63,8 +63,8 @@ class Comparison:
         return {"confidence": CONFIDENCE_LEVEL, "differences": differences, "conclusion": self.conclusion}
 
 
-def compare(first: Benched, second: Benched, is_one_world: bool = False) -> Comparison:
-    """The differences in what both say in the same words; of the score only where it is paid for the same.
+def compare_minds(first: Benched, second: Benched, is_one_world: bool = False) -> MindComparison:
+    """The differences in the figures that both name in the same words; in the score only where it is paid for the same.
 
     In one world, where nothing is drawn for either, each has made its only run.
     """
@@ -72,7 +72,7 @@ def compare(first: Benched, second: Benched, is_one_world: bool = False) -> Comp
     if _paid_for(first.task) != _paid_for(second.task):
         del ours[SCORE]
     both = [name for name in ours if name in theirs]
-    return Comparison(first, second, {name: difference(ours[name], theirs[name]) for name in both}, is_one_world)
+    return MindComparison(first, second, {name: difference(ours[name], theirs[name]) for name in both}, is_one_world)
 
 
 def differing_tasks(file: str, ours: Task, theirs: Task) -> list[str]:
@@ -89,8 +89,8 @@ def _paid_for(task: Task) -> list[str]:
     return [reward.text for reward in task.rewards]
 
 
-def conclusion(first: str, second: str, task: str, differences: Mapping[str, Difference]) -> str:
-    """Which of two minds does better on a task, by the first of the figures."""
+def conclusion(first: str, second: str, task: str, differences: Mapping[str, PairedDifference]) -> str:
+    """A sentence that says which of two minds does better on a task, by the first of the figures."""
     if not differences:
         return "There is no figure that both have: they are paid for other rewards, and count other events."
     name, found = next(iter(differences.items()))
@@ -123,8 +123,8 @@ def conclusion(first: str, second: str, task: str, differences: Mapping[str, Dif
     )
 
 
-def one_world_conclusion(first: str, second: str, task: str, differences: Mapping[str, Difference]) -> str:
-    """Which of two minds does better where nothing is drawn: each has one run, and that says it all."""
+def one_world_conclusion(first: str, second: str, task: str, differences: Mapping[str, PairedDifference]) -> str:
+    """A sentence that says which of two minds does better where nothing is drawn: each has one run."""
     name, found = next(iter(differences.items()), ("", None))
     if found is None:
         return conclusion(first, second, task, differences)
@@ -138,7 +138,7 @@ def one_world_conclusion(first: str, second: str, task: str, differences: Mappin
     return f"In the one world of {task}, {better} {verb} {more} more{of_what} than {worse}."
 
 
-def amount(name: str, value: float, found: Difference) -> str:
+def amount(name: str, value: float, found: PairedDifference) -> str:
     """A difference, or one of its bounds, with as many digits as its standard error has a use for."""
     if name == SUCCESS:
         return f"{100 * value:.1f} percentage points"
@@ -147,5 +147,5 @@ def amount(name: str, value: float, found: Difference) -> str:
 
 
 def _words(name: str) -> tuple[str, str]:
-    """The verb of a figure, and what there is more of."""
+    """The verb for a figure, and the words behind `more` or `less`."""
     return {SCORE: ("scores", ""), SUCCESS: ("succeeds", " often")}.get(name, ("counts", f" ({name})"))

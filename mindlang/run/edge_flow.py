@@ -1,4 +1,4 @@
-"""What flows over each edge of a hierarchy, tick by tick, computed by the engine's own functions."""
+"""The flow over each edge of a hierarchy, tick by tick, computed by the engine's own functions."""
 
 from collections.abc import Callable, Container, Iterator, Mapping
 from dataclasses import dataclass
@@ -22,7 +22,7 @@ BLOCK_ROWS = 1024  # of what functions that remember have sent, kept together
 PART_EDGES = 1_000_000  # edges times rows that are computed at once, a few dozen bytes each
 
 
-class Thought(Protocol):
+class ReadingsAndInfluence(Protocol):
     """A run as its skills had it: readings [ticks, graph.width] and the influence that they made [ticks, skills]."""
 
     @property
@@ -83,13 +83,13 @@ class EdgeFlows:
 
     @cached_property
     def links_to(self) -> Mapping[Sink, list[int]]:
-        """The places of the links to each."""
+        """The places in `links` of the edges that lead to each sink."""
         found: dict[Sink, list[int]] = {}
         for place, link in enumerate(self.links):
             found.setdefault(link.target, []).append(place)
         return found
 
-    def over(self, rows: Places | range) -> EdgeFlow:
+    def flow_at(self, rows: Places | range) -> EdgeFlow:
         """The flow over `links` in rows in rising order; IndexError where one of these is not there."""
         places = np.asarray(rows, np.int64)
         with self._computing, np.errstate(all="ignore"):
@@ -107,7 +107,7 @@ class EdgeFlows:
         most = max(1, PART_EDGES // max(1, len(self.links)))
         for first in range(0, len(rows), most):
             part = slice(first, first + most)
-            yield part, self.over(rows[part])
+            yield part, self.flow_at(rows[part])
 
     def transmitted(self, rows: Places) -> Singles:
         """The influence over each edge [rows, edges], 0 to 1."""
@@ -118,7 +118,7 @@ class EdgeFlows:
 
     @property
     def kept_bytes(self) -> int:
-        """How many bytes are kept of rows that have been asked for."""
+        """The number of bytes kept of rows that have been asked for."""
         return sum(block.nbytes for kept in self._kept.values() for block in kept.blocks)
 
     def go_on(self, end: int) -> None:
@@ -128,7 +128,7 @@ class EdgeFlows:
                 kept.go_on(end)
 
     def _sent(self, rows: Places, readings: Singles, influence: Singles) -> Singles:
-        """What each skill sent over its edges [rows, edges], before the clamp; NaN where nothing is sent."""
+        """The values that each skill sent over its edges [rows, edges], before the clamp; NaN where nothing is sent."""
         is_influenced = influence[:, self.skills] != 0
         sent: list[np.float32] = []
         for row, place in np.argwhere(is_influenced).tolist():
@@ -142,7 +142,7 @@ class EdgeFlows:
 
 
 class _Kept:
-    """What a skill that remembers has sent so far; like the engine it computes only where it is influenced."""
+    """The values that a skill with a memory has sent so far, computed only where it is influenced, as in the engine."""
 
     def __init__(self, skill: Ready, rows: Rows, begins: Container[int]) -> None:
         self.blocks: list[Singles] = []  # [BLOCK_ROWS, edges] each
@@ -175,7 +175,7 @@ def _numbers(skill: Ready, readings: Singles) -> list[np.float32]:
 
 
 def edge_flows(
-    policy: Policy, sources: Mapping[str, str], master: str, run: Thought, begins: Container[int] = ()
+    policy: Policy, sources: Mapping[str, str], master: str, run: ReadingsAndInfluence, begins: Container[int] = ()
 ) -> EdgeFlows:
     """The flows of a run that is over; WeightsError or ProcedureError where a skill cannot be made ready."""
 

@@ -1,4 +1,4 @@
-"""What came of one run, and of many, as plain data: the contents of `--json`."""
+"""The outcome of one run, and of many, as plain data: the contents of `--json`."""
 
 from __future__ import annotations
 
@@ -134,7 +134,7 @@ def bench_data(
 
 
 def _success(runs: NDArray[np.float64]) -> dict[str, float | None]:
-    """In which share of the runs; where it is all or none, also of how many of all layouts that may be true.
+    """The share of runs that succeeded; where it is all or none, also of how many of all layouts that may be true.
 
     `at_least` and `at_most` are that share with 95 % confidence, None where a standard error says how far it may be
     off, or one run knows neither.

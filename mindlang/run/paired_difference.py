@@ -1,4 +1,4 @@
-"""How much two minds differ over runs that began on the same layouts, and what that says of all layouts.
+"""The difference of two minds over runs that began on the same layouts, and what that says of all layouts.
 
 Runs on one layout share what is easy or hard about it, so the difference of each pair varies less than two means do.
 The interval is Student's for the mean of the differences d of n runs, mean ± t · std(d) / √n, but
@@ -27,7 +27,7 @@ BEND_TOLERANCE = 1e-9  # from which on skewness bends an interval
 
 
 @dataclass(frozen=True, slots=True)
-class Difference:
+class PairedDifference:
     """The second less the first, over `runs` pairs, of which in `more` it was more, in `less` less, in `equal` neither.
 
     `low` to `high` is the 95 % confidence interval of the mean; None of a single pair, and where no pair differs.
@@ -54,12 +54,12 @@ class Difference:
 
     @property
     def differing(self) -> int:
-        """How many runs came to something else."""
+        """The number of pairs that differ."""
         return self.more + self.less
 
     @property
     def leaves_zero_out(self) -> bool:
-        """True where the interval leaves 0 out."""
+        """True if the interval leaves 0 out."""
         return self.low is not None and self.high is not None and not self.low <= 0 <= self.high
 
     @property
@@ -69,7 +69,7 @@ class Difference:
 
     @property
     def is_widened(self) -> bool:
-        """True where layouts without an example make the interval as wide as it is."""
+        """True if layouts without an example make the interval as wide as it is."""
         if self.mean is None or self.unseen is None:
             return False
         return self.low == self.mean - self.unseen or self.high == self.mean + self.unseen
@@ -79,7 +79,7 @@ class Difference:
         return asdict(self)
 
 
-def difference(first: NDArray[np.float64], second: NDArray[np.float64]) -> Difference:
+def difference(first: NDArray[np.float64], second: NDArray[np.float64]) -> PairedDifference:
     """The difference of two minds, of what each came to in each run [runs]."""
     finite = np.isfinite(first) & np.isfinite(second)
     with np.errstate(invalid="ignore"):  # −∞ less −∞
@@ -88,25 +88,25 @@ def difference(first: NDArray[np.float64], second: NDArray[np.float64]) -> Diffe
     told = each[finite]
     counts = runs, int((told > 0).sum()), int((told < 0).sum()), int((told == 0).sum()), runs - len(told)
     if not finite.all():
-        return Difference(*counts)
+        return PairedDifference(*counts)
     mean = float(each.mean())
     if runs < MIN_RUNS:
-        return Difference(*counts, mean)
+        return PairedDifference(*counts, mean)
     std = float(each.std(ddof=1))
     error = std / sqrt(runs)
     if counts[1] + counts[2] == 0:
-        return Difference(*counts, mean, std, error)
+        return PairedDifference(*counts, mean, std, error)
     farthest = _farthest(first, second)
     unseen = unseen_share(runs) * farthest
     below, above = _sides(each, mean, std)
     low, high = mean - max(below, unseen), mean + max(above, unseen)
     detectable = max(NORMAL_TWO_SIDED * error, unseen) + NORMAL_POWER * error
     needed = _runs_to_tell(abs(mean), std, farthest)
-    return Difference(*counts, mean, std, error, low, high, unseen, detectable, needed)
+    return PairedDifference(*counts, mean, std, error, low, high, unseen, detectable, needed)
 
 
 def _sides(each: NDArray[np.float64], mean: float, std: float) -> tuple[float, float]:
-    """How far below and above the mean of differences of this std the interval reaches, for what the runs show.
+    """The lengths of the interval below and above the mean of differences of this std, for what the runs show.
 
     Of the skewness γ: t' = t + a t² + a² t³ / 3 + a / 2, a = γ / (3 √n), whose inverse is in closed form.
     """
@@ -121,7 +121,7 @@ def _sides(each: NDArray[np.float64], mean: float, std: float) -> tuple[float, f
 
 
 def _farthest(first: NDArray[np.float64], second: NDArray[np.float64]) -> float:
-    """How far any run of both minds is from the mean of either."""
+    """The largest distance of any run of both minds from the mean of either."""
     means = float(first.mean()), float(second.mean())
     most, least = max(first.max(), second.max()), min(first.min(), second.min())
     return float(max(most - min(means), max(means) - least))
@@ -134,7 +134,7 @@ def unseen_share(runs: int) -> float:
 
 @cache
 def t_quantile(degrees: int) -> float:
-    """How many standard errors to both sides of a mean are 95 % of Student's distribution with so many degrees ν.
+    """The number of standard errors about a mean that hold 95 % of Student's distribution with ν degrees.
 
     P(|t| < b) = 2 Γ((ν+1)/2) / (√π Γ(ν/2)) ∫ cos^(ν−1) from 0 to arctan(b / √ν), by Gauss and Legendre.
     """
@@ -150,7 +150,7 @@ def t_quantile(degrees: int) -> float:
 
 
 def _runs_to_tell(mean: float, std: float, farthest: float) -> int | None:
-    """How many runs it takes until the mean is as far from 0 as half the interval and what 80 % of the means vary.
+    """The runs that it takes until the mean is as far from 0 as half the interval and what 80 % of the means vary.
 
     The share without an example is at most −ln(0.05) / n: a quadratic equation in 1 / √n.
     """

@@ -27,8 +27,8 @@ REAPPEARANCE_UNITS = 0.5  # nothing is moved that far in a tick but what reappea
 
 @dataclass(frozen=True, slots=True)
 class RecordedRun:
-    """Row 0 of `body` [ticks + 1, 3], `things` [ticks + 1, things, 3], `turned` [ticks + 1, things] and
-    `held` is the beginning.
+    """A run tick by tick; row 0 of `body` [ticks + 1, 3], `things` [ticks + 1, things, 3], `turned` [ticks + 1, things]
+    and `held` [ticks + 1] is the beginning.
 
     `readings` as its skills read them, `influence`, `commands` before the noise of their actuators, `lines` (the sum of
     each reward line so far), `touching`, `battery`, `events` (how often each has happened so far) and `counts` (of the
@@ -64,7 +64,7 @@ class RecordedRun:
 
     @property
     def ticks(self) -> int:
-        """How many ticks the run had."""
+        """The number of ticks of the run."""
         return len(self.body) - 1
 
     @property
@@ -136,31 +136,31 @@ class RecordedRun:
 
 @dataclass(frozen=True, slots=True)
 class RunResult:
-    """A run written down, and what came of it (`mindlang.run.outcome.run_data`)."""
+    """A run written down, and its outcome (`mindlang.run.outcome.run_data`)."""
 
     run: RecordedRun
     found: dict[str, Any]
 
 
 def run_result(setup: RunSetup, rollout: Rollout, seed: int, changes: Sequence[Change] = ()) -> RunResult:
-    """The run of a seed, with changes, and what came of it."""
+    """The run of a seed, with changes, and its outcome."""
     return result_of_trace(setup, trace(rollout, seed, changes=changes), seed)
 
 
 def result_of_trace(setup: RunSetup, run: Trace, seed: int) -> RunResult:
-    """A run of that seed that is about to begin, made and written down, and what came of it."""
+    """Make a run of that seed that is about to begin, write it down, and return it with its outcome."""
     written = recorded(setup, run)
     found = run_data(setup.task, scores_of(run.jobs, setup.task))
     return RunResult(written, {"task": setup.task.name, "master": setup.master, "seed": seed} | found)
 
 
 def record_run(setup: RunSetup, rollout: Rollout, seed: int) -> RecordedRun:
-    """The run that `rollout` makes of a seed, written down."""
+    """Make the run of a seed with `rollout`, and write it down."""
     return recorded(setup, trace(rollout, seed))
 
 
 def recorded(setup: RunSetup, run: Trace) -> RecordedRun:
-    """A run that is about to begin, made and written down."""
+    """Make a run that is about to begin, and write it down."""
     ticks = joined(run.chunks)
     body = np.concatenate([run.begin[None], ticks.body[:, :3]])
     return RecordedRun(

@@ -19,7 +19,7 @@ from mindrun.processors import cpu_seconds
 from mindrun.terminal.command_line import command_line
 
 from mindlang.compiler.compile import Compiled
-from mindlang.executors.jobs import Assignment, Block, JobScorer, empty_scores, place
+from mindlang.executors.jobs import Assignment, Block, JobScorer, empty_scores, write_scores
 from mindlang.limits import as_runs, as_seed
 from mindlang.lock.ready import ReadyMind, make_ready
 from mindlang.run.chosen_task import SetupError, master_of, task_of
@@ -43,12 +43,12 @@ class RunSetup:
 
     @property
     def is_one_world(self) -> bool:
-        """True where nothing of the task is drawn, so that all of its runs are one."""
+        """True if nothing of the task is drawn, so that all of its runs are one."""
         return is_one_world(self.ready.policy.graph, self.task, self.master)
 
     @property
     def world_notes(self) -> list[str]:
-        """That there is one world, where it is so."""
+        """A note that there is one world, where it is so."""
         said = f"nothing is drawn in {self.task.name}, so that one run is made, and any other would be the same"
         return [f"1 world: {said}"] if self.is_one_world else []
 
@@ -57,7 +57,7 @@ class RunSetup:
         return layouts(seed, runs)[: 1 if self.is_one_world else None]
 
     def notes(self, rollout: Rollout, *more: str) -> list[str]:
-        """Sentences that somebody should know of runs that have been made."""
+        """Notes for the user on runs that have been made."""
         return [*self.ready.notes, *self.world_notes, *rollout.notes, *more]
 
     def rollout(self, interrupt: bool = True, workers: int = 1) -> Rollout:
@@ -117,7 +117,7 @@ def run_all(
     whole = empty_scores(1, len(seeds), scorer.task)
     for first in range(0, len(seeds), SLICE_RUNS):
         block = Block(slice(0, 1), slice(first, min(len(seeds), first + SLICE_RUNS)))
-        place(block, scorer.score(NO_GENOME, seeds[block.seeds], ran), whole)
+        write_scores(block, scorer.score(NO_GENOME, seeds[block.seeds], ran), whole)
     return whole
 
 

@@ -1,4 +1,4 @@
-"""What came of a run, of many runs, and of two minds on the same layouts, for reading."""
+"""The outcome of a run, of many runs, and of two minds on the same layouts, as text to read."""
 
 from collections.abc import Collection, Iterator, Sequence
 from typing import Any
@@ -9,9 +9,9 @@ from rich.console import Group, RenderableType
 from rich.text import Text
 
 from mindlang.number_format import duration, score, speed
-from mindlang.run.comparison import PERCENT, SCORE, SUCCESS, Comparison, amount
+from mindlang.run.comparison import PERCENT, SCORE, SUCCESS, MindComparison, amount
 from mindlang.run.outcome import TIME
-from mindlang.run.paired_difference import MAX_RUNS, Difference
+from mindlang.run.paired_difference import MAX_RUNS, PairedDifference
 
 
 def run_summary(found: dict[str, Any]) -> RenderableType:
@@ -66,7 +66,7 @@ def _mean(found: dict[str, Any], of: str) -> str:
 
 
 def _share(found: dict[str, Any]) -> str:
-    """A share of the runs; where it is all or none, which of all layouts that may be true of instead of ± 0."""
+    """A share of the runs ± its standard error; where it is all or none, with the bound for all layouts instead."""
     error, mean = found["standard_error"], found["mean"]
     if found["at_least"] is not None:
         bound = f"at least {found['at_least']:.1%}" if mean else f"at most {found['at_most']:.1%}"
@@ -75,7 +75,7 @@ def _share(found: dict[str, Any]) -> str:
 
 
 def _counted(counts: dict[str, str]) -> list[tuple[str, str]]:
-    """A row for each event, of which the first is named."""
+    """A row for each event, the first one labelled `counted`."""
     width = max(map(len, counts.values()), default=0)
     rows = [f"{count:>{width}}{event}" for event, count in counts.items()]
     return [("" if i else "counted", row) for i, row in enumerate(rows)]
@@ -93,8 +93,8 @@ def _facts(*rows: tuple[str, str]) -> Text:
     return aligned([(Text(name, "dim"), value) for name, value in rows if value], left=(1,))
 
 
-def comparison_summary(found: dict[str, Any], comparison: Comparison) -> RenderableType:
-    """Both means of each figure, their difference with its interval, how often which did better, and what that says."""
+def comparison_summary(found: dict[str, Any], comparison: MindComparison) -> RenderableType:
+    """Both means of each figure, their difference with its interval, how often each did better, and the conclusion."""
     runs, seed, is_one_world = found["runs"], found["seed"], comparison.is_one_world
     where = f"on the same layouts, {runs:,} run{'s' * (runs != 1)} from seed {seed}"
     ours, theirs = comparison.first.figures(), comparison.second.figures()
@@ -126,7 +126,7 @@ def _figure(name: str, value: float) -> str:
     return score(float(value) if np.isfinite(value) else None)
 
 
-def _difference(name: str, found: Difference) -> tuple[str, str]:
+def _difference(name: str, found: PairedDifference) -> tuple[str, str]:
     """The difference and its interval."""
 
     def bound(value: float) -> str:
@@ -140,8 +140,8 @@ def _difference(name: str, found: Difference) -> tuple[str, str]:
     return difference, f"{bound(found.low)} to {bound(found.high)}"
 
 
-def _told(name: str, found: Difference) -> Iterator[str]:
-    """How many runs did better, and, where they do not tell, what would."""
+def _told(name: str, found: PairedDifference) -> Iterator[str]:
+    """Sentences: how many runs did better and, where they do not tell the minds apart, how many would."""
     more = {SCORE: "B scores more", SUCCESS: "B alone succeeds"}.get(name, f"B has more ({name})")
     less = {SUCCESS: "A alone"}.get(name, "less")
     yield f"{more} in {found.more:,} runs, {less} in {found.less:,}, as much in {found.equal:,}"
@@ -159,7 +159,7 @@ def _told(name: str, found: Difference) -> Iterator[str]:
 
 
 def aligned(rows: Sequence[Sequence[str | Text]], left: Collection[int]) -> Text:
-    """A line for each row, two blanks between its columns, of which those in `left` are set to the left."""
+    """A line for each row, two blanks between its columns; those in `left` are set to the left, others to the right."""
     cells = [[Text(cell) if isinstance(cell, str) else cell.copy() for cell in row] for row in rows]
     for number, column in enumerate(zip(*cells, strict=True)):
         width = max(cell.cell_len for cell in column)

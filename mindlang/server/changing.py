@@ -45,7 +45,7 @@ class PendingRename:
 
 @dataclass(frozen=True, slots=True)
 class EditOutcome:
-    """What an edit does to texts, which files it makes, what there is to say, and which names locks have to follow."""
+    """An edit's change of texts and files, the sentences about it, and the names that locks have to follow."""
 
     change: MindChange
     sentences: tuple[str, ...]
@@ -62,7 +62,7 @@ def project(workspace: Workspace, view: MindView) -> Project:
 
 
 def proposed(project: Project, name: str, arguments: Mapping[str, Any]) -> MindChange:
-    """What an edit would splice; EditError where it is impossible."""
+    """The change that an edit would make; EditError where it is impossible."""
     if name not in names():
         raise EditError(f"There is no edit called {name}.", did_you_mean(name, names()))
     of = edit(name)
@@ -150,7 +150,7 @@ def _followed(minds: Sequence[Compiled], locks: Locks, change: MindChange) -> Lo
 
 
 def _fitting(minds: Sequence[Compiled], locks: Locks) -> int:
-    """How many skills of the minds have weights that fit."""
+    """The number of skills of the minds that have weights that fit."""
     count = 0
     for mind in minds:
         if mind.graph:

@@ -1,4 +1,4 @@
-"""What may be written at a place: told by the words of its line before it, and by the declaration above."""
+"""Completions at a place, found by the words of its line before it and by the declaration above."""
 
 import re
 from collections.abc import Sequence
@@ -101,7 +101,7 @@ PATTERNS = {"LESSON": "teaches _ on _( under _)? for", "… ": r"(\S.* )?", "_":
 
 @dataclass(frozen=True, slots=True)
 class CursorLine:
-    """What stands before a place in its line, and the declaration to which the line belongs."""
+    """The words before a place in its line, and the declaration to which the line belongs."""
 
     view: MindView
     folder: Path
@@ -115,21 +115,21 @@ class CursorLine:
         return self.above.header.noun.text if self.above else ""
 
     def names_after(self, *forms: type[Reads | Drives | Influences]) -> set[str]:
-        """What the skill above says with these verbs on its other lines."""
+        """The names behind these verbs on the other lines of the declaration above."""
         facts = [fact for fact in (self.above.facts if self.above else ()) if isinstance(fact, forms)]
         return {fact.name.text for fact in facts if not on_line(fact.span, self.offset)}
 
 
 @dataclass(frozen=True, slots=True)
 class Completion:
-    """What may be written instead of the text from offset `start` up to the cursor."""
+    """The texts that may replace the one from offset `start` up to the cursor."""
 
     start: int
     offers: tuple[Offer, ...]
 
 
 def complete(view: MindView, path: Path, text: str, offset: int) -> Completion:
-    """What may be written at an offset of a file; `text` is what the file says now."""
+    """The completions at an offset of a file; `text` is what the file says now."""
     before = text[text.rfind("\n", 0, offset) + 1 : offset]
     if begun := _PATH.match(before):
         beside = (other.relative_to(path.parent) for other in files_below(path.parent) if other != path)
@@ -220,7 +220,7 @@ def _header(line: CursorLine, noun: str, rest: Sequence[str]) -> list[Offer]:
 
 
 def _fact(line: CursorLine, verb: str, rest: Sequence[str]) -> list[Offer]:
-    """What may follow where more than the words decide it: what is declared, what a kind takes, where a value ends."""
+    """Offers where more than the words decides: what is declared, what a kind takes, where a value ends."""
     match verb:
         case "reads":
             return _reads(line, rest)
@@ -320,7 +320,7 @@ def _varies(line: CursorLine, rest: Sequence[str]) -> list[Offer]:
 
 
 def _stop(view: MindView, line: Sequence[str]) -> list[Offer]:
-    """What may be written behind these words of a line of a file of breakpoints."""
+    """Offers behind these words of a line of a .break file."""
     match line:
         case []:
             return words("stop")

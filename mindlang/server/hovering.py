@@ -139,7 +139,7 @@ def _word(view: MindView, file: File, offset: int) -> Hover | None:
 
 
 def card(view: MindView, noun: str, name: str) -> str:
-    """Everything about a name; nothing where another declaration has it already."""
+    """The card of a name, with everything about it; "" where no declaration of the noun has it."""
     if noun == "thing":
         return _thing(view, name)
     if noun == "number" and name in view.names.numbers:
@@ -251,7 +251,7 @@ def _lessons(view: MindView, part: str, name: str) -> str:
 
 
 def _thing(view: MindView, name: str) -> str:
-    """Where a thing is."""
+    """The lines of scenes and tasks that contain a thing."""
     lines = [
         f"- in {world}: `{fact.phrase.span.text}`"
         for noun in ("scene", "task")

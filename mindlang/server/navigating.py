@@ -32,7 +32,7 @@ class Symbol:
 
 
 def definitions(view: MindView, path: Path, offset: int) -> list[Span]:
-    """Where that is declared which stands at an offset; of a used file or a procedure, where it stands."""
+    """The places of the declaration of what stands at an offset; of a used file or a procedure, where it stands."""
     file = view.file(path)
     if file is None:
         return []
@@ -46,7 +46,7 @@ def definitions(view: MindView, path: Path, offset: int) -> list[Span]:
 
 
 def references(workspace: Workspace, view: MindView, path: Path, offset: int, with_declaration: bool) -> list[Span]:
-    """Where a name stands, in the files of the mind and in those of the minds that share them."""
+    """The places of a name in the files of the mind and in those of the minds that share them."""
     mention = view.mention_at(path, offset)
     if mention is None:
         return []
@@ -59,7 +59,7 @@ def references(workspace: Workspace, view: MindView, path: Path, offset: int, wi
 
 
 def highlights(view: MindView, path: Path, offset: int) -> list[Span]:
-    """Where a name stands in its own file."""
+    """The places of a name in its own file."""
     mention = view.mention_at(path, offset)
     return [span for span in _places(view, mention) if span.source.path == path] if mention else []
 
@@ -75,7 +75,7 @@ def sharing(workspace: Workspace, view: MindView) -> Iterator[MindView]:
 
 
 def symbols(file: File) -> list[Symbol]:
-    """What a file declares, in its order."""
+    """The declarations of a file, in its order."""
     found = []
     for declaration in file.declarations:
         header = declaration.header
@@ -89,7 +89,7 @@ def symbols(file: File) -> list[Symbol]:
 
 
 def _introduced(view: MindView, mention: Mention) -> Iterable[Mention]:
-    """Where a name is declared; a thing in the task that names it, if that contains it."""
+    """The places where a name is declared; of a thing in the task that names it, if that contains it."""
     same = [m for m in introductions(view.files) if (m.noun, m.name.text) == (mention.noun, mention.name.text)]
     return [m for m in same if m.noun == "thing" and m.by is mention.by] or same
 
@@ -119,7 +119,7 @@ def _procedure(file: File, offset: int) -> list[Span]:
     return []
 
 
-def everything(workspace: Workspace, folders: Iterable[Path], query: str) -> list[Symbol]:
+def matching_symbols(workspace: Workspace, folders: Iterable[Path], query: str) -> list[Symbol]:
     """The declarations whose names hold the letters of a query in their order, by file."""
     paths = dict.fromkeys(chain(workspace.texts, (path for folder in folders for path in files_below(folder))))
     files = within_read_limits((path, workspace.text(path)) for path in paths)

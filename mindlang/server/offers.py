@@ -1,4 +1,4 @@
-"""What an editor may offer to be written at a place: words, what is declared, kinds and their arguments, values."""
+"""Offers of which completions are made: words, declared names, kinds and their arguments, values."""
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
@@ -57,7 +57,7 @@ def _summary(label: str) -> str:
 
 
 def names(view: MindView, *nouns: str, but: Iterable[str] = ()) -> list[Offer]:
-    """What is declared with one of these nouns, but for some."""
+    """Offers of the names that are declared with one of these nouns, without those in `but`."""
     left = set(but)
     return [
         Offer(name, noun, declaration.header.span.text.strip(), declaration.comment)
@@ -79,7 +79,7 @@ def kinds_of(noun: str) -> list[Offer]:
 
 
 def inputs_of(view: MindView, skill: str) -> set[str]:
-    """What a skill reads, by what it says or the skills say that it is like."""
+    """The names that a skill reads, by its own lines and by those of the skills that it is like."""
     found: set[str] = set()
     replaced: set[str] = set()
     declared = dict(view.names.declarations("skill"))
@@ -111,7 +111,7 @@ def functions(folder: Path) -> list[str]:
 
 @dataclass(frozen=True, slots=True)
 class WrittenArguments:
-    """What has been said after a kind: the argument that was begun last, its values, and which others there are."""
+    """The arguments after a kind: the one that was begun last, its values, and those that have not been said."""
 
     current: Argument | None
     values: tuple[str, ...]
@@ -119,18 +119,18 @@ class WrittenArguments:
 
     @property
     def awaits_name(self) -> bool:
-        """Whether a name must come next."""
+        """True if a name must come next."""
         return self.current is not None and self.current.shape == "name" and not self.values
 
     @property
     def awaits_number(self) -> bool:
-        """Whether a number must come next."""
+        """True if a number must come next."""
         is_open = not self.values or self.values[-1] in ("to", "by", "-", "+")
         return self.current is not None and self.current.shape != "name" and is_open
 
 
 def written_arguments(cls: type[Any], rest: Iterable[str]) -> WrittenArguments:
-    """What the words after a kind say."""
+    """The arguments in the words after a kind."""
     left = {parameter.key: parameter for parameter in arguments(cls)}
     parameters, current, values = dict(left), None, list[str]()
     for word in rest:
@@ -144,7 +144,7 @@ def written_arguments(cls: type[Any], rest: Iterable[str]) -> WrittenArguments:
 
 
 def arguments_of(view: MindView, noun: str, kind: str, rest: Iterable[str], task: Declaration | None) -> list[Offer]:
-    """What can come after a kind and some of its arguments."""
+    """Offers after a kind and some of its arguments."""
     cls = kinds(noun).get(kind)
     if cls is None:
         return []
@@ -188,7 +188,7 @@ def units_of(parameter: Argument) -> list[Offer]:
 
 
 def varying_parts(view: MindView, task: Declaration | None) -> Iterator[tuple[Offer, list[Argument]]]:
-    """What has arguments that can differ from run to run, and which: parts of the robot, things of a task."""
+    """Each part of the robot and thing of a task, with its arguments that can differ from run to run."""
     for noun in VARIED_NOUNS:
         for part in names(view, noun):
             phrase = view.names.table[noun][part.label].header.phrase
@@ -203,25 +203,25 @@ def _varying(noun: str, *of: str) -> list[Argument]:
 
 
 def values(view: MindView, rest: Sequence[str], readings: Sequence[Offer]) -> list[Offer]:
-    """What can stand for a number behind the words `rest`: these readings, the names of numbers, the least of some."""
+    """Offers for a number behind the words `rest`: these readings, the names of numbers, the least of some."""
     if rest and rest[-1] in SEVERAL:
         return [Offer("of", "word")]
     return [*readings, *numbers(view), *words("least of", "greatest of")]
 
 
 def awaits_value(rest: Sequence[str]) -> bool:
-    """Whether a value must come next."""
+    """True if a value must come next."""
     begins_several = len(rest) > 1 and rest[-1] == "of" and rest[-2] in SEVERAL
     return not rest or rest[-1] in (*OPENINGS, *SEVERAL) or begins_several
 
 
 def takes_value(rest: Sequence[str]) -> bool:
-    """Whether a value may come next: one must, or it is one more of several."""
+    """True if a value may come next: one must, or it is one more of several."""
     return awaits_value(rest) or any(word in SEVERAL for word in _since(rest, OPENINGS))
 
 
 def condition_words(rest: Sequence[str]) -> list[Offer]:
-    """What may join the comparison before it with the next; nothing where it is not over."""
+    """Offers that join the comparison before with a next one; none where it is not over."""
     is_compared = any(word in COMPARISONS for word in _since(rest, JOINTS))
     return words("and", "or") if is_compared and not awaits_value(rest) else []
 
@@ -242,7 +242,7 @@ def term_offers(view: MindView, task: Declaration | None, rest: Sequence[str]) -
 
 
 def is_term_over(rest: Sequence[str]) -> bool:
-    """Whether the words end with a term to which nothing is missing."""
+    """True if the words end with a term to which nothing is missing."""
     if awaits_value(rest):
         return False
     begun = _begun(rest)

@@ -26,7 +26,7 @@ _SUGGESTED_NAME = re.compile(r"Did you mean (\S+)\?")
 
 @dataclass(frozen=True, slots=True)
 class Selection:
-    """What is selected of a file: from offset `start` up to `end`, which is the same where the cursor just stands."""
+    """The selection in a file: from offset `start` up to `end`, which is the same where the cursor just stands."""
 
     project: Project
     path: Path
@@ -50,7 +50,7 @@ class Selection:
         return file.declarations if file else ()
 
     def touches(self, fact: Fact) -> bool:
-        """Whether the line of a fact is selected, or some of it."""
+        """True if the selection begins on the line of a fact, or overlaps the fact."""
         return on_line(fact.span, self.start) or (self.start <= fact.span.end and fact.span.start < self.end)
 
 
@@ -178,7 +178,7 @@ def _numbered(wish: str) -> Iterator[str]:
 
 
 def _connectable(project: Project, skill: Declaration) -> Iterator[tuple[str, str]]:
-    """What a skill could read, drive or influence besides, with the verb."""
+    """Each name that a skill could read, drive or influence besides, behind the verb."""
     said = {fact.name.text for fact in skill.facts if isinstance(fact, Reads | Drives | Influences)}
     targets = {
         "read": project.names.of("sensor", "memory"),

@@ -12,7 +12,7 @@ from mindlang.compiler.splice import Splice
 from mindlang.compiler.syntax import Master, Teaches
 from mindlang.server.completing import complete
 from mindlang.server.hovering import hover
-from mindlang.server.navigating import Symbol, definitions, everything, highlights, references, symbols
+from mindlang.server.navigating import Symbol, definitions, highlights, matching_symbols, references, symbols
 from mindlang.server.offers import Offer
 from mindlang.server.server import LspConverter, MindServer
 from mindlang.server.workspace import MindView, are_breakpoints
@@ -67,7 +67,7 @@ def completed(ls: MindServer, params: types.CompletionParams) -> types.Completio
 
 
 def asked_above(ls: MindServer, params: types.CodeLensParams) -> list[types.CodeLens]:
-    """What stands above lines: commands of mindc, which the editor runs in a terminal."""
+    """The code lenses of a file: commands of mindc above lines, which the editor runs in a terminal."""
     path = ls.session.lsp.path(params.text_document.uri)
     view = ls.session.workspace.view(path)
     folder = str(view.main.parent)
@@ -138,7 +138,7 @@ def searched(ls: MindServer, params: types.WorkspaceSymbolParams) -> list[types.
         types.WorkspaceSymbol(
             ls.session.lsp.location(symbol.place), symbol.name, SORTS[symbol.noun][0], container_name=symbol.noun
         )
-        for symbol in everything(ls.session.workspace, folders, params.query)
+        for symbol in matching_symbols(ls.session.workspace, folders, params.query)
     ]
 
 

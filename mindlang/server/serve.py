@@ -38,7 +38,7 @@ def make() -> MindServer:
 
 
 def serve(messages: BinaryIO, answers: BinaryIO) -> int:
-    """Serve until the editor says that it is over, or is gone; how the program ends."""
+    """Serve until the editor says that it is over, or is gone; the exit code."""
     logging.getLogger("pygls.protocol.json_rpc").addFilter(_is_fault)
     server = make()
     server.start_io(messages, answers)
@@ -108,7 +108,7 @@ def shut_down(ls: MindServer, params: None) -> None:
 
 
 def prepared(ls: MindServer, params: types.PrepareRenameParams) -> types.PrepareRenamePlaceholder | None:
-    """What would be renamed; MindError where the mind has to compile first."""
+    """The name at a place and its range, None where none is; refused where the mind does not compile."""
     view, path, offset = ls.session.place(params.text_document.uri, params.position)
     mention = view.mention_at(path, offset)
     if mention is None:
@@ -157,7 +157,7 @@ def acted(ls: MindServer, params: types.CodeActionParams) -> list[types.CodeActi
 
 
 def _wants(only: Any, kind: str) -> bool:
-    """Whether actions of a kind, or below it, were asked for."""
+    """True if `only` asks for actions of a kind, of one above or of one below it; True without `only`."""
     asked = [str(getattr(each, "value", each)) for each in only or ()]
     return not asked or any(f"{kind}.".startswith(f"{each}.") or f"{each}.".startswith(f"{kind}.") for each in asked)
 
@@ -194,7 +194,7 @@ async def edited(ls: MindServer, *arguments: Any) -> types.Location | None:
 
 
 def _place_of(ls: MindServer, outcome: EditOutcome, fresh: str) -> types.Location | None:
-    """Where a new name will stand first once an edit is made."""
+    """The first place of a new name once an edit is made."""
     for source in {id(splice.source): splice.source for splice in outcome.change.splices}.values():
         text = spliced(source, outcome.change.splices)
         at = text.find(f" {fresh} ") + 1 if fresh else 0

@@ -39,7 +39,7 @@ _LINE_END = re.compile(r"\r\n|\n|\r")
 
 @dataclass
 class LspConverter:
-    """How paths and offsets are said to one editor: its URIs, and the units that its columns count."""
+    """Converts paths and offsets for one editor: its URIs, and the units that its columns count."""
 
     codec: PositionCodec = field(default_factory=PositionCodec)
     uris: dict[Path, str] = field(default_factory=dict)  # of the open files, as the editor says them
@@ -144,7 +144,7 @@ def lines_of(text: str) -> TextLines:
 
 
 @dataclass
-class Session:
+class EditorSession:
     """The state of one editor: open files, reported findings, and pending renames of locks."""
 
     workspace: Workspace = field(default_factory=Workspace)
@@ -153,7 +153,7 @@ class Session:
     _told: dict[Path, Report] = field(default_factory=dict)
 
     def set(self, uri: str, version: int, text: str) -> None:
-        """A file has this text now."""
+        """Set the text that a file has now."""
         path = self.lsp.path(uri)
         self.lsp.uris[path], self.lsp.versions[path] = uri, version
         self.workspace.texts[path] = text
@@ -193,7 +193,7 @@ class Session:
         return {path: _first(path, each) for path, each in by_file.items()}
 
     def _stop_findings(self, path: Path) -> list[Diagnostic]:
-        """What is wrong with a file of breakpoints; no names are looked for in a mind that does not compile."""
+        """The diagnostics of a .break file; no names are looked for in a mind that does not compile."""
         mind = self.workspace.view(path).compiled
         subject = subject_of_mind(mind) if mind.graph else None
         return [*breakpoints_of(Source(str(path), self.workspace.text(path), path.parent), subject).diagnostics]
@@ -230,7 +230,7 @@ class MindServer(LanguageServer):
     def __init__(self) -> None:
         sync = types.TextDocumentSyncKind.Full
         super().__init__("mindc", version("mindlang"), text_document_sync_kind=sync)
-        self.session = Session()
+        self.session = EditorSession()
         self.is_shut_down = False  # whether the editor has said that all is over
         self._due: asyncio.TimerHandle | None = None
 
@@ -253,7 +253,7 @@ class MindServer(LanguageServer):
 
     @property
     def knows_documents(self) -> bool:
-        """Whether the editor takes edits that make files and name versions of texts."""
+        """True if the editor takes edits that make files and name versions of texts."""
         workspace = self.client_capabilities.workspace
         edits = workspace.workspace_edit if workspace else None
         made = types.ResourceOperationKind.Create in (edits.resource_operations or ()) if edits else False

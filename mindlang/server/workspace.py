@@ -31,7 +31,7 @@ Stamp = tuple[int, int] | None  # when a file was written, and how long it is
 
 
 def are_breakpoints(path: Path) -> bool:
-    """Whether a file of this name has breakpoints, and no mind."""
+    """True if a file of this name has breakpoints, and no mind."""
     return path.suffix == SUFFIX
 
 
@@ -46,7 +46,7 @@ class MindView:
 
     @property
     def paths(self) -> list[Path]:
-        """Where the files stand."""
+        """The paths of the files."""
         return [file.source.path for file in self.files]
 
     def file(self, path: Path) -> File | None:
@@ -55,7 +55,7 @@ class MindView:
 
     @cached_property
     def whole(self) -> Names:
-        """What is declared, with all that scenes and tasks say which others are like."""
+        """The declarations with what they take over from those that they are like written out."""
         return expand(self.names, {}, 1.0, Findings())
 
     @cached_property
@@ -70,7 +70,7 @@ class MindView:
 
     @cached_property
     def findings(self) -> tuple[Diagnostic, ...]:
-        """What is wrong, and where nothing is, what is hardly meant; a damaged lock is a finding, too."""
+        """The diagnostics of compiler and lint; wrong settings and a damaged lock are findings, too."""
         from mindlang.lint.lint import lint
         from mindlang.lint.settings import settings_of
 
@@ -84,7 +84,7 @@ class MindView:
             return (*self.compiled.diagnostics, damage)
 
     def _in_first_line(self, diagnostic: Diagnostic) -> Diagnostic:
-        """What is wrong in another file, said in the first line of the mind's own: an editor has that one open."""
+        """A warning about another file, on the first line of the mind's own, which an editor has open."""
         where = f"{diagnostic.span.source.name}:{diagnostic.span.line}: " if diagnostic.span else ""
         here = Span(self.compiled.sources[0], 0, 0) if self.compiled.sources else None
         return replace(diagnostic, message=f"{where}{diagnostic.message}", span=here, severity="warning")
@@ -116,7 +116,7 @@ def fact_at(declaration: Declaration, offset: int) -> Fact | None:
 
 
 def on_line(span: Span, offset: int) -> bool:
-    """Whether an offset lies on the line of a span."""
+    """True if an offset lies on the line of a span."""
     text = span.source.text
     end = text.find("\n", span.end)
     return text.rfind("\n", 0, span.start) < offset <= (len(text) if end < 0 else end)
@@ -215,7 +215,7 @@ class Workspace:
         yield from within_read_limits((other, self.text(other)) for other in others if [other] != [*paths])
 
     def _is_now(self, known: MindView, stamps: dict[Path, Stamp]) -> bool:
-        """Whether a view is of the files as they are."""
+        """True if a view is of the files as they are."""
         apart = stamps.keys() - {*known.paths}
         if not known.files or any(stamps[path] != _stamp(path) for path in apart):
             return False

@@ -15,7 +15,7 @@ FIRST_ROBOT, FIRST_TASK = "differential", "patrol"  # what is made where nothing
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Part:
+class RobotPart:
     """Something of a robot: its lines in the mind, and those that wire it in robot.yaml."""
 
     mind: str
@@ -23,7 +23,7 @@ class Part:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Robot(Part):
+class Robot(RobotPart):
     """A robot: what moves it, and by which names a task may ask for what else it has.
 
     `drives` names the actuators that a skill of any task drives; `sense` and `act` are parts a task may need.
@@ -32,8 +32,8 @@ class Robot(Part):
     name: str
     about: str
     drives: tuple[str, ...]
-    sense: Mapping[str, Part]
-    act: Mapping[str, Part] = field(default_factory=dict)
+    sense: Mapping[str, RobotPart]
+    act: Mapping[str, RobotPart] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -11,7 +11,7 @@ from string import Template
 from mindrun.errors import MindError
 from mindrun.files.atomic_write import sync_folder
 
-from mindlang.templates import TEMPLATES, Part, Robot, Task
+from mindlang.templates import TEMPLATES, Robot, RobotPart, Task
 
 DRIVES = "  drives $drives\n"
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
@@ -51,13 +51,13 @@ def _mind(robot: Robot, task: Task) -> str:
 
 
 def _wiring(robot: Robot, task: Task) -> str:
-    """What is wired: all that the task needs, and what moves the robot."""
+    """The text of robot.yaml: the wiring of all that the task needs, and of what moves the robot."""
     sensors = _joined(part.wiring for part in _needed(robot.sense, task))
     actuators = _joined(part.wiring for part in (robot, *_needed(robot.act, task)))
     return _text("robot.yaml").replace("$sensors\n", sensors).replace("$actuators\n", actuators)
 
 
-def _needed(parts: Mapping[str, Part], task: Task) -> list[Part]:
+def _needed(parts: Mapping[str, RobotPart], task: Task) -> list[RobotPart]:
     return [part for need, part in parts.items() if need in task.needs]
 
 

@@ -46,7 +46,7 @@ class EventFiles:
         self._time, self._flushed = 0.0, 0.0
 
     def report(self, record: Record, now: float) -> None:
-        """A generation has ended, and is in the log: write it, and at first all before it."""
+        """Write a generation that has ended and is in the log; the first call writes all before it, too."""
         with _disk(self.folder):
             if self._writer is None:
                 self._write_all()
@@ -57,7 +57,7 @@ class EventFiles:
                 self._flushed = now
 
     def write_all(self) -> None:
-        """Write what the log of a run has, which need not go on."""
+        """Write all generations in the log of a run, which need not go on."""
         with _disk(self.folder):
             self._write_all()
         self.close()
@@ -91,7 +91,7 @@ class EventFiles:
         self._writer.write(event.SerializeToString())
 
     def _begin(self, record: Logged) -> None:
-        """The file of an attempt, with what each begins with."""
+        """Begin the file of an attempt, with its version."""
         from tensorboardX import RecordWriter
         from tensorboardX.proto.event_pb2 import Event
 

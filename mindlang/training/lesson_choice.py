@@ -1,4 +1,4 @@
-"""Which lessons to teach: those of a curriculum, those asked for, and what must be taught before them."""
+"""The lessons to teach: those of a curriculum, those asked for, and what must be taught before them."""
 
 from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -51,7 +51,7 @@ class TrainOptions:
             raise MindError(f"scale cannot be {self.scale!r}", f"scale is a number above 0, and at most {MAX_SCALE}")
 
     def applied(self, lesson: Lesson) -> Lesson:
-        """The lesson as it is wished for; of one with fewer generations than it says, nothing is needed."""
+        """The lesson with these numbers; one with fewer generations than in the source `needs` nothing."""
         learner = replace(
             lesson.learner,
             population=self.population or lesson.learner.population,
@@ -78,7 +78,7 @@ def lessons_to_teach(
     force: bool = False,
     note: Callable[[str], object] = lambda line: None,
 ) -> Iterator[tuple[Subject, Lesson]]:
-    """The lessons of a file that are due, or those asked for, each as it is wished for with the lock as it is by then.
+    """The lessons of a file that are due, or those asked for, each with the options and the lock as it is by then.
 
     With `force` also what is not due. `note` is told what is not taught, or taught otherwise than the source says.
     """
@@ -128,7 +128,7 @@ def chosen_lessons(
 
 
 def _by_need(graph: Graph, lessons: Sequence[Lesson], known: Collection[str]) -> tuple[Lesson, ...]:
-    """Lessons in their order, those that others wait for before these; where all wait for one another, in order.
+    """Lessons sorted so that each comes after those it waits for, else in their order; the first one ends a circle.
 
     A lesson waits for those that teach what it needs, and for those before it that teach the same skill.
     """

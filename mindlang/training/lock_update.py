@@ -1,4 +1,4 @@
-"""What becomes of what a lesson has taught: it goes to the lock, unless what is there does better."""
+"""Weights that a lesson has taught go to the lock, unless those that are there do better."""
 
 from dataclasses import dataclass
 from math import isfinite
@@ -25,7 +25,7 @@ COMPARED_LAYOUTS = 50  # common to the weights that a lock has and to the new on
 
 
 @dataclass(frozen=True, slots=True)
-class Comparison:
+class WeightsComparison:
     """The mean scores of the weights that stood in the lock and of the new ones, on the same fresh layouts."""
 
     old: float
@@ -33,11 +33,11 @@ class Comparison:
 
     @property
     def is_worse(self) -> bool:
-        """True where the new weights do worse."""
+        """True if the new weights do worse."""
         return self.new < self.old
 
     def __str__(self) -> str:
-        """Which stay, and why."""
+        """A sentence that says why the old weights stay."""
         return (
             f"the weights that were there do better: {short_score(self.old)} against {short_score(self.new)} "
             f"on the same {COMPARED_LAYOUTS} fresh layouts"
@@ -49,7 +49,7 @@ class Kept:
     """The end of a lesson: whether the new weights are in the lock, and how those that were there compare, if any."""
 
     is_new: bool
-    comparison: Comparison | None
+    comparison: WeightsComparison | None
 
 
 def keep(run: RunFolder, subject: Subject, state: LessonState, scorer: Scorer, force: bool) -> Kept:
@@ -67,7 +67,7 @@ def keep(run: RunFolder, subject: Subject, state: LessonState, scorer: Scorer, f
     lesson, new, found = run.manifest.lesson, state.kept[0], None
     old = _genome_there(run, subject)
     if old is not None and not np.array_equal(old, new):
-        found = compare(run, scorer, np.stack([old, new]))
+        found = compare_genomes(run, scorer, np.stack([old, new]))
         seeds = verdict_layouts(run.manifest.seed, lesson.generations)  # on which the new weights have what is needed
         stays = not force and found.is_worse
         if stays and (not lesson.needs or has_needed(lesson, scorer.task, scorer.score(old[None], seeds))):
@@ -116,11 +116,11 @@ def _refuse_failed(run: RunFolder, state: LessonState, scorer: Scorer) -> None:
     )
 
 
-def compare(run: RunFolder, scorer: Scorer, genomes: Genomes) -> Comparison:
+def compare_genomes(run: RunFolder, scorer: Scorer, genomes: Genomes) -> WeightsComparison:
     """Two genomes on layouts that neither has seen: the mean of each; -inf where something was not finite."""
     seeds = layouts(run.manifest.seed, 0, run.manifest.lesson.generations, COMPARED_LAYOUTS, Purpose.COMPARISON)
     old, new = mark(scorer, genomes, seeds).scores
-    return Comparison(float(old), float(new))
+    return WeightsComparison(float(old), float(new))
 
 
 def needed_success(lesson: Lesson, scorer: Scorer, genome: Genomes, seeds: Seeds) -> float | None:
@@ -163,7 +163,7 @@ def _record(
 
 
 def declared(subject: Subject, lesson: Lesson) -> Lesson:
-    """A lesson as it stands in the source: what the command line said of it once is no reason to teach it again."""
+    """The lesson as the source has it: what the command line said of it once is no reason to teach it again."""
     alike = (
         each
         for each in subject.graph.lessons

@@ -1,4 +1,4 @@
-"""What a lesson is taught from: a mind with its lock, and the run that a lesson of it becomes."""
+"""The subject of a lesson, a mind with its lock, and the run that a lesson of it becomes."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -40,7 +40,7 @@ class Subject:
 
     @property
     def folder(self) -> Path:
-        """Where the source stands, and the procedures beside it."""
+        """The folder of the source, with the procedures beside it."""
         return self.source.parent
 
     @property
@@ -50,7 +50,7 @@ class Subject:
         return self.source.relative_to(here) if self.source.is_relative_to(here) else self.source
 
     def takes(self, lesson: Lesson, is_named: bool) -> bool:
-        """True where a lesson is to be taught: it is due, or somebody has named it.
+        """True if a lesson is to be taught: it is due, or somebody has named it.
 
         RunError where one that is named stands on a skill that has not what its own lesson needs.
         """
@@ -74,12 +74,12 @@ class Subject:
         return frozenset(name for name, each in status(self.graph, self.lock).items() if isinstance(each, Trained))
 
     def standing(self, lesson: Lesson) -> dict[str, Status]:
-        """How the learners of a lesson stand to that lock."""
+        """The status of each learner of a lesson in the lock of `keep_path`."""
         found = status(self.graph, read_lock(self.keep_path(lesson)), self.folder)
         return {skill: found[skill] for skill in learners(self.graph, lesson)}
 
     def is_due(self, lesson: Lesson) -> bool:
-        """True where a lesson has yet to be taught."""
+        """True if a lesson has yet to be taught."""
         return is_due(self.graph, lesson, self.standing(lesson))
 
 
@@ -172,7 +172,7 @@ def refuse_changed(subject: Subject, run: RunFolder) -> None:
 
 
 def origin_weights(graph: Graph, lock: Lock, lesson: Lesson, shown: Path) -> dict[str, Weights]:
-    """The weights with which its skill begins; none where the lesson starts from no other. The graph is `arrange`d.
+    """The weights with which a lesson's skill begins; none where it starts from no other. The graph is `arrange`d.
 
     RunError where the other skill, or one that learns with the learner, has none that fit, and how to teach it in the
     file that is `shown`.

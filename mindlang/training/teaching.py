@@ -1,4 +1,4 @@
-"""A run of a lesson from beginning to end: what scores its genomes, and what came of it, as data and in words."""
+"""A run of a lesson from beginning to end: the workers that score its genomes, and its result as data and in words."""
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -102,7 +102,7 @@ def workers_of(
 def _stretches(
     course: Course, rollout: Rollout, scorer: Scorer, clock: Clock
 ) -> StretchExecutor | StretchThreads | None:
-    """Who does several attempts side by side: the workers of a scorer, else threads; None where nobody does.
+    """The executor of attempts side by side: the workers of a scorer, else threads; None where they go one by one.
 
     Attempts of a lesson that ends with the first that passes go one by one here: the others would be for nothing.
     """
@@ -117,7 +117,7 @@ def _stretches(
 def teach(run: RunFolder, subject: Subject, workers: int, watch: Watch, where: Where | None = None) -> Result | None:
     """Go on with a run to its end, and put what it has taught into the lock; None where `watch` stopped it.
 
-    What came of it, where it has ended before. Its attempts are done `where` it is said, else in so many threads; in
+    A run that has ended before gives its result. Its attempts are done `where` it is said, else in so many threads; in
     environments with more than one worker in so many processes.
     """
     if (result := read_result(run.folder)) is not None:

@@ -20,7 +20,7 @@ from mindrun.sim.trace import Trace, trace
 from mindrun.sim.warmup import is_there
 
 from mindlang.breakpoints.breakpoint import Breakpoint
-from mindlang.breakpoints.watch import Part, watcher
+from mindlang.breakpoints.watch import RowBlock, watcher
 from mindlang.run.recording import recorded_rows, world_of
 from mindlang.run.setup import RunSetup
 from mindlang.view import messages
@@ -63,7 +63,7 @@ class ViewedRun:
             return None
         watching = watcher(self.breakpoints, self.setup)
         return lambda rows, readings: watching.feed(
-            Part(readings, rows["influence"], rows["commands"], rows["world"]["events"].astype(np.int64))
+            RowBlock(readings, rows["influence"], rows["commands"], rows["world"]["events"].astype(np.int64))
         )
 
     def _forked(self, columns: Columns, asked: messages.AskChange) -> Fork:

@@ -29,7 +29,7 @@ from mindlang.lock.ready import elsewhere_sentences
 from mindlang.lock.status import status, trained_weights
 from mindlang.lock.world_facts import Worlds
 from mindlang.training.lesson_choice import chosen_lessons
-from mindlang.training.lock_update import COMPARED_LAYOUTS, Comparison, needed_success
+from mindlang.training.lock_update import COMPARED_LAYOUTS, WeightsComparison, needed_success
 from mindlang.training.subject import Subject
 from mindlang.weights.network import SkillNetwork, genome_in, network_of, read_bytes
 from mindlang.whatif.request import recorded_readings
@@ -148,7 +148,7 @@ class Trial:
         rows = [columns[row] for row in self.network.skill.inputs]
         return np.array(rows, np.float32).T
 
-    def score(self, old: Weights | None) -> tuple[float, Comparison | None]:
+    def score(self, old: Weights | None) -> tuple[float, WeightsComparison | None]:
         """The mean score on fresh layouts and, where there are old weights, both beside each other.
 
         RunError where the new ones have no score that is a finite number.
@@ -158,7 +158,7 @@ class Trial:
         if not isfinite(scores[0]):
             why = f"{self.network.skill.name} with these weights: a reward or a command was not a finite number"
             raise RunError(why, f"look at the weights, and at the rewards of the task {self.lesson.task}")
-        return float(scores[0]), None if old is None else Comparison(float(scores[1]), float(scores[0]))
+        return float(scores[0]), None if old is None else WeightsComparison(float(scores[1]), float(scores[0]))
 
     def success(self) -> float | None:
         """The share of runs that succeed on these layouts; None where the lesson does not need any."""
@@ -202,7 +202,7 @@ class Imported:
     trial: Trial
     deviation: Deviation
     score: float
-    scores: Comparison | None
+    scores: WeightsComparison | None
     is_kept: bool
     is_unchanged: bool = False
     notes: tuple[str, ...] = ()

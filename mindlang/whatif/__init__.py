@@ -1,1 +1,1 @@
-"""What would have happened: a run that goes on otherwise from a tick on, beside the run as it was."""
+"""Counterfactual runs: a run that goes on otherwise from a tick on, beside the run as it was."""

@@ -22,8 +22,8 @@ Prepared = tuple[RunSetup, Rollout]  # a run that is set up, in the simulator
 
 
 @dataclass(frozen=True, slots=True)
-class Difference:
-    """A number of a tick, counted from 1: what it `was`, and what it `is` with the changes."""
+class TickDifference:
+    """A number of a tick, counted from 1: what it `was`, and what it is `now`, with the changes."""
 
     tick: int
     what: str
@@ -42,10 +42,10 @@ class Compared:
 
     was: RunResult
     now: RunResult
-    differences: list[Difference]
+    differences: list[TickDifference]
 
 
-def compare(
+def compare_runs(
     ours: Prepared, seed: int, tick: int, changes: Sequence[Change], theirs: Prepared | None = None
 ) -> Compared:
     """Run a seed as it is, and with changes or with another mind from a tick on.
@@ -66,7 +66,7 @@ def compare(
 
 
 def _continued(was: RecordedRun, rest: RecordedRun, ticks: int) -> RecordedRun:
-    """So many ticks of a run, and what came after them under another mind of the same sensors and actuators."""
+    """So many ticks of a run, and those after them under another mind with the same sensors and actuators."""
     before, known = was.until(ticks), was.graph.skill_numbers
     influence = np.full((ticks, len(rest.graph.skills)), np.nan, np.float32)  # NaN of skills that it has alone
     for column, skill in enumerate(rest.graph.skills):
@@ -82,7 +82,7 @@ def _continued(was: RecordedRun, rest: RecordedRun, ticks: int) -> RecordedRun:
 
 
 def _columns(run: RecordedRun) -> dict[str, Columns]:
-    """All numbers of each tick by name, in the order in which one comes of the other."""
+    """All numbers of each tick by name, causes before effects."""
     pose = dict(zip(("x", "y", "angle"), run.body[1:].T, strict=True))
     return {
         **mind_columns(run.graph, run.readings, run.influence, run.commands),
@@ -101,13 +101,13 @@ def mind_columns(graph: Graph, readings: Array, influence: Array, commands: Arra
     return {kind: {name: rows for name, rows in of if not np.isnan(rows).all()} for kind, of in named.items()}
 
 
-def first_differences(was: Mapping[str, Columns], now: Mapping[str, Columns]) -> list[Difference]:
+def first_differences(was: Mapping[str, Columns], now: Mapping[str, Columns]) -> list[TickDifference]:
     """The first tick of each kind of numbers, in the order of time: each number that differs in it.
 
     In one tick they stand in the order of the kinds, which is that of causes. Only names that both have are held
     against each other, in the ticks that both have.
     """
-    found: list[Difference] = []
+    found: list[TickDifference] = []
     for kind in was:
         pairs = {name: (was[kind][name], now[kind][name]) for name in was[kind] if name in now.get(kind, {})}
         ticks = min((min(len(a), len(b)) for a, b in pairs.values()), default=0)
@@ -116,7 +116,7 @@ def first_differences(was: Mapping[str, Columns], now: Mapping[str, Columns]) ->
         first = min((int(each.argmax()) for each in unlike.values() if each.any()), default=None)
         if first is not None:
             found += [
-                Difference(first + 1, kind, name, float(a[first]), float(b[first]))
+                TickDifference(first + 1, kind, name, float(a[first]), float(b[first]))
                 for name, (a, b) in pairs.items()
                 if unlike[name][first]
             ]

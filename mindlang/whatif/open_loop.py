@@ -22,15 +22,15 @@ from numpy.typing import NDArray
 
 from mindlang.compiler.diagnostic import listed
 from mindlang.run.recording import running_bundle
-from mindlang.whatif.comparison import Columns, Difference, first_differences, mind_columns
+from mindlang.whatif.comparison import Columns, TickDifference, first_differences, mind_columns
 from mindlang.whatif.request import Request, changes_of
 
 OPEN_LOOP = "open loop: the readings are those of the recording, whatever other commands would have led to"
 
 
 @dataclass(frozen=True, slots=True)
-class Sent:
-    """By how much a command is another in the mean and at most, in how many ticks, and when most, None where never."""
+class CommandDifference:
+    """How far a command is from the recorded one: ticks that differ, mean, most and when that was, None where never."""
 
     ticks: int
     mean: float
@@ -44,8 +44,8 @@ class OpenLoop:
 
     master: str
     ticks: int
-    differences: list[Difference]
-    sent: dict[str, Sent]
+    differences: list[TickDifference]
+    sent: dict[str, CommandDifference]
 
 
 def compare_recording(path: Path, bundle: Path, request: Request, other: Bundle | None = None) -> OpenLoop:
@@ -85,7 +85,7 @@ def compare_recording(path: Path, bundle: Path, request: Request, other: Bundle 
 
 
 def _compared(master: str, was: dict[str, Columns], now: dict[str, Columns], tick: int) -> OpenLoop:
-    """What differs from a tick on; another mind has read along before, and sent nothing."""
+    """The differences from a tick on; another mind has read along before, and sent nothing."""
     begin, ticks = tick - 1, len(next(iter(was["command"].values())))
     found = first_differences(_from(was, begin), _from(now, begin))
     both = [name for name in was["command"] if name in now["command"]]
@@ -94,7 +94,7 @@ def _compared(master: str, was: dict[str, Columns], now: dict[str, Columns], tic
 
 
 def _places(about: About, graph: Graph, other: Graph, master: str, file: str) -> NDArray[np.intp]:
-    """Where in a recorded row each reading of a mind stands; the place after the last is what nobody measured."""
+    """The place in a recorded row of each reading of a mind; the place after the last is what nobody measured."""
     known = {name: sensor for name, sensor in physical(graph).items() if name in about.sensors}
     wanted = physical(other)
     found = [name for name in wanted if name in known and known[name].width == wanted[name].width]
@@ -113,7 +113,9 @@ def _from(columns: dict[str, Columns], begin: int) -> dict[str, Columns]:
     return {kind: {name: rows[begin:] for name, rows in of.items()} for kind, of in columns.items()}
 
 
-def _sent(was: NDArray[np.float32], now: NDArray[np.float32], begin: int) -> Sent:
+def _sent(was: NDArray[np.float32], now: NDArray[np.float32], begin: int) -> CommandDifference:
     apart = np.abs(now[begin:].astype(np.float64) - was[begin:])
     ticks = int(np.count_nonzero(apart))
-    return Sent(ticks, float(apart.mean()), float(apart.max()), begin + 1 + int(apart.argmax()) if ticks else None)
+    return CommandDifference(
+        ticks, float(apart.mean()), float(apart.max()), begin + 1 + int(apart.argmax()) if ticks else None
+    )

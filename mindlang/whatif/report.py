@@ -11,7 +11,7 @@ from rich.text import Text
 
 from mindlang.number_format import score
 from mindlang.run.summary import aligned
-from mindlang.whatif.comparison import Compared, Difference
+from mindlang.whatif.comparison import Compared, TickDifference
 from mindlang.whatif.open_loop import OPEN_LOOP, OpenLoop
 from mindlang.whatif.request import Request
 
@@ -19,7 +19,7 @@ MAX_NAMED_DIFFERENCES = 6  # of one kind in one tick
 KINDS = {"reading": "read ", "influence": "influence of ", "command": "command ", "robot": "robot's ", "reward": ""}
 
 
-def differences_text(differences: Sequence[Difference]) -> Text:
+def differences_text(differences: Sequence[TickDifference]) -> Text:
     """A line for each kind of number: its first tick that differs, and in what."""
     if not differences:
         return Text("nothing differs, to the bit")
@@ -28,7 +28,7 @@ def differences_text(differences: Sequence[Difference]) -> Text:
     return aligned(rows, left=(1,))
 
 
-def _numbers(group: Sequence[Difference]) -> str:
+def _numbers(group: Sequence[TickDifference]) -> str:
     named = [f"{each.name} {each.was:.6g} → {each.now:.6g}" for each in group[:MAX_NAMED_DIFFERENCES]]
     more = len(group) - len(named)
     return ", ".join(named) + (f" and {more} more" if more else "")
@@ -49,7 +49,7 @@ def comparison_summary(request: Request, compared: Compared) -> RenderableType:
 
 
 def _column(found: dict[str, Any], was: dict[str, Any], now: dict[str, Any]) -> Iterator[tuple[str, str]]:
-    """How a run ended, what it counted, what each reward line paid: all that there is of either."""
+    """The figures of one run by name, for a table of both; – for what only the other one has."""
     yield "ticks", f"{found['ticks']:,}"
     yield "ended by", found["ended_by"] or "time"
     if "succeeded" in was or "succeeded" in now:
@@ -110,7 +110,7 @@ def _asked(request: Request) -> dict[str, Any]:
     return {"changes": [*request.parts], "tick": request.tick}
 
 
-def _differs(differences: Sequence[Difference]) -> list[dict[str, Any]]:
+def _differs(differences: Sequence[TickDifference]) -> list[dict[str, Any]]:
     return [each.as_data() for each in differences]
 
 

@@ -1,4 +1,4 @@
-"""What is to be different, as it is said on a command line, and as changes of a mind."""
+"""Changes asked for on a command line, and made into those of a mind."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -50,7 +50,7 @@ class Request:
 
     @property
     def words(self) -> str:
-        """For reading: without Avoid and proximity=0.5, from tick 812 on."""
+        """The changes in words: without Avoid and proximity=0.5, from tick 812 on."""
         if self.ticks is not None:
             groups: list[tuple[tuple[str, ...], int | None]] = [(self.parts, self.ticks)]
         else:
@@ -104,7 +104,7 @@ def _values(words: str, option: str) -> list[float]:
 
 
 def _what(graph: Graph, name: str) -> What:
-    """Whether a name is that of a sensor, a memory or a skill; ChangeError where it is none."""
+    """The kind of change that a name of a sensor, a memory or a skill stands for; ChangeError where it is none."""
     known: dict[What, Sequence[str]] = {
         "reading": [sensor.name for sensor in graph.sensors],
         "memory": [memory.name for memory in graph.memories],

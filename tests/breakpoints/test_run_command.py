@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from mindlang.breakpoints.resolve import breakpoints_of
-from mindlang.breakpoints.subject import Subject
+from mindlang.breakpoints.subject import BreakpointSubject
 from mindlang.breakpoints.watch import noticing, watcher
 from mindlang.compiler.compile import load
 from mindlang.compiler.source import Source
@@ -40,7 +40,7 @@ def recorded(rules: Path, task: str, text: str) -> tuple[RecordedRun, list[tuple
     compiled = load(rules)
     setup = set_up(str(rules), compiled, task, None)
     assert compiled.mind
-    subject = Subject.of_run(compiled.mind.names, setup)
+    subject = BreakpointSubject.of_run(compiled.mind.names, setup)
     read = breakpoints_of(Source("a.break", text), subject)
     assert read.diagnostics == ()
     noticed = noticing(setup, read.breakpoints)

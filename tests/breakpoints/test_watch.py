@@ -16,7 +16,7 @@ from mindrun.numbers.expression import Program
 from numpy.typing import NDArray
 
 from mindlang.breakpoints.breakpoint import Breakpoint, Happens, Holds, Reaches, Transmission
-from mindlang.breakpoints.watch import Part, Stop, Transmissions, Watcher
+from mindlang.breakpoints.watch import RowBlock, Stop, Transmissions, Watcher
 from tests.breakpoints.subjects import part, subject
 from tests.hierarchies import PROCEDURES, Case, conditions, programs, random_case
 
@@ -30,7 +30,7 @@ class Watched:
     """Breakpoints and the rows that they are about."""
 
     breakpoints: tuple[Breakpoint, ...]
-    rows: Part
+    rows: RowBlock
 
 
 @st.composite
@@ -46,7 +46,7 @@ def random_watched(draw: st.DrawFn) -> Watched:
     nothing = np.zeros((TICKS, 0), np.float32)
     return Watched(
         tuple(Breakpoint(line, "", cause) for line, cause in enumerate(found)),
-        Part(np.array(numbers, np.float32), nothing, nothing, np.cumsum(happened, axis=0)),
+        RowBlock(np.array(numbers, np.float32), nothing, nothing, np.cumsum(happened, axis=0)),
     )
 
 
@@ -79,7 +79,7 @@ def obvious(watched: Watched) -> list[tuple[int, int]]:
     return found
 
 
-def row_or_none(rows: Part, at: int) -> tuple[NDArray[np.float32], NDArray[np.int64]] | None:
+def row_or_none(rows: RowBlock, at: int) -> tuple[NDArray[np.float32], NDArray[np.int64]] | None:
     return (rows.readings[at], rows.events[at]) if at >= 0 else None
 
 

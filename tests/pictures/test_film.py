@@ -245,7 +245,7 @@ def test_what_flows_adds_up_to_the_influence(rules: Path) -> None:
     flows = edge_flows(found.ready.policy, {}, found.master, story)
     for tick in (1, story.ticks // 2, story.ticks):
         received = np.zeros(len(story.graph.skills))
-        for link, transmitted in zip(flows.links, flows.over(range(tick - 1, tick)).transmitted[0], strict=True):
+        for link, transmitted in zip(flows.links, flows.flow_at(range(tick - 1, tick)).transmitted[0], strict=True):
             if link.target[0] == "skill":
                 received[link.target[1]] += transmitted
         received[[skill.name for skill in story.graph.skills].index(found.master)] += 1

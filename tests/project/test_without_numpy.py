@@ -25,10 +25,10 @@ COMPUTING = {"numpy", "numba", "llvmlite", "pymunk", "cv2", "PIL", "matplotlib",
 COMMAND = "from mindlang.cli import main; main()"
 EDITOR = """
 from pathlib import Path
-from mindlang.server.server import Session
+from mindlang.server.server import EditorSession
 
 path = Path(sys.argv[1]).resolve()
-session = Session()
+session = EditorSession()
 session.set(path.as_uri(), 1, path.read_text().replace("reads proximity", "reads proximty"))
 for news in session.news():
     print(news.uri, *((each.code, each.message, each.range) for each in news.diagnostics), sep="\\n")

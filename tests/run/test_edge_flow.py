@@ -31,11 +31,11 @@ skill Go is elman width 3
 def test_any_order_of_asking_is_the_order_of_ticks(case: Case, begins: set[int], seed: int) -> None:
     """What functions remember, and where the mind was begun anew, are of the row and not of who asks."""
     run = begun_anew(case, begins)
-    whole = flows(case, run, begins).over(range(len(run.readings)))
+    whole = flows(case, run, begins).flow_at(range(len(run.readings)))
     asked = flows(case, run, begins)
     order = np.random.default_rng(seed).permutation(len(run.readings)).tolist()
     for row in [*order, order[0]]:
-        alone = asked.over(range(row, row + 1))
+        alone = asked.flow_at(range(row, row + 1))
         assert all(getattr(alone, name).tobytes() == getattr(whole, name)[row].tobytes() for name in FIELDS)
     for skill in asked.skills[1:]:
         sent = accumulated(whole.carried[:, asked.links_to.get(("skill", skill), [])])
@@ -66,7 +66,7 @@ def test_what_is_kept_goes_on_over_blocks() -> None:
     run = thought(case)
     found = flows_of(case, run)
     for row in (2 * BLOCK_ROWS + 3, 5, BLOCK_ROWS, BLOCK_ROWS - 1, 2 * BLOCK_ROWS):
-        assert found.over(range(row, row + 1)).value[0, 0] == run.commands[row][0]
+        assert found.flow_at(range(row, row + 1)).value[0, 0] == run.commands[row][0]
 
 
 def test_influence_that_nobody_sent_is_refused_where_it_counts() -> None:

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mindlang.run.comparison import SCORE, SUCCESS, conclusion
-from mindlang.run.paired_difference import MAX_RUNS, MIN_RUNS, Difference, difference, t_quantile
+from mindlang.run.paired_difference import MAX_RUNS, MIN_RUNS, PairedDifference, difference, t_quantile
 
 STUDENT = {1: 12.7062, 2: 4.30265, 4: 2.77645, 9: 2.26216, 30: 2.04227, 199: 1.97196, 10**6: 1.95997}  # any table
 WHOLE = st.lists(st.tuples(st.integers(-50, 50), st.integers(-50, 50)), min_size=2, max_size=60)
@@ -54,7 +54,7 @@ def test_its_figures_are_those_of_the_books(turned: int, offset: float) -> None:
     assert found.detectable == pytest.approx(max(1.96 * error, found.unseen or 0) + 0.8416 * error, rel=1e-4)
     assert not found.is_widened
     data = found.data()
-    assert Difference(**data) == found  # type: ignore[arg-type]
+    assert PairedDifference(**data) == found  # type: ignore[arg-type]
 
 
 @given(st.floats(0.01, 20), st.floats(0.01, 10), st.booleans())
@@ -83,7 +83,7 @@ def test_an_interval_is_as_wide_as_layouts_without_an_example_make_it() -> None:
     assert (same.low, same.high) == pytest.approx((100 - same.unseen, 100 + same.unseen))  # type: ignore[operator]
     assert same.leaves_zero_out
     for low, high, is_widened in ((0.5, 9.0, True), (-9.0, 1.5, True), (-9.0, 9.0, False)):
-        assert Difference(12, 12, 0, 0, 0, 1.0, low=low, high=high, unseen=0.5).is_widened == is_widened
+        assert PairedDifference(12, 12, 0, 0, 0, 1.0, low=low, high=high, unseen=0.5).is_widened == is_widened
 
 
 def test_of_differences_that_are_not_skewed_it_is_students() -> None:
@@ -94,9 +94,9 @@ def test_of_differences_that_are_not_skewed_it_is_students() -> None:
 
 def test_of_few_runs_less_is_known() -> None:
     one, none = difference(np.zeros(1), np.ones(1)), difference(np.ones(4), np.ones(4))
-    assert one == Difference(1, 1, 0, 0, 0, 1.0)
-    assert none == Difference(4, 0, 0, 4, 0, 0.0, 0.0, 0.0)
-    for each in (one, none, Difference(1, 0, 0, 0, 1)):
+    assert one == PairedDifference(1, 1, 0, 0, 0, 1.0)
+    assert none == PairedDifference(4, 0, 0, 4, 0, 0.0, 0.0, 0.0)
+    for each in (one, none, PairedDifference(1, 0, 0, 0, 1)):
         assert (each.is_widened, each.leaves_zero_out) == (False, False)
     assert conclusion("A", "B", "Go", {SCORE: one}) == "A single run says nothing of other layouts of Go."
 

@@ -17,7 +17,7 @@ from mindlang.pictures.theme import PAPER
 from mindlang.pictures.two_paths import outcome_words
 from mindlang.run.recorded_run import RecordedRun, run_result
 from mindlang.run.setup import RunSetup, set_up
-from mindlang.whatif.comparison import compare
+from mindlang.whatif.comparison import compare_runs
 from mindlang.whatif.request import Request, changes_of
 from tests.calling import Call
 
@@ -53,7 +53,7 @@ def test_the_first_tick_that_differs_is_the_first(rules: Path) -> None:
     rollout = setup.rollout()
     graph = setup.ready.policy.graph
     for changes in (silenced(graph, "Turn", 30), change_of(graph, "reading", "ball_bearing", [[0.2]], 17, 20)):
-        compared = compare((setup, rollout), 3, changes[0].first, changes)
+        compared = compare_runs((setup, rollout), 3, changes[0].first, changes)
         was, now = compared.was.run, compared.now.run
         ticks = min(was.ticks, now.ticks)
         blocks = ("readings", "influence", "commands")
@@ -68,11 +68,11 @@ def test_a_change_may_be_in_the_last_tick_and_no_later(rules: Path) -> None:
     setup = setup_of(rules, "Chase")
     graph = setup.ready.policy.graph
     cast = setup, setup.rollout()
-    found = compare(cast, 3, 1199, silenced(graph, "Turn", 1199)).differences
+    found = compare_runs(cast, 3, 1199, silenced(graph, "Turn", 1199)).differences
     assert {(each.tick, each.what) for each in found} >= {(1199, "command"), (1200, "robot")}
-    assert {each.tick for each in compare(cast, 3, 1200, silenced(graph, "Turn", 1200)).differences} == {1200}
+    assert {each.tick for each in compare_runs(cast, 3, 1200, silenced(graph, "Turn", 1200)).differences} == {1200}
     with pytest.raises(ChangeError, match=r"over after tick 1,200: there is no tick 1,201"):
-        compare(cast, 3, 1201, silenced(graph, "Turn", 1201))
+        compare_runs(cast, 3, 1201, silenced(graph, "Turn", 1201))
 
 
 def test_a_change_to_what_it_is_anyway_differs_nowhere(mindc: Call, rules: Path) -> None:
@@ -212,7 +212,9 @@ def test_what_another_mind_makes_of_a_run_follows_what_was(rules: Path) -> None:
     theirs = setup_of(other, "Chase")
     was = run_result(ours, ours.rollout(), 3).run
     tick = int(np.flatnonzero(was.events[:, 0])[0]) + 2
-    same, renamed = (compare((ours, ours.rollout()), 3, tick, (), (setup, setup.rollout())) for setup in (ours, theirs))
+    same, renamed = (
+        compare_runs((ours, ours.rollout()), 3, tick, (), (setup, setup.rollout())) for setup in (ours, theirs)
+    )
     for field in {each.name for each in fields(RecordedRun)} - {"setup"}:
         assert np.array_equal(getattr(same.now.run, field), getattr(was, field), equal_nan=True)
     assert same.differences == renamed.differences == []
@@ -256,7 +258,7 @@ def test_a_success_is_said_as_one_in_the_picture() -> None:
 
 def test_the_picture_of_a_plain_scene_has_room_for_both(rules: Path) -> None:
     setup = set_up(str(rules), load(rules), "Chase", None)
-    compared = compare((setup, setup.rollout()), 3, 1, silenced(setup.ready.policy.graph, "Chase"))
+    compared = compare_runs((setup, setup.rollout()), 3, 1, silenced(setup.ready.policy.graph, "Chase"))
     both = [compared.was.run, compared.now.run]
     view = view_of(both[0], 900, 900, both[1])
     places = np.concatenate([run.body[:, :2] for run in both])

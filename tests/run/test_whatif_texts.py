@@ -6,8 +6,8 @@ import numpy as np
 from rich.console import Group, RenderableType
 
 from mindlang.run.recorded_run import RecordedRun, RunResult
-from mindlang.whatif.comparison import Compared, Difference, first_differences
-from mindlang.whatif.open_loop import OpenLoop, Sent
+from mindlang.whatif.comparison import Compared, TickDifference, first_differences
+from mindlang.whatif.open_loop import CommandDifference, OpenLoop
 from mindlang.whatif.report import comparison_summary, differences_text, recording_data, recording_summary
 from mindlang.whatif.request import Request
 
@@ -81,7 +81,7 @@ def text(said: RenderableType) -> str:
 
 
 def test_two_runs() -> None:
-    found = [Difference(20, "influence", "Avoid", 1.0, 0.0), Difference(1200, "reward", "score", 20.0, np.nan)]
+    found = [TickDifference(20, "influence", "Avoid", 1.0, 0.0), TickDifference(1200, "reward", "score", 20.0, np.nan)]
     was, now = (RunResult(cast(RecordedRun, None), each) for each in (WAS, NOW))
     request = Request(20, without=("Avoid",))
     assert text(comparison_summary(request, Compared(was, now, found))) == RUNS
@@ -91,7 +91,10 @@ def test_two_runs() -> None:
 
 
 def test_a_recording() -> None:
-    sent = {"left_wheel": Sent(1100, 0.123, 1.0, 1200), "right_wheel": Sent(0, 0.0, 0.0, None)}
+    sent = {
+        "left_wheel": CommandDifference(1100, 0.123, 1.0, 1200),
+        "right_wheel": CommandDifference(0, 0.0, 0.0, None),
+    }
     request, found = Request(20, without=("Avoid",)), OpenLoop("Go", 1200, [], sent)
     assert text(recording_summary(request, "day.rec", found)) == RECORDING
     commands = recording_data(request, found)["commands"]
@@ -100,14 +103,14 @@ def test_a_recording() -> None:
 
 def test_so_many_of_a_kind_are_named() -> None:
     def said(count: int) -> str:
-        return str(differences_text([Difference(7, "reading", f"eye {i}", i, 1 / 3) for i in range(count)]))
+        return str(differences_text([TickDifference(7, "reading", f"eye {i}", i, 1 / 3) for i in range(count)]))
 
     six = "tick 7  read " + ", ".join(f"eye {i} {i} → 0.333333" for i in range(6))
     assert (said(6), said(7), said(9)) == (six, f"{six} and 1 more", f"{six} and 3 more")
 
 
 def test_a_number_that_is_not_finite_is_none_in_data() -> None:
-    assert Difference(3, "reading", "eye", np.inf, 0.5).as_data() == {
+    assert TickDifference(3, "reading", "eye", np.inf, 0.5).as_data() == {
         "tick": 3,
         "what": "reading",
         "name": "eye",
@@ -119,7 +122,10 @@ def test_a_number_that_is_not_finite_is_none_in_data() -> None:
 def test_differences_stand_in_the_order_of_time_and_of_causes() -> None:
     a = {"reading": {"x": np.array([0.0, np.nan, 1.0])}, "command": {"w": np.zeros(3), "v": np.zeros(3)}}
     b = {"reading": {"x": np.array([0.0, np.nan, 2.0])}, "command": {"w": np.array([0.0, 1.0, 1.0]), "v": np.zeros(2)}}
-    assert first_differences(a, b) == [Difference(2, "command", "w", 0.0, 1.0), Difference(3, "reading", "x", 1.0, 2.0)]
+    assert first_differences(a, b) == [
+        TickDifference(2, "command", "w", 0.0, 1.0),
+        TickDifference(3, "reading", "x", 1.0, 2.0),
+    ]
     b["command"]["v"] = b["command"]["w"] = np.array([0.0, 0.0, 1.0])
     assert [each.name for each in first_differences(a, b)] == ["x", "w", "v"]
 

@@ -9,7 +9,7 @@ from mindrun.cli import doctor, run_tool
 from mindrun.sim import cache, warmup
 
 from mindlang import diagnosis
-from mindlang.diagnosis import Finding
+from mindlang.diagnosis import DoctorFinding
 from tests.calling import Call
 
 
@@ -82,7 +82,7 @@ def test_a_cold_cache_is_absent(mindc: Call, monkeypatch: pytest.MonkeyPatch) ->
 
 
 def test_a_check_that_fails_hides_no_other(mindc: Call, monkeypatch: pytest.MonkeyPatch) -> None:
-    def packages() -> list[Finding]:
+    def packages() -> list[DoctorFinding]:
         raise ImportError("numba: undefined symbol\nand more")
 
     monkeypatch.setattr(diagnosis, "CHECKS", [packages, diagnosis.browser])

@@ -93,7 +93,7 @@ def test_a_click_on_an_edge_shows_what_the_engine_says_it_transmits(opened: Open
     found, engine = [], []
     for tick in (1, 37, 640, 1100):
         opened.jump(tick)
-        for edge, transmitted in enumerate(flows.over(range(tick - 1, tick)).transmitted[0]):
+        for edge, transmitted in enumerate(flows.flow_at(range(tick - 1, tick)).transmitted[0]):
             opened.page.locator(f"#hierarchy [data-edge='{edge}']").focus()
             opened.page.keyboard.press("Enter")
             opened.wait(f"document.querySelector('#hierarchy .selected')?.dataset.edge === '{edge}'")

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from mindlang.breakpoints.resolve import breakpoints_of
-from mindlang.breakpoints.subject import Subject
+from mindlang.breakpoints.subject import BreakpointSubject
 from mindlang.breakpoints.watch import noticing, watcher
 from mindlang.compiler.compile import load
 from mindlang.compiler.source import Source
@@ -24,7 +24,7 @@ def test_stops_are_those_of_the_whole_run(path: Path) -> None:
     compiled = load(path)
     setup = set_up(str(path), compiled, "Chase", None)
     assert compiled.mind is not None
-    subject = Subject.of_run(compiled.mind.names, setup)
+    subject = BreakpointSubject.of_run(compiled.mind.names, setup)
     found = breakpoints_of(Source("chase.break", BREAKS), subject)
     assert found.diagnostics == ()
     setup = noticing(setup, found.breakpoints)

@@ -11,7 +11,7 @@ import pytest
 
 from mindlang.compiler.compile import load
 from mindlang.lock import Taught, lock_path, read_lock
-from mindlang.training.lock_update import compare
+from mindlang.training.lock_update import compare_genomes
 from mindlang.training.subject import open_subject
 from mindlang.weights.importing import Trial, open_trial
 from tests.calling import Call
@@ -133,7 +133,7 @@ def test_weights_are_tried_as_those_that_were_taught(mindc: Call, path: Path) ->
     assert np.array_equal(trial.recorded("day.rec"), trial.readings())
     assert len({column.tobytes() for column in trial.readings().T}) > 1, "which is which is seen"
     run = SimpleNamespace(manifest=SimpleNamespace(seed=0, lesson=trial.lesson))
-    found = compare(run, trial.rollout, np.stack([genome, genome / 2]))  # type: ignore[arg-type]
+    found = compare_genomes(run, trial.rollout, np.stack([genome, genome / 2]))  # type: ignore[arg-type]
     assert replace(trial, genome=genome / 2).score(genome) == (found.new, found)
     assert trial.score(None) == (found.old, None)
 

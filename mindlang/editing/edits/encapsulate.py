@@ -2,7 +2,7 @@
 
 from typing import Annotated
 
-from mindlang.editing.insertion import INDENT, declare, instead
+from mindlang.editing.insertion import INDENT, declare, replace_span
 from mindlang.editing.project import MindChange, Project, Replaced, influence
 
 
@@ -33,5 +33,5 @@ def encapsulate(
         *(f"{INDENT}reads {reading}" for reading in reads),
         *(f"{INDENT}{influence(kind, below)}" for below in (skill, *with_)),
     ]
-    moved = (instead(place.name.span, new) for place in project.places(skill))
+    moved = (replace_span(place.name.span, new) for place in project.places(skill))
     return MindChange((*moved, declare(project.main, "skill", lines)), replaced=Replaced(skill, new))

@@ -4,7 +4,7 @@ from typing import Annotated
 
 from mindlang.compiler.diagnostic import did_you_mean
 from mindlang.compiler.syntax import Influences, Reads
-from mindlang.editing.insertion import declare_below, indentation, instead_of_line, line_of, without_fact
+from mindlang.editing.insertion import declare_below, indentation, line_of, replace_line, without_fact
 from mindlang.editing.project import (
     EditError,
     MindChange,
@@ -46,7 +46,7 @@ def extract(
         *(f"{indent}{line_of(fact)}" for fact in (first, *others)),
     ]
     return MindChange((
-        instead_of_line(first, [f"{indent}{influence(kind_of(declaration), new)}"]),
+        replace_line(first, [f"{indent}{influence(kind_of(declaration), new)}"]),
         *(without_fact(fact) for fact in others),
         declare_below(declaration, lines),
     ))  # fmt: skip

@@ -5,8 +5,8 @@ from mindlang.compiler.syntax import Declaration, Drives, Influences, Phrase, Re
 from mindlang.editing.insertion import (
     below_siblings,
     indentation,
-    instead_of_line,
     line_of,
+    replace_line,
     without_declarations,
     without_fact,
 )
@@ -45,7 +45,7 @@ def _taken_over(parent: Declaration, child: Declaration) -> list[Splice]:
     place = next(fact for fact in facts(parent, Influences) if fact.name.text == child.header.name.text)
     indent = indentation(parent)
     lines = [f"{indent}{line_of(fact)}" for fact in edges]
-    splices = [instead_of_line(place, lines) if lines else without_fact(place)]
+    splices = [replace_line(place, lines) if lines else without_fact(place)]
     read = {fact.name.text for fact in facts(parent, Reads)}
     terms = (term for edge in edges for expression in edge.expressions for term in expression.terms)
     needed = dict.fromkeys(term.kind.text for term in terms if isinstance(term, Phrase))

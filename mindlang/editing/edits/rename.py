@@ -9,7 +9,7 @@ from mindlang.compiler.compile import load
 from mindlang.compiler.diagnostic import Label, a, listed
 from mindlang.compiler.references import VALUE_NOUNS, Mention, introductions
 from mindlang.compiler.syntax import NOUNS, Rewards
-from mindlang.editing.insertion import instead
+from mindlang.editing.insertion import replace_span
 from mindlang.editing.project import (
     EditError,
     MindChange,
@@ -46,12 +46,12 @@ def rename(
     used = ((other.paths[path].source.alias, other) for other in project.neighbours if path in other.paths)
     aliases = {alias: other for alias, other in used if alias and of != "thing"}  # the others' names for its file
     others = (
-        instead(mention.name.span, f"{alias}.{new}")
+        replace_span(mention.name.span, f"{alias}.{new}")
         for alias, other in aliases.items()
         for mention in other.mentions(of, f"{alias}.{old}")
         if not mention.name.span.source.alias
     )
-    splices = (*(instead(place, new) for place in places), *others)
+    splices = (*(replace_span(place, new) for place in places), *others)
     elsewhere = (Renamed(of, f"{alias}.{old}", f"{alias}.{new}") for alias in aliases)
     return MindChange(splices, (Renamed(of, old, new), *elsewhere))
 
@@ -74,7 +74,7 @@ def _refuse_under_alias(declared: Mention, new: str, noun: str) -> None:
 
 
 def _declared(project: Project, name: str, noun: str) -> Mention:
-    """Where a name is declared with a noun, or with the only one that has it."""
+    """The declaration of a name with a noun, or with the only one that has it."""
     if noun:
         refuse_no_noun(noun, (*NOUNS, "thing", "number"))
     known = [mention for mention in introductions(project.files) if noun in ("", mention.noun)]

@@ -4,7 +4,7 @@ from mindlang.compiler.diagnostic import listed
 from mindlang.compiler.hierarchy import with_descendants
 from mindlang.compiler.model import Node
 from mindlang.compiler.syntax import Influences
-from mindlang.editing.insertion import instead
+from mindlang.editing.insertion import replace_span
 from mindlang.editing.project import EditError, MindChange, Project, Replaced
 
 
@@ -30,7 +30,7 @@ def replace(project: Project, skill: str, new: str) -> MindChange:
     if not places:
         message = f"{skill} has no place: it is not the master, and no skill but {new} influences it."
         raise EditError(message, "", declaration.header.name.span)
-    return MindChange(tuple(instead(place.name.span, new) for place in places), replaced=Replaced(skill, new))
+    return MindChange(tuple(replace_span(place.name.span, new) for place in places), replaced=Replaced(skill, new))
 
 
 def _drives(project: Project, skill: str) -> set[str]:

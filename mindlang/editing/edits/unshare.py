@@ -6,7 +6,7 @@ from mindlang.compiler.model import Skill
 from mindlang.compiler.references import mentions_in
 from mindlang.compiler.splice import Splice
 from mindlang.compiler.syntax import Fact, Reads
-from mindlang.editing.insertion import first_line, indentation, insert_below, instead, instead_of_line, without_fact
+from mindlang.editing.insertion import first_line, indentation, insert_below, replace_line, replace_span, without_fact
 from mindlang.editing.project import EditError, MindChange, Project, Unshared
 
 
@@ -28,7 +28,7 @@ def unshare(project: Project, skill: str) -> MindChange:
     instead_of = dict(zip(owner.reads, own.reads, strict=True))
     indent = indentation(declaration)
     lines = [f"{indent}{_restated(project, owner, fact, instead_of)}" for fact in owner.declaration.facts]
-    header = instead(declaration.header.span, f"skill {skill} is {phrase.span.text}")
+    header = replace_span(declaration.header.span, f"skill {skill} is {phrase.span.text}")
     return MindChange((header, *_below(own, lines)), unshared=Unshared(skill, own.like, instead_of))
 
 
@@ -39,7 +39,7 @@ def _below(skill: Skill, lines: list[str]) -> Iterator[Splice]:
         yield insert_below(first_line(declaration.header.span), lines)
         return
     first, *others = declaration.facts
-    yield instead_of_line(first, lines)
+    yield replace_line(first, lines)
     yield from map(without_fact, others)
 
 

@@ -9,7 +9,7 @@ another skill drive the actuator as well.
 from collections import Counter
 
 from mindlang.compiler.diagnostic import Fix
-from mindlang.editing.insertion import instead
+from mindlang.editing.insertion import replace_span
 from mindlang.lint.study import Finding, Found, Study
 
 HIERARCHY = """
@@ -45,7 +45,7 @@ def check(study: Study) -> Found:
         mend, fix = "let another skill drive it, too", None
         if sum(other.at is None for other in skill.edges) > 1:
             mend = f"write influences {edge.target} at 1"
-            fix = Fix("Write at 1", (instead(edge.fact.span, f"{edge.fact.span.text} at 1"),), is_safe=False)
+            fix = Fix("Write at 1", (replace_span(edge.fact.span, f"{edge.fact.span.text} at 1"),), is_safe=False)
         hint = f"Nobody else drives {alone[edge.target]}, so its command is the same (Eq. 3): {mend}, {unless}."
         yield Finding(edge.fact.span, message, hint, fix=fix)
 

@@ -5,7 +5,7 @@ Every influence and command is clamped to 0..1. A value that is only sometimes o
 """
 
 from mindlang.compiler.diagnostic import Fix
-from mindlang.editing.insertion import instead
+from mindlang.editing.insertion import replace_span
 from mindlang.lint.intervals import interval, is_constant, range_in_words
 from mindlang.lint.study import Finding, Found, Study, is_zero_influence
 
@@ -33,5 +33,5 @@ def check(study: Study) -> Found:
             share = f", or {low:g}% if that is meant" if low == high and 1 < low <= 100 else ""
             message = f"This value is {range_in_words((low, high))}, which is clamped to {clamped}."
             hint = f"Write {clamped}{share or ', or a value that gets between 0 and 1'}."
-            fix = Fix(f"Write {clamped}", (instead(value.span, str(clamped)),))
+            fix = Fix(f"Write {clamped}", (replace_span(value.span, str(clamped)),))
             yield Finding(value.span, message, hint, fix=fix)
