@@ -1,4 +1,4 @@
-"""What a driver is: a frozen dataclass whose fields are its options in `robot.yaml`, and which opens a device.
+"""The contract of drivers: frozen dataclasses whose fields are their options in `robot.yaml`, and which open a device.
 
 A driver imports the library of its hardware inside `open`, so that a robot needs only what is wired to it. Devices
 speak in natural units (metres, degrees, volts); `Wiring` says which of these are the readings 0 and 1.
@@ -23,7 +23,7 @@ def failure(error: BaseException) -> str:
 
 
 def driver_name(driver: object) -> str:
-    """What robot.yaml calls a driver; those of a user say it themselves."""
+    """The name of a driver in robot.yaml; those of a user say it themselves."""
     return getattr(driver, "name", "") or names()[type(driver)]
 
 

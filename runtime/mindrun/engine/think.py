@@ -57,7 +57,7 @@ class Hierarchy:
 
 @dataclass(frozen=True, slots=True)
 class Thought:
-    """What thinking gives: influence [skills], command [commands] where `driven`, and the outputs not sent."""
+    """The result of thinking: influence [skills], command [commands] where `driven`, how many outputs were not sent."""
 
     influence: NDArray[np.float32]
     command: NDArray[np.float32]
@@ -125,7 +125,7 @@ def think(
 
 
 def values(skill: Ready, readings: NDArray[np.float32]) -> list[np.float32 | None]:
-    """What a skill sends over each edge, before the clamp; all NaN where one of its inputs is not finite.
+    """The values [edges] that a skill sends, before the clamp; all NaN where one of its inputs is not finite.
 
     None where a gate is closed and nothing is sent.
     """
@@ -145,7 +145,7 @@ def value_of(edge: Sent, outputs: NDArray[np.float32], readings: NDArray[np.floa
 
 
 def gated(edge: Sent, gate: Gate, outputs: NDArray[np.float32], readings: NDArray[np.float32]) -> np.float32 | None:
-    """What is sent where the condition holds or does not; NaN where it is not a number itself."""
+    """The value of an edge with a gate, None where nothing is sent; NaN where the condition is not a number itself."""
     holds = evaluate(gate.when, readings)
     if holds > 0:
         return value_of(edge, outputs, readings)

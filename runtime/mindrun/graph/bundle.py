@@ -41,7 +41,7 @@ DIGEST_CHARACTERS = 64
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Bundle(ShortRepr):
-    """What is in a bundle: `procedures` has the text of each module by dotted name; not every mind has a robot."""
+    """A policy, the text of each procedure's module by dotted name, and a robot's wiring where the mind has a robot."""
 
     policy: Policy
     procedures: Mapping[str, str]
@@ -123,7 +123,7 @@ def _members(bundle: Bundle) -> dict[str, bytes]:
 def _manifest(
     master: str, skills: Iterable[str], modules: Iterable[str], wiring: Wiring | None, members: Mapping[str, bytes]
 ) -> dict[str, Any]:
-    """What the manifest says of a bundle and its files: nothing that does not follow from them."""
+    """The manifest of a bundle and its files: nothing that does not follow from them."""
     return {
         "format": WIRED if wiring else FORMAT,
         "master": master,
@@ -256,7 +256,7 @@ def _with_outcomes(task: Any) -> Any:
 
 
 def _outcomes(thing: Any, named: set[Any]) -> dict[str, str]:
-    """What became of a thing."""
+    """The outcomes of a thing from before it said them; `named` has (kind of event, thing) of its task's lines."""
     name, kind = thing["name"], thing["kind"]["is"]
     outcomes: dict[str, str] = {}
     if kind in ("item", "zone", "power"):

@@ -66,7 +66,7 @@ class Gate:
 
 @dataclass(frozen=True, slots=True)
 class Edge:
-    """What a skill sends: to the skill, actuator or memory with index `target`.
+    """An edge of the hierarchy: a skill sends a value to the skill, actuator or memory with index `target`.
 
     The value is the function's output number `output`, or where that is None the `value` program, clamped to 0..1;
     `gate` says when. An influence that is smaller than `cuts` when it arrives is none.
@@ -112,12 +112,12 @@ class Skill:
 
     @property
     def is_base(self) -> bool:
-        """Whether it influences no other skill."""
+        """True if the skill influences no other skill."""
         return all(edge.to != "skill" for edge in self.edges)
 
     @property
     def is_complex(self) -> bool:
-        """Whether it influences other skills."""
+        """True if the skill influences other skills."""
         return not self.is_base
 
 
@@ -151,7 +151,7 @@ class Reward:
 
 @dataclass(frozen=True, slots=True)
 class End:
-    """What ends a run: an event, by its index, the `times`th time that it happens, or the condition `when`.
+    """An end of a run: the `times`th time that an event, by its index, happens; or the condition `when`.
 
     One that `succeeds` ends it as a success. `text` is the condition as it is written.
     """
@@ -194,7 +194,7 @@ class Failure:
 
 
 def varied_quantity(kind: Any, argument: str) -> Quantity | None:
-    """What an argument of a kind is that can differ from run to run; None where it cannot."""
+    """The quantity of an argument of a kind that can differ from run to run; None where it cannot."""
     found = (each.type for each in arguments(type(kind)) if each.field == argument and argument in kind.varying)
     return next((quantity for quantity in found if isinstance(quantity, Quantity)), None)
 
@@ -227,13 +227,13 @@ class Task:
 
     @property
     def can_succeed(self) -> bool:
-        """Whether any of its ends is a success."""
+        """True if any of the task's ends is a success."""
         return any(end.succeeds for end in self.ends)
 
 
 @dataclass(frozen=True, slots=True)
 class Need:
-    """What a lesson has to reach on fresh layouts: a mean `score` or a share of `success` `above` a number."""
+    """A need of a lesson, to be met on fresh layouts: a mean `score` or a share of `success` `above` a number."""
 
     measure: Literal["score", "success"]
     above: float

@@ -38,7 +38,7 @@ class RecordingError(MindError):
 
 
 def by_guardian(actuator: int | None) -> int:
-    """What `stopped` says where the guardian had all at neutral, for the actuator of that number or another reason."""
+    """The value of `stopped` where the guardian had all at neutral: for that actuator, or another reason."""
     return BY_GUARDIAN if actuator is None else min(BY_ACTUATOR + actuator, BY_LAST)
 
 
@@ -89,9 +89,9 @@ class RecordedWorld:
 
 @dataclass(frozen=True, slots=True)
 class About:
-    """What a recording is of: the SHA-256 of its bundle, the master, the names of its columns, its world if it has one.
+    """The header of a recording: the SHA-256 of its bundle, the master, the names of its columns, its world if any.
 
-    Older versions `lack` what virtual sensors and memories read.
+    A recording of an older version `lacks_readings` of virtual sensors and memories.
     """
 
     bundle: str
@@ -156,7 +156,7 @@ def line_of(about: About) -> bytes:
 
 
 def about_of_line(line: bytes, path: Path) -> About:
-    """What a first line says; RecordingError where it says nothing that a recording could be of."""
+    """The header in a first line; RecordingError where it is none of a recording, or damaged."""
     try:
         plain = parsed(line, MAX_HEADER_BYTES)
         if not isinstance(plain, dict) or plain.get("format") not in (FORMAT, WITHOUT_WORLD, UNSEALED):
@@ -179,7 +179,7 @@ def _sealed(line: bytes) -> bytes:
 
 
 def _typed(plain: dict[str, Any]) -> About:
-    """What a recording is of, from plain data; ValueError where that is none."""
+    """A header from plain data; ValueError where that is none."""
     about: About = decode(About, plain | {"world": None, "lacks_readings": False}, "it")
     if not SHA256.fullmatch(about.bundle):
         raise ValueError("it does not say of which bundle it is")

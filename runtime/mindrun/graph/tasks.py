@@ -1,4 +1,4 @@
-"""What a task is before a run: which one is run, its goals, whether anything is drawn, and the physics of its world."""
+"""Tasks before a run: which one is run, its goals, whether anything is drawn, and the physics of its world."""
 
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
@@ -70,7 +70,7 @@ def varied_kind(graph: Graph, task: Task, variation: Variation) -> Any:
 
 
 def is_one_world(graph: Graph, task: Task, master: str) -> bool:
-    """Whether every run of a task under a master is the same, as far as anybody can know.
+    """True if every run of a task under a master is the same, as far as anybody can know.
 
     Nobody knows what an environment of somebody else's draws, or a procedure.
     """
@@ -84,13 +84,13 @@ def is_one_world(graph: Graph, task: Task, master: str) -> bool:
 
 
 def _varies(graph: Graph, task: Task, master: str) -> bool:
-    """Whether an argument of what is there in a run is drawn between two numbers: not of a sensor nobody measures."""
+    """True if an argument of anything in a run is drawn between two numbers; not of a sensor that nobody measures."""
     measured = {sensor.name for sensor in measured_in_world(graph, master, task)}
     return any(each.low != each.high and (each.noun != "sensor" or each.of in measured) for each in task.varies)
 
 
 def _draws_things(graph: Graph, task: Task) -> bool:
-    """Whether a place or a size is drawn, when a run begins or when something moves."""
+    """True if a place or a size is drawn, when a run begins or when something moves."""
     can_deliver = any(thing.kind.takes_items for thing in task.things)
     can_hold = any(actuator.kind.can_hold for actuator in graph.actuators)
     for kind in (thing.kind for thing in task.things):
@@ -109,7 +109,7 @@ def _draws_things(graph: Graph, task: Task) -> bool:
 
 
 def _draws_in_ticks(graph: Graph, task: Task, master: str) -> bool:
-    """Whether a tick draws anything: noise of what is measured, or of what acts, or what a procedure does."""
+    """True if a tick draws anything: noise of sensors or actuators, or something in a procedure, as far as is known."""
     if any(skill.function.calls for skill in reachable(graph, master)):
         return True
     kinds: list[object] = [sensor.kind for sensor in measured_in_world(graph, master, task)]

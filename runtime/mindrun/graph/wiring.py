@@ -1,4 +1,4 @@
-"""What is wired to what: each sensor and actuator of a mind with its driver, and how their values become 0..1 and back.
+"""The wiring of a robot: each sensor and actuator of a mind with its driver; how values become 0..1 and back.
 
 It comes from `robot.yaml` and travels in the bundle, checked against the mind by the compiler.
 """

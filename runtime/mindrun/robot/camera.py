@@ -35,7 +35,7 @@ MAX_STREAK_RATIO = 2.8  # length of a streak to its width
 
 @dataclass(frozen=True, slots=True)
 class BallTarget:
-    """What a ball looks like: its hue (0 red, 120 green, 240 blue), how strong its colour and how bright it is.
+    """A ball to look for: its hue (0 red, 120 green, 240 blue), how strong its colour and how bright it is.
 
     `diameter` is the least, in pixels. `view` is how much the camera sees from left to right.
     """
@@ -125,7 +125,7 @@ def in_colour(hsv: Frame, target: BallTarget) -> Frame:
 
 
 def is_coloured(contour: Any, coloured: Frame) -> bool:
-    """Whether most of a contour has the colour: a white lamp has it nowhere, an overexposed ball around its rim."""
+    """True if most of a contour has the colour: a white lamp has it nowhere, an overexposed ball around its rim."""
     x, y = contour[:, 0].T
     return bool((coloured[y, x] > 0).mean() > 0.6)
 
@@ -244,7 +244,7 @@ class Joint:
 
 @dataclass(frozen=True, slots=True)
 class BallSighting:
-    """What was seen in a frame, where the camera pointed, and how wide the frame was; or why there was nothing."""
+    """The ball in a frame, if any, where the camera pointed, and how wide the frame was; or why there was no frame."""
 
     number: int = 0
     ball: Ball | None = None
@@ -294,7 +294,7 @@ class TrackingCamera:
         self.let_go()
 
     def see(self, frame: Frame) -> BallSighting:
-        """What is in a frame; turns the camera after it."""
+        """Find the ball in a frame, and turn the camera after it; DeviceError for a blind camera, or one that hangs."""
         now, sample = monotonic(), frame[::STILL_IMAGE_STRIDE, ::STILL_IMAGE_STRIDE].copy()
         if self.sample is None or sample.tobytes() != self.sample.tobytes():
             self.sample, self.changed = sample, now
@@ -320,7 +320,7 @@ class TrackingCamera:
             self.news.notify_all()
 
     def after(self, number: int, seconds: float) -> BallSighting:
-        """What was seen in a frame after the one of that number; DeviceError where none comes, or nothing is in it."""
+        """The newest sighting after that number; DeviceError if none comes in so many seconds, or the camera fails."""
         with self.news:
             if not self.news.wait_for(lambda: self.sighting.number > number, seconds):
                 raise DeviceError(f"the camera has given no frame for {seconds:g} s")

@@ -46,7 +46,7 @@ class DriveError(MindError):
 
 @dataclass(frozen=True, slots=True)
 class DriveOptions:
-    """What is asked for: whether anything may move, where to record to, after how many ticks to end (0: never).
+    """Options of a drive: whether anything may move, where to record to, after how many ticks to end (0: never).
 
     `master` is another skill than the mind's own to be in charge. `view` is entered for as long as there is a
     recording, of which it can read each tick at once; `world` is that of a dry run, to be recorded. The robot stops

@@ -1,4 +1,4 @@
-"""What drivers share: quantities of their options, packages imported when needed, and GPIO pins."""
+"""Parts that drivers share: quantities of their options, packages imported when needed, and GPIO pins."""
 
 import os
 import warnings
@@ -97,7 +97,7 @@ class SharedParts(Generic[Key, Opened]):
 
 
 class Ranging:
-    """What the drivers of range finders have in common: metres, from touching to clear within the `range`."""
+    """The common part of range finders' drivers: metres, from touching to clear within the `range`."""
 
     __slots__ = ()
     range: float

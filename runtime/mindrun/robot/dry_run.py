@@ -59,7 +59,7 @@ def refuse_environment(task: Task) -> None:
 
 
 def beginning(graph: Graph, task: Task, master: str, seed: int) -> list[str]:
-    """What is run, in which world, that nothing real moves, and what ends it."""
+    """Sentences before a run: what is run, in which world, that nothing real moves, and what ends it."""
     scene, seconds = task.scene, task.ticks * graph.tick
     size = f"of {' x '.join(f'{side:g}' for side in scene.sides)}" if scene.is_bounded else "without walls"
     things = list(dict.fromkeys(thing.name for thing in task.things))
@@ -149,7 +149,7 @@ class DryRun:
 
 
 def outcome(task: Task, master: str, run: Mapping[str, Any]) -> list[str]:
-    """What came of a run, as `mindc run` says it: how it ended, what it counted, what each reward line paid."""
+    """Lines after a run, as `mindc run` prints them: how it ended, what it counted, what each reward line paid."""
     facts = [("seed", str(run["seed"]))]
     for number, (event, times) in enumerate(run["events"].items()):
         facts.append(("" if number else "events", f"{times} × {event}"))
@@ -205,7 +205,7 @@ class SeenWorld:
 
     @property
     def has_ended(self) -> bool:
-        """Whether the row that `latest` returned last says how the run has ended."""
+        """True if the row that `latest` returned last says how the run has ended."""
         return bool(self._recorded["ended"][0] != GOES_ON)
 
     @contextmanager

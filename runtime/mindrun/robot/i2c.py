@@ -72,7 +72,7 @@ class I2cDevice:
 
     @property
     def turn(self) -> RLock:
-        """What a device holds while it asks its chip for something and waits for that: others ask the same chip."""
+        """The lock of a chip, held from a question until it has answered: other devices ask the same chip."""
         return _turns.setdefault((self.number, self.address), RLock())
 
     def write(self, *out: int) -> None:
@@ -84,7 +84,7 @@ class I2cDevice:
         return self.transfer(bytes((register,)), count)
 
     def byte(self, register: int) -> int:
-        """What one register holds."""
+        """The byte in one register."""
         return self.read(register, 1)[0]
 
     def transfer(self, out: bytes, count: int = 0) -> bytes:
@@ -106,7 +106,7 @@ class I2cDevice:
         raise self.error(f"does not answer: {failure}")
 
     def wait(self, register: int, bits: int, seconds: float, problem: str, count: int = 1) -> int:
-        """What a register of `count` bytes holds once one of these bits is set; DeviceError of the problem if late."""
+        """A register of `count` bytes, read until one of these bits is set; DeviceError of the problem if late."""
         begin = monotonic()
         while not (found := int.from_bytes(self.read(register, count), "big")) & bits:
             if monotonic() - begin > seconds:

@@ -70,7 +70,7 @@ class Rate:
 
 @dataclass(frozen=True, slots=True)
 class TickResult:
-    """What came of one tick; `sent` is neutral where `stopped`, and obeyed unless the guardian `held` all at neutral.
+    """The result of one tick; `sent` is neutral where `stopped`, and obeyed unless the guardian `held` all at neutral.
 
     `held` is why it did, as it had said when the tick was sent.
     """

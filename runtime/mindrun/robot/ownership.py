@@ -61,7 +61,7 @@ def identity(wiring: Wiring, graph: Graph) -> str:
 
 
 def is_adopted(wiring: Wiring, graph: Graph) -> bool:
-    """Whether this robot has adopted just this wiring; False where it has adopted none, IdentityError for another."""
+    """True if this robot has adopted just this wiring; False if it has adopted none, IdentityError for another."""
     path = identity_file()
     try:
         name, _, known = read_regular(path, MAX_IDENTITY_BYTES).decode().strip().rpartition(" ")
@@ -93,7 +93,7 @@ def hold_devices(wiring: Wiring) -> Iterator[tuple[int, ...]]:
 
 
 def claims(wiring: Wiring) -> tuple[str, ...]:
-    """What only one may drive: the devices that move something, and the robot of that name."""
+    """Names of all that only one process may drive: the devices that move something, and the robot."""
     drivers = [*(wire.driver for wire in wiring.actuators), *(wire.driver for wire in wiring.sensors)]
     devices = {getattr(driver, "device", "") for driver in drivers} - {""}
     return (*sorted(devices), f"robot {wiring.robot}")

@@ -20,7 +20,7 @@ _let_go: set[Callable[[], None]] = set()
 
 
 def end_with_parent(parent: int, by: signal.Signals) -> None:
-    """As far as the system can: get this signal when process `parent`, or the thread that began this one, has ended."""
+    """Get this signal when process `parent`, or its thread that began this one, has ended, as far as the system can."""
     with suppress(OSError, AttributeError):
         ctypes.CDLL(None).prctl(PARENT_DIED, by)
     if os.getppid() != parent:
@@ -89,7 +89,7 @@ class Stop:
 
     @property
     def handlers(self) -> Mapping[signal.Signals, Callable[[int, FrameType | None], None]]:
-        """What hears each signal."""
+        """The handler of each signal."""
         return dict.fromkeys(STOP_SIGNALS, self.note) | {signal.SIGALRM: self.hurry}
 
     def hear(self) -> None:

@@ -1,4 +1,4 @@
-"""What happened, tick by tick: everything that is needed to compute it again, in a file that survives a power cut.
+"""Recordings: everything, tick by tick, that is needed to compute a run again, in a file that survives a power cut.
 
 A line of JSON says what the columns are; then rows of fixed size follow. Line and rows have checksums; the line of the
 oldest version has none. A row that was cut off at the end is no row.
@@ -198,9 +198,9 @@ def _sealed(rows: NDArray[Any]) -> NDArray[Any]:
 
 
 def read(path: Path) -> tuple[About, Iterator[NDArray[Any]]]:
-    """What a recording is of, and its rows in parts; RecordingError where it is none.
+    """The header of a recording, and its rows in parts; RecordingError where it is none.
 
-    From the rows, too, where one is damaged, behind all that are before it. A last row that is not whole is no row.
+    The rows raise it, too, where one is damaged, behind all that are before it. A last row that is not whole is no row.
     """
     try:
         return read_growing(path, _parts(path))
@@ -215,10 +215,10 @@ def _parts(path: Path) -> Iterator[bytes]:
 
 
 def read_growing(path: Path, parts: Iterator[bytes]) -> tuple[About, Iterator[NDArray[Any]]]:
-    """What a recording is of, and its rows as they come: no row for a part with none, as an empty one.
+    """The header of a recording, and with each part of its bytes the rows [0 or more] that are whole now.
 
-    RecordingError where it is no recording; from the rows, where one is damaged, behind all that are before it. A last
-    row that is not whole waits for the rest of it. `path` is what messages call it.
+    RecordingError where it is no recording; the rows raise it where one is damaged, behind all that are before it. A
+    last row that is not whole waits for the rest of it. `path` is what messages call it.
     """
     line, waiting = _first_line(path, parts)
     about = about_of_line(line, path)

@@ -99,7 +99,7 @@ def computed_again(
 
 
 def _difference(names: tuple[str, ...], now: Singles, then: Singles) -> str:
-    """What differs first, in words; nothing where all bits are the same."""
+    """The first difference, in words; "" where all bits are the same."""
     if now.tobytes() == then.tobytes():
         return ""
     pairs = zip(names, now, then, strict=True)

@@ -26,7 +26,7 @@ FAULT_WORDS = ("fine", "not measured yet", "failed", "too old")
 
 @dataclass(frozen=True, slots=True)
 class Sample:
-    """What was measured: a value for each reading in natural units, None where there was nothing, and when it began.
+    """A measurement: a value for each reading in natural units, None where there was nothing, and when it began.
 
     `fault` says why there are no values; times are seconds of a monotonic clock.
     """
@@ -123,7 +123,7 @@ def _close(device: SensorDevice | None) -> None:
 
 @dataclass(frozen=True, slots=True)
 class FilteredReadings:
-    """What the mind gets in a tick: `readings` [graph.width], NaN where one is missing; the rest is per wired sensor.
+    """The filtered readings of a tick [graph.width], NaN where one is missing; the rest is per wired sensor.
 
     `must_stop` says that every actuator has to be neutral; `faults` are FINE, …; `ages` in seconds, infinite where
     there is no sample; `why` the sentences.
@@ -176,7 +176,7 @@ class ReadingFilter:
 
 
 def _assess(state: _State, time: float) -> tuple[int, float, str]:
-    """What is wrong with a sensor now, the age of its sample, and why."""
+    """The fault of a sensor now (FINE, …), the age of its sample, and why."""
     sample = state.source.latest
     if sample is None:
         return UNMEASURED, inf, "has not been measured yet"

@@ -99,7 +99,7 @@ class SimulatedScene:
         }  # fmt: skip
 
     def _held(self, what: bytes, name: str, value: float) -> bytes:
-        """What an answer holds; LookupError with the reason where the request is refused."""
+        """The content of an answer; LookupError with the reason where the request is refused."""
         if what == STATUS:
             return json.dumps(self.status()).encode()
         if what == WORLD:

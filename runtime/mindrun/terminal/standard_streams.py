@@ -133,7 +133,7 @@ def flush_standard_error() -> None:
 
 
 def is_error_read() -> bool:
-    """Whether standard error has taken all that has been told so far."""
+    """True if standard error has taken all that has been told so far."""
     raw = _raw(sys.stderr)
     return raw.drain(0.0) if isinstance(raw, LineWriter) else True
 

@@ -50,7 +50,7 @@ class Stretch:
 
 @dataclass(frozen=True, slots=True)
 class Segment:
-    """What came of a stretch: `records` and `champions` [records, weights] of its generations, and where it stands now.
+    """The result of a stretch: `records` and `champions` [records, weights] of its generations, and the state after it.
 
     `verdict` is there where the attempt has ended.
     """
@@ -99,7 +99,7 @@ def advance(course: Course, scorer: Scorer, stretch: Stretch, clock: Clock, most
 
 
 def _pauses(lesson: Lesson, state: AttemptState, generations: int, seconds: float, most: int) -> bool:
-    """Whether a segment ends here, after so many generations and seconds."""
+    """True if a segment ends here: at a rung, or after enough generations or seconds."""
     is_at_rung = rung_at(lesson, state.population.generation) is not None
     return is_at_rung or seconds >= SEGMENT_SECONDS or generations >= most
 
@@ -128,7 +128,7 @@ def generation(course: Course, scorer: Scorer, number: int, state: AttemptState)
 
 
 def ends_by_itself(lesson: Lesson, state: AttemptState) -> bool:
-    """Whether an attempt has had all its generations, or has not become better for too many."""
+    """True if an attempt has had all its generations, or has not become better for too many."""
     number = state.population.generation
     return number == lesson.generations or 0 < lesson.learner.patience <= number - state.since
 
@@ -167,7 +167,7 @@ def judge(course: Course, scorer: Scorer, state: AttemptState) -> Verdict:
 
 
 def has_needed(lesson: Lesson, task: Task, results: Results) -> bool:
-    """Whether a genome has all that a lesson needs, by what it came to on either half of the layouts of a verdict."""
+    """True if a genome meets all needs of a lesson on each half of the layouts of a verdict, of which `results` are."""
     scores = of_halves(marks_of(results).each)
     return all(
         (scores if need.measure == "score" else of_halves(succeeded(task, results))).min() > need.above
@@ -187,7 +187,7 @@ def of_halves(values: NDArray[Any]) -> Scores:
 
 
 def is_better(scores: Scores, than: Scores) -> bool:
-    """Whether scores [layouts] are better than others on the same layouts by more than two standard errors."""
+    """True if scores [layouts] are better than others on the same layouts by more than two standard errors."""
     if not np.isfinite(scores).all() or not np.isfinite(than).all():
         return bool(np.isfinite(scores).all())
     gain = scores - than
@@ -195,7 +195,7 @@ def is_better(scores: Scores, than: Scores) -> bool:
 
 
 def are_different(scores: Scores) -> bool:
-    """Whether there are two finite scores [genomes] that are not the same."""
+    """True if two finite scores [genomes] differ."""
     finite = scores[np.isfinite(scores)]
     return bool((finite != finite[:1]).any())
 

@@ -39,7 +39,7 @@ TAKE_SECONDS = 0.2  # to wait for a segment before who asks may look at somethin
 
 @dataclass(frozen=True, slots=True)
 class Ahead:
-    """What has been done ahead of its turn, which a lesson has not come to: so many generations of so many attempts."""
+    """Work done ahead of its turn, which a lesson has not come to: so many generations of so many attempts."""
 
     attempts: int = 0
     generations: int = 0
@@ -50,7 +50,7 @@ NOTHING_AHEAD = Ahead()
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """What a lesson has come to: its state, and the generations since the step before, with the champion of each."""
+    """A step of a lesson: its state after it, and the generations since the step before, with the champion of each."""
 
     state: LessonState
     records: tuple[Record, ...]
@@ -59,16 +59,16 @@ class Step:
 
 
 class AttemptExecutor(Protocol):
-    """What does stretches: any number at once, in any order; one that was lost is done again."""
+    """An executor of stretches: any number at once, in any order; one that was lost is done again."""
 
     def has_room(self) -> bool:
-        """Whether somebody would wait without another job."""
+        """True if somebody would be idle without another job."""
 
     def submit(self, job: int, stretch: Stretch) -> None:
         """Ask for a stretch."""
 
     def take(self) -> tuple[int, Segment] | None:
-        """A job that has ended, and what came of it; None after a while without one."""
+        """A job that has ended, and its segment; None after a while without one."""
 
 
 class InThisThread:
@@ -79,7 +79,7 @@ class InThisThread:
         self._asked: tuple[int, Stretch] | None = None
 
     def has_room(self) -> bool:
-        """Whether nothing is asked for."""
+        """True if no stretch is asked for."""
         return self._asked is None
 
     def submit(self, job: int, stretch: Stretch) -> None:
@@ -107,7 +107,7 @@ class StretchThreads:
         self._at_work, self._stop = 0, Event()
 
     def has_room(self) -> bool:
-        """Whether a core would wait without another stretch."""
+        """True if a core would be idle without another stretch."""
         return self._at_work + len(self._asked) < self._cores
 
     def submit(self, job: int, stretch: Stretch) -> None:
@@ -230,7 +230,7 @@ class Attempts:
         return None
 
     def put(self, job: int, segment: Segment) -> None:
-        """What came of a job; of one that has become needless, nothing."""
+        """Take in the segment of a job; one of a job that has become needless is dropped."""
         track = self.tracks.get(self.jobs.pop(job, -1))
         if track is None or track.job != job:
             return
@@ -245,14 +245,14 @@ class Attempts:
         self._decide()
 
     def steps(self) -> Iterator[Step]:
-        """What the lesson comes to by what is known now, in its order."""
+        """The steps, in order, that the lesson can make with the segments that are here."""
         while (track := self.tracks.get(self.lesson.attempt)) and track.segments:
             if is_over(self.course.lesson, self.lesson) or self._is_open(track, track.segments[0]):
                 return
             yield self._gone_on(track, track.segments.popleft().whole())
 
     def ahead(self) -> Ahead:
-        """What attempts behind that at work have done."""
+        """The work that attempts behind that at work have done."""
         done = [t.state.population.generation for number, t in self.tracks.items() if number > self.lesson.attempt]
         return Ahead(sum(map(bool, done)), sum(done))
 
@@ -274,7 +274,7 @@ class Attempts:
             self.rows[track.number, rung] = segment.state.climbed[rung]
 
     def _is_open(self, track: Track, segment: Joined) -> bool:
-        """Whether it is not known yet what becomes of an attempt behind a segment."""
+        """True if it is not known yet what becomes of an attempt behind a segment."""
         if segment.verdict is not None:
             return False
         rung = rung_at(self.course.lesson, segment.state.population.generation)

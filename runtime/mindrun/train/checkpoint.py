@@ -144,7 +144,7 @@ def unsealed(magic: bytes, said: Mapping[str, object], data: bytes) -> Arrays | 
 
 
 def _hold_together(arrays: Arrays) -> bool:
-    """Whether arrays are as large as each other says, and their numbers such as a run has."""
+    """True if the arrays fit one another in shape, and their numbers are such as a run has."""
     population, weights = arrays["genomes"].shape
     ended = len(arrays["champions"])
     fit = (

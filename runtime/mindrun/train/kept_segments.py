@@ -1,4 +1,4 @@
-"""What attempts ahead of their turn have come to, in a file of the run: a run that goes on has not to do it again.
+"""Segments of attempts ahead of their turn, in a file of the run: a run that goes on has not to do them again.
 
 A stretch that begins where one of them did has that for its answer, since a segment depends on its stretch alone. The
 file has the form of a checkpoint; one that is damaged, or of another run or build, is as none.
@@ -103,7 +103,7 @@ class RememberingExecutor:
         self._found: list[tuple[int, Stretch, Segment]] = []
 
     def has_room(self) -> bool:
-        """Whether a worker would wait without another stretch."""
+        """True if a worker would be idle without another stretch."""
         return self._stretches.has_room()
 
     def submit(self, job: int, stretch: Stretch) -> None:
@@ -144,7 +144,7 @@ class RememberingExecutor:
 
 
 def is_same(one: AttemptState, other: AttemptState) -> bool:
-    """Whether two states of an attempt are the same."""
+    """True if two states of an attempt have the same generation, population and champion."""
     if one is other:
         return True
     return one.population.generation == other.population.generation and all(

@@ -16,7 +16,7 @@ from mindrun.train.population import Genomes, Population, Scores, nobody, order
 
 @dataclass(frozen=True, slots=True)
 class Course:
-    """What stays the same throughout a run; `start` [0 or 1, weights] is what the skill knows before the lesson."""
+    """The constants of a run; `start` [0 or 1, weights] is what the skill knows before the lesson."""
 
     lesson: Lesson
     seed: int
@@ -129,7 +129,7 @@ class Record:
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
-    """What the champion of an attempt comes to in its end: `scores` [2] decide between attempts, and are reported.
+    """The verdict on an attempt's champion: of `scores` [2] the first decides between attempts, the second is reported.
 
     `passed` says whether it meets all that the lesson needs, on the layouts of the one score and on those of the other.
     """
@@ -156,12 +156,12 @@ def begin(course: Course) -> LessonState:
 
 
 def is_over(lesson: Lesson, state: LessonState) -> bool:
-    """Whether a lesson has come to its end: after all its attempts, or the first that meets what it needs."""
+    """True if a lesson has come to its end: after all its attempts, or the first that meets what it needs."""
     return state.attempt >= lesson.learner.attempts or bool(lesson.needs and state.passed.any())
 
 
 def could_be(course: Course, state: LessonState) -> bool:
-    """Whether a state that was read is one to which a run of this course could have come."""
+    """True if a state that was read is one to which a run of this course could have come."""
     individuals, weights = state.now.population.genomes.shape
     generation = state.now.population.generation
     return (
@@ -220,7 +220,7 @@ def rung_at(lesson: Lesson, generation: int) -> int | None:
 
 
 def is_behind(scores: Scores) -> bool:
-    """Whether the last of the attempts that came to a rung, with these scores [attempts], is in their worse half."""
+    """True if the last of the attempts that came to a rung, with these scores [attempts], is in their worse half."""
     others, own = scores[:-1], scores[-1]
     came, better = int(np.isfinite(others).sum()), int((others > own).sum())
     return better >= max(1, (came + 1) // 2)

@@ -17,9 +17,9 @@ MAX_WEIGHT = 100.0  # no weight grows beyond it, so a genome is finite always
 
 @dataclass(frozen=True, slots=True)
 class Population:
-    """What has been learnt so far: its number, and what the next generation is bred from.
+    """A generation, by its number: `genomes` [individuals, weights] to breed the next from, `scores` [individuals].
 
-    These are `genomes` [individuals, weights] and their `scores` [individuals]. Generation 0 has none yet.
+    Generation 0 has none yet.
     """
 
     genomes: Genomes

@@ -59,7 +59,7 @@ class BallTrackerDevice:
         return (distance(sighting.ball.diameter, driver.size, sighting.width, driver.view),)
 
     def sighting(self) -> BallSighting:
-        """What is in the newest frame that was not read before."""
+        """The sighting in the newest frame that was not read before."""
         sighting = self.tracking.after(self.number, MAX_FRAME_AGE_SECONDS)
         self.number = sighting.number
         return sighting
@@ -127,12 +127,12 @@ class BallTracker:
 
     @property
     def device(self) -> str:
-        """What only one process may drive: the card of its neck's servos."""
+        """The card of its neck's servos, which only one process may drive; "" where it has no neck."""
         return "" if self.pan is None and self.tilt is None else on_bus(self.bus, self.address)
 
     @property
     def motionless(self) -> "BallTracker":
-        """The same camera, which does not turn: for a robot that may not move yet."""
+        """This camera without its neck: for a robot that may not move yet."""
         return replace(self, pan=None, tilt=None)
 
     def open(self) -> BallTrackerDevice:

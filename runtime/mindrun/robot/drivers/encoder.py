@@ -26,7 +26,7 @@ class EncoderDevice:
     at: float
 
     def read(self) -> tuple[float]:
-        """What is measured: metres, metres a second since the reading before, or degrees."""
+        """The distance (m), the speed since the reading before (m/s), or the angle (degrees)."""
         if self.driver.measure == "speed":
             sleep(max(0.0, self.at + LEAST_SPEED_SECONDS - monotonic()))
         with pins("the encoder cannot be read"):

@@ -41,7 +41,7 @@ class GroveUltrasonicDevice(WiredDevice):
         return metres if metres <= min(self.reach, MAX_DISTANCE_METRES) else None
 
     def ask(self, command: int, port: int = UNUSED_BYTE, *, count: int) -> bytes:
-        """What the board answers after repeating the command; asks until a deadline that no answer can put off."""
+        """The board's answer, without the command that it repeats; asks until a deadline that no answer can put off."""
         with self.wire.turn:
             self.wire.write(command, port, UNUSED_BYTE, UNUSED_BYTE)
             begin = monotonic()
@@ -80,7 +80,7 @@ class GroveUltrasonic(Ranging):
 
     @property
     def bus_seconds(self) -> float:
-        """What is asked of each, and how often whether there is an answer."""
+        """The seconds on the bus of each command, and of asking until there is an answer."""
         return len(self.ports) * (COMMAND_BYTES + ANSWER_BYTES * RANGER_SECONDS / POLL_SECONDS) * I2C_BYTE_SECONDS
 
     @property

@@ -59,7 +59,7 @@ class RangeChip(MeasuringChip):
         write(START, CONTINUOUS)
 
     def starting(self) -> tuple[tuple[int, int], ...]:
-        """What has to be written before it starts: a byte of each chip's own, on the page behind the first."""
+        """The (register, value) writes before a start, among them a byte of each chip's own, behind the first page."""
         for register, value in TO_PAGE_BEHIND:
             self.wire.write(register, value)
         own = self.wire.byte(OWN_BYTE)

@@ -262,7 +262,7 @@ class Guardian:
             raise BlockingIOError
 
     def _hears(self) -> bool:
-        """Whether a last frame is read, which lets everything rest; a guardian that is gone is another matter."""
+        """Send a last frame, which lets everything rest; False if the guardian hangs, and does not read it in time."""
         try:
             os.write(self._frames, pack(self._number, monotonic_ns(), False, self._rest))
             self._read_at = monotonic()
@@ -283,7 +283,7 @@ class Guardian:
         return unread[0]
 
     def _lost(self, how: str) -> GuardianError:
-        """What to raise of a guardian that is lost, once others have brought to neutral what they could."""
+        """The error of a guardian that is lost, once others have brought to neutral what they could."""
         done = self._processes.replace()
         return GuardianError(f"the guardian {how}: {done}", CUT if "may still move" in done else "")
 

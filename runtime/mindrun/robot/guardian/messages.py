@@ -120,7 +120,7 @@ class Heard:
 
     @property
     def is_lost(self) -> bool:
-        """Whether the worker is no more."""
+        """True if the worker has said its last word, or was lost."""
         return self.rests or bool(self.at_rest) or self.is_over
 
     def listen(self) -> None:

@@ -1,4 +1,4 @@
-"""What the guardian has to know, as one line of JSON: the tick, and each actuator with its neutral and its driver.
+"""The guardian's plan, as one line of JSON: the tick, and each actuator with its neutral and its driver.
 
 Not the bundle itself: to read that takes numpy, and the guardian has no use for a mind's weights and procedures.
 """

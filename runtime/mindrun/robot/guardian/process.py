@@ -92,7 +92,7 @@ class ActuatorOutput:
 
     @property
     def settled(self) -> bool:
-        """Whether neutral was the last that was wanted, and is acknowledged."""
+        """True if neutral was the last that was wanted, and is acknowledged."""
         with self._change:
             return self._wanted.neutral and self._waiting is None
 
