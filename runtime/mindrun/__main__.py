@@ -130,7 +130,7 @@ def _run(engine: Engine, options: argparse.Namespace) -> None:
             influence = (None if isnan(number) else number for number in engine.influence.tolist())
             line["influence"] = dict(zip(skills, influence, strict=True))
         standard_streams.document(_json(line))
-        if standard_streams.lost():
+        if standard_streams.output_failure():
             break
     if engine.faults:
         what = "1 output was" if engine.faults == 1 else f"{engine.faults} outputs were"

@@ -28,7 +28,7 @@ from mindrun.kinds.registry import kinds
 from mindrun.robot.drivers.simulated import SimulatedActuator, SimulatedSensor
 from mindrun.robot.dry_run import dry
 from mindrun.robot.simulated_world import READ, REQUEST, STATUS, WRITE, WorldConnection, simulated, status
-from mindrun.robot.world_server import Server, SimulatedScene, listening
+from mindrun.robot.world_server import SimulatedScene, WorldServer, listening
 from mindrun.sim.commanded_world import World
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
@@ -189,9 +189,9 @@ class Counting:
 
 
 @contextmanager
-def served(world: Counting, path: Path | None = None) -> Iterator[tuple[str, Server]]:
+def served(world: Counting, path: Path | None = None) -> Iterator[tuple[str, WorldServer]]:
     """A server of that world in a thread, which ticks a thousand times a second."""
-    server = Server(SimulatedScene(world))
+    server = WorldServer(SimulatedScene(world))
     with TemporaryDirectory() as folder, listening(path or Path(folder, "world")) as listener:
         thread = Thread(target=server.serve, args=(listener, 0.001))
         thread.start()

@@ -122,7 +122,7 @@ def test_a_missing_part_of_ours_is_a_fault_of_ours() -> None:
 
     assert surroundings(ModuleNotFoundError("no", name="mindlang.x")) == ""
     assert surroundings(ValueError("no")) == ""
-    assert standard_streams.lost() is None
+    assert standard_streams.output_failure() is None
 
 
 TALKS = """

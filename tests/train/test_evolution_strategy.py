@@ -8,7 +8,7 @@ import pytest
 from mindrun.kinds.learners import EvolutionStrategy, Genetic
 from mindrun.train.ask_and_tell import ask, kept_count, tell
 from mindrun.train.attempt import REEVALUATION_LAYOUTS, fresh_count
-from mindrun.train.lesson_state import Course, begin, could_be
+from mindrun.train.lesson_state import Course, begin, is_reachable
 from mindrun.train.population import Genomes, Population, nobody
 
 from tests.train.sequential import teach
@@ -89,7 +89,7 @@ def test_a_lesson_finishes_what_is_known_and_keeps_the_centre() -> None:
     course = Course(replace(lesson(30), learner=learner), 1, start)
     states = [state for state, _ in teach(course, Sphere(), begin(course), perf_counter)]
     assert len(states[5].now.population.genomes) == kept_count(learner) == 1
-    assert all(could_be(course, state) for state in states[:-1])
+    assert all(is_reachable(course, state) for state in states[:-1])
     assert states[-1].reevaluated > -1.5 > -12
 
 

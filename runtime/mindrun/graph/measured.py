@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True)
-class Used:
+class UsedSensors:
     """The sensors that are measured: those that `skills` depend on, and those `aside` that only rewards do.
 
     Sources stand before what derives from them.
@@ -32,11 +32,11 @@ class Used:
         return [*self.skills, *self.aside]
 
 
-def used_sensors(graph: Graph, reached: Iterable[Skill], task: Task) -> Used:
+def used_sensors(graph: Graph, reached: Iterable[Skill], task: Task) -> UsedSensors:
     """The sensors that a reached skill or a reward reads."""
     skills = with_sources(graph, {row for skill in reached for row in skill.inputs})
     rewards = with_sources(graph, _rewarded(task))
-    return Used(skills, [sensor for sensor in rewards if sensor not in skills])
+    return UsedSensors(skills, [sensor for sensor in rewards if sensor not in skills])
 
 
 def measured_in_world(graph: Graph, master: str, task: Task) -> list[Sensor]:

@@ -49,7 +49,7 @@ class BallTarget:
 
 
 @dataclass(frozen=True, slots=True)
-class Ball:
+class SeenBall:
     """A ball in a frame: where it is, seen from the camera, and how big."""
 
     bearing: float
@@ -76,7 +76,7 @@ def blindness(frame: Frame) -> str:
     return "all white" if (brightness >= WHITE_BRIGHTNESS).sum() > most * brightness.size else ""
 
 
-def find_ball(frame: Frame, target: BallTarget) -> Ball | None:
+def find_ball(frame: Frame, target: BallTarget) -> SeenBall | None:
     """The largest round thing that is bright and of the right colour, None where there is none."""
     height, width = frame.shape[:2]
     if blindness(frame):
@@ -88,7 +88,7 @@ def find_ball(frame: Frame, target: BallTarget) -> Ball | None:
     focus = focal_length(width, target.view)
     aside, up = (width - 1) / 2 - best.x, (height - 1) / 2 - best.y
     bearing, elevation = degrees(atan2(aside, focus)), degrees(atan2(up, hypot(focus, aside)))
-    return Ball(bearing, elevation, best.diameter)
+    return SeenBall(bearing, elevation, best.diameter)
 
 
 def distance(diameter: float, size: float, width: int, view: float) -> float:
@@ -165,7 +165,7 @@ class PanTiltLimits:
     patience: float = 1.0  # seconds without a ball until it looks straight ahead again
 
 
-def follow(aim: Aim, ball: Ball | None, seconds: float, limits: PanTiltLimits) -> Aim:
+def follow(aim: Aim, ball: SeenBall | None, seconds: float, limits: PanTiltLimits) -> Aim:
     """Where the camera should point so many seconds later."""
     if ball is None and aim.alone + seconds < limits.patience:
         return Aim(aim.pan, aim.tilt, aim.alone + seconds)
@@ -247,7 +247,7 @@ class BallSighting:
     """The ball in a frame, if any, where the camera pointed, and how wide the frame was; or why there was no frame."""
 
     number: int = 0
-    ball: Ball | None = None
+    ball: SeenBall | None = None
     aim: Aim = AHEAD
     width: int = 1
     error: DeviceError | None = None

@@ -28,7 +28,7 @@ from mindrun.robot.guardian.plan import plan_of
 from mindrun.robot.live_view import breakpoint_mistakes, live_view
 from mindrun.robot.loop import Loop, Rate, TickResult
 from mindrun.robot.ownership import IdentityError, hold_devices, is_adopted
-from mindrun.robot.processes import Stop, refuse_success, stopping
+from mindrun.robot.processes import StopSignals, refuse_success, stopping
 from mindrun.robot.recording import About, Recorder, TemporaryRecorder, temporary_recording
 from mindrun.robot.sensing import ReadingFilter, Sampler
 from mindrun.robot.simulated_world import simulated, status
@@ -222,13 +222,13 @@ def _recorder(
         raise DriveError(f"{path} cannot be written: {error.strerror}") from error
 
 
-def _goes_on(tick: TickResult, ticks: int, stop: Stop) -> bool:
+def _goes_on(tick: TickResult, ticks: int, stop: StopSignals) -> bool:
     notify("WATCHDOG=1")
     stop.hear()
     return not stop and (not ticks or tick.number + 1 < ticks)
 
 
-def _wait(samplers: list[Sampler], guardian: Guardian, loop: Loop, stop: Stop) -> None:
+def _wait(samplers: list[Sampler], guardian: Guardian, loop: Loop, stop: StopSignals) -> None:
     """Until every sensor has been measured once, or for some seconds; the guardian hears all the while, unarmed."""
     until = monotonic() + FIRST_READING_SECONDS
     while monotonic() < until and not stop and not all(sampler.latest for sampler in samplers):

@@ -54,7 +54,7 @@ def on_bus(number: int, address: int) -> str:
     return f"/dev/i2c-{number} {address:#04x}"
 
 
-_turns: dict[tuple[int, int], RLock] = {}  # by bus and address
+_locks: dict[tuple[int, int], RLock] = {}  # by bus and address
 
 
 @dataclass(slots=True)
@@ -71,9 +71,9 @@ class I2cDevice:
         self.bus = open_bus(self.number)
 
     @property
-    def turn(self) -> RLock:
+    def lock(self) -> RLock:
         """The lock of a chip, held from a question until it has answered: other devices ask the same chip."""
-        return _turns.setdefault((self.number, self.address), RLock())
+        return _locks.setdefault((self.number, self.address), RLock())
 
     def write(self, *out: int) -> None:
         """Write bytes, of which the first is a register or a command; returns when all are acknowledged."""

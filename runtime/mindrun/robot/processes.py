@@ -72,7 +72,7 @@ def refuse_success(then: str = "") -> Iterator[None]:
         os._exit = leave
 
 
-class Stop:
+class StopSignals:
     """True once a signal has come. From then on all has to end within `grace` seconds, or is interrupted.
 
     The guardian has every actuator at neutral meanwhile, since it hears nothing, and when this process has ended.
@@ -124,9 +124,9 @@ class Stop:
 
 
 @contextmanager
-def stopping(grace: float) -> Iterator[Stop]:
+def stopping(grace: float) -> Iterator[StopSignals]:
     """Hear the signals that end programs, and let them end this one in order."""
-    stop = Stop(grace)
+    stop = StopSignals(grace)
     before = {number: signal.getsignal(number) for number in stop.handlers}
     stop.hear()
     try:

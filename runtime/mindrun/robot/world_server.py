@@ -43,7 +43,7 @@ def main() -> None:
     end_with_parent(os.getppid(), signal.SIGTERM)
     try:
         world = _world(options)
-        server = Server(SimulatedScene(world))
+        server = WorldServer(SimulatedScene(world))
         signal.signal(signal.SIGTERM, server.end)
         with listening(options.socket) as listener:
             print("ready", flush=True)
@@ -124,7 +124,7 @@ class SimulatedScene:
         return row.tobytes()
 
 
-class Server:
+class WorldServer:
     """Ticks on time, and answers all clients in between. One that sends nonsense, or does not listen, is cut off."""
 
     def __init__(self, scene: SimulatedScene) -> None:

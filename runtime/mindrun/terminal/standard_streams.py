@@ -148,7 +148,7 @@ def error_columns() -> int | None:
         return None
 
 
-def lost() -> OSError | None:
+def output_failure() -> OSError | None:
     """Why standard output has not taken everything, if it has not; BrokenPipeError where its reader is gone."""
     raw = _raw(sys.stdout)
     return raw.failure if isinstance(raw, Stream) else None
@@ -160,7 +160,7 @@ def finish() -> str:
     A reader that is gone, `head` say, has seen enough: that is no reason.
     """
     sys.stdout.flush()
-    failure = lost()
+    failure = output_failure()
     if failure is None or isinstance(failure, BrokenPipeError):
         return ""
     return f"standard output cannot be written: {reason(failure)}"

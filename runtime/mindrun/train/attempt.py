@@ -61,7 +61,7 @@ class Segment:
     verdict: Verdict | None
 
 
-class Joined:
+class JoinedSegments:
     """Segments of an attempt, each from where that before ends, as one; what they have is copied when it is read."""
 
     def __init__(self, first: Segment) -> None:
@@ -74,7 +74,7 @@ class Joined:
         self._records.extend(segment.records)
         self._champions.append(segment.champions)
 
-    def whole(self) -> Segment:
+    def as_segment(self) -> Segment:
         """All as one segment."""
         self._champions = [np.concatenate(self._champions)]
         return Segment(self.state, tuple(self._records), self._champions[0], self.verdict)
@@ -116,7 +116,7 @@ def generation(course: Course, scorer: Scorer, number: int, state: AttemptState)
     rung = rung_at(lesson, population.generation)
     first_or_tenth = population.generation == 1 or population.generation % REEVALUATION_GENERATIONS == 0
     if first_or_tenth or rung is not None or ends_by_itself(lesson, now):
-        now, again, reevaluated = try_again(now, scorer, layouts(*key, fresh_count(learner), Purpose.REEVALUATION))
+        now, again, reevaluated = reevaluate(now, scorer, layouts(*key, fresh_count(learner), Purpose.REEVALUATION))
         done.append(again)
     if rung is not None:
         place = course.seed, 0, population.generation
@@ -146,7 +146,7 @@ def climb(state: AttemptState, scorer: Scorer, rung: int, seeds: Seeds) -> tuple
     return replace(state, climbed=climbed), marks
 
 
-def try_again(state: AttemptState, scorer: Scorer, fresh: Seeds) -> tuple[AttemptState, Marks, float]:
+def reevaluate(state: AttemptState, scorer: Scorer, fresh: Seeds) -> tuple[AttemptState, Marks, float]:
     """The champion is who does best on fresh layouts, it or the best of the generation; and its score on them."""
     ranked = state.population.genomes[order(state.population.scores)]
     candidates = np.concatenate([state.champion, ranked[:REEVALUATED_CANDIDATES], state.rival])

@@ -15,7 +15,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from mindrun.graph.graph import Task
-from mindrun.train.attempt import Clock, Joined, Segment, Stretch, advance
+from mindrun.train.attempt import Clock, JoinedSegments, Segment, Stretch, advance
 from mindrun.train.lesson_state import (
     AttemptState,
     Course,
@@ -144,12 +144,12 @@ class StretchThreads:
             self._done.put(error)
 
 
-class StoppedError(Exception):
+class ScoringStoppedError(Exception):
     """Nobody waits for these scores any more."""
 
 
 class Stoppable:
-    """Scores as another does, until `stop` is set: then it raises StoppedError, in the middle of its runs."""
+    """Scores as another does, until `stop` is set: then it raises ScoringStoppedError, in the middle of its runs."""
 
     def __init__(self, scorer: Any, stop: Event) -> None:
         self._scorer, self._stop = scorer, stop
@@ -169,7 +169,7 @@ class Stoppable:
 
     def _ran(self, runs: float) -> None:
         if self._stop.is_set():
-            raise StoppedError
+            raise ScoringStoppedError
 
 
 @dataclass(slots=True)
@@ -179,7 +179,7 @@ class Track:
     number: int
     state: AttemptState
     job: int = -1  # that is at it; -1 for none
-    segments: deque[Joined] = field(default_factory=deque)
+    segments: deque[JoinedSegments] = field(default_factory=deque)
     at_rung: dict[int, AttemptState] = field(default_factory=dict)  # where it stood there
     cut: AttemptState | None = None  # where it was found behind
     verdict: Verdict | None = None
@@ -249,7 +249,7 @@ class Attempts:
         while (track := self.tracks.get(self.lesson.attempt)) and track.segments:
             if is_over(self.course.lesson, self.lesson) or self._is_open(track, track.segments[0]):
                 return
-            yield self._gone_on(track, track.segments.popleft().whole())
+            yield self._gone_on(track, track.segments.popleft().as_segment())
 
     def ahead(self) -> Ahead:
         """The work that attempts behind that at work have done."""
@@ -267,13 +267,13 @@ class Attempts:
         if before is not None and all(before.state is not at_rung for at_rung in track.at_rung.values()):
             before.add(segment)
         else:
-            track.segments.append(Joined(segment))
+            track.segments.append(JoinedSegments(segment))
         rung = rung_at(self.course.lesson, segment.state.population.generation)
         if rung is not None:
             track.at_rung[rung] = segment.state
             self.rows[track.number, rung] = segment.state.climbed[rung]
 
-    def _is_open(self, track: Track, segment: Joined) -> bool:
+    def _is_open(self, track: Track, segment: JoinedSegments) -> bool:
         """True if it is not known yet what becomes of an attempt behind a segment."""
         if segment.verdict is not None:
             return False

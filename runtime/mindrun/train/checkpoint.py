@@ -105,7 +105,7 @@ def unpack(data: bytes, run: str) -> LessonState | None:
     """The state in these bytes; None where they are damaged, of another run, or of no run at all."""
     arrays = unsealed(MAGIC, {"run": run}, data) or {}
     types = {name: (array.dtype.str, array.ndim) for name, array in arrays.items()}
-    return _state(arrays) if [*types.items()] == [*TYPES.items()] and _hold_together(arrays) else None
+    return _state(arrays) if [*types.items()] == [*TYPES.items()] and _are_consistent(arrays) else None
 
 
 def sealed(magic: bytes, said: Mapping[str, object], arrays: Arrays) -> bytes:
@@ -143,7 +143,7 @@ def unsealed(magic: bytes, said: Mapping[str, object], data: bytes) -> Arrays | 
     return arrays if start == len(rest) else None
 
 
-def _hold_together(arrays: Arrays) -> bool:
+def _are_consistent(arrays: Arrays) -> bool:
     """True if the arrays fit one another in shape, and their numbers are such as a run has."""
     population, weights = arrays["genomes"].shape
     ended = len(arrays["champions"])

@@ -13,7 +13,7 @@ import numpy as np
 
 from mindrun.files.atomic_write import write
 from mindrun.files.regular_files import read_whole
-from mindrun.train.attempt import Clock, Joined, Segment, Stretch
+from mindrun.train.attempt import Clock, JoinedSegments, Segment, Stretch
 from mindrun.train.attempts import AttemptExecutor
 from mindrun.train.checkpoint import Arrays, sealed, unsealed
 from mindrun.train.lesson_state import AttemptState, Course, Record, Verdict, begin_attempt, rung_at
@@ -27,7 +27,7 @@ SAVE_SECONDS = 2.0  # between two times that the file is written anew, at least
 MAX_SAVE_SHARE = 0.05  # of the time that goes into writing it
 RECORD_NUMBERS, VERDICT_NUMBERS = 9, 5  # of a record and a verdict, in the order of their fields; NaN for None
 
-Chain = list[Joined]  # of an attempt, from rung to rung, each from where that before ends
+Chain = list[JoinedSegments]  # of an attempt, from rung to rung, each from where that before ends
 
 
 class KeptSegments:
@@ -45,7 +45,7 @@ class KeptSegments:
         before = begin_attempt(self.course)
         for segment in [] if stretch.cut else self.chains.get(stretch.number, []):
             if is_same(before, stretch.state):
-                return segment.whole()
+                return segment.as_segment()
             before = segment.state
         return None
 
@@ -58,7 +58,7 @@ class KeptSegments:
         if chain and rung_at(self.course.lesson, start.population.generation) is None:
             chain[-1].add(segment)
         else:
-            chain.append(Joined(segment))
+            chain.append(JoinedSegments(segment))
 
     def forget(self, below: int) -> None:
         """Forget the attempts before one."""
@@ -74,7 +74,7 @@ class KeptSegments:
         arrays = {
             f"{number} {place} {name}": array
             for number, place, each in rows
-            for name, array in _arrays(each.whole()).items()
+            for name, array in _arrays(each.as_segment()).items()
         }
         with suppress(OSError):
             write(self.path, sealed(MAGIC, self._said, arrays))
@@ -87,7 +87,7 @@ class KeptSegments:
             segments.setdefault((int(number), int(place)), {})[name] = array
         chains = dict[int, Chain]()
         for (attempt, _), found in sorted(segments.items(), key=lambda each: each[0]):
-            chains.setdefault(attempt, []).append(Joined(_segment(found, self.course)))
+            chains.setdefault(attempt, []).append(JoinedSegments(_segment(found, self.course)))
         return chains
 
 

@@ -160,7 +160,7 @@ def is_over(lesson: Lesson, state: LessonState) -> bool:
     return state.attempt >= lesson.learner.attempts or bool(lesson.needs and state.passed.any())
 
 
-def could_be(course: Course, state: LessonState) -> bool:
+def is_reachable(course: Course, state: LessonState) -> bool:
     """True if a state that was read is one to which a run of this course could have come."""
     individuals, weights = state.now.population.genomes.shape
     generation = state.now.population.generation

@@ -42,7 +42,7 @@ class GroveUltrasonicDevice(WiredDevice):
 
     def ask(self, command: int, port: int = UNUSED_BYTE, *, count: int) -> bytes:
         """The board's answer, without the command that it repeats; asks until a deadline that no answer can put off."""
-        with self.wire.turn:
+        with self.wire.lock:
             self.wire.write(command, port, UNUSED_BYTE, UNUSED_BYTE)
             begin = monotonic()
             while monotonic() - begin < ANSWERED_IN:

@@ -208,7 +208,7 @@ class Guardian:
         """
         end_in_child(self._controller)  # a procedure may have forked it
         heard = self._heard
-        hangs = self.state in (NEUTRAL, FOLLOWING) and not heard.is_lost and not self._hears()
+        hangs = self.state in (NEUTRAL, FOLLOWING) and not heard.is_lost and not self._reads_last_frame()
         with suppress(OSError):
             self._processes.input.close()
         try:
@@ -261,7 +261,7 @@ class Guardian:
         elif now - self._read_at > HANG_SECONDS:
             raise BlockingIOError
 
-    def _hears(self) -> bool:
+    def _reads_last_frame(self) -> bool:
         """Send a last frame, which lets everything rest; False if the guardian hangs, and does not read it in time."""
         try:
             os.write(self._frames, pack(self._number, monotonic_ns(), False, self._rest))
