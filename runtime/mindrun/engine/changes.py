@@ -26,7 +26,7 @@ class ChangeError(MindError):
 
 @dataclass(frozen=True, slots=True)
 class Change:
-    """One number that is another from tick `first` to `last`, both counted from 1; to the end where `last` is None.
+    """A number that is replaced from tick `first` to `last`, both counted from 1; to the end where `last` is None.
 
     `row` is the place of a reading or memory cell in the vector of readings, or that of a skill. It is `values[0]` in
     the first of the ticks, `values[1]` in the next, and stays at the last of them.
@@ -69,7 +69,7 @@ def in_tick(changes: Sequence[Change], tick: int) -> Changed | None:
 
 
 def calm_ticks(changes: Sequence[Change], tick: int, most: int) -> int:
-    """How many ticks from this one on, at which nothing is changed, stay so; up to `most`."""
+    """The number of ticks without a change, from this one on, in which there is none; up to `most`."""
     coming = (change.first - tick for change in changes if change.first > tick)
     return min([most, *coming])
 

@@ -36,7 +36,7 @@ def scene_of(graph: Graph) -> Scene:
 
 
 def virtual_sensors(graph: Graph) -> tuple[tuple[slice, Reader], ...]:
-    """Where the readings of each virtual sensor stand, and how they are computed; sources before what they are of."""
+    """The places of each virtual sensor's readings, and its reader; sources before what is computed of them."""
     scene, every = scene_of(graph), with_sources(graph, set(range(graph.width)))
     readers = ((scene.places[sensor.name], sensor.kind.reader(scene)) for sensor in every)
     return tuple((place, reader) for place, reader in readers if reader)
@@ -70,7 +70,7 @@ class Engine:
         self.reset()
 
     def reset(self) -> None:
-        """Back to the state before the first tick."""
+        """Go back to the state before the first tick."""
         for skill in self._hierarchy.skills:
             if isinstance(skill.compute, Stateful):
                 skill.compute.reset()

@@ -22,7 +22,7 @@ _ZERO, _ONE = np.float32(0.0), np.float32(1.0)
 
 @dataclass(frozen=True, slots=True)
 class ReadyEdge:
-    """An edge made ready. `to` is a skill's index or, with `drives`, a place in the commands."""
+    """An edge, ready to be computed. `to` is a skill's index or, with `drives`, a place in the commands."""
 
     drives: bool
     to: int
@@ -34,7 +34,7 @@ class ReadyEdge:
 
 @dataclass(frozen=True, slots=True)
 class ReadySkill:
-    """A skill made ready: what it reads, computes and sends."""
+    """A skill, ready to be computed: what it reads, computes and sends."""
 
     index: int
     inputs: NDArray[np.intp]

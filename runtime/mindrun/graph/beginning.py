@@ -1,4 +1,4 @@
-"""Where nothing is put when a run begins: in the robot, or where it would have been reached before it moved."""
+"""Places where nothing is put when a run begins: in the robot, or where it would have been reached before it moved."""
 
 HALF_DIAGONAL = 0.7072  # of a square with side 1, and a little more
 

@@ -213,9 +213,9 @@ def decode_wiring(data: object, graph: Graph) -> Wiring:
 
 
 def migrated(graph: Any, version: str) -> Any:
-    """The data of a graph of a version as one of today has it: what has got words of its own since is said in them.
+    """The data of a graph of an older version as that of today: what has got words of its own since is said in them.
 
-    Data that is no graph stays as it is: who decodes it says what is wrong.
+    Data that is no graph stays as it is: decoding it says what is wrong.
     """
     try:
         tasks = graph["tasks"]
@@ -240,7 +240,7 @@ def _whole_lesson(lesson: Any) -> Any:
 
 def _with_programs(task: Any) -> Any:
     """A task from before conditions were programs: each was a comparison, and ends had none."""
-    ends = [{"event": event} for event in task["ends"]]  # the rest is as where nothing is said
+    ends = [{"event": event} for event in task["ends"]]  # the rest has its defaults
     rewards = []
     for reward in task["rewards"]:
         when = reward["when"]

@@ -53,7 +53,7 @@ class Actuator:
 
 @dataclass(frozen=True, slots=True)
 class Gate:
-    """When an edge sends its value. Where `when` does not hold it sends `otherwise`, or nothing where that is None."""
+    """The condition of an edge. Where `when` does not hold it sends `otherwise`, or nothing where that is None."""
 
     when: Program
     otherwise: Program | None = None
@@ -239,13 +239,13 @@ class Need:
     above: float
 
     def __str__(self) -> str:
-        """In the words of the language."""
+        """The need in the words of the language."""
         return f"{self.measure} > " + (f"{100 * self.above:g}%" if self.measure == "success" else f"{self.above:g}")
 
 
 @dataclass(frozen=True, slots=True)
 class Lesson:
-    """Who learns (`skill`), on which task, driven by which master, for how long, and how (`learner`).
+    """A lesson: which `skill` learns, on which task, driven by which master, for how long, and how (`learner`).
 
     With `with_subskills`, all that learn below the skill and are not frozen learn with it, as one genome. `number` is
     its place in its curriculum, from 1; 0 in what was made before lessons had one. One that `starts_from` another skill

@@ -28,7 +28,7 @@ class UsedSensors:
 
     @property
     def all(self) -> list[Sensor]:
-        """All of them."""
+        """All sensors that are measured."""
         return [*self.skills, *self.aside]
 
 

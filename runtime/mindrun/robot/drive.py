@@ -93,7 +93,7 @@ def _refuse_wrong_breakpoints(options: argparse.Namespace, graph: Graph) -> None
 def _seen(
     options: argparse.Namespace, tell: Callable[[str], None]
 ) -> Iterator[tuple[Path | None, AbstractContextManager[None] | None]]:
-    """Where to record to, and the page of that recording, if one is asked for; its address is told in any case."""
+    """The path to record to, and the page of that recording, if one is asked for; its address is told in any case."""
     if not options.view:
         yield options.record, None
         return
@@ -229,7 +229,7 @@ def _goes_on(tick: TickResult, ticks: int, stop: StopSignals) -> bool:
 
 
 def _wait(samplers: list[Sampler], guardian: Guardian, loop: Loop, stop: StopSignals) -> None:
-    """Until every sensor has been measured once, or for some seconds; the guardian hears all the while, unarmed."""
+    """Wait until every sensor has been measured once, or for some seconds; send unarmed frames meanwhile."""
     until = monotonic() + FIRST_READING_SECONDS
     while monotonic() < until and not stop and not all(sampler.latest for sampler in samplers):
         guardian.send(loop.neutral.tolist(), False)

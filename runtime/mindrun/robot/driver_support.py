@@ -122,7 +122,7 @@ def pins(what: str) -> Iterator[None]:
 
 
 def open_pins(*parts: tuple[str, str, Mapping[str, Any]]) -> list[Any]:
-    """For each part, which is what messages call it, a class of gpiozero, and its arguments, the object; or no pin."""
+    """An object of gpiozero for each part (its name in messages, its class, its arguments); where one fails, no pin."""
     gpiozero = library("gpiozero")
     with ExitStack() as opened:
         made = []

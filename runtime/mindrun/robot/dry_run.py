@@ -90,7 +90,7 @@ class DryRun:
         self._stop = Event()
 
     def watch(self, loop: Loop) -> bool:
-        """After each tick: whether the run goes on, or its recording waits for its end; DeviceError without a world."""
+        """True if, after a tick, the run goes on or its recording waits for its end; DeviceError without a world."""
         self._influence = loop.engine.influence
         if self._lost:
             raise self._lost
@@ -181,7 +181,7 @@ def _aligned(rows: Sequence[tuple[str, str]]) -> list[str]:
 
 
 class SeenWorld:
-    """How a simulated world stands, for a recording: `about` as it was first, `latest` when a thread asked last.
+    """The state of a simulated world, for a recording: `about` as it was first, `latest` when a thread asked last.
 
     It asks beside the loop, which waits for nobody.
     """

@@ -54,7 +54,7 @@ class Rate:
         return now
 
     def late(self, share: float) -> float:
-        """How late the given share of the ticks began at most, in seconds, to a hundredth of a tick."""
+        """The lateness, in seconds, that this share of the ticks did not exceed, to a hundredth of a tick."""
         if not self.ticks:
             return 0.0
         place = int(np.searchsorted(np.cumsum(self.counts), share * self.ticks))
@@ -110,7 +110,7 @@ class Loop:
             pass
 
     def tick(self) -> TickResult:
-        """One tick, when it is due."""
+        """Wait until a tick is due, and do it."""
         missed = self.pace.missed
         time = self.pace.wait()
         behind = self.pace.missed - missed >= MISSED_TICKS_LIMIT

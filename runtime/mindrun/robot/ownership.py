@@ -36,7 +36,7 @@ class IdentityError(MindError):
 
 
 def identity_file() -> Path:
-    """Where the robot says it: `MIND_ROBOT`, or in the user's configuration."""
+    """The file that says which wiring this robot has: `MIND_ROBOT`, or one in the user's configuration."""
     if given := os.environ.get("MIND_ROBOT"):
         return Path(given)
     try:

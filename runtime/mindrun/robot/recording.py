@@ -177,7 +177,7 @@ class TemporaryRecorder(Recorder):
             self._tell(f"nothing more is seen, and the robot drives on: {error}")
 
     def _sync(self, every: float) -> None:
-        """It need not survive a power cut: no card is worn by it."""
+        """Do nothing: it need not survive a power cut, and no card is worn by it."""
 
     def close(self) -> None:
         """Let go of it; what was not written is missed by nobody."""

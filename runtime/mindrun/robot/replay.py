@@ -19,7 +19,7 @@ Singles = NDArray[np.float32]
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Replayed(ShortRepr):
-    """How many ticks were computed again, and what differs first: its tick and a sentence."""
+    """The result of a replay: how many ticks were computed again, and the first difference, its tick and a sentence."""
 
     ticks: int
     differs: tuple[int, str] | None

@@ -79,7 +79,7 @@ def _whole(answers: BinaryIO, count: int) -> bytes:
 
 
 def status(path: str) -> dict[str, Any]:
-    """How the world at a socket stands: `tick`, `pose`, `events`, `ended` and more (`SimulatedScene.status`)."""
+    """The state of the world at a socket: `tick`, `pose`, `events`, `ended` and more (`SimulatedScene.status`)."""
     link = WorldConnection(path)
     try:
         found: dict[str, Any] = json.loads(link.ask(STATUS))

@@ -78,7 +78,7 @@ class SimulatedScene:
         self._readings = world.readings().astype("<f8")
 
     def tick(self) -> None:
-        """One tick under the commands that the actuators hold; a world that has ended stands still."""
+        """Simulate one tick under the commands that the actuators hold; a world that has ended stands still."""
         self.world.step(list(self.commands.values()))
         self._readings = self.world.readings().astype("<f8")
 
@@ -91,7 +91,7 @@ class SimulatedScene:
         return ANSWER.pack(done, len(held)) + held
 
     def status(self) -> dict[str, Any]:
-        """How the run stands."""
+        """The state of the run, as plain data."""
         world = self.world
         return {
             "seed": world.seed, "tick": world.tick, "pose": world.pose, "events": world.events, "ended": world.ended,

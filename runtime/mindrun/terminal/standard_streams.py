@@ -139,7 +139,7 @@ def is_error_read() -> bool:
 
 
 def error_columns() -> int | None:
-    """How wide the terminal is that standard error goes to; None where it is none, or one that rewrites no line."""
+    """The columns of the terminal that standard error goes to; None where it is none, or rewrites no line."""
     try:
         if not os.isatty(ERROR_DESCRIPTOR) or os.environ.get("TERM", "dumb") == "dumb":
             return None
@@ -149,7 +149,7 @@ def error_columns() -> int | None:
 
 
 def output_failure() -> OSError | None:
-    """Why standard output has not taken everything, if it has not; BrokenPipeError where its reader is gone."""
+    """The error because of which standard output has not taken everything; BrokenPipeError where its reader is gone."""
     raw = _raw(sys.stdout)
     return raw.failure if isinstance(raw, Stream) else None
 

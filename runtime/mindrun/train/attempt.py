@@ -1,6 +1,6 @@
-"""One attempt: generation after generation, its best tried on layouts never seen, until it ends. No other is asked.
+"""One attempt at a lesson: generation after generation, its best tried on fresh layouts; no other attempt is asked.
 
-It is done piece by piece: a stretch of it is asked for, and a segment comes of it.
+It is done in pieces: an executor is given a stretch of it, and returns a segment.
 """
 
 from collections.abc import Callable
@@ -62,29 +62,26 @@ class Segment:
 
 
 class JoinedSegments:
-    """Segments of an attempt, each from where that before ends, as one; what they have is copied when it is read."""
+    """Segments of an attempt as one, each from where that before ends; their arrays are joined when they are read."""
 
     def __init__(self, first: Segment) -> None:
         self.state, self.verdict = first.state, first.verdict
         self._records, self._champions = [*first.records], [first.champions]
 
     def add(self, segment: Segment) -> None:
-        """Join one that goes on from here."""
+        """Add a segment that begins where this ends."""
         self.state, self.verdict = segment.state, segment.verdict
         self._records.extend(segment.records)
         self._champions.append(segment.champions)
 
     def as_segment(self) -> Segment:
-        """All as one segment."""
+        """All of them as one segment."""
         self._champions = [np.concatenate(self._champions)]
         return Segment(self.state, tuple(self._records), self._champions[0], self.verdict)
 
 
 def advance(course: Course, scorer: Scorer, stretch: Stretch, clock: Clock, most: int = SEGMENT_GENERATIONS) -> Segment:
-    """An attempt goes on until it ends by itself, comes to a rung, or has been at it for long enough.
-
-    That is some seconds, or `most` generations.
-    """
+    """Do a stretch: until the attempt ends by itself, comes to a rung, or has had some seconds or `most` generations."""
     state, records, champions = stretch.state, list[Record](), [stretch.state.champion[:0]]
     began, ends = clock(), stretch.cut
     verdict = judge(course, scorer, state) if ends else None
@@ -134,12 +131,12 @@ def ends_by_itself(lesson: Lesson, state: AttemptState) -> bool:
 
 
 def fresh_count(learner: Learner) -> int:
-    """On how many layouts candidates are tried again: the fewer there are beside champion and rival, the more."""
+    """The number of layouts of a re-evaluation: the fewer candidates beside champion and rival, the more layouts."""
     return REEVALUATION_LAYOUTS * (REEVALUATED_CANDIDATES + 2) // (min(REEVALUATED_CANDIDATES, kept_count(learner)) + 2)
 
 
 def climb(state: AttemptState, scorer: Scorer, rung: int, seeds: Seeds) -> tuple[AttemptState, Marks]:
-    """The champion's score at a rung, on the layouts of all attempts there."""
+    """Score the champion at a rung, on the layouts that all attempts have there."""
     marks = mark(scorer, state.champion, seeds)
     climbed = state.climbed.copy()
     climbed[rung] = marks.scores[0]
@@ -147,7 +144,7 @@ def climb(state: AttemptState, scorer: Scorer, rung: int, seeds: Seeds) -> tuple
 
 
 def reevaluate(state: AttemptState, scorer: Scorer, fresh: Seeds) -> tuple[AttemptState, Marks, float]:
-    """The champion is who does best on fresh layouts, it or the best of the generation; and its score on them."""
+    """Make the best on fresh layouts champion, the old one or one of the generation's best; and its score on them."""
     ranked = state.population.genomes[order(state.population.scores)]
     candidates = np.concatenate([state.champion, ranked[:REEVALUATED_CANDIDATES], state.rival])
     marks = mark(scorer, candidates, fresh)

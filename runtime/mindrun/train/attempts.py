@@ -145,7 +145,7 @@ class StretchThreads:
 
 
 class ScoringStoppedError(Exception):
-    """Nobody waits for these scores any more."""
+    """Scoring was stopped, since nobody waits for the scores any more."""
 
 
 class Stoppable:

@@ -96,7 +96,7 @@ def pack(state: LessonState, run: str) -> bytes:
 
 
 def _counts(state: LessonState) -> tuple[int, ...]:
-    """Its whole numbers, in the order of the file."""
+    """The whole numbers of a state, in the order of the file."""
     now = state.now.population.generation, state.now.since
     return state.attempt, *now, state.generations, state.ticks, state.faults, state.told_apart
 

@@ -31,7 +31,7 @@ Chain = list[JoinedSegments]  # of an attempt, from rung to rung, each from wher
 
 
 class KeptSegments:
-    """Those of a run, from its file on; attempts that all before have caught up with are forgotten."""
+    """The kept segments of a run, at first those in its file; attempts that the lesson has come past are forgotten."""
 
     def __init__(self, folder: Path, identity: str, course: Course) -> None:
         self.path, self.course = folder / NAME, course

@@ -1,4 +1,4 @@
-"""Where a lesson stands: all that it needs to go on, what is written down of each generation, and how it goes on.
+"""The state of a lesson: all that it needs to go on, what is written down of each generation, and how it goes on.
 
 Attempts are compared early, at rungs, so that the worse half of them ends there: successive halving, one by one.
 """
@@ -30,7 +30,7 @@ class Course:
 
 @dataclass(frozen=True, slots=True)
 class AttemptState:
-    """Where an attempt stands, whatever becomes of others.
+    """The state of an attempt, whatever becomes of others.
 
     `champion` [0 or 1, weights] is its best; `rival` [0 or 1, weights] the last one that was better beyond doubt than
     the one before it, found in generation `since`. `climbed` [rungs] has the score of its champion at each rung, the
@@ -49,7 +49,7 @@ class AttemptState:
 
 @dataclass(frozen=True, slots=True)
 class LessonState:
-    """Where a run stands, all that is needed to go on: what has ended, and the attempt at work, `now`.
+    """The state of a lesson, all that is needed to go on: what has ended, and the attempt at work, `now`.
 
     Of the attempts that have ended, `champions` [ended, weights] are the best, `lengths` [ended] their generations,
     `rungs` [ended, rungs] how they had climbed, and `verdicts` [ended, 2] their scores on layouts that chose nothing
@@ -75,7 +75,7 @@ class LessonState:
 
     @property
     def _best(self) -> NDArray[np.intp]:
-        """Which attempt is kept [0 or 1]: of those that passed, else of all, the first that did best."""
+        """The attempt that is kept [0 or 1]: of those that passed, else of all, the first that did best."""
         eligible = np.flatnonzero(self.passed) if self.passed.any() else np.arange(len(self.passed))
         return eligible[order(self.verdicts[eligible, 0])[:1]]
 
@@ -209,12 +209,12 @@ def ended(course: Course, state: LessonState, verdict: Verdict) -> LessonState:
 
 
 def heights(rungs: int) -> list[float]:
-    """After which shares of its generations an attempt comes to its rungs, the lowest first."""
+    """The shares of its generations after which an attempt comes to its rungs, the lowest first."""
     return [0.5**rung for rung in range(rungs, 0, -1)]
 
 
 def rung_at(lesson: Lesson, generation: int) -> int | None:
-    """Which rung is after so many generations, at least one; None where none is."""
+    """The rung after so many generations, at least one; None where none is."""
     at = (int(height * lesson.generations) for height in heights(lesson.learner.rungs))
     return next((rung for rung, place in enumerate(at) if place == generation), None)
 

@@ -115,7 +115,7 @@ def _version(package: str) -> str:
 
 
 def difference(asked: Build, own: Build) -> str:
-    """How the build that a job is for differs from one's own, in words; nothing where it does not."""
+    """The first difference of one's own build from the one that a job is for, in words; "" where there is none."""
     for name in sorted(own.keys() | asked.keys()):
         here, there = own.get(name), asked.get(name)
         if there != here:

@@ -20,7 +20,7 @@ CHECKPOINT_SECONDS = 2.0  # between two checkpoints
 
 @dataclass(frozen=True, slots=True)
 class Watch:
-    """Who looks on: told of each generation and each warning, asked between generations whether to stop."""
+    """An observer: told of each generation and each warning, asked between generations whether to stop."""
 
     report: Callable[[LessonState, Record], None]
     warn: Callable[[str], None]

@@ -47,7 +47,7 @@ class BallTrackerDevice:
     closed: bool = False
 
     def read(self) -> tuple[float | None]:
-        """It, in the newest frame that was not read before, degrees or metres; None where there is no ball in that."""
+        """The value in the newest frame that was not read before, degrees or metres; None where no ball is in it."""
         sighting, driver = self.sighting(), self.driver
         if sighting.ball is None:
             return (None,)

@@ -69,7 +69,7 @@ class Encoder:
 
     @property
     def seconds(self) -> float:
-        """For how long a speed is taken at least."""
+        """The seconds over which a speed is taken at least; 0 for a distance or an angle."""
         return LEAST_SPEED_SECONDS if self.measure == "speed" else 0.0
 
     @property

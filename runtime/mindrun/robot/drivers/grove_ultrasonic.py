@@ -75,7 +75,7 @@ class GroveUltrasonic(Ranging):
 
     @property
     def seconds(self) -> float:
-        """For how long the board may listen to all of them."""
+        """The most seconds for which the board listens to all of them."""
         return len(self.ports) * RANGER_SECONDS
 
     @property

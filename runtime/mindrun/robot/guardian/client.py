@@ -163,24 +163,24 @@ class Guardian:
 
     @property
     def state(self) -> str:
-        """How it was when it said so last: neutral, following or latched."""
+        """The guardian's state, as it said last: neutral, following or latched."""
         return self._heard.state
 
     @property
     def why(self) -> str:
-        """Why it is so."""
+        """The reason for its state, as it said last."""
         return self._heard.why
 
     @property
     def holds(self) -> str:
-        """Why it held every actuator at neutral, whatever it was sent, when it said so last; nothing where it did not.
+        """The reason, as it said last, to hold every actuator at neutral, whatever it is sent; "" where it does not.
 
         What it says of a tick's commands is heard with the next tick.
         """
         return "" if self.state == FOLLOWING or self.why in (STARTED, NOT_ARMED) else self.why
 
     def send(self, commands: Iterable[float], armed: bool) -> None:
-        """One tick's commands in the order of the plan; without `armed` nothing moves.
+        """Send one tick's commands in the order of the plan; without `armed` nothing moves.
 
         GuardianError where the guardian has latched, hangs or is gone; then others have tried to bring all to neutral.
         """
@@ -288,7 +288,7 @@ class Guardian:
         return GuardianError(f"the guardian {how}: {done}", CUT if "may still move" in done else "")
 
     def _abandon(self) -> str:
-        """It never was of use: let it end by itself if it does, since that is at neutral, or replace it; what came."""
+        """Let a guardian that never was ready end by itself, which it does at neutral, or replace it; what came of that."""
         heard, done = self._heard, ""
         with suppress(OSError):
             self._processes.input.close()

@@ -97,12 +97,12 @@ class ActuatorOutput:
             return self._wanted.neutral and self._waiting is None
 
     def late(self, now: float) -> float:
-        """For how long the device has acknowledged nothing, though something was wanted; one that is slow answers."""
+        """The seconds for which the device has acknowledged nothing, though something was wanted; a slow one answers."""
         with self._change:
             return 0.0 if self._waiting is None else now - self._waiting
 
     def hangs(self, now: float) -> float:
-        """For how long the write under way has not returned, be it with an error; 0 where there is none."""
+        """The seconds for which the write under way has not returned, be it with an error; 0 where there is none."""
         since = self._writing_since
         return 0.0 if since is None else now - since
 
