@@ -138,7 +138,7 @@ def _run(engine: Engine, options: argparse.Namespace) -> None:
 
 
 def _lines(name: str) -> Iterator[tuple[str, dict[str, Any]]]:
-    """The place of each line that is not empty, for messages, and the object that it is; ReadingsError for no object."""
+    """The place of each line that is not empty, for messages, and its JSON object; ReadingsError where it is none."""
     source = "standard input" if name == "-" else name
     try:
         with open(0 if name == "-" else name, encoding="utf-8", closefd=name != "-") as file:

@@ -16,7 +16,7 @@ class DeviceError(MindError):
 
 
 def failure(error: BaseException) -> str:
-    """The failure of a device, in the words of its driver's error: with the hint, or the type if it is no DeviceError."""
+    """Why a device fails, in the words of its driver's error: with the hint, or the type where it is no DeviceError."""
     if not isinstance(error, DeviceError):
         return f"{type(error).__name__}: {text_of(error)}"
     return f"{text_of(error)}; {error.hint}" if error.hint else text_of(error)

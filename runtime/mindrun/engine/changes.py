@@ -69,7 +69,7 @@ def in_tick(changes: Sequence[Change], tick: int) -> Changed | None:
 
 
 def calm_ticks(changes: Sequence[Change], tick: int, most: int) -> int:
-    """The number of ticks without a change, from this one on, in which there is none; up to `most`."""
+    """The ticks from this one on, in which nothing is changed, until the next change begins; `most` at most."""
     coming = (change.first - tick for change in changes if change.first > tick)
     return min([most, *coming])
 
@@ -132,7 +132,7 @@ class ChangedEngine(Engine):
     """An engine whose `tick_with` makes changes, bit for bit as `mindrun.sim.changed_ticks` makes them in the lanes."""
 
     def reset(self) -> None:
-        """Back to the state before the first tick."""
+        """Go back to the state before the first tick."""
         super().reset()
         self._made = UNCHANGED
         self._virtual = tuple((place, self._replacing(place, read)) for place, read in self._virtual)

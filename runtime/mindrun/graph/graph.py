@@ -110,16 +110,6 @@ class Skill:
         """How many outputs its internal function has."""
         return sum(edge.output is not None for edge in self.edges)
 
-    @property
-    def is_base(self) -> bool:
-        """True if the skill influences no other skill."""
-        return all(edge.to != "skill" for edge in self.edges)
-
-    @property
-    def is_complex(self) -> bool:
-        """True if the skill influences other skills."""
-        return not self.is_base
-
 
 @dataclass(frozen=True, slots=True)
 class Thing:

@@ -75,15 +75,15 @@ class SharedParts(Generic[Key, Opened]):
         self._lock = Lock()
         self._parts: dict[Key, tuple[Opened, int]] = {}  # and how many use it
 
-    def take(self, key: Key, opened: Callable[[], Opened]) -> Opened:
-        """The part of this key, which was `opened` when it was taken first."""
+    def acquire(self, key: Key, opened: Callable[[], Opened]) -> Opened:
+        """The part of this key, which is `opened` for the first device that acquires it."""
         with self._lock:
             part, users = self._parts.get(key) or (opened(), 0)
             self._parts[key] = part, users + 1
             return part
 
-    def give_back(self, key: Key) -> None:
-        """Use it no longer."""
+    def release(self, key: Key) -> None:
+        """Use the part of this key no longer; it is closed when nobody does."""
         with self._lock:
             part, users = self._parts.pop(key)
             if users > 1:

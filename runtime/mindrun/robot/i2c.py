@@ -80,7 +80,7 @@ class I2cDevice:
         self.transfer(bytes(out))
 
     def read(self, register: int, count: int) -> bytes:
-        """Read from a register on."""
+        """Read `count` bytes from a register on."""
         return self.transfer(bytes((register,)), count)
 
     def byte(self, register: int) -> int:
@@ -88,7 +88,7 @@ class I2cDevice:
         return self.read(register, 1)[0]
 
     def transfer(self, out: bytes, count: int = 0) -> bytes:
-        """Write, then read."""
+        """Write `out`, then read `count` bytes; DeviceError where the part does not answer."""
         if self.closed:
             raise self.error("is closed")
         begin, failure = monotonic(), "no answer"
@@ -131,7 +131,7 @@ class I2cDevice:
 
 @dataclass(slots=True)
 class WiredDevice:
-    """A device that is a part on a bus, and nothing else."""
+    """A device that is one part on an I2C bus."""
 
     wire: I2cDevice
 
@@ -161,7 +161,7 @@ class MeasuringChip(WiredDevice):
                 self.prepare()
                 self.ready = True
             self.wait()
-            counts = self.taken()
+            counts = self.read_counts()
         except Exception:
             self.ready = False  # after a brown-out it has to be set up again
             raise
@@ -187,8 +187,8 @@ class MeasuringChip(WiredDevice):
         if found & never:
             raise self.wire.error(f"has an impossible status (0x{found:02x})")
 
-    def taken(self) -> tuple[int, ...]:
-        """Read what has been measured."""
+    def read_counts(self) -> tuple[int, ...]:
+        """Read the newest measurement."""
         return unpack(self.layout, self.wire.read(self.out, calcsize(self.layout)))
 
 

@@ -35,7 +35,7 @@ class Rate:
     _due: float = 0.0
 
     def begin(self) -> None:
-        """The first tick is due now."""
+        """Begin: the first tick is due now."""
         self._due = self.clock()
 
     def wait(self) -> float:

@@ -47,7 +47,7 @@ def identity_file() -> Path:
 
 
 def adopt(wiring: Wiring, graph: Graph) -> Path:
-    """This robot is wired so from now on; the file that says it."""
+    """Write down that this robot is wired so from now on; the file that says it."""
     path = identity_file()
     path.parent.mkdir(parents=True, exist_ok=True)
     write(destination(path), f"{wiring.robot} {identity(wiring, graph)}\n".encode())

@@ -99,7 +99,7 @@ class StopSignals:
                 signal.signal(number, handler)
 
     def in_order(self) -> None:
-        """The loop has ended by itself: what follows takes its time, and is not interrupted."""
+        """Interrupt nothing any more: the loop has ended by itself, and what follows takes its time."""
         self._in_order = True
 
     def note(self, _number: int, _frame: FrameType | None) -> None:

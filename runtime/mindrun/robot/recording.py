@@ -112,7 +112,7 @@ class Recorder:
         self._syncing.start()
 
     def write(self, **columns: Any) -> None:
-        """A row, which is on the disk a second or two later; RecordingError where it cannot be."""
+        """Write a row, which is on the disk a second or two later; RecordingError where it cannot be."""
         for name, value in columns.items():
             self._row[name][0] = value
         if self._world:
@@ -167,7 +167,7 @@ class TemporaryRecorder(Recorder):
         self._tell, self._has_failed = tell, False
 
     def write(self, **columns: Any) -> None:
-        """A row, where there is room for it."""
+        """Write a row, where there is room for it."""
         if self._has_failed:
             return
         try:

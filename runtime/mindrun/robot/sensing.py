@@ -21,7 +21,6 @@ from mindrun.graph.wiring import SensorWire, reading, within_turn
 from mindrun.numbers.given_numbers import is_truth, number, values
 
 FINE, UNMEASURED, FAILED, STALE = range(4)  # what is wrong with a sensor in a tick
-FAULT_WORDS = ("fine", "not measured yet", "failed", "too old")
 
 
 @dataclass(frozen=True, slots=True)

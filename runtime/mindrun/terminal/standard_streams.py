@@ -113,7 +113,7 @@ def prepare(kind: type[TextIOWrapper] = TextIOWrapper) -> None:
         _occupy(number)
     if sys.stdin is None:
         sys.stdin = open(0, encoding="utf-8", closefd=False)  # noqa: SIM115
-    if sys.stdout is sys.__stdout__:  # a descriptor of its own, which `talk` leaves alone
+    if sys.stdout is sys.__stdout__:  # a descriptor of its own, which `output_to_standard_error` leaves alone
         sys.stdout = _text(kind, Stream(os.dup(OUTPUT_DESCRIPTOR), "w"), sys.__stdout__)
     if sys.stderr is sys.__stderr__:
         sys.stderr = _text(kind, Stream(ERROR_DESCRIPTOR, "w", closefd=False), sys.__stderr__)
@@ -181,8 +181,8 @@ def draw(text: str) -> None:
 
 
 @contextmanager
-def talk() -> Iterator[None]:
-    """Around code of somebody else: what it prints goes to standard error, also where it is written in C.
+def output_to_standard_error() -> Iterator[None]:
+    """Let all that code of somebody else prints go to standard error, also where it is written in C.
 
     Who has had `sys.stdout` before still writes to standard output with it.
     """

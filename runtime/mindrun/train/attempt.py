@@ -81,7 +81,7 @@ class JoinedSegments:
 
 
 def advance(course: Course, scorer: Scorer, stretch: Stretch, clock: Clock, most: int = SEGMENT_GENERATIONS) -> Segment:
-    """Do a stretch: until the attempt ends by itself, comes to a rung, or has had some seconds or `most` generations."""
+    """Do a stretch: until the attempt ends by itself, comes to a rung, or SEGMENT_SECONDS or `most` generations are over."""
     state, records, champions = stretch.state, list[Record](), [stretch.state.champion[:0]]
     began, ends = clock(), stretch.cut
     verdict = judge(course, scorer, state) if ends else None
@@ -164,7 +164,7 @@ def judge(course: Course, scorer: Scorer, state: AttemptState) -> Verdict:
 
 
 def has_needed(lesson: Lesson, task: Task, results: Results) -> bool:
-    """True if a genome meets all needs of a lesson on each half of the layouts of a verdict, of which `results` are."""
+    """True if a genome meets all needs of a lesson, by its results on each half of the layouts of a verdict."""
     scores = of_halves(marks_of(results).each)
     return all(
         (scores if need.measure == "score" else of_halves(succeeded(task, results))).min() > need.above

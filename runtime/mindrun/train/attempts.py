@@ -72,7 +72,7 @@ class AttemptExecutor(Protocol):
 
 
 class InThisThread:
-    """Does one stretch after the other, a generation each, when its segment is asked for."""
+    """An executor that does one stretch after the other, a generation each, when its segment is asked for."""
 
     def __init__(self, course: Course, scorer: Scorer, clock: Clock) -> None:
         self._course, self._scorer, self._clock = course, scorer, clock
@@ -95,7 +95,7 @@ class InThisThread:
 
 
 class StretchThreads:
-    """Does as many stretches at once as there are `cores`; `on` makes what scores on so many of them.
+    """An executor that does as many stretches at once as there are `cores`; `on` makes a scorer for so many of them.
 
     Attempts fewer than cores share them. So many lanes as an attempt has in one thread cost less than in several.
     """
@@ -262,7 +262,7 @@ class Attempts:
         self.begun += 1
 
     def _append(self, track: Track, segment: Segment) -> None:
-        """Keep a segment, as one with that before unless a decision may come between them."""
+        """Keep a segment, joined to the one before unless a decision may come between them."""
         before = track.segments[-1] if track.segments else None
         if before is not None and all(before.state is not at_rung for at_rung in track.at_rung.values()):
             before.add(segment)
@@ -281,7 +281,7 @@ class Attempts:
         return track.cut is segment.state or (rung is not None and self.decided[rung] <= track.number)
 
     def _decide(self) -> None:
-        """Decide at each rung for all for whom it can be: everybody before has come there, or never will."""
+        """Decide at each rung about every attempt of which all before have come there, or never will."""
         below = None
         for rung in self.decided:
             while (track := self.tracks.get(self.decided[rung])) and (
@@ -323,7 +323,7 @@ class Attempts:
 def side_by_side(
     course: Course, executor: AttemptExecutor, state: LessonState, stop: Callable[[], bool]
 ) -> Iterator[Step]:
-    """The steps of a lesson whose attempts an executor does; who iterates may stop after any of them."""
+    """The steps of a lesson whose attempts an executor does; iteration may stop after any of them."""
     attempts = Attempts(course, state)
     while not is_over(course.lesson, attempts.lesson) and not stop():
         while executor.has_room() and (job := attempts.next_stretch()):

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from mindrun.graph.graph import Lesson
 from mindrun.train.ask_and_tell import kept_count
-from mindrun.train.population import Genomes, Population, Scores, nobody, order
+from mindrun.train.population import Genomes, Population, Scores, empty_population, order
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,7 +144,7 @@ def begin_attempt(course: Course) -> AttemptState:
     """The state of an attempt before its first generation."""
     nothing = course.start[:0]
     return AttemptState(
-        nobody(nothing.shape[1]), course.start, nothing, 0, np.full(course.lesson.learner.rungs, -inf), False
+        empty_population(nothing.shape[1]), course.start, nothing, 0, np.full(course.lesson.learner.rungs, -inf), False
     )
 
 

@@ -27,7 +27,7 @@ class Population:
     generation: int
 
 
-def nobody(weights: int) -> Population:
+def empty_population(weights: int) -> Population:
     """The empty population before the first generation, for genomes of so many weights."""
     return Population(np.empty((0, weights), np.float32), np.empty(0), 0)
 
@@ -43,7 +43,7 @@ def order(scores: Scores) -> NDArray[np.intp]:
 
 
 def bounded(genomes: Genomes) -> Genomes:
-    """The genomes with every weight finite and within ±LIMIT."""
+    """The genomes with every weight finite (0 for NaN) and within ±MAX_WEIGHT."""
     return np.clip(np.nan_to_num(genomes, nan=0.0), -MAX_WEIGHT, MAX_WEIGHT).astype(np.float32, copy=False)
 
 

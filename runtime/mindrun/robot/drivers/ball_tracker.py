@@ -65,11 +65,11 @@ class BallTrackerDevice:
         return sighting
 
     def close(self) -> None:
-        """Let go; the last one who looks through a camera turns it off."""
+        """Let go of the camera; the last one who looks through it turns it off."""
         if self.closed:
             return
         self.closed = True
-        cameras.give_back(self.driver.camera_alone())
+        cameras.release(self.driver.camera_alone())
 
 
 @kind("sensor driver", "ball_tracker")
@@ -122,7 +122,7 @@ class BallTracker:
         return (0.0, 100.0) if self.measure == "distance" else (-180.0, 180.0)
 
     def camera_alone(self) -> "BallTracker":
-        """This, whatever is measured: those who share a camera."""
+        """This driver, whatever it measures: equal for those that share a camera."""
         return replace(self, measure="bearing")
 
     @property
@@ -136,7 +136,7 @@ class BallTracker:
         return replace(self, pan=None, tilt=None)
 
     def open(self) -> BallTrackerDevice:
-        tracking = cameras.take(self.camera_alone(), self.open_tracking)
+        tracking = cameras.acquire(self.camera_alone(), self.open_tracking)
         return answering(BallTrackerDevice(self, tracking), lambda: tracking.after(0, FIRST_FRAME_SECONDS))
 
     def open_tracking(self) -> TrackingCamera:

@@ -82,9 +82,9 @@ class RangeChip(MeasuringChip):
         """Set some bits of a register."""
         self.wire.write(register, self.wire.byte(register) | bits)
 
-    def taken(self) -> tuple[int, ...]:
+    def read_counts(self) -> tuple[int, ...]:
         """Read what has been measured, and let it say when there is more."""
-        counts = MeasuringChip.taken(self)
+        counts = MeasuringChip.read_counts(self)
         self.wire.write(CLEAR_INTERRUPT, 1)
         return counts
 

@@ -68,14 +68,14 @@ class Processes:
         return self._outcome()
 
     def end(self, seconds: float) -> None:
-        """Wait for the end of what has no more to do, but not for ever."""
+        """Wait for the guardian, which has no more to do, to end; kill it where that takes longer."""
         try:
             self.first.wait(seconds)
         except subprocess.TimeoutExpired:
             self._kill()
 
     def let_go(self) -> None:
-        """Neither speak to it nor hear it, nor keep it alive."""
+        """Close both pipes: neither speak to it nor hear it, nor keep it alive."""
         with suppress(OSError):
             self.input.close()
         with suppress(OSError):
@@ -100,7 +100,7 @@ class Processes:
                 return
 
     def another(self) -> "subprocess.Popen[bytes]":
-        """Another, which brings everything to neutral and ends, whatever becomes of this process meanwhile."""
+        """Start another guardian, which brings everything to neutral and ends, whatever becomes of this process."""
         with open(os.memfd_create("plan"), "w+b", buffering=0) as plan:  # noqa: PTH123  whole before there is a reader
             plan.write(self.plan)
             plan.seek(0)
@@ -288,7 +288,7 @@ class Guardian:
         return GuardianError(f"the guardian {how}: {done}", CUT if "may still move" in done else "")
 
     def _abandon(self) -> str:
-        """Let a guardian that never was ready end by itself, which it does at neutral, or replace it; what came of that."""
+        """Let a guardian that was never ready end by itself, at neutral, or replace it; what came of that."""
         heard, done = self._heard, ""
         with suppress(OSError):
             self._processes.input.close()

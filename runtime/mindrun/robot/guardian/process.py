@@ -97,7 +97,7 @@ class ActuatorOutput:
             return self._wanted.neutral and self._waiting is None
 
     def late(self, now: float) -> float:
-        """The seconds for which the device has acknowledged nothing, though something was wanted; a slow one answers."""
+        """The seconds for which a device, though something was wanted, has acknowledged nothing; a slow one does."""
         with self._change:
             return 0.0 if self._waiting is None else now - self._waiting
 
