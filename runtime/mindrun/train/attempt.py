@@ -81,7 +81,7 @@ class JoinedSegments:
 
 
 def advance(course: Course, scorer: Scorer, stretch: Stretch, clock: Clock, most: int = SEGMENT_GENERATIONS) -> Segment:
-    """Do a stretch: until the attempt ends by itself, comes to a rung, or SEGMENT_SECONDS or `most` generations are over."""
+    """Do a stretch: until the attempt ends by itself, comes to a rung, or has had seconds or generations enough."""
     state, records, champions = stretch.state, list[Record](), [stretch.state.champion[:0]]
     began, ends = clock(), stretch.cut
     verdict = judge(course, scorer, state) if ends else None

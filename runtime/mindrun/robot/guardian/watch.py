@@ -144,7 +144,7 @@ def rescue(plan: Plan, status: int, seconds: float) -> list[str]:
 
 
 def bring_to_neutral(process: Process, report: Callable[[str], None], seconds: float) -> list[str]:
-    """Bring every actuator that opens to neutral in so many seconds, and report what is wrong; the names of those there."""
+    """Bring every actuator that opens to neutral, in time, and report what is wrong; the names of those at neutral."""
     until = monotonic() + seconds
     while (wrong := process.open()) and monotonic() < until:  # a bus that is busy is free again
         sleep(RETRY_SECONDS)
