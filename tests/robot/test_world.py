@@ -26,7 +26,7 @@ from mindrun.graph.policy import Policy
 from mindrun.graph.wiring import flaws
 from mindrun.kinds.registry import kinds
 from mindrun.robot.drivers.simulated import SimulatedActuator, SimulatedSensor
-from mindrun.robot.dry_run import dry
+from mindrun.robot.dry_run import simulated_wiring
 from mindrun.robot.simulated_world import READ, REQUEST, STATUS, WRITE, WorldConnection, simulated, status
 from mindrun.robot.world_server import SimulatedScene, WorldServer, listening
 from mindrun.sim.commanded_world import World
@@ -364,7 +364,7 @@ def bundle(roam: Graph, tmp_path: Path) -> Path:
 
 def test_a_mind_lives_in_a_world_of_its_own_process(roam: Graph, bundle: Path) -> None:
     with simulated(bundle, "Chase", 3) as path:
-        wiring = dry(roam, path, roam.master)
+        wiring = simulated_wiring(roam, path, roam.master)
         assert list(flaws(wiring, roam)) == []
         sensors = [wire.driver.open() for wire in wiring.sensors]
         actuators = [wire.driver.open() for wire in wiring.actuators]

@@ -81,7 +81,7 @@ class Edge:
 
     @property
     def programs(self) -> tuple[Program, ...]:
-        """All that is computed beside the function."""
+        """The programs that are computed beside the function."""
         return ((self.value,) if self.output is None else ()) + (self.gate.programs if self.gate else ())
 
 
@@ -107,7 +107,7 @@ class Skill:
 
     @property
     def outputs(self) -> int:
-        """How many outputs its internal function has."""
+        """The number of outputs of its internal function."""
         return sum(edge.output is not None for edge in self.edges)
 
 
@@ -155,7 +155,7 @@ class End:
 
 @dataclass(frozen=True, slots=True)
 class Start:
-    """Where the robot is when a run begins, and which way it faces; None where that is drawn."""
+    """The place where the robot begins a run, and the direction that it faces; None where one is drawn."""
 
     at: Annotated[Place | None, COORDINATE] = None
     facing: Annotated[float | None, ANGLE] = None
@@ -211,7 +211,7 @@ class Task:
 
     @property
     def programs(self) -> tuple[Program, ...]:
-        """All that its rewards and its ends compute."""
+        """The programs of its rewards and its ends."""
         ends = (end.when for end in self.ends if end.when is not None)
         return (*(program for reward in self.rewards for program in reward.programs), *ends)
 
@@ -257,7 +257,7 @@ class Lesson:
 
     @property
     def name(self) -> str:
-        """The skill, and what is not to be expected: the task where it has another name, that its subskills learn."""
+        """The skill; and the task where it has another name, and that its subskills learn where they do."""
         where = "" if self.skill == self.task else f"-on-{self.task}"
         return f"{self.skill}{where}{'-with-subskills' * self.with_subskills}"
 

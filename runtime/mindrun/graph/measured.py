@@ -1,4 +1,4 @@
-"""Which readings are measured, in a simulated world and on a robot; all others are NaN, for nobody knows them."""
+"""The readings that are measured, in a simulated world and on a robot; all others are NaN, for nobody knows them."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ def measured_on_robot(graph: Graph, wired: Collection[str]) -> list[Sensor]:
 
 
 def rows_of(graph: Graph, sensors: Iterable[Sensor]) -> NDArray[np.bool_]:
-    """Which readings [graph.width] are those of these sensors, or of memories, which are always known."""
+    """A mask [graph.width] of the readings of these sensors, and of memories, which are always known."""
     import numpy as np
 
     found = np.zeros(graph.width, bool)

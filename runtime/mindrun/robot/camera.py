@@ -114,7 +114,7 @@ def blobs(frame: Frame, target: BallTarget) -> list[Blob]:
 
 
 def in_colour(hsv: Frame, target: BallTarget) -> Frame:
-    """Which pixels are bright and of the colour; hues go round, and OpenCV counts them in steps of two degrees."""
+    """A mask of the pixels that are bright and of the colour; hues go round, which OpenCV counts in two degrees."""
     cv2, floor = library("cv2"), (round(target.colour * 255), round(target.brightness * 255))
     first, last = round((target.hue - target.tolerance) / 2) % 180, round((target.hue + target.tolerance) / 2) % 180
     if first <= last:

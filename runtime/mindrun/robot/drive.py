@@ -22,7 +22,7 @@ from mindrun.graph.graph import Graph, Task
 from mindrun.graph.tasks import default_task
 from mindrun.graph.wiring import Wiring, read_by, still
 from mindrun.robot.drivers.mock import MockActuator
-from mindrun.robot.dry_run import DryRun, SeenWorld, beginning, dry, outcome, refuse_environment
+from mindrun.robot.dry_run import DryRun, SeenWorld, beginning, outcome, refuse_environment, simulated_wiring
 from mindrun.robot.guardian.client import Guardian
 from mindrun.robot.guardian.plan import plan_of
 from mindrun.robot.live_view import breakpoint_mistakes, live_view
@@ -131,7 +131,7 @@ def _dry(options: argparse.Namespace, bundle: Bundle, drive_options: DriveOption
     with simulated(options.bundle, task.name, options.seed, options.master or "") as socket:
         seen = SeenWorld(task, options.seed, socket) if drive_options.record else None
         run = DryRun(bundle.graph, task, master, socket, line, seen)
-        wiring, watched = dry(bundle.graph, socket, master), replace(drive_options, world=seen)
+        wiring, watched = simulated_wiring(bundle.graph, socket, master), replace(drive_options, world=seen)
         with run.shown(), seen.watched() if seen else nullcontext():
             loop = drive(bundle, digest(options.bundle), wiring, watched, line.tell, watch=run.watch)
         with suppress(DeviceError):  # the run was as good without it

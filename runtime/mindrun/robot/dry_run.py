@@ -29,7 +29,7 @@ MAX_END_TICKS = 20  # in which a recording gets the end of its run; one that can
 MAX_ACTING_NAMED, LEAST_ACTING_INFLUENCE = 2, 0.01
 
 
-def dry(graph: Graph, path: str, master: str) -> Wiring:
+def simulated_wiring(graph: Graph, path: str, master: str) -> Wiring:
     """A robot whose actuators, and the sensors that are read below the master, are those of the world at a socket.
 
     Each sensor is read twice a tick, so that what the loop sees is never much more than half a tick older than in

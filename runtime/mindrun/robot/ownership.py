@@ -1,10 +1,9 @@
-"""Whose a robot is: the bundle that was built for it alone moves it, and one process at a time.
+"""The ownership of a robot: only a bundle that was built for it moves it, and one process at a time.
 
-A file of the robot's own says in one line which it is, which `mindrun adopt` writes: its name, and a SHA-256 of its
-wiring and of what its mind takes for neutral. Who drives holds its name and its devices, and so does the guardian,
-while it lives. What is held are addresses of this computer's kernel (abstract sockets), no files: none can be deleted,
-moved or said to be elsewhere, they are the same for every user, and they are free once no process has them any more,
-however it ended.
+`mindrun adopt` writes one line into a file on the robot: its name, and a SHA-256 of its wiring and neutral commands.
+The process that drives, and its guardian, hold the names of the robot and its devices while they live. These are
+addresses of the kernel (abstract sockets), no files: none can be deleted or moved, they are the same for every user,
+and they are free once no process has them any more, however it ended.
 """
 
 import errno

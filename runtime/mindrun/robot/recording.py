@@ -31,7 +31,7 @@ MAX_WAITING_BYTES = 1 << 26  # that a card has not taken yet
 
 
 class BackgroundFile:
-    """Brings to a file at once what is written. An error of the file is that of whatever is written or flushed next.
+    """A file that a thread writes; an error of it is raised by the `write` or `flush` that follows.
 
     A file that takes nothing for so long that memory would fill is one that cannot be written.
     """

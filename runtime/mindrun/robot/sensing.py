@@ -1,6 +1,6 @@
 """Sensors read outside of the control loop, a thread each, so that a slow or hung one never delays a tick.
 
-For a tick what was measured last is filtered, and answered as declared where something is wrong.
+In each tick the newest samples are filtered; a sensor with a fault reads what its wiring declares for that.
 """
 
 import threading
@@ -20,7 +20,7 @@ from mindrun.graph.measured import measured_on_robot, rows_of
 from mindrun.graph.wiring import SensorWire, reading, within_turn
 from mindrun.numbers.given_numbers import is_truth, number, values
 
-FINE, UNMEASURED, FAILED, STALE = range(4)  # what is wrong with a sensor in a tick
+FINE, UNMEASURED, FAILED, STALE = range(4)  # the fault of a sensor in a tick
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,7 +36,7 @@ class Sample:
 
 
 class Sampler:
-    """Measures one sensor again and again, in a thread of its own; `latest` is what came of it last.
+    """Measures one sensor again and again, in a thread of its own; `latest` is its newest sample.
 
     A device that fails is closed and opened anew, so that one that was unplugged comes back.
     """
@@ -88,7 +88,7 @@ class Sampler:
 
 
 def checked(given: object, at: float, wire: SensorWire) -> Sample:
-    """A sample of the values that a device gave, whatever kind of numbers these are, or of the fault that they are."""
+    """A sample of what a device gave: numbers of any type as floats, or the fault that it is."""
     low, high = getattr(wire.driver, "possible", (-inf, inf))
     expected, found = wire.driver.readings, values(given)
     if found is None or len(found) != expected:

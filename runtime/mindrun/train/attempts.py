@@ -149,7 +149,7 @@ class ScoringStoppedError(Exception):
 
 
 class Stoppable:
-    """Scores as another does, until `stop` is set: then it raises ScoringStoppedError, in the middle of its runs."""
+    """A scorer that asks another until `stop` is set: then it raises ScoringStoppedError, in the middle of its runs."""
 
     def __init__(self, scorer: Any, stop: Event) -> None:
         self._scorer, self._stop = scorer, stop

@@ -1,7 +1,7 @@
 """Segments of attempts ahead of their turn, in a file of the run: a run that goes on has not to do them again.
 
-A stretch that begins where one of them did has that for its answer, since a segment depends on its stretch alone. The
-file has the form of a checkpoint; one that is damaged, or of another run or build, is as none.
+One of them answers any stretch that begins where it did, since a segment depends on its stretch alone. The file has the
+form of a checkpoint; one that is damaged, or of another run or build, is as none.
 """
 
 from contextlib import suppress
@@ -92,7 +92,7 @@ class KeptSegments:
 
 
 class RememberingExecutor:
-    """Does stretches as another does, but for those whose segment has been kept."""
+    """An executor that answers with kept segments, and leaves the other stretches to another executor."""
 
     def __init__(self, stretches: AttemptExecutor, kept: KeptSegments, clock: Clock) -> None:
         self._stretches, self._kept, self._clock = stretches, kept, clock

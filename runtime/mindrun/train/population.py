@@ -33,7 +33,7 @@ def empty_population(weights: int) -> Population:
 
 
 def founder_count(learner: Learner) -> int:
-    """How many random genomes the first population is chosen from."""
+    """The number of random genomes that the first population is chosen from."""
     return max(learner.founders, learner.population)
 
 

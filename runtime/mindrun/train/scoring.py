@@ -104,6 +104,6 @@ def marks_of(results: Results) -> Marks:
 
 
 def succeeded(task: Task, results: Results) -> NDArray[np.bool_]:
-    """Which runs [genomes, seeds] are a success: one came before any other end, whether or not it ended them."""
+    """A mask [genomes, seeds] of the runs that met a success before any other end, whether or not it ended them."""
     successes = [number for number, end in enumerate(task.ends) if end.succeeds]
     return np.isin(results.met, successes)

@@ -91,7 +91,7 @@ class Processes:
 
     def _start_others(self) -> None:
         for _ in range(MAX_REPLACEMENTS):
-            another = self.another()
+            another = self.start_another()
             assert another.stdout
             with another.stdout:
                 heard = Heard(another.stdout.fileno(), at_rest=self.heard.at_rest)
@@ -99,7 +99,7 @@ class Processes:
             if heard.is_over or not in_time:  # it may still come to it
                 return
 
-    def another(self) -> "subprocess.Popen[bytes]":
+    def start_another(self) -> "subprocess.Popen[bytes]":
         """Start another guardian, which brings everything to neutral and ends, whatever becomes of this process."""
         with open(os.memfd_create("plan"), "w+b", buffering=0) as plan:  # noqa: PTH123  whole before there is a reader
             plan.write(self.plan)
