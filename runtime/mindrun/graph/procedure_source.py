@@ -1,4 +1,4 @@
-"""The module of a procedure where it stands beside the source: its text, if it can be all that the skill needs."""
+"""The text of a procedure's module beside the source of a mind, if it can be all that the skill needs."""
 
 from importlib.util import find_spec
 from pathlib import Path

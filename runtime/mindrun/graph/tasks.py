@@ -16,7 +16,7 @@ WORLD_VERSION = 1
 
 
 def physics() -> dict[str, str | int]:
-    """The versions of both; "" where pymunk is not installed."""
+    """The versions of pymunk, "" where it is not installed, and of the world that is our own."""
     try:
         found = version("pymunk")
     except PackageNotFoundError:
@@ -25,10 +25,10 @@ def physics() -> dict[str, str | int]:
 
 
 def default_task(graph: Graph) -> tuple[Task, str]:
-    """The task on which the master is taught, else one of its name on which no skill is, but others are elsewhere.
+    """The task to run where none is named, and a sentence why it is this one; "" where that goes without saying.
 
-    Else one on which a skill below it is taught, else the first. And, where a lesson could have said another, a
-    sentence why it is this one. The mind has a task.
+    It is the one on which the master is taught; else, where there are lessons and none is on it, the one of its name;
+    else the one on which a skill below it is taught; else the first. The mind has a task.
     """
     tasks = {task.name: task for task in graph.tasks}
     taught = {lesson.master: lesson.task for lesson in reversed(graph.lessons)}  # the first lesson under each
@@ -49,7 +49,7 @@ def _why(graph: Graph, what: str) -> str:
 
 
 def goals(graph: Graph, task: Task) -> frozenset[str]:
-    """The names of what is no longer as it was once it is reached, and of what an end of the task is about.
+    """The names of things that change once they are reached, and of those that an end of the task is about.
 
     An end is about what its event is about, and about what the sensors of its condition are about. What is only counted
     or rewarded is no goal: what measures changes no world.

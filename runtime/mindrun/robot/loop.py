@@ -23,7 +23,7 @@ MAX_THINKING_TICKS = 2  # that thinking may take
 
 @dataclass(slots=True)
 class Rate:
-    """Ticks at `begin + n·tick`; how late each began is counted. One that would begin a whole tick late is left out."""
+    """Ticks at `begin + n·tick`, each with its lateness counted. One that would begin a whole tick late is left out."""
 
     tick: float
     clock: Callable[[], float] = monotonic

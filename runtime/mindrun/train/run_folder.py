@@ -154,7 +154,7 @@ def keep_champions(folder: Path, champions: Genomes) -> None:
 
 
 def keep_result(folder: Path, result: Mapping[str, Any]) -> None:
-    """Write what came of the run, once it has been kept elsewhere too."""
+    """Write the result of the run, once it has been kept elsewhere too."""
     atomic_write.write(folder / RESULT, json.dumps(result, indent=2, allow_nan=False).encode() + b"\n")
 
 

@@ -1,4 +1,4 @@
-"""The decisions of the guardian, by its state, the time and what came: no devices and no clock, for tests to be both.
+"""The decisions of the guardian, by its state, the time and what came: no device, no clock, so that a test can be both.
 
 neutral    nothing moves; an armed frame starts it, once every actuator has acknowledged its neutral
 following  each frame moves the actuators; two ticks without one, or an actuator that fails, and all are neutral
