@@ -92,7 +92,7 @@ def find_ball(frame: Frame, target: BallTarget) -> SeenBall | None:
 
 
 def distance(diameter: float, size: float, width: int, view: float) -> float:
-    """How far a ball of that size is when it is so many pixels wide in a frame of that width, in the unit of size."""
+    """The distance of a ball, in the unit of its `size`, that is `diameter` pixels wide in a frame of `width` pixels."""
     return size * focal_length(width, view) / diameter
 
 
@@ -147,7 +147,7 @@ def blob(contour: Any, shape: tuple[int, int]) -> Blob:
 
 @dataclass(frozen=True, slots=True)
 class Aim:
-    """Where the camera points, seen from the robot, and for how long there has been no ball."""
+    """The direction of the camera, seen from the robot, in degrees, and the seconds for which it has seen no ball."""
 
     pan: float = 0.0
     tilt: float = 0.0
@@ -156,7 +156,7 @@ class Aim:
 
 @dataclass(frozen=True, slots=True)
 class PanTiltLimits:
-    """How a camera is turned: by up to `pan` and `tilt` to either side, `speed` degrees a second at most."""
+    """Limits of a camera's neck: up to `pan` and `tilt` degrees to either side, `speed` degrees a second at most."""
 
     pan: float = 90.0
     tilt: float = 45.0
@@ -166,7 +166,7 @@ class PanTiltLimits:
 
 
 def follow(aim: Aim, ball: SeenBall | None, seconds: float, limits: PanTiltLimits) -> Aim:
-    """Where the camera should point so many seconds later."""
+    """The aim that the camera should have so many seconds later."""
     if ball is None and aim.alone + seconds < limits.patience:
         return Aim(aim.pan, aim.tilt, aim.alone + seconds)
     pan, tilt = (ball.bearing, ball.elevation) if ball else (-aim.pan, -aim.tilt)
@@ -187,7 +187,7 @@ AHEAD = Aim()
 
 
 class Camera(Protocol):
-    """Where frames come from: `read` blocks until there is one, and says whether there is."""
+    """A source of frames: `read` blocks until there is one, and says whether there is."""
 
     def read(self) -> tuple[bool, Frame]: ...
 
@@ -238,7 +238,7 @@ class Joint:
     travel: float
 
     def point(self, angle: float) -> None:
-        """Turn it to an angle from the middle."""
+        """Turn the servo to an angle, in degrees from the middle."""
         self.servo.write(min(1.0, max(0.0, 0.5 + angle / self.travel)))
 
 
@@ -308,13 +308,13 @@ class TrackingCamera:
         return sighting
 
     def point(self) -> None:
-        """Turn the camera to where it should point."""
+        """Turn the joints to the aim."""
         for joint, angle in ((self.pan, self.aim.pan), (self.tilt, self.aim.tilt)):
             if joint:
                 joint.point(angle)
 
     def publish(self, sighting: BallSighting) -> None:
-        """Tell everybody who waits for a frame."""
+        """Give a sighting to everybody who waits for one."""
         with self.news:
             self.sighting = replace(sighting, number=self.sighting.number + 1)
             self.news.notify_all()

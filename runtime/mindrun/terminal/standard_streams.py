@@ -85,7 +85,7 @@ class Stream(FileIO):
     failure: OSError | None = None
 
     def write(self, data: Any) -> int:
-        """Write everything, or drop it; the length of `data` in any case."""
+        """Write some of `data`, or drop all of it after an error; the number of bytes done."""
         while self.failure is None:
             try:
                 written = super().write(data)
@@ -102,7 +102,7 @@ class Printable(TextIOWrapper):
     """A stream for text in which others' names stand: no terminal obeys them."""
 
     def write(self, text: str) -> int:
-        """The text, with what cannot be printed spelt out."""
+        """Write the text, with what cannot be printed spelt out."""
         shown = text if text.isprintable() else "\n".join(map(visible, text.split("\n")))
         return super().write(shown)
 

@@ -26,7 +26,7 @@ ERROR_DESCRIPTOR = 2
 
 
 def watch(plan: Plan, frames: int, status: int, work: Callable[[int], int]) -> int:
-    """Let another process `work`, which says its last word into the descriptor that it is given; its exit code.
+    """Let another process `work`, which says its last word into the descriptor that it is given; the exit code.
 
     However that ends, or is stopped: without the word nothing is known to be at neutral, and all is brought there.
     """
@@ -65,7 +65,7 @@ def report(line: str) -> None:
 
 
 def forked(work: Callable[[], int], by: signal.Signals) -> int:
-    """The number of a process that does that and ends, without coming back, or gets this signal when this one ends."""
+    """Fork a process that does this work and ends, or gets this signal when the present one ends; its number."""
     parent = os.getpid()
     if child := os.fork():
         return child
@@ -79,7 +79,7 @@ def forked(work: Callable[[], int], by: signal.Signals) -> int:
 
 
 def _said(words: int) -> list[str]:
-    """The words on a pipe that have come since; who was forked may hold its other end, so nobody waits for that."""
+    """The words that have come on a pipe since; a forked process may hold its other end, so nobody waits for its end."""
     os.set_blocking(words, False)
     with suppress(BlockingIOError):
         return os.read(words, 1 << 16).decode(errors="replace").split()
