@@ -92,7 +92,7 @@ def find_ball(frame: Frame, target: BallTarget) -> SeenBall | None:
 
 
 def distance(diameter: float, size: float, width: int, view: float) -> float:
-    """The distance of a ball, in the unit of its `size`, that is `diameter` pixels wide in a frame of `width` pixels."""
+    """The distance of a ball, in the unit of `size`, that is `diameter` pixels wide in a frame of `width` pixels."""
     return size * focal_length(width, view) / diameter
 
 

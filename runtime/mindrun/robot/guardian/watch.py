@@ -79,7 +79,7 @@ def forked(work: Callable[[], int], by: signal.Signals) -> int:
 
 
 def _said(words: int) -> list[str]:
-    """The words that have come on a pipe since; a forked process may hold its other end, so nobody waits for its end."""
+    """The words that have come on a pipe since; a forked process may hold its other end, so nobody waits for that."""
     os.set_blocking(words, False)
     with suppress(BlockingIOError):
         return os.read(words, 1 << 16).decode(errors="replace").split()
