@@ -11,7 +11,7 @@ from statistics import median
 import numpy as np
 from mindrun.kinds.learners import Genetic
 from mindrun.train.ask_and_tell import ask, tell
-from mindrun.train.population import Genomes, nobody
+from mindrun.train.population import Genomes, empty_population
 
 SIZES = [(100, 28), (100, 450), (128, 500), (300, 1610)]
 
@@ -20,7 +20,7 @@ def cost(individuals: int, weights: int) -> float:
     """Median microseconds per genome to breed and take in a generation."""
     learner, rng = Genetic(population=individuals), np.random.default_rng(0)
     none = np.empty((0, weights), np.float32)
-    population, times = nobody(weights), []
+    population, times = empty_population(weights), []
 
     def draw(count: int, rng: np.random.Generator) -> Genomes:
         return rng.standard_normal((count, weights), np.float32)

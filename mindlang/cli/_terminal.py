@@ -139,7 +139,7 @@ def text_columns(console: Console, rows: Sequence[tuple[Sequence[Text], Text]]) 
 @contextmanager
 def procedures_talk() -> Iterator[None]:
     """Around whatever runs procedures or environments, or above it as a decorator: what they print goes to stderr."""
-    with standard_streams.talk():
+    with standard_streams.output_to_standard_error():
         yield
 
 

@@ -7,7 +7,7 @@ from threading import Lock
 from typing import Protocol
 
 import numpy as np
-from mindrun.engine.think import Hierarchy, Ready, hierarchy, values
+from mindrun.engine.think import Hierarchy, ReadySkill, hierarchy, values
 from mindrun.graph.graph import Graph, Receiver
 from mindrun.graph.policy import Policy
 from mindrun.kinds.functions.function import Stateful
@@ -144,7 +144,7 @@ class EdgeFlows:
 class _Kept:
     """The values that a skill with a memory has sent so far, computed only where it is influenced, as in the engine."""
 
-    def __init__(self, skill: Ready, rows: Rows, begins: Container[int]) -> None:
+    def __init__(self, skill: ReadySkill, rows: Rows, begins: Container[int]) -> None:
         self.blocks: list[Singles] = []  # [BLOCK_ROWS, edges] each
         self._skill, self._rows, self._begins = skill, rows, begins
         self._known = 0  # how many rows are computed
@@ -170,7 +170,7 @@ class _Kept:
             self._known = row + 1
 
 
-def _numbers(skill: Ready, readings: Singles) -> list[np.float32]:
+def _numbers(skill: ReadySkill, readings: Singles) -> list[np.float32]:
     return [NAN if value is None else value for value in values(skill, readings)]
 
 

@@ -1,4 +1,4 @@
-"""What runs a compiled mind: the engine on numpy alone, and with the `sim` packages its worlds and its training.
+"""The runtime of a compiled mind: the engine on numpy alone, and with the `sim` packages its worlds and its training.
 
     bundle = mindrun.read_bundle(Path("collect.bundle"))
     engine = mindrun.Engine(bundle.policy, bundle.procedures)

@@ -64,7 +64,7 @@ def guarded(command: Callable[[], int]) -> int:
 
 
 def _command() -> int:
-    """A tool, or driving."""
+    """Run a tool, or drive; the exit code."""
     words = sys.argv[1:]
     if flaw := emptiness(words):
         raise MindError(flaw, "write something there, or leave it out")
@@ -130,7 +130,7 @@ def _run(engine: Engine, options: argparse.Namespace) -> None:
             influence = (None if isnan(number) else number for number in engine.influence.tolist())
             line["influence"] = dict(zip(skills, influence, strict=True))
         standard_streams.document(_json(line))
-        if standard_streams.lost():
+        if standard_streams.output_failure():
             break
     if engine.faults:
         what = "1 output was" if engine.faults == 1 else f"{engine.faults} outputs were"
@@ -138,7 +138,7 @@ def _run(engine: Engine, options: argparse.Namespace) -> None:
 
 
 def _lines(name: str) -> Iterator[tuple[str, dict[str, Any]]]:
-    """Where each line stands that is not empty, and the object that it is."""
+    """The place of each line that is not empty, for messages, and its JSON object; ReadingsError where it is none."""
     source = "standard input" if name == "-" else name
     try:
         with open(0 if name == "-" else name, encoding="utf-8", closefd=name != "-") as file:

@@ -1,4 +1,4 @@
-"""What a driver is: a frozen dataclass whose fields are its options in `robot.yaml`, and which opens a device.
+"""The contract of drivers: frozen dataclasses whose fields are their options in `robot.yaml`, and which open a device.
 
 A driver imports the library of its hardware inside `open`, so that a robot needs only what is wired to it. Devices
 speak in natural units (metres, degrees, volts); `Wiring` says which of these are the readings 0 and 1.
@@ -23,7 +23,7 @@ def failure(error: BaseException) -> str:
 
 
 def driver_name(driver: object) -> str:
-    """What robot.yaml calls a driver; those of a user say it themselves."""
+    """The name of a driver in robot.yaml; those of a user say it themselves."""
     return getattr(driver, "name", "") or names()[type(driver)]
 
 
@@ -56,12 +56,12 @@ class ActuatorDevice(Protocol):
 
 @base("sensor driver")
 class SensorDriver(Protocol):
-    """How a sensor is wired: `unit` and number of its values; those that are `usual`ly the readings 0 and 1.
+    """How a sensor is wired: the `unit` of its values, how many there are, and which are `usual`ly readings 0 and 1.
 
-    It may have more: the values that are `possible`; that which means that something is `near` (0 m where it measures
-    metres); the same sensor `motionless`. And what it can do: how many `seconds` a measurement takes, for how many of
-    these it needs its I2C `bus` (`bus_seconds`), and the `most` that it can measure. What does only one thing at a
-    time, such as a converter with several inputs, is the `queue` of all that are on it, named as others would name it.
+    It may say more: the lowest and highest value that are `possible`; the value of something that is `near` (0 m where
+    it measures metres); the same sensor `motionless`; how many `seconds` a measurement takes, for how many of these it
+    needs its I2C `bus` (`bus_seconds`), and the `most` that it can measure. Sensors on what does only one thing at a
+    time, such as a converter with several inputs, have its name as their `queue`, as others would name it.
     """
 
     @property
@@ -80,10 +80,10 @@ class SensorDriver(Protocol):
 
 @base("actuator driver")
 class ActuatorDriver(Protocol):
-    """How an actuator is wired; `device` is what only one process may drive, named as others would name it.
+    """How an actuator is wired; `device` names what only one process may drive, as others would name it, or is empty.
 
-    It is empty where there is none. A sensor's driver that moves something says it, too. `seconds` and `bus_seconds`
-    are those of a command; the `queue` is the `device` where nothing else is said.
+    A sensor's driver that moves something has one, too. `seconds` and `bus_seconds` are those of a command; the `queue`
+    is the `device` where nothing else is said.
     """
 
     @property

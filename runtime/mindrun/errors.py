@@ -48,7 +48,7 @@ def reason(error: Exception) -> str:
 
 
 def text_of(error: BaseException) -> str:
-    """What an error of somebody else's code says, in one line; the name of its type where it says nothing, or fails."""
+    """The text of an error of somebody else's code, in one line; the name of its type where it has none, or fails."""
     try:
         said = " ".join(str(error).split())
     except BaseException:  # it is that code which says it

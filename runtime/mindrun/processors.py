@@ -22,7 +22,7 @@ def cores(root: Path | None = None) -> int:
 
 
 def _quotas(root: Path) -> Iterator[float]:
-    """How many processors' time the groups of this process may take: cgroup v2 has one tree, v1 one for processors."""
+    """The processors whose time each group of this process may take: cgroup v2 has one tree, v1 one for processors."""
     for line in _text(root / "proc/self/cgroup").splitlines():
         _, controllers, path = line.split(":", 2)
         if controllers and CPU not in controllers.split(","):
@@ -34,7 +34,7 @@ def _quotas(root: Path) -> Iterator[float]:
 
 
 def _quota(group: Path) -> Iterator[float]:
-    """Of the time that a group may take in each period; "max", and −1 in version 1, are no limit."""
+    """The processors whose time a group may take; none where it has no limit: "max", and −1 in version 1."""
     said = _text(group / "cpu.max") or f"{_text(group / 'cpu.cfs_quota_us')} {_text(group / 'cpu.cfs_period_us')}"
     with suppress(ValueError, ZeroDivisionError):
         taken, period = map(int, said.split())

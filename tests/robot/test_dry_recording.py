@@ -17,7 +17,7 @@ from mindrun.graph.policy import Policy
 from mindrun.robot.dry_run import MAX_END_TICKS, DryRun, SeenWorld
 from mindrun.robot.recording import read
 from mindrun.robot.replay import replay_recording
-from mindrun.robot.world_server import Server, SimulatedScene, listening
+from mindrun.robot.world_server import SimulatedScene, WorldServer, listening
 from mindrun.sim.commanded_world import CommandedWorld
 from mindrun.terminal.standard_streams import StatusLine
 
@@ -46,7 +46,7 @@ class Hesitant(SimulatedScene):
 @contextmanager
 def served(scene: SimulatedScene) -> Iterator[str]:
     """The socket of a world that stands still by itself."""
-    server = Server(scene)
+    server = WorldServer(scene)
     with TemporaryDirectory() as folder, listening(Path(folder, "world")) as listener:
         thread = Thread(target=server.serve, args=(listener, NEVER_SECONDS))
         thread.start()

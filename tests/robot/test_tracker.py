@@ -9,9 +9,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from mindrun.robot.camera import (
     Aim,
-    Ball,
     BallTarget,
     PanTiltLimits,
+    SeenBall,
     blindness,
     distance,
     find_ball,
@@ -37,7 +37,7 @@ LOOK = BallTarget(view=VIEW)
 WHITE = np.full(3, 255, np.float32)
 
 
-def off(found: Ball | None, x: float) -> float:
+def off(found: SeenBall | None, x: float) -> float:
     """By how many degrees the bearing is off that of a column."""
     assert found is not None
     return abs(found.bearing - degrees(atan(((WIDTH - 1) / 2 - x) / focal_length(WIDTH, VIEW))))
@@ -159,7 +159,7 @@ def followed(angle: float, seconds: float, neck: PanTiltLimits) -> Aim:
     """Where a camera points that has followed a ball for a while, thirty times a second."""
     aim = Aim()
     for _ in range(round(30 * seconds)):
-        aim = follow(aim, Ball(angle - aim.pan, -aim.tilt, 20), 1 / 30, neck)
+        aim = follow(aim, SeenBall(angle - aim.pan, -aim.tilt, 20), 1 / 30, neck)
     return aim
 
 
@@ -180,8 +180,8 @@ def test_a_lost_ball_is_waited_for_and_then_given_up() -> None:
     for _ in range(90):
         aim = follow(aim, None, 1 / 30, PanTiltLimits())
     assert (aim.pan, aim.tilt) == pytest.approx((0, 0), abs=0.5)
-    assert follow(aim, Ball(10, 0, 20), 1 / 30, PanTiltLimits()).alone == 0
+    assert follow(aim, SeenBall(10, 0, 20), 1 / 30, PanTiltLimits()).alone == 0
 
 
 def test_a_camera_that_is_fixed_stays() -> None:
-    assert follow(Aim(), Ball(30, 20, 20), 1 / 30, PanTiltLimits(pan=0.0, tilt=0.0)) == Aim()
+    assert follow(Aim(), SeenBall(30, 20, 20), 1 / 30, PanTiltLimits(pan=0.0, tilt=0.0)) == Aim()

@@ -26,9 +26,9 @@ from mindrun.graph.policy import Policy
 from mindrun.graph.wiring import flaws
 from mindrun.kinds.registry import kinds
 from mindrun.robot.drivers.simulated import SimulatedActuator, SimulatedSensor
-from mindrun.robot.dry_run import dry
+from mindrun.robot.dry_run import simulated_wiring
 from mindrun.robot.simulated_world import READ, REQUEST, STATUS, WRITE, WorldConnection, simulated, status
-from mindrun.robot.world_server import Server, SimulatedScene, listening
+from mindrun.robot.world_server import SimulatedScene, WorldServer, listening
 from mindrun.sim.commanded_world import CommandedWorld
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
@@ -189,9 +189,9 @@ class Counting:
 
 
 @contextmanager
-def served(world: Counting, path: Path | None = None) -> Iterator[tuple[str, Server]]:
+def served(world: Counting, path: Path | None = None) -> Iterator[tuple[str, WorldServer]]:
     """A server of that world in a thread, which ticks a thousand times a second."""
-    server = Server(SimulatedScene(world))
+    server = WorldServer(SimulatedScene(world))
     with TemporaryDirectory() as folder, listening(path or Path(folder, "world")) as listener:
         thread = Thread(target=server.serve, args=(listener, 0.001))
         thread.start()
@@ -364,7 +364,7 @@ def bundle(roam: Graph, tmp_path: Path) -> Path:
 
 def test_a_mind_lives_in_a_world_of_its_own_process(roam: Graph, bundle: Path) -> None:
     with simulated(bundle, "Chase", 3) as path:
-        wiring = dry(roam, path, roam.master)
+        wiring = simulated_wiring(roam, path, roam.master)
         assert list(flaws(wiring, roam)) == []
         sensors = [wire.driver.open() for wire in wiring.sensors]
         actuators = [wire.driver.open() for wire in wiring.actuators]

@@ -122,19 +122,19 @@ def test_a_missing_part_of_ours_is_a_fault_of_ours() -> None:
 
     assert surroundings(ModuleNotFoundError("no", name="mindlang.x")) == ""
     assert surroundings(ValueError("no")) == ""
-    assert standard_streams.lost() is None
+    assert standard_streams.output_failure() is None
 
 
 TALKS = """
 import os, sys
-from mindrun.terminal.standard_streams import prepare, talk
+from mindrun.terminal.standard_streams import prepare, output_to_standard_error
 prepare()
 ours = sys.stdout
 print("before")
-with talk():
+with output_to_standard_error():
     print("Python's")
     os.write(1, b"C's\\n")
-    with talk():
+    with output_to_standard_error():
         print("ours", file=ours, flush=True)
     print("kept back", file=ours)
 print("after")

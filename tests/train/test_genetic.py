@@ -5,7 +5,7 @@ import pytest
 from mindrun.kinds.learners import Genetic
 from mindrun.train import ask_and_tell as genetic
 from mindrun.train.ask_and_tell import ask, tell
-from mindrun.train.population import Genomes, Population, bounded, nobody, order
+from mindrun.train.population import Genomes, Population, bounded, empty_population, order
 
 LEARNER = Genetic(population=100)
 UNKNOWN = np.empty((0, 10), np.float32)
@@ -16,7 +16,7 @@ def draw(count: int, rng: np.random.Generator) -> Genomes:
 
 
 def evolve(generations: int, start: np.ndarray = UNKNOWN, learner: Genetic = LEARNER) -> Population:
-    population = nobody(start.shape[1])
+    population = empty_population(start.shape[1])
     for generation in range(generations):
         genomes = ask(population, learner, start, draw, np.random.default_rng(generation))
         population = tell(population, learner, start, genomes, -((genomes.astype(float) - 1) ** 2).sum(axis=1))
@@ -57,7 +57,7 @@ def test_genomes_stay_finite_float32_under_absurd_mutation() -> None:
 
 
 def test_a_population_of_only_bad_scores_breeds_on() -> None:
-    population = tell(nobody(4), LEARNER, UNKNOWN, np.ones((10, 4), np.float32), np.full(10, np.nan))
+    population = tell(empty_population(4), LEARNER, UNKNOWN, np.ones((10, 4), np.float32), np.full(10, np.nan))
     assert ask(population, Genetic(population=10), UNKNOWN, draw, np.random.default_rng(0)).shape == (10, 4)
 
 
@@ -70,7 +70,7 @@ def test_any_share_of_elite_leaves_room_for_one_survivor_and_one_child(elite: fl
 def test_with_octaves_each_child_has_steps_of_its_own_size() -> None:
     known = np.zeros((1, 400), np.float32)
     learner = Genetic(population=200, octaves=3)
-    children = ask(nobody(400), learner, known, draw, np.random.default_rng(1))[1:]
+    children = ask(empty_population(400), learner, known, draw, np.random.default_rng(1))[1:]
     shares = (children != 0).mean(axis=1)
     spreads = np.array([child[child != 0].std() for child in children])
     assert shares.min() < learner.mutated / 4
@@ -88,11 +88,11 @@ def rng() -> np.random.Generator:
 
 def test_the_first_population_is_the_best_of_its_founders() -> None:
     learner = Genetic(population=10, founders=200)
-    founders = ask(nobody(10), learner, UNKNOWN, draw, rng())
+    founders = ask(empty_population(10), learner, UNKNOWN, draw, rng())
     np.testing.assert_array_equal(founders, draw(200, rng()))
     scores = founders[:, 0].astype(float)
     scores[:3] = np.nan, np.inf, -np.inf
-    first = tell(nobody(10), learner, UNKNOWN, founders, scores)
+    first = tell(empty_population(10), learner, UNKNOWN, founders, scores)
     assert first.scores.tolist() == sorted(scores[3:], reverse=True)[:10]
     np.testing.assert_array_equal(first.genomes[:, 0], first.scores)
     assert ask(first, learner, UNKNOWN, draw, rng()).shape == (10, 10)
@@ -100,16 +100,16 @@ def test_the_first_population_is_the_best_of_its_founders() -> None:
 
 def test_founders_are_never_fewer_than_the_population_and_what_is_known_has_none() -> None:
     learner = Genetic(population=10, founders=3)
-    assert ask(nobody(10), learner, UNKNOWN, draw, rng()).shape == (10, 10)
+    assert ask(empty_population(10), learner, UNKNOWN, draw, rng()).shape == (10, 10)
     known = np.zeros((1, 10), np.float32)
-    assert ask(nobody(10), Genetic(population=10, founders=200), known, draw, rng()).shape == (10, 10)
+    assert ask(empty_population(10), Genetic(population=10, founders=200), known, draw, rng()).shape == (10, 10)
 
 
 def test_no_weight_grows_beyond_a_hundred_or_is_no_number() -> None:
     wild = np.array([[0.5, -0.5, 100.0, -100.0, 100.5, -1e30, np.inf, -np.inf, np.nan]], np.float32)
     assert bounded(wild).tolist() == [[0.5, -0.5, 100, -100, 100, -100, 100, -100, 0]]
     learner = Genetic(population=50, mutation=1000.0, mutated=1.0)
-    first = ask(nobody(9), learner, np.zeros((1, 9), np.float32), draw, rng())
+    first = ask(empty_population(9), learner, np.zeros((1, 9), np.float32), draw, rng())
     assert np.abs(first).max() == 100.0
 
 
@@ -151,7 +151,7 @@ def test_the_elite_are_the_best_unchanged_and_all_others_are_children(share: flo
     genomes = np.arange(size * 50, dtype=np.float32).reshape(size, 50) / 100
     scores = np.random.default_rng(2).permutation(size).astype(float)
     learner = Genetic(population=size, elite=share, mutated=1.0)
-    bred = genetic.breed(tell(nobody(50), learner, UNKNOWN, genomes, scores), learner, rng())
+    bred = genetic.breed(tell(empty_population(50), learner, UNKNOWN, genomes, scores), learner, rng())
     assert bred.shape == genomes.shape
     best = genomes[np.argsort(-scores)]
     assert (bred[:kept] == best[:kept]).all()
@@ -161,7 +161,9 @@ def test_the_elite_are_the_best_unchanged_and_all_others_are_children(share: flo
 def test_children_are_of_parents_that_did_well() -> None:
     genomes = np.repeat(np.arange(100, dtype=np.float32)[:, None], 40, axis=1)
     learner = Genetic(population=2000, elite=0.0, mutated=0.0)
-    bred = genetic.breed(tell(nobody(40), learner, UNKNOWN, genomes, -genomes[:, 0].astype(float)), learner, rng())
+    bred = genetic.breed(
+        tell(empty_population(40), learner, UNKNOWN, genomes, -genomes[:, 0].astype(float)), learner, rng()
+    )
     assert set(np.unique(bred)) <= set(range(100))
     assert bred[1:].mean() == pytest.approx(sum((1 - k / 100) ** 4 for k in range(1, 100)), rel=0.05)
     assert max(len(np.unique(child)) for child in bred) == 2
@@ -169,6 +171,8 @@ def test_children_are_of_parents_that_did_well() -> None:
 
 def test_equal_scores_keep_their_order() -> None:
     assert order(np.array([1.0, 3.0, 1.0, np.nan, 3.0, np.inf])).tolist() == [1, 4, 0, 2, 3, 5]
-    told = tell(nobody(1), LEARNER, UNKNOWN, np.zeros((4, 1), np.float32), np.array([np.nan, np.inf, -np.inf, 2.0]))
+    told = tell(
+        empty_population(1), LEARNER, UNKNOWN, np.zeros((4, 1), np.float32), np.array([np.nan, np.inf, -np.inf, 2.0])
+    )
     assert told.scores.tolist() == [-np.inf, -np.inf, -np.inf, 2.0]
     assert told.generation == 1

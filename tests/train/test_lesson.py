@@ -12,7 +12,7 @@ from mindrun.train.attempt import (
     VERDICT_LAYOUTS,
     is_better,
     judge,
-    try_again,
+    reevaluate,
 )
 from mindrun.train.attempts import InThisThread, Step, side_by_side
 from mindrun.train.lesson_state import (
@@ -312,7 +312,7 @@ def tried(champion: np.ndarray, rival: np.ndarray, *scored: float) -> tuple[Atte
     state = begin_attempt(Course(lesson(5), 1, UNKNOWN))
     state = replace(state, population=Population(genomes, genomes[:, 0].astype(np.float64), 12))
     state = replace(state, champion=champion, rival=rival, since=3)
-    state, marks, score = try_again(state, Listed(), np.arange(REEVALUATION_LAYOUTS))
+    state, marks, score = reevaluate(state, Listed(), np.arange(REEVALUATION_LAYOUTS))
     return state, marks.ticks, score
 
 
@@ -334,7 +334,7 @@ def test_only_the_best_of_a_generation_are_tried_again() -> None:
     genomes = genomes_of(*range(10))
     state = begin_attempt(Course(lesson(5), 1, UNKNOWN))
     state = replace(state, population=Population(genomes, -genomes[:, 0].astype(np.float64), 12))
-    try_again(state, told, np.arange(REEVALUATION_LAYOUTS, dtype=np.uint64))
+    reevaluate(state, told, np.arange(REEVALUATION_LAYOUTS, dtype=np.uint64))
     assert [count for count, _ in told.asked] == [REEVALUATED_CANDIDATES]
 
 

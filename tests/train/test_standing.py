@@ -6,7 +6,7 @@ from math import inf
 import numpy as np
 import pytest
 from mindrun.train.attempt import are_different, ends_by_itself
-from mindrun.train.lesson_state import Course, LessonState, begin, could_be
+from mindrun.train.lesson_state import Course, LessonState, begin, is_reachable
 from mindrun.train.population import Population
 
 from tests.train.climbing import LENGTH, lesson
@@ -47,12 +47,12 @@ def state(
     ],
 )
 def test_a_state_to_which_a_run_can_have_come(changes: dict[str, int], could: bool) -> None:
-    assert could_be(COURSE, state(**changes)) is could
+    assert is_reachable(COURSE, state(**changes)) is could
 
 
 def test_a_lesson_without_generations_has_a_state_at_its_beginning() -> None:
     course = replace(COURSE, lesson=replace(COURSE.lesson, generations=0))
-    assert could_be(course, begin(course))
+    assert is_reachable(course, begin(course))
 
 
 @pytest.mark.parametrize(

@@ -35,7 +35,7 @@ A line of readings, in which NaN is one that failed:
 
 A line of commands: {"commands": {"left_wheel": 0.7, "right_wheel": 0.5}}
 
-tools: mindrun adopt | calibrate | doctor | replay | report | work,
+tools: mindrun adopt | calibrate | doctor | replay | report,
 each with --help"""
 
 

@@ -67,7 +67,7 @@ def _wire(path: Path, sensor: str) -> tuple[SensorWire, SensorKind]:
 
 
 def _watched(wire: SensorWire, kind: SensorKind, seconds: float) -> list[Sample]:
-    """What is measured in so many seconds or until Ctrl-C, shown as it comes."""
+    """The samples of so many seconds, or until Ctrl-C, each shown as it comes."""
     sampler, samples = Sampler(wire), list[Sample]()
     until = monotonic() + seconds
     sampler.start()

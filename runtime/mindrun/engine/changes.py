@@ -1,4 +1,4 @@
-"""What is changed in a run that goes on otherwise than it did: readings, influence, memory cells, tick by tick.
+"""Changes of readings, influence and memory cells, tick by tick, with which a run goes on otherwise than it did.
 
 And the engine that runs with such changes, bit for bit as `mindrun.sim.changed_ticks` makes them in the lanes.
 """
@@ -26,7 +26,7 @@ class ChangeError(MindError):
 
 @dataclass(frozen=True, slots=True)
 class Change:
-    """One number that is another from tick `first` to `last`, both counted from 1; to the end where `last` is None.
+    """A number that is replaced from tick `first` to `last`, both counted from 1; to the end where `last` is None.
 
     `row` is the place of a reading or memory cell in the vector of readings, or that of a skill. It is `values[0]` in
     the first of the ticks, `values[1]` in the next, and stays at the last of them.
@@ -39,7 +39,7 @@ class Change:
     last: int | None = None
 
     def holds(self, tick: int) -> bool:
-        """Whether it is made in a tick."""
+        """True if the change is made in that tick."""
         return self.first <= tick and (self.last is None or tick <= self.last)
 
     def value(self, tick: int) -> float:
@@ -60,7 +60,7 @@ UNCHANGED = Changed()
 
 
 def in_tick(changes: Sequence[Change], tick: int) -> Changed | None:
-    """What is changed in a tick, of two changes of one number the later one; None where nothing is."""
+    """All that is changed in a tick, of two changes of one number the later one; None where nothing is."""
     made: dict[What, dict[int, float]] = {"reading": {}, "influence": {}, "memory": {}}
     for change in changes:
         if change.holds(tick):
@@ -69,7 +69,7 @@ def in_tick(changes: Sequence[Change], tick: int) -> Changed | None:
 
 
 def calm_ticks(changes: Sequence[Change], tick: int, most: int) -> int:
-    """How many ticks from this one on, at which nothing is changed, stay so; up to `most`."""
+    """The ticks from this one on, in which nothing is changed, until the next change begins; `most` at most."""
     coming = (change.first - tick for change in changes if change.first > tick)
     return min([most, *coming])
 
@@ -110,7 +110,7 @@ def silenced(graph: Graph, skill: str, first: int = 1, last: int | None = None) 
 
 
 def _place(graph: Graph, what: What, name: str) -> tuple[str, int, int]:
-    """What has that name, where its numbers begin, and how many they are."""
+    """The noun of that name, where its numbers begin, and how many they are; ChangeError where there is none."""
     match what:
         case "reading":
             noun, places = "sensor", {sensor.name: (sensor.start, sensor.width) for sensor in graph.sensors}
@@ -129,10 +129,10 @@ def _allowed(what: What) -> str:
 
 
 class ChangedEngine(Engine):
-    """As Engine; `tick_with` makes changes as `mindrun.sim.changed_ticks` makes them in the lanes, bit for bit."""
+    """An engine whose `tick_with` makes changes, bit for bit as `mindrun.sim.changed_ticks` makes them in the lanes."""
 
     def reset(self) -> None:
-        """Back to the state before the first tick."""
+        """Go back to the state before the first tick."""
         super().reset()
         self._made = UNCHANGED
         self._virtual = tuple((place, self._replacing(place, read)) for place, read in self._virtual)
@@ -151,7 +151,7 @@ class ChangedEngine(Engine):
         return super()._filled(now)
 
     def _replacing(self, place: slice, read: Reader) -> Reader:
-        """What a virtual sensor says, or what it is made to say."""
+        """The reader of a virtual sensor that reads as `read` does, but for what is changed in the tick."""
 
         def replacing(number: int, now: Readings, before: Readings | None) -> Readings:
             now[place] = read(number, now, before)

@@ -29,14 +29,14 @@ def procedure_sources(graph: Graph, folder: Path, master: str | None = None) -> 
 
 
 def scene_of(graph: Graph) -> Scene:
-    """What the sensors of a graph depend on beside their own arguments."""
+    """The scene of a graph's sensors: all that they depend on beside their own arguments."""
     places = {memory.name: slice(memory.start, memory.start + 1) for memory in graph.memories}
     places |= {sensor.name: slice(sensor.start, sensor.start + sensor.width) for sensor in graph.sensors}
     return Scene(graph.tick, places, directions({sensor.name: sensor.kind for sensor in graph.sensors}))
 
 
 def virtual_sensors(graph: Graph) -> tuple[tuple[slice, Reader], ...]:
-    """Where the readings of each virtual sensor stand, and how they are computed; sources before what they are of."""
+    """The places of each virtual sensor's readings, and its reader; sources before what is computed of them."""
     scene, every = scene_of(graph), with_sources(graph, set(range(graph.width)))
     readers = ((scene.places[sensor.name], sensor.kind.reader(scene)) for sensor in every)
     return tuple((place, reader) for place, reader in readers if reader)
@@ -70,7 +70,7 @@ class Engine:
         self.reset()
 
     def reset(self) -> None:
-        """Back to the state before the first tick."""
+        """Go back to the state before the first tick."""
         for skill in self._hierarchy.skills:
             if isinstance(skill.compute, Stateful):
                 skill.compute.reset()

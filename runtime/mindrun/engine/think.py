@@ -21,8 +21,8 @@ _ZERO, _ONE = np.float32(0.0), np.float32(1.0)
 
 
 @dataclass(frozen=True, slots=True)
-class Sent:
-    """An edge made ready. `to` is a skill's index or, with `drives`, a place in the commands."""
+class ReadyEdge:
+    """An edge, ready to be computed. `to` is a skill's index or, with `drives`, a place in the commands."""
 
     drives: bool
     to: int
@@ -33,13 +33,13 @@ class Sent:
 
 
 @dataclass(frozen=True, slots=True)
-class Ready:
-    """A skill made ready: what it reads, computes and sends."""
+class ReadySkill:
+    """A skill, ready to be computed: what it reads, computes and sends."""
 
     index: int
     inputs: NDArray[np.intp]
     compute: Compute
-    edges: tuple[Sent, ...]
+    edges: tuple[ReadyEdge, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,7 +49,7 @@ class Hierarchy:
     `calm` [skills] is the influence before any is sent: 0, and NaN of skills that are not reached.
     """
 
-    skills: tuple[Ready, ...]
+    skills: tuple[ReadySkill, ...]
     calm: NDArray[np.float32]
     master: int
     commands: int
@@ -57,7 +57,7 @@ class Hierarchy:
 
 @dataclass(frozen=True, slots=True)
 class Thought:
-    """What thinking gives: influence [skills], command [commands] where `driven`, and the outputs not sent."""
+    """The result of thinking: influence [skills], command [commands] where `driven`, how many outputs were not sent."""
 
     influence: NDArray[np.float32]
     command: NDArray[np.float32]
@@ -73,7 +73,7 @@ def hierarchy(policy: Policy, sources: Mapping[str, str], master: str) -> Hierar
     calm[[numbers[skill.name] for skill in reachable(graph, master)]] = _ZERO
     return Hierarchy(
         tuple(
-            Ready(
+            ReadySkill(
                 numbers[skill.name],
                 np.array(skill.inputs, np.intp),
                 skill.function.ready(len(skill.inputs), skill.outputs, weights_of(skill, policy.weights), sources),
@@ -87,9 +87,9 @@ def hierarchy(policy: Policy, sources: Mapping[str, str], master: str) -> Hierar
     )
 
 
-def _sent(edge: Edge, actuators: int) -> Sent:
+def _sent(edge: Edge, actuators: int) -> ReadyEdge:
     place = edge.target + (actuators if edge.to == "memory" else 0)
-    return Sent(edge.to != "skill", place, edge.output, edge.value, edge.gate, np.float32(edge.cuts))
+    return ReadyEdge(edge.to != "skill", place, edge.output, edge.value, edge.gate, np.float32(edge.cuts))
 
 
 def think(
@@ -124,8 +124,8 @@ def think(
     return _mean(influence, commands, influences, faults)
 
 
-def values(skill: Ready, readings: NDArray[np.float32]) -> list[np.float32 | None]:
-    """What a skill sends over each edge, before the clamp; all NaN where one of its inputs is not finite.
+def values(skill: ReadySkill, readings: NDArray[np.float32]) -> list[np.float32 | None]:
+    """The values [edges] that a skill sends, before the clamp; all NaN where one of its inputs is not finite.
 
     None where a gate is closed and nothing is sent.
     """
@@ -139,13 +139,15 @@ def values(skill: Ready, readings: NDArray[np.float32]) -> list[np.float32 | Non
     ]
 
 
-def value_of(edge: Sent, outputs: NDArray[np.float32], readings: NDArray[np.float32]) -> np.float32:
+def value_of(edge: ReadyEdge, outputs: NDArray[np.float32], readings: NDArray[np.float32]) -> np.float32:
     """The value of an edge, whatever its gate says."""
     return np.float32(evaluate(edge.value, readings)) if edge.output is None else outputs[edge.output]
 
 
-def gated(edge: Sent, gate: Gate, outputs: NDArray[np.float32], readings: NDArray[np.float32]) -> np.float32 | None:
-    """What is sent where the condition holds or does not; NaN where it is not a number itself."""
+def gated(
+    edge: ReadyEdge, gate: Gate, outputs: NDArray[np.float32], readings: NDArray[np.float32]
+) -> np.float32 | None:
+    """The value of an edge with a gate, None where nothing is sent; NaN where the condition is not a number itself."""
     holds = evaluate(gate.when, readings)
     if holds > 0:
         return value_of(edge, outputs, readings)

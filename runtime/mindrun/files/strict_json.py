@@ -21,12 +21,12 @@ def parsed(data: bytes | str, most: int = 1 << 20) -> Any:
 
 
 def is_whole(value: object, low: int = 0, high: int = (1 << 53) - 1) -> bool:
-    """Whether a value is a whole number, no bool, within these bounds."""
+    """True if a value is a whole number, no bool, within these bounds."""
     return type(value) is int and low <= value <= high
 
 
 def are_names(value: object) -> bool:
-    """Whether a value is a list of texts, each other than the others, that a terminal can show."""
+    """True if a value is a list of texts, no two the same, that a terminal can show."""
     return (
         isinstance(value, list)
         and all(isinstance(name, str) and name.isprintable() for name in value)

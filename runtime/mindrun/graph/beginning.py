@@ -1,4 +1,4 @@
-"""Where nothing is put when a run begins: in the robot, or where it would have been reached before it moved."""
+"""Places where nothing is put when a run begins: in the robot, or where it would have been reached before it moved."""
 
 HALF_DIAGONAL = 0.7072  # of a square with side 1, and a little more
 
@@ -6,7 +6,7 @@ HALF_DIAGONAL = 0.7072  # of a square with side 1, and a little more
 def meets_robot(
     is_area: bool, is_round: bool, is_goal: bool, size: float, dx: float, dy: float, radius: float, reach: float
 ) -> bool:
-    """Whether a thing, so far from the robot's middle, is in it, or is a goal that it has reached where it stands.
+    """True if a thing (dx, dy) from the robot's middle overlaps the robot, or is a goal that it has reached already.
 
     On what lies on the floor, an area, the robot may begin, unless that is a goal. `radius` is that of the circle
     around the robot, `reach` how far from its middle the claw's place reaches, whichever way it faces.

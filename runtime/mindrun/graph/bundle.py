@@ -41,7 +41,7 @@ DIGEST_CHARACTERS = 64
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Bundle(ShortRepr):
-    """What is in a bundle: `procedures` has the text of each module by dotted name; not every mind has a robot."""
+    """A policy, the text of each procedure's module by dotted name, and a robot's wiring where the mind has a robot."""
 
     policy: Policy
     procedures: Mapping[str, str]
@@ -123,7 +123,7 @@ def _members(bundle: Bundle) -> dict[str, bytes]:
 def _manifest(
     master: str, skills: Iterable[str], modules: Iterable[str], wiring: Wiring | None, members: Mapping[str, bytes]
 ) -> dict[str, Any]:
-    """What the manifest says of a bundle and its files: nothing that does not follow from them."""
+    """The manifest of a bundle and its files: nothing that does not follow from them."""
     return {
         "format": WIRED if wiring else FORMAT,
         "master": master,
@@ -213,9 +213,9 @@ def decode_wiring(data: object, graph: Graph) -> Wiring:
 
 
 def migrated(graph: Any, version: str) -> Any:
-    """The data of a graph of a version as one of today has it: what has got words of its own since is said in them.
+    """The data of a graph of an older version as that of today: what has got words of its own since is said in them.
 
-    Data that is no graph stays as it is: who decodes it says what is wrong.
+    Data that is no graph stays as it is: decoding it says what is wrong.
     """
     try:
         tasks = graph["tasks"]
@@ -240,7 +240,7 @@ def _whole_lesson(lesson: Any) -> Any:
 
 def _with_programs(task: Any) -> Any:
     """A task from before conditions were programs: each was a comparison, and ends had none."""
-    ends = [{"event": event} for event in task["ends"]]  # the rest is as where nothing is said
+    ends = [{"event": event} for event in task["ends"]]  # the rest has its defaults
     rewards = []
     for reward in task["rewards"]:
         when = reward["when"]
@@ -256,7 +256,7 @@ def _with_outcomes(task: Any) -> Any:
 
 
 def _outcomes(thing: Any, named: set[Any]) -> dict[str, str]:
-    """What became of a thing."""
+    """The outcomes of a thing from before it said them; `named` has (kind of event, thing) of its task's lines."""
     name, kind = thing["name"], thing["kind"]["is"]
     outcomes: dict[str, str] = {}
     if kind in ("item", "zone", "power"):

@@ -44,7 +44,7 @@ def encode(value: object, extra: Callable[[object], Options] = lambda value: {})
 def decode(hint: Any, data: Any, where: str, prepare: Prepare = lambda noun, data: data, is_older: bool = False) -> Any:
     """The value of type `hint` of which `encode` made this data; CodecError says `where` there is none.
 
-    What data that `is_older` does not say is as where nothing is said: it is from before there was a word for it.
+    A field that data which `is_older` lacks has its default: it is from before there was a word for it.
     """
     return _Decoder(prepare, is_older).value(hint, data, where)
 

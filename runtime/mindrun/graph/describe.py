@@ -1,4 +1,4 @@
-"""What a bundle holds, for people and for programs."""
+"""The contents of a bundle, for people and for programs."""
 
 from collections.abc import Iterator
 from typing import Any
@@ -11,12 +11,12 @@ from mindrun.kinds.registry import names
 
 
 def describe(bundle: Bundle) -> str:
-    """What a bundle holds, as lines of text."""
+    """The contents of a bundle, as lines of text."""
     return "\n".join(_lines(contents(bundle)))
 
 
 def contents(bundle: Bundle) -> dict[str, Any]:
-    """What a bundle holds, as plain data."""
+    """The contents of a bundle, as plain data."""
     graph, weights = bundle.graph, bundle.policy.weights
     own = physical(graph)
     return {

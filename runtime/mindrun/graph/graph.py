@@ -53,7 +53,7 @@ class Actuator:
 
 @dataclass(frozen=True, slots=True)
 class Gate:
-    """When an edge sends its value. Where `when` does not hold it sends `otherwise`, or nothing where that is None."""
+    """The condition of an edge. Where `when` does not hold it sends `otherwise`, or nothing where that is None."""
 
     when: Program
     otherwise: Program | None = None
@@ -66,7 +66,7 @@ class Gate:
 
 @dataclass(frozen=True, slots=True)
 class Edge:
-    """What a skill sends: to the skill, actuator or memory with index `target`.
+    """An edge of the hierarchy: a skill sends a value to the skill, actuator or memory with index `target`.
 
     The value is the function's output number `output`, or where that is None the `value` program, clamped to 0..1;
     `gate` says when. An influence that is smaller than `cuts` when it arrives is none.
@@ -81,7 +81,7 @@ class Edge:
 
     @property
     def programs(self) -> tuple[Program, ...]:
-        """All that is computed beside the function."""
+        """The programs that are computed beside the function."""
         return ((self.value,) if self.output is None else ()) + (self.gate.programs if self.gate else ())
 
 
@@ -107,18 +107,8 @@ class Skill:
 
     @property
     def outputs(self) -> int:
-        """How many outputs its internal function has."""
+        """The number of outputs of its internal function."""
         return sum(edge.output is not None for edge in self.edges)
-
-    @property
-    def is_base(self) -> bool:
-        """Whether it influences no other skill."""
-        return all(edge.to != "skill" for edge in self.edges)
-
-    @property
-    def is_complex(self) -> bool:
-        """Whether it influences other skills."""
-        return not self.is_base
 
 
 @dataclass(frozen=True, slots=True)
@@ -151,7 +141,7 @@ class Reward:
 
 @dataclass(frozen=True, slots=True)
 class End:
-    """What ends a run: an event, by its index, the `times`th time that it happens, or the condition `when`.
+    """An end of a run: the `times`th time that an event, by its index, happens; or the condition `when`.
 
     One that `succeeds` ends it as a success. `text` is the condition as it is written.
     """
@@ -165,7 +155,7 @@ class End:
 
 @dataclass(frozen=True, slots=True)
 class Start:
-    """Where the robot is when a run begins, and which way it faces; None where that is drawn."""
+    """The place where the robot begins a run, and the direction that it faces; None where one is drawn."""
 
     at: Annotated[Place | None, COORDINATE] = None
     facing: Annotated[float | None, ANGLE] = None
@@ -194,7 +184,7 @@ class Failure:
 
 
 def varied_quantity(kind: Any, argument: str) -> Quantity | None:
-    """What an argument of a kind is that can differ from run to run; None where it cannot."""
+    """The quantity of an argument of a kind that can differ from run to run; None where it cannot."""
     found = (each.type for each in arguments(type(kind)) if each.field == argument and argument in kind.varying)
     return next((quantity for quantity in found if isinstance(quantity, Quantity)), None)
 
@@ -221,31 +211,31 @@ class Task:
 
     @property
     def programs(self) -> tuple[Program, ...]:
-        """All that its rewards and its ends compute."""
+        """The programs of its rewards and its ends."""
         ends = (end.when for end in self.ends if end.when is not None)
         return (*(program for reward in self.rewards for program in reward.programs), *ends)
 
     @property
     def can_succeed(self) -> bool:
-        """Whether any of its ends is a success."""
+        """True if any of the task's ends is a success."""
         return any(end.succeeds for end in self.ends)
 
 
 @dataclass(frozen=True, slots=True)
 class Need:
-    """What a lesson has to reach on fresh layouts: a mean `score` or a share of `success` `above` a number."""
+    """A need of a lesson, to be met on fresh layouts: a mean `score` or a share of `success` `above` a number."""
 
     measure: Literal["score", "success"]
     above: float
 
     def __str__(self) -> str:
-        """In the words of the language."""
+        """The need in the words of the language."""
         return f"{self.measure} > " + (f"{100 * self.above:g}%" if self.measure == "success" else f"{self.above:g}")
 
 
 @dataclass(frozen=True, slots=True)
 class Lesson:
-    """Who learns (`skill`), on which task, driven by which master, for how long, and how (`learner`).
+    """A lesson: which `skill` learns, on which task, driven by which master, for how long, and how (`learner`).
 
     With `with_subskills`, all that learn below the skill and are not frozen learn with it, as one genome. `number` is
     its place in its curriculum, from 1; 0 in what was made before lessons had one. One that `starts_from` another skill
@@ -267,7 +257,7 @@ class Lesson:
 
     @property
     def name(self) -> str:
-        """The skill, and what is not to be expected: the task where it has another name, that its subskills learn."""
+        """The skill; and the task where it has another name, and that its subskills learn where they do."""
         where = "" if self.skill == self.task else f"-on-{self.task}"
         return f"{self.skill}{where}{'-with-subskills' * self.with_subskills}"
 

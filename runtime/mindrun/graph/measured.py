@@ -1,4 +1,4 @@
-"""Which readings are measured, in a simulated world and on a robot; all others are NaN, for nobody knows them."""
+"""The readings that are measured, in a simulated world and on a robot; all others are NaN, for nobody knows them."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True)
-class Used:
+class UsedSensors:
     """The sensors that are measured: those that `skills` depend on, and those `aside` that only rewards do.
 
     Sources stand before what derives from them.
@@ -28,15 +28,15 @@ class Used:
 
     @property
     def all(self) -> list[Sensor]:
-        """All of them."""
+        """All sensors that are measured."""
         return [*self.skills, *self.aside]
 
 
-def used_sensors(graph: Graph, reached: Iterable[Skill], task: Task) -> Used:
+def used_sensors(graph: Graph, reached: Iterable[Skill], task: Task) -> UsedSensors:
     """The sensors that a reached skill or a reward reads."""
     skills = with_sources(graph, {row for skill in reached for row in skill.inputs})
     rewards = with_sources(graph, _rewarded(task))
-    return Used(skills, [sensor for sensor in rewards if sensor not in skills])
+    return UsedSensors(skills, [sensor for sensor in rewards if sensor not in skills])
 
 
 def measured_in_world(graph: Graph, master: str, task: Task) -> list[Sensor]:
@@ -52,7 +52,7 @@ def measured_on_robot(graph: Graph, wired: Collection[str]) -> list[Sensor]:
 
 
 def rows_of(graph: Graph, sensors: Iterable[Sensor]) -> NDArray[np.bool_]:
-    """Which readings [graph.width] are those of these sensors, or of memories, which are always known."""
+    """A mask [graph.width] of the readings of these sensors, and of memories, which are always known."""
     import numpy as np
 
     found = np.zeros(graph.width, bool)

@@ -11,7 +11,7 @@ from mindrun.numbers.short_repr import ShortRepr
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Policy(ShortRepr):
-    """What an engine runs and a rollout simulates: a graph, and the weights of its skills.
+    """A graph, and the weights of its skills: all that an engine runs and a rollout simulates.
 
     `weights` are float32 [genes] by skill, in the order in which `graph` says what the skill reads and sends. A skill
     that a rollout teaches, or that no master reaches, may lack them; skills that are like one another have theirs under
@@ -49,6 +49,6 @@ def _readings(graph: Graph) -> list[tuple[str, int]]:
 
 
 def _order(graph: Graph, readings: Sequence[tuple[str, int]], skill: Skill) -> object:
-    """What each of a skill's weights is for: its function, and by name what it reads and sends."""
+    """The meaning of a skill's weights, in their order: its function, and by name what it reads and sends."""
     sends = [(graph.named(edge.to, edge.target), edge.output) for edge in skill.edges if edge.output is not None]
     return skill.function, [readings[index] for index in skill.inputs], sends

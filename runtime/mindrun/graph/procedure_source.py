@@ -1,4 +1,4 @@
-"""The module of a procedure where it stands beside the source: its text, if it can be all that the skill needs."""
+"""The text of a procedure's module beside the source of a mind, if it can be all that the skill needs."""
 
 from importlib.util import find_spec
 from pathlib import Path
@@ -31,7 +31,7 @@ def source_of(skill: Skill, folder: Path) -> str:
 
 
 def is_installed(module: str, folder: Path) -> bool:
-    """Whether a module is there wherever Python is begun, without a dot in its name; a folder's own does not count."""
+    """True if a module, its name without a dot, is there wherever Python is begun; `folder`'s own does not count."""
     try:
         spec = find_spec(module)
     except ValueError:  # what is imported already, and from no file

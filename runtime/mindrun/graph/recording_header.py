@@ -38,12 +38,12 @@ class RecordingError(MindError):
 
 
 def by_guardian(actuator: int | None) -> int:
-    """What `stopped` says where the guardian had all at neutral, for the actuator of that number or another reason."""
+    """The value of `stopped` where the guardian had all at neutral: for that actuator, or another reason."""
     return BY_GUARDIAN if actuator is None else min(BY_ACTUATOR + actuator, BY_LAST)
 
 
 def world_row(things: int, rewards: int, events: int) -> np.dtype[Any]:
-    """The world after a tick: sums of the reward lines and counts of the events so far, the thing held or −1."""
+    """The columns of a world after a tick: sums of reward lines and counts of events so far, the thing held or −1."""
     return np.dtype([
         ("pose", "<f8", (POSE_COLUMNS,)), ("things", "<f8", (things, THING_COLUMNS)), ("battery", "<f8"),
         ("rewards", "<f8", (rewards,)), ("events", "<u8", (events,)), ("held", "<i4"), ("ended", "<i4"),
@@ -52,7 +52,7 @@ def world_row(things: int, rewards: int, events: int) -> np.dtype[Any]:
 
 
 def world_row_of(task: Task) -> np.dtype[Any]:
-    """The world of a task after a tick."""
+    """The columns of a task's world after a tick."""
     things = sum(thing.kind.copies for thing in task.things if not thing.kind.is_obstacle)
     return world_row(things, len(task.rewards), len(task.events))
 
@@ -89,9 +89,9 @@ class RecordedWorld:
 
 @dataclass(frozen=True, slots=True)
 class About:
-    """What a recording is of: the SHA-256 of its bundle, the master, the names of its columns, its world if it has one.
+    """The header of a recording: the SHA-256 of its bundle, the master, the names of its columns, its world if any.
 
-    Older versions `lack` what virtual sensors and memories read.
+    A recording of an older version `lacks_readings` of virtual sensors and memories.
     """
 
     bundle: str
@@ -106,7 +106,7 @@ class About:
 
     @classmethod
     def of(cls, graph: Graph, bundle: str, master: str, sensors: Sequence[str]) -> Self:
-        """A recording of these wired sensors under a graph."""
+        """The header for a graph and these wired sensors."""
         actuators = tuple(actuator.name for actuator in graph.actuators)
         skills = tuple(skill.name for skill in graph.skills)
         return cls(bundle, master, graph.tick, tuple(sensors), actuators, skills, graph.width)
@@ -131,7 +131,7 @@ class About:
 
     @property
     def row(self) -> np.dtype[Any]:
-        """A tick: its number and time, who had all at neutral, if it was armed; what was read, thought and sent."""
+        """The columns of a tick: number, time, who had all at neutral, if armed; what was read, thought and sent."""
         sensors, skills, actuators = (len(names) for names in (self.sensors, self.skills, self.actuators))
         return np.dtype([
             ("tick", "<u8"), ("time", "<f8"), ("stopped", "u1"), ("armed", "u1"),
@@ -156,7 +156,7 @@ def line_of(about: About) -> bytes:
 
 
 def about_of_line(line: bytes, path: Path) -> About:
-    """What a first line says; RecordingError where it says nothing that a recording could be of."""
+    """The header in a first line; RecordingError where it is none of a recording, or damaged."""
     try:
         plain = parsed(line, MAX_HEADER_BYTES)
         if not isinstance(plain, dict) or plain.get("format") not in (FORMAT, WITHOUT_WORLD, UNSEALED):
@@ -173,13 +173,13 @@ def about_of_line(line: bytes, path: Path) -> About:
 
 
 def _sealed(line: bytes) -> bytes:
-    """The line with the checksum of what it says before that."""
+    """The line with the checksum of all before it."""
     said = line.rpartition(CHECKSUM_FIELD)[0]
     return said + CHECKSUM_FIELD + f"{zlib.crc32(said):08x}".encode() + b'"}\n'
 
 
 def _typed(plain: dict[str, Any]) -> About:
-    """What a recording is of, from plain data; ValueError where that is none."""
+    """A header from plain data; ValueError where that is none."""
     about: About = decode(About, plain | {"world": None, "lacks_readings": False}, "it")
     if not SHA256.fullmatch(about.bundle):
         raise ValueError("it does not say of which bundle it is")

@@ -1,6 +1,6 @@
-"""What comes of runs: an array for each figure, and what reward lines have paid, added up.
+"""The results of runs: an array for each figure, and what reward lines have paid, added up.
 
-That is always done in the order of the source, so that all come to the same bits.
+Reward lines are always added in the order of the source, so that all come to the same bits.
 """
 
 from collections.abc import Sequence
@@ -18,7 +18,7 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Scores(ShortRepr):
-    """What came of every genome on every seed: arrays [genomes, seeds].
+    """The results of every genome on every seed: arrays [genomes, seeds].
 
     `total` is −∞ where a reward was not a number; `by_line` [genomes, seeds, lines] sums each reward line; `counts` are
     all events that the task counts together, `by_event` [genomes, seeds, events] each event of the task; `ended_by` is
@@ -47,7 +47,7 @@ def score_of(paid: Floats) -> Any:
 
 
 def paid_by_text(rewards: Sequence[Reward], paid: Floats) -> dict[str, Any]:
-    """What the lines of each text have paid together [...], of what each has paid [..., lines]."""
+    """The sums [...] of what reward lines of one text have paid, by text; `paid` [..., lines] is that of each line."""
     found: dict[str, Any] = {}
     for line, reward in enumerate(rewards):
         found[reward.text] = found.get(reward.text, 0.0) + paid[..., line]

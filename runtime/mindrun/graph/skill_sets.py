@@ -1,4 +1,4 @@
-"""Which skills a master reaches, which of them learn, and under whose name; which move the robot."""
+"""Sets of skills: those that a master reaches, those that learn and under whose name, those that move the robot."""
 
 from collections.abc import Container, Iterable
 
@@ -6,7 +6,7 @@ from mindrun.graph.graph import Graph, Lesson, Skill
 
 
 def genes(skill: Skill) -> int:
-    """How many weights a skill learns; 0 where it does not learn."""
+    """The number of weights that a skill learns; 0 where it does not learn."""
     return skill.function.genome_length(len(skill.inputs), skill.outputs)
 
 

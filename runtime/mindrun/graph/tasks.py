@@ -1,4 +1,4 @@
-"""What a task is before a run: which one is run, its goals, whether anything is drawn, and the physics of its world."""
+"""Tasks before a run: which one is run, its goals, whether anything is drawn, and the physics of its world."""
 
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
@@ -16,7 +16,7 @@ WORLD_VERSION = 1
 
 
 def physics() -> dict[str, str | int]:
-    """The versions of both; "" where pymunk is not installed."""
+    """The versions of pymunk, "" where it is not installed, and of the world that is our own."""
     try:
         found = version("pymunk")
     except PackageNotFoundError:
@@ -25,10 +25,10 @@ def physics() -> dict[str, str | int]:
 
 
 def default_task(graph: Graph) -> tuple[Task, str]:
-    """The task on which the master is taught, else one of its name on which no skill is, but others are elsewhere.
+    """The task to run where none is named, and a sentence why it is this one; "" where that goes without saying.
 
-    Else one on which a skill below it is taught, else the first. And, where a lesson could have said another, a
-    sentence why it is this one. The mind has a task.
+    It is the one on which the master is taught; else, where there are lessons and none is on it, the one of its name;
+    else the one on which a skill below it is taught; else the first. The mind has a task.
     """
     tasks = {task.name: task for task in graph.tasks}
     taught = {lesson.master: lesson.task for lesson in reversed(graph.lessons)}  # the first lesson under each
@@ -49,7 +49,7 @@ def _why(graph: Graph, what: str) -> str:
 
 
 def goals(graph: Graph, task: Task) -> frozenset[str]:
-    """The names of what is no longer as it was once it is reached, and of what an end of the task is about.
+    """The names of things that change once they are reached, and of those that an end of the task is about.
 
     An end is about what its event is about, and about what the sensors of its condition are about. What is only counted
     or rewarded is no goal: what measures changes no world.
@@ -70,7 +70,7 @@ def varied_kind(graph: Graph, task: Task, variation: Variation) -> Any:
 
 
 def is_one_world(graph: Graph, task: Task, master: str) -> bool:
-    """Whether every run of a task under a master is the same, as far as anybody can know.
+    """True if every run of a task under a master is the same, as far as anybody can know.
 
     Nobody knows what an environment of somebody else's draws, or a procedure.
     """
@@ -84,13 +84,13 @@ def is_one_world(graph: Graph, task: Task, master: str) -> bool:
 
 
 def _varies(graph: Graph, task: Task, master: str) -> bool:
-    """Whether an argument of what is there in a run is drawn between two numbers: not of a sensor nobody measures."""
+    """True if an argument of anything in a run is drawn between two numbers; not of a sensor that nobody measures."""
     measured = {sensor.name for sensor in measured_in_world(graph, master, task)}
     return any(each.low != each.high and (each.noun != "sensor" or each.of in measured) for each in task.varies)
 
 
 def _draws_things(graph: Graph, task: Task) -> bool:
-    """Whether a place or a size is drawn, when a run begins or when something moves."""
+    """True if a place or a size is drawn, when a run begins or when something moves."""
     can_deliver = any(thing.kind.takes_items for thing in task.things)
     can_hold = any(actuator.kind.can_hold for actuator in graph.actuators)
     for kind in (thing.kind for thing in task.things):
@@ -109,7 +109,7 @@ def _draws_things(graph: Graph, task: Task) -> bool:
 
 
 def _draws_in_ticks(graph: Graph, task: Task, master: str) -> bool:
-    """Whether a tick draws anything: noise of what is measured, or of what acts, or what a procedure does."""
+    """True if a tick draws anything: noise of sensors or actuators, or something in a procedure, as far as is known."""
     if any(skill.function.calls for skill in reachable(graph, master)):
         return True
     kinds: list[object] = [sensor.kind for sensor in measured_in_world(graph, master, task)]

@@ -1,4 +1,4 @@
-"""Whether a graph holds together: the promises that the types of `mindrun.graph.graph` cannot make."""
+"""The flaws of a graph: which promises it breaks that the types of `mindrun.graph.graph` cannot make."""
 
 import re
 from collections.abc import Container, Iterator
@@ -22,7 +22,7 @@ def graph_flaw(graph: Graph) -> str | None:
 
 
 def _flaws(graph: Graph) -> Iterator[str]:
-    """What is wrong, in an order in which each may build upon what was right before."""
+    """The flaws of a graph, in an order in which each check may build upon what was right before."""
     if not MIN_TICK_SECONDS <= graph.tick <= MAX_TICK_SECONDS:
         yield f"its tick cannot be {graph.tick:g} s"
     yield from _name_flaws(graph)
@@ -55,7 +55,7 @@ def _name_flaws(graph: Graph) -> Iterator[str]:
 
 
 def lesson_flaws(lesson: Lesson) -> Iterator[str]:
-    """What is wrong with a lesson by itself."""
+    """The flaws of a lesson by itself."""
     named = (lesson.curriculum, lesson.skill, lesson.task, lesson.master, lesson.starts_from or lesson.skill)
     for name in named:
         if not NAME.fullmatch(name):
@@ -119,7 +119,7 @@ def _likeness_flaws(graph: Graph) -> Iterator[str]:
 
 
 def _shape(skill: Skill) -> object:
-    """What weights have to fit, and where the outputs go."""
+    """Function and number of inputs, which weights have to fit, and where the outputs go."""
     return skill.function, len(skill.inputs), [(edge.to, edge.target, edge.output) for edge in skill.edges]
 
 
@@ -176,7 +176,7 @@ def _world_flaws(task: Task) -> Iterator[str]:
 
 
 def _variation_flaws(graph: Graph, task: Task) -> Iterator[str]:
-    """What varies is an argument that can, within its bounds, and once; what fails is an actuator."""
+    """An argument varies that can, within its bounds, and once; an actuator fails, and once."""
     for each in task.varies:
         kind = varied_kind(graph, task, each)
         quantity = varied_quantity(kind, each.argument) if kind else None
@@ -198,7 +198,7 @@ def _things_named(task: Task) -> Iterator[str]:
 def _computes(
     program: Program, readings: Container[int], measures: int = 0, each: bool = False, commands: int = 0
 ) -> bool:
-    """Whether a program has a value, and uses only these readings, measures, commands and, in a loop, the reading."""
+    """True if a program has a value, and uses only these readings, measures, commands and, in a loop, the reading."""
     words = {*OPERATORS, "negate", "number", "reading", "measure", "command"} | ({"each"} if each else set())
     return (
         is_valid_program(program)

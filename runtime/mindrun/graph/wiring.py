@@ -1,4 +1,4 @@
-"""What is wired to what: each sensor and actuator of a mind with its driver, and how their values become 0..1 and back.
+"""The wiring of a robot: each sensor and actuator of a mind with its driver; how values become 0..1 and back.
 
 It comes from `robot.yaml` and travels in the bundle, checked against the mind by the compiler.
 """
@@ -27,7 +27,7 @@ ON_FAULT = Reference("reaction", get_args(OnFault))
 
 @dataclass(frozen=True, slots=True)
 class SensorWire:
-    """How a sensor is measured.
+    """The wiring of a sensor: its driver, and how values become readings.
 
     Its reading is 0 at the value `low` and 1 at `high`, which may be the smaller one. Beyond them it stays that; a
     direction goes round. Closer to `rest` than `dead_zone` it is `rest`, as in training. `median` of so many values is
@@ -52,7 +52,7 @@ class SensorWire:
 
 @dataclass(frozen=True, slots=True)
 class ActuatorWire:
-    """How an actuator is commanded.
+    """The wiring of an actuator: its driver, and how commands become its values.
 
     A command c becomes c + `trim`, kept within `low` and `high` and changed by no more than `slew` a second (0: at
     once), and turned round where it is `reversed`. Neutral is the mind's with the trim, at once and within no limits.
@@ -105,7 +105,7 @@ def code_digests(wiring: Wiring) -> dict[str, str]:
 
 
 def still(wire: SensorWire) -> SensorWire:
-    """A sensor without anything that it would move: a camera's neck."""
+    """The wiring of a sensor that moves nothing, such as a camera's neck."""
     return replace(wire, driver=getattr(wire.driver, "motionless", wire.driver))
 
 

@@ -35,7 +35,7 @@ MAX_STREAK_RATIO = 2.8  # length of a streak to its width
 
 @dataclass(frozen=True, slots=True)
 class BallTarget:
-    """What a ball looks like: its hue (0 red, 120 green, 240 blue), how strong its colour and how bright it is.
+    """A ball to look for: its hue (0 red, 120 green, 240 blue), how strong its colour and how bright it is.
 
     `diameter` is the least, in pixels. `view` is how much the camera sees from left to right.
     """
@@ -49,7 +49,7 @@ class BallTarget:
 
 
 @dataclass(frozen=True, slots=True)
-class Ball:
+class SeenBall:
     """A ball in a frame: where it is, seen from the camera, and how big."""
 
     bearing: float
@@ -76,7 +76,7 @@ def blindness(frame: Frame) -> str:
     return "all white" if (brightness >= WHITE_BRIGHTNESS).sum() > most * brightness.size else ""
 
 
-def find_ball(frame: Frame, target: BallTarget) -> Ball | None:
+def find_ball(frame: Frame, target: BallTarget) -> SeenBall | None:
     """The largest round thing that is bright and of the right colour, None where there is none."""
     height, width = frame.shape[:2]
     if blindness(frame):
@@ -88,11 +88,11 @@ def find_ball(frame: Frame, target: BallTarget) -> Ball | None:
     focus = focal_length(width, target.view)
     aside, up = (width - 1) / 2 - best.x, (height - 1) / 2 - best.y
     bearing, elevation = degrees(atan2(aside, focus)), degrees(atan2(up, hypot(focus, aside)))
-    return Ball(bearing, elevation, best.diameter)
+    return SeenBall(bearing, elevation, best.diameter)
 
 
 def distance(diameter: float, size: float, width: int, view: float) -> float:
-    """How far a ball of that size is when it is so many pixels wide in a frame of that width, in the unit of size."""
+    """The distance of a ball, in the unit of `size`, that is `diameter` pixels wide in a frame of `width` pixels."""
     return size * focal_length(width, view) / diameter
 
 
@@ -114,7 +114,7 @@ def blobs(frame: Frame, target: BallTarget) -> list[Blob]:
 
 
 def in_colour(hsv: Frame, target: BallTarget) -> Frame:
-    """Which pixels are bright and of the colour; hues go round, and OpenCV counts them in steps of two degrees."""
+    """A mask of the pixels that are bright and of the colour; hues go round, which OpenCV counts in two degrees."""
     cv2, floor = library("cv2"), (round(target.colour * 255), round(target.brightness * 255))
     first, last = round((target.hue - target.tolerance) / 2) % 180, round((target.hue + target.tolerance) / 2) % 180
     if first <= last:
@@ -125,7 +125,7 @@ def in_colour(hsv: Frame, target: BallTarget) -> Frame:
 
 
 def is_coloured(contour: Any, coloured: Frame) -> bool:
-    """Whether most of a contour has the colour: a white lamp has it nowhere, an overexposed ball around its rim."""
+    """True if most of a contour has the colour: a white lamp has it nowhere, an overexposed ball around its rim."""
     x, y = contour[:, 0].T
     return bool((coloured[y, x] > 0).mean() > 0.6)
 
@@ -147,7 +147,7 @@ def blob(contour: Any, shape: tuple[int, int]) -> Blob:
 
 @dataclass(frozen=True, slots=True)
 class Aim:
-    """Where the camera points, seen from the robot, and for how long there has been no ball."""
+    """The direction of the camera, seen from the robot, in degrees, and the seconds for which it has seen no ball."""
 
     pan: float = 0.0
     tilt: float = 0.0
@@ -156,7 +156,7 @@ class Aim:
 
 @dataclass(frozen=True, slots=True)
 class PanTiltLimits:
-    """How a camera is turned: by up to `pan` and `tilt` to either side, `speed` degrees a second at most."""
+    """Limits of a camera's neck: up to `pan` and `tilt` degrees to either side, `speed` degrees a second at most."""
 
     pan: float = 90.0
     tilt: float = 45.0
@@ -165,8 +165,8 @@ class PanTiltLimits:
     patience: float = 1.0  # seconds without a ball until it looks straight ahead again
 
 
-def follow(aim: Aim, ball: Ball | None, seconds: float, limits: PanTiltLimits) -> Aim:
-    """Where the camera should point so many seconds later."""
+def follow(aim: Aim, ball: SeenBall | None, seconds: float, limits: PanTiltLimits) -> Aim:
+    """The aim that the camera should have so many seconds later."""
     if ball is None and aim.alone + seconds < limits.patience:
         return Aim(aim.pan, aim.tilt, aim.alone + seconds)
     pan, tilt = (ball.bearing, ball.elevation) if ball else (-aim.pan, -aim.tilt)
@@ -187,7 +187,7 @@ AHEAD = Aim()
 
 
 class Camera(Protocol):
-    """Where frames come from: `read` blocks until there is one, and says whether there is."""
+    """A source of frames: `read` blocks until there is one, and says whether there is."""
 
     def read(self) -> tuple[bool, Frame]: ...
 
@@ -238,16 +238,16 @@ class Joint:
     travel: float
 
     def point(self, angle: float) -> None:
-        """Turn it to an angle from the middle."""
+        """Turn the servo to an angle, in degrees from the middle."""
         self.servo.write(min(1.0, max(0.0, 0.5 + angle / self.travel)))
 
 
 @dataclass(frozen=True, slots=True)
 class BallSighting:
-    """What was seen in a frame, where the camera pointed, and how wide the frame was; or why there was nothing."""
+    """The ball in a frame, if any, where the camera pointed, and how wide the frame was; or why there was no frame."""
 
     number: int = 0
-    ball: Ball | None = None
+    ball: SeenBall | None = None
     aim: Aim = AHEAD
     width: int = 1
     error: DeviceError | None = None
@@ -294,7 +294,7 @@ class TrackingCamera:
         self.let_go()
 
     def see(self, frame: Frame) -> BallSighting:
-        """What is in a frame; turns the camera after it."""
+        """Find the ball in a frame, and turn the camera after it; DeviceError for a blind camera, or one that hangs."""
         now, sample = monotonic(), frame[::STILL_IMAGE_STRIDE, ::STILL_IMAGE_STRIDE].copy()
         if self.sample is None or sample.tobytes() != self.sample.tobytes():
             self.sample, self.changed = sample, now
@@ -308,19 +308,19 @@ class TrackingCamera:
         return sighting
 
     def point(self) -> None:
-        """Turn the camera to where it should point."""
+        """Turn the joints to the aim."""
         for joint, angle in ((self.pan, self.aim.pan), (self.tilt, self.aim.tilt)):
             if joint:
                 joint.point(angle)
 
     def publish(self, sighting: BallSighting) -> None:
-        """Tell everybody who waits for a frame."""
+        """Give a sighting to everybody who waits for one."""
         with self.news:
             self.sighting = replace(sighting, number=self.sighting.number + 1)
             self.news.notify_all()
 
     def after(self, number: int, seconds: float) -> BallSighting:
-        """What was seen in a frame after the one of that number; DeviceError where none comes, or nothing is in it."""
+        """The newest sighting after that number; DeviceError if none comes in so many seconds, or the camera fails."""
         with self.news:
             if not self.news.wait_for(lambda: self.sighting.number > number, seconds):
                 raise DeviceError(f"the camera has given no frame for {seconds:g} s")

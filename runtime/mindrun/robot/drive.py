@@ -22,13 +22,13 @@ from mindrun.graph.graph import Graph, Task
 from mindrun.graph.tasks import default_task
 from mindrun.graph.wiring import Wiring, read_by, still
 from mindrun.robot.drivers.mock import MockActuator
-from mindrun.robot.dry_run import DryRun, SeenWorld, beginning, dry, outcome, refuse_environment
+from mindrun.robot.dry_run import DryRun, SeenWorld, beginning, outcome, refuse_environment, simulated_wiring
 from mindrun.robot.guardian.client import Guardian
 from mindrun.robot.guardian.plan import plan_of
 from mindrun.robot.live_view import breakpoint_mistakes, live_view
 from mindrun.robot.loop import Loop, Rate, TickResult
 from mindrun.robot.ownership import IdentityError, hold_devices, is_adopted
-from mindrun.robot.processes import Stop, refuse_success, stopping
+from mindrun.robot.processes import StopSignals, refuse_success, stopping
 from mindrun.robot.recording import About, Recorder, TemporaryRecorder, temporary_recording
 from mindrun.robot.sensing import ReadingFilter, Sampler
 from mindrun.robot.simulated_world import simulated, status
@@ -46,7 +46,7 @@ class DriveError(MindError):
 
 @dataclass(frozen=True, slots=True)
 class DriveOptions:
-    """What is asked for: whether anything may move, where to record to, after how many ticks to end (0: never).
+    """Options of a drive: whether anything may move, where to record to, after how many ticks to end (0: never).
 
     `master` is another skill than the mind's own to be in charge. `view` is entered for as long as there is a
     recording, of which it can read each tick at once; `world` is that of a dry run, to be recorded. The robot stops
@@ -93,7 +93,7 @@ def _refuse_wrong_breakpoints(options: argparse.Namespace, graph: Graph) -> None
 def _seen(
     options: argparse.Namespace, tell: Callable[[str], None]
 ) -> Iterator[tuple[Path | None, AbstractContextManager[None] | None]]:
-    """Where to record to, and the page of that recording, if one is asked for; its address is told in any case."""
+    """The path to record to, and the page of that recording, if one is asked for; its address is told in any case."""
     if not options.view:
         yield options.record, None
         return
@@ -131,7 +131,7 @@ def _dry(options: argparse.Namespace, bundle: Bundle, drive_options: DriveOption
     with simulated(options.bundle, task.name, options.seed, options.master or "") as socket:
         seen = SeenWorld(task, options.seed, socket) if drive_options.record else None
         run = DryRun(bundle.graph, task, master, socket, line, seen)
-        wiring, watched = dry(bundle.graph, socket, master), replace(drive_options, world=seen)
+        wiring, watched = simulated_wiring(bundle.graph, socket, master), replace(drive_options, world=seen)
         with run.shown(), seen.watched() if seen else nullcontext():
             loop = drive(bundle, digest(options.bundle), wiring, watched, line.tell, watch=run.watch)
         with suppress(DeviceError):  # the run was as good without it
@@ -222,14 +222,14 @@ def _recorder(
         raise DriveError(f"{path} cannot be written: {error.strerror}") from error
 
 
-def _goes_on(tick: TickResult, ticks: int, stop: Stop) -> bool:
+def _goes_on(tick: TickResult, ticks: int, stop: StopSignals) -> bool:
     notify("WATCHDOG=1")
     stop.hear()
     return not stop and (not ticks or tick.number + 1 < ticks)
 
 
-def _wait(samplers: list[Sampler], guardian: Guardian, loop: Loop, stop: Stop) -> None:
-    """Until every sensor has been measured once, or for some seconds; the guardian hears all the while, unarmed."""
+def _wait(samplers: list[Sampler], guardian: Guardian, loop: Loop, stop: StopSignals) -> None:
+    """Wait until every sensor has been measured once, or for some seconds; send unarmed frames meanwhile."""
     until = monotonic() + FIRST_READING_SECONDS
     while monotonic() < until and not stop and not all(sampler.latest for sampler in samplers):
         guardian.send(loop.neutral.tolist(), False)

@@ -1,4 +1,4 @@
-"""What drivers share: quantities of their options, packages imported when needed, and GPIO pins."""
+"""Parts that drivers share: quantities of their options, packages imported when needed, and GPIO pins."""
 
 import os
 import warnings
@@ -75,15 +75,15 @@ class SharedParts(Generic[Key, Opened]):
         self._lock = Lock()
         self._parts: dict[Key, tuple[Opened, int]] = {}  # and how many use it
 
-    def take(self, key: Key, opened: Callable[[], Opened]) -> Opened:
-        """The part of this key, which was `opened` when it was taken first."""
+    def acquire(self, key: Key, opened: Callable[[], Opened]) -> Opened:
+        """The part of this key, which is `opened` for the first device that acquires it."""
         with self._lock:
             part, users = self._parts.get(key) or (opened(), 0)
             self._parts[key] = part, users + 1
             return part
 
-    def give_back(self, key: Key) -> None:
-        """Use it no longer."""
+    def release(self, key: Key) -> None:
+        """Use the part of this key no longer; it is closed when nobody does."""
         with self._lock:
             part, users = self._parts.pop(key)
             if users > 1:
@@ -97,7 +97,7 @@ class SharedParts(Generic[Key, Opened]):
 
 
 class Ranging:
-    """What the drivers of range finders have in common: metres, from touching to clear within the `range`."""
+    """The common part of range finders' drivers: metres, from touching to clear within the `range`."""
 
     __slots__ = ()
     range: float
@@ -122,7 +122,7 @@ def pins(what: str) -> Iterator[None]:
 
 
 def open_pins(*parts: tuple[str, str, Mapping[str, Any]]) -> list[Any]:
-    """For each part, which is what messages call it, a class of gpiozero, and its arguments, the object; or no pin."""
+    """An object of gpiozero for each part (its name in messages, its class, its arguments); where one fails, no pin."""
     gpiozero = library("gpiozero")
     with ExitStack() as opened:
         made = []

@@ -29,7 +29,7 @@ MAX_END_TICKS = 20  # in which a recording gets the end of its run; one that can
 MAX_ACTING_NAMED, LEAST_ACTING_INFLUENCE = 2, 0.01
 
 
-def dry(graph: Graph, path: str, master: str) -> Wiring:
+def simulated_wiring(graph: Graph, path: str, master: str) -> Wiring:
     """A robot whose actuators, and the sensors that are read below the master, are those of the world at a socket.
 
     Each sensor is read twice a tick, so that what the loop sees is never much more than half a tick older than in
@@ -59,7 +59,7 @@ def refuse_environment(task: Task) -> None:
 
 
 def beginning(graph: Graph, task: Task, master: str, seed: int) -> list[str]:
-    """What is run, in which world, that nothing real moves, and what ends it."""
+    """Sentences before a run: what is run, in which world, that nothing real moves, and what ends it."""
     scene, seconds = task.scene, task.ticks * graph.tick
     size = f"of {' x '.join(f'{side:g}' for side in scene.sides)}" if scene.is_bounded else "without walls"
     things = list(dict.fromkeys(thing.name for thing in task.things))
@@ -90,7 +90,7 @@ class DryRun:
         self._stop = Event()
 
     def watch(self, loop: Loop) -> bool:
-        """After each tick: whether the run goes on, or its recording waits for its end; DeviceError without a world."""
+        """True if, after a tick, the run goes on or its recording waits for its end; DeviceError without a world."""
         self._influence = loop.engine.influence
         if self._lost:
             raise self._lost
@@ -149,7 +149,7 @@ class DryRun:
 
 
 def outcome(task: Task, master: str, run: Mapping[str, Any]) -> list[str]:
-    """What came of a run, as `mindc run` says it: how it ended, what it counted, what each reward line paid."""
+    """Lines after a run, as `mindc run` prints them: how it ended, what it counted, what each reward line paid."""
     facts = [("seed", str(run["seed"]))]
     for number, (event, times) in enumerate(run["events"].items()):
         facts.append(("" if number else "events", f"{times} × {event}"))
@@ -181,7 +181,7 @@ def _aligned(rows: Sequence[tuple[str, str]]) -> list[str]:
 
 
 class SeenWorld:
-    """How a simulated world stands, for a recording: `about` as it was first, `latest` when a thread asked last.
+    """The state of a simulated world, for a recording: `about` as it was first, `latest` when a thread asked last.
 
     It asks beside the loop, which waits for nobody.
     """
@@ -205,7 +205,7 @@ class SeenWorld:
 
     @property
     def has_ended(self) -> bool:
-        """Whether the row that `latest` returned last says how the run has ended."""
+        """True if the row that `latest` returned last says how the run has ended."""
         return bool(self._recorded["ended"][0] != GOES_ON)
 
     @contextmanager

@@ -54,7 +54,7 @@ def on_bus(number: int, address: int) -> str:
     return f"/dev/i2c-{number} {address:#04x}"
 
 
-_turns: dict[tuple[int, int], RLock] = {}  # by bus and address
+_locks: dict[tuple[int, int], RLock] = {}  # by bus and address
 
 
 @dataclass(slots=True)
@@ -71,24 +71,24 @@ class I2cDevice:
         self.bus = open_bus(self.number)
 
     @property
-    def turn(self) -> RLock:
-        """What a device holds while it asks its chip for something and waits for that: others ask the same chip."""
-        return _turns.setdefault((self.number, self.address), RLock())
+    def lock(self) -> RLock:
+        """The lock of a chip, held from a question until it has answered: other devices ask the same chip."""
+        return _locks.setdefault((self.number, self.address), RLock())
 
     def write(self, *out: int) -> None:
         """Write bytes, of which the first is a register or a command; returns when all are acknowledged."""
         self.transfer(bytes(out))
 
     def read(self, register: int, count: int) -> bytes:
-        """Read from a register on."""
+        """Read `count` bytes from a register on."""
         return self.transfer(bytes((register,)), count)
 
     def byte(self, register: int) -> int:
-        """What one register holds."""
+        """The byte in one register."""
         return self.read(register, 1)[0]
 
     def transfer(self, out: bytes, count: int = 0) -> bytes:
-        """Write, then read."""
+        """Write `out`, then read `count` bytes; DeviceError where the part does not answer."""
         if self.closed:
             raise self.error("is closed")
         begin, failure = monotonic(), "no answer"
@@ -106,7 +106,7 @@ class I2cDevice:
         raise self.error(f"does not answer: {failure}")
 
     def wait(self, register: int, bits: int, seconds: float, problem: str, count: int = 1) -> int:
-        """What a register of `count` bytes holds once one of these bits is set; DeviceError of the problem if late."""
+        """A register of `count` bytes, read until one of these bits is set; DeviceError of the problem if late."""
         begin = monotonic()
         while not (found := int.from_bytes(self.read(register, count), "big")) & bits:
             if monotonic() - begin > seconds:
@@ -131,7 +131,7 @@ class I2cDevice:
 
 @dataclass(slots=True)
 class WiredDevice:
-    """A device that is a part on a bus, and nothing else."""
+    """A device that is one part on an I2C bus."""
 
     wire: I2cDevice
 
@@ -161,7 +161,7 @@ class MeasuringChip(WiredDevice):
                 self.prepare()
                 self.ready = True
             self.wait()
-            counts = self.taken()
+            counts = self.read_counts()
         except Exception:
             self.ready = False  # after a brown-out it has to be set up again
             raise
@@ -187,8 +187,8 @@ class MeasuringChip(WiredDevice):
         if found & never:
             raise self.wire.error(f"has an impossible status (0x{found:02x})")
 
-    def taken(self) -> tuple[int, ...]:
-        """Read what has been measured."""
+    def read_counts(self) -> tuple[int, ...]:
+        """Read the newest measurement."""
         return unpack(self.layout, self.wire.read(self.out, calcsize(self.layout)))
 
 

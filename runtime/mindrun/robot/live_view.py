@@ -125,7 +125,7 @@ def _listen(viewer: "subprocess.Popen[str]", ending: Event, tell: Callable[[str]
 
 
 def _host() -> str:
-    """What this machine is called where somebody sits: as they have reached it by ssh, or by its name."""
+    """This machine's name for a person elsewhere, USER@HOST: the address they reached by ssh, or the host name."""
     words = os.environ.get("SSH_CONNECTION", "").split()
     is_reached = len(words) > SERVER_ADDRESS and ":" not in words[SERVER_ADDRESS]  # HOST:FILE has no place for IPv6
     user = os.environ.get("USER", "")

@@ -23,7 +23,7 @@ MAX_THINKING_TICKS = 2  # that thinking may take
 
 @dataclass(slots=True)
 class Rate:
-    """Ticks at `begin + n·tick`; how late each began is counted. One that would begin a whole tick late is left out."""
+    """Ticks at `begin + n·tick`, each with its lateness counted. One that would begin a whole tick late is left out."""
 
     tick: float
     clock: Callable[[], float] = monotonic
@@ -35,7 +35,7 @@ class Rate:
     _due: float = 0.0
 
     def begin(self) -> None:
-        """The first tick is due now."""
+        """Begin: the first tick is due now."""
         self._due = self.clock()
 
     def wait(self) -> float:
@@ -54,7 +54,7 @@ class Rate:
         return now
 
     def late(self, share: float) -> float:
-        """How late the given share of the ticks began at most, in seconds, to a hundredth of a tick."""
+        """The lateness, in seconds, that this share of the ticks did not exceed, to a hundredth of a tick."""
         if not self.ticks:
             return 0.0
         place = int(np.searchsorted(np.cumsum(self.counts), share * self.ticks))
@@ -70,7 +70,7 @@ class Rate:
 
 @dataclass(frozen=True, slots=True)
 class TickResult:
-    """What came of one tick; `sent` is neutral where `stopped`, and obeyed unless the guardian `held` all at neutral.
+    """The result of one tick; `sent` is neutral where `stopped`, and obeyed unless the guardian `held` all at neutral.
 
     `held` is why it did, as it had said when the tick was sent.
     """
@@ -110,7 +110,7 @@ class Loop:
             pass
 
     def tick(self) -> TickResult:
-        """One tick, when it is due."""
+        """Wait until a tick is due, and do it."""
         missed = self.pace.missed
         time = self.pace.wait()
         behind = self.pace.missed - missed >= MISSED_TICKS_LIMIT

@@ -1,10 +1,9 @@
-"""Whose a robot is: the bundle that was built for it alone moves it, and one process at a time.
+"""The ownership of a robot: only a bundle that was built for it moves it, and one process at a time.
 
-A file of the robot's own says in one line which it is, which `mindrun adopt` writes: its name, and a SHA-256 of its
-wiring and of what its mind takes for neutral. Who drives holds its name and its devices, and so does the guardian,
-while it lives. What is held are addresses of this computer's kernel (abstract sockets), no files: none can be deleted,
-moved or said to be elsewhere, they are the same for every user, and they are free once no process has them any more,
-however it ended.
+`mindrun adopt` writes one line into a file on the robot: its name, and a SHA-256 of its wiring and neutral commands.
+The process that drives, and its guardian, hold the names of the robot and its devices while they live. These are
+addresses of the kernel (abstract sockets), no files: none can be deleted or moved, they are the same for every user,
+and they are free once no process has them any more, however it ended.
 """
 
 import errno
@@ -36,7 +35,7 @@ class IdentityError(MindError):
 
 
 def identity_file() -> Path:
-    """Where the robot says it: `MIND_ROBOT`, or in the user's configuration."""
+    """The file that says which wiring this robot has: `MIND_ROBOT`, or one in the user's configuration."""
     if given := os.environ.get("MIND_ROBOT"):
         return Path(given)
     try:
@@ -47,7 +46,7 @@ def identity_file() -> Path:
 
 
 def adopt(wiring: Wiring, graph: Graph) -> Path:
-    """This robot is wired so from now on; the file that says it."""
+    """Write down that this robot is wired so from now on; the file that says it."""
     path = identity_file()
     path.parent.mkdir(parents=True, exist_ok=True)
     write(destination(path), f"{wiring.robot} {identity(wiring, graph)}\n".encode())
@@ -61,7 +60,7 @@ def identity(wiring: Wiring, graph: Graph) -> str:
 
 
 def is_adopted(wiring: Wiring, graph: Graph) -> bool:
-    """Whether this robot has adopted just this wiring; False where it has adopted none, IdentityError for another."""
+    """True if this robot has adopted just this wiring; False if it has adopted none, IdentityError for another."""
     path = identity_file()
     try:
         name, _, known = read_regular(path, MAX_IDENTITY_BYTES).decode().strip().rpartition(" ")
@@ -93,7 +92,7 @@ def hold_devices(wiring: Wiring) -> Iterator[tuple[int, ...]]:
 
 
 def claims(wiring: Wiring) -> tuple[str, ...]:
-    """What only one may drive: the devices that move something, and the robot of that name."""
+    """Names of all that only one process may drive: the devices that move something, and the robot."""
     drivers = [*(wire.driver for wire in wiring.actuators), *(wire.driver for wire in wiring.sensors)]
     devices = {getattr(driver, "device", "") for driver in drivers} - {""}
     return (*sorted(devices), f"robot {wiring.robot}")

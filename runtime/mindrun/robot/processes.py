@@ -20,7 +20,7 @@ _let_go: set[Callable[[], None]] = set()
 
 
 def end_with_parent(parent: int, by: signal.Signals) -> None:
-    """As far as the system can: get this signal when process `parent`, or the thread that began this one, has ended."""
+    """Get this signal when process `parent`, or its thread that began this one, has ended, as far as the system can."""
     with suppress(OSError, AttributeError):
         ctypes.CDLL(None).prctl(PARENT_DIED, by)
     if os.getppid() != parent:
@@ -72,7 +72,7 @@ def refuse_success(then: str = "") -> Iterator[None]:
         os._exit = leave
 
 
-class Stop:
+class StopSignals:
     """True once a signal has come. From then on all has to end within `grace` seconds, or is interrupted.
 
     The guardian has every actuator at neutral meanwhile, since it hears nothing, and when this process has ended.
@@ -89,7 +89,7 @@ class Stop:
 
     @property
     def handlers(self) -> Mapping[signal.Signals, Callable[[int, FrameType | None], None]]:
-        """What hears each signal."""
+        """The handler of each signal."""
         return dict.fromkeys(STOP_SIGNALS, self.note) | {signal.SIGALRM: self.hurry}
 
     def hear(self) -> None:
@@ -99,7 +99,7 @@ class Stop:
                 signal.signal(number, handler)
 
     def in_order(self) -> None:
-        """The loop has ended by itself: what follows takes its time, and is not interrupted."""
+        """Interrupt nothing any more: the loop has ended by itself, and what follows takes its time."""
         self._in_order = True
 
     def note(self, _number: int, _frame: FrameType | None) -> None:
@@ -124,9 +124,9 @@ class Stop:
 
 
 @contextmanager
-def stopping(grace: float) -> Iterator[Stop]:
+def stopping(grace: float) -> Iterator[StopSignals]:
     """Hear the signals that end programs, and let them end this one in order."""
-    stop = Stop(grace)
+    stop = StopSignals(grace)
     before = {number: signal.getsignal(number) for number in stop.handlers}
     stop.hear()
     try:

@@ -1,4 +1,4 @@
-"""What happened, tick by tick: everything that is needed to compute it again, in a file that survives a power cut.
+"""Recordings: everything, tick by tick, that is needed to compute a run again, in a file that survives a power cut.
 
 A line of JSON says what the columns are; then rows of fixed size follow. Line and rows have checksums; the line of the
 oldest version has none. A row that was cut off at the end is no row.
@@ -31,7 +31,7 @@ MAX_WAITING_BYTES = 1 << 26  # that a card has not taken yet
 
 
 class BackgroundFile:
-    """Brings to a file at once what is written. An error of the file is that of whatever is written or flushed next.
+    """A file that a thread writes; an error of it is raised by the `write` or `flush` that follows.
 
     A file that takes nothing for so long that memory would fill is one that cannot be written.
     """
@@ -112,7 +112,7 @@ class Recorder:
         self._syncing.start()
 
     def write(self, **columns: Any) -> None:
-        """A row, which is on the disk a second or two later; RecordingError where it cannot be."""
+        """Write a row, which is on the disk a second or two later; RecordingError where it cannot be."""
         for name, value in columns.items():
             self._row[name][0] = value
         if self._world:
@@ -167,7 +167,7 @@ class TemporaryRecorder(Recorder):
         self._tell, self._has_failed = tell, False
 
     def write(self, **columns: Any) -> None:
-        """A row, where there is room for it."""
+        """Write a row, where there is room for it."""
         if self._has_failed:
             return
         try:
@@ -177,7 +177,7 @@ class TemporaryRecorder(Recorder):
             self._tell(f"nothing more is seen, and the robot drives on: {error}")
 
     def _sync(self, every: float) -> None:
-        """It need not survive a power cut: no card is worn by it."""
+        """Do nothing: it need not survive a power cut, and no card is worn by it."""
 
     def close(self) -> None:
         """Let go of it; what was not written is missed by nobody."""
@@ -198,9 +198,9 @@ def _sealed(rows: NDArray[Any]) -> NDArray[Any]:
 
 
 def read(path: Path) -> tuple[About, Iterator[NDArray[Any]]]:
-    """What a recording is of, and its rows in parts; RecordingError where it is none.
+    """The header of a recording, and its rows in parts; RecordingError where it is none.
 
-    From the rows, too, where one is damaged, behind all that are before it. A last row that is not whole is no row.
+    The rows raise it, too, where one is damaged, behind all that are before it. A last row that is not whole is no row.
     """
     try:
         return read_growing(path, _parts(path))
@@ -215,10 +215,10 @@ def _parts(path: Path) -> Iterator[bytes]:
 
 
 def read_growing(path: Path, parts: Iterator[bytes]) -> tuple[About, Iterator[NDArray[Any]]]:
-    """What a recording is of, and its rows as they come: no row for a part with none, as an empty one.
+    """The header of a recording, and with each part of its bytes the rows [0 or more] that are whole now.
 
-    RecordingError where it is no recording; from the rows, where one is damaged, behind all that are before it. A last
-    row that is not whole waits for the rest of it. `path` is what messages call it.
+    RecordingError where it is no recording; the rows raise it where one is damaged, behind all that are before it. A
+    last row that is not whole waits for the rest of it. `path` is what messages call it.
     """
     line, waiting = _first_line(path, parts)
     about = about_of_line(line, path)

@@ -19,7 +19,7 @@ Singles = NDArray[np.float32]
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Replayed(ShortRepr):
-    """How many ticks were computed again, and what differs first: its tick and a sentence."""
+    """The result of a replay: how many ticks were computed again, and the first difference, its tick and a sentence."""
 
     ticks: int
     differs: tuple[int, str] | None
@@ -99,7 +99,7 @@ def computed_again(
 
 
 def _difference(names: tuple[str, ...], now: Singles, then: Singles) -> str:
-    """What differs first, in words; nothing where all bits are the same."""
+    """The first difference, in words; "" where all bits are the same."""
     if now.tobytes() == then.tobytes():
         return ""
     pairs = zip(names, now, then, strict=True)

@@ -1,6 +1,6 @@
 """Sensors read outside of the control loop, a thread each, so that a slow or hung one never delays a tick.
 
-For a tick what was measured last is filtered, and answered as declared where something is wrong.
+In each tick the newest samples are filtered; a sensor with a fault reads what its wiring declares for that.
 """
 
 import threading
@@ -20,13 +20,12 @@ from mindrun.graph.measured import measured_on_robot, rows_of
 from mindrun.graph.wiring import SensorWire, reading, within_turn
 from mindrun.numbers.given_numbers import is_truth, number, values
 
-FINE, UNMEASURED, FAILED, STALE = range(4)  # what is wrong with a sensor in a tick
-FAULT_WORDS = ("fine", "not measured yet", "failed", "too old")
+FINE, UNMEASURED, FAILED, STALE = range(4)  # the fault of a sensor in a tick
 
 
 @dataclass(frozen=True, slots=True)
 class Sample:
-    """What was measured: a value for each reading in natural units, None where there was nothing, and when it began.
+    """A measurement: a value for each reading in natural units, None where there was nothing, and when it began.
 
     `fault` says why there are no values; times are seconds of a monotonic clock.
     """
@@ -37,7 +36,7 @@ class Sample:
 
 
 class Sampler:
-    """Measures one sensor again and again, in a thread of its own; `latest` is what came of it last.
+    """Measures one sensor again and again, in a thread of its own; `latest` is its newest sample.
 
     A device that fails is closed and opened anew, so that one that was unplugged comes back.
     """
@@ -89,7 +88,7 @@ class Sampler:
 
 
 def checked(given: object, at: float, wire: SensorWire) -> Sample:
-    """A sample of the values that a device gave, whatever kind of numbers these are, or of the fault that they are."""
+    """A sample of what a device gave: numbers of any type as floats, or the fault that it is."""
     low, high = getattr(wire.driver, "possible", (-inf, inf))
     expected, found = wire.driver.readings, values(given)
     if found is None or len(found) != expected:
@@ -123,7 +122,7 @@ def _close(device: SensorDevice | None) -> None:
 
 @dataclass(frozen=True, slots=True)
 class FilteredReadings:
-    """What the mind gets in a tick: `readings` [graph.width], NaN where one is missing; the rest is per wired sensor.
+    """The filtered readings of a tick [graph.width], NaN where one is missing; the rest is per wired sensor.
 
     `must_stop` says that every actuator has to be neutral; `faults` are FINE, …; `ages` in seconds, infinite where
     there is no sample; `why` the sentences.
@@ -176,7 +175,7 @@ class ReadingFilter:
 
 
 def _assess(state: _State, time: float) -> tuple[int, float, str]:
-    """What is wrong with a sensor now, the age of its sample, and why."""
+    """The fault of a sensor now (FINE, …), the age of its sample, and why."""
     sample = state.source.latest
     if sample is None:
         return UNMEASURED, inf, "has not been measured yet"

@@ -37,7 +37,7 @@ class WorldConnection:
     _socket: sockets.socket | None = field(default=None, repr=False)
 
     def ask(self, what: bytes, name: str = "", value: float = 0.0) -> bytes:
-        """What the world answers; DeviceError where it refuses, or has not answered in time."""
+        """The world's answer to a request; DeviceError where it refuses, or has not answered in time."""
         if self.closed:
             raise DeviceError("the connection to the simulated world is closed")
         try:
@@ -79,7 +79,7 @@ def _whole(answers: BinaryIO, count: int) -> bytes:
 
 
 def status(path: str) -> dict[str, Any]:
-    """How the world at a socket stands: `tick`, `pose`, `events`, `ended` and more (`SimulatedScene.status`)."""
+    """The state of the world at a socket: `tick`, `pose`, `events`, `ended` and more (`SimulatedScene.status`)."""
     link = WorldConnection(path)
     try:
         found: dict[str, Any] = json.loads(link.ask(STATUS))

@@ -43,7 +43,7 @@ def main() -> None:
     end_with_parent(os.getppid(), signal.SIGTERM)
     try:
         world = _world(options)
-        server = Server(SimulatedScene(world))
+        server = WorldServer(SimulatedScene(world))
         signal.signal(signal.SIGTERM, server.end)
         with listening(options.socket) as listener:
             print("ready", flush=True)
@@ -78,7 +78,7 @@ class SimulatedScene:
         self._readings = world.readings().astype("<f8")
 
     def tick(self) -> None:
-        """One tick under the commands that the actuators hold; a world that has ended stands still."""
+        """Simulate one tick under the commands that the actuators hold; a world that has ended stands still."""
         self.world.step(list(self.commands.values()))
         self._readings = self.world.readings().astype("<f8")
 
@@ -91,7 +91,7 @@ class SimulatedScene:
         return ANSWER.pack(done, len(held)) + held
 
     def status(self) -> dict[str, Any]:
-        """How the run stands."""
+        """The state of the run, as plain data."""
         world = self.world
         return {
             "seed": world.seed, "tick": world.tick, "pose": world.pose, "events": world.events, "ended": world.ended,
@@ -99,7 +99,7 @@ class SimulatedScene:
         }  # fmt: skip
 
     def _held(self, what: bytes, name: str, value: float) -> bytes:
-        """What an answer holds; LookupError with the reason where the request is refused."""
+        """The content of an answer; LookupError with the reason where the request is refused."""
         if what == STATUS:
             return json.dumps(self.status()).encode()
         if what == WORLD:
@@ -124,7 +124,7 @@ class SimulatedScene:
         return row.tobytes()
 
 
-class Server:
+class WorldServer:
     """Ticks on time, and answers all clients in between. One that sends nonsense, or does not listen, is cut off."""
 
     def __init__(self, scene: SimulatedScene) -> None:

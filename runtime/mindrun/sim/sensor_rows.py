@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from mindrun.engine.engine import scene_of
 from mindrun.graph.graph import Graph, Sensor, Task
-from mindrun.graph.measured import Used
+from mindrun.graph.measured import UsedSensors
 from mindrun.kinds.registry import names
 from mindrun.kinds.sensors.sensor import Physical
 from mindrun.numbers.expression import placed
@@ -18,7 +18,7 @@ from mindrun.sim.task_rows import NOWHERE, boxes_by_name, rows_by_name
 
 
 def sensor_rows(
-    graph: Graph, used: Used, task: Task, programs: Programs, parameters: Parameters
+    graph: Graph, used: UsedSensors, task: Task, programs: Programs, parameters: Parameters
 ) -> tuple[dict[str, NDArray[Any]], dict[str, int]]:
     """The tables of the sensors that are used, their rays and numbers, and how many numbers are remembered of what.
 

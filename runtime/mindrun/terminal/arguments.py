@@ -1,4 +1,4 @@
-"""What the command lines of mindrun share: parsers that take no half-said option, and types that say their bounds."""
+"""Parts of mindrun's command lines: parsers that take no half-said option, and types that say their bounds."""
 
 import argparse
 from collections.abc import Callable, Sequence
@@ -52,7 +52,7 @@ def new_file(text: str) -> Path:
 
 
 def emptiness(words: Sequence[str]) -> str:
-    """What is wrong with the words of a command line where one is empty or blank; nothing where none is.
+    """The flaw of a command line, given as its words, of which one is empty or blank; "" where none is.
 
     No argument of ours may be: most often it is a variable of a shell that was never set.
     """
@@ -66,5 +66,5 @@ def emptiness(words: Sequence[str]) -> str:
 
 
 def shortened(text: str) -> str:
-    """What a user has written, cut to a length that fits into a sentence."""
+    """The text of a user, cut to a length that fits into a sentence; "nothing" for none."""
     return text if 0 < len(text) <= SHOWN_CHARACTERS else f"{text[:SHOWN_CHARACTERS]}…" if text else "nothing"

@@ -85,7 +85,7 @@ class Stream(FileIO):
     failure: OSError | None = None
 
     def write(self, data: Any) -> int:
-        """Write everything, or drop it; the length of `data` in any case."""
+        """Write some of `data`, or drop all of it after an error; the number of bytes done."""
         while self.failure is None:
             try:
                 written = super().write(data)
@@ -102,7 +102,7 @@ class Printable(TextIOWrapper):
     """A stream for text in which others' names stand: no terminal obeys them."""
 
     def write(self, text: str) -> int:
-        """The text, with what cannot be printed spelt out."""
+        """Write the text, with what cannot be printed spelt out."""
         shown = text if text.isprintable() else "\n".join(map(visible, text.split("\n")))
         return super().write(shown)
 
@@ -113,7 +113,7 @@ def prepare(kind: type[TextIOWrapper] = TextIOWrapper) -> None:
         _occupy(number)
     if sys.stdin is None:
         sys.stdin = open(0, encoding="utf-8", closefd=False)  # noqa: SIM115
-    if sys.stdout is sys.__stdout__:  # a descriptor of its own, which `talk` leaves alone
+    if sys.stdout is sys.__stdout__:  # a descriptor of its own, which `output_to_standard_error` leaves alone
         sys.stdout = _text(kind, Stream(os.dup(OUTPUT_DESCRIPTOR), "w"), sys.__stdout__)
     if sys.stderr is sys.__stderr__:
         sys.stderr = _text(kind, Stream(ERROR_DESCRIPTOR, "w", closefd=False), sys.__stderr__)
@@ -133,13 +133,13 @@ def flush_standard_error() -> None:
 
 
 def is_error_read() -> bool:
-    """Whether standard error has taken all that has been told so far."""
+    """True if standard error has taken all that has been told so far."""
     raw = _raw(sys.stderr)
     return raw.drain(0.0) if isinstance(raw, LineWriter) else True
 
 
 def error_columns() -> int | None:
-    """How wide the terminal is that standard error goes to; None where it is none, or one that rewrites no line."""
+    """The columns of the terminal that standard error goes to; None where it is none, or rewrites no line."""
     try:
         if not os.isatty(ERROR_DESCRIPTOR) or os.environ.get("TERM", "dumb") == "dumb":
             return None
@@ -148,8 +148,8 @@ def error_columns() -> int | None:
         return None
 
 
-def lost() -> OSError | None:
-    """Why standard output has not taken everything, if it has not; BrokenPipeError where its reader is gone."""
+def output_failure() -> OSError | None:
+    """The error because of which standard output has not taken everything; BrokenPipeError where its reader is gone."""
     raw = _raw(sys.stdout)
     return raw.failure if isinstance(raw, Stream) else None
 
@@ -160,7 +160,7 @@ def finish() -> str:
     A reader that is gone, `head` say, has seen enough: that is no reason.
     """
     sys.stdout.flush()
-    failure = lost()
+    failure = output_failure()
     if failure is None or isinstance(failure, BrokenPipeError):
         return ""
     return f"standard output cannot be written: {reason(failure)}"
@@ -181,8 +181,8 @@ def draw(text: str) -> None:
 
 
 @contextmanager
-def talk() -> Iterator[None]:
-    """Around code of somebody else: what it prints goes to standard error, also where it is written in C.
+def output_to_standard_error() -> Iterator[None]:
+    """Let all that code of somebody else prints go to standard error, also where it is written in C.
 
     Who has had `sys.stdout` before still writes to standard output with it.
     """

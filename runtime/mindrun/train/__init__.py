@@ -8,4 +8,4 @@ class RunError(MindError):
 
 
 class NotFoundError(RunError):
-    """What was asked for is not there."""
+    """The run, curriculum or lesson that was asked for is not there."""

@@ -58,7 +58,7 @@ def _tell_genetic(population: Population, learner: Genetic, genomes: Genomes, sc
 
 
 def variants(start: Genomes, learner: Genetic, rng: np.random.Generator) -> Genomes:
-    """What the skill knows, `start`, and mutated copies of it."""
+    """The first genomes [individuals, weights]: what the skill knows, `start` [1, weights], and mutated copies."""
     copies = np.repeat(start, learner.population - 1, axis=0)
     return np.concatenate([start, mutate(copies, learner, rng)])
 
@@ -128,5 +128,5 @@ def _tell_strategy(population: Population, genomes: Genomes, scores: Scores, sta
 
 
 def _centre(population: Population, start: Genomes) -> Genomes:
-    """What genomes are drawn around [0 or 1, weights]; before the first generation what the skill knows, `start`."""
+    """The genome [0 or 1, weights] that others are drawn around; before the first generation `start`."""
     return population.genomes if population.generation else start

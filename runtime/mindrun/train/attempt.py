@@ -1,6 +1,6 @@
-"""One attempt: generation after generation, its best tried on layouts never seen, until it ends. No other is asked.
+"""One attempt at a lesson: generation after generation, its best tried on fresh layouts; no other attempt is asked.
 
-It is done piece by piece: a stretch of it is asked for, and a segment comes of it.
+It is done in pieces: an executor is given a stretch of it, and returns a segment.
 """
 
 from collections.abc import Callable
@@ -50,7 +50,7 @@ class Stretch:
 
 @dataclass(frozen=True, slots=True)
 class Segment:
-    """What came of a stretch: `records` and `champions` [records, weights] of its generations, and where it stands now.
+    """The result of a stretch: `records` and `champions` [records, weights] of its generations, and the state after it.
 
     `verdict` is there where the attempt has ended.
     """
@@ -61,30 +61,27 @@ class Segment:
     verdict: Verdict | None
 
 
-class Joined:
-    """Segments of an attempt, each from where that before ends, as one; what they have is copied when it is read."""
+class JoinedSegments:
+    """Segments of an attempt as one, each from where that before ends; their arrays are joined when they are read."""
 
     def __init__(self, first: Segment) -> None:
         self.state, self.verdict = first.state, first.verdict
         self._records, self._champions = [*first.records], [first.champions]
 
     def add(self, segment: Segment) -> None:
-        """Join one that goes on from here."""
+        """Add a segment that begins where this ends."""
         self.state, self.verdict = segment.state, segment.verdict
         self._records.extend(segment.records)
         self._champions.append(segment.champions)
 
-    def whole(self) -> Segment:
-        """All as one segment."""
+    def as_segment(self) -> Segment:
+        """All of them as one segment."""
         self._champions = [np.concatenate(self._champions)]
         return Segment(self.state, tuple(self._records), self._champions[0], self.verdict)
 
 
 def advance(course: Course, scorer: Scorer, stretch: Stretch, clock: Clock, most: int = SEGMENT_GENERATIONS) -> Segment:
-    """An attempt goes on until it ends by itself, comes to a rung, or has been at it for long enough.
-
-    That is some seconds, or `most` generations.
-    """
+    """Do a stretch: until the attempt ends by itself, comes to a rung, or has had seconds or generations enough."""
     state, records, champions = stretch.state, list[Record](), [stretch.state.champion[:0]]
     began, ends = clock(), stretch.cut
     verdict = judge(course, scorer, state) if ends else None
@@ -99,7 +96,7 @@ def advance(course: Course, scorer: Scorer, stretch: Stretch, clock: Clock, most
 
 
 def _pauses(lesson: Lesson, state: AttemptState, generations: int, seconds: float, most: int) -> bool:
-    """Whether a segment ends here, after so many generations and seconds."""
+    """True if a segment ends here: at a rung, or after enough generations or seconds."""
     is_at_rung = rung_at(lesson, state.population.generation) is not None
     return is_at_rung or seconds >= SEGMENT_SECONDS or generations >= most
 
@@ -116,7 +113,7 @@ def generation(course: Course, scorer: Scorer, number: int, state: AttemptState)
     rung = rung_at(lesson, population.generation)
     first_or_tenth = population.generation == 1 or population.generation % REEVALUATION_GENERATIONS == 0
     if first_or_tenth or rung is not None or ends_by_itself(lesson, now):
-        now, again, reevaluated = try_again(now, scorer, layouts(*key, fresh_count(learner), Purpose.REEVALUATION))
+        now, again, reevaluated = reevaluate(now, scorer, layouts(*key, fresh_count(learner), Purpose.REEVALUATION))
         done.append(again)
     if rung is not None:
         place = course.seed, 0, population.generation
@@ -128,26 +125,26 @@ def generation(course: Course, scorer: Scorer, number: int, state: AttemptState)
 
 
 def ends_by_itself(lesson: Lesson, state: AttemptState) -> bool:
-    """Whether an attempt has had all its generations, or has not become better for too many."""
+    """True if an attempt has had all its generations, or has not become better for too many."""
     number = state.population.generation
     return number == lesson.generations or 0 < lesson.learner.patience <= number - state.since
 
 
 def fresh_count(learner: Learner) -> int:
-    """On how many layouts candidates are tried again: the fewer there are beside champion and rival, the more."""
+    """The number of layouts of a re-evaluation: the fewer candidates beside champion and rival, the more layouts."""
     return REEVALUATION_LAYOUTS * (REEVALUATED_CANDIDATES + 2) // (min(REEVALUATED_CANDIDATES, kept_count(learner)) + 2)
 
 
 def climb(state: AttemptState, scorer: Scorer, rung: int, seeds: Seeds) -> tuple[AttemptState, Marks]:
-    """The champion's score at a rung, on the layouts of all attempts there."""
+    """Score the champion at a rung, on the layouts that all attempts have there."""
     marks = mark(scorer, state.champion, seeds)
     climbed = state.climbed.copy()
     climbed[rung] = marks.scores[0]
     return replace(state, climbed=climbed), marks
 
 
-def try_again(state: AttemptState, scorer: Scorer, fresh: Seeds) -> tuple[AttemptState, Marks, float]:
-    """The champion is who does best on fresh layouts, it or the best of the generation; and its score on them."""
+def reevaluate(state: AttemptState, scorer: Scorer, fresh: Seeds) -> tuple[AttemptState, Marks, float]:
+    """Make the best on fresh layouts champion, the old one or one of the generation's best; and its score on them."""
     ranked = state.population.genomes[order(state.population.scores)]
     candidates = np.concatenate([state.champion, ranked[:REEVALUATED_CANDIDATES], state.rival])
     marks = mark(scorer, candidates, fresh)
@@ -167,7 +164,7 @@ def judge(course: Course, scorer: Scorer, state: AttemptState) -> Verdict:
 
 
 def has_needed(lesson: Lesson, task: Task, results: Results) -> bool:
-    """Whether a genome has all that a lesson needs, by what it came to on either half of the layouts of a verdict."""
+    """True if a genome meets all needs of a lesson, by its results on each half of the layouts of a verdict."""
     scores = of_halves(marks_of(results).each)
     return all(
         (scores if need.measure == "score" else of_halves(succeeded(task, results))).min() > need.above
@@ -187,7 +184,7 @@ def of_halves(values: NDArray[Any]) -> Scores:
 
 
 def is_better(scores: Scores, than: Scores) -> bool:
-    """Whether scores [layouts] are better than others on the same layouts by more than two standard errors."""
+    """True if scores [layouts] are better than others on the same layouts by more than two standard errors."""
     if not np.isfinite(scores).all() or not np.isfinite(than).all():
         return bool(np.isfinite(scores).all())
     gain = scores - than
@@ -195,7 +192,7 @@ def is_better(scores: Scores, than: Scores) -> bool:
 
 
 def are_different(scores: Scores) -> bool:
-    """Whether there are two finite scores [genomes] that are not the same."""
+    """True if two finite scores [genomes] differ."""
     finite = scores[np.isfinite(scores)]
     return bool((finite != finite[:1]).any())
 

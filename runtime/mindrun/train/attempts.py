@@ -15,7 +15,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from mindrun.graph.graph import Task
-from mindrun.train.attempt import Clock, Joined, Segment, Stretch, advance
+from mindrun.train.attempt import Clock, JoinedSegments, Segment, Stretch, advance
 from mindrun.train.lesson_state import (
     AttemptState,
     Course,
@@ -39,7 +39,7 @@ TAKE_SECONDS = 0.2  # to wait for a segment before who asks may look at somethin
 
 @dataclass(frozen=True, slots=True)
 class Ahead:
-    """What has been done ahead of its turn, which a lesson has not come to: so many generations of so many attempts."""
+    """Work done ahead of its turn, which a lesson has not come to: so many generations of so many attempts."""
 
     attempts: int = 0
     generations: int = 0
@@ -50,7 +50,7 @@ NOTHING_AHEAD = Ahead()
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """What a lesson has come to: its state, and the generations since the step before, with the champion of each."""
+    """A step of a lesson: its state after it, and the generations since the step before, with the champion of each."""
 
     state: LessonState
     records: tuple[Record, ...]
@@ -59,27 +59,27 @@ class Step:
 
 
 class AttemptExecutor(Protocol):
-    """What does stretches: any number at once, in any order; one that was lost is done again."""
+    """An executor of stretches: any number at once, in any order; one that was lost is done again."""
 
     def has_room(self) -> bool:
-        """Whether somebody would wait without another job."""
+        """True if somebody would be idle without another job."""
 
     def submit(self, job: int, stretch: Stretch) -> None:
         """Ask for a stretch."""
 
     def take(self) -> tuple[int, Segment] | None:
-        """A job that has ended, and what came of it; None after a while without one."""
+        """A job that has ended, and its segment; None after a while without one."""
 
 
 class InThisThread:
-    """Does one stretch after the other, a generation each, when its segment is asked for."""
+    """An executor that does one stretch after the other, a generation each, when its segment is asked for."""
 
     def __init__(self, course: Course, scorer: Scorer, clock: Clock) -> None:
         self._course, self._scorer, self._clock = course, scorer, clock
         self._asked: tuple[int, Stretch] | None = None
 
     def has_room(self) -> bool:
-        """Whether nothing is asked for."""
+        """True if no stretch is asked for."""
         return self._asked is None
 
     def submit(self, job: int, stretch: Stretch) -> None:
@@ -95,7 +95,7 @@ class InThisThread:
 
 
 class StretchThreads:
-    """Does as many stretches at once as there are `cores`; `on` makes what scores on so many of them.
+    """An executor that does as many stretches at once as there are `cores`; `on` makes a scorer for so many of them.
 
     Attempts fewer than cores share them. So many lanes as an attempt has in one thread cost less than in several.
     """
@@ -107,7 +107,7 @@ class StretchThreads:
         self._at_work, self._stop = 0, Event()
 
     def has_room(self) -> bool:
-        """Whether a core would wait without another stretch."""
+        """True if a core would be idle without another stretch."""
         return self._at_work + len(self._asked) < self._cores
 
     def submit(self, job: int, stretch: Stretch) -> None:
@@ -144,12 +144,12 @@ class StretchThreads:
             self._done.put(error)
 
 
-class StoppedError(Exception):
-    """Nobody waits for these scores any more."""
+class ScoringStoppedError(Exception):
+    """Scoring was stopped, since nobody waits for the scores any more."""
 
 
 class Stoppable:
-    """Scores as another does, until `stop` is set: then it raises StoppedError, in the middle of its runs."""
+    """A scorer that asks another until `stop` is set: then it raises ScoringStoppedError, in the middle of its runs."""
 
     def __init__(self, scorer: Any, stop: Event) -> None:
         self._scorer, self._stop = scorer, stop
@@ -169,7 +169,7 @@ class Stoppable:
 
     def _ran(self, runs: float) -> None:
         if self._stop.is_set():
-            raise StoppedError
+            raise ScoringStoppedError
 
 
 @dataclass(slots=True)
@@ -179,7 +179,7 @@ class Track:
     number: int
     state: AttemptState
     job: int = -1  # that is at it; -1 for none
-    segments: deque[Joined] = field(default_factory=deque)
+    segments: deque[JoinedSegments] = field(default_factory=deque)
     at_rung: dict[int, AttemptState] = field(default_factory=dict)  # where it stood there
     cut: AttemptState | None = None  # where it was found behind
     verdict: Verdict | None = None
@@ -230,7 +230,7 @@ class Attempts:
         return None
 
     def put(self, job: int, segment: Segment) -> None:
-        """What came of a job; of one that has become needless, nothing."""
+        """Take in the segment of a job; one of a job that has become needless is dropped."""
         track = self.tracks.get(self.jobs.pop(job, -1))
         if track is None or track.job != job:
             return
@@ -245,14 +245,14 @@ class Attempts:
         self._decide()
 
     def steps(self) -> Iterator[Step]:
-        """What the lesson comes to by what is known now, in its order."""
+        """The steps, in order, that the lesson can make with the segments that are here."""
         while (track := self.tracks.get(self.lesson.attempt)) and track.segments:
             if is_over(self.course.lesson, self.lesson) or self._is_open(track, track.segments[0]):
                 return
-            yield self._gone_on(track, track.segments.popleft().whole())
+            yield self._gone_on(track, track.segments.popleft().as_segment())
 
     def ahead(self) -> Ahead:
-        """What attempts behind that at work have done."""
+        """The work that attempts behind that at work have done."""
         done = [t.state.population.generation for number, t in self.tracks.items() if number > self.lesson.attempt]
         return Ahead(sum(map(bool, done)), sum(done))
 
@@ -262,26 +262,26 @@ class Attempts:
         self.begun += 1
 
     def _append(self, track: Track, segment: Segment) -> None:
-        """Keep a segment, as one with that before unless a decision may come between them."""
+        """Keep a segment, joined to the one before unless a decision may come between them."""
         before = track.segments[-1] if track.segments else None
         if before is not None and all(before.state is not at_rung for at_rung in track.at_rung.values()):
             before.add(segment)
         else:
-            track.segments.append(Joined(segment))
+            track.segments.append(JoinedSegments(segment))
         rung = rung_at(self.course.lesson, segment.state.population.generation)
         if rung is not None:
             track.at_rung[rung] = segment.state
             self.rows[track.number, rung] = segment.state.climbed[rung]
 
-    def _is_open(self, track: Track, segment: Joined) -> bool:
-        """Whether it is not known yet what becomes of an attempt behind a segment."""
+    def _is_open(self, track: Track, segment: JoinedSegments) -> bool:
+        """True if it is not known yet what becomes of an attempt behind a segment."""
         if segment.verdict is not None:
             return False
         rung = rung_at(self.course.lesson, segment.state.population.generation)
         return track.cut is segment.state or (rung is not None and self.decided[rung] <= track.number)
 
     def _decide(self) -> None:
-        """Decide at each rung for all for whom it can be: everybody before has come there, or never will."""
+        """Decide at each rung about every attempt of which all before have come there, or never will."""
         below = None
         for rung in self.decided:
             while (track := self.tracks.get(self.decided[rung])) and (
@@ -323,7 +323,7 @@ class Attempts:
 def side_by_side(
     course: Course, executor: AttemptExecutor, state: LessonState, stop: Callable[[], bool]
 ) -> Iterator[Step]:
-    """The steps of a lesson whose attempts an executor does; who iterates may stop after any of them."""
+    """The steps of a lesson whose attempts an executor does; iteration may stop after any of them."""
     attempts = Attempts(course, state)
     while not is_over(course.lesson, attempts.lesson) and not stop():
         while executor.has_room() and (job := attempts.next_stretch()):

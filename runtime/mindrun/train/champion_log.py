@@ -1,4 +1,4 @@
-"""Who was champion when: the weights of each champion of each attempt, from the generation that found it.
+"""The log of champions: the weights of each champion of each attempt, from the generation that found it.
 
 The file begins with a line that names the format, and the number of weights; a row has attempt, generation and the
 CRC-32 of the row, and the weights. Where it is full, no more champions are kept, and the training goes on: a new one
@@ -34,12 +34,12 @@ class Champion:
 
     @property
     def position(self) -> Position:
-        """Where it was found."""
+        """The attempt and the generation that found it."""
         return self.attempt, self.generation
 
 
 class ChampionLog(AppendedFiles):
-    """The file, with only the champions that `state` has behind it; `warn` is told where it is full."""
+    """The file, begun with the champions that it has up to `state`; `warn` is told where it is full."""
 
     def __init__(self, folder: Path, state: LessonState, warn: Callable[[str], None]) -> None:
         count = state.champions.shape[1]

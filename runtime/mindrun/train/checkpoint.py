@@ -96,7 +96,7 @@ def pack(state: LessonState, run: str) -> bytes:
 
 
 def _counts(state: LessonState) -> tuple[int, ...]:
-    """Its whole numbers, in the order of the file."""
+    """The whole numbers of a state, in the order of the file."""
     now = state.now.population.generation, state.now.since
     return state.attempt, *now, state.generations, state.ticks, state.faults, state.told_apart
 
@@ -105,7 +105,7 @@ def unpack(data: bytes, run: str) -> LessonState | None:
     """The state in these bytes; None where they are damaged, of another run, or of no run at all."""
     arrays = unsealed(MAGIC, {"run": run}, data) or {}
     types = {name: (array.dtype.str, array.ndim) for name, array in arrays.items()}
-    return _state(arrays) if [*types.items()] == [*TYPES.items()] and _hold_together(arrays) else None
+    return _state(arrays) if [*types.items()] == [*TYPES.items()] and _are_consistent(arrays) else None
 
 
 def sealed(magic: bytes, said: Mapping[str, object], arrays: Arrays) -> bytes:
@@ -143,8 +143,8 @@ def unsealed(magic: bytes, said: Mapping[str, object], data: bytes) -> Arrays | 
     return arrays if start == len(rest) else None
 
 
-def _hold_together(arrays: Arrays) -> bool:
-    """Whether arrays are as large as each other says, and their numbers such as a run has."""
+def _are_consistent(arrays: Arrays) -> bool:
+    """True if the arrays fit one another in shape, and their numbers are such as a run has."""
     population, weights = arrays["genomes"].shape
     ended = len(arrays["champions"])
     fit = (

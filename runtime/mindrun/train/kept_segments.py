@@ -1,7 +1,7 @@
-"""What attempts ahead of their turn have come to, in a file of the run: a run that goes on has not to do it again.
+"""Segments of attempts ahead of their turn, in a file of the run: a run that goes on has not to do them again.
 
-A stretch that begins where one of them did has that for its answer, since a segment depends on its stretch alone. The
-file has the form of a checkpoint; one that is damaged, or of another run or build, is as none.
+One of them answers any stretch that begins where it did, since a segment depends on its stretch alone. The file has the
+form of a checkpoint; one that is damaged, or of another run or build, is as none.
 """
 
 from contextlib import suppress
@@ -13,7 +13,7 @@ import numpy as np
 
 from mindrun.files.atomic_write import write
 from mindrun.files.regular_files import read_whole
-from mindrun.train.attempt import Clock, Joined, Segment, Stretch
+from mindrun.train.attempt import Clock, JoinedSegments, Segment, Stretch
 from mindrun.train.attempts import AttemptExecutor
 from mindrun.train.checkpoint import Arrays, sealed, unsealed
 from mindrun.train.lesson_state import AttemptState, Course, Record, Verdict, begin_attempt, rung_at
@@ -27,11 +27,11 @@ SAVE_SECONDS = 2.0  # between two times that the file is written anew, at least
 MAX_SAVE_SHARE = 0.05  # of the time that goes into writing it
 RECORD_NUMBERS, VERDICT_NUMBERS = 9, 5  # of a record and a verdict, in the order of their fields; NaN for None
 
-Chain = list[Joined]  # of an attempt, from rung to rung, each from where that before ends
+Chain = list[JoinedSegments]  # of an attempt, from rung to rung, each from where that before ends
 
 
 class KeptSegments:
-    """Those of a run, from its file on; attempts that all before have caught up with are forgotten."""
+    """The kept segments of a run, at first those in its file; attempts that the lesson has come past are forgotten."""
 
     def __init__(self, folder: Path, identity: str, course: Course) -> None:
         self.path, self.course = folder / NAME, course
@@ -45,7 +45,7 @@ class KeptSegments:
         before = begin_attempt(self.course)
         for segment in [] if stretch.cut else self.chains.get(stretch.number, []):
             if is_same(before, stretch.state):
-                return segment.whole()
+                return segment.as_segment()
             before = segment.state
         return None
 
@@ -58,7 +58,7 @@ class KeptSegments:
         if chain and rung_at(self.course.lesson, start.population.generation) is None:
             chain[-1].add(segment)
         else:
-            chain.append(Joined(segment))
+            chain.append(JoinedSegments(segment))
 
     def forget(self, below: int) -> None:
         """Forget the attempts before one."""
@@ -74,7 +74,7 @@ class KeptSegments:
         arrays = {
             f"{number} {place} {name}": array
             for number, place, each in rows
-            for name, array in _arrays(each.whole()).items()
+            for name, array in _arrays(each.as_segment()).items()
         }
         with suppress(OSError):
             write(self.path, sealed(MAGIC, self._said, arrays))
@@ -87,12 +87,12 @@ class KeptSegments:
             segments.setdefault((int(number), int(place)), {})[name] = array
         chains = dict[int, Chain]()
         for (attempt, _), found in sorted(segments.items(), key=lambda each: each[0]):
-            chains.setdefault(attempt, []).append(Joined(_segment(found, self.course)))
+            chains.setdefault(attempt, []).append(JoinedSegments(_segment(found, self.course)))
         return chains
 
 
 class RememberingExecutor:
-    """Does stretches as another does, but for those whose segment has been kept."""
+    """An executor that answers with kept segments, and leaves the other stretches to another executor."""
 
     def __init__(self, stretches: AttemptExecutor, kept: KeptSegments, clock: Clock) -> None:
         self._stretches, self._kept, self._clock = stretches, kept, clock
@@ -103,7 +103,7 @@ class RememberingExecutor:
         self._found: list[tuple[int, Stretch, Segment]] = []
 
     def has_room(self) -> bool:
-        """Whether a worker would wait without another stretch."""
+        """True if a worker would be idle without another stretch."""
         return self._stretches.has_room()
 
     def submit(self, job: int, stretch: Stretch) -> None:
@@ -144,7 +144,7 @@ class RememberingExecutor:
 
 
 def is_same(one: AttemptState, other: AttemptState) -> bool:
-    """Whether two states of an attempt are the same."""
+    """True if two states of an attempt have the same generation, population and champion."""
     if one is other:
         return True
     return one.population.generation == other.population.generation and all(

@@ -1,4 +1,4 @@
-"""Where a lesson stands: all that it needs to go on, what is written down of each generation, and how it goes on.
+"""The state of a lesson: all that it needs to go on, what is written down of each generation, and how it goes on.
 
 Attempts are compared early, at rungs, so that the worse half of them ends there: successive halving, one by one.
 """
@@ -11,12 +11,12 @@ from numpy.typing import NDArray
 
 from mindrun.graph.graph import Lesson
 from mindrun.train.ask_and_tell import kept_count
-from mindrun.train.population import Genomes, Population, Scores, nobody, order
+from mindrun.train.population import Genomes, Population, Scores, empty_population, order
 
 
 @dataclass(frozen=True, slots=True)
 class Course:
-    """What stays the same throughout a run; `start` [0 or 1, weights] is what the skill knows before the lesson."""
+    """The constants of a run; `start` [0 or 1, weights] is what the skill knows before the lesson."""
 
     lesson: Lesson
     seed: int
@@ -30,7 +30,7 @@ class Course:
 
 @dataclass(frozen=True, slots=True)
 class AttemptState:
-    """Where an attempt stands, whatever becomes of others.
+    """The state of an attempt, whatever becomes of others.
 
     `champion` [0 or 1, weights] is its best; `rival` [0 or 1, weights] the last one that was better beyond doubt than
     the one before it, found in generation `since`. `climbed` [rungs] has the score of its champion at each rung, the
@@ -49,7 +49,7 @@ class AttemptState:
 
 @dataclass(frozen=True, slots=True)
 class LessonState:
-    """Where a run stands, all that is needed to go on: what has ended, and the attempt at work, `now`.
+    """The state of a lesson, all that is needed to go on: what has ended, and the attempt at work, `now`.
 
     Of the attempts that have ended, `champions` [ended, weights] are the best, `lengths` [ended] their generations,
     `rungs` [ended, rungs] how they had climbed, and `verdicts` [ended, 2] their scores on layouts that chose nothing
@@ -75,7 +75,7 @@ class LessonState:
 
     @property
     def _best(self) -> NDArray[np.intp]:
-        """Which attempt is kept [0 or 1]: of those that passed, else of all, the first that did best."""
+        """The attempt that is kept [0 or 1]: of those that passed, else of all, the first that did best."""
         eligible = np.flatnonzero(self.passed) if self.passed.any() else np.arange(len(self.passed))
         return eligible[order(self.verdicts[eligible, 0])[:1]]
 
@@ -129,7 +129,7 @@ class Record:
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
-    """What the champion of an attempt comes to in its end: `scores` [2] decide between attempts, and are reported.
+    """The verdict on an attempt's champion: of `scores` [2] the first decides between attempts, the second is reported.
 
     `passed` says whether it meets all that the lesson needs, on the layouts of the one score and on those of the other.
     """
@@ -144,7 +144,7 @@ def begin_attempt(course: Course) -> AttemptState:
     """The state of an attempt before its first generation."""
     nothing = course.start[:0]
     return AttemptState(
-        nobody(nothing.shape[1]), course.start, nothing, 0, np.full(course.lesson.learner.rungs, -inf), False
+        empty_population(nothing.shape[1]), course.start, nothing, 0, np.full(course.lesson.learner.rungs, -inf), False
     )
 
 
@@ -156,12 +156,12 @@ def begin(course: Course) -> LessonState:
 
 
 def is_over(lesson: Lesson, state: LessonState) -> bool:
-    """Whether a lesson has come to its end: after all its attempts, or the first that meets what it needs."""
+    """True if a lesson has come to its end: after all its attempts, or the first that meets what it needs."""
     return state.attempt >= lesson.learner.attempts or bool(lesson.needs and state.passed.any())
 
 
-def could_be(course: Course, state: LessonState) -> bool:
-    """Whether a state that was read is one to which a run of this course could have come."""
+def is_reachable(course: Course, state: LessonState) -> bool:
+    """True if a state that was read is one to which a run of this course could have come."""
     individuals, weights = state.now.population.genomes.shape
     generation = state.now.population.generation
     return (
@@ -209,18 +209,18 @@ def ended(course: Course, state: LessonState, verdict: Verdict) -> LessonState:
 
 
 def heights(rungs: int) -> list[float]:
-    """After which shares of its generations an attempt comes to its rungs, the lowest first."""
+    """The shares of its generations after which an attempt comes to its rungs, the lowest first."""
     return [0.5**rung for rung in range(rungs, 0, -1)]
 
 
 def rung_at(lesson: Lesson, generation: int) -> int | None:
-    """Which rung is after so many generations, at least one; None where none is."""
+    """The rung after so many generations, at least one; None where none is."""
     at = (int(height * lesson.generations) for height in heights(lesson.learner.rungs))
     return next((rung for rung, place in enumerate(at) if place == generation), None)
 
 
 def is_behind(scores: Scores) -> bool:
-    """Whether the last of the attempts that came to a rung, with these scores [attempts], is in their worse half."""
+    """True if the last of the attempts that came to a rung, with these scores [attempts], is in their worse half."""
     others, own = scores[:-1], scores[-1]
     came, better = int(np.isfinite(others).sum()), int((others > own).sum())
     return better >= max(1, (came + 1) // 2)

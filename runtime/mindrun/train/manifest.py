@@ -37,7 +37,7 @@ Build = Mapping[str, str]
 
 @dataclass(frozen=True, slots=True)
 class Manifest:
-    """What a run begins with, as SHA-256 hashes: `mind` of all that the lesson depends on, `weights` by skill.
+    """The inputs of a run, as SHA-256 hashes: `mind` of all that the lesson depends on, `weights` by skill.
 
     The genome has the weights of the `learners`, one after the other.
     `source` is the path of the main file, `sources` has the hash of each file of the mind, by path from the main one.
@@ -67,7 +67,7 @@ class Manifest:
         return _sha256(json.dumps(parts, sort_keys=True).encode())
 
     def ends_like(self, other: Self) -> bool:
-        """Whether another run comes to the same end, bit for bit."""
+        """True if another run comes to the same end, bit for bit."""
         return (self.identity, self.versions) == (other.identity, other.versions)
 
 
@@ -115,7 +115,7 @@ def _version(package: str) -> str:
 
 
 def difference(asked: Build, own: Build) -> str:
-    """How the build that a job is for differs from one's own, in words; nothing where it does not."""
+    """The first difference of one's own build from the one that a job is for, in words; "" where there is none."""
     for name in sorted(own.keys() | asked.keys()):
         here, there = own.get(name), asked.get(name)
         if there != here:

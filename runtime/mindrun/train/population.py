@@ -17,9 +17,9 @@ MAX_WEIGHT = 100.0  # no weight grows beyond it, so a genome is finite always
 
 @dataclass(frozen=True, slots=True)
 class Population:
-    """What has been learnt so far: its number, and what the next generation is bred from.
+    """A generation, by its number: `genomes` [individuals, weights] to breed the next from, `scores` [individuals].
 
-    These are `genomes` [individuals, weights] and their `scores` [individuals]. Generation 0 has none yet.
+    Generation 0 has none yet.
     """
 
     genomes: Genomes
@@ -27,13 +27,13 @@ class Population:
     generation: int
 
 
-def nobody(weights: int) -> Population:
+def empty_population(weights: int) -> Population:
     """The empty population before the first generation, for genomes of so many weights."""
     return Population(np.empty((0, weights), np.float32), np.empty(0), 0)
 
 
 def founder_count(learner: Learner) -> int:
-    """How many random genomes the first population is chosen from."""
+    """The number of random genomes that the first population is chosen from."""
     return max(learner.founders, learner.population)
 
 
@@ -43,7 +43,7 @@ def order(scores: Scores) -> NDArray[np.intp]:
 
 
 def bounded(genomes: Genomes) -> Genomes:
-    """The genomes with every weight finite and within ±LIMIT."""
+    """The genomes with every weight finite (0 for NaN) and within ±MAX_WEIGHT."""
     return np.clip(np.nan_to_num(genomes, nan=0.0), -MAX_WEIGHT, MAX_WEIGHT).astype(np.float32, copy=False)
 
 

@@ -61,7 +61,7 @@ class ProgressLog(AppendedFiles):
         super().__init__({folder / LINES: b"".join(map(_line, records)), folder / TABLE: b"".join(table)})
 
     def append(self, record: Record) -> None:
-        """Add a generation."""
+        """Add the record of a generation to both files."""
         values = asdict(record).items()
         plain = {name: value if value is not None and isfinite(value) else None for name, value in values}
         self._add(_line(plain), _row(plain.values()))
@@ -81,7 +81,7 @@ def read_progress(folder: Path) -> list[Logged]:
 
 
 def _record(line: bytes) -> Logged:
-    """The generation that a line says; an empty one where it says none."""
+    """The record in a line; an empty one where it has none."""
     try:
         record = parsed(line, MAX_LINE_BYTES)
     except ValueError:

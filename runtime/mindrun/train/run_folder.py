@@ -41,12 +41,12 @@ class RunFolder:
 
     @property
     def begins_with_nothing(self) -> bool:
-        """Whether its learners start from scratch, or know nothing."""
+        """True if its learners start from scratch, or one of them has no weights yet."""
         learners = self.manifest.learners
         return self.manifest.lesson.from_scratch or any(skill not in self.weights for skill in learners)
 
     def course(self, genome_length: int) -> Course:
-        """What the run teaches, beginning from the learners' weights unless they have none or start from scratch.
+        """The course of the run, which begins from the learners' weights unless they have none or start from scratch.
 
         RunError where these are not the weights of such a genome.
         """
@@ -154,12 +154,12 @@ def keep_champions(folder: Path, champions: Genomes) -> None:
 
 
 def keep_result(folder: Path, result: Mapping[str, Any]) -> None:
-    """Write what came of the run, once it has been kept elsewhere too."""
+    """Write the result of the run, once it has been kept elsewhere too."""
     atomic_write.write(folder / RESULT, json.dumps(result, indent=2, allow_nan=False).encode() + b"\n")
 
 
 def read_result(folder: Path) -> dict[str, Any] | None:
-    """What came of the run; None while it is not finished."""
+    """The result of the run in a folder; None while it is not finished."""
     try:
         result = parsed(read_whole(folder / RESULT, MAX_FILE_BYTES), MAX_FILE_BYTES)
     except (OSError, ValueError):

@@ -19,7 +19,7 @@ Seeds = NDArray[np.uint64]
 
 
 class Purpose(IntEnum):
-    """What the numbers are drawn for; each purpose has its own stream."""
+    """The purposes for which random numbers are drawn; each has its own stream."""
 
     BREEDING = 0
     LAYOUTS = 1
@@ -30,7 +30,7 @@ class Purpose(IntEnum):
 
 
 def breeding_generator(seed: int, attempt: int, generation: int) -> np.random.Generator:
-    """The rng that breeds one generation."""
+    """The random generator that breeds one generation."""
     return np.random.default_rng(_sequence(seed, attempt, generation, Purpose.BREEDING))
 
 
@@ -44,7 +44,7 @@ def _sequence(seed: int, attempt: int, generation: int, purpose: Purpose) -> np.
 
 
 class Results(Protocol):
-    """What a scorer measured: arrays [genomes, seeds]."""
+    """The measurements of a scorer: arrays [genomes, seeds]."""
 
     @property
     def total(self) -> NDArray[np.float64]: ...  # the sum of the rewards; -inf where something was not finite
@@ -57,7 +57,7 @@ class Results(Protocol):
 
 
 class Scorer(Protocol):
-    """What scores genomes: `mindrun.sim.rollout.Rollout`, or anything of its shape."""
+    """A scorer of genomes: `mindrun.sim.rollout.Rollout`, or anything of its shape."""
 
     @property
     def genome_length(self) -> int: ...  # how many weights the learner has
@@ -81,7 +81,7 @@ class Marks:
 
 
 def is_one_world(scorer: Scorer) -> bool:
-    """Whether a scorer says that every seed is the same world to it; most have never heard of that."""
+    """True if a scorer says that every seed is the same world to it; most have never heard of that."""
     return bool(getattr(scorer, "is_one_world", False))
 
 
@@ -104,6 +104,6 @@ def marks_of(results: Results) -> Marks:
 
 
 def succeeded(task: Task, results: Results) -> NDArray[np.bool_]:
-    """Which runs [genomes, seeds] are a success: one came before any other end, whether or not it ended them."""
+    """A mask [genomes, seeds] of the runs that met a success before any other end, whether or not it ended them."""
     successes = [number for number, end in enumerate(task.ends) if end.succeeds]
     return np.isin(results.met, successes)

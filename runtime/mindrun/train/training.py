@@ -9,7 +9,7 @@ from mindrun.train import RunError, checkpoint
 from mindrun.train.attempt import Clock
 from mindrun.train.attempts import Ahead, AttemptExecutor, InThisThread, Step, side_by_side
 from mindrun.train.champion_log import ChampionLog
-from mindrun.train.lesson_state import Course, LessonState, Record, begin, could_be
+from mindrun.train.lesson_state import Course, LessonState, Record, begin, is_reachable
 from mindrun.train.population import Genomes
 from mindrun.train.progress import ProgressLog
 from mindrun.train.run_folder import RunFolder, claim, keep_champions, keep_weights
@@ -20,7 +20,7 @@ CHECKPOINT_SECONDS = 2.0  # between two checkpoints
 
 @dataclass(frozen=True, slots=True)
 class Watch:
-    """Who looks on: told of each generation and each warning, asked between generations whether to stop."""
+    """An observer: told of each generation and each warning, asked between generations whether to stop."""
 
     report: Callable[[LessonState, Record], None]
     warn: Callable[[str], None]
@@ -79,7 +79,7 @@ def _standing(run: RunFolder, course: Course, watch: Watch) -> LessonState:
     found = checkpoint.load(run.folder, run.manifest.identity)
     if found is None:
         return begin(course)
-    if not could_be(course, found.state):
+    if not is_reachable(course, found.state):
         raise RunError(
             f"{run.folder / checkpoint.NAME} is damaged: no run of this lesson comes to where it stands",
             "start the lesson again without --resume",

@@ -185,7 +185,7 @@ def test_what_replaces_a_guardian_is_replaced_too(log: Path) -> None:
     with patient({"MIND_MANNERS": "fine fine fine"}):
         guardian = Guardian(PLAN, PATIENCE, LOGGED)
     drive(guardian, log)
-    begin, replace = guardian._processes.another, iter((True, True, False))
+    begin, replace = guardian._processes.start_another, iter((True, True, False))
 
     def killed() -> "subprocess.Popen[bytes]":
         another = begin()
@@ -193,7 +193,7 @@ def test_what_replaces_a_guardian_is_replaced_too(log: Path) -> None:
             another.kill()
         return another
 
-    guardian._processes.another = killed  # type: ignore[method-assign]
+    guardian._processes.start_another = killed  # type: ignore[method-assign]
     watcher = guardian._processes.first.pid
     os.kill(watcher, signal.SIGSTOP)  # so that it does nothing before it is killed
     for pid in (guardian.pid, watcher):

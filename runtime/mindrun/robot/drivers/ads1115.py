@@ -26,7 +26,7 @@ class VoltageDevice(WiredDevice):
 
     def read(self) -> tuple[float]:
         """The battery's voltage, measured now."""
-        with self.wire.turn:
+        with self.wire.lock:
             self.wire.write(CONFIG, (self.config | START) >> 8, self.config & 0xFF)
             found = self.wire.wait(CONFIG, START, DONE_IN, "does not finish measuring", count=2)
             if found & ~START != self.config:

@@ -47,7 +47,7 @@ class BallTrackerDevice:
     closed: bool = False
 
     def read(self) -> tuple[float | None]:
-        """It, in the newest frame that was not read before, degrees or metres; None where there is no ball in that."""
+        """The value in the newest frame that was not read before, degrees or metres; None where no ball is in it."""
         sighting, driver = self.sighting(), self.driver
         if sighting.ball is None:
             return (None,)
@@ -59,17 +59,17 @@ class BallTrackerDevice:
         return (distance(sighting.ball.diameter, driver.size, sighting.width, driver.view),)
 
     def sighting(self) -> BallSighting:
-        """What is in the newest frame that was not read before."""
+        """The sighting in the newest frame that was not read before."""
         sighting = self.tracking.after(self.number, MAX_FRAME_AGE_SECONDS)
         self.number = sighting.number
         return sighting
 
     def close(self) -> None:
-        """Let go; the last one who looks through a camera turns it off."""
+        """Let go of the camera; the last one who looks through it turns it off."""
         if self.closed:
             return
         self.closed = True
-        cameras.give_back(self.driver.camera_alone())
+        cameras.release(self.driver.camera_alone())
 
 
 @kind("sensor driver", "ball_tracker")
@@ -122,21 +122,21 @@ class BallTracker:
         return (0.0, 100.0) if self.measure == "distance" else (-180.0, 180.0)
 
     def camera_alone(self) -> "BallTracker":
-        """This, whatever is measured: those who share a camera."""
+        """This driver, whatever it measures: equal for those that share a camera."""
         return replace(self, measure="bearing")
 
     @property
     def device(self) -> str:
-        """What only one process may drive: the card of its neck's servos."""
+        """The card of its neck's servos, which only one process may drive; "" where it has no neck."""
         return "" if self.pan is None and self.tilt is None else on_bus(self.bus, self.address)
 
     @property
     def motionless(self) -> "BallTracker":
-        """The same camera, which does not turn: for a robot that may not move yet."""
+        """This camera without its neck: for a robot that may not move yet."""
         return replace(self, pan=None, tilt=None)
 
     def open(self) -> BallTrackerDevice:
-        tracking = cameras.take(self.camera_alone(), self.open_tracking)
+        tracking = cameras.acquire(self.camera_alone(), self.open_tracking)
         return answering(BallTrackerDevice(self, tracking), lambda: tracking.after(0, FIRST_FRAME_SECONDS))
 
     def open_tracking(self) -> TrackingCamera:

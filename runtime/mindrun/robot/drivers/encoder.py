@@ -26,7 +26,7 @@ class EncoderDevice:
     at: float
 
     def read(self) -> tuple[float]:
-        """What is measured: metres, metres a second since the reading before, or degrees."""
+        """The distance (m), the speed since the reading before (m/s), or the angle (degrees)."""
         if self.driver.measure == "speed":
             sleep(max(0.0, self.at + LEAST_SPEED_SECONDS - monotonic()))
         with pins("the encoder cannot be read"):
@@ -69,7 +69,7 @@ class Encoder:
 
     @property
     def seconds(self) -> float:
-        """For how long a speed is taken at least."""
+        """The seconds over which a speed is taken at least; 0 for a distance or an angle."""
         return LEAST_SPEED_SECONDS if self.measure == "speed" else 0.0
 
     @property

@@ -87,7 +87,7 @@ class MotorDevice:
         self.closed = True
         with suppress(DeviceError):  # closing never raises; neutral was sent before by who commands the motors
             self.board.drive(self.motor, 0)
-        boards.give_back((self.board.wire.number, self.board.wire.address))
+        boards.release((self.board.wire.number, self.board.wire.address))
 
 
 @kind("actuator driver", "grove_motor")
@@ -118,4 +118,4 @@ class GroveMotor:
             board = Board(I2cDevice("the motor board", self.bus, self.address))
             return answering(board, board.start)
 
-        return MotorDevice(boards.take((self.bus, self.address), opened), self.motor - 1)
+        return MotorDevice(boards.acquire((self.bus, self.address), opened), self.motor - 1)

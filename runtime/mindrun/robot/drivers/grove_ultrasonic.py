@@ -41,8 +41,8 @@ class GroveUltrasonicDevice(WiredDevice):
         return metres if metres <= min(self.reach, MAX_DISTANCE_METRES) else None
 
     def ask(self, command: int, port: int = UNUSED_BYTE, *, count: int) -> bytes:
-        """What the board answers after repeating the command; asks until a deadline that no answer can put off."""
-        with self.wire.turn:
+        """The board's answer, without the command that it repeats; asks until a deadline that no answer can put off."""
+        with self.wire.lock:
             self.wire.write(command, port, UNUSED_BYTE, UNUSED_BYTE)
             begin = monotonic()
             while monotonic() - begin < ANSWERED_IN:
@@ -75,12 +75,12 @@ class GroveUltrasonic(Ranging):
 
     @property
     def seconds(self) -> float:
-        """For how long the board may listen to all of them."""
+        """The most seconds for which the board listens to all of them."""
         return len(self.ports) * RANGER_SECONDS
 
     @property
     def bus_seconds(self) -> float:
-        """What is asked of each, and how often whether there is an answer."""
+        """The seconds on the bus of each command, and of asking until there is an answer."""
         return len(self.ports) * (COMMAND_BYTES + ANSWER_BYTES * RANGER_SECONDS / POLL_SECONDS) * I2C_BYTE_SECONDS
 
     @property

@@ -1,4 +1,4 @@
-"""Where north is, by the magnetometer of an LSM9DS1."""
+"""The direction of north, by the magnetometer of an LSM9DS1."""
 
 from dataclasses import dataclass
 from math import atan2, degrees, hypot

@@ -1,4 +1,4 @@
-"""Whether the robot moves, felt by the accelerometer of an LSM9DS1."""
+"""The motion of the robot, felt by the accelerometer of an LSM9DS1."""
 
 from collections import deque
 from dataclasses import dataclass, field
@@ -52,7 +52,7 @@ class MotionDevice:
 @kind("sensor driver", "lsm9ds1_motion")
 @dataclass(frozen=True, slots=True)
 class Motion:
-    """Whether the robot moves, for a sensor `inertial`: how much its acceleration varies, in m/s².
+    """The motion of the robot, for a sensor `inertial`: how much its acceleration varies, in m/s².
 
     Wheels that roll shake the body; one at rest reads the sensor's noise alone, under 0.05, whichever way it leans:
     gravity and all that is constant fall out, since only the deviation from the mean over `window` counts. How much is

@@ -46,7 +46,7 @@ class DriverCode:
 
     @property
     def origin(self) -> str:
-        """What to call the file or the package."""
+        """The name of the file or the package, for messages."""
         return self.package or f"{self.name.split('.')[0]}.py"
 
     @property
@@ -56,7 +56,7 @@ class DriverCode:
 
     @property
     def is_whole(self) -> bool:
-        """Whether the text of a file is the one that the hash names."""
+        """True if the text of a file has the hash `digest`; always for a package."""
         return bool(self.package) or sha256(self.text.encode()).hexdigest() == self.digest
 
 

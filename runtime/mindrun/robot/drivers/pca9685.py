@@ -55,7 +55,7 @@ class ServoDevice(WiredDevice):
         self.ready = True
 
     def is_prepared(self) -> bool:
-        """Whether it is awake and at our rate."""
+        """True if the chip is awake and at our rate."""
         mode = self.wire.byte(MODE1) & ~RESTART
         return mode == AUTO_INCREMENT and self.wire.byte(PRESCALE) == PRESCALE_50_HZ
 

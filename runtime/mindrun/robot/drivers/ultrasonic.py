@@ -96,7 +96,7 @@ class UltrasonicDevice:
 
 
 def firing_order(count: int) -> list[int]:
-    """Which is fired when: where it can be, two neighbours of the ring never follow each other, nor last and first."""
+    """The order of firing: where it can be, two neighbours of the ring never follow each other, nor last and first."""
     strides = [stride for stride in range(2, count - 1) if gcd(stride, count) == 1]
     if not strides:
         return [*range(0, count, 2), *range(1, count, 2)]
@@ -124,7 +124,7 @@ class Ultrasonic(Ranging):
 
     @property
     def seconds(self) -> float:
-        """For how long all of them are listened to."""
+        """The seconds for which all of them are listened to."""
         return len(self.trigger) * 2 * self.range / SOUND_METRES_PER_SECOND
 
     def open(self) -> UltrasonicDevice:

@@ -1,4 +1,4 @@
-"""How far the nearest thing in front is, by a VL53L0X, which measures how long light needs to and fro.
+"""The distance of the nearest thing in front, by a VL53L0X, which measures how long light needs to and fro.
 
 By STMicroelectronics; data sheet DocID029104. That names few registers: those of its programming interface (UM2039) are
 named here as there.
@@ -59,7 +59,7 @@ class RangeChip(MeasuringChip):
         write(START, CONTINUOUS)
 
     def starting(self) -> tuple[tuple[int, int], ...]:
-        """What has to be written before it starts: a byte of each chip's own, on the page behind the first."""
+        """The (register, value) writes before a start, among them a byte of each chip's own, behind the first page."""
         for register, value in TO_PAGE_BEHIND:
             self.wire.write(register, value)
         own = self.wire.byte(OWN_BYTE)
@@ -82,9 +82,9 @@ class RangeChip(MeasuringChip):
         """Set some bits of a register."""
         self.wire.write(register, self.wire.byte(register) | bits)
 
-    def taken(self) -> tuple[int, ...]:
-        """Read what has been measured, and let it say when there is more."""
-        counts = MeasuringChip.taken(self)
+    def read_counts(self) -> tuple[int, ...]:
+        """Read the newest measurement, and let the chip say when there is another."""
+        counts = MeasuringChip.read_counts(self)
         self.wire.write(CLEAR_INTERRUPT, 1)
         return counts
 
@@ -107,7 +107,7 @@ class LightRangeDevice:
         return (metres if status == VALID and metres <= self.range else None,)
 
     def close(self) -> None:
-        """Let go; it goes on measuring, for nobody."""
+        """Let go of the bus; the chip goes on measuring, for nobody."""
         self.chip.close()
 
 

@@ -12,7 +12,7 @@ from mindrun.robot.guardian.messages import OVER, REST, say
 from mindrun.robot.guardian.plan import DRIVERS, MAX_PLAN_BYTES, Plan, from_json, read_plan
 from mindrun.robot.guardian.process import Process
 from mindrun.robot.guardian.realtime import import_little, printing_never_waits, set_realtime, wake_on_signals
-from mindrun.robot.guardian.watch import ERROR_DESCRIPTOR, report, rescued, watch
+from mindrun.robot.guardian.watch import ERROR_DESCRIPTOR, report, rescue, watch
 from mindrun.terminal.arguments import parser
 from mindrun.terminal.standard_streams import LineWriter
 
@@ -49,11 +49,11 @@ def _done(status: int, neutral: str, seconds: float) -> int:
         return USAGE
     if not is_heard:  # a terminal must stay as it is
         os.close(status)
-        return FAILED if rescued(plan, NOBODY, seconds) else OK
+        return FAILED if rescue(plan, NOBODY, seconds) else OK
     os.set_blocking(status, False)
     if not neutral:
         return _guarded(plan, status)
-    moving = rescued(plan, status, seconds)
+    moving = rescue(plan, status, seconds)
     say(status, OVER)
     return FAILED if moving else OK
 

@@ -68,14 +68,14 @@ class Processes:
         return self._outcome()
 
     def end(self, seconds: float) -> None:
-        """Wait for the end of what has no more to do, but not for ever."""
+        """Wait for the guardian, which has no more to do, to end; kill it where that takes longer."""
         try:
             self.first.wait(seconds)
         except subprocess.TimeoutExpired:
             self._kill()
 
     def let_go(self) -> None:
-        """Neither speak to it nor hear it, nor keep it alive."""
+        """Close both pipes: neither speak to it nor hear it, nor keep it alive."""
         with suppress(OSError):
             self.input.close()
         with suppress(OSError):
@@ -91,7 +91,7 @@ class Processes:
 
     def _start_others(self) -> None:
         for _ in range(MAX_REPLACEMENTS):
-            another = self.another()
+            another = self.start_another()
             assert another.stdout
             with another.stdout:
                 heard = Heard(another.stdout.fileno(), at_rest=self.heard.at_rest)
@@ -99,8 +99,8 @@ class Processes:
             if heard.is_over or not in_time:  # it may still come to it
                 return
 
-    def another(self) -> "subprocess.Popen[bytes]":
-        """Another, which brings everything to neutral and ends, whatever becomes of this process meanwhile."""
+    def start_another(self) -> "subprocess.Popen[bytes]":
+        """Start another guardian, which brings everything to neutral and ends, whatever becomes of this process."""
         with open(os.memfd_create("plan"), "w+b", buffering=0) as plan:  # noqa: PTH123  whole before there is a reader
             plan.write(self.plan)
             plan.seek(0)
@@ -163,24 +163,24 @@ class Guardian:
 
     @property
     def state(self) -> str:
-        """How it was when it said so last: neutral, following or latched."""
+        """The guardian's state, as it said last: neutral, following or latched."""
         return self._heard.state
 
     @property
     def why(self) -> str:
-        """Why it is so."""
+        """The reason for its state, as it said last."""
         return self._heard.why
 
     @property
     def holds(self) -> str:
-        """Why it held every actuator at neutral, whatever it was sent, when it said so last; nothing where it did not.
+        """The reason, as it said last, to hold every actuator at neutral, whatever it is sent; "" where it does not.
 
         What it says of a tick's commands is heard with the next tick.
         """
         return "" if self.state == FOLLOWING or self.why in (STARTED, NOT_ARMED) else self.why
 
     def send(self, commands: Iterable[float], armed: bool) -> None:
-        """One tick's commands in the order of the plan; without `armed` nothing moves.
+        """Send one tick's commands in the order of the plan; without `armed` nothing moves.
 
         GuardianError where the guardian has latched, hangs or is gone; then others have tried to bring all to neutral.
         """
@@ -208,7 +208,7 @@ class Guardian:
         """
         end_in_child(self._controller)  # a procedure may have forked it
         heard = self._heard
-        hangs = self.state in (NEUTRAL, FOLLOWING) and not heard.is_lost and not self._hears()
+        hangs = self.state in (NEUTRAL, FOLLOWING) and not heard.is_lost and not self._reads_last_frame()
         with suppress(OSError):
             self._processes.input.close()
         try:
@@ -261,8 +261,8 @@ class Guardian:
         elif now - self._read_at > HANG_SECONDS:
             raise BlockingIOError
 
-    def _hears(self) -> bool:
-        """Whether a last frame is read, which lets everything rest; a guardian that is gone is another matter."""
+    def _reads_last_frame(self) -> bool:
+        """Send a last frame, which lets everything rest; False if the guardian hangs, and does not read it in time."""
         try:
             os.write(self._frames, pack(self._number, monotonic_ns(), False, self._rest))
             self._read_at = monotonic()
@@ -283,12 +283,12 @@ class Guardian:
         return unread[0]
 
     def _lost(self, how: str) -> GuardianError:
-        """What to raise of a guardian that is lost, once others have brought to neutral what they could."""
+        """The error of a guardian that is lost, once others have brought to neutral what they could."""
         done = self._processes.replace()
         return GuardianError(f"the guardian {how}: {done}", CUT if "may still move" in done else "")
 
     def _abandon(self) -> str:
-        """It never was of use: let it end by itself if it does, since that is at neutral, or replace it; what came."""
+        """Let a guardian that was never ready end by itself, at neutral, or replace it; what came of that."""
         heard, done = self._heard, ""
         with suppress(OSError):
             self._processes.input.close()

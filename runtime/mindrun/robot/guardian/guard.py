@@ -1,4 +1,4 @@
-"""What the guardian decides: a state, the time, and what came; no devices, no clock, so that a test can be all three.
+"""The decisions of the guardian, by its state, the time and what came: no device, no clock, so that a test can be both.
 
 neutral    nothing moves; an armed frame starts it, once every actuator has acknowledged its neutral
 following  each frame moves the actuators; two ticks without one, or an actuator that fails, and all are neutral
@@ -55,7 +55,7 @@ class Guard:
 
     @property
     def rest(self) -> tuple[float, ...]:
-        """What every device is sent at neutral."""
+        """The values that the devices are sent at neutral."""
         return tuple(map(turned, self._plan.channels, self._rest))
 
     def frame(self, frame: Frame, now: float, settled: bool) -> Order:

@@ -50,7 +50,7 @@ def size(count: int) -> int:
 
 
 def pack(number: int, sent_ns: int, armed: bool, commands: Sequence[float]) -> bytes:
-    """A frame as bytes, whatever its commands are: to refuse them is the reader's."""
+    """A frame as bytes, whatever its commands are: the reader refuses them."""
     head = MAGIC, FRAME_VERSION, armed, len(commands), number, sent_ns
     try:
         data = _layout(len(commands)).pack(*head, *commands)
@@ -64,7 +64,7 @@ def _layout(count: int) -> Struct:
 
 
 class Reader:
-    """Makes frames of bytes as they come."""
+    """Makes frames out of the bytes of a pipe as they come."""
 
     def __init__(self, count: int) -> None:
         self._count = count
@@ -120,7 +120,7 @@ class Heard:
 
     @property
     def is_lost(self) -> bool:
-        """Whether the worker is no more."""
+        """True if the worker has said its last word, or was lost."""
         return self.rests or bool(self.at_rest) or self.is_over
 
     def listen(self) -> None:

@@ -1,4 +1,4 @@
-"""What the guardian has to know, as one line of JSON: the tick, and each actuator with its neutral and its driver.
+"""The guardian's plan, as one line of JSON: the tick, and each actuator with its neutral and its driver.
 
 Not the bundle itself: to read that takes numpy, and the guardian has no use for a mind's weights and procedures.
 """
@@ -63,7 +63,7 @@ def plan_of(tick: float, neutrals: Mapping[str, float], wiring: "Wiring") -> Pla
 
 
 def checked(plan: Plan) -> Plan:
-    """The plan itself; PlanError where it makes no sense."""
+    """The plan itself; PlanError where it has too few or too many actuators, or limits that no command meets."""
     if not 1 <= len(plan.channels) <= MAX_COMMANDS:
         raise PlanError(f"a robot has 1 to {MAX_COMMANDS} actuators, not {len(plan.channels)}")
     for channel in plan.channels:
@@ -108,7 +108,7 @@ def _module(value: object) -> Mapping[str, str]:
 
 
 def _imported(noun: str, data: Options) -> Options:
-    """The options of a driver, when the only module that has it is imported."""
+    """Import the one module that has a driver; the driver's options."""
     match data:
         case {"in": str(module), **options} if module.isidentifier():
             with suppress(ModuleNotFoundError):

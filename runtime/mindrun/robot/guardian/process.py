@@ -92,17 +92,17 @@ class ActuatorOutput:
 
     @property
     def settled(self) -> bool:
-        """Whether neutral was the last that was wanted, and is acknowledged."""
+        """True if neutral was the last that was wanted, and is acknowledged."""
         with self._change:
             return self._wanted.neutral and self._waiting is None
 
     def late(self, now: float) -> float:
-        """For how long the device has acknowledged nothing, though something was wanted; one that is slow answers."""
+        """The seconds for which a device, though something was wanted, has acknowledged nothing; a slow one does."""
         with self._change:
             return 0.0 if self._waiting is None else now - self._waiting
 
     def hangs(self, now: float) -> float:
-        """For how long the write under way has not returned, be it with an error; 0 where there is none."""
+        """The seconds for which the write under way has not returned, be it with an error; 0 where there is none."""
         since = self._writing_since
         return 0.0 if since is None else now - since
 

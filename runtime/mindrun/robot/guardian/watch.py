@@ -26,7 +26,7 @@ ERROR_DESCRIPTOR = 2
 
 
 def watch(plan: Plan, frames: int, status: int, work: Callable[[int], int]) -> int:
-    """Let another process `work`, which says its last word into the descriptor that it is given; its exit code.
+    """Let another process `work`, which says its last word into the descriptor that it is given; the exit code.
 
     However that ends, or is stopped: without the word nothing is known to be at neutral, and all is brought there.
     """
@@ -51,7 +51,7 @@ def watch(plan: Plan, frames: int, status: int, work: Callable[[int], int]) -> i
         say(status, REST)
     else:
         how = f"by signal {-code}" if code < 0 else f"with exit code {code}"
-        if not rescued(plan, status, RESCUE_SECONDS):
+        if not rescue(plan, status, RESCUE_SECONDS):
             report(f"it was ended {how} before all was at neutral; now all is, each by a process of its own")
     say(status, OVER)
     return abs(code)
@@ -65,7 +65,7 @@ def report(line: str) -> None:
 
 
 def forked(work: Callable[[], int], by: signal.Signals) -> int:
-    """The number of a process that does that and ends, without coming back, or gets this signal when this one ends."""
+    """Fork a process that does this work and ends, or gets this signal when the present one ends; its number."""
     parent = os.getpid()
     if child := os.fork():
         return child
@@ -79,7 +79,7 @@ def forked(work: Callable[[], int], by: signal.Signals) -> int:
 
 
 def _said(words: int) -> list[str]:
-    """The words on a pipe that have come since; who was forked may hold its other end, so nobody waits for that."""
+    """The words that have come on a pipe since; a forked process may hold its other end, so nobody waits for that."""
     os.set_blocking(words, False)
     with suppress(BlockingIOError):
         return os.read(words, 1 << 16).decode(errors="replace").split()
@@ -87,7 +87,7 @@ def _said(words: int) -> list[str]:
 
 
 @dataclass(frozen=True, slots=True)
-class Attempt:
+class RescueAttempt:
     """A process that brings these actuators to neutral; `number` counts from 1, `handle` is readable when it ends."""
 
     channels: tuple[Channel, ...]
@@ -97,14 +97,14 @@ class Attempt:
     words: int  # the pipe on which it says the name of each that is at neutral
 
     def end(self) -> None:
-        """End it, if it has not ended, and let go of it."""
+        """Kill the process, if it has not ended, and close its descriptors."""
         os.kill(self.process, signal.SIGKILL)
         os.waitpid(self.process, 0)
         os.close(self.handle)
         os.close(self.words)
 
 
-def rescued(plan: Plan, status: int, seconds: float) -> list[str]:
+def rescue(plan: Plan, status: int, seconds: float) -> list[str]:
     """Bring all to neutral, saying which are; the names of those that are not known to be, which are reported.
 
     What ends its process is tried again, then without the others of its device.
@@ -112,12 +112,12 @@ def rescued(plan: Plan, status: int, seconds: float) -> list[str]:
     ignore(*IGNORED_SIGNALS, *ENDING_SIGNALS)  # whoever tells it to end is told that it does, when it is done
     until, at_rest = monotonic() + seconds, set[str]()
 
-    def begun(channels: list[Channel], number: int) -> Attempt:
+    def begun(channels: list[Channel], number: int) -> RescueAttempt:
         some, left = replace(plan, channels=tuple(channels)), max(until - monotonic(), 0.0)
         reading, writing = os.pipe()
         child = forked(lambda: _bring(some, writing, left), signal.SIGKILL)
         os.close(writing)
-        return Attempt(some.channels, number, child, os.pidfd_open(child), reading)
+        return RescueAttempt(some.channels, number, child, os.pidfd_open(child), reading)
 
     devices: dict[str, list[Channel]] = {}  # one process has to drive all actuators of a device together
     for channel in plan.channels:
@@ -143,8 +143,8 @@ def rescued(plan: Plan, status: int, seconds: float) -> list[str]:
     return lost
 
 
-def bring(process: Process, report: Callable[[str], None], seconds: float) -> list[str]:
-    """Bring all that can be opened to neutral, in time; the names of those that are, and what is wrong reported."""
+def bring_to_neutral(process: Process, report: Callable[[str], None], seconds: float) -> list[str]:
+    """Bring every actuator that opens to neutral, in time, and report what is wrong; the names of those at neutral."""
     until = monotonic() + seconds
     while (wrong := process.open()) and monotonic() < until:  # a bus that is busy is free again
         sleep(RETRY_SECONDS)
@@ -159,7 +159,7 @@ def _bring(plan: Plan, words: int, seconds: float) -> int:
     errors = LineWriter(ERROR_DESCRIPTOR, "guardian: ")
     process = Process(plan, -1, errors, lambda line: None)
     wake_on_signals(process.wake)
-    for name in bring(process, errors, seconds):
+    for name in bring_to_neutral(process, errors, seconds):
         say(words, name)
     process.close()
     errors.drain(0.2)
