@@ -122,7 +122,7 @@ def test_an_error_of_its_own_ends_at_neutral(monkeypatch: pytest.MonkeyPatch, wo
 def brought(process: Asked, seconds: float) -> list[str]:
     """What is reported."""
     reports: list[str] = []
-    assert watch.bring(process, reports.append, seconds) == ("claw",)  # type: ignore[arg-type,comparison-overlap]
+    assert watch.bring_to_neutral(process, reports.append, seconds) == ("claw",)  # type: ignore[arg-type,comparison-overlap]
     return reports
 
 
