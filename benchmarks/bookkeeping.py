@@ -46,7 +46,7 @@ class MadeUp:
         """Take a job."""
         (self.waiting if stretch.number else self.first).append((job, stretch))
 
-    def take(self) -> tuple[int, Segment]:
+    def next_result(self) -> tuple[int, Segment]:
         """Answer the job that waits longest."""
         self.answers += 1
         job, stretch = (self.waiting or self.first).popleft()

@@ -32,7 +32,7 @@ from numpy.typing import NDArray
 if TYPE_CHECKING:
     from mindrun import Rollout
 
-TAKE_SECONDS = 0.2  # to wait for an answer before who asks may look at something else
+WAIT_SECONDS = 0.2  # to wait for an answer before who asks may look at something else
 MAX_LOSSES = 5  # times that a job may be lost with its worker
 SHOWN_CHARACTERS = 1000  # of why a job failed
 JOB_SECONDS = 1.0  # that a job takes at most, as far as is known: so much is lost with a worker
@@ -158,13 +158,13 @@ class JobExecutor:
         """Have a job done."""
         self._ask(Job(number, work))
 
-    def take(self) -> tuple[int, Done] | None:
-        """The number of a job that has been done, and its answer; None after TAKE_SECONDS without one.
+    def next_result(self) -> tuple[int, Done] | None:
+        """The number of a job that has been done, and its answer; None after WAIT_SECONDS without one.
 
         WorkError where none can come any more.
         """
         try:
-            future = self._ended.get(timeout=TAKE_SECONDS)
+            future = self._ended.get(timeout=WAIT_SECONDS)
         except Empty:
             self.workers  # noqa: B018  # looks whether there are any
             return None
@@ -219,9 +219,9 @@ class StretchExecutor:
         """Have a stretch done."""
         self.jobs.submit(job, partial(_advance, self.course, stretch))
 
-    def take(self) -> tuple[int, Segment] | None:
-        """The number of a job and its segment; None after TAKE_SECONDS without one."""
-        if (taken := self.jobs.take()) is None:
+    def next_result(self) -> tuple[int, Segment] | None:
+        """The number of a job and its segment; None after WAIT_SECONDS without one."""
+        if (taken := self.jobs.next_result()) is None:
             return None
         job, done = taken
         done.count_in(self.scorer)
@@ -287,7 +287,7 @@ class JobScorer:
                 self._asked += 1
                 self.jobs.submit(self._asked, partial(_score, genomes[block.genomes], words[block.seeds]))
                 open_jobs[self._asked] = block
-            if (taken := self.jobs.take()) is not None and (block_done := open_jobs.pop(taken[0], None)):
+            if (taken := self.jobs.next_result()) is not None and (block_done := open_jobs.pop(taken[0], None)):
                 done = taken[1]
                 done.count_in(self.rollout)
                 self._seconds = done.seconds / block_done.runs

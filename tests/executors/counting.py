@@ -75,7 +75,7 @@ class Shuffling:
     def submit(self, number: int, work: Work) -> None:
         self.jobs.append((number, pickle.loads(pickle.dumps(work))))
 
-    def take(self) -> tuple[int, Done] | None:
+    def next_result(self) -> tuple[int, Done] | None:
         choice = next(self.choices, 0)  # type: ignore[call-overload]
         if not self.jobs:
             return None

@@ -102,8 +102,8 @@ class Killing(StretchExecutor):
     pids: Callable[[], list[int]]
     killed = 0
 
-    def take(self) -> tuple[int, Segment] | None:
-        done = StretchExecutor.take(self)
+    def next_result(self) -> tuple[int, Segment] | None:
+        done = StretchExecutor.next_result(self)
         if done and Killing.killed < KILLS and (pids := Killing.pids()):
             os.kill(pids[0], signal.SIGKILL)
             Killing.killed += 1
@@ -136,8 +136,8 @@ def test_a_scheduler_that_is_gone_is_one_sentence() -> None:
     with begun() as cluster, jobs_of(cluster, "delayed") as jobs:
 
         class Closing(StretchExecutor):
-            def take(self) -> tuple[int, Segment] | None:
-                if done := StretchExecutor.take(self):
+            def next_result(self) -> tuple[int, Segment] | None:
+                if done := StretchExecutor.next_result(self):
                     cluster.close()
                 return done
 

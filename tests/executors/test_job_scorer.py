@@ -64,10 +64,10 @@ def test_a_job_has_at_least_a_run_and_is_not_too_long(all_runs: int, workers: in
 
 def test_what_is_asked_after_an_interruption_takes_no_older_answer() -> None:
     class Interrupted(Shuffling):
-        def take(self) -> tuple[int, object] | None:
+        def next_result(self) -> tuple[int, object] | None:
             if next(self.choices, 0) == 9:  # type: ignore[call-overload]
                 raise KeyboardInterrupt
-            return Shuffling.take(self)
+            return Shuffling.next_result(self)
 
     scorer = JobScorer(Counting(), Interrupted([0, 0, 9]))
     genomes, seeds = drawn((4, 30))

@@ -82,8 +82,8 @@ class Killing(StretchExecutor):
     killed = 0
     rng = random.Random(1)
 
-    def take(self) -> tuple[int, Segment] | None:
-        done, jobs = StretchExecutor.take(self), self.jobs
+    def next_result(self) -> tuple[int, Segment] | None:
+        done, jobs = StretchExecutor.next_result(self), self.jobs
         assert isinstance(jobs, ProcessJobs)
         process = self.rng.choice(jobs.members).process
         if done and Killing.killed < KILLS and process is not None:

@@ -51,7 +51,7 @@ class Shuffled:
     def submit(self, job: int, stretch: Stretch) -> None:
         self.waiting.append((job, stretch))
 
-    def take(self) -> tuple[int, Segment] | None:
+    def next_result(self) -> tuple[int, Segment] | None:
         assert self.waiting, "an attempt is waited for that nobody does"
         if self.rng.random() < 0.2:
             return None
@@ -123,7 +123,7 @@ def test_who_waits_at_a_rung_goes_on_meanwhile_and_is_cut_in_retrospect() -> Non
 
 def test_a_stop_is_noticed_while_nothing_comes() -> None:
     class Silent(Shuffled):
-        def take(self) -> None:
+        def next_result(self) -> None:
             return None
 
     course, asked = Course(lesson(5), 1, UNKNOWN), iter([False, False, True])

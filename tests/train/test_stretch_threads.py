@@ -120,13 +120,13 @@ def test_what_fails_in_a_thread_fails_where_it_was_asked_for() -> None:
 def test_nothing_is_begun_before_all_are_asked_for_and_nothing_comes_of_nothing() -> None:
     course, told = Course(lesson(3, attempts=2), 1, UNKNOWN), Told(Sphere())
     threads = StretchThreads(course, 2, told.on, perf_counter)
-    assert threads.take() is None
+    assert threads.next_result() is None
     for number in range(2):
         assert threads.has_room()
         threads.submit(number, Stretch(number, begin(course).now))
     assert not threads.has_room()
     assert told.cores == []
-    found = [done for _ in range(2) if (done := threads.take())]
+    found = [done for _ in range(2) if (done := threads.next_result())]
     assert {job for job, _ in found} == {0, 1}
     assert all(isinstance(segment, Segment) and len(segment.records) == 1 for _, segment in found)
     assert told.cores == [1, 1]

@@ -34,7 +34,7 @@ from mindrun.train.lesson_state import (
 from mindrun.train.population import Genomes
 from mindrun.train.scoring import Results, Scorer, is_one_world
 
-TAKE_SECONDS = 0.2  # to wait for a segment before who asks may look at something else
+WAIT_SECONDS = 0.2  # to wait for a segment before who asks may look at something else
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,7 +67,7 @@ class AttemptExecutor(Protocol):
     def submit(self, job: int, stretch: Stretch) -> None:
         """Ask for a stretch."""
 
-    def take(self) -> tuple[int, Segment] | None:
+    def next_result(self) -> tuple[int, Segment] | None:
         """A job that has ended, and its segment; None after a while without one."""
 
 
@@ -86,7 +86,7 @@ class InThisThread:
         """Ask for a stretch."""
         self._asked = job, stretch
 
-    def take(self) -> tuple[int, Segment] | None:
+    def next_result(self) -> tuple[int, Segment] | None:
         """The job, and the segment that comes of its stretch now."""
         if self._asked is None:
             return None
@@ -114,11 +114,11 @@ class StretchThreads:
         """Ask for a stretch; it begins when all that there are have been asked for."""
         self._asked.append((job, stretch))
 
-    def take(self) -> tuple[int, Segment] | None:
-        """A job and its segment; None after TAKE_SECONDS without one. Whatever a stretch raises is raised here."""
+    def next_result(self) -> tuple[int, Segment] | None:
+        """A job and its segment; None after WAIT_SECONDS without one. Whatever a stretch raises is raised here."""
         self._begin()
         try:
-            done = self._done.get(timeout=TAKE_SECONDS)
+            done = self._done.get(timeout=WAIT_SECONDS)
         except Empty:
             return None
         self._at_work -= 1
@@ -328,6 +328,6 @@ def side_by_side(
     while not is_over(course.lesson, attempts.lesson) and not stop():
         while executor.has_room() and (job := attempts.next_stretch()):
             executor.submit(*job)
-        if (done := executor.take()) is not None:
+        if (done := executor.next_result()) is not None:
             attempts.put(*done)
             yield from attempts.steps()

@@ -116,14 +116,14 @@ class RememberingExecutor:
         self._asked[job] = stretch
         self._stretches.submit(job, stretch)
 
-    def take(self) -> tuple[int, Segment] | None:
+    def next_result(self) -> tuple[int, Segment] | None:
         """A job and its segment; None after a while without one."""
         if self._found:
             job, stretch, segment = self._found.pop(0)
             if segment.verdict is not None:
                 self._ended.add(stretch.number)
             return job, segment
-        if (done := self._stretches.take()) is not None:
+        if (done := self._stretches.next_result()) is not None:
             job, segment = done
             self._keep(self._asked.pop(job), segment)
         return done
