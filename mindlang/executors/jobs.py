@@ -32,7 +32,7 @@ from numpy.typing import NDArray
 if TYPE_CHECKING:
     from mindrun import Rollout
 
-WAIT_SECONDS = 0.2  # to wait for an answer before who asks may look at something else
+POLL_SECONDS = 0.2  # to wait for an answer before who asks may look at something else
 MAX_LOSSES = 5  # times that a job may be lost with its worker
 SHOWN_CHARACTERS = 1000  # of why a job failed
 JOB_SECONDS = 1.0  # that a job takes at most, as far as is known: so much is lost with a worker
@@ -159,12 +159,12 @@ class JobExecutor:
         self._ask(Job(number, work))
 
     def next_result(self) -> tuple[int, Done] | None:
-        """The number of a job that has been done, and its answer; None after WAIT_SECONDS without one.
+        """The number of a job that has been done, and its answer; None after POLL_SECONDS without one.
 
         WorkError where none can come any more.
         """
         try:
-            future = self._ended.get(timeout=WAIT_SECONDS)
+            future = self._ended.get(timeout=POLL_SECONDS)
         except Empty:
             self.workers  # noqa: B018  # looks whether there are any
             return None
@@ -220,7 +220,7 @@ class StretchExecutor:
         self.jobs.submit(job, partial(_advance, self.course, stretch))
 
     def next_result(self) -> tuple[int, Segment] | None:
-        """The number of a job and its segment; None after WAIT_SECONDS without one."""
+        """The number of a job and its segment; None after POLL_SECONDS without one."""
         if (taken := self.jobs.next_result()) is None:
             return None
         job, done = taken

@@ -34,7 +34,7 @@ from mindrun.train.lesson_state import (
 from mindrun.train.population import Genomes
 from mindrun.train.scoring import Results, Scorer, is_one_world
 
-WAIT_SECONDS = 0.2  # to wait for a segment before who asks may look at something else
+POLL_SECONDS = 0.2  # to wait for a segment before who asks may look at something else
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,10 +115,10 @@ class StretchThreads:
         self._asked.append((job, stretch))
 
     def next_result(self) -> tuple[int, Segment] | None:
-        """A job and its segment; None after WAIT_SECONDS without one. Whatever a stretch raises is raised here."""
+        """A job and its segment; None after POLL_SECONDS without one. Whatever a stretch raises is raised here."""
         self._begin()
         try:
-            done = self._done.get(timeout=WAIT_SECONDS)
+            done = self._done.get(timeout=POLL_SECONDS)
         except Empty:
             return None
         self._at_work -= 1
