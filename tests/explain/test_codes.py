@@ -18,7 +18,18 @@ from tests.explain.examples import ENVIRONMENTS, write
 from tests.project.sources import COMPILER, RUNTIME, modules, tree
 
 ALL = list(error_articles())
-EMITTERS = {"error", "refuse", "Diagnostic", "Flaw", "Mistake", "Misfit", "_refuse", "refuse_again", "refuse_circles"}
+EMITTERS = {
+    "error",
+    "refuse",
+    "Diagnostic",
+    "Flaw",
+    "Mistake",
+    "ThingMistake",
+    "Misfit",
+    "_refuse",
+    "refuse_again",
+    "refuse_circles",
+}
 # Codes that are made of words as they are emitted: how, and which these are.
 MADE = {
     "f'unknown-{nouns[0]}'": {f"unknown-{noun}" for noun in ("sensor", "actuator", "skill", "task", "scene", "number")},

@@ -85,7 +85,7 @@ def test_what_an_editor_saves_meanwhile_is_not_lost(tmp_path: Path, meanwhile: b
 
 @pytest.mark.parametrize(
     ("words", "last"),
-    [(["fmt"], "mindlang.compiler.format.formatted"), (["lint", "--fix"], "mindlang.lint.lint.fixed")],
+    [(["fmt"], "mindlang.compiler.format.formatted"), (["lint", "--fix"], "mindlang.lint.lint.apply_safe_fixes")],
 )
 def test_tools_that_edit_refuse_what_has_changed(
     mindc: Call, rules: Path, monkeypatch: pytest.MonkeyPatch, words: list[str], last: str
