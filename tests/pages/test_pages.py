@@ -24,7 +24,7 @@ RUN = [
     if page not in MADE
     and any(isinstance(step, Command | Program) for step in steps((ROOT / page).read_text(encoding="utf-8")))
 ]
-SLOW = {"docs/tour.md", "docs/breakpoints.md"}  # which take more than some ten seconds of a core, and are not read first
+SLOW = {"docs/tour.md", "docs/breakpoints.md"}  # they take more than ten seconds of a core, and are not read first
 PICTURE_BYTES = 180_000
 LEFT = {"docs/tutorial.md": "rover"}  # what a page ends with, as an example
 SAME_PIXELS = 2.0  # mean difference of two pictures, of 255, below which only a library draws its letters otherwise
