@@ -44,21 +44,13 @@ def pytest_sessionstart(session: pytest.Session) -> None:
 
 # Folders here: what needs no simulator is tested while that is compiled, what takes long is not left for the end.
 WITHOUT_SIMULATOR = ("language", "lint", "fmt", "explain", "server", "proofs", "wiring", "deploy", "formats")
-LONG = ("work", "cluster", "outside", "pages", "train", "sim", "engine", "functions", "environments", "robot")
+LONG = ("pages", "executors", "outside", "examples", "train", "sim", "engine", "functions", "environments", "robot")
 
 
-@pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Set the order of the tests, in which processes take them, and which of them one process takes together.
-
-    Together go the tests of a file that share a fixture of it, so that it is made once.
-    """
+    """Set the order of the tests, in which processes take them."""
     ranks = dict.fromkeys(WITHOUT_SIMULATOR, 0) | dict.fromkeys(LONG, 1)
     items.sort(key=lambda item: ranks.get(item.path.relative_to(Path(__file__).parent).parts[0], 2))
-    for item in items:
-        fixtures = item._fixtureinfo.name2fixturedefs.values() if isinstance(item, pytest.Function) else ()
-        if any(each.scope == "module" for found in fixtures for each in found):
-            item.add_marker(pytest.mark.xdist_group(str(item.path)))
 
 
 @pytest.fixture

@@ -236,7 +236,8 @@ def test_a_file_that_was_never_saved(shared) -> None:
 def test_files_that_change_outside(shared) -> None:
     editor, folder = shared
     main, parts = folder / "split" / "main.mind", folder / "split" / "parts.mind"
-    assert "workspace/didChangeWatchedFiles" in editor.registered
+    while "workspace/didChangeWatchedFiles" not in editor.registered:
+        editor._until(lambda _: True)
     editor.open(main)
     editor.settle(main)
     parts.write_text(PARTS.replace("sensor eye", "sensor look"), encoding="utf-8")
