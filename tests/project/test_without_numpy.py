@@ -36,7 +36,7 @@ for news in session.news():
 
 
 COLLECT = "examples/collect/collect.mind"
-MAX_CHECK_MODULES = 135
+MAX_CHECK_MODULES = 115
 
 
 def run(program: str, words: Sequence[str], refused: set[str]) -> tuple[int, str, str]:
