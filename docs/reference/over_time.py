@@ -17,7 +17,7 @@ GRID_COLOUR = "#ddd8cc"
 
 
 def over_time(title: str, sensor: SensorKind) -> str:
-    """Its readings, and those of its source behind them."""
+    """Draw the readings of a sensor over eight seconds as SVG, those of its source behind them."""
     ticks = round(END_SECONDS / TICK_SECONDS) + 1
     source = [_source(number * TICK_SECONDS) for number in range(ticks)]
     shapes = [*_axes()]

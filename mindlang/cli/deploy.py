@@ -15,7 +15,7 @@ from mindlang.cli._terminal import INTERRUPTED, MISUSE, fail, print_json, refusi
 if TYPE_CHECKING:
     from mindrun.graph.bundle import Bundle
 
-    from mindlang.robot.deployment import ReleaseState, Settings
+    from mindlang.robot.deployment import DeployResult, ReleaseState, Settings
     from mindlang.robot.remote import RemoteRobot
 
 EXAMPLES = """\b
@@ -90,11 +90,16 @@ def command(
     for note in done.notes:
         click.echo(f"note: {note}", err=True)
     if as_json:
-        service = {"unit": "mind.service", "armed": settings.armed} if settings.service else None
-        said = {"host": host, "dry_run": dry_run, "release": done.release or None, "before": done.before or None}
-        print_json({**said, "service": service, "notes": list(done.notes)})
+        print_json(_result(host, done, settings, dry_run))
     elif not dry_run:
         report(f"{host} has {done.release}")
+
+
+def _result(host: str, done: DeployResult, settings: Settings, dry_run: bool) -> dict[str, object]:
+    """The outcome of a deployment as one JSON document."""
+    service = {"unit": "mind.service", "armed": settings.armed} if settings.service else None
+    said = {"host": host, "dry_run": dry_run, "release": done.release or None, "before": done.before or None}
+    return {**said, "service": service, "notes": list(done.notes)}
 
 
 def _path_and_host(words: tuple[str, ...], without: bool) -> tuple[Path | None, str]:

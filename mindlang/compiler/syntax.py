@@ -347,7 +347,7 @@ class Declaration(Struct, frozen=True):
 
     @property
     def comment(self) -> str:
-        """Its documentation: what the comments right above it say, and the one behind its first line."""
+        """The documentation of a declaration: the comments right above it, and the one behind its first line."""
         return comment_of(self.header.span)
 
 

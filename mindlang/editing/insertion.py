@@ -1,7 +1,6 @@
 """Splices of whole lines: facts and declarations below others of their kind, with the comments that belong to them."""
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from itertools import takewhile
 
 from mindlang.compiler import syntax
@@ -24,18 +23,10 @@ OWNERS = {  # below which declarations the facts of each verb stand
 }
 
 
-@dataclass(frozen=True, slots=True)
-class SourceLine:
-    """A line of a source, from offset `start` up to `end`, without its line end."""
+class SourceLine(Span):
+    """A line of a source, comment and indentation included, without its line end."""
 
-    source: Source
-    start: int
-    end: int
-
-    @property
-    def text(self) -> str:
-        """The text of the line, comment and indentation included."""
-        return self.source.text[self.start : self.end]
+    __slots__ = ()
 
     @property
     def indent(self) -> str:

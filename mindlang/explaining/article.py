@@ -28,12 +28,12 @@ class Parameter:
 
     @property
     def words(self) -> str:
-        """Its purpose and meaning."""
+        """The purpose and the meaning of a parameter, as one text."""
         return ": ".join(filter(None, (self.purpose, self.meaning)))
 
     @property
     def otherwise(self) -> str:
-        """Its default, or that it is required, in parentheses."""
+        """The default of a parameter, or that it is required, in parentheses."""
         if self.default is None:
             return " (required)"
         return f" (default: {self.default})" if self.default else ""

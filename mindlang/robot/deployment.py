@@ -83,7 +83,7 @@ class Release:
     size: int
 
     def named(self, moment: str) -> str:
-        """Its name on the robot: names sort by their age."""
+        """The name of a release on the robot: names sort by their age."""
         return f"{moment}-{self.fingerprint[:8]}"
 
 

@@ -165,7 +165,7 @@ class NetworkModule(nn.Module):
                 layer.weight.copy_(torch.from_numpy(np.array(matrix)))
 
     def genome(self) -> Weights:
-        """Its weights as the engine has them: float32 [genes]."""
+        """The weights of the module as the engine has them: float32 [genes]."""
         flat = [layer.weight.detach().to("cpu", torch.float32).numpy().ravel() for layer in self.layers]
         return np.concatenate(flat)
 

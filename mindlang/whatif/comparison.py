@@ -66,7 +66,7 @@ def compare_runs(
 
 
 def _continued(was: RecordedRun, rest: RecordedRun, ticks: int) -> RecordedRun:
-    """So many ticks of a run, and those after them under another mind with the same sensors and actuators."""
+    """A run whose first ticks are of one run, and the rest of another mind with the same sensors and actuators."""
     before, known = was.until(ticks), was.graph.skill_numbers
     influence = np.full((ticks, len(rest.graph.skills)), np.nan, np.float32)  # NaN of skills that it has alone
     for column, skill in enumerate(rest.graph.skills):

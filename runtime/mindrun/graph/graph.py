@@ -135,7 +135,7 @@ class Reward:
 
     @property
     def programs(self) -> tuple[Program, ...]:
-        """Its amount, and its condition if it has one."""
+        """The programs of a reward: the amount, and the condition if it has one."""
         return (self.amount,) if self.when is None else (self.amount, self.when)
 
 

@@ -76,7 +76,7 @@ class ActuatorKind:
         return None
 
     def row(self, body: BodyKind) -> Row:
-        """Its columns of the lanes' table on a body: its reach, its noise, how it pushes or steers."""
+        """The columns of an actuator in the lanes' table, on a body: reach, noise, how it pushes or steers."""
         return {}
 
 
@@ -106,7 +106,7 @@ class Pushing(ActuatorKind):
         return (self.neutral != STOPPED_COMMAND or self.noise > 0) and self.thrust != 0.0
 
     def row(self, body: BodyKind) -> Row:
-        """Its thrust, the direction and the lever arm, its side, noise and slip."""
+        """The columns of what pushes: thrust, direction, lever arm, side, noise and slip."""
         (x, y), (ahead, aside) = self.place(body), self.direction
         return {
             "thrust": self.thrust, "ahead": ahead, "aside": aside, "arm": x * aside - y * ahead, "is_right": y < 0,

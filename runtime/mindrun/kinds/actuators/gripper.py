@@ -33,5 +33,5 @@ class Gripper(ActuatorKind):
         return self.neutral + self.noise > CLOSED_COMMAND
 
     def row(self, body: BodyKind) -> Row:
-        """Its reach in world units, and its noise."""
+        """The columns of a gripper: reach in world units, and noise."""
         return {"reach": self.reach, "noise": self.noise}

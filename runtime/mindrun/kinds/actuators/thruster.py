@@ -39,5 +39,5 @@ class Thruster(Pushing):
         return cosine(self.facing), sine(self.facing)
 
     def push(self, body: BodyKind) -> tuple[Point, Point]:
-        """Its place on the body and its direction."""
+        """The place of a thruster on the body, and the direction in which it pushes."""
         return self.at, self.direction
