@@ -145,7 +145,7 @@ def _is_signed(node: Any) -> bool:
     match node:
         case syntax.Amount(_, _, span):
             return span.text[0] in "+-"
-        case syntax.Operator("negate"):
+        case syntax.Term("negate"):
             return True
     return False
 

@@ -100,21 +100,31 @@ class Phrase(Struct, frozen=True):
     span: Span
 
 
-class Operator(Struct, frozen=True):
-    """One of + - * / least greatest or, for the minus of a single value, negate."""
+class Term(Struct, frozen=True):
+    """A word and its operand, as `mindrun.numbers.expression` has them, but for names: a reading is not a place yet.
 
-    symbol: str
+    As it is written, an expression has operators alone as such terms; `resolve` makes one of all else.
+    """
+
+    word: str
+    operand: Any
     span: Span
-
-
-Term = Amount | Phrase | Operator
 
 
 class Expression(Struct, frozen=True):
     """Terms in postfix order: a flat tuple, so that no depth of nesting ever needs a deep stack."""
 
-    terms: tuple[Term, ...]
+    terms: tuple[Amount | Phrase | Term, ...]
     span: Span
+
+    @property
+    def formula(self) -> tuple[tuple[str, Any], ...]:
+        """The words and operands of its resolved terms."""
+        return tuple((term.word, term.operand) for term in of_form(self.terms, Term))
+
+    def found(self, word: str) -> list[Term]:
+        """The resolved terms of a word, such as reading."""
+        return [term for term in of_form(self.terms, Term) if term.word == word]
 
 
 class Comparison(Struct, frozen=True):

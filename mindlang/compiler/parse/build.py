@@ -10,9 +10,9 @@ from msgspec import Struct
 
 from mindlang.compiler import syntax
 from mindlang.compiler.source import Source, Span
-from mindlang.compiler.syntax import Amount, Argument, Expression, Name, Numbers, Operator, Phrase, Term
+from mindlang.compiler.syntax import Amount, Argument, Expression, Name, Numbers, Phrase, Term
 
-Terms = list[Term]
+Terms = list[Amount | Phrase | Term]
 
 _NUMBER = re.compile(r"([+-]?)[ \t]*([0-9./]+)")
 # Rules whose parts are the fields of a struct in their order, but for the span; the last may be missing.
@@ -190,20 +190,20 @@ class Builder(Transformer_NonRecursive[Token, Any]):
     def chain(self, meta: Any, parts: list[Any]) -> Terms:
         terms = _terms(parts[0])
         for operator, right in zip(parts[1::2], parts[2::2], strict=True):
-            terms += [*_terms(right), Operator(str(operator), self._span(operator))]
+            terms += [*_terms(right), Term(str(operator), 0, self._span(operator))]
         return terms
 
     product = chain
 
     def negative(self, meta: Any, parts: list[Any]) -> Terms:
-        return [*_terms(parts[1]), Operator("negate", self._span(parts[0]))]
+        return [*_terms(parts[1]), Term("negate", 0, self._span(parts[0]))]
 
     def bare(self, meta: Any, parts: list[Any]) -> Phrase:
         return Phrase(parts[0], (), parts[0].span)
 
     def extreme(self, meta: Any, parts: list[Any]) -> Terms:
         """The least of several is the least of the first and the second, then of that and the third, and so on."""
-        word = Operator(parts[0].split()[0], self._span(parts[0]))
+        word = Term(parts[0].split()[0], 0, self._span(parts[0]))
         terms = _terms(parts[1])
         for operand in parts[2:]:
             terms += [*_terms(operand), word]

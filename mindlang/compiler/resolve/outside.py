@@ -109,8 +109,8 @@ def _judged(task: model.Task) -> Iterator[tuple[Any, Span]]:
     yield from ((event, phrase.span) for event, phrase in events if event and phrase)
     expressions = [expression for end in task.ends if end.when for expression in end.when.expressions]
     expressions += [expression for reward in task.rewards for expression in reward.expressions]
-    for measured in (of_form(expression.terms, model.Measured) for expression in expressions):
-        yield from ((term.measure, term.span) for term in measured)
+    measured = (term for expression in expressions for term in expression.found("measure"))
+    yield from ((term.operand, term.span) for term in measured)
 
 
 def _check_environment(

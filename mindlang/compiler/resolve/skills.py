@@ -13,12 +13,12 @@ from mindlang.compiler import model
 from mindlang.compiler.diagnostic import Findings, listed
 from mindlang.compiler.hierarchy import refuse_circles, reverse_topological_order
 from mindlang.compiler.names import Names
-from mindlang.compiler.resolve.expressions import Visible, resolve_condition, resolve_expression
+from mindlang.compiler.resolve.expressions import Visible, resolve_expressions
 from mindlang.compiler.resolve.kinds import Scope, make_kind
 from mindlang.compiler.resolve.parts import refuse_facts
 from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.source import Span
-from mindlang.compiler.syntax import Declaration, Drives, Influences, Reads, Sends, Stays, of_form, rebuilt
+from mindlang.compiler.syntax import Declaration, Drives, Influences, Reads, Sends, Stays, Term, of_form, rebuilt
 
 F = TypeVar("F", bound=Reads | Sends)
 
@@ -95,16 +95,14 @@ def _edges(declaration: Declaration, names: Names, visible: Visible, findings: F
     edges: list[model.Edge] = []
     to: Receiver | None
     for fact in (fact for fact in declaration.facts if isinstance(fact, Drives | Influences)):
-        gate, cuts = None, None
+        cuts = None
         if isinstance(fact, Drives):
             to = names.find(fact.name, ("actuator", "memory"), findings)
         else:
             to = names.find(fact.name, ("skill",), findings)
             cuts = convert(fact.cuts, RATIO, findings) if fact.cuts else None
-        at = resolve_expression(fact.at, visible, findings) if fact.at else None
-        if fact.gate:
-            otherwise = resolve_expression(fact.gate.otherwise, visible, findings) if fact.gate.otherwise else None
-            gate = model.Gate(resolve_condition(fact.gate.when, visible, findings), otherwise)
+        at = resolve_expressions(fact.at, visible, findings)
+        gate = resolve_expressions(fact.gate, visible, findings)
         if to:
             edges.append(model.Edge(to, fact.name.text, at, fact, gate, cuts or 0.0))
     first = _once((edge.fact for edge in edges), findings)
@@ -177,8 +175,8 @@ def _alike(
         findings.error("repeated-input", twice.span, message, "Let it read something else here.")
 
     def reading(node: Any) -> Any:
-        is_read = isinstance(node, model.Reading)
-        return replace(node, name=read.get(node.name, node.name)) if is_read else node
+        is_read = isinstance(node, Term) and node.word == "reading"
+        return replace(node, operand=read.get(node.operand, node.operand)) if is_read else node
 
     edges = tuple(replace(edge, at=rebuilt(edge.at, reading), gate=rebuilt(edge.gate, reading)) for edge in other.edges)
     return model.Skill(name, other.function, reads, edges, False, own, other.owner)
