@@ -1,12 +1,11 @@
 """Mind → Graph: names become indices, expressions programs, skills stand in the order of influence."""
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from itertools import accumulate, count
 from typing import Any, TypeVar
 
 from mindrun.graph import graph
-from msgspec.structs import astuple
 
 from mindlang.compiler import model
 from mindlang.compiler.format import spaced
@@ -43,7 +42,7 @@ def lower(mind: model.Mind) -> graph.Graph:
         tuple(graph.Actuator(actuator.name, actuator.kind) for actuator in mind.actuators),
         tuple(_skills(mind, readings)),
         tuple(_task(task, Places(readings, commands, {})) for task in mind.tasks),
-        tuple(graph.Lesson(*astuple(lesson)[:-1]) for lesson in mind.lessons),  # all but the line that says it
+        tuple(graph.Lesson(*(getattr(each, of.name) for of in fields(graph.Lesson))) for each in mind.lessons),
     )
 
 

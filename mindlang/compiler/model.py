@@ -5,12 +5,12 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, Generic, NamedTuple, TypeVar
 
-from mindrun.graph.graph import Failure, Need, Receiver, Sensor, Start, Variation
+from mindrun.graph import graph
+from mindrun.graph.graph import Failure, Receiver, Sensor, Start, Variation
 from mindrun.kinds.actuators.actuator import ActuatorKind
 from mindrun.kinds.bodies.body import BodyKind
 from mindrun.kinds.events.event import EventKind
 from mindrun.kinds.functions.function import Function
-from mindrun.kinds.learners import Learner
 from mindrun.kinds.memory import Cell
 from mindrun.kinds.registry import names as kind_names
 from mindrun.kinds.scenes.scene import SceneKind
@@ -141,21 +141,11 @@ class Task(Struct, frozen=True):
         return self.declaration.header.name.span
 
 
-class Lesson(Struct, frozen=True):
-    """Who learns what, driven by whom, for how many generations, and how."""
+@dataclass(frozen=True, slots=True)
+class Lesson(graph.Lesson):
+    """A lesson and the line that says it."""
 
-    curriculum: str
-    skill: str
-    task: str
-    master: str
-    generations: int
-    from_scratch: bool
-    with_subskills: bool
-    learner: Learner
-    number: int
-    starts_from: str
-    needs: tuple[Need, ...]
-    fact: syntax.Teaches
+    fact: syntax.Teaches = field(kw_only=True)
 
 
 @dataclass(frozen=True)
