@@ -96,7 +96,7 @@ class _Resolver:
             event = self._event(line.event)
             return None if event is None or times is None else Happens(event, int(times))
         last = self.subject.task.ticks if self.subject.task else MAX_RUN_TICKS
-        tick = convert(line.tick, replace(WHICH_TICK, high=last), self.findings) if line.tick else None
+        tick = convert(line.tick.amount, replace(WHICH_TICK, high=last), self.findings) if line.tick else None
         return None if tick is None else Reaches(int(tick))
 
     def _event(self, written: Phrase) -> EventKind | RobotEvent | None:

@@ -315,12 +315,6 @@ class Teaches(Struct, frozen=True):
     span: Span
 
 
-class Stop(Outcome, frozen=True):
-    """A line of a .break file: `stop OUTCOME` or `stop in tick TICK`."""
-
-    tick: Amount | None = None
-
-
 Fact = (
     Reads | Drives | Influences | Stays | Contains | Starts | Varies | Fails | Lasts | Ends | Succeeds | Rewards
     | Counts | Teaches
@@ -403,6 +397,12 @@ class Number(Struct, frozen=True):
     name: Name
     amount: Amount
     span: Span
+
+
+class Stop(Outcome, frozen=True):
+    """A line of a .break file: `stop OUTCOME` or `stop in tick TICK`."""
+
+    tick: Tick | None = None
 
 
 Setting = Use | Master | Tick | Version | Unit | Number

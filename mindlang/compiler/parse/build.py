@@ -23,13 +23,16 @@ _FORMS: Mapping[str, type[Struct]] = {
     "transmission": syntax.Transmits, "needs": syntax.Needs, "each": syntax.Each, "when": syntax.When,
     "comparison": syntax.Comparison, "argument": Argument, "setting": Argument, "origin": Argument,
 }  # fmt: skip
+_OUTCOME = {"times": Amount, "event": Phrase, "when": syntax.When}
 # Rules any of whose parts may be missing: which field a part is, its type says.
 _FIELDS: Mapping[str, tuple[type[Struct], Mapping[str, type]]] = {
     "drives": (syntax.Drives, {"name": Name, "at": Expression, "gate": syntax.Gate}),
     "influences": (syntax.Influences, {"name": Name, "at": Expression, "gate": syntax.Gate, "cuts": Amount}),
     "starts": (syntax.Starts, {"place": tuple, "facing": Amount}),
-    "ends": (syntax.Ends, {"times": Amount, "event": Phrase, "when": syntax.When}),
-    "succeeds": (syntax.Succeeds, {"times": Amount, "event": Phrase, "when": syntax.When}),
+    "ends": (syntax.Ends, _OUTCOME),
+    "succeeds": (syntax.Succeeds, _OUTCOME),
+    "stop": (syntax.Stop, {**_OUTCOME, "tick": syntax.Tick}),
+    "rewards": (syntax.Rewards, {"amount": Expression, "on": Phrase, "each": syntax.Each, "when": syntax.When}),
 }
 
 
@@ -54,7 +57,8 @@ class Builder(Transformer_NonRecursive[Token, Any]):
         """A rule of the tables."""
         if data in _FIELDS:
             form, fields = _FIELDS[data]
-            return form(**{field: _one(children, of) for field, of in fields.items()}, span=self._span(meta))
+            found = {field: next(iter(syntax.of_form(children, of)), None) for field, of in fields.items()}
+            return form(**found, span=self._span(meta))
         form = _FORMS[data]
         missing = len(form.__struct_fields__) - 1 - len(children)
         return form(*children, *[None] * missing, self._span(meta))
@@ -118,21 +122,6 @@ class Builder(Transformer_NonRecursive[Token, Any]):
 
     def place(self, meta: Any, parts: list[Any]) -> tuple[Amount, ...]:
         return tuple(parts)
-
-    def stop(self, meta: Any, parts: list[Any]) -> syntax.Stop:
-        """A tick stands in a list, since the times of an event are an amount, too."""
-        times, event, when, tick = (_one(parts, form) for form in (Amount, Phrase, syntax.When, list))
-        return syntax.Stop(times, event, when, self._span(meta), tick[0] if tick else None)
-
-    def moment(self, meta: Any, parts: list[Any]) -> list[Amount]:
-        return parts
-
-    def rewards(self, meta: Any, parts: list[Any]) -> syntax.Rewards:
-        amount, *rest = parts
-        if isinstance(amount, Phrase):
-            amount = Expression((amount,), amount.span)
-        on, each, when = (_one(rest, form) for form in (Phrase, syntax.Each, syntax.When))
-        return syntax.Rewards(amount, on, each, when, self._span(meta))
 
     def teaches(self, meta: Any, parts: list[Any]) -> syntax.Teaches:
         skill, task, *rest = parts
@@ -208,11 +197,6 @@ class Builder(Transformer_NonRecursive[Token, Any]):
         for operand in parts[2:]:
             terms += [*_terms(operand), word]
         return terms
-
-
-def _one(parts: list[Any], form: type[Any]) -> Any:
-    """The part of a form; None where there is none."""
-    return next((part for part in parts if isinstance(part, form)), None)
 
 
 def _side(part: Numbers | Name) -> Numbers:
