@@ -54,11 +54,6 @@ class Edge(Struct, frozen=True):
         otherwise = self.gate.otherwise if self.gate else None
         return tuple(value for value in (self.at, otherwise) if value)
 
-    @property
-    def expressions(self) -> tuple[syntax.Expression, ...]:
-        """The expressions of its values and of its condition."""
-        return (*self.values, *(self.gate.when.expressions if self.gate else ()))
-
 
 class Skill(Struct, frozen=True):
     """A skill; `reads` are names of sensors and memories; one that is `frozen` is not taught.
@@ -99,11 +94,6 @@ class Reward(Struct, frozen=True):
     each: str | None
     when: syntax.When | None
     fact: syntax.Rewards
-
-    @property
-    def expressions(self) -> tuple[syntax.Expression, ...]:
-        """All that a reward computes: its amount, and both sides of its comparisons."""
-        return (self.amount, *(self.when.expressions if self.when else ()))
 
 
 class End(Struct, frozen=True):

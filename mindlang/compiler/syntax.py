@@ -152,12 +152,6 @@ class When(Struct, frozen=True):
     alternatives: tuple[tuple[Comparison, ...], ...]
     span: Span
 
-    @property
-    def expressions(self) -> tuple[Expression, ...]:
-        """Both sides of every comparison."""
-        compared = of_form((each for all_ in self.alternatives for each in all_), Comparison)
-        return tuple(side for each in compared for side in (each.left, each.right))
-
 
 class Gate(Struct, frozen=True):
     """`when CONDITION [otherwise EXPRESSION]`"""
@@ -165,11 +159,6 @@ class Gate(Struct, frozen=True):
     when: When
     otherwise: Expression | None
     span: Span
-
-    @property
-    def expressions(self) -> tuple[Expression, ...]:
-        """The expressions of the condition, and the value sent otherwise."""
-        return (*self.when.expressions, self.otherwise) if self.otherwise else self.when.expressions
 
 
 class Reads(Struct, frozen=True):
@@ -187,11 +176,6 @@ class Sends(Struct, frozen=True):
     at: Expression | None
     gate: Gate | None
     span: Span
-
-    @property
-    def expressions(self) -> tuple[Expression, ...]:
-        """The expressions of its value, its condition and the value sent otherwise."""
-        return (*((self.at,) if self.at else ()), *(self.gate.expressions if self.gate else ()))
 
 
 class Drives(Sends, frozen=True):
@@ -435,6 +419,20 @@ def walk_tree(node: Any) -> Iterator[Any]:
     if isinstance(node, tuple):
         for part in node:
             yield from walk_tree(part)
+
+
+def expressions_in(*nodes: Any) -> Iterator[Expression]:
+    """The expressions in some lines or parts of lines, such as conditions."""
+    for node in nodes:
+        match node:
+            case Expression():
+                yield node
+            case Header(at=at):
+                yield from expressions_in(at)
+            case Sends() | Gate() | Outcome() | When() | Comparison() | Rewards():
+                yield from expressions_in(*astuple(node))
+            case tuple():
+                yield from expressions_in(*node)
 
 
 def rebuilt(node: Any, change: Callable[[Any], Any]) -> Any:
