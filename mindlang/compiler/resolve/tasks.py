@@ -11,9 +11,9 @@ from mindlang.compiler.beginning import first_tick_hint, task_beginning
 from mindlang.compiler.diagnostic import Findings, Label
 from mindlang.compiler.resolve.expressions import Visible, resolve_expressions
 from mindlang.compiler.resolve.kinds import make_kind
-from mindlang.compiler.resolve.parts import refuse_facts
+from mindlang.compiler.resolve.parts import refuse_facts, said_once
 from mindlang.compiler.resolve.quantities import convert
-from mindlang.compiler.resolve.worlds import ResolvedWorld, RobotFacts, refuse_repeated, resolve_world
+from mindlang.compiler.resolve.worlds import ResolvedWorld, RobotFacts, resolve_world
 from mindlang.compiler.syntax import Counts, Declaration, Ends, Lasts, Phrase, Rewards, Succeeds, of_form
 
 MAX_RUN_TICKS = 10_000_000  # of a run
@@ -69,7 +69,7 @@ def _ticks(declaration: Declaration, tick: float, findings: Findings) -> int:
             message = f"{name.text} does not say how long it lasts."
             findings.error("endless-task", name.span, message, "Add lasts 10000 ticks.")
         return 1
-    refuse_repeated(lasts, "The task already says how long it lasts.", "Leave one out.", findings)
+    said_once(lasts, lambda _: "The task already says how long it lasts.", findings)
     amount = lasts[0].amount
     if amount.unit == "s":
         # What would be a single tick, or none, was surely meant otherwise.
