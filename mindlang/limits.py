@@ -45,26 +45,6 @@ def bounded_int(what: str, bounds: Bounds, value: Any) -> int:
     return number
 
 
-def as_seed(value: Any) -> int:
-    """The seed of a training, or of many runs."""
-    return bounded_int("seed", SEED_BOUNDS, value)
-
-
-def as_layout(value: Any) -> int:
-    """The seed of one run."""
-    return bounded_int("seed", LAYOUT_BOUNDS, value)
-
-
-def as_runs(value: Any) -> int:
-    """A number of runs."""
-    return bounded_int("runs", RUN_BOUNDS, value)
-
-
-def as_workers(value: Any) -> int:
-    """A number of threads."""
-    return bounded_int("workers", WORKER_BOUNDS, value)
-
-
 def refuse_too_many(task: Task, runs: int) -> None:
     """Raise MindError where the results of so many runs of a task cannot be kept."""
     needed, there = runs * bytes_for(task), available()

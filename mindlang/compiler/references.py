@@ -1,6 +1,6 @@
 """Every name in the files of a mind, with what it names: where a rename writes, and what a removal would break."""
 
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -16,6 +16,14 @@ from mindlang.compiler.syntax import Declaration, Fact, File, Header, Name, Phra
 READABLE_NOUNS = ("sensor", "memory")
 VALUE_NOUNS = (*READABLE_NOUNS, "number", "actuator")  # an actuator is its command, in a task
 DRIVABLE_NOUNS = ("actuator", "memory")
+# The fields of facts that are names, and the nouns of these.
+NAMED: Mapping[type[Header | Fact], Mapping[str, Sequence[str]]] = {
+    syntax.Reads: {"name": READABLE_NOUNS, "stands_for": READABLE_NOUNS},
+    syntax.Drives: {"name": DRIVABLE_NOUNS},
+    syntax.Influences: {"name": ("skill",)},
+    syntax.Fails: {"name": ("actuator", "sensor")},
+    syntax.Teaches: {"skill": ("skill",), "task": ("task",), "master": ("skill",)},
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,48 +91,30 @@ class _Reader:
 
     def line(self, line: Header | Fact) -> Iterator[Mention]:
         """The names in a line; that of `for each` is its own."""
+        for field, nouns in NAMED.get(type(line), {}).items():
+            yield from self.first_declared(getattr(line, field), *nouns)
         match line:
-            case Header(noun, name, phrase, like=like, inside=inside, at=at):
+            case Header(noun, name, phrase, like=like, inside=inside):
                 yield Mention(noun.text, name, self.by, is_own=True)
                 yield from self.first_declared(like, noun.text)
                 yield from self.first_declared(inside, "scene")
                 yield from self.phrase(noun.text, phrase)
-                yield from self.expressions(at)
-            case syntax.Reads(name, stands_for):
-                yield from self.first_declared(name, *READABLE_NOUNS)
-                yield from self.first_declared(stands_for, *READABLE_NOUNS)
-            case syntax.Drives(name):
-                yield from self.first_declared(name, *DRIVABLE_NOUNS)
-                yield from self.expressions(*line.expressions)
-            case syntax.Influences(name):
-                yield from self.first_declared(name, "skill")
-                yield from self.expressions(*line.expressions)
             case syntax.Contains(name, phrase):
                 yield Mention("thing", name, self.by)
                 yield from self.phrase("content", phrase)
             case syntax.Varies(of=of):
                 yield Mention(self.names.noun_of(of.text, VARIED_NOUNS) or "thing", of, self.by)
-            case syntax.Fails(name):
-                yield from self.first_declared(name, "actuator", "sensor")
-            case syntax.Outcome(_, event, when):
+            case syntax.Outcome(_, event) | syntax.Counts(event) | syntax.Rewards(_, event):
                 yield from self.phrase("event", event)
-                yield from self.expressions(*(when.expressions if when else ()))
-            case syntax.Counts(event):
-                yield from self.phrase("event", event)
-            case syntax.Rewards(amount, on, each, when):
-                own = each.name.text if each else ""
-                yield from self.expressions(amount, *(when.expressions if when else ()), own=own)
-                yield from self.phrase("event", on)
-                yield from self.first_declared(each.sensor if each else None, *READABLE_NOUNS)
-            case syntax.Teaches(skill, task, master):
-                yield from self.first_declared(skill, "skill")
-                yield from self.first_declared(task, "task")
-                yield from self.first_declared(master, "skill")
+            case syntax.Teaches():
                 yield from self.arguments(line.arguments, kinds("curriculum").values())
+        each = line.each if isinstance(line, syntax.Rewards) else None
+        yield from self.first_declared(each.sensor if each else None, *READABLE_NOUNS)
+        yield from self.expressions(line, own=each.name.text if each else "")
 
-    def expressions(self, *expressions: syntax.Expression | None, own: str = "") -> Iterator[Mention]:
-        """The readings and commands in expressions, and the things that their measures are about."""
-        for term in (term for expression in expressions if expression for term in expression.terms):
+    def expressions(self, line: Header | Fact, own: str) -> Iterator[Mention]:
+        """The readings and commands in the expressions of a line, and the things that their measures are about."""
+        for term in (term for expression in syntax.expressions_in(line) for term in expression.terms):
             if not isinstance(term, Phrase) or (term.kind.text == own and not term.arguments):
                 continue
             if not term.arguments and self.names.noun_of(term.kind.text, VALUE_NOUNS):

@@ -6,10 +6,9 @@ from itertools import product
 from math import inf, isnan
 from typing import Any
 
-from mindrun.numbers.expression import Formula, fold
+from mindrun.numbers.expression import OPERATORS, Formula, fold
 
-from mindlang.compiler.model import Comparison, Expression, Number, When
-from mindlang.compiler.syntax import Operator
+from mindlang.compiler.syntax import Comparison, Expression, When
 
 Interval = tuple[float, float]
 Readings = Callable[[str], Interval]  # the range of each reading
@@ -97,7 +96,7 @@ def _around(lows: list[float], highs: list[float]) -> Interval:
 
 def is_constant(of: Expression) -> bool:
     """True if an expression is made of numbers alone."""
-    return all(isinstance(term, Number | Operator) for term in of.terms)
+    return all(word in ("number", "negate", *OPERATORS) for word, _ in of.formula)
 
 
 def range_in_words(of: Interval) -> str:

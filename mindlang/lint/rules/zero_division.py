@@ -11,7 +11,7 @@ from math import inf, nextafter
 
 from msgspec.structs import replace
 
-from mindlang.compiler.model import Comparison, Expression, Reading, When
+from mindlang.compiler.syntax import Comparison, Expression, Term, When
 from mindlang.lint.intervals import OPPOSITES, TURNED, UPPER, Interval, divisors, interval, is_constant
 from mindlang.lint.study import AnalysedWorld, Conditional, Finding, Found, Study
 
@@ -108,7 +108,7 @@ def _narrowed(world: AnalysedWorld, all_: Sequence[Comparison]) -> dict[str, Int
             (each.right, each.left, TURNED[each.compare]),
         ):
             match side.terms:
-                case (Reading(name),) if is_constant(number):
+                case (Term("reading", name),) if is_constant(number):
                     found[name] = _within(found.get(name, world.reading(name)), compare, interval(number)[0])
     return found
 
