@@ -42,7 +42,6 @@ START = "Write another place for the robot, or which way it faces: starts at 0 0
 
 
 def check(study: Study) -> Found:
-    """The things that can overlap: with their largest sizes and jitter, and the robot facing any way."""
     met = (_met(replace(study.beginning(task), may=True), task.span) for task in study.mind.tasks)
     return first_of_each(chain.from_iterable(met), lambda each: (each.span, *(label.span for label in each.labels)))
 

@@ -44,7 +44,6 @@ BAD = (
 
 
 def check(study: Study) -> Found:
-    """Latches of directions, and conditions that hold behind the robot on one side."""
     known = directions(study.sensors)
     for sensor in study.mind.sensors:
         if sensor.kind.compares and sensor.kind.source in known:

@@ -57,7 +57,6 @@ BAD = (
 
 @once_a_line
 def check(study: Study) -> Found:
-    """Ends and rewards of events and conditions that have come in the first tick."""
     for task in study.mind.tasks:
         yield from _FirstTick(study, task, study.beginning(task)).found()
 

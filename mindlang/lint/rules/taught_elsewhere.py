@@ -53,7 +53,6 @@ BAD = f"sensor eye is range_finder at 0 deg range 3\n{LEARNS}{LOCK}"
 
 
 def check(study: Study) -> Found:
-    """Skills that were taught in a world that the lock knows and the mind no longer has."""
     for name, state in status(study.graph, study.lock, study.main.folder).items():
         if isinstance(state, Trained) and state.is_elsewhere and not study.skills[name].like:
             message = f"{name} was taught elsewhere: {'; '.join(state.changes)}."

@@ -38,7 +38,6 @@ skill Rest is rule
 
 
 def check(study: Study) -> Found:
-    """Skills that are not active; one that nobody names can be taken out."""
     for skill in study.mind.skills:
         if skill.name not in study.acting:
             fix = None if ("skill", skill.name) in study.used else removal(skill.declaration)

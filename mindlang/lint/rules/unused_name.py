@@ -17,7 +17,6 @@ BAD = ("number far is 12\n", "scene Rocks is arena\ntask Course in arena\n  last
 
 
 def check(study: Study) -> Found:
-    """Names of numbers and scenes that stand nowhere but where they are declared."""
     for name, number in study.mind.names.numbers.items():
         if ("number", name) not in study.used:
             line = first_line(number.span)

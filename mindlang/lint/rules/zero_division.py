@@ -12,7 +12,7 @@ from math import inf, nextafter
 from msgspec.structs import replace
 
 from mindlang.compiler.model import Comparison, Expression, Reading, When
-from mindlang.lint.intervals import OPPOSITES, TURNED, UPPER, Interval, divisors, interval, is_constant
+from mindlang.lint.intervals import OPPOSITES, UPPER, Interval, bounds, divisors
 from mindlang.lint.study import AnalysedWorld, Conditional, Finding, Found, Study
 
 READS = """
@@ -44,7 +44,6 @@ HINT = "Add a little to it, as in 1 / (ahead + 0.01), or say when: 1 / ahead per
 
 
 def check(study: Study) -> Found:
-    """Divisions in sensors, in what skills send, and in rewards and ends."""
     for part in study.mind.sensors:
         if part.kind.formula and _has_zero(divisors(part.kind.formula, study.any_world.reading)):
             yield Finding(part.span, MESSAGE, HINT)
@@ -102,14 +101,10 @@ def _narrowed(world: AnalysedWorld, all_: Sequence[Comparison]) -> dict[str, Int
     Where they never do, one ends before it begins.
     """
     found: dict[str, Interval] = {}
-    for each in all_:
-        for side, number, compare in (
-            (each.left, each.right, each.compare),
-            (each.right, each.left, TURNED[each.compare]),
-        ):
-            match side.terms:
-                case (Reading(name),) if is_constant(number):
-                    found[name] = _within(found.get(name, world.reading(name)), compare, interval(number)[0])
+    for side, compare, number in bounds(all_):
+        match side.terms:
+            case (Reading(name),):
+                found[name] = _within(found.get(name, world.reading(name)), compare, number)
     return found
 
 
