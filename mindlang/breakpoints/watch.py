@@ -17,15 +17,7 @@ from mindrun.numbers.evaluation import OPERATORS
 from mindrun.numbers.expression import Program, fold
 from numpy.typing import NDArray
 
-from mindlang.breakpoints.breakpoint import (
-    Breakpoint,
-    Happens,
-    Holds,
-    Reaches,
-    RobotEvent,
-    Transmission,
-    robot_events,
-)
+from mindlang.breakpoints.breakpoint import Breakpoint, Happens, Holds, Reaches, RobotEvent, Transmission, robot_events
 from mindlang.breakpoints.subject import BreakpointSubject
 from mindlang.run.edge_flow import EdgeFlow, EdgeFlows, Places, Singles, accumulated
 from mindlang.run.recorded_run import RecordedRun

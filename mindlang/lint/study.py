@@ -1,10 +1,9 @@
 """`Study`: a mind as the lint rules see it; `Finding`: what a rule returns."""
 
 import re
-from collections.abc import Callable, Hashable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
-from functools import cached_property, wraps
-from operator import attrgetter
+from functools import cached_property
 from typing import NamedTuple
 
 from mindrun.graph.graph import Graph
@@ -270,21 +269,14 @@ def study(compiled: Compiled) -> Study:
     return Study(compiled.mind, compiled.graph, lock)
 
 
-def first_of_each(found: Iterable[Finding], key: Callable[[Finding], Hashable] = attrgetter("span")) -> Found:
-    """The findings, each once: several tasks can have one from the same line."""
-    told = set[Hashable]()
-    for finding in found:
-        if key(finding) not in told:
-            told.add(key(finding))
-            yield finding
-
-
 def once_a_line(check: Callable[[Study], Found]) -> Callable[[Study], Found]:
     """A rule that tells once of a line which several tasks have."""
 
-    @wraps(check)
     def checked(study: Study) -> Found:
-        return first_of_each(check(study))
+        found: dict[Span, Finding] = {}
+        for finding in check(study):
+            found.setdefault(finding.span, finding)
+        yield from found.values()
 
     return checked
 

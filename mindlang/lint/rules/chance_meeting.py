@@ -12,7 +12,7 @@ from itertools import chain
 from mindlang.compiler.beginning import Beginning
 from mindlang.compiler.diagnostic import Label
 from mindlang.compiler.source import Span
-from mindlang.lint.study import Finding, Found, Study, first_of_each
+from mindlang.lint.study import Finding, Found, Study
 
 HALL = """
 task Hall in arena size 40
@@ -43,7 +43,7 @@ START = "Write another place for the robot, or which way it faces: starts at 0 0
 
 def check(study: Study) -> Found:
     met = (_met(replace(study.beginning(task), may=True), task.span) for task in study.mind.tasks)
-    return first_of_each(chain.from_iterable(met), lambda each: (each.span, *(label.span for label in each.labels)))
+    yield from dict.fromkeys(chain.from_iterable(met))  # several tasks can have one from the same line
 
 
 def _met(begun: Beginning, here: Span) -> Iterator[Finding]:
