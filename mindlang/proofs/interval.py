@@ -41,7 +41,7 @@ class SentBounds(NamedTuple):
     sure: NDArray[np.bool_]
 
 
-Bounds = TypeVar("Bounds", Boxes, SentBounds)
+Bounds = TypeVar("Bounds", bound=tuple[Any, ...])  # NamedTuples of arrays [boxes, …]
 
 
 def whole_box(width: int) -> Boxes:

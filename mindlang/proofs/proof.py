@@ -87,12 +87,9 @@ class Proof:
 def prove(graph: Graph, weights: Mapping[str, Weights], delta: float) -> Proof:
     """All claims about a mind under its master; `delta` is the influence of a leak."""
     count = len(graph.actuators)
-    found, bounds = influence_edges(graph), prove_reach(graph, weights)
+    found, alone = influence_edges(graph), prove_reach(graph, weights)
     tried: Sequence[Tried | None] = try_readings(graph, weights) or [None] * count
-    alone, bounds = (
-        bounds,
-        tighten(graph, weights, bounds, [bool(seen and seen.readings is not None) for seen in tried]),
-    )
+    bounds = tighten(graph, weights, alone, [bool(seen and seen.readings is not None) for seen in tried])
     listed, leaking = paths(found, count, MAX_LISTED_PATHS), leaks(found, count, delta)
     rests = _Rests(graph, weights, bounds)
     below = reachable(graph, graph.master)
@@ -100,7 +97,11 @@ def prove(graph: Graph, weights: Mapping[str, Weights], delta: float) -> Proof:
     return Proof(
         graph,
         delta,
-        {skill.name: _why(skill) for skill in below if not is_known(skill, weights.get(skill.owner))},
+        {
+            skill.name: skill.function.opaque or "has no weights that fit"
+            for skill in below
+            if not is_known(skill, weights.get(skill.owner))
+        },
         tuple(skill.name for skill in graph.skills if skill.name not in names),
         tuple(
             ActuatorClaims(
@@ -116,10 +117,6 @@ def prove(graph: Graph, weights: Mapping[str, Weights], delta: float) -> Proof:
         tuple(_edges(graph, below, bounds, rests)),
         {name: rests.of_dead(name) for name, bound in bounds.influence.items() if bound.high <= 0},
     )
-
-
-def _why(skill: Skill) -> str:
-    return skill.function.opaque or "has no weights that fit"
 
 
 def _edges(graph: Graph, below: Sequence[Skill], bounds: ProvedReach, rests: _Rests) -> Iterator[EdgeClaim]:

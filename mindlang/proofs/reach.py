@@ -148,10 +148,8 @@ def _least(graph: Graph, weights: Mapping[str, Weights], found: ProvedReach, act
     waiting = whole_box(graph.width)
     least, made = np.inf, 1
     while len(waiting.low):
-        now, waiting = (
-            select_boxes(waiting, slice(BOXES_PER_ROUND)),
-            select_boxes(waiting, slice(BOXES_PER_ROUND, None)),
-        )
+        now = select_boxes(waiting, slice(BOXES_PER_ROUND))
+        waiting = select_boxes(waiting, slice(BOXES_PER_ROUND, None))
         low = _flow(graph, weights, skills, found, now).total_low[:, actuator]
         is_open = low <= 0
         made += 2 * int(is_open.sum())

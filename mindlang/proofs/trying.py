@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from operator import neg
 
 import numpy as np
 from mindrun.graph.graph import Gate, Graph, Program, Skill
@@ -82,12 +83,8 @@ def _evaluate(program: Program, readings: Singles) -> Singles:
             return readings[:, int(operand)].astype(np.float64)
         return np.full(len(readings), operand, np.float64)
 
-    def combined(operator: str, left: Doubles, right: Doubles) -> Doubles:
-        found: Doubles = OPERATORS[operator](left, right)
-        return found
-
-    found: Singles = fold(program, leaf, np.negative, combined).astype(np.float32)
-    return found
+    found: Doubles = fold(program, leaf, neg, lambda operator, left, right: OPERATORS[operator](left, right))
+    return found.astype(np.float32)
 
 
 @dataclass(frozen=True, slots=True)
