@@ -4,7 +4,6 @@ import re
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple
 
 from mindrun.graph.graph import Graph
 from mindrun.graph.tasks import goals
@@ -18,8 +17,8 @@ from mindlang.compiler.hierarchy import reverse_topological_order, topological_o
 from mindlang.compiler.model import Edge, End, Expression, Mind, Reading, Reward, Skill, Task, When, source_graph
 from mindlang.compiler.references import Mention, mentions
 from mindlang.compiler.source import Source, Span
-from mindlang.compiler.syntax import Declaration, Fact
-from mindlang.editing.insertion import without_declarations, without_fact
+from mindlang.compiler.syntax import Declaration, Fact, Setting
+from mindlang.editing.insertion import first_line, remove_lines, without_declarations
 from mindlang.lint.intervals import UNIT_INTERVAL, Interval, Range, interval, why_never
 from mindlang.lock import Lock, lock_sources, read_locks
 
@@ -91,14 +90,7 @@ class AnalysedWorld:
 
 
 Conditional = Edge | Reward | End
-
-
-class Condition(NamedTuple):
-    """A condition, what it is a condition of, and the world in which it is."""
-
-    when: When
-    of: Conditional
-    world: AnalysedWorld
+Condition = tuple[When, Conditional, AnalysedWorld]  # what it is a condition of, and the world in which it is
 
 
 @dataclass(frozen=True)
@@ -111,7 +103,6 @@ class Study:
 
     @cached_property
     def skills(self) -> dict[str, Skill]:
-        """The skills by name."""
         return {skill.name: skill for skill in self.mind.skills}
 
     @cached_property
@@ -121,12 +112,10 @@ class Study:
 
     @cached_property
     def tasks(self) -> dict[str, Task]:
-        """The tasks by name."""
         return {task.name: task for task in self.mind.tasks}
 
     @cached_property
     def sensors(self) -> dict[str, SensorKind]:
-        """The kinds of the sensors by name."""
         return {sensor.name: sensor.kind for sensor in self.mind.sensors}
 
     @cached_property
@@ -221,12 +210,12 @@ class Study:
         """Every condition of what skills send, of rewards and of ends."""
         for _, edge in self.edges:
             if edge.gate:
-                yield Condition(edge.gate.when, edge, self.any_world)
+                yield edge.gate.when, edge, self.any_world
         for task in self.mind.tasks:
             judging: tuple[Reward | End, ...] = (*task.rewards, *task.ends)
             for each in judging:
                 if each.when:
-                    yield Condition(each.when, each, self.worlds[task.name])
+                    yield each.when, each, self.worlds[task.name]
 
     def beginning(self, task: Task) -> Beginning:
         """The world of a task when a run begins."""
@@ -281,11 +270,12 @@ def once_a_line(check: Callable[[Study], Found]) -> Callable[[Study], Found]:
     return checked
 
 
-def removal(what: Declaration | Fact, title: str = "", is_safe: bool = False) -> Fix:
-    """The fix that takes out a declaration, or the line of a fact."""
+def removal(what: Declaration | Fact | Setting, title: str = "", is_safe: bool = False) -> Fix:
+    """The fix that takes out a declaration, or the line of a fact or a setting."""
     if isinstance(what, Declaration):
         return Fix(title or f"Remove {what.header.name.text}", without_declarations([what]), is_safe)
-    return Fix(title or "Remove the line", (without_fact(what),), is_safe)
+    line = first_line(what.span)
+    return Fix(title or "Remove the line", (remove_lines(line, line),), is_safe)
 
 
 def is_zero_influence(edge: Edge) -> bool:

@@ -1,7 +1,6 @@
 """A comparison for reading, and as data: the first tick that differs, and outcome beside outcome."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import asdict
 from itertools import groupby
 from typing import Any
 
@@ -74,14 +73,8 @@ def comparison_data(request: Request, compared: Compared) -> dict[str, Any]:
 def recording_summary(request: Request, name: str, found: OpenLoop) -> RenderableType:
     """A text: what the mind would have sent for the readings of a recording."""
     rows = [
-        (
-            name,
-            f"{sent.ticks:,}",
-            f"{sent.mean:.4g}",
-            f"{sent.most:.4g}",
-            f"{sent.most_tick:,}" if sent.most_tick else "–",
-        )
-        for name, sent in found.sent.items()
+        (actuator, f"{of['ticks']:,}", f"{of['mean']:.4g}", f"{of['most']:.4g}", _tick(of["most_tick"]))
+        for actuator, of in found.sent.items()
     ]
     return Group(
         Text.assemble((name, "bold"), f" with {found.master} in charge, {in_words(found.ticks)}"),
@@ -102,8 +95,12 @@ def recording_data(request: Request, found: OpenLoop) -> dict[str, Any]:
         **_asked(request),
         "open_loop": True,
         "differs": _differs(found.differences),
-        "commands": {name: asdict(sent) for name, sent in found.sent.items()},
+        "commands": found.sent,
     }
+
+
+def _tick(number: int | None) -> str:
+    return f"{number:,}" if number else "–"
 
 
 def _asked(request: Request) -> dict[str, Any]:

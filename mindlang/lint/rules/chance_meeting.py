@@ -5,7 +5,6 @@ its own can be in something else when a run begins: a box that is pushed out of 
 every run it would be an error; what has no place of its own is put where it is clear.
 """
 
-from collections.abc import Iterator
 from dataclasses import replace
 from itertools import chain
 
@@ -46,7 +45,7 @@ def check(study: Study) -> Found:
     yield from dict.fromkeys(chain.from_iterable(met))  # several tasks can have one from the same line
 
 
-def _met(begun: Beginning, here: Span) -> Iterator[Finding]:
+def _met(begun: Beginning, here: Span) -> Found:
     hint = "Write places that are farther apart, smaller sizes or a smaller jitter."
     for one, other in begun.overlapping():
         labels = (Label(other.span, "this one"),) if one is not other else ()

@@ -101,11 +101,6 @@ class DrawnWorld:
                 return thing.name
         return ""
 
-    @property
-    def radius(self) -> float:
-        """That of the circle around the robot."""
-        return self.body.radius
-
     def _grid(self, kind: ThingKind) -> Iterator[Rectangle]:
         """The obstacles of a kind that stand at places, each off by its jitter."""
         for row in kind.rows(self.scene):
@@ -124,8 +119,8 @@ class DrawnWorld:
         loose = [_square(place, each.kind.largest / 2) for each, place in placed if each.kind.is_loose]
         apart = [(each, place) for each, place in placed if not each.kind.is_obstacle]
         for _ in range(MAX_TRIES):
-            self.robot = self._anywhere(3 * self.radius, self.radius)
-            if self._is_clear([*self.solid, *loose], self.robot, self.radius) and not any(
+            self.robot = self._anywhere(3 * self.body.radius, self.body.radius)
+            if self._is_clear([*self.solid, *loose], self.robot, self.body.radius) and not any(
                 self._meets(each.name, each.kind, each.kind.begins[1], place) for each, place in apart
             ):
                 return True
@@ -135,18 +130,18 @@ class DrawnWorld:
         """True if a thing at a place overlaps the robot, or is a goal that it has reached."""
         dx, dy = place[0] - self.robot[0], place[1] - self.robot[1]
         reach, is_goal = self.body.front + self.claw, name in self.goals
-        return meets_robot(kind.is_area, kind.is_round, is_goal, size, dx, dy, self.radius, reach)
+        return meets_robot(kind.is_area, kind.is_round, is_goal, size, dx, dy, self.body.radius, reach)
 
     def _put(self, name: str, kind: ThingKind) -> bool:
         """Put a thing down, an obstacle so that the robot can pass it; False where no try succeeds."""
         (low, high), half = kind.distances(self.scene), self._size(kind.size) / 2
-        where, room = (self.solid, half + 3 * self.radius) if kind.is_obstacle else (self.things, 0.0)
+        where, room = (self.solid, half + 3 * self.body.radius) if kind.is_obstacle else (self.things, 0.0)
         for _ in range(MAX_TRIES):
-            place = self._anywhere(half + 2 * self.radius) if self.scene.is_bounded else self._around(low, high)
+            place = self._anywhere(half + 2 * self.body.radius) if self.scene.is_bounded else self._around(low, high)
             x, y = place[0] - self.robot[0], place[1] - self.robot[1]
             is_far = low <= hypot(x, y) + 1e-9 and hypot(x, y) <= high + 1e-9 and max(abs(x), abs(y)) >= room
             is_apart = is_far and (kind.is_obstacle or not self._meets(name, kind, 2 * half, place))
-            clear = is_apart and self._is_clear(self.solid, place, half + 2 * self.radius)
+            clear = is_apart and self._is_clear(self.solid, place, half + 2 * self.body.radius)
             if clear and self._is_clear(self.things, place, half):
                 where.append(_square(place, half))
                 return True

@@ -54,7 +54,7 @@ def check(study: Study) -> Found:
     decaying = {memory.name for memory in study.mind.memories if memory.kind.decay > 0}
     for edge in (edge for _, edge in study.edges if edge.to == "memory" and edge.target in decaying):
         yield from _mixed(edge.values, edge.target, known)
-    for when in (condition.when for condition in study.conditions):
+    for when, *_ in study.conditions:
         yield from _one_sided(when, known)
         yield from _of_two(when, known)
 

@@ -9,11 +9,9 @@ from pathlib import Path
 
 from networkx import DiGraph
 
-from mindlang.compiler.diagnostic import Fix
 from mindlang.compiler.hierarchy import with_descendants
 from mindlang.compiler.syntax import File, Tick, Use, of_form
-from mindlang.editing.insertion import first_line, remove_lines
-from mindlang.lint.study import Finding, Found, Study
+from mindlang.lint.study import Finding, Found, Study, removal
 from mindlang.lock import lock_path
 
 PASSIVE = {"sensor", "memory", "skill"}
@@ -33,10 +31,8 @@ def check(study: Study) -> Found:
         shared = {path for other, paths in enumerate(reach) if other != number for path in paths}
         brought = [known[path] for path in reach[number] - shared]
         if brought and not _is_used(study, brought):
-            line = first_line(use.span)
-            fix = Fix("Remove the line", (remove_lines(line, line),))
             hint = "Take the line out, or use something of it."
-            yield Finding(use.span, f"Nothing of {use.path} is used.", hint, fix=fix)
+            yield Finding(use.span, f"Nothing of {use.path} is used.", hint, fix=removal(use, is_safe=True))
 
 
 def _path(use: Use) -> Path:
