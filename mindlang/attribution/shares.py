@@ -9,8 +9,6 @@ it, and the `share` of the command that this part makes with the value v that th
 add up to the command, parts to 1.
 """
 
-from __future__ import annotations
-
 from bisect import insort
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -153,6 +151,15 @@ class IncomingEdges:
 
 
 @dataclass(frozen=True, slots=True)
+class FoundPath:
+    """A path by its edges, from the master down, its part [ticks] of what is asked about, and the sum of that."""
+
+    edges: tuple[int, ...]
+    part: Doubles
+    size: float
+
+
+@dataclass(frozen=True, slots=True)
 class _Ends(IncomingEdges):
     """The edges to what is asked about, and what they carry [edges, ticks]; `total`, `engine`, `driven` are [ticks].
 
@@ -250,15 +257,6 @@ def _into(flows: EdgeFlows, skill: int, carried: EdgeFlow) -> IncomingEdges | No
     total = arrived.sum(axis=0)
     fractions = np.divide(arrived, total, out=np.zeros_like(arrived), where=total > 0)
     return IncomingEdges(edges, tuple(flows.links[edge].source for edge in edges), fractions)
-
-
-@dataclass(frozen=True, slots=True)
-class FoundPath:
-    """A path by its edges, from the master down, its part [ticks] of what is asked about, and the sum of that."""
-
-    edges: tuple[int, ...]
-    part: Doubles
-    size: float
 
 
 def largest_paths(

@@ -3,8 +3,6 @@
 A box whose bounds reach no further than what the skill was seen to send cannot be improved on, and is left alone.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from functools import reduce
 from typing import NamedTuple

@@ -16,8 +16,6 @@ parents the worst counts, because more leaks above a skill are never better. So 
 listed.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from itertools import islice

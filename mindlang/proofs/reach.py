@@ -9,8 +9,6 @@ its rounding: with n drivers a share of at most (2n + 1)·2^−24, for which ROU
 are left.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 

@@ -1,7 +1,5 @@
 """Runs of the simulator beside a proof: how often nothing influenced an actuator."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

@@ -3,8 +3,6 @@
 Readings for which nothing influences an actuator are looked for by trying, so that one that is found is a proof.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from operator import neg

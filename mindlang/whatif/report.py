@@ -67,7 +67,8 @@ def comparison_data(request: Request, compared: Compared) -> dict[str, Any]:
     was, now = compared.was.found, compared.now.found
     of_both = {name: was[name] for name in ("task", "master", "seed")}
     was, now = ({name: value for name, value in found.items() if name not in of_both} for found in (was, now))
-    return {**of_both, **_asked(request), "differs": _differs(compared.differences), "as_it_was": was, "changed": now}
+    differs = [each.as_data() for each in compared.differences]
+    return {**of_both, **_asked(request), "differs": differs, "as_it_was": was, "changed": now}
 
 
 def recording_summary(request: Request, name: str, found: OpenLoop) -> RenderableType:
@@ -94,7 +95,7 @@ def recording_data(request: Request, found: OpenLoop) -> dict[str, Any]:
         "ticks": found.ticks,
         **_asked(request),
         "open_loop": True,
-        "differs": _differs(found.differences),
+        "differs": [each.as_data() for each in found.differences],
         "commands": found.sent,
     }
 
@@ -105,10 +106,6 @@ def _tick(number: int | None) -> str:
 
 def _asked(request: Request) -> dict[str, Any]:
     return {"changes": [*request.parts], "tick": request.tick}
-
-
-def _differs(differences: Sequence[TickDifference]) -> list[dict[str, Any]]:
-    return [each.as_data() for each in differences]
 
 
 def _table(rows: Sequence[Sequence[str]]) -> Text:

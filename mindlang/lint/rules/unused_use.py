@@ -25,7 +25,8 @@ def check(study: Study) -> Found:
     main, *others = study.mind.files
     known = {file.source.path: file for file in others}
     uses = of_form(main.settings, Use)
-    brings = DiGraph({path: [each for each in _used(file) if each in known] for path, file in known.items()})
+    used = {path: map(_path, of_form(file.settings, Use)) for path, file in known.items()}
+    brings = DiGraph({path: [each for each in paths if each in known] for path, paths in used.items()})
     reach = [with_descendants(brings, {_path(use)} & known.keys()) for use in uses]
     for number, use in enumerate(uses):
         shared = {path for other, paths in enumerate(reach) if other != number for path in paths}
@@ -37,10 +38,6 @@ def check(study: Study) -> Found:
 
 def _path(use: Use) -> Path:
     return (use.span.source.folder / use.path).resolve()
-
-
-def _used(file: File) -> list[Path]:
-    return [_path(use) for use in of_form(file.settings, Use)]
 
 
 def _is_used(study: Study, files: Iterable[File]) -> bool:
