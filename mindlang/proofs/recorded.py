@@ -15,8 +15,8 @@ from mindlang.run.setup import RunSetup
 class Undriven:
     """The ticks in which nothing influenced an actuator, the first of them (from 1), and the commands it was sent."""
 
-    ticks: int
-    first: int | None
+    neutral_ticks: int
+    first_tick: int | None
     commands: tuple[float, float]
 
 
