@@ -79,9 +79,7 @@ def by_itself(skill: Skill) -> Skill:
         return tuple((word, place[int(x)] if word == "reading" else x) for word, x in program)
 
     def moved_edge(edge: Edge) -> Edge:
-        gate = edge.gate
-        if gate:
-            gate = Gate(moved(gate.when), None if gate.otherwise is None else moved(gate.otherwise))
+        gate = edge.gate and Gate(*map(moved, edge.gate.programs))
         return replace(edge, value=moved(edge.value), gate=gate)
 
     return replace(skill, inputs=tuple(range(len(place))), edges=tuple(moved_edge(edge) for edge in skill.edges))

@@ -13,7 +13,9 @@ from mindrun.graph.weights import Weights, genes, reachable
 from mindrun.numbers.evaluation import OPERATORS
 from mindrun.numbers.expression import fold
 from mindrun.numbers.network import running
+from networkx import DiGraph
 
+from mindlang.compiler.hierarchy import with_ancestors
 from mindlang.proofs.interval import Doubles, Singles, is_known, perceptron_matrices
 
 TRIED_READINGS, MAX_WEIGHT_READINGS = 4096, 20_000_000  # readings, and weights times readings
@@ -120,18 +122,13 @@ def _of(graph: Graph, readings: Singles, thoughts: ThoughtRows, actuator: int) -
 
 def _still(graph: Graph, influence: Singles, actuator: int) -> tuple[str, ...]:
     """The skills that have influence and could lead to the actuator, none of whose subskills does both."""
-    leading = [False] * len(graph.skills)
-    for place in reversed(range(len(graph.skills))):
-        leading[place] = any(
-            edge.target == actuator if edge.to == "actuator" else edge.to == "skill" and leading[edge.target]
-            for edge in graph.skills[place].edges
-        )
-    awake = [here and found > 0 for here, found in zip(leading, influence.tolist(), strict=True)]
-    return tuple(
-        skill.name
-        for skill, here in zip(graph.skills, awake, strict=True)
-        if here and not any(edge.to == "skill" and awake[edge.target] for edge in skill.edges)
-    )
+    sent = [(edge.to, edge.target, place) for place, skill in enumerate(graph.skills) for edge in skill.edges]
+    flow = DiGraph((("skill", place), (to, target)) for to, target, place in sent)
+    flow.add_node(("actuator", actuator))
+    leading = with_ancestors(flow, [("actuator", actuator)])
+    awake = {place for place in np.flatnonzero(influence > 0).tolist() if ("skill", place) in leading}
+    onward = {place for to, target, place in sent if to == "skill" and target in awake}
+    return tuple(graph.skills[place].name for place in sorted(awake - onward))
 
 
 def readings_to_try(width: int, rows: int) -> Singles:
