@@ -194,18 +194,20 @@ def _edges(half: float, inner: Iterable[float]) -> list[float]:
 
 
 def _parted(xs: Sequence[float], ys: Sequence[float], free: Sequence[bytearray]) -> Floor:
-    """The free cells by parts; a cell that has its part is free no more."""
+    """The free cells by parts; a cell to which a way leads is free no more."""
     wide, high = ([b - a for a, b in pairwise(edges)] for edges in (xs, ys))
     parts = [[-1] * len(row) for row in free]
     areas: list[float] = []
     for start, cells in enumerate(free):
         while (first := cells.find(1)) >= 0:
-            waiting, area = [(start, first)], 0.0
+            waiting, area, cells[first] = [(start, first)], 0.0, 0
             while waiting:
                 row, column = waiting.pop()
-                if 0 <= row < len(free) and 0 <= column < len(wide) and free[row][column]:
-                    free[row][column], parts[row][column] = 0, len(areas)
-                    area += wide[column] * high[row]
-                    waiting += ((row + 1, column), (row - 1, column), (row, column + 1), (row, column - 1))
+                parts[row][column] = len(areas)
+                area += wide[column] * high[row]
+                for r, c in ((row + 1, column), (row - 1, column), (row, column + 1), (row, column - 1)):
+                    if 0 <= r < len(free) and 0 <= c < len(wide) and free[r][c]:
+                        free[r][c] = 0
+                        waiting.append((r, c))
             areas.append(area)
     return Floor(xs, ys, parts, areas)
