@@ -102,7 +102,7 @@ def shares(flows: EdgeFlows, target: Sink, rows: range, paths: int = NAMED_PATHS
     if target == ("skill", flows.skills[0]):
         return _master_shares(flows, len(rows))
     ends = _ends(flows, target, carried)
-    into = {skill: ways for skill in order if (ways := _into(flows, skill, carried)) is not None}
+    into = {skill: _into(flows, skill, carried) for skill in order[1:]}
     found, are_largest = largest_paths(ends, into, order, paths)
     contributions = (_contribution(flows, ends, path) for path in found)
     named = tuple(sorted(contributions, key=attrgetter("part", "share"), reverse=True))
@@ -247,10 +247,8 @@ def _above(flows: EdgeFlows, target: Sink) -> list[int]:
     return [skill for skill in flows.skills if skill in found]
 
 
-def _into(flows: EdgeFlows, skill: int, carried: EdgeFlow) -> IncomingEdges | None:
-    edges = tuple(flows.links_to.get(("skill", skill), ()))
-    if not edges:
-        return None
+def _into(flows: EdgeFlows, skill: int, carried: EdgeFlow) -> IncomingEdges:
+    edges = tuple(flows.links_to["skill", skill])
     arrived = carried.carried[:, edges].T.astype(float)
     # influence beyond float32 is no number: where some of it is none, that is all of it
     arrived = np.where(np.isfinite(arrived).all(axis=0), arrived, ~np.isfinite(arrived))
@@ -304,7 +302,7 @@ def path_count(ends: IncomingEdges, into: Mapping[int, IncomingEdges], order: Se
     """How many paths there are over edges that carried something in any of the ticks, up to `MAX_COUNTED_PATHS`."""
     counts: dict[int, int] = {order[0]: 1}
     for skill in order[1:]:
-        counts[skill] = _counted(into[skill], counts) if skill in into else 0
+        counts[skill] = _counted(into[skill], counts)
     return _counted(ends, counts)
 
 
@@ -317,8 +315,7 @@ def _best(into: Mapping[int, IncomingEdges], order: Sequence[int], ticks: int) -
     """The part [ticks] of each skill's influence that comes over the best path to it in that tick."""
     best = {order[0]: np.ones(ticks)}
     for skill in order[1:]:
-        ways = into.get(skill)
-        best[skill] = np.zeros(ticks) if ways is None else _part_above(ways, best).max(axis=0)
+        best[skill] = _part_above(into[skill], best).max(axis=0)
     return best
 
 
