@@ -11,7 +11,7 @@ import click
 from mindrun.errors import MindError
 
 from mindlang.cli._diagnostic_printer import print_report
-from mindlang.cli._options import PATH, SKILLS, NewFile
+from mindlang.cli._options import PATH, SKILLS, named, written
 from mindlang.cli._terminal import FINDINGS, MISUSE, complain, console, fail, load_compiled, print_json
 from mindlang.compiler.diagnostic import did_you_mean, listed
 
@@ -33,8 +33,8 @@ Examples:
 
 @click.command(epilog=EXAMPLES)
 @click.argument("file")
-@click.option("-o", "--output", required=True, type=NewFile(), help="The bundle: -o collect.bundle")
-@click.option("--master", metavar="SKILL", shell_complete=SKILLS, help="Another skill in charge: --master Avoid")
+@written("-o --output", "PATH", "The bundle: -o collect.bundle", required=True)
+@named("--master", "SKILL", SKILLS, "Another skill in charge: --master Avoid")
 @click.option("--robot", type=PATH, metavar="FILE", help="What it is wired to: --robot robot.yaml")
 @click.option("--json", "as_json", is_flag=True, help="Say what was built as one JSON document: --json")
 @click.option("-q", "--quiet", is_flag=True, help="Print nothing but errors: -q")

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from mindlang.cli._options import PATH, NewFile
+from mindlang.cli._options import PATH, written
 from mindlang.cli._terminal import MISUSE, fail, print_json, refuse_unwritable, refusing, write_file
 
 if TYPE_CHECKING:
@@ -26,7 +26,7 @@ Examples:
 
 @click.command(epilog=EXAMPLES)
 @click.argument("runs", nargs=-1, required=True, metavar="RUN…", type=PATH)
-@click.option("-o", "--output", type=NewFile(), default="curves.svg", show_default=True, help="A .svg or a .png file.")
+@written("-o --output", "PATH", "A .svg or a .png file.", default="curves.svg", show_default=True)
 @click.option("--mean", is_flag=True, help="A panel for each lesson: the mean of its runs, and how sure it is.")
 @click.option("--json", "as_json", is_flag=True, help="Say what was drawn as one JSON document.")
 @click.option("-q", "--quiet", is_flag=True, help="Print nothing but results and errors.")

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from mindlang.cli._options import LAYOUT, SKILLS, TASKS, NumberOption
+from mindlang.cli._options import LAYOUT, SKILLS, TASKS, NumberOption, named
 from mindlang.cli._terminal import MISUSE, fail, load_compiled, print_json, print_table, procedures_talk
 from mindlang.compiler.diagnostic import did_you_mean
 
@@ -34,11 +34,9 @@ Examples:
     metavar="δ",
     help="What a learnt line sends where it should send 0. Default: 0.01.",
 )
-@click.option("--master", metavar="SKILL", shell_complete=SKILLS, help="Who is in charge. Default: the mind's master.")
+@named("--master", "SKILL", SKILLS, "Who is in charge. Default: the mind's master.")
 @click.option("--run", "with_run", is_flag=True, help="Run a task, too, and count ticks without influence.")
-@click.option(
-    "--task", metavar="TASK", shell_complete=TASKS, help="Of the run. Default: the one that `mindc run` takes."
-)
+@named("--task", "TASK", TASKS, "Of the run. Default: the one that `mindc run` takes.")
 @click.option("--seed", type=LAYOUT, default=1, help="Of the run. Default: 1.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON document instead.")
 def command(
