@@ -165,8 +165,7 @@ def refusing_recordings() -> Iterator[None]:
 
 def breakpoints_of_run(path: Path, compiled: Compiled, setup: RunSetup) -> tuple[Breakpoint, ...]:
     """The breakpoints of a run that is set up, in the .break file at `path`."""
-    assert compiled.mind
-    return read_breakpoints(path, BreakpointSubject.of_run(compiled.mind.names, setup))
+    return read_breakpoints(path, BreakpointSubject.of_run(compiled.whole[0].names, setup))
 
 
 def read_breakpoints(path: Path, subject: BreakpointSubject) -> tuple[Breakpoint, ...]:

@@ -110,11 +110,9 @@ def print_document(text: str) -> None:
 
 def text_columns(console: Console, rows: Sequence[tuple[Sequence[Text], Text]]) -> Text:
     """A line or more for each row: its short texts whole, then the long one, whose lines go on below one another."""
-    from rich.cells import cell_len
     from rich.text import Text
 
-    columns = zip(*(short for short, _ in rows), strict=True)
-    widths = [max(cell_len(text.plain) for text in column) for column in columns]
+    widths = [max(text.cell_len for text in column) for column in zip(*(short for short, _ in rows), strict=True)]
     indent = sum(widths) + 2 * len(widths)
     is_beside = console.width - indent >= LEAST_BODY_COLUMNS
     indent = indent if is_beside else 2
@@ -122,15 +120,10 @@ def text_columns(console: Console, rows: Sequence[tuple[Sequence[Text], Text]]) 
     for short, body in rows:
         line = Text()
         for text, width in zip(short, widths, strict=True):
-            line.append_text(text).append(" " * (width - cell_len(text.plain) + 2))
-        parts = [part for part in body.split("\n") if part]
-        wrapped = [each for part in parts for each in part.wrap(console, max(1, console.width - indent))]
-        lines = [Text(" " * indent).append_text(each) for each in wrapped]
-        if is_beside and lines:
-            lines[0] = line.append_text(lines[0][indent:])
-        else:
-            lines.insert(0, line)
-        for each in lines:
+            line.append_text(text).append(" " * (width - text.cell_len + 2))
+        wrapped = [each for each in body.wrap(console, max(1, console.width - indent)) if each]
+        beside = [line.append_text(wrapped.pop(0)) if is_beside and wrapped else line]
+        for each in [*beside, *(Text(" " * indent).append_text(rest) for rest in wrapped)]:
             each.rstrip()
             found.append_text(each).append("\n")
     return found

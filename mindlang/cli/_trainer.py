@@ -33,15 +33,7 @@ from mindlang.training.event_files import EventFiles
 from mindlang.training.lesson_choice import TrainOptions, lessons_to_teach
 from mindlang.training.lock_update import Kept
 from mindlang.training.subject import Subject, begin_run, open_subject, refuse_changed
-from mindlang.training.teaching import (
-    Result,
-    finish,
-    make_again,
-    opening,
-    outcome,
-    rollout_of,
-    workers_of,
-)
+from mindlang.training.teaching import Result, finish, make_again, opening, outcome, rollout_of, workers_of
 
 
 @dataclass(frozen=True, slots=True)

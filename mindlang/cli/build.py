@@ -52,16 +52,15 @@ def command(file: str, output: Path, master: str | None, robot: Path | None, as_
     from mindlang.lock.ready import make_ready
 
     compiled = load_compiled(file)
-    assert compiled.mind is not None
-    assert compiled.graph is not None
-    skills, folder = [skill.name for skill in compiled.graph.skills], compiled.sources[0].folder
+    (mind, graph), folder = compiled.whole, compiled.sources[0].folder
+    skills = [skill.name for skill in graph.skills]
     if master is not None and master not in skills:
         fail(f"There is no skill {master}.", did_you_mean(master, skills), MISUSE)
-    graph = replace(compiled.graph, master=master or compiled.graph.master)
-    _refuse_procedures(graph, compiled.mind, folder)
-    wiring = _wiring(robot, graph, compiled.mind.unit_metres) if robot else None
+    graph = replace(graph, master=master or graph.master)
+    _refuse_procedures(graph, mind, folder)
+    wiring = _wiring(robot, graph, mind.unit_metres) if robot else None
     try:
-        ready = make_ready(compiled.graph, compiled.sources, master)
+        ready = make_ready(graph, compiled.sources)
         _refuse_missing(ready, file)
         procedures = procedure_sources(ready.policy.graph, folder)
         digest = write_bundle(output, Bundle(ready.policy, procedures, wiring))

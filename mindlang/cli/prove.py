@@ -58,14 +58,14 @@ def command(
     from mindlang.proofs.report import proof_data, proof_report
 
     compiled = load_compiled(file)
-    assert compiled.graph
+    _, graph = compiled.whole
     if master is not None:
-        names = [skill.name for skill in compiled.graph.skills]
+        names = [skill.name for skill in graph.skills]
         if master not in names:
             fail(f"there is no skill called {master}", did_you_mean(master, names), MISUSE)
-        compiled = replace(compiled, graph=replace(compiled.graph, master=master))
-    assert compiled.graph
-    ready = make_ready(compiled.graph, compiled.sources)
+        graph = replace(graph, master=master)
+        compiled = replace(compiled, graph=graph)
+    ready = make_ready(graph, compiled.sources)
     lock = read_locks(lock_sources(compiled.sources))
     hashes = {skill: lock[skill].weights for skill in ready.policy.weights if skill in lock}
     run = _run(file, compiled, task, seed) if with_run else None
@@ -82,6 +82,5 @@ def _run(file: str, compiled: Compiled, task: str | None, seed: int) -> Recorded
     from mindlang.proofs.recorded import record_undriven
     from mindlang.run.setup import set_up
 
-    assert compiled.graph
     with refusing_setups("--run: "), procedures_talk():
-        return record_undriven(set_up(file, compiled, task, compiled.graph.master), seed, ensure_compiled)
+        return record_undriven(set_up(file, compiled, task, compiled.whole[1].master), seed, ensure_compiled)

@@ -94,7 +94,7 @@ def run_view(file: str, chosen: RunChoice, breaks: Path | None, quiet: bool) -> 
     breakpoints = breakpoints_of_run(breaks, compiled, setup) if breaks else ()
     setup = noticing(setup, breakpoints)
     rollout = session.simulator(setup, chosen.interrupt)
-    skills = compiled.mind.skills if compiled.mind else ()
+    skills = compiled.whole[0].skills
     texts = {(skill.name, edge.target): text_after_name(edge.fact) for skill in skills for edge in skill.edges}
     seed = secrets.randbits(31) if chosen.seed is None else chosen.seed
     return ViewedRun(setup, rollout, seed, texts, breakpoints).begun()

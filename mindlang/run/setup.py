@@ -76,16 +76,16 @@ class RunSetup:
 
 def set_up(file: str, compiled: Compiled, task: str | None, master: str | None) -> RunSetup:
     """The task and the master of these names, or the default ones; SetupError where they cannot run."""
-    assert compiled.graph is not None
-    chosen, note = task_of(compiled.graph, task)
-    leader = master_of(compiled.graph, chosen, master)
+    _, graph = compiled.whole
+    chosen, note = task_of(graph, task)
+    leader = master_of(graph, chosen, master)
     return RunSetup(chosen, leader, ready_to_act(file, compiled, leader), compiled.sources[0].folder, note)
 
 
 def ready_to_act(file: str, compiled: Compiled, master: str | None = None) -> ReadyMind:
     """The mind under a master, by default its own; SetupError where a skill has no weights that fit."""
-    assert compiled.graph is not None
-    ready = make_ready(compiled.graph, compiled.sources, master)
+    _, graph = compiled.whole
+    ready = make_ready(graph, compiled.sources, master)
     if ready.refusals:
         raise SetupError("\n".join(ready.refusals), train_command(Path(file), ready))
     return ready

@@ -85,16 +85,13 @@ class Subject:
 
 def open_subject(path: Path, compiled: Compiled) -> Subject:
     """The subject of a file that compiled; LockError where its lock is damaged."""
-    assert compiled.graph is not None
-    assert compiled.mind is not None
-    source = path.resolve()
-    lock = read_locks(lock_sources(compiled.sources))
+    mind, graph = compiled.whole
+    source, taught = path.resolve(), lock_sources(compiled.sources)
+    lock = read_locks(taught)
     sources = {file.path.relative_to(source.parent).as_posix(): file.text for file in compiled.sources}
-    graph = arrange(compiled.graph, lock)
-    taught = lock_sources(compiled.sources)
-    places = {lesson.curriculum: lesson.fact.span.source.path for lesson in compiled.mind.lessons}
+    places = {lesson.curriculum: lesson.fact.span.source.path for lesson in mind.lessons}
     homes = {curriculum: path for curriculum, path in places.items() if path in taught}
-    return Subject(source, sources, graph, lock, homes, taught)
+    return Subject(source, sources, arrange(graph, lock), lock, homes, taught)
 
 
 def begin_run(
