@@ -144,20 +144,25 @@ def refuse_unwritable(path: Path | None, *suffixes: str) -> None:
         return
     if path.suffix.lower() not in suffixes:
         fail(f"{path} must end in {' or '.join(suffixes)}", code=MISUSE)
-    try:
+    with writing(path):
         refuse(path)
+
+
+@contextmanager
+def writing(path: Path | str, code: int = MISUSE) -> Iterator[None]:
+    """End the program with one message where a file cannot be written."""
+    try:
+        yield
     except OSError as error:
-        fail(f"{path} cannot be written: {error.strerror}", code=MISUSE)
+        fail(f"{path} cannot be written: {error.strerror}", code=code)
 
 
 def write_file(path: Path, data: Data) -> None:
     """Write a file whose contents are done; where that fails the program ends, and the old one is still there."""
     from mindrun.files.atomic_write import write_out
 
-    try:
+    with writing(path):
         write_out(path, data)
-    except OSError as error:
-        fail(f"{path} cannot be written: {error.strerror}", code=MISUSE)
 
 
 def rewrite_source(file: str, old: str, new: str) -> None:
@@ -167,10 +172,8 @@ def rewrite_source(file: str, old: str, new: str) -> None:
     from mindlang.compiler.source import encode_source
 
     path = Path(file)
-    try:
+    with writing(file, FINDINGS):
         rewrite(path, encode_source(path, new), encode_source(path, old))
-    except OSError as error:
-        fail(f"{file} cannot be written: {error.strerror}")
 
 
 def load_compiled(path: Path | str) -> Compiled:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -158,10 +159,12 @@ class Bench:
 
     def _score(self, prepared: Prepared, seeds: Sequence[int], whose: str = "") -> tuple[Scores, dict[str, Any]]:
         """The score of each run, and the data of all of them; notes on stderr say `whose` they are."""
+        from mindlang.executors import scorer_on
         from mindlang.run.outcome import bench_data, over_at_once
 
         setup, rollout = prepared
-        with self.session.scorer(prepared, not self.no_interruption, self.where, self.workers) as scorer:
+        jobs = partial(setup.assignment, not self.no_interruption)
+        with scorer_on(self.where, rollout, jobs, self.workers, self.session.say) as scorer:
             scores, seconds, cpu = self.session.score(scorer, seeds, whose)
         data = bench_data(setup.task, scores, seeds, seconds, None if self.where else cpu)
         return scores, data | {"notes": setup.notes(rollout, *over_at_once(setup.task, scores))}

@@ -12,7 +12,7 @@ from mindrun.errors import MindError
 
 from mindlang.cli._diagnostic_printer import print_report
 from mindlang.cli._options import PATH, SKILLS, named, written
-from mindlang.cli._terminal import FINDINGS, MISUSE, complain, console, fail, load_compiled, print_json
+from mindlang.cli._terminal import FINDINGS, MISUSE, complain, console, fail, load_compiled, print_json, writing
 from mindlang.compiler.diagnostic import did_you_mean, listed
 
 if TYPE_CHECKING:
@@ -60,14 +60,13 @@ def command(file: str, output: Path, master: str | None, robot: Path | None, as_
     _refuse_procedures(graph, mind, folder)
     wiring = _wiring(robot, graph, mind.unit_metres) if robot else None
     try:
-        ready = make_ready(graph, compiled.sources)
-        _refuse_missing(ready, file)
-        procedures = procedure_sources(ready.policy.graph, folder)
-        digest = write_bundle(output, Bundle(ready.policy, procedures, wiring))
+        with writing(output, FINDINGS):
+            ready = make_ready(graph, compiled.sources)
+            _refuse_missing(ready, file)
+            procedures = procedure_sources(ready.policy.graph, folder)
+            digest = write_bundle(output, Bundle(ready.policy, procedures, wiring))
     except MindError as error:
         fail(str(error), code=MISUSE)
-    except OSError as error:
-        fail(f"{output} cannot be written: {error.strerror}")
     notes = [*ready.notes, *_needed_modules(ready, folder)]
     for note in notes:
         complain(f"note: {note}")

@@ -5,10 +5,9 @@ from pathlib import Path
 from typing import Any
 
 import click
-from mindrun.errors import MindError
 
 from mindlang.cli._options import named, one_of
-from mindlang.cli._terminal import MISUSE, fail, print_json
+from mindlang.cli._terminal import MISUSE, fail, print_json, refusing
 from mindlang.templates import Robot, Task, fitting, known, robots, robots_for, tasks, tasks_of
 from mindlang.templates.project import check_free, check_name, make_folder, project
 
@@ -44,7 +43,7 @@ def command(name: str | None, robot: str | None, task: str | None, as_list: bool
         return
     if as_json:
         fail("--json goes with --list.", "mindc new --list --json", MISUSE)
-    try:
+    with refusing(MISUSE):
         if name is not None:
             check_name(name)
             check_free(Path(name))
@@ -53,8 +52,6 @@ def command(name: str | None, robot: str | None, task: str | None, as_list: bool
             name = _asked_name()
             check_name(name)
         make_folder(Path(name), project(name, chosen_robot, chosen_task))
-    except MindError as error:
-        fail(str(error), error.hint, MISUSE)
     click.echo(f"{name}: a {chosen_robot.name} robot, and how it learns to {chosen_task.name}", err=True)
     click.echo(f"  cd {name}", err=True)
     click.echo(f"  mindc train {name}.mind --seed 1     # in about a minute", err=True)

@@ -200,10 +200,7 @@ class RunFiles:
         from mindlang.pictures.film import Film
 
         film = Film(run, found, self.speed, path.suffix.lower())
-        try:
-            with terminal.refusing(terminal.MISUSE), self.session.progress() as progress:
-                bar = progress.add_task(path.name, total=len(film))
-                film.write(path, lambda: progress.advance(bar))
-        except OSError as error:
-            terminal.fail(f"{path} cannot be written: {error.strerror}", code=terminal.MISUSE)
+        with terminal.writing(path), terminal.refusing(terminal.MISUSE), self.session.progress() as progress:
+            bar = progress.add_task(path.name, total=len(film))
+            film.write(path, lambda: progress.advance(bar))
         self.session.say(f"{path}: {film.seconds:.0f} s at {film.speed:g} times the robot's speed")

@@ -299,10 +299,6 @@ class JobScorer:
         """The counts of all workers beside the results."""
         return tally_of(self.rollout)
 
-    def add(self, tally: Tally) -> None:
-        """Count what was counted elsewhere."""
-        self.rollout.add(tally)
-
 
 def _score(genomes: NDArray[np.float32], seeds: NDArray[np.uint64], scorer: Any) -> Scores:
     """Every genome [genomes, weights] on every seed."""
