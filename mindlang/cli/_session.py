@@ -21,6 +21,7 @@ from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, T
 from mindlang.breakpoints.breakpoint import Breakpoint
 from mindlang.breakpoints.resolve import load_breakpoints
 from mindlang.breakpoints.subject import BreakpointSubject
+from mindlang.breakpoints.watch import noticing
 from mindlang.cli import _terminal as terminal
 from mindlang.cli._diagnostic_printer import print_report
 from mindlang.cli._options import RunChoice
@@ -95,6 +96,16 @@ class RunSession:
         self.say(*(f"note: {note}" for note in (*found.ready.notes, found.note) if note))
         return found
 
+    def prepare_stopping(
+        self, file: str, compiled: Compiled, chosen: RunChoice, breaks: Path | None
+    ) -> tuple[RunSetup, Prepared, tuple[Breakpoint, ...]]:
+        """A run that is set up; the one that notices what a .break file asks, in its simulator; its breakpoints."""
+        setup, breakpoints = self.set_up(file, compiled, chosen), tuple[Breakpoint, ...]()
+        if breaks:
+            breakpoints = read_breakpoints(breaks, BreakpointSubject.of_run(compiled.whole[0].names, setup))
+        noticed = noticing(setup, breakpoints)
+        return setup, Prepared(noticed, self.simulator(noticed, chosen.interrupt)), breakpoints
+
     @terminal.procedures_talk()
     def simulator(self, setup: RunSetup, interrupt: bool, workers: int = 1, runs: int = 1) -> Rollout:
         """The simulator of a run that is set up, compiled for it."""
@@ -159,11 +170,6 @@ def refusing_recordings() -> Iterator[None]:
     except MindError as error:
         is_found = isinstance(error, (DifferenceError, ProcedureError))
         terminal.fail(str(error), error.hint, terminal.FINDINGS if is_found else terminal.MISUSE)
-
-
-def breakpoints_of_run(path: Path, compiled: Compiled, setup: RunSetup) -> tuple[Breakpoint, ...]:
-    """The breakpoints of a run that is set up, in the .break file at `path`."""
-    return read_breakpoints(path, BreakpointSubject.of_run(compiled.whole[0].names, setup))
 
 
 def read_breakpoints(path: Path, subject: BreakpointSubject) -> tuple[Breakpoint, ...]:

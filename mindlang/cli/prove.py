@@ -1,19 +1,12 @@
 """`mindc prove`: what can be said about a mind without running it."""
 
-from __future__ import annotations
-
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import click
 
 from mindlang.cli._options import LAYOUT, SKILLS, TASKS, NumberOption, named
 from mindlang.cli._terminal import MISUSE, fail, load_compiled, print_json, print_table, procedures_talk
 from mindlang.compiler.diagnostic import did_you_mean
-
-if TYPE_CHECKING:
-    from mindlang.compiler.compile import Compiled
-    from mindlang.proofs.recorded import Recorded
 
 EXAMPLES = """\b
 Examples:
@@ -68,19 +61,17 @@ def command(
     ready = make_ready(graph, compiled.sources)
     lock = read_locks(lock_sources(compiled.sources))
     hashes = {skill: lock[skill].weights for skill in ready.policy.weights if skill in lock}
-    run = _run(file, compiled, task, seed) if with_run else None
+    run = None
+    if with_run:
+        from mindlang.cli._session import ensure_compiled, refusing_setups
+        from mindlang.proofs.recorded import record_undriven
+        from mindlang.run.setup import set_up
+
+        with refusing_setups("--run: "), procedures_talk():
+            run = record_undriven(set_up(file, compiled, task, graph.master), seed, ensure_compiled)
     proof = prove(ready.policy.graph, ready.policy.weights, leak)
     data = proof_data(proof, hashes, run)
     if as_json:
         print_json(data)
     else:
         print_table(proof_report(data))
-
-
-def _run(file: str, compiled: Compiled, task: str | None, seed: int) -> Recorded:
-    from mindlang.cli._session import ensure_compiled, refusing_setups
-    from mindlang.proofs.recorded import record_undriven
-    from mindlang.run.setup import set_up
-
-    with refusing_setups("--run: "), procedures_talk():
-        return record_undriven(set_up(file, compiled, task, compiled.whole[1].master), seed, ensure_compiled)

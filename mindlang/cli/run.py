@@ -81,32 +81,25 @@ def _run(file: str, chosen: options.RunChoice, breaks: Path | None, files: RunFi
     """Run to the end or to a line of the .break file, print and write the outcome; the exit code."""
     from rich.console import Group
 
-    from mindlang.breakpoints.watch import noticing, watcher
-    from mindlang.cli._session import breakpoints_of_run
+    from mindlang.breakpoints.watch import watcher
     from mindlang.run.outcome import data_so_far, run_data
-    from mindlang.run.recorded_run import run_result
     from mindlang.run.summary import run_summary
 
     seed = secrets.randbits(31) if chosen.seed is None else chosen.seed
     session, compiled, run, stop = files.session, terminal.load_compiled(file), None, None
-    plain = session.set_up(file, compiled, chosen)
-    breakpoints = breakpoints_of_run(breaks, compiled, plain) if breaks else ()
-    setup = noticing(plain, breakpoints)
-    rollout = session.simulator(setup, chosen.interrupt)
-    if breaks:
-        with terminal.procedures_talk():
-            made = run_result(setup, rollout, seed)
-            stop = stopped_data(watcher(breakpoints, setup).feed(made.run), str(breaks), made.run.graph.tick)
-        run, came = made.run, made.found
-        if stop and stop["tick"] < run.ticks:
-            run = run.until(stop["tick"])
-            came = data_so_far(run.task, run.lines[-1], run.events[-1], run.ticks, "a breakpoint")
-        came = came | {"stopped": stop}
-    elif any(getattr(files, name) for name in WRITTEN):
+    plain, (setup, rollout), breakpoints = session.prepare_stopping(file, compiled, chosen, breaks)
+    if breaks or any(getattr(files, name) for name in WRITTEN):
         made = session.record(setup, rollout, seed)
         run, came = made.run, made.found
     else:
         came = run_data(setup.task, session.score(rollout, [seed])[0])
+    if breaks and run:
+        with terminal.procedures_talk():
+            stop = stopped_data(watcher(breakpoints, setup).feed(run), str(breaks), run.graph.tick)
+        if stop and stop["tick"] < run.ticks:
+            run = run.until(stop["tick"])
+            came = data_so_far(run.task, run.lines[-1], run.events[-1], run.ticks, "a breakpoint")
+        came = came | {"stopped": stop}
     found = {"task": setup.task.name, "master": setup.master, "seed": seed}
     found |= {"notes": [*setup.ready.notes, *rollout.notes], **came}
     where = [stop_summary(stop)] if breaks else []

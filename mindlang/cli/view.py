@@ -84,16 +84,12 @@ def command(file: str, bundle: str | None, chosen: RunChoice, breaks: Path | Non
 
 def run_view(file: str, chosen: RunChoice, breaks: Path | None, quiet: bool) -> Viewed:
     """A run at its beginning, of a drawn seed where none is said; `breaks` is a file of breakpoints."""
-    from mindlang.breakpoints.watch import noticing
-    from mindlang.cli._session import RunSession, breakpoints_of_run
+    from mindlang.cli._session import RunSession
     from mindlang.compiler.drawing import text_after_name
     from mindlang.view.viewed_run import ViewedRun
 
     compiled, session = terminal.load_compiled(file), RunSession(quiet)
-    setup = session.set_up(file, compiled, chosen)
-    breakpoints = breakpoints_of_run(breaks, compiled, setup) if breaks else ()
-    setup = noticing(setup, breakpoints)
-    rollout = session.simulator(setup, chosen.interrupt)
+    _, (setup, rollout), breakpoints = session.prepare_stopping(file, compiled, chosen, breaks)
     skills = compiled.whole[0].skills
     texts = {(skill.name, edge.target): text_after_name(edge.fact) for skill in skills for edge in skill.edges}
     seed = secrets.randbits(31) if chosen.seed is None else chosen.seed
