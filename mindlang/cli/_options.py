@@ -112,9 +112,14 @@ def written(flag: str, metavar: str, about: str, **more: Any) -> Option:
     return click.option(*flag.split(), type=new_file, metavar=metavar, help=about, **more)
 
 
-def taken(of: type[Chosen], said: dict[str, Any], **more: Any) -> Chosen:
+def unless(flag: str, name: str, about: str) -> Option:
+    """A flag for what holds without it: what the command calls by that name is False where the flag is given."""
+    return click.option(flag, name, is_flag=True, callback=lambda context, parameter, value: not value, help=about)
+
+
+def taken(of: type[Chosen], said: dict[str, Any]) -> Chosen:
     """A value of a dataclass that has fields called as options; what it takes is no longer among what was `said`."""
-    return of(**{each.name: said.pop(each.name) for each in fields(of) if each.name in said}, **more)
+    return of(**{each.name: said.pop(each.name) for each in fields(of) if each.name in said})
 
 
 def refuse_ineffective(what_they_are: str, *names: str) -> None:
@@ -207,7 +212,7 @@ PATH = click.Path(path_type=Path)
 SKILLS, TASKS = declared("skill"), declared("task")
 IN_CHARGE = "Who is in charge. Default: the mind's master if a lesson on the task is under it, else that of the first."
 OF_TASK = named("--task", "TASK", TASKS, "Default: that on which the master is taught, or of its name.")
-OF_A_CAST = "task", "master", "no_interruption"  # who does what in a run
+OF_A_CAST = "task", "master", "interrupt"  # who does what in a run
 OF_A_RUN = (*OF_A_CAST, "seed")
 OF_RUNS_ALONE = "of runs, not of recordings"
 
@@ -229,10 +234,10 @@ def run_options(seed: str) -> Option:
         @OF_TASK
         @click.option("--seed", type=LAYOUT, help=seed)
         @named("--master", "SKILL", SKILLS, IN_CHARGE)
-        @click.option("--no-interruption", is_flag=True, help="Go on to the last tick, whatever would end the run.")
+        @unless("--no-interruption", "interrupt", "Go on to the last tick, whatever would end the run.")
         @wraps(command)
-        def called(no_interruption: bool, **said: Any) -> Any:
-            return command(chosen=taken(RunChoice, said, interrupt=not no_interruption), **said)
+        def called(**said: Any) -> Any:
+            return command(chosen=taken(RunChoice, said), **said)
 
         return called
 

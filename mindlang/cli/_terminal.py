@@ -41,7 +41,7 @@ def console(stderr: bool = False) -> Console:
 def tell(*lines: str, quiet: bool = False) -> None:
     """Print lines on stderr, unless it is to be quiet."""
     for line in () if quiet else lines:
-        console(stderr=True).print(line, markup=False)
+        console(stderr=True).print(line, markup=False, emoji=False)
 
 
 def complain(message: str, hint: str = "") -> None:

@@ -46,7 +46,7 @@ Examples:
     "--master masters", "SKILL", options.SKILLS, f"{options.IN_CHARGE} Twice: both are compared.", multiple=True
 )
 @options.ON(help="Who makes the runs: processes:N, ssh:HOST,HOST …")
-@click.option("--no-interruption", is_flag=True, help="Go on to the last tick, whatever would end a run.")
+@options.unless("--no-interruption", "interrupt", "Go on to the last tick, whatever would end a run.")
 @options.written("--csv table", "PATH.csv", "Write a row for each run.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON document instead.")
 @click.option("-q", "--quiet", is_flag=True, help="Print nothing but results and errors.")
@@ -107,7 +107,7 @@ class Bench:
     runs: int
     seed: int
     where: Where | None
-    no_interruption: bool
+    interrupt: bool
     table: Path | None
     as_json: bool
 
@@ -154,7 +154,7 @@ class Bench:
         print_result(self.as_json, found, lambda: comparison_summary(found, compared))
 
     def _prepared(self, who: Contender, task: str | None) -> Prepared:
-        chosen = options.RunChoice(task, self.seed, who.master, not self.no_interruption)
+        chosen = options.RunChoice(task, self.seed, who.master, self.interrupt)
         return self.session.prepare(who.file, chosen, self.workers, self.runs)
 
     def _score(self, prepared: Prepared, seeds: Sequence[int], whose: str = "") -> tuple[Scores, dict[str, Any]]:
@@ -163,7 +163,7 @@ class Bench:
         from mindlang.run.outcome import bench_data, over_at_once
 
         setup, rollout = prepared
-        jobs = partial(setup.assignment, not self.no_interruption)
+        jobs = partial(setup.assignment, self.interrupt)
         with scorer_on(self.where, rollout, jobs, self.workers, self.session.say) as scorer:
             scores, seconds, cpu = self.session.score(scorer, seeds, whose)
         data = bench_data(setup.task, scores, seeds, seconds, None if self.where else cpu)

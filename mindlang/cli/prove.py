@@ -5,8 +5,7 @@ from dataclasses import replace
 import click
 
 from mindlang.cli._options import LAYOUT, SKILLS, TASKS, NumberOption, named
-from mindlang.cli._terminal import MISUSE, fail, load_compiled, print_json, print_table, procedures_talk
-from mindlang.compiler.diagnostic import did_you_mean
+from mindlang.cli._terminal import MISUSE, load_compiled, print_json, print_table, procedures_talk, refusing
 
 EXAMPLES = """\b
 Examples:
@@ -49,15 +48,13 @@ def command(
     from mindlang.lock.ready import make_ready
     from mindlang.proofs.proof import prove
     from mindlang.proofs.report import proof_data, proof_report
+    from mindlang.run.chosen_task import skill_of
 
     compiled = load_compiled(file)
     _, graph = compiled.whole
-    if master is not None:
-        names = [skill.name for skill in graph.skills]
-        if master not in names:
-            fail(f"there is no skill called {master}", did_you_mean(master, names), MISUSE)
-        graph = replace(graph, master=master)
-        compiled = replace(compiled, graph=graph)
+    with refusing(MISUSE):
+        graph = replace(graph, master=skill_of(graph, master or graph.master))
+    compiled = replace(compiled, graph=graph)
     ready = make_ready(graph, compiled.sources)
     lock = read_locks(lock_sources(compiled.sources))
     hashes = {skill: lock[skill].weights for skill in ready.policy.weights if skill in lock}
@@ -69,8 +66,7 @@ def command(
 
         with refusing_setups("--run: "), procedures_talk():
             run = record_undriven(set_up(file, compiled, task, graph.master), seed, ensure_compiled)
-    proof = prove(ready.policy.graph, ready.policy.weights, leak)
-    data = proof_data(proof, hashes, run)
+    data = proof_data(prove(ready.policy.graph, ready.policy.weights, leak), hashes, run)
     if as_json:
         print_json(data)
     else:

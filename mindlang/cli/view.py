@@ -47,7 +47,7 @@ MAX_PORT = 65535
     "--follow", is_flag=True, help="Of a recording: show what is still written. HOST:FILE.rec is read by ssh."
 )
 @click.option("--port", type=options.WholeOption(1, MAX_PORT), help="Of this machine. Default: any that is free.")
-@click.option("--no-browser", is_flag=True, help="Print the address, and open nothing.")
+@options.unless("--no-browser", "opens_browser", "Print the address, and open nothing.")
 @options.written("--export", "PATH.html", "Write the page with the run in it, and end.")
 @click.option("-q", "--quiet", is_flag=True, help="Print nothing but the address and errors.")
 def command(file: str, bundle: str | None, chosen: RunChoice, breaks: Path | None, follow: bool, **said: Any) -> None:
@@ -63,7 +63,7 @@ def command(file: str, bundle: str | None, chosen: RunChoice, breaks: Path | Non
     """
     output = ViewOutput(**said)
     if output.export:
-        refuse_ineffective("of a page that is served, not of --export", "port", "no_browser")
+        refuse_ineffective("of a page that is served, not of --export", "port", "opens_browser")
         terminal.refuse_unwritable(output.export, ".html")
     if follow and bundle is None:
         raise click.UsageError("--follow is for a recording and its bundle: mindc view day.rec NAME.bundle --follow")
@@ -143,7 +143,7 @@ class ViewOutput:
     """The output of `mindc view`: the file `export`, or a page served at a `port`, None for any that is free."""
 
     port: int | None
-    no_browser: bool
+    opens_browser: bool
     export: Path | None
     quiet: bool
 
@@ -157,7 +157,7 @@ class ViewOutput:
         def ready(address: str) -> None:
             click.echo(address, file=out)
             terminal.tell("Ctrl-C ends this; a browser that is closed does not.", quiet=self.quiet)
-            if not self.no_browser:
+            if self.opens_browser:
                 open_browser(address)
 
         if self.export:

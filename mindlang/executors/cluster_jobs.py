@@ -90,10 +90,7 @@ class ClusterJobs(JobExecutor):
         self._client, self._say, self._when_over = client, say, ended
         module, _, name = function.rpartition(".")
         self._call = f"__import__({module!r}, fromlist=[{name!r}]).{name}(build, assignment, work)"
-        self._shared = {
-            "build": dict(cluster_build()),
-            "assignment": pickle.dumps(replace(assignment, folder=None)),
-        }
+        self._shared = {"build": dict(cluster_build()), "assignment": pickle.dumps(replace(assignment, folder=None))}
         self._address: str = client.scheduler.address
         self._slots, self._looked = 0, float("-inf")
         self._missed_since: float | None = None
@@ -178,11 +175,7 @@ class ClusterJobs(JobExecutor):
 
 
 def jobs_of_cluster(
-    cluster: Any,
-    security: Security,
-    assignment: Assignment,
-    say: Callable[[str], object],
-    end: Callable[[], object],
+    cluster: Any, security: Security, assignment: Assignment, say: Callable[[str], object], end: Callable[[], object]
 ) -> ClusterJobs:
     """The jobs of a cluster that was begun for them: `end` is called when they are over, or nobody answers there."""
     try:

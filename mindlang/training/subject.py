@@ -49,15 +49,6 @@ class Subject:
         here = Path.cwd().resolve()
         return self.source.relative_to(here) if self.source.is_relative_to(here) else self.source
 
-    def takes(self, lesson: Lesson, is_named: bool) -> bool:
-        """True if a lesson is to be taught: it is due, or somebody has named it.
-
-        RunError where one that is named stands on a skill that has not what its own lesson needs.
-        """
-        if is_named:
-            refuse_failed_below(self, lesson)
-        return is_named or self.is_due(lesson)
-
     def keep_path(self, lesson: Lesson) -> Path:
         """The lock to which goes what a lesson teaches: that of the file in which the lesson stands.
 
