@@ -5,7 +5,6 @@ from __future__ import annotations
 import secrets
 import sys
 from dataclasses import dataclass
-from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,6 +12,7 @@ import click
 
 from mindlang.cli import _options as options
 from mindlang.cli import _terminal as terminal
+from mindlang.number_format import finite
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -122,7 +122,7 @@ def stopped_data(stops: Sequence[Stop], file: str, tick_seconds: float) -> dict[
                 "file": file,
                 "line": stop.breakpoint.line,
                 "text": stop.breakpoint.text,
-                "values": {name: value if isfinite(value) else None for name, value in stop.values},
+                "values": {name: finite(value) for name, value in stop.values},
             }
             for stop in stops
             if stop.tick == tick

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from math import ceil, floor, log10
 from typing import TYPE_CHECKING, Any
 
@@ -57,7 +57,7 @@ class MindComparison:
 
     def data(self) -> dict[str, Any]:
         """The part of `mindc bench --json` that is about both minds."""
-        plain = {name: found.data() for name, found in self.differences.items()}
+        plain = {name: asdict(found) for name, found in self.differences.items()}
         by_event = {name: plain.pop(name) for name in list(plain) if name not in (SCORE, SUCCESS)}
         differences = {**plain, "by_event": by_event}
         return {"confidence": CONFIDENCE_LEVEL, "differences": differences, "conclusion": self.conclusion}

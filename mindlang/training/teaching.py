@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from math import isfinite
 from typing import Any
 
 from mindrun.engine.engine import procedure_sources
@@ -25,7 +24,7 @@ from mindlang.executors import Where, scorer_on
 from mindlang.executors.jobs import Assignment, JobScorer, StretchExecutor, WorkError
 from mindlang.limits import refuse_too_large, refuse_too_long
 from mindlang.lock.blobs import digest
-from mindlang.number_format import duration, short_score, speed
+from mindlang.number_format import duration, finite, short_score, speed
 from mindlang.training.lock_update import Kept, keep
 from mindlang.training.subject import Subject
 
@@ -183,18 +182,14 @@ def result_of(run: RunFolder, subject: Subject, state: LessonState, kept: Kept) 
         "seconds": round(state.seconds, 3),
         "ticks_per_second": round(state.ticks / max(state.seconds, 1e-9)),
         "faults": state.faults,
-        "verdicts": [_finite(verdict) for verdict in state.verdicts[:, 1]],
+        "verdicts": [finite(verdict) for verdict in state.verdicts[:, 1]],
         "weights": {skill: digest(weights) for skill, weights in learnt.items()},
         "kept": kept.is_new,
-        "compared": [_finite(score) for score in (kept.comparison.old, kept.comparison.new)]
+        "compared": [finite(score) for score in (kept.comparison.old, kept.comparison.new)]
         if kept.comparison
         else None,
         "run": str(run.folder),
     }
-
-
-def _finite(score: float) -> float | None:
-    return float(score) if isfinite(score) else None
 
 
 def outcome(run: RunFolder, result: Result, kept: Kept, lock: str) -> list[str]:
