@@ -160,11 +160,13 @@ class Bench:
     def _score(self, prepared: Prepared, seeds: Sequence[int], whose: str = "") -> tuple[Scores, dict[str, Any]]:
         """The score of each run, and the data of all of them; notes on stderr say `whose` they are."""
         from mindlang.executors import scorer_on
+        from mindlang.executors.jobs import assignment_of
         from mindlang.run.outcome import bench_data, over_at_once
 
         setup, rollout = prepared
-        jobs = partial(setup.assignment, self.interrupt)
-        with scorer_on(self.where, rollout, jobs, self.workers, self.session.say) as scorer:
+        cast = setup.ready.policy, setup.task.name, setup.master, setup.folder
+        assignment = partial(assignment_of, *cast, interrupt=self.interrupt)
+        with scorer_on(self.where, rollout, assignment, self.workers, self.session.say) as scorer:
             scores, seconds, cpu = self.session.score(scorer, seeds, whose)
         data = bench_data(setup.task, scores, seeds, seconds, None if self.where else cpu)
         return scores, data | {"notes": setup.notes(rollout, *over_at_once(setup.task, scores))}

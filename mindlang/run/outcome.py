@@ -1,15 +1,13 @@
 """The outcome of one run, and of many, as plain data: the contents of `--json`."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Sequence
 from math import sqrt
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from mindrun.graph.graph import Task
-from mindrun.graph.run_scores import paid_by_text, score_of
+from mindrun.graph.run_scores import Scores, paid_by_text, score_of
 from mindrun.sim.codes import BROKEN_OFF, GOING_ON, LOST
 from mindrun.train.scoring import succeeded
 from numpy.typing import NDArray
@@ -17,9 +15,6 @@ from numpy.typing import NDArray
 from mindlang.compiler.drawing import phrase
 from mindlang.number_format import finite
 from mindlang.run.paired_difference import unseen_share
-
-if TYPE_CHECKING:
-    from mindrun.graph.run_scores import Scores
 
 TIME = "time"
 NOTHING = np.zeros(0)

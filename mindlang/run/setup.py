@@ -9,8 +9,6 @@ from time import perf_counter
 from typing import TYPE_CHECKING
 
 import numpy as np
-from mindrun.engine.engine import procedure_sources
-from mindrun.graph.bundle import Bundle, pack
 from mindrun.graph.graph import Task
 from mindrun.graph.run_scores import Scores
 from mindrun.graph.skill_sets import owners, reachable
@@ -19,7 +17,7 @@ from mindrun.processors import cpu_seconds
 from mindrun.terminal.command_line import command_line
 
 from mindlang.compiler.compile import Compiled
-from mindlang.executors.jobs import Assignment, Block, JobScorer, empty_scores, write_scores
+from mindlang.executors.jobs import Block, JobScorer, empty_scores, write_scores
 from mindlang.limits import as_runs, as_seed
 from mindlang.lock.ready import ReadyMind, make_ready
 from mindlang.run.chosen_task import SetupError, master_of, task_of
@@ -66,12 +64,6 @@ class RunSetup:
 
         of, task = self.ready.policy, self.task.name
         return rollout_for(of, task, self.master, procedures=self.folder, interrupt=interrupt, workers=workers)
-
-    def assignment(self, interrupt: bool = True) -> Assignment:
-        """All that a worker has to know to make such runs; MindError where it is too large for a bundle."""
-        procedures = procedure_sources(self.ready.policy.graph, self.folder, self.master)
-        bundle = pack(Bundle(self.ready.policy, procedures))
-        return Assignment(bundle, self.task.name, self.master, (), interrupt, self.folder)
 
 
 def set_up(file: str, compiled: Compiled, task: str | None, master: str | None) -> RunSetup:
