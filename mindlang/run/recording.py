@@ -11,14 +11,7 @@ from mindrun.graph.bundle import Bundle, digest, pack, read_bundle
 from mindrun.graph.graph import Task
 from mindrun.graph.measured import measured_in_world, measured_on_robot, rows_of
 from mindrun.graph.named_readings import physical
-from mindrun.graph.recording_header import (
-    GOES_ON,
-    POSE_COLUMNS,
-    THING_COLUMNS,
-    About,
-    RecordedWorld,
-    RecordingError,
-)
+from mindrun.graph.recording_header import GOES_ON, POSE_COLUMNS, THING_COLUMNS, About, RecordedWorld, RecordingError
 from mindrun.graph.skill_sets import reachable
 from mindrun.graph.wiring import read_by
 from mindrun.robot.recording import recording_bytes
