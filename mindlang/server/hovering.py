@@ -14,13 +14,10 @@ from mindlang.compiler.resolve.curricula import USING
 from mindlang.compiler.source import Span, comment_of
 from mindlang.compiler.syntax import (
     NOUNS,
-    Argument,
     Contains,
     Declaration,
     Drives,
-    Expression,
     File,
-    Header,
     Influences,
     Name,
     Phrase,
@@ -35,7 +32,8 @@ from mindlang.explaining.words import language_words
 from mindlang.lock import lock_sources
 from mindlang.lock.report import made_by, rows
 from mindlang.lock.status import Trained
-from mindlang.server.workspace import MindView, declaration_at, path_to
+from mindlang.server.places import SaidArgument, declaration_at, noun_of_kind, path_to, said_argument
+from mindlang.server.workspace import MindView
 
 _WORD = r"[A-Za-z_][\w.]*(?:\+[A-Z]\w*)*|%"
 
@@ -61,30 +59,19 @@ def hover(view: MindView, path: Path, offset: int) -> Hover | None:
 
 def _kind(view: MindView, file: File, offset: int) -> Hover | None:
     """A kind, or an argument of one; those of a lesson are of its own learner or the curriculum's."""
-    path = path_to(file, offset)
+    path = path_to((*file.settings, *file.declarations), offset)
     if varies := next((node for node in path if isinstance(node, Varies)), None):
         return _varied(view, varies) if varies.argument.span.start <= offset <= varies.argument.span.end else None
-    places = [place for place, node in enumerate(path) if isinstance(node, Phrase | Teaches)]
-    match path[places[-1] - 1 : places[-1] + 2] if places else []:
-        case above, Phrase(kind=kind), Name() as name if name is kind:
-            return _kind_itself(_noun_of(above), kind)
-        case above, Phrase() as phrase, Argument() as argument:
-            return _argument(_noun_of(above), phrase.kind.text, argument)
-        case _, Teaches() as lesson, Argument() as argument if declaration := declaration_at(file, offset):
-            return _of_lesson(lesson, declaration.header.phrase, argument, offset)
-    return None
-
-
-def _noun_of(above: object) -> str:
-    """The noun of the kind that a phrase names, told by what is around it."""
-    match above:
-        case Header(noun=noun):
-            return noun.text
-        case Contains():
-            return "content"
-        case Expression():
-            return "measure"
-    return "event"
+    match path:
+        case [*_, above, Phrase(kind=kind), Name() as name] if name is kind:
+            return _kind_itself(noun_of_kind(above), kind)
+    said = said_argument(path, declaration_at(file, offset))
+    if said is None:
+        return None
+    value = said.argument.value
+    if isinstance(value, Name) and said.argument.key.text == USING and value.span.start <= offset:
+        return _kind_itself("curriculum", value)
+    return _argument(said)
 
 
 def _varied(view: MindView, fact: Varies) -> Hover | None:
@@ -97,25 +84,16 @@ def _varied(view: MindView, fact: Varies) -> Hover | None:
     return Hover(found, fact.argument.span) if found else None
 
 
-def _of_lesson(lesson: Teaches, of_all: Phrase | None, argument: Argument, offset: int) -> Hover | None:
-    """The kind after `using`, or an argument of the lesson's learner."""
-    own = [said.value for said in lesson.arguments if said.key.text == USING]
-    learner = own[0] if own else of_all and of_all.kind
-    if not isinstance(learner, Name):
-        return None
-    if argument.value is learner and learner.span.start <= offset:
-        return _kind_itself("curriculum", learner)
-    return _argument("curriculum", learner.text, argument)
-
-
 def _kind_itself(noun: str, kind: Name) -> Hover | None:
     return Hover(markdown.article_card(kind_article(noun, kind.text)), kind.span) if kind.text in kinds(noun) else None
 
 
-def _argument(noun: str, kind: str, argument: Argument) -> Hover | None:
-    article = kind_article(noun, kind) if kind in kinds(noun) else None
-    said = next((each for each in article.parameters if each.key == argument.key.text), None) if article else None
-    return Hover(markdown.parameter_card(said, article), argument.span) if article and said else None
+def _argument(said: SaidArgument) -> Hover | None:
+    if said.meaning is None:
+        return None
+    article = kind_article(said.noun, said.kind)
+    known = next(each for each in article.parameters if each.key == said.meaning.key)
+    return Hover(markdown.parameter_card(known, article), said.argument.span)
 
 
 def _word(view: MindView, file: File, offset: int) -> Hover | None:

@@ -18,7 +18,8 @@ from mindlang.compiler.syntax import Declaration, Drives, Fact, Influences, Read
 from mindlang.editing.project import EditError, Project, facts, has_outputs, kind_of
 from mindlang.lint.lint import apply_safe_fixes
 from mindlang.server.changing import proposed
-from mindlang.server.workspace import MindView, fact_at, on_line
+from mindlang.server.places import fact_at, on_line
+from mindlang.server.workspace import MindView
 
 MAX_TARGETS = 6  # of each sort; the command line and the editor's own dialogue know them all
 _SUGGESTED_NAME = re.compile(r"Did you mean (\S+)\?")
