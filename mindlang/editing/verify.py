@@ -9,7 +9,7 @@ import numpy as np
 from mindrun.engine.engine import Engine
 from mindrun.graph.graph import Graph, Skill
 from mindrun.graph.policy import Policy
-from mindrun.graph.weights import Weights, genes, owner_of, reachable, weights_of
+from mindrun.graph.weights import Weights, owner_of, reachable
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.rollouts import rollout_for
 from mindrun.sim.trace import trace
@@ -20,9 +20,8 @@ from mindlang.editing.lock_update import merged, new_names
 from mindlang.editing.project import EditError
 from mindlang.editing.world_names import NounNames, now_called, renamed
 from mindlang.lock import Lock
-from mindlang.lock.blobs import blob, load_weights
 from mindlang.lock.signature import arrange
-from mindlang.lock.status import Trained, status
+from mindlang.lock.status import Trained, status, trained_weights
 
 VERIFIED_TICKS = 2000  # of a run that is recorded
 VERIFIED_SEED = 1
@@ -43,19 +42,9 @@ class MindVersion:
 
     def weights(self, master: str) -> dict[str, Weights] | None:
         """The weights of all skills below a master; None where one is missing or stale."""
-        states = status(self.graph, self.lock)
-        found = {}
-        for skill in reachable(self.graph, master):
-            if genes(skill):
-                state = states[skill.name]
-                if not isinstance(state, Trained):
-                    return None
-                entry = state.entry
-                fresh = self.fresh.get(blob(entry.folder, entry.weights))
-                found[skill.owner] = (
-                    load_weights(entry, skill) if fresh is None else weights_of(skill, {skill.owner: fresh})
-                )
-        return found
+        names = {skill.name for skill in reachable(self.graph, master)}
+        weights, refusals = trained_weights(self.graph, self.lock, names, self.fresh)
+        return None if refusals else weights
 
     def engine(self, master: str, weights: Mapping[str, Weights]) -> Engine:
         """The engine of a master, as it runs on a robot."""

@@ -59,16 +59,7 @@ class Row:
     @property
     def word(self) -> str:
         """The status of the skill in a word or two."""
-        if self.damage:
-            return "damaged"
-        match self.status:
-            case Trained():
-                return "taught elsewhere" if self.status.is_elsewhere else "trained"
-            case Stale():
-                return "stale"
-            case Untaught():
-                return "untaught"
-        return "does not learn"
+        return "damaged" if self.damage else self.status.word
 
     @property
     def remarks(self) -> tuple[str, ...]:

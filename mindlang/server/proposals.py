@@ -10,11 +10,11 @@ from typing import Any
 from mindrun.graph.skill_sets import genes
 
 from mindlang.compiler.compile import compile_source
-from mindlang.compiler.diagnostic import Diagnostic, listed
+from mindlang.compiler.diagnostic import Diagnostic, Fix, listed
 from mindlang.compiler.hierarchy import with_ancestors, with_descendants
 from mindlang.compiler.source import Source
 from mindlang.compiler.splice import Splice
-from mindlang.compiler.syntax import Declaration, Drives, Fact, Influences, Reads, Stays
+from mindlang.compiler.syntax import Declaration, Drives, Fact, Influences, Reads
 from mindlang.editing.project import EditError, Project, facts, has_outputs, kind_of
 from mindlang.lint.lint import apply_safe_fixes
 from mindlang.server.changing import proposed
@@ -118,12 +118,9 @@ def _of_lines(selection: Selection, skill: Declaration) -> Iterator[Proposal]:
 def _of_skill(project: Project, skill: Declaration) -> Iterator[Proposal]:
     """The edits of the skill whose line this is."""
     name = skill.header.name.text
-    if facts(skill, Stays):
-        yield Proposal(f"Let {name} be taught again", "unfreeze", {"skill": name})
-    else:
-        yield Proposal(f"Freeze {name}", "freeze", {"skill": name})
-    if skill.header.like:
-        yield Proposal(f"Give {name} weights of its own", "unshare", {"skill": name})
+    yield Proposal(f"Let {name} be taught again", "unfreeze", {"skill": name})
+    yield Proposal(f"Freeze {name}", "freeze", {"skill": name})
+    yield Proposal(f"Give {name} weights of its own", "unshare", {"skill": name})
     new = _fresh_title(project, f"New{name}")
     reads = [fact.name.text for fact in facts(skill, Reads)]  # the new one is a rule where that is nothing
     put = {"skill": name, "new": new, **({"reads": reads} if reads else {"is_": "rule"})}
@@ -223,27 +220,16 @@ def _lesson(project: Project, skill: str) -> dict[str, Any]:
     return {"lines": [f"teaches {skill} on {task} for 100 generations"], "to": curricula[0], "noun": "curriculum"}
 
 
-@dataclass(frozen=True, slots=True)
-class Mending:
-    """A quick fix: its title, what it mends, what it splices, and whether it is safe to choose without thinking."""
-
-    title: str
-    of: Diagnostic
-    splices: tuple[Splice, ...]
-    is_safe: bool
-
-
-def mendings(view: MindView, path: Path, start: int, end: int) -> Iterator[Mending]:
-    """The quick fixes of what is found between two offsets of a file."""
+def mendings(view: MindView, path: Path, start: int, end: int) -> Iterator[tuple[Diagnostic, Fix]]:
+    """What is found between two offsets of a file, with a quick fix of it."""
     for found in view.findings:
         span = found.span
         if span is None or span.source.path != path or span.start > end or span.end < start:
             continue
         if found.fix:
-            yield Mending(found.fix.title, found, found.fix.splices, found.fix.is_safe)
+            yield found, found.fix
         if nearly := _SUGGESTED_NAME.search(found.hint):
-            splice = Splice(span.source, span.start, span.end, nearly[1])
-            yield Mending(f"Write {nearly[1]}", found, (splice,), True)
+            yield found, Fix(f"Write {nearly[1]}", (Splice(span.source, span.start, span.end, nearly[1]),))
 
 
 def all_mended(view: MindView, path: Path, texts: dict[Path, str]) -> str | None:
