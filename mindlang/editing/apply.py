@@ -18,10 +18,10 @@ from mindlang.compiler.diagnostic import Diagnostic, errors
 from mindlang.compiler.source import MAX_SOURCE_BYTES, Span, decode_source, encode_source
 from mindlang.compiler.splice import spliced
 from mindlang.editing import transaction
-from mindlang.editing.lock_update import Locks, UpdatedLocks, locks_of, new_names, update_locks
+from mindlang.editing.lock_update import UpdatedLocks, new_names, update_locks
 from mindlang.editing.project import EditError, MindChange, Project
 from mindlang.editing.world_names import now_called, renamed
-from mindlang.lock import LockError, lock_text
+from mindlang.lock import LockError, Locks, lock_text, locks_of
 
 NOTHING_UNSAVED: Mapping[Path, str] = {}
 

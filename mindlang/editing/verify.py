@@ -16,10 +16,10 @@ from mindrun.sim.trace import trace
 from numpy.typing import NDArray
 
 from mindlang.editing.apply import Edited
-from mindlang.editing.lock_update import merged, new_names
+from mindlang.editing.lock_update import new_names
 from mindlang.editing.project import EditError
 from mindlang.editing.world_names import NounNames, now_called, renamed
-from mindlang.lock import Lock
+from mindlang.lock import Lock, merged
 from mindlang.lock.signature import arrange
 from mindlang.lock.status import Trained, status, trained_weights
 
@@ -96,7 +96,7 @@ def _is_untouched(
 
 def _shape(graph: Graph, skill: Skill) -> object:
     """The function, readings and edges of a skill, all by name, so that two graphs can be compared."""
-    readings = _readings(graph)
+    readings = graph.readings
     edges = [
         (
             edge.to,
@@ -109,19 +109,13 @@ def _shape(graph: Graph, skill: Skill) -> object:
     return skill.function, [readings[index] for index in skill.inputs], edges
 
 
-def _readings(graph: Graph) -> list[tuple[str, int]]:
-    """The name of each reading, and its number among those of its sensor."""
-    wide = [(sensor.name, number) for sensor in graph.sensors for number in range(sensor.width)]
-    return wide + [(memory.name, 0) for memory in graph.memories]
-
-
 def _hold(recorded: NDArray[np.float32], before: Graph, after: Graph, old: Engine, new: Engine, master: str) -> None:
     """Run a skill before and after on the same readings; EditError at the first tick that differs.
 
     `before` has the names that are called otherwise now.
     """
-    columns = {reading: column for column, reading in enumerate(_readings(before))}
-    places = [columns.get(reading, -1) for reading in _readings(after)]
+    columns = {reading: column for column, reading in enumerate(before.readings)}
+    places = [columns.get(reading, -1) for reading in after.readings]
     with_zero = np.concatenate([recorded, np.zeros((len(recorded), 1), np.float32)], axis=1)  # for what is new
     actuators = [actuator.name for actuator in after.actuators]
     order = [actuators.index(actuator.name) for actuator in before.actuators]

@@ -15,10 +15,10 @@ from mindlang.compiler.diagnostic import did_you_mean, listed
 from mindlang.editing import transaction
 from mindlang.editing.apply import apply_edit
 from mindlang.editing.edits import Edit, edit, names
-from mindlang.editing.lock_update import Locks, locks_of, merged, update_locks
+from mindlang.editing.lock_update import update_locks
 from mindlang.editing.project import EditError, MindChange, Project, Renamed, Replaced, project_alone
 from mindlang.editing.summary import broken_sentences, summarise
-from mindlang.lock import lock_sources, lock_text
+from mindlang.lock import Locks, lock_sources, lock_text, locks_of, merged
 from mindlang.lock.signature import arrange
 from mindlang.lock.status import Trained, status
 from mindlang.server.navigating import sharing

@@ -1,8 +1,10 @@
 """Explanations of what stands under the mouse, as Markdown: a name, a kind, an argument, a word."""
 
 import re
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TypeVar
 
 from mindrun.errors import MindError
 from mindrun.graph.graph import VARIED_NOUNS
@@ -17,6 +19,7 @@ from mindlang.compiler.syntax import (
     Contains,
     Declaration,
     Drives,
+    Fact,
     File,
     Influences,
     Name,
@@ -24,6 +27,7 @@ from mindlang.compiler.syntax import (
     Reads,
     Teaches,
     Varies,
+    of_form,
 )
 from mindlang.explaining import markdown
 from mindlang.explaining.kinds import kind_article
@@ -35,6 +39,7 @@ from mindlang.lock.status import Trained
 from mindlang.server.places import SaidArgument, declaration_at, noun_of_kind, path_to, said_argument
 from mindlang.server.workspace import MindView
 
+F = TypeVar("F", bound=Fact)
 _WORD = r"[A-Za-z_][\w.]*(?:\+[A-Z]\w*)*|%"
 
 
@@ -145,7 +150,7 @@ def card(view: MindView, noun: str, name: str) -> str:
 def _skill(view: MindView, name: str, declaration: Declaration) -> str:
     lines = []
     for verb, form in (("reads", Reads), ("drives", Drives), ("influences", Influences)):
-        if said := [_edge(view, fact) for fact in declaration.facts if isinstance(fact, form)]:
+        if said := [_edge(view, fact) for fact in of_form(declaration.facts, form)]:
             lines.append(f"- {verb} {', '.join(said)}")
     if by := _users(view, name, Influences):
         lines.append(f"- influenced by {', '.join(by)}")
@@ -168,11 +173,8 @@ def _width(view: MindView, sensor: str) -> int:
 
 def _paths_to(view: MindView, skill: str) -> list[str]:
     """The ways on which influence comes down to a skill, the shortest one from each top."""
-    influences = DiGraph()
-    for name, declaration in view.names.declarations("skill"):
-        influences.add_node(name)
-        facts = (fact for fact in declaration.facts if isinstance(fact, Influences))
-        influences.add_edges_from((name, fact.name.text) for fact in facts)
+    influences = DiGraph((name, fact.name.text) for name, fact in _saying(view, Influences, "skill"))
+    influences.add_node(skill)
     ways = single_target_shortest_path(influences, skill).items()
     return [" → ".join(way) for top, way in ways if top != skill and not influences.pred[top]]
 
@@ -209,32 +211,27 @@ def _part(view: MindView, noun: str, name: str) -> str:
     return "\n".join([*lines, *([f"- stands in {', '.join(others)}"] if others else [])])
 
 
+def _saying(view: MindView, form: type[F], *nouns: str) -> Iterator[tuple[str, F]]:
+    """Each fact of a verb in the declarations of some nouns, with their names."""
+    for noun in nouns:
+        for name, declaration in view.names.declarations(noun):
+            yield from ((name, fact) for fact in of_form(declaration.facts, form))
+
+
 def _users(view: MindView, name: str, form: type[Reads | Drives | Influences]) -> list[str]:
     """The skills that have a fact of this verb about a name."""
-    return [
-        skill
-        for skill, declaration in view.names.declarations("skill")
-        if any(isinstance(fact, form) and fact.name.text == name for fact in declaration.facts)
-    ]
+    return list(dict.fromkeys(skill for skill, fact in _saying(view, form, "skill") if fact.name.text == name))
 
 
 def _lessons(view: MindView, part: str, name: str) -> str:
     """The lessons that teach a skill, or are on a task."""
-    return "\n".join(
-        f"- `{curriculum}: {fact.span.text.strip()}`"
-        for curriculum, declaration in view.names.declarations("curriculum")
-        for fact in declaration.facts
-        if isinstance(fact, Teaches) and getattr(fact, part).text == name
-    )
+    said = _saying(view, Teaches, "curriculum")
+    its = ((of, fact.span.text.strip()) for of, fact in said if getattr(fact, part).text == name)
+    return "\n".join(f"- `{curriculum}: {line}`" for curriculum, line in its)
 
 
 def _thing(view: MindView, name: str) -> str:
     """The lines of scenes and tasks that contain a thing."""
-    lines = [
-        f"- in {world}: `{fact.phrase.span.text}`"
-        for noun in ("scene", "task")
-        for world, declaration in view.names.declarations(noun)
-        for fact in declaration.facts
-        if isinstance(fact, Contains) and fact.name.text == name
-    ]
+    said = _saying(view, Contains, "scene", "task")
+    lines = [f"- in {world}: `{fact.phrase.span.text}`" for world, fact in said if fact.name.text == name]
     return "\n".join([f"**{name}**, a thing", "", *lines])
