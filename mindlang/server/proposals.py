@@ -14,8 +14,8 @@ from mindlang.compiler.diagnostic import Diagnostic, Fix, listed
 from mindlang.compiler.hierarchy import with_ancestors, with_descendants
 from mindlang.compiler.source import Source
 from mindlang.compiler.splice import Splice
-from mindlang.compiler.syntax import Declaration, Drives, Fact, Influences, Reads
-from mindlang.editing.project import EditError, Project, facts, has_outputs, kind_of
+from mindlang.compiler.syntax import Declaration, Drives, Fact, Influences, Reads, of_form
+from mindlang.editing.project import EditError, Project, has_outputs, kind_of
 from mindlang.lint.lint import apply_safe_fixes
 from mindlang.server.changing import proposed
 from mindlang.server.places import fact_at, on_line
@@ -107,10 +107,10 @@ def _of_fact(declaration: Declaration, fact: Fact) -> Iterator[Proposal]:
 
 def _of_lines(selection: Selection, skill: Declaration) -> Iterator[Proposal]:
     """The subskills on the selected lines, under a skill of their own."""
-    edges = [fact for fact in facts(skill, Influences) if selection.touches(fact)]
+    edges = [fact for fact in of_form(skill.facts, Influences) if selection.touches(fact)]
     if chosen := [fact.name.text for fact in edges]:
         new = _fresh_title(selection.project, "New" + "+".join(chosen))
-        is_ = {"is_": "rule"} if all(fact.at for fact in edges) or not facts(skill, Reads) else {}
+        is_ = {"is_": "rule"} if all(fact.at for fact in edges) or not of_form(skill.facts, Reads) else {}
         arguments = {"parent": skill.header.name.text, "new": new, "subskills": chosen, **is_}
         yield Proposal(f"Put {listed(chosen, 'and')} under a new skill", "extract", arguments, new, "refactor.extract")
 
@@ -122,7 +122,7 @@ def _of_skill(project: Project, skill: Declaration) -> Iterator[Proposal]:
     yield Proposal(f"Freeze {name}", "freeze", {"skill": name})
     yield Proposal(f"Give {name} weights of its own", "unshare", {"skill": name})
     new = _fresh_title(project, f"New{name}")
-    reads = [fact.name.text for fact in facts(skill, Reads)]  # the new one is a rule where that is nothing
+    reads = [fact.name.text for fact in of_form(skill.facts, Reads)]  # the new one is a rule where that is nothing
     put = {"skill": name, "new": new, **({"reads": reads} if reads else {"is_": "rule"})}
     yield Proposal(f"Put a new skill over {name}", "encapsulate", put, new, "refactor.extract")
     yield Proposal(f"Let the subskills of {name} take its place", "inline", {"skill": name}, kind="refactor.inline")
