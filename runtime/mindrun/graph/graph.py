@@ -282,6 +282,12 @@ class Graph(ShortRepr):
         return sum(sensor.width for sensor in self.sensors) + len(self.memories)
 
     @property
+    def readings(self) -> list[tuple[str, int]]:
+        """The sensor or memory of each reading, and which of its own it is."""
+        wide = [(sensor.name, number) for sensor in self.sensors for number in range(sensor.width)]
+        return wide + [(memory.name, 0) for memory in self.memories]
+
+    @property
     def skill_numbers(self) -> dict[str, int]:
         """The place of each skill in `skills`, by its name."""
         return {skill.name: number for number, skill in enumerate(self.skills)}
