@@ -59,7 +59,7 @@ class Region(NamedTuple):
     def overlaps(self, other: "Region") -> bool:
         """True if both share an area."""
         is_beside = self.left >= other.left + other.width or other.left >= self.left + self.width
-        return not is_beside and self.low < other.low + other.height and other.low < self.low + self.height
+        return not (is_beside or self.low >= other.low + other.height or other.low >= self.low + self.height)
 
     def is_within(self, other: "Region") -> bool:
         """True if the other covers all of it."""
@@ -198,11 +198,6 @@ def flow_layout(widths: Sequence[float], gap: float, room: float) -> list[tuple[
         places.append((along, line))
         along += width + gap
     return places
-
-
-def square(x: float, y: float, half: float) -> Sequence[tuple[float, float]]:
-    """The corners of a square."""
-    return rectangle_corners(x, y, half, half)
 
 
 def rectangle_corners(x: float, y: float, half_x: float, half_y: float) -> Sequence[tuple[float, float]]:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mindlang.number_format import score
-from mindlang.pictures.canvas import Canvas, Region, rectangle_corners, square, text_width
+from mindlang.pictures.canvas import Canvas, Region, rectangle_corners, text_width
 from mindlang.pictures.scene import SceneLabel, free, thing_colours
 from mindlang.pictures.theme import NIGHT, PAPER, Colour, Theme, mixed
 from mindlang.run.recorded_run import RecordedRun
@@ -122,8 +122,9 @@ def draw_former(canvas: Canvas, run: RecordedRun) -> None:
                 canvas.disc(x, y, size / 2, colour, 0.16)
                 canvas.disc(x, y, size / 2, colour, 0.45, width=1.0)
             else:
-                canvas.polygon(square(x, y, size / 2), colour, 0.08)
-                canvas.line(square(x, y, size / 2), colour, 1.0, 0.4, closed=True)
+                corners = rectangle_corners(x, y, size / 2, size / 2)
+                canvas.polygon(corners, colour, 0.08)
+                canvas.line(corners, colour, 1.0, 0.4, closed=True)
             if order <= len(former) and 1 < len(former) <= MOST_NUMBERED:
                 below = 9 * canvas.pixel
                 canvas.text(x + size / 2 + below / 3, y - below, str(order), 9, PAPER.faint)

@@ -27,7 +27,7 @@ from websockets.frames import CloseCode
 from websockets.http11 import Request, Response
 
 from mindlang.view.learning import MAX_GENERATIONS
-from mindlang.view.messages import MAX_MESSAGE_BYTES, RefusedError, message, refusal
+from mindlang.view.messages import MAX_MESSAGE_BYTES, RefusedError, error_text, message, refusal
 from mindlang.view.session import MAX_HAPPENED, ViewSession
 from mindlang.view.viewed import Viewed
 
@@ -190,6 +190,8 @@ class ViewServer:
                 answer = await self._session.answer(message(text), viewer.edits)
             except RefusedError as error:
                 answer = refusal(text, str(error))
+            except MindError as error:
+                answer = refusal(text, error_text(error))
             if answer is not None:
                 await viewer.send(answer)
 

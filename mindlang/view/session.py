@@ -9,10 +9,7 @@ from concurrent.futures import ThreadPoolExecutor
 from math import isfinite
 from typing import TYPE_CHECKING, Any
 
-from mindrun.errors import MindError
-
 from mindlang.attribution.shares import shares
-from mindlang.view.about import node_numbers
 from mindlang.view.learning import WATCH_SECONDS
 from mindlang.view.messages import (
     MAX_FORKS,
@@ -25,7 +22,7 @@ from mindlang.view.messages import (
     Message,
     PlayChampion,
     RefusedError,
-    error_text,
+    shown,
 )
 from mindlang.view.rows import DOUBLE_BLOCK, SINGLE_BLOCK
 from mindlang.view.viewed import Viewed, data_url
@@ -108,7 +105,7 @@ class ViewSession:
         }
 
     async def answer(self, message: Message, edits: bool) -> bytes | dict[str, Any] | None:
-        """The answer to a message, None where there is none; RefusedError where it cannot be answered."""
+        """The answer to a message, None where there is none; RefusedError or MindError where it cannot be answered."""
         if message.fork >= len(self.forks):
             raise RefusedError(f"there is no fork {message.fork}")
         match message:
@@ -133,11 +130,7 @@ class ViewSession:
             raise RefusedError(f"there is no training {asked.run}")
         seed = None if asked.seed is None else int(asked.seed)
         given = asked.run, asked.attempt, asked.generation, seed
-        try:
-            viewed = await asyncio.get_running_loop().run_in_executor(self._grower, self.learning.begin, *given)
-        except MindError as error:
-            raise RefusedError(error_text(error)) from error
-        self.show(viewed)
+        self.show(await asyncio.get_running_loop().run_in_executor(self._grower, self.learning.begin, *given))
 
     async def _fork(self, change: AskChange) -> None:
         """Fork a run, and let the fork go on at once to where that run is."""
@@ -149,18 +142,16 @@ class ViewSession:
         loop = asyncio.get_running_loop()
         self._wait(await loop.run_in_executor(self._answerer, of.delay))
         try:
-            fork = await loop.run_in_executor(self._grower, of.forked, change)
-        except MindError as error:
-            raise RefusedError(error_text(error)) from error
+            viewed, text = await loop.run_in_executor(self._grower, of.forked, change)
         finally:
             self._wait(None)
         if of not in self.forks:
             raise RefusedError("another run is seen now")
         number = len(self.forks)
-        told = {"say": "fork", "fork": number, "of": change.fork, "tick": change.tick, "text": fork.text}
+        told = {"say": "fork", "fork": number, "of": change.fork, "tick": change.tick, "text": text}
         self.forks_data.append(told)
         self._wanted.append(0)
-        self.forks.append(fork.viewed)
+        self.forks.append(viewed)
         self._run(number, max(of.known, change.tick))
 
     def _wait(self, what: str | None) -> None:
@@ -184,19 +175,15 @@ class ViewSession:
 
 
 def _computed(viewed: Viewed, message: Message) -> bytes | dict[str, Any]:
-    try:
-        match message:
-            case AskRows():
-                return viewed.rows(message)
-            case AskColumns():
-                return viewed.some_columns(message)
-            case AskImage(fork=fork, tick=tick):
-                image = data_url(viewed.image(tick), "png")
-                return {"say": "image", "fork": fork, "tick": tick, "image": image}
-            case AskShares():
-                return command_shares(viewed, message)
-    except MindError as error:
-        raise RefusedError(error_text(error)) from error
+    match message:
+        case AskRows():
+            return viewed.rows(message)
+        case AskColumns():
+            return viewed.some_columns(message)
+        case AskImage(fork=fork, tick=tick):
+            return {"say": "image", "fork": fork, "tick": tick, "image": data_url(viewed.image(tick), "png")}
+        case AskShares():
+            return command_shares(viewed, message)
     raise RefusedError("that is no question")
 
 
@@ -212,8 +199,8 @@ def command_shares(viewed: Viewed, asked: AskShares) -> dict[str, Any]:
     found = shares(flows, ("actuator", asked.actuator), range(asked.tick, asked.tick + 1))
     if not all(isfinite(number) for each in found.paths for number in (each.influence, each.share)):
         raise RefusedError(f"the influence of tick {asked.tick} is beyond all numbers")
-    numbers = node_numbers(graph, [graph.skills[place] for place in flows.skills])
-    end, own = numbers["actuator", asked.actuator], graph.skill_numbers
+    numbers = {(node["kind"], node["name"]): number for number, node in enumerate(viewed.about["nodes"])}
+    end = numbers["actuator", shown(graph.actuators[asked.actuator].name)]
     return {
         "say": "why",
         "fork": asked.fork,
@@ -224,7 +211,7 @@ def command_shares(viewed: Viewed, asked: AskShares) -> dict[str, Any]:
         "rounding": found.rounding,
         "paths": [
             {
-                "path": [*(numbers["skill", own[name]] for name in each.path[:-1]), end],
+                "path": [*(numbers["skill", shown(name)] for name in each.path[:-1]), end],
                 "value": each.value,
                 "influence": each.influence,
                 "share": each.share,

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import base64
 from collections.abc import Callable, Iterator, Mapping, Set
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -62,9 +61,9 @@ class Viewed:
     """A run that is seen: `about` does not change, `chunks` are still to come; the first one begins with tick 0.
 
     In the ticks of `begins` the mind was begun anew; they come with the rows. `drawing` is of its environment. What
-    `is_live` grows without being asked. `forked` makes the same run with a change; RefusedError where that cannot be,
-    None where nothing can be changed. `delay` says, where it is so, what has to be done first and takes a while. One
-    thread lets it `grow`; others may ask at the same time.
+    `is_live` grows without being asked. `forked` makes the same run with a change, and says that in words; RefusedError
+    where that cannot be, None where nothing can be changed. `delay` says what has to be done first and takes a while,
+    if anything. One thread lets it `grow`; others may ask at the same time.
     """
 
     def __init__(
@@ -80,7 +79,7 @@ class Viewed:
     ) -> None:
         self.about, self.columns, self.is_live, self.drawing = about, columns, is_live, drawing
         self.flows = EdgeFlows(graph, mind, self._thought, begins)
-        self.forked: Callable[[AskChange], Fork] | None = None
+        self.forked: Callable[[AskChange], tuple[Viewed, str]] | None = None
         self.delay: Callable[[], str | None] = lambda: None
         self.blocks = RowBlocks()
         self.happened: list[tuple[int, int]] = []
@@ -184,11 +183,3 @@ class Viewed:
     def _computed_rows(self) -> int:
         """The number of rows whose flows are computed at once."""
         return max(1, MAX_COMPUTED_EDGES // max(1, len(self.flows.links)))
-
-
-@dataclass(frozen=True, slots=True)
-class Fork:
-    """A run beside another, from a tick on: what is changed, in words."""
-
-    viewed: Viewed
-    text: str
