@@ -31,10 +31,7 @@ log = getLogger(__name__)
 
 
 class LiveView:
-    """The page of `mindc view` for episodes of one lane, in real time: `show` waits until the next tick is due.
-
-    The page is served at `address` from the first episode on, and a browser opened there.
-    """
+    """The page of `mindc view` for episodes of one lane, in real time: `show` waits until the next tick is due."""
 
     def __init__(self, episodes: Episodes) -> None:
         self._episodes = episodes

@@ -142,10 +142,7 @@ class Canvas:
         align: str = "left",
         halo: Colour | None = None,
     ) -> None:
-        """Draw text with capitals of `size` pixels on the line that begins, is centred or ends in x, y.
-
-        A halo sets it off from what is drawn below it.
-        """
+        """Draw text with capitals of `size` pixels that begins, is centred or ends in x, y; a halo sets it off."""
         font, scale, line = _font(size * self.pen, bold)
         start = {"left": 0.0, "centre": 0.5, "right": 1.0}[align] * text_width(text, size * self.pen, bold)
         column, row = self.places([x, y])[0] / 2**COORDINATE_BITS

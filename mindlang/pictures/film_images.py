@@ -1,7 +1,4 @@
-"""One image of a film: the world beside the hierarchy and the readings, after the paper's Figure 15.
-
-Where the arena is long, the world stands above them.
-"""
+"""One image of a film, after the paper's Figure 15: the world beside the hierarchy and the readings, or above them."""
 
 from dataclasses import dataclass
 from math import ceil
@@ -85,10 +82,7 @@ def _even(pixels: float) -> int:
 
 
 class FilmImages:
-    """Draws any tick of a run: its path of the last `trail` ticks, its collisions of the last `flash` ones.
-
-    MindError where its world is an environment that draws nothing.
-    """
+    """Draws any tick of a run: its path of the last `trail` ticks, its collisions of the last `flash` ones."""
 
     def __init__(self, run: RecordedRun, found: dict[str, Any], speed: float, trail: int, flash: float) -> None:
         self._run, self._found, self._speed = run, found, speed

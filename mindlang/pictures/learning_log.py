@@ -1,7 +1,4 @@
-"""Logs of runs as data for pictures: generations, from a run's folder or a table, and the mean of several runs.
-
-The mean is that of all attempts of the runs of a lesson, with the standard error of that mean.
-"""
+"""Logs of runs as data for pictures: generations, from a run's folder or a table, and the mean of several runs."""
 
 import csv
 import gzip

@@ -164,10 +164,7 @@ def draw_rings(canvas: Canvas, x: float, y: float, radius: float, found: dict[st
 
 
 def draw_banner(canvas: Canvas, run: RecordedRun, found: dict[str, Any], room: Region, taken: Iterable[Region]) -> None:
-    """Draw the end of a run, its time and score, at an edge of the room where nothing that is `taken` lies below it.
-
-    All are in pixels, from the upper left corner.
-    """
+    """Draw the end of a run, its time and score, at an edge of the room, in pixels, that covers nothing `taken`."""
     colour, seconds = ending_colour(found, NIGHT), found["ticks"] * run.graph.tick
     words, detail = ending_words(found), f"after {seconds:.1f} s with a score of {score(found['score'])}"
     widest = max(text_width(words, WORDS_PIXELS, True), text_width(detail, DETAIL_PIXELS)) + 2 * BANNER_MARGIN_PIXELS

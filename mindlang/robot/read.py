@@ -355,10 +355,7 @@ NUMBERS = (
 
 
 def surprise(text: str) -> tuple[str, str, str] | None:
-    """Code, message and hint of a text without quotes that YAML takes for something else: `no` is false, 12:30 is 750.
-
-    None of it is taken.
-    """
+    """Code, message and hint of a text without quotes that YAML takes for something else: `no` is false, 1:30 is 90."""
     words = text.split() if text[:1] in "+-.0123456789" else []
     for said, table in ((text, WHOLE), *((word, NUMBERS) for word in words)):
         for row in table:

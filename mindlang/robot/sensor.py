@@ -32,10 +32,7 @@ TURN_TOLERANCE = 1e-6
 
 
 def sensor_wire(wired: Wired, sensor: Sensor, unit_metres: float | None, findings: Findings) -> SensorWire | None:
-    """The wire of a sensor, or None after reporting why it cannot be wired so.
-
-    `unit_metres` is how long a unit of the mind's world is, where the mind says so.
-    """
+    """The wire of a sensor, or None after reporting why not; `unit_metres` is the length of a unit of the mind."""
     wired = _seeing_as_far(wired, sensor, unit_metres)
     before = len(errors(findings.diagnostics))
     usual = (float(wired.driver.usual[0]), float(wired.driver.usual[1]))

@@ -35,10 +35,7 @@ class PlacedNode(NamedTuple):
 def about_data(
     of: About, graph: Graph, task: Task | None, skills: Sequence[Skill], columns: Columns, texts: Texts
 ) -> Data:
-    """The constant data of rows with these columns; `skills` are those below the master, parents first.
-
-    There is a task where there is a world.
-    """
+    """The constant data of rows with these columns; `skills` are those below the master, parents first."""
     rewards = [reward.text for reward in task.rewards] if task else []
     has_robot = not (task and task.scene.environment)
     return {
@@ -107,10 +104,7 @@ def _hierarchy(graph: Graph, master: str, skills: Sequence[Skill], columns: Colu
 def _curves(
     graph: Graph, skills: Sequence[Skill], columns: Columns, rewards: Sequence[str], has_robot: bool
 ) -> list[Data]:
-    """Every column that can be drawn over time, by name; of rewards where there are any, and of a robot.
-
-    Those of directions are `circular`: no line leads from 1 to 0.
-    """
+    """Every column that can be drawn over time, by name; in `circular` ones (directions) no line leads from 1 to 0."""
     reached, scene = {skill.name for skill in skills}, scene_of(graph)
     circular = {scene.starts[name] for name in scene.directions}
     named: list[tuple[str, str, list[tuple[int, str]]]] = [
@@ -126,7 +120,7 @@ def _curves(
         {"name": shown(name), "group": group, "column": columns[of].column(place)}
         | {"circular": of == "readings" and place in circular}
         for group, of, each in named
-        if of in columns.groups and (has_robot or group != "world")
+        if of in columns and (has_robot or group != "world")
         for place, name in each
     ]
 

@@ -44,52 +44,28 @@ class Group:
         return [self.block, self.first + number]
 
 
-@dataclass(frozen=True, slots=True)
-class Columns:
+class Columns(dict[str, Group]):
     """The groups of a row by their names."""
-
-    groups: Mapping[str, Group]
 
     @classmethod
     def of(cls, doubles: Mapping[str, int], singles: Mapping[str, int]) -> Columns:
         """Groups of so many columns each, in this order; `flow` is the last of the singles."""
-        groups: dict[str, Group] = {}
+        found = cls()
         for block, counts in ((DOUBLE_BLOCK, doubles), (SINGLE_BLOCK, singles)):
             first = 0
             for name, count in counts.items():
-                groups[name] = Group(block, first, count)
+                found[name] = Group(block, first, count)
                 first += count
-        return cls(groups)
-
-    def __getitem__(self, name: str) -> Group:
-        return self.groups[name]
+        return found
 
     def width(self, block: int) -> int:
         """How many columns a block has."""
-        return sum(group.count for group in self.groups.values() if group.block == block)
+        return sum(group.count for group in self.values() if group.block == block)
 
     @property
     def kept_singles(self) -> int:
         """How many columns of the singles are kept."""
-        return self.groups[FLOW].first
-
-
-@dataclass(frozen=True, slots=True)
-class Chunk:
-    """Some ticks, one after the other: doubles and singles [ticks, columns that are kept].
-
-    `happened` has pairs of a tick and the number of an event, `stops` of a tick and the breakpoint that holds there;
-    `ended_by` is what ended the run, in the last chunk of all.
-    """
-
-    blocks: tuple[Doubles, Singles]
-    happened: Sequence[tuple[int, int]] = ()
-    stops: Sequence[tuple[int, str]] = ()
-    ended_by: str | None = None
-    is_last: bool = False
-
-    def __len__(self) -> int:
-        return len(self.blocks[DOUBLE_BLOCK])
+        return self[FLOW].first
 
 
 @dataclass(slots=True)
@@ -100,10 +76,10 @@ class RowBlocks:
     rows: int = 0
     kept_bytes: int = 0
 
-    def append(self, chunk: Chunk) -> None:
-        """Put a chunk behind all others; its rows are there when `rows` counts them."""
-        end = self.rows + len(chunk)
-        parts: list[NDArray[Any]] = [*chunk.blocks]
+    def append(self, doubles: Doubles, singles: Singles) -> None:
+        """Put rows [rows, columns that are kept] behind all others; they are there when `rows` counts them."""
+        end = self.rows + len(doubles)
+        parts: list[NDArray[Any]] = [doubles, singles]
         self.blocks = self.blocks or [part[:0] for part in parts]
         for block, part in enumerate(parts):
             if end > len(self.blocks[block]):

@@ -85,7 +85,7 @@ class ViewSession:
             "edits": edits,
             "doubles": columns.width(DOUBLE_BLOCK),
             "singles": columns.width(SINGLE_BLOCK),
-            "columns": {name: [g.block, g.first, g.count] for name, g in columns.groups.items()},
+            "columns": {name: [g.block, g.first, g.count] for name, g in columns.items()},
             **viewed.about,
         }
 
