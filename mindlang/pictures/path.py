@@ -70,7 +70,8 @@ class Path:
     def draw(self, canvas: Canvas, first: int, last: int, width: float) -> None:
         """Draw the path from tick `first` to tick `last`."""
         keys = self.keys[first:last]
-        for begin, end in _stretches(keys):
+        changes = np.flatnonzero(np.diff(keys, prepend=-1, append=-1)).tolist()
+        for begin, end in pairwise(changes):
             self.strokes[keys[begin]].draw(canvas, self.places[first + begin : first + end + 1], width)
 
 
@@ -79,12 +80,6 @@ def strokes_of(theme: Theme, count: int) -> list[Stroke]:
     cores = (None, theme.floor, theme.ink)
     many = len(theme.skills)
     return [Stroke(theme.skills[i % many], cores[i // many % len(cores)]) for i in range(count)]
-
-
-def _stretches(keys: NDArray[np.int64]) -> list[tuple[int, int]]:
-    """The stretches of equal keys, as (start, end)."""
-    changes = np.flatnonzero(np.diff(keys)) + 1
-    return list(pairwise([0, *(int(change) for change in changes), len(keys)])) if len(keys) else []
 
 
 def draw_start(canvas: Canvas, run: RecordedRun) -> None:

@@ -138,10 +138,6 @@ class ReleaseState:
             return older[-1]
         raise DeployError("There is no whole release before the current one.", "mindc deploy HOST --list")
 
-    def is_gone(self) -> bool:
-        """True if somebody has deleted the current release on the robot."""
-        return bool(self.current) and self.current not in {each.name for each in self.releases}
-
     def moment(self, now: datetime) -> str:
         """A time for a new release, later than those there: the clocks of two workstations differ."""
         names = [self.current, *(each.name for each in self.releases)]
@@ -260,7 +256,7 @@ class Deployment:
     def _looked(self) -> ReleaseState:
         """The state of the robot; says so where its current release has been deleted."""
         state = read_state(self.robot)
-        if state.is_gone():
+        if state.current and state.current not in {each.name for each in state.releases}:
             self.tell(f"the current release, {state.current}, has been deleted on {self.robot.host}")
         return state
 

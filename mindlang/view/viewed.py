@@ -4,16 +4,14 @@ from __future__ import annotations
 
 import base64
 from collections.abc import Callable, Iterator, Mapping
-from functools import partial
-from pathlib import Path
 from typing import Any
 
 import cv2
 import numpy as np
 from mindrun.engine.think import Hierarchy
 from mindrun.errors import MindError, reason
-from mindrun.graph.graph import Graph, Task
-from mindrun.sim.outside.seen import UNKNOWN_FAILURES, SeenEpisode, Sent
+from mindrun.graph.graph import Graph
+from mindrun.sim.outside.seen import SeenEpisode, Sent
 from numpy.typing import NDArray
 
 from mindlang.run.edge_flow import EdgeFlows
@@ -36,17 +34,6 @@ Image = NDArray[np.uint8]
 FLOW_ROWS = 1024  # of a curve of what an edge transmits
 MAX_COMPUTED_EDGES = 200_000  # in one answer, so that nobody waits long for another's
 MAX_KEPT_BYTES = 2 << 30  # of rows, of a run and of all that are beside it
-
-
-def drawing_of(graph: Graph, task: Task | None, folder: Path, seed: int) -> Drawing | None:
-    """The drawing of a task's run by its environment; None where its world is none."""
-    if task is None or not task.scene.environment:
-        return None
-    return _undrawn if task.fails else partial(SeenEpisode, graph, task.scene.environment, folder, seed)
-
-
-def _undrawn(sent: Sent) -> SeenEpisode:
-    raise MindError(UNKNOWN_FAILURES, "mindc run --picture and --video draw such a run")
 
 
 def data_url(image: Image, kind: str, quality: tuple[int, ...] = ()) -> str:

@@ -14,11 +14,12 @@ from mindrun.graph.graph import Task
 from mindrun.graph.recording_header import GOES_ON, POSE_COLUMNS, THING_COLUMNS, About
 from numpy.typing import NDArray
 
+from mindlang.pictures.environments import seen_episode
 from mindlang.run import outcome
 from mindlang.view.about import Texts, about_data, robot_event_data, world_event_data
 from mindlang.view.messages import shown
 from mindlang.view.rows import DOUBLE_BLOCK, FLOW, Columns, Doubles, Singles
-from mindlang.view.viewed import Viewed, drawing_of
+from mindlang.view.viewed import Viewed
 
 if TYPE_CHECKING:
     from mindlang.breakpoints.watch import Stop
@@ -51,7 +52,9 @@ def viewed_rows(
     ready = hierarchy(mind.policy, mind.procedures, of.master)
     skills = [mind.graph.skills[skill.index] for skill in ready.skills]
     columns = columns_of(of, mind, source == RUN, sum(len(skill.edges) for skill in skills))
-    drawing = drawing_of(mind.graph, task, folder, of.world.seed) if of.world else None
+    drawing = None
+    if of.world and task and task.scene.environment:
+        drawing = partial(seen_episode, mind.graph, task, folder, of.world.seed)
     happens = [*([] if source == RUN else robot_event_data(of)), *(world_event_data(task) if task else [])]
     about = {
         "title": shown(title),
