@@ -4,9 +4,6 @@ from mindlang import environments
 environments.register("collect.mind")
 env = gymnasium.make("mind/Collect-v0")
 many = gymnasium.make_vec("mind/Collect-v0", num_envs=1024)
-
-Without `register`, by any program that makes environments by their names:
-env = gymnasium.make("mindlang.environments:Mind-v0", file="collect.mind", task="Collect")
 """
 
 from contextlib import suppress

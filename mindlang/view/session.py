@@ -10,20 +10,9 @@ from math import isfinite
 from typing import TYPE_CHECKING, Any
 
 from mindlang.attribution.shares import shares
+from mindlang.view import messages
 from mindlang.view.learning import WATCH_SECONDS
-from mindlang.view.messages import (
-    MAX_FORKS,
-    AskChange,
-    AskColumns,
-    AskImage,
-    AskRows,
-    AskRun,
-    AskShares,
-    Message,
-    PlayChampion,
-    RefusedError,
-    shown,
-)
+from mindlang.view.messages import Message, RefusedError, shown
 from mindlang.view.rows import DOUBLE_BLOCK, SINGLE_BLOCK
 from mindlang.view.viewed import Viewed, data_url
 
@@ -109,22 +98,22 @@ class ViewSession:
         if message.fork >= len(self.forks):
             raise RefusedError(f"there is no fork {message.fork}")
         match message:
-            case AskRun(fork=fork, to=to):
+            case messages.AskRun(fork=fork, to=to):
                 self._run(fork, to)
                 self.changed()  # said also where the run is there already
                 return None
-            case AskChange() | PlayChampion() if not edits:
+            case messages.AskChange() | messages.PlayChampion() if not edits:
                 raise RefusedError("somebody else may change this run: the first who opened it")
-            case PlayChampion():
+            case messages.PlayChampion():
                 await self._play(message)
                 return None
-            case AskChange():
+            case messages.AskChange():
                 await self._fork(message)
                 return None
         viewed = self.forks[message.fork]  # another run may be seen when it is this question's turn
         return await asyncio.get_running_loop().run_in_executor(self._answerer, _computed, viewed, message)
 
-    async def _play(self, asked: PlayChampion) -> None:
+    async def _play(self, asked: messages.PlayChampion) -> None:
         """Show the champion of another generation."""
         if self.learning is None or asked.run >= len(self.learning.runs):
             raise RefusedError(f"there is no training {asked.run}")
@@ -132,13 +121,13 @@ class ViewSession:
         given = asked.run, asked.attempt, asked.generation, seed
         self.show(await asyncio.get_running_loop().run_in_executor(self._grower, self.learning.begin, *given))
 
-    async def _fork(self, change: AskChange) -> None:
+    async def _fork(self, change: messages.AskChange) -> None:
         """Fork a run, and let the fork go on at once to where that run is."""
         of = self.forks[change.fork]
         if of.forked is None:
             raise RefusedError("a recording is what it is: nothing in it can be changed")
-        if len(self.forks) > MAX_FORKS:
-            raise RefusedError(f"there are {MAX_FORKS} forks already: open the run anew")
+        if len(self.forks) > messages.MAX_FORKS:
+            raise RefusedError(f"there are {messages.MAX_FORKS} forks already: open the run anew")
         loop = asyncio.get_running_loop()
         self._wait(await loop.run_in_executor(self._answerer, of.delay))
         try:
@@ -176,18 +165,18 @@ class ViewSession:
 
 def _computed(viewed: Viewed, message: Message) -> bytes | dict[str, Any]:
     match message:
-        case AskRows():
+        case messages.AskRows():
             return viewed.rows(message)
-        case AskColumns():
+        case messages.AskColumns():
             return viewed.some_columns(message)
-        case AskImage(fork=fork, tick=tick):
+        case messages.AskImage(fork=fork, tick=tick):
             return {"say": "image", "fork": fork, "tick": tick, "image": data_url(viewed.image(tick), "png")}
-        case AskShares():
+        case messages.AskShares():
             return command_shares(viewed, message)
     raise RefusedError("that is no question")
 
 
-def command_shares(viewed: Viewed, asked: AskShares) -> dict[str, Any]:
+def command_shares(viewed: Viewed, asked: messages.AskShares) -> dict[str, Any]:
     """The contribution of each path to a command; RefusedError where there is no such actuator or tick."""
     flows, graph = viewed.flows, viewed.flows.graph
     if viewed.about["source"] == "environment":

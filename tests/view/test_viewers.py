@@ -250,7 +250,7 @@ def test_events_come_in_parts_where_they_are_many(path: Path, monkeypatch: pytes
 
 
 def test_forks_are_bounded(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("mindlang.view.session.MAX_FORKS", 1)
+    monkeypatch.setattr("mindlang.view.messages.MAX_FORKS", 1)
     with served(simulated(path)) as view, view.viewer() as viewer:
         column = viewer.hear("about")["nodes"][0]["columns"][0]
         viewer.say(**CHANGE, column=column)
