@@ -73,7 +73,6 @@ class BallTrackerDevice:
 
 
 @kind("sensor driver", "ball_tracker")
-@dataclass(frozen=True, slots=True)
 class BallTracker:
     """A camera that looks for the largest round thing that is bright and has a hue: 0 red, 120 green, 240 blue.
 

@@ -193,7 +193,6 @@ class OwnDriver(DriverCode):
 
 
 @kind("sensor driver", KIND)
-@dataclass(frozen=True, slots=True)
 class OwnSensor(OwnDriver):
     """A sensor's driver of a user, with what its class says of the options: unit, readings, and what they mean."""
 
@@ -217,7 +216,6 @@ class OwnSensor(OwnDriver):
 
 
 @kind("actuator driver", KIND)
-@dataclass(frozen=True, slots=True)
 class OwnActuator(OwnDriver):
     """An actuator's driver of a user."""
 
