@@ -87,7 +87,8 @@ def own_options(noun: str) -> tuple[DriverOption, ...]:
 def driver_options(cls: type[Any], skipped: tuple[str, ...] = ()) -> tuple[DriverOption, ...]:
     """The options of a driver, required ones and others."""
     hints = get_type_hints(cls, include_extras=True)
-    return tuple(_option(field, hints[field.name]) for field in fields(cls) if field.init and field.name not in skipped)
+    found = [_option(field, hints[field.name]) for field in fields(cls) if field.init and field.name not in skipped]
+    return tuple(sorted(found, key=lambda option: not option.required))
 
 
 def _option(field: Field[Any], hint: Any) -> DriverOption:

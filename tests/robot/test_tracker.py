@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from mindrun.robot.camera import (
     Aim,
-    BallTarget,
+    BallCamera,
     PanTiltLimits,
     SeenBall,
     blindness,
@@ -33,7 +33,7 @@ from tests.robot.drivers.frames import (
     taken,
 )
 
-LOOK = BallTarget(view=VIEW)
+LOOK = BallCamera(view=VIEW)
 WHITE = np.full(3, 255, np.float32)
 
 
@@ -72,8 +72,8 @@ def test_upwards_is_positive() -> None:
 @pytest.mark.parametrize("hue", [0, 10, 60, 120, 200, 240, 350, 360])
 def test_only_the_colour_that_is_looked_for_is_found(hue: float) -> None:
     frame = taken(ball(room(), 100, 100, 24, hue))
-    assert off(find_ball(frame, BallTarget(hue=hue, view=VIEW)), 100) < 0.3
-    assert find_ball(frame, BallTarget(hue=(hue + 90) % 360, view=VIEW)) is None
+    assert off(find_ball(frame, BallCamera(hue=hue, view=VIEW)), 100) < 0.3
+    assert find_ball(frame, BallCamera(hue=(hue + 90) % 360, view=VIEW)) is None
 
 
 def test_of_two_balls_the_larger_is_taken_every_time() -> None:
@@ -129,7 +129,7 @@ def test_a_moving_ball_is_in_the_middle_of_its_streak(length: int, angle: float)
     kernel[length // 2] = 1
     turned = cv2.warpAffine(kernel, cv2.getRotationMatrix2D((length // 2, length // 2), angle, 1), (length, length))
     frame = cv2.filter2D(ball(room(), 150, 110, 24), -1, turned / turned.sum())
-    found = find_ball(taken(frame), BallTarget(view=VIEW, brightness=0.4))
+    found = find_ball(taken(frame), BallCamera(view=VIEW, brightness=0.4))
     assert off(found, 150) < 0.6
     assert found.diameter == pytest.approx(24, abs=7)
 

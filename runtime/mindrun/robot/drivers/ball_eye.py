@@ -1,13 +1,13 @@
 """An eye: how near the ball is that a camera sees, in some directions."""
 
+from dataclasses import fields
 from math import cos, radians, sin, sqrt
 from typing import Annotated
 
 from mindrun.kinds.registry import kind
-from mindrun.numbers.quantity import COUNT, RATIO
-from mindrun.robot.camera import FRAME_SECONDS, BallSighting, distance
-from mindrun.robot.driver_support import DEGREES, METRES, PATH, OpenSensor, Ranging
-from mindrun.robot.drivers.ball_tracker import HUE, TOLERANCE, VIEW, BallTracker
+from mindrun.robot.camera import FRAME_SECONDS, BallCamera, BallSighting, distance
+from mindrun.robot.driver_support import DEGREES, METRES, OpenSensor, Ranging
+from mindrun.robot.drivers.ball_tracker import BallTracker
 
 
 def along_ray(angle: float, metres: float, radius: float) -> float | None:
@@ -19,7 +19,7 @@ def along_ray(angle: float, metres: float, radius: float) -> float | None:
 
 
 @kind("sensor driver", "ball_eye")
-class BallEye(Ranging):
+class BallEye(Ranging, BallCamera):
     """A camera that looks for a ball as `ball_tracker` does, for an `eye`: metres to it along each of some `angles`.
 
     They are those of the sensor, to the left positive; a ray that misses the ball of diameter `size`, or finds it
@@ -29,15 +29,6 @@ class BallEye(Ranging):
 
     angles: Annotated[tuple[float, ...], DEGREES]
     range: Annotated[float, METRES] = 3.0
-    camera: Annotated[str, PATH] = "/dev/video0"
-    width: Annotated[int, COUNT] = 320
-    height: Annotated[int, COUNT] = 240
-    view: Annotated[float, VIEW] = 60.0
-    size: Annotated[float, METRES] = 0.1
-    hue: Annotated[float, HUE] = 120.0
-    tolerance: Annotated[float, TOLERANCE] = 25.0
-    colour: Annotated[float, RATIO] = 0.4
-    brightness: Annotated[float, RATIO] = 0.5
 
     seconds = FRAME_SECONDS
 
@@ -46,8 +37,7 @@ class BallEye(Ranging):
         return len(self.angles)
 
     def open(self) -> OpenSensor:
-        said = {name: getattr(self, name) for name in self.__dataclass_fields__ if name not in ("angles", "range")}
-        tracker = BallTracker(**said).open()
+        tracker = BallTracker(**{option.name: getattr(self, option.name) for option in fields(BallCamera)}).open()
         return OpenSensor(lambda: self.metres(tracker.sighting()), tracker.close)
 
     def metres(self, seen: BallSighting) -> tuple[float | None, ...]:
