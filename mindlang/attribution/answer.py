@@ -74,8 +74,9 @@ def attributed_recording(path: Path, bundle: Path) -> AttributedRun:
     rows = np.concatenate([*parts, np.zeros(0, of.row)])
     if not len(rows):
         raise RecordingError(f"{path} has no tick in it")
-    computed = [*computed_again(path, of, rows, Engine(mind.policy, mind.procedures, of.master))]
-    again = ReplayedTicks(np.array([each.readings for each in computed]), rows["influence"])
+    engine = Engine(mind.policy, mind.procedures, of.master)
+    readings = np.array([engine.readings for _ in computed_again(path, of, rows, engine)])
+    again = ReplayedTicks(readings, rows["influence"])
     begins = np.flatnonzero(rows["tick"] == 0).tolist()
     flows = edge_flows(mind.policy, mind.procedures, of.master, again, begins)
     about = {"recording": path.name, "master": of.master}

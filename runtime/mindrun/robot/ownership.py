@@ -146,8 +146,6 @@ def _driven(what: str, process: int) -> DrivenError:
 def _lives(process: int) -> bool:
     try:
         os.kill(process, 0)
-    except ProcessLookupError:
-        return False
-    except OSError:  # another user's
-        pass
+    except OSError as error:
+        return error.errno != errno.ESRCH  # it may be another user's
     return True

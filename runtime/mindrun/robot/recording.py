@@ -8,14 +8,13 @@ import errno
 import os
 import zlib
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import AbstractContextManager, contextmanager, suppress
 from itertools import chain
 from pathlib import Path
 from queue import SimpleQueue
 from tempfile import TemporaryDirectory
 from threading import Event, Thread
-from types import TracebackType
-from typing import Any, BinaryIO, Self
+from typing import Any, BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
@@ -86,8 +85,8 @@ class BackgroundFile:
                     self._failure = error
 
 
-class Recorder:
-    """Writes a recording; a context manager. OSError where the file is there already, or cannot be written.
+class Recorder(AbstractContextManager["Recorder"]):
+    """Writes a recording. OSError where the file is there already, or cannot be written.
 
     Others see each row at once; rows are brought to the disk `every` so many seconds. Where there is a world, `world`
     says what its columns are now.
@@ -144,10 +143,7 @@ class Recorder:
             with suppress(OSError):  # the writer hears of it
                 os.fsync(self._file.fileno())
 
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
+    def __exit__(self, *error: object) -> None:
         self.close()
 
 

@@ -9,11 +9,12 @@ from contextlib import suppress
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, NoReturn
+from typing import TYPE_CHECKING, Annotated
 
 from mindrun.driver import ActuatorDriver
 from mindrun.errors import MindError
 from mindrun.files.regular_files import read_regular
+from mindrun.files.strict_json import parsed
 from mindrun.graph.codec import Options, decode, encode
 from mindrun.numbers.quantity import RATIO, SECONDS, Quantity
 from mindrun.robot.guardian.messages import MAX_COMMANDS
@@ -80,8 +81,8 @@ def to_json(plan: Plan) -> str:
 def from_json(text: str | bytes) -> Plan:
     """The plan in this text; PlanError unless it is one."""
     try:
-        plan: Plan = decode(Plan, json.loads(text, parse_constant=_no_number), "plan", _imported)
-    except (ValueError, RecursionError) as error:
+        plan: Plan = decode(Plan, parsed(text, MAX_PLAN_BYTES), "plan", _imported)
+    except ValueError as error:
         raise PlanError(f"this is no plan of a robot: {error}") from error
     return checked(plan)
 
@@ -115,7 +116,3 @@ def _imported(noun: str, data: Options) -> Options:
                 import_module(f"{DRIVERS}.{module}")
             return options
     return {}
-
-
-def _no_number(text: str) -> NoReturn:
-    raise ValueError(f"{text} is no number")
