@@ -97,8 +97,8 @@ def simulated(bundle: Path, task: str, seed: int, master: str = "") -> Iterator[
     with TemporaryDirectory(prefix="mind-") as folder:
         path = f"{folder}/world"
         # -P: a file of the user's folder that is named like a module must not be imported.
-        program = [sys.executable, "-P", "-m", "mindrun.robot.world_server", f"--task={task}", f"--seed={seed}"]
-        program += [f"--master={master}", f"--socket={path}", "--", str(bundle)]
+        program = [sys.executable, "-P", "-m", "mindrun.robot.world_server"]
+        program += [str(bundle), task, str(seed), master, path]
         # A session of its own: Ctrl-C ends the robot, and the guardian still finds the wheels that it stops.
         with subprocess.Popen(program, stdout=subprocess.PIPE, text=True, start_new_session=True) as process:
             assert process.stdout
