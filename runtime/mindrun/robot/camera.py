@@ -36,6 +36,9 @@ BLIND_SHARES = 0.005, 0.6  # shares of the frame: at least so much must not be b
 OVEREXPOSED_BRIGHTNESS = 245  # a brightness from which a colour may be gone
 ROUNDNESS_TOLERANCE = 0.14  # how far a blob's area may be off a round one's
 MAX_STREAK_RATIO = 2.8  # length of a streak to its width
+DEGREES_PER_SECOND = 120.0  # at most, of a neck
+GAIN_PER_SECOND = 6.0  # how fast a neck goes towards a ball that is a degree off
+PATIENCE_SECONDS = 1.0  # without a ball, until it looks straight ahead again
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -162,26 +165,15 @@ class Aim:
     alone: float = 0.0
 
 
-@dataclass(frozen=True, slots=True)
-class PanTiltLimits:
-    """Limits of a camera's neck: up to `pan` and `tilt` degrees to either side, `speed` degrees a second at most."""
-
-    pan: float = 90.0
-    tilt: float = 45.0
-    speed: float = 120.0
-    gain: float = 6.0  # a second: how fast it goes towards a ball that is a degree off
-    patience: float = 1.0  # seconds without a ball until it looks straight ahead again
-
-
-def follow(aim: Aim, ball: SeenBall | None, seconds: float, limits: PanTiltLimits) -> Aim:
-    """The aim that the camera should have so many seconds later."""
-    if ball is None and aim.alone + seconds < limits.patience:
+def follow(aim: Aim, ball: SeenBall | None, seconds: float, pan_reach: float, tilt_reach: float) -> Aim:
+    """The aim so many seconds later of a camera that turns up to so many degrees to either side, and up and down."""
+    if ball is None and aim.alone + seconds < PATIENCE_SECONDS:
         return Aim(aim.pan, aim.tilt, aim.alone + seconds)
     pan, tilt = (ball.bearing, ball.elevation) if ball else (-aim.pan, -aim.tilt)
-    share, most = min(1.0, limits.gain * seconds), limits.speed * seconds
+    share, most = min(1.0, GAIN_PER_SECOND * seconds), DEGREES_PER_SECOND * seconds
     return Aim(
-        clamp(aim.pan + clamp(share * pan, most), limits.pan),
-        clamp(aim.tilt + clamp(share * tilt, most), limits.tilt),
+        clamp(aim.pan + clamp(share * pan, most), pan_reach),
+        clamp(aim.tilt + clamp(share * tilt, most), tilt_reach),
         0.0 if ball else aim.alone + seconds,
     )
 
@@ -250,6 +242,11 @@ class Joint:
         self.servo.write(min(1.0, max(0.0, 0.5 + angle / self.travel)))
 
 
+def reach(joint: Joint | None) -> float:
+    """How many degrees a joint turns to either side: 0 where there is none."""
+    return abs(joint.travel) / 2 if joint else 0.0
+
+
 @dataclass(frozen=True, slots=True)
 class BallSighting:
     """The ball in a frame, if any, where the camera pointed, and how wide the frame was; or why there was no frame."""
@@ -267,7 +264,6 @@ class TrackingCamera:
 
     camera: Camera
     target: BallCamera
-    limits: PanTiltLimits
     pan: Joint | None = None
     tilt: Joint | None = None
     sighting: BallSighting = field(default_factory=BallSighting)
@@ -311,7 +307,7 @@ class TrackingCamera:
         if reason := blindness(frame):
             raise DeviceError(f"the camera sees nothing: its frames are {reason}")
         sighting = BallSighting(0, find_ball(frame, self.target), self.aim, frame.shape[1])
-        self.aim, self.then = follow(self.aim, sighting.ball, now - self.then, self.limits), now
+        self.aim, self.then = follow(self.aim, sighting.ball, now - self.then, *map(reach, (self.pan, self.tilt))), now
         self.point()
         return sighting
 

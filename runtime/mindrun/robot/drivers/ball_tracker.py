@@ -9,7 +9,7 @@ from mindrun.driver import DeviceError
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import Reference
 from mindrun.robot import camera
-from mindrun.robot.camera import FRAME_SECONDS, BallCamera, BallSighting, Joint, PanTiltLimits, TrackingCamera, distance
+from mindrun.robot.camera import FRAME_SECONDS, BallCamera, BallSighting, Joint, TrackingCamera, distance
 from mindrun.robot.driver_support import (
     ADDRESS,
     BUS,
@@ -126,8 +126,7 @@ class BallTracker(BallCamera):
 
     def open_tracking(self) -> TrackingCamera:
         """The camera, and its servos, in the middle."""
-        opened = camera.open_camera(self.camera, self.width, self.height)
-        tracking = TrackingCamera(opened, self, PanTiltLimits(pan=0.0, tilt=0.0))
+        tracking = TrackingCamera(camera.open_camera(self.camera, self.width, self.height), self)
         try:
             tracking.pan = self.joint(self.pan, self.travel)
             tracking.tilt = self.joint(self.tilt, self.tilt_travel)
@@ -137,8 +136,6 @@ class BallTracker(BallCamera):
             raise
         if tracking.pan or tracking.tilt:
             sleep(CENTRING_SECONDS)
-        reach = [abs(joint.travel) / 2 if joint else 0.0 for joint in (tracking.pan, tracking.tilt)]
-        tracking.limits = PanTiltLimits(*reach)
         tracking.thread.start()
         return tracking
 
