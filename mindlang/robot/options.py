@@ -6,7 +6,6 @@ By the schema an editor completes and underlines `robot.yaml` while one writes.
 import re
 from dataclasses import MISSING, Field, dataclass, fields, replace
 from functools import cache
-from importlib import import_module
 from math import isinf
 from types import NoneType, UnionType
 from typing import Annotated, Any, Union, get_args, get_origin, get_type_hints
@@ -68,7 +67,6 @@ class DriverOption:
 @cache
 def drivers(noun: str) -> dict[str, type[Any]]:
     """The drivers of "sensor" or "actuator" by name; those that users bring have another."""
-    import_module("mindrun.robot.drivers")
     return {name: cls for name, cls in kinds(f"{noun} {DRIVER}").items() if name.isidentifier()}
 
 

@@ -13,7 +13,6 @@ from dataclasses import replace
 from pathlib import Path
 from time import monotonic, sleep
 
-import mindrun.robot.drivers  # noqa: F401  every driver is known once this is imported
 from mindrun.driver import DeviceError
 from mindrun.engine.engine import Engine
 from mindrun.errors import MindError
