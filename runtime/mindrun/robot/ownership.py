@@ -83,10 +83,7 @@ class DrivenError(MindError):
 
 @contextmanager
 def hold_devices(wiring: Wiring) -> Iterator[tuple[int, ...]]:
-    """Let no other process drive what is wired; descriptors that the guardian has to hold as well.
-
-    DrivenError where one does already.
-    """
+    """Descriptors that let no other process drive what is wired, for the guardian too; DrivenError where one does."""
     with ExitStack() as stack:
         yield tuple(stack.enter_context(bound_address(what)) for what in claims(wiring))
 

@@ -40,10 +40,7 @@ def replay_recording(
 
 
 def replay(path: Path, bundle: str, engine: Engine, told: Callable[[int], None] = lambda ticks: None) -> Replayed:
-    """Compute the ticks of a recording with the mind of a bundle of that SHA-256.
-
-    RecordingError where it was made with another.
-    """
+    """Compute the ticks of a recording with a bundle of that SHA-256; RecordingError where it was made with another."""
     about, parts = read(path)
     about.refuse_another(bundle, engine.graph)
     ticks = 0

@@ -11,7 +11,7 @@ import socket as sockets  # AF_UNIX by its name: there is none on Windows, where
 import subprocess
 import sys
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from struct import Struct
@@ -80,12 +80,9 @@ def _whole(answers: BinaryIO, count: int) -> bytes:
 
 def status(path: str) -> dict[str, Any]:
     """The state of the world at a socket: `tick`, `pose`, `events`, `ended` and more (`SimulatedScene.status`)."""
-    link = WorldConnection(path)
-    try:
+    with closing(WorldConnection(path)) as link:
         found: dict[str, Any] = json.loads(link.ask(STATUS))
-        return found
-    finally:
-        link.close()
+    return found
 
 
 @contextmanager

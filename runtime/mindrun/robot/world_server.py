@@ -130,7 +130,8 @@ class WorldServer:
 
     def serve(self, listener: socket, period: float) -> None:
         """Tick every so many seconds, until the end; a tick that is past is missed, not made up for."""
-        with asyncio.Runner(loop_factory=_loop) as runner:
+        # A loop that waits for a tick to the microsecond: epoll would wait in whole milliseconds.
+        with asyncio.Runner(loop_factory=lambda: asyncio.SelectorEventLoop(SelectSelector())) as runner:
             runner.run(self._tick(listener, period))
 
     async def _tick(self, listener: socket, period: float) -> None:
@@ -160,11 +161,6 @@ class WorldServer:
         finally:
             self.clients -= 1
             writer.transport.abort()
-
-
-def _loop() -> asyncio.AbstractEventLoop:
-    """A loop that waits for a tick to the microsecond: epoll would wait in whole milliseconds."""
-    return asyncio.SelectorEventLoop(SelectSelector())
 
 
 @contextmanager

@@ -44,6 +44,10 @@ class DriverCode:
     lines: Annotated[tuple[str, ...], TEXT]
     package: Annotated[str, TEXT]
 
+    def __post_init__(self) -> None:
+        if not self.package and sha256(self.text.encode()).hexdigest() != self.digest:
+            raise ValueError("its text is not the one that its hash names")
+
     @property
     def origin(self) -> str:
         """The name of the file or the package, for messages."""
@@ -53,11 +57,6 @@ class DriverCode:
     def text(self) -> str:
         """The file."""
         return "\n".join(self.lines)
-
-    @property
-    def is_whole(self) -> bool:
-        """True if the text of a file has the hash `digest`; always for a package."""
-        return bool(self.package) or sha256(self.text.encode()).hexdigest() == self.digest
 
 
 def of_file(name: str, text: str) -> DriverCode:
@@ -81,8 +80,6 @@ def load_class(code: DriverCode) -> Any:
     """
     if code.package:
         return _package_class(code)
-    if not code.is_whole:
-        raise DeviceError(f"the text of {code.origin} is not the one that its hash names")
     return getattr(module_of(code), code.name.split(".")[1])
 
 
@@ -177,10 +174,6 @@ class OwnDriver(DriverCode):
     """A driver of a user: its code by the hash, and its options as JSON."""
 
     options: Annotated[str, TEXT]
-
-    def __post_init__(self) -> None:
-        if not self.is_whole:
-            raise ValueError("its text is not the one that its hash names")
 
     def made(self) -> Any:
         """The user's driver itself; DeviceError where its code does not run."""

@@ -74,10 +74,9 @@ class Processes:
 
     def let_go(self) -> None:
         """Close both pipes: neither speak to it nor hear it, nor keep it alive."""
-        with suppress(OSError):
-            self.input.close()
-        with suppress(OSError):
-            self.output.close()
+        for pipe in (self.input, self.output):
+            with suppress(OSError):
+                pipe.close()
 
     def _kill(self) -> None:
         """End all of its processes."""
@@ -200,10 +199,7 @@ class Guardian(AbstractContextManager["Guardian"]):
         self._number += 1
 
     def close(self) -> None:
-        """End the frames and wait until every actuator is at neutral; GuardianError where one is not in time.
-
-        So it is where the guardian has been lost, or hangs; then others have tried.
-        """
+        """End the frames and wait until every actuator is at neutral; GuardianError where that is not known in time."""
         end_in_child(self._controller)  # a procedure may have forked it
         heard = self._heard
         hangs = self.state in (NEUTRAL, FOLLOWING) and not heard.is_lost and not self._reads_last_frame()
