@@ -85,8 +85,8 @@ def own_options(noun: str) -> tuple[DriverOption, ...]:
 def driver_options(cls: type[Any], skipped: tuple[str, ...] = ()) -> tuple[DriverOption, ...]:
     """The options of a driver, required ones and others."""
     hints = get_type_hints(cls, include_extras=True)
-    found = [_option(field, hints[field.name]) for field in fields(cls) if field.init and field.name not in skipped]
-    return tuple(sorted(found, key=lambda option: not option.required))
+    found = sorted(fields(cls), key=lambda field: field.kw_only is True)  # its own before those that others have too
+    return tuple(_option(field, hints[field.name]) for field in found if field.init and field.name not in skipped)
 
 
 def _option(field: Field[Any], hint: Any) -> DriverOption:
