@@ -18,7 +18,7 @@ from mindrun.numbers.quantity import RATIO, SECONDS, Quantity
 from mindrun.robot.guardian.messages import MAX_COMMANDS
 
 if TYPE_CHECKING:
-    from mindrun.graph.wiring import Wiring  # which needs numpy
+    from mindrun.graph.wiring import Wiring  # which brings all kinds along
 
 MAX_PLAN_BYTES = 1 << 20
 RATIO_EITHER_WAY = Quantity("a share of the travel", {}, low=-1.0, high=1.0)
