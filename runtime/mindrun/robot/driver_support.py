@@ -22,6 +22,7 @@ MICROSECONDS = Quantity("a pulse width", {"us": 1.0}, low=100.0, high=4000.0)
 PWM_HERTZ = Quantity("a rate of pulses", {"Hz": 1.0, "kHz": 1000.0}, low=10.0, high=10_000.0)
 DEGREES = Quantity("an angle", {"deg": 1.0}, low=-360.0, high=360.0)
 PATH = Reference("path")
+TEXT = Reference("text")
 SWITCH = Reference("switch", ("true", "false"))
 Face = Literal["up", "down"]
 FACE = Reference("face", get_args(Face))

@@ -10,15 +10,7 @@ from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import Reference
 from mindrun.robot import camera
 from mindrun.robot.camera import FRAME_SECONDS, BallCamera, BallSighting, Joint, TrackingCamera, distance
-from mindrun.robot.driver_support import (
-    ADDRESS,
-    BUS,
-    CHANNEL,
-    DEGREES,
-    MICROSECONDS,
-    SharedParts,
-    answering,
-)
+from mindrun.robot.driver_support import ADDRESS, BUS, CHANNEL, DEGREES, MICROSECONDS, SharedParts, answering
 from mindrun.robot.drivers.pca9685 import Pca9685
 from mindrun.robot.i2c import on_bus
 

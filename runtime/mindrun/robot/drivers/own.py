@@ -19,10 +19,9 @@ from typing import Annotated, Any
 
 from mindrun.driver import ActuatorDevice, DeviceError, SensorDevice
 from mindrun.kinds.registry import kind
-from mindrun.numbers.quantity import NUMBER, Quantity, Reference
-from mindrun.robot.driver_support import SWITCH, share
+from mindrun.numbers.quantity import NUMBER, Quantity
+from mindrun.robot.driver_support import SWITCH, TEXT, share
 
-TEXT = Reference("text")
 READINGS = Quantity("a number of readings", {"": 1.0}, low=1, high=1000, whole=True)
 KIND = "of one's own"  # no word of robot.yaml: there stands the name of the class
 ENTRY_POINTS = "mindrun.drivers"  # the group under which a package says its drivers

@@ -8,11 +8,10 @@ from typing import Annotated
 
 from mindrun.driver import DeviceError
 from mindrun.kinds.registry import kind
-from mindrun.numbers.quantity import COUNT, Reference
-from mindrun.robot.driver_support import OpenSensor, measuring
+from mindrun.numbers.quantity import COUNT
+from mindrun.robot.driver_support import TEXT, OpenSensor, measuring
 from mindrun.robot.simulated_world import READ, WRITE, WorldConnection, status
 
-TEXT = Reference("text")
 VALUE = Struct("<d")
 
 _seen: set[str] = set()  # the sockets of worlds that have answered this process
