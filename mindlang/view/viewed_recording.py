@@ -86,8 +86,8 @@ def _filled(path: Path, of: About, parts: Iterator[Rows], mind: Bundle) -> Itera
     for rows in some:
         readings, known = rows["readings"].copy(), 0
         try:
-            for row in computed_again(path, of, rows, engine, number):
-                readings[known] = row.readings
+            for _ in computed_again(path, of, rows, engine, number):
+                readings[known] = engine.readings
                 known += 1
         finally:
             yield rows[:known], np.where(is_measured, readings[:known], NOTHING)

@@ -16,6 +16,7 @@ ROOMS = {  # where the kinds of a noun stand: a module for each, of its name, or
     "content": "mindrun.kinds.things", "event": "mindrun.kinds.events", "measure": "mindrun.kinds.measures",
     "body": "mindrun.kinds.bodies", "task": "mindrun.kinds.scenes", "scene": "mindrun.kinds.scenes",
     "memory": "mindrun.kinds.memory", "curriculum": "mindrun.kinds.learners",
+    "sensor driver": "mindrun.robot.drivers", "actuator driver": "mindrun.robot.drivers",
 }  # fmt: skip
 SHARED_NOUNS = {"scene": "task"}  # a scene is one of those that a task can be in
 _kinds: dict[str, dict[str, type[Any]]] = {}
