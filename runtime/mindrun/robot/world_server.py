@@ -56,9 +56,9 @@ def main() -> None:
 
 
 def _world(options: Namespace) -> Any:
-    """The world of a bundle, `mindrun.sim.commanded_world.CommandedWorld`. Here alone the simulator is imported."""
+    """The world of a bundle, `mindrun.sim.commanded_lanes.CommandedWorld`. Here alone the simulator is imported."""
     try:
-        simulator = import_module("mindrun.sim.commanded_world")
+        simulator = import_module("mindrun.sim.commanded_lanes")
     except ImportError as error:
         raise MindError(f"there is no simulator here ({error})", "pip install mindlang") from error
     graph = read_bundle(options.bundle).graph

@@ -217,11 +217,8 @@ class SubprocessStepper:
         name, where = self.environment, "being asked for its spaces"
         if runs:
             run = runs[min(lost.reached, len(runs) - 1)]
-            where = {
-                "begin": place_of(run.seed, 0),
-                "reset": place_of(run.seed, 0),
-                "step": place_of(run.seed, run.steps + 1),
-            }.get(method, f"its {method} after {run.where}")
+            steps = {"begin": 0, "reset": 0, "step": run.steps + 1}.get(method)
+            where = f"its {method} after {run.where}" if steps is None else place_of(run.seed, steps)
         if lost.is_silent:
             message = (
                 f"the environment {name} does not come back from {where}, in {self._process.step_seconds:g} seconds"
