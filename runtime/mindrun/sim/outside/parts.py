@@ -20,14 +20,14 @@ Place = tuple[str, int]  # of a number: the name of its part, and where it stand
 class SpacePart:
     """An array of numbers in `low` to `high` [of its size], which are infinite where a space does not say.
 
-    Where there are `choices`, they are so many at each place, and the numbers are whole, from `low` on.
+    Where each `is_choice`, they are whole.
     """
 
     shape: tuple[int, ...]
     low: Floats
     high: Floats
     dtype: Any
-    choices: NDArray[np.int64] | None = None
+    is_choice: bool = False
 
     @property
     def axes(self) -> tuple[int, ...]:
@@ -46,7 +46,7 @@ class SpacePart:
     def values(self, numbers: Floats) -> list[Any]:
         """Turn numbers [runs, size] into an array of its shape and type for each run; a single choice is a number."""
         values = numbers.astype(self.dtype).reshape(-1, *self.shape)
-        return [*values] if self.shape or self.choices is not None else [np.asarray(value) for value in values]
+        return [*values] if self.shape or self.is_choice else [np.asarray(value) for value in values]
 
 
 @dataclass(frozen=True, slots=True)
@@ -181,4 +181,4 @@ def _part(space: Any) -> SpacePart | None:
 
 def _choices(shape: tuple[int, ...], counts: Any, start: Any, dtype: Any) -> SpacePart:
     low = np.asarray(start, np.float64)
-    return SpacePart(shape, low, low + counts - 1, dtype, np.asarray(counts, np.int64))
+    return SpacePart(shape, low, low + counts - 1, dtype, is_choice=True)

@@ -59,7 +59,7 @@ def _of_actuator(name: str, slot: Slot, parts: Mapping[str, SpacePart]) -> Itera
         yield from _of_place(name, "action", slot, parts)
     elif slot.chosen is None:
         yield from _of_number(name, slot, part, place)
-    elif part.choices is None:
+    elif not part.is_choice:
         hint = "Write one actuator for each of them: action 0."
         yield Misfit("unfit-action", name, "The environment takes numbers, and no choices.", hint)
     elif not part.low[place] <= slot.chosen <= part.high[place]:
@@ -68,7 +68,7 @@ def _of_actuator(name: str, slot: Slot, parts: Mapping[str, SpacePart]) -> Itera
 
 
 def _of_number(name: str, slot: Slot, part: SpacePart, place: int) -> Iterator[Misfit]:
-    if part.choices is not None:
+    if part.is_choice:
         hint = f"Write one actuator for each that is to be chosen: choice {part.low[place]:.0f}."
         yield Misfit("unfit-action", name, "The environment takes one of a few actions, and no numbers.", hint)
     elif not slot.has_two_ends:
@@ -89,9 +89,9 @@ def _of_all(slots: Collection[Slot], parts: Mapping[str, SpacePart]) -> Iterator
             index = tuple(map(int, np.unravel_index(place, part.axes)))
             given = places.count((name, index))
             there = _written(name, index)
-            if part.choices is None and given > 1:
+            if not part.is_choice and given > 1:
                 yield Misfit("repeated-action", "", f"Two actuators are action {there}.", "Leave one of them out.")
-            elif part.choices is None and not given:
+            elif not part.is_choice and not given:
                 hint = f"Add it: actuator thrust is action {there} neutral 0.5."
                 yield Misfit("missing-action", "", f"No actuator is action {there} of the environment.", hint)
             elif not given:
