@@ -18,7 +18,7 @@ class Commanded:
     def __init__(self, graph: Graph, task: str, master: str, lanes: int, seeds: ArrayLike, interrupt: bool) -> None:
         silent = replace(graph, skills=tuple(replace(skill, function=Rule()) for skill in graph.skills))
         rollout = Rollout(Policy(silent, {}), task, master, interrupt=interrupt)
-        self.lanes, self.boxes = lanes, rollout.sizes.boxes
+        self.lanes, self.boxes = lanes, rollout.sizes["boxes"]
         self.jobs = rollout.jobs(np.zeros((1, 0), np.float32), np.asarray(seeds, np.uint64))
         self._tables, self._tile, self._interrupt = rollout.tables, rollout.tile(lanes), interrupt
         self.state = self._tile.state

@@ -14,8 +14,7 @@ from mindrun.errors import MindError
 from mindrun.graph.graph import Graph, Skill
 from mindrun.graph.policy import Policy
 from mindrun.graph.weights import reachable
-from mindrun.sim.commanded_lanes import CommandedLanes, commanded_lanes
-from mindrun.sim.commanded_world import ended_by
+from mindrun.sim.commanded_lanes import CommandedLanes, commanded_lanes, ended_by
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.state import State
 from mindrun.terminal.command_line import command_line

@@ -41,11 +41,6 @@ def rows_by_name(task: Task) -> dict[str, range]:
     return found
 
 
-def box_count(task: Task) -> int:
-    """The number of rectangular obstacles in the task's world."""
-    return sum(thing.kind.obstacles(task.scene) for thing in task.things)
-
-
 def boxes_by_name(task: Task) -> dict[str, range]:
     """The boxes that each name has in every lane, as they are drawn: walls, what has a place or a grid, all others."""
     obstacles = [thing for thing in task.things if thing.kind.is_obstacle]
