@@ -9,13 +9,10 @@ import numpy as np
 from hypothesis import strategies as st
 from mindrun.graph.graph import Actuator, Edge, Gate, Graph, Memory, Program, Sensor, Skill
 from mindrun.graph.weights import genes
-from mindrun.kinds.actuators.gripper import Gripper
-from mindrun.kinds.actuators.servo import Servo
-from mindrun.kinds.actuators.wheel import Wheel
-from mindrun.kinds.bodies.disc import Disc
-from mindrun.kinds.functions.function import Function
+from mindrun.kinds.actuators.actuator import Gripper, Servo, Wheel
+from mindrun.kinds.bodies.body import Disc
+from mindrun.kinds.functions.function import Function, Rule
 from mindrun.kinds.functions.procedure import Procedure
-from mindrun.kinds.functions.rule import Rule
 from mindrun.kinds.memory import Cell
 from mindrun.kinds.registry import arguments, kinds
 from mindrun.kinds.sensors.average import Average

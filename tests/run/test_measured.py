@@ -15,7 +15,7 @@ from mindrun.graph.graph import Edge, Graph, Skill
 from mindrun.graph.measured import measured_in_world, rows_of, used_sensors
 from mindrun.graph.policy import Policy
 from mindrun.graph.skill_sets import reachable
-from mindrun.kinds.functions.rule import Rule
+from mindrun.kinds.functions.function import Rule
 from mindrun.kinds.sensors.sensor import Physical
 from mindrun.robot.recording import read
 

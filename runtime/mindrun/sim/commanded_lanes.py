@@ -14,7 +14,7 @@ from mindrun.graph.graph import Graph
 from mindrun.graph.policy import Policy
 from mindrun.graph.recording_header import GOES_ON
 from mindrun.graph.run_scores import score_of
-from mindrun.kinds.functions.rule import Rule
+from mindrun.kinds.functions.function import Rule
 from mindrun.numbers.arithmetic import ANGLE, BOX_COLUMNS
 from mindrun.sim.codes import GOING_ON, LOST
 from mindrun.sim.lanes.stages import after, before, begin_again, send, wake

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Protocol, Self, runtime_checkable
 
-from mindrun.kinds.registry import base
+from mindrun.kinds.registry import base, kind
 from mindrun.numbers.quantity import Quantity
 
 if TYPE_CHECKING:
@@ -200,3 +200,10 @@ class NetworkFunction(Function):
         if not shapes:
             return Function.ready(self, inputs, outputs, weights, sources)
         return running(self.forward, matrices(weights, shapes), self.state_length(inputs, outputs))
+
+
+@kind("skill", "rule")
+class Rule(Function):
+    """No function of its own: every edge of the skill has `at`."""
+
+    has_outputs = False

@@ -2,8 +2,7 @@
 
 from typing import TYPE_CHECKING, Annotated, Any
 
-from mindrun.kinds.actuators.actuator import Side
-from mindrun.kinds.actuators.wheel import SIDE
+from mindrun.kinds.actuators.actuator import SIDE, Side
 from mindrun.kinds.registry import kind
 from mindrun.kinds.sensors.sensor import Physical, Row, Scene
 from mindrun.numbers.quantity import POSITIVE

@@ -1,4 +1,4 @@
-"""The base classes of things: the rest of the program asks a kind for these, and knows none by name."""
+"""What the rest of the program asks of a thing, of which it knows no kind by name; and the kinds that are short."""
 
 from collections.abc import Iterable, Mapping, Set
 from dataclasses import dataclass, replace
@@ -6,7 +6,7 @@ from math import hypot
 from typing import Annotated, Literal, NamedTuple, Protocol, get_args
 
 from mindrun.kinds.bodies.body import DAMPING, DENSITY
-from mindrun.kinds.registry import arguments, base
+from mindrun.kinds.registry import arguments, base, kind
 from mindrun.kinds.scenes.scene import SceneKind
 from mindrun.numbers.quantity import (
     COORDINATE,
@@ -276,3 +276,61 @@ class AboutThing:
     def accepts(cls, argument: str, kind: type[ThingKind]) -> bool:
         """True if an argument of it can name things of a kind."""
         return cls.is_about(kind)
+
+
+@kind("content", "item")
+class Item(Placed):
+    """A disc of diameter `size` that the claw can take, or `count` of them, `away` from the robot or `at` a place.
+
+    When it is `reached` or `delivered` it stays as it is (in the claw, where that holds it), moves elsewhere with the
+    next size of its schedule, or vanishes for the rest of the run.
+    """
+
+    delivered: Annotated[Outcome, OUTCOME] = MOVES
+
+    can_be_held = True
+    can_be_delivered = True
+    is_round = True
+
+
+@kind("content", "zone")
+class Zone(Placed):
+    """A square of side `size` on the floor, or `count` of them; items are delivered into it.
+
+    When it is `reached` it stays where it is, moves elsewhere with the next size of its schedule, or vanishes for the
+    rest of the run.
+    """
+
+    is_area = True
+    takes_items = True
+
+
+@kind("content", "power")
+class Power(Placed):
+    """A square of side `size` on the floor, or `count` of them, in which the battery charges.
+
+    `reached` is as for a zone.
+    """
+
+    is_area = True
+    charges = True
+
+
+@kind("content", "box")
+class LooseBox(Loose):
+    """A solid square of side `size` that can be pushed, and turns as it is pushed.
+
+    Each tick of length dt divides its velocity and its spin by 1 + dt·damping. `friction` multiplies with that of what
+    it touches: the robot's is 0.2, a wall's and an obstacle's 1. It is `reached` when the claw could take it if it were
+    an item, and `delivered` when its middle is pushed into a zone: it stays, moves elsewhere or vanishes.
+    """
+
+
+@kind("content", "ball")
+class Ball(Loose):
+    """A solid disc of diameter `size` that can be pushed, and rolls on for a while; all else is as of a box."""
+
+    density: Annotated[float, DENSITY] = 0.2
+    damping: Annotated[float, DAMPING] = 1.0
+
+    is_round = True
