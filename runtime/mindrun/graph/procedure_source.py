@@ -5,7 +5,8 @@ from pathlib import Path
 
 from mindrun.graph.graph import Skill
 from mindrun.kinds.functions.procedure import module_source
-from mindrun.kinds.procedure_text import STANDS_ALONE, fault, fit, imports, texts
+from mindrun.kinds.procedure_names import imports, texts
+from mindrun.kinds.procedure_text import STANDS_ALONE, fault, fit, parsed
 
 
 def source_of(skill: Skill, folder: Path) -> str:
@@ -17,14 +18,15 @@ def source_of(skill: Skill, folder: Path) -> str:
     calls = str(skill.function.calls)
     source = module_source(calls, folder)
     fit(calls, source, len(skill.inputs), skill.outputs)
-    for line, module, _, _ in imports(calls, source):
+    names = parsed(calls, source)
+    for line, module, _, _ in imports(names):
         top = module.partition(".")[0]
         places = f"{top}.py", f"{top}/__init__.py", f"{module.replace('.', '/')}.py"
         if not top or any(_is_file(folder / place) for place in places):
             raise fault(calls, f"imports {module}, a file that no bundle holds", line, STANDS_ALONE)
         if _is_folder(folder / top) and not is_installed(top, folder):  # a package without an __init__.py
             raise fault(calls, f"imports {module}, a folder that no bundle holds", line, STANDS_ALONE)
-    for line, text in texts(calls, source):
+    for line, text in texts(names):
         if "." in text and _is_file(folder / text):
             raise fault(calls, f"names {text}, a file that no bundle holds", line, STANDS_ALONE)
     return source

@@ -46,7 +46,6 @@ class ModuleNames:
 
     tree: ast.Module
     table: symtable.SymbolTable
-    imported: set[str] = field(default_factory=set)  # dotted names of all that is imported
     _scopes: dict[ast.AST, Scopes] = field(default_factory=dict)
     _bound: dict[Key, list[str | ast.expr]] = field(default_factory=lambda: defaultdict(list))
     _paths: dict[Key, set[str]] = field(default_factory=lambda: defaultdict(set))
@@ -108,13 +107,11 @@ class ModuleNames:
                 for alias in aliases:
                     top = alias.name.partition(".")[0]
                     self._give(alias.asname or top, scopes, alias.name if alias.asname else top)
-                    self.imported.add(alias.name)
             case ast.ImportFrom(module=str(module), names=aliases, level=0):
                 for alias in aliases:
                     if alias.name == "*":
                         self._everything_of.append(module)
                     self._give(alias.asname or alias.name, scopes, f"{module}.{alias.name}")
-                    self.imported.add(f"{module}.{alias.name}")
             case ast.Assign(targets=targets, value=value):
                 for target in targets:
                     self._assign(target, value, scopes)
@@ -242,6 +239,7 @@ def drawn(names: ModuleNames) -> Iterator[tuple[int, str]]:
 def opened(names: ModuleNames) -> Iterator[tuple[int, str]]:
     """Lines that read a file, and the name that does so; one that only writes is none."""
     is_streaming = any(names.paths(node) & IN_MEMORY for node in ast.walk(names.tree))
+    knows_paths = any(module.startswith("pathlib") for _, module, _, _ in imports(names))
     for node in ast.walk(names.tree):
         match node:
             case ast.Name(id="__file__") if "__file__" in names.paths(node):
@@ -249,7 +247,7 @@ def opened(names: ModuleNames) -> Iterator[tuple[int, str]]:
             case ast.Call(func=func):
                 paths = sorted(names.paths(func))
                 yield from ((node.lineno, used) for used in paths if _reads(used, node, is_streaming))
-                if not paths and isinstance(func, ast.Attribute) and _is_of_a_path(func.attr, node, names):
+                if not paths and isinstance(func, ast.Attribute) and _is_of_a_path(func.attr, node, knows_paths):
                     yield node.lineno, func.attr
 
 
@@ -280,9 +278,8 @@ def _reads(used: str, call: ast.Call, is_streaming: bool) -> bool:
     return is_reader and is_named and not (last == "load" and used.startswith(STREAMED))
 
 
-def _is_of_a_path(method: str, call: ast.Call, names: ModuleNames) -> bool:
-    """True if a method of an unknown object reads a file; `open` is a path's where the module imports pathlib."""
-    knows_paths = any(each.startswith("pathlib") for each in names.imported)
+def _is_of_a_path(method: str, call: ast.Call, knows_paths: bool) -> bool:
+    """True if a method of an unknown object reads a file; `open` is a path's where the module knows paths."""
     return method in OF_PATHS or (method == "open" and knows_paths and not _writes(_modes(call, 0)))
 
 

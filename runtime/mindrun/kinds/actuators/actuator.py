@@ -45,6 +45,7 @@ class ActuatorKind:
     varying: tuple[str, ...] = ("delay",)  # the arguments that can differ from run to run
     drive: Drive | None = None  # what it does to a body, where it can move one
     is_light = False  # whether it shines with its command
+    reach: float | None = None  # ahead of the body, within which it takes items, in world units; None where none
 
     @property
     def slot(self) -> Slot | None:
@@ -64,11 +65,6 @@ class ActuatorKind:
     @property
     def mounted(self) -> Side | None:
         """The side of the body that it is on, where that says what it does."""
-        return None
-
-    @property
-    def reach(self) -> float | None:
-        """The distance ahead of the body within which it takes items, in world units; None where it takes none."""
         return None
 
     @property

@@ -58,7 +58,7 @@ class Function:
 
     def layers(self, inputs: int, outputs: int) -> Layers:
         """The layers of a feed-forward network without biases; none where it is something else."""
-        return ()
+        return () if self.opaque else self.matrix_shapes(inputs, outputs)
 
     def matrix_shapes(self, inputs: int, outputs: int) -> Layers:
         """(values in, values out) of the matrices in which its genome lies, row by row; none where none is learnt."""

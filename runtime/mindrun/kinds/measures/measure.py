@@ -1,6 +1,5 @@
 """Measures, and what the rest of the program asks of each: it knows none by name."""
 
-from collections.abc import Mapping
 from dataclasses import replace
 from math import inf
 from typing import Annotated
@@ -8,8 +7,6 @@ from typing import Annotated
 from mindrun.kinds.registry import base, kind
 from mindrun.kinds.things.thing import AboutThing
 from mindrun.numbers.quantity import RATIO, THING, TICKS, Reference
-
-Row = Mapping[str, float]  # columns of the lanes' table of measures
 
 
 @base("measure")
@@ -20,15 +17,8 @@ class MeasureKind(AboutThing):
 
     is_outside = False  # whether an environment says what it is
     interval = (-inf, inf)  # its least and its greatest value
-
-    @property
-    def remembered(self) -> int:
-        """The number of ticks whose changes of commands the lanes keep for it."""
-        return 0
-
-    def row(self) -> Row:
-        """Its columns of the lanes' table beside its thing: the share `beyond` which it counts."""
-        return {}
+    over = 0  # the number of ticks whose changes of commands the lanes keep for it
+    beyond = 0.0  # the share of a wheel's travel beyond which such a change counts
 
 
 @kind("measure", "progress")
@@ -72,15 +62,6 @@ class CommandChange(MeasureKind):
     over: Annotated[int, replace(TICKS, low=1.0)] = 10
 
     interval = (0.0, inf)
-
-    @property
-    def remembered(self) -> int:
-        """The ticks of the argument `over`, at least one."""
-        return max(1, self.over)
-
-    def row(self) -> Row:
-        """The share of a wheel's travel beyond which a change counts."""
-        return {"beyond": self.beyond}
 
 
 @kind("measure", "its reward")

@@ -7,7 +7,7 @@ from typing import Annotated
 
 from mindrun.kinds.registry import kind
 from mindrun.kinds.scenes.scene import SceneKind
-from mindrun.kinds.things.thing import DEFAULT_DISTANCE, DEFAULT_SIZE, Rectangle, ThingKind, ThingMistake
+from mindrun.kinds.things.thing import Rectangle, ThingKind, ThingMistake
 from mindrun.numbers.quantity import LENGTH, Place, Reference
 
 WALL, FLOOR = "#", "."
@@ -30,10 +30,6 @@ class Map(ThingKind):
 
     is_obstacle = True
     is_solid = True
-    size = DEFAULT_SIZE
-    away = DEFAULT_DISTANCE
-    at = ()
-    count = 1
     unplaceable = "Draw walls with #, and write another letter for what stands there."
 
     def obstacles(self, scene: SceneKind | None) -> int:
@@ -69,9 +65,6 @@ class Map(ThingKind):
         """The middle of a square; the first line is the farthest along y."""
         columns, rows = max(map(len, self.from_)), len(self.from_)
         return self.cell * (column - (columns - 1) / 2), self.cell * ((rows - 1) / 2 - row)
-
-    def at_places(self, places: tuple[Place, ...]) -> None:
-        """None: a map is placed by no other map."""
 
     def mistake(self, scene: SceneKind | None) -> ThingMistake | None:
         """An error where its lines differ in length, have no floor, are too many or do not fit into the arena."""

@@ -95,10 +95,10 @@ class ThingKind:
 
     __slots__ = ()
 
-    size: Span
-    away: Span
-    at: tuple[Place, ...]
-    count: int
+    size = DEFAULT_SIZE
+    away = DEFAULT_DISTANCE
+    at: tuple[Place, ...] = ()
+    count = 1
 
     varying: tuple[str, ...] = ()  # the arguments that can differ from run to run
     is_obstacle = False  # whether it is squares that stand in the way: no sensor, event or measure is about these
@@ -144,9 +144,9 @@ class ThingKind:
 
     def distances(self, scene: SceneKind) -> tuple[float, float]:
         """The least and the greatest distance from the robot at which it is placed."""
-        return (
-            (self.away.first, self.away.last) if self.away != DEFAULT_DISTANCE else scene.distances(self.least_distance)
-        )
+        if self.away != DEFAULT_DISTANCE:
+            return self.away.first, self.away.last
+        return scene.distances(self.least_distance)
 
     def obstacles(self, scene: SceneKind | None) -> int:
         """The number of rectangles that it puts in the way; `scene` is None where that is not known."""
@@ -172,8 +172,9 @@ class ThingKind:
         return {}
 
     def at_places(self, places: tuple[Place, ...]) -> "ThingKind | None":
-        """The thing at the places that a map draws; None where its own line says other ones, or another count."""
-        return None if self.places or self.count not in (1, len(places)) else replace(self, at=places)  # type: ignore[type-var]
+        """The thing at the places that a map draws; None where its own line or its kind says otherwise."""
+        is_free = not (self.is_obstacle or self.places) and self.count in (1, len(places))
+        return replace(self, at=places) if is_free else None  # type: ignore[type-var]
 
     def rows(self, scene: SceneKind) -> Iterable[Row]:
         """Its rows of the lanes' table of obstacles: a `grid`'s spacing, its `columns` and `rows` around `x` and `y`,
