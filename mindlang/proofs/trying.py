@@ -13,7 +13,7 @@ from mindrun.graph.graph import Gate, Graph, Program, Skill
 from mindrun.graph.weights import Weights, genes, reachable
 from mindrun.numbers.evaluation import OPERATORS
 from mindrun.numbers.expression import fold
-from mindrun.numbers.network import running
+from mindrun.numbers.network import FLOAT32, NOTHING
 
 from mindlang.proofs.interval import Doubles, Singles, is_known, perceptron_matrices
 
@@ -73,7 +73,7 @@ def _outputs(skill: Skill, weights: Weights | None, readings: Singles) -> Single
     if not layers:
         return np.zeros((len(readings), skill.outputs), np.float32)
     with np.errstate(all="ignore"):
-        return running(skill.function.forward, layers, 0)(readings[:, list(skill.inputs)])
+        return skill.function.forward(FLOAT32, layers, readings[:, list(skill.inputs)], NOTHING)[0]
 
 
 def _evaluate(program: Program, readings: Singles) -> Singles:

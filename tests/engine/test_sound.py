@@ -16,9 +16,9 @@ from mindrun.kinds.measures.measure import Advance, Progress, Retreat
 from mindrun.kinds.memory import Cell
 from mindrun.kinds.scenes.scene import Arena, Plain
 from mindrun.kinds.sensors.battery import Battery
-from mindrun.kinds.sensors.derivative import Derivative
-from mindrun.kinds.sensors.range_finder import RangeFinder
-from mindrun.kinds.sensors.sine import Sine
+from mindrun.kinds.sensors.derived import Derivative
+from mindrun.kinds.sensors.rays import RangeFinder
+from mindrun.kinds.sensors.waves import Sine
 from mindrun.kinds.things.obstacle import Obstacle
 from mindrun.kinds.things.thing import Item, ThingKind, Zone
 from mindrun.numbers.expression import is_valid_program

@@ -9,7 +9,7 @@ from mindrun.kinds.functions.mlp import Mlp
 from mindrun.kinds.learners import Genetic
 from mindrun.kinds.measures.measure import CommandChange, Forward
 from mindrun.kinds.scenes.scene import Arena
-from mindrun.kinds.sensors.sine import Sine
+from mindrun.kinds.sensors.waves import Sine
 from mindrun.kinds.things.obstacle import Obstacle
 from mindrun.kinds.things.thing import Item
 from mindrun.numbers.quantity import Span

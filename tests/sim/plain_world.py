@@ -11,13 +11,12 @@ from mindrun.kinds.events.event import Collision, Delivery, Exhaustion, Reach, S
 from mindrun.kinds.measures.measure import Advance, CommandChange, Forward, Progress, Retreat
 from mindrun.kinds.scenes.scene import Arena
 from mindrun.kinds.sensors.battery import Battery
-from mindrun.kinds.sensors.bearing import Bearing
+from mindrun.kinds.sensors.claw import Contact, Held
 from mindrun.kinds.sensors.compass import Compass
-from mindrun.kinds.sensors.contact import Contact
-from mindrun.kinds.sensors.held import Held
-from mindrun.kinds.sensors.inertial import Inertial
-from mindrun.kinds.sensors.inside import Inside
-from mindrun.kinds.sensors.range_finder import RangeFinder
+from mindrun.kinds.sensors.floor import Inside
+from mindrun.kinds.sensors.motion import Inertial
+from mindrun.kinds.sensors.nearest import Bearing
+from mindrun.kinds.sensors.rays import RangeFinder
 from mindrun.kinds.things.obstacle import Obstacle
 from mindrun.kinds.things.thing import Ball, Item, LooseBox, Power, Zone
 from mindrun.numbers.trigonometry import cosine, sine

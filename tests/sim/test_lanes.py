@@ -16,10 +16,10 @@ from mindrun.kinds.functions.mlp import Mlp
 from mindrun.kinds.memory import Cell
 from mindrun.kinds.scenes.scene import Arena, Plain
 from mindrun.kinds.sensors.battery import Battery
-from mindrun.kinds.sensors.bearing import Bearing
-from mindrun.kinds.sensors.derivative import Derivative
-from mindrun.kinds.sensors.range_finder import RangeFinder
-from mindrun.kinds.sensors.sine import Sine
+from mindrun.kinds.sensors.derived import Derivative
+from mindrun.kinds.sensors.nearest import Bearing
+from mindrun.kinds.sensors.rays import RangeFinder
+from mindrun.kinds.sensors.waves import Sine
 from mindrun.kinds.things.obstacle import Obstacle
 from mindrun.kinds.things.thing import Item, LooseBox, Power, Zone
 from mindrun.numbers.arithmetic import in_claw

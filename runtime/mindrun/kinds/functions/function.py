@@ -193,13 +193,16 @@ class NetworkFunction(Function):
         return genome(found)
 
     def ready(self, inputs: int, outputs: int, weights: Weights, sources: Mapping[str, str]) -> Compute:
-        """The network with these weights (Eq. 1), from tick to tick, as a function of inputs."""
-        from mindrun.numbers.network import matrices, running
+        """The network with these weights (Eq. 1), from tick to tick; one without a state takes rows of inputs, too."""
+        from mindrun.numbers.network import FLOAT32, NOTHING, StatefulNetwork, matrices
 
         shapes = self.matrix_shapes(inputs, outputs)
         if not shapes:
             return Function.ready(self, inputs, outputs, weights, sources)
-        return running(self.forward, matrices(weights, shapes), self.state_length(inputs, outputs))
+        found, length = matrices(weights, shapes), self.state_length(inputs, outputs)
+        if length:
+            return StatefulNetwork(self.forward, found, length)
+        return lambda values: self.forward(FLOAT32, found, values, NOTHING)[0]
 
 
 @kind("skill", "rule")
