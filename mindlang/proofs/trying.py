@@ -73,7 +73,8 @@ def _outputs(skill: Skill, weights: Weights | None, readings: Singles) -> Single
     if not layers:
         return np.zeros((len(readings), skill.outputs), np.float32)
     with np.errstate(all="ignore"):
-        return skill.function.forward(FLOAT32, layers, readings[:, list(skill.inputs)], NOTHING)[0]
+        found: Singles = skill.function.forward(FLOAT32, layers, readings[:, list(skill.inputs)], NOTHING)[0]
+    return found
 
 
 def _evaluate(program: Program, readings: Singles) -> Singles:

@@ -9,9 +9,8 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields, replace
 from functools import cache
 from hashlib import sha256
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
-from typing import Any, Self
+from typing import Any
 
 import numpy as np
 
@@ -19,6 +18,7 @@ from mindrun.errors import BundleError
 from mindrun.files.strict_json import is_whole, parsed
 from mindrun.graph.codec import decode_part, encode
 from mindrun.graph.graph import Graph, Lesson
+from mindrun.graph.tasks import installed_version
 from mindrun.graph.validate import lesson_flaws
 from mindrun.graph.weights import Weights, reachable
 from mindrun.kinds.environment import module_beside
@@ -66,10 +66,6 @@ class Manifest:
         parts = (encode(self.lesson), self.learners, self.seed, self.mind, dict(self.weights))
         return _sha256(json.dumps(parts, sort_keys=True).encode())
 
-    def ends_like(self, other: Self) -> bool:
-        """True if another run comes to the same end, bit for bit."""
-        return (self.identity, self.versions) == (other.identity, other.versions)
-
 
 def fingerprint(graph: Graph, lesson: Lesson, procedures: Path | None) -> str:
     """The SHA-256 of what a lesson depends on: its task, the skills under its master, the body, the modules beside."""
@@ -95,7 +91,7 @@ def hashes(weights: Mapping[str, Weights]) -> dict[str, str]:
 
 def versions() -> dict[str, str]:
     """The versions that a result may depend on."""
-    installed = {package: _version(package) for package in ("mindlang", "mindrun", *COMPUTED_WITH)}
+    installed = {package: installed_version(package) for package in ("mindlang", "mindrun", *COMPUTED_WITH)}
     return {"python": platform.python_version(), **{name: found for name, found in installed.items() if found}}
 
 
@@ -103,15 +99,8 @@ def versions() -> dict[str, str]:
 def own_build() -> Build:
     """The build of this process."""
     major, minor, _ = platform.python_version_tuple()
-    packages = {package: _version(package) or "none" for package in COMPUTED_WITH}
+    packages = {package: installed_version(package) or "none" for package in COMPUTED_WITH}
     return {"mindrun": sources_hash(SOURCES), "python": f"{major}.{minor}", **packages}
-
-
-def _version(package: str) -> str:
-    try:
-        return version(package)
-    except PackageNotFoundError:
-        return ""
 
 
 def difference(asked: Build, own: Build) -> str:
