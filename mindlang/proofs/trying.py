@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from mindrun.graph.graph import Gate, Graph, Program, Skill
 from mindrun.graph.weights import Weights, genes, reachable
-from mindrun.numbers.evaluation import OPERATORS
+from mindrun.numbers.arrays import OPERATORS
 from mindrun.numbers.expression import fold
 from mindrun.numbers.network import FLOAT32, NOTHING
 

@@ -43,7 +43,7 @@ def partly_read(draw: st.DrawFn) -> Graph:
     graph = draw(random_world(most=12))
     graph = replace(graph, master=draw(st.sampled_from([skill.name for skill in graph.skills])))
     task = replace(graph.tasks[0], varies=tuple(v for v in graph.tasks[0].varies if v.noun != "sensor"))
-    aside = used_sensors(graph, reachable(graph, graph.master), task).aside
+    _, aside = used_sensors(graph, reachable(graph, graph.master), task)
     return calm(replace(graph, tasks=(task,)), {each.name for each in aside})
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from mindrun.graph.graph import Graph, Sensor, Skill, Task
@@ -16,32 +15,17 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 
-@dataclass(frozen=True, slots=True)
-class UsedSensors:
-    """The sensors that are measured: those that `skills` depend on, and those `aside` that only rewards do.
-
-    Sources stand before what derives from them.
-    """
-
-    skills: list[Sensor]
-    aside: list[Sensor]
-
-    @property
-    def all(self) -> list[Sensor]:
-        """All sensors that are measured."""
-        return [*self.skills, *self.aside]
-
-
-def used_sensors(graph: Graph, reached: Iterable[Skill], task: Task) -> UsedSensors:
-    """The sensors that a reached skill or a reward reads."""
+def used_sensors(graph: Graph, reached: Iterable[Skill], task: Task) -> tuple[list[Sensor], list[Sensor]]:
+    """The sensors on which reached skills depend, and those beside on which only rewards do; sources first."""
     skills = with_sources(graph, {row for skill in reached for row in skill.inputs})
     rewards = with_sources(graph, _rewarded(task))
-    return UsedSensors(skills, [sensor for sensor in rewards if sensor not in skills])
+    return skills, [sensor for sensor in rewards if sensor not in skills]
 
 
 def measured_in_world(graph: Graph, master: str, task: Task) -> list[Sensor]:
     """The sensors that a simulated run measures: what skills below the master and rewards depend on."""
-    return used_sensors(graph, reachable(graph, master), task).all
+    skills, aside = used_sensors(graph, reachable(graph, master), task)
+    return skills + aside
 
 
 def measured_on_robot(graph: Graph, wired: Collection[str]) -> list[Sensor]:

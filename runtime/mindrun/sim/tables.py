@@ -87,14 +87,14 @@ def build(
     reached = reachable(graph, master)
     skills, most = skill_rows(graph, reached, weights, learners, addresses, programs)
     rewards, ends = task_rows.reward_rows(task, programs), task_rows.end_rows(task, programs)
-    used = used_sensors(graph, reached, task)
-    sensors, remembered = sensor_rows(graph, used, task, programs, parameters)
+    used, aside = used_sensors(graph, reached, task)
+    sensors, remembered = sensor_rows(graph, used, aside, task, programs, parameters)
     driven, delays = actuator_rows(graph, parameters)
     measures, changes = task_rows.measure_rows(task)
     events, patches, arrivals = task_rows.event_rows(task)
     tables = Tables(
         **sensors, **skills, **task_rows.walker_rows(task, graph.tick),
-        world=task_rows.world_row(graph, task, parameters, len(sensors["ray_row"]), used.all, master),
+        world=task_rows.world_row(graph, task, parameters, len(sensors["ray_row"]), used + aside, master),
         codes=np.array(programs.rows, CODE), actuators=driven, memories=memory_rows(graph),
         things=task_rows.thing_rows(graph, task), loose=task_rows.loose_rows(task, graph.tick, parameters),
         obstacles=task_rows.obstacle_rows(task), walls=task_rows.wall_rows(task),
@@ -102,7 +102,7 @@ def build(
         library=library, parameters=parameters.table(),  # last: all others add to them
     )  # fmt: skip
     return tables, Sizes(
-        **remembered, **most, readings=max(1, graph.width), measured=rows_of(graph, used.all),
+        **remembered, **most, readings=max(1, graph.width), measured=rows_of(graph, used + aside),
         skills=len(graph.skills), genome=genome_length(graph, learners), depth=programs.depth, delays=delays,
         changes=changes, patches=patches, arrivals=arrivals, boxes=task_rows.box_count(task),
     )  # fmt: skip

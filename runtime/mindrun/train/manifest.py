@@ -133,12 +133,8 @@ def processor() -> str:
 
 def to_json(manifest: Manifest) -> bytes:
     """The manifest as it stands in the run folder."""
-    return (
-        json.dumps(
-            {"format": MANIFEST_VERSION, **asdict(manifest), "lesson": encode(manifest.lesson)}, indent=2
-        ).encode()
-        + b"\n"
-    )
+    said = {"format": MANIFEST_VERSION, **asdict(manifest), "lesson": encode(manifest.lesson)}
+    return json.dumps(said, indent=2).encode() + b"\n"
 
 
 def from_json(data: bytes) -> Manifest:

@@ -146,9 +146,7 @@ class Position(Physical):
 
     def row(self, scene: Scene) -> Row:
         """The gain of a unit, and the axis as `part`, a row of the body."""
-        from mindrun.numbers.arithmetic import X, Y
-
-        return {"gain": 0.5 / self.range, "part": X if self.along == "x" else Y}
+        return {"gain": 0.5 / self.range, "part": get_args(Axis).index(self.along)}
 
     @staticmethod
     def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:

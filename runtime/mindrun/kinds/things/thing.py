@@ -8,18 +8,7 @@ from typing import Annotated, Literal, NamedTuple, Protocol, get_args
 from mindrun.kinds.bodies.body import DAMPING, DENSITY
 from mindrun.kinds.registry import arguments, base, kind
 from mindrun.kinds.scenes.scene import SceneKind
-from mindrun.numbers.quantity import (
-    COORDINATE,
-    COUNT,
-    LENGTH,
-    RATIO,
-    THING,
-    UNSAID,
-    Place,
-    Quantity,
-    Reference,
-    Span,
-)
+from mindrun.numbers.quantity import COORDINATE, COUNT, LENGTH, RATIO, THING, UNSAID, Place, Quantity, Reference, Span
 
 DEFAULT_SIZE = Span(1.0, 1.0)
 DEFAULT_DISTANCE = UNSAID  # as far away as its scene says
