@@ -10,7 +10,8 @@ from dataclasses import dataclass, field
 Key = tuple[symtable.SymbolTable, str]  # the scope that a name belongs to, and the name
 Scopes = tuple[symtable.SymbolTable, ...]  # of a module, and of what is in it around a place, the inmost last
 DEFINITIONS = ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef
-COMPREHENSIONS: dict[type[ast.AST], str] = {
+UNNAMED: dict[type[ast.AST], str] = {
+    ast.Lambda: "lambda",
     ast.ListComp: "listcomp",
     ast.SetComp: "setcomp",
     ast.DictComp: "dictcomp",
@@ -118,12 +119,9 @@ class ModuleNames:
             case ast.AnnAssign(target=target, value=ast.expr() as value) | ast.NamedExpr(target=target, value=value):
                 self._assign(target, value, scopes)
             case ast.FunctionDef(args=given) | ast.AsyncFunctionDef(args=given) | ast.Lambda(args=given):
-                plain = [*given.posonlyargs, *given.args][-len(given.defaults) :] if given.defaults else []
-                pairs = [
-                    *zip(plain, given.defaults, strict=True),
-                    *zip(given.kwonlyargs, given.kw_defaults, strict=True),
-                ]
-                for argument, default in pairs:
+                plain = [*given.posonlyargs, *given.args, *given.kwonlyargs]
+                defaults = [*given.defaults, *given.kw_defaults]
+                for argument, default in zip(reversed(plain), reversed(defaults), strict=False):
                     if default is not None:
                         self._give(argument.arg, inner, default)
 
@@ -181,8 +179,7 @@ def _symbol(name: str, scope: symtable.SymbolTable) -> symtable.Symbol | None:
 
 def _begun(node: ast.AST, scope: symtable.SymbolTable, used: set[int]) -> Iterator[symtable.SymbolTable]:
     """The scope that a node begins, with that of its type parameters; none where Python makes it part of another."""
-    name = "lambda" if isinstance(node, ast.Lambda) else COMPREHENSIONS.get(type(node), "")
-    name = node.name if isinstance(node, DEFINITIONS) else name
+    name = node.name if isinstance(node, DEFINITIONS) else UNNAMED.get(type(node), "")
     for child in scope.get_children() if name else ():
         is_its = (child.get_name(), child.get_lineno()) == (name, getattr(node, "lineno", 0))
         if is_its and child.get_id() not in used:
@@ -200,7 +197,7 @@ def _own_parts(node: ast.AST) -> Iterator[ast.AST]:
             yield from body
         case ast.Lambda(body=body):
             yield body
-        case _ if type(node) in COMPREHENSIONS:
+        case _ if type(node) in UNNAMED:
             yield from ast.iter_child_nodes(node)
 
 

@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields, replace
 from functools import cache
 from hashlib import sha256
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -152,18 +153,16 @@ def _manifest(plain: Any) -> Manifest:
     """The manifest that this data is; ValueError or BundleError where it is none."""
     if not isinstance(plain, dict) or plain.keys() != {"format", *(field.name for field in fields(Manifest))}:
         raise ValueError("it has other parts")
-    lesson = decode_part(Lesson, plain["lesson"], "lesson")
-    texts = [plain[name] for name in ("mind", "source", "started", "processor")]
-    tables = [plain[name] for name in ("weights", "sources", "versions")]
     lists = [plain[name] for name in ("learners", "command")]
-    texts += [text for each in lists if isinstance(each, list) for text in each]
-    texts += [text for each in tables if isinstance(each, dict) for pair in each.items() for text in pair]
-    if not all(isinstance(each, list) for each in lists) or not all(isinstance(each, dict) for each in tables):
+    tables = [plain[name] for name in ("weights", "sources", "versions")]
+    if not (all(isinstance(each, list) for each in lists) and all(isinstance(each, dict) for each in tables)):
         raise ValueError("it has parts of another form")
-    if not all(isinstance(text, str) and "\0" not in text for text in texts) or not is_whole(
-        plain["seed"], high=MAX_SEED
-    ):
+    texts = [plain["mind"], plain["source"], plain["started"], plain["processor"], *chain(*lists)]
+    texts += [text for table in tables for pair in table.items() for text in pair]
+    is_text = all(isinstance(text, str) and "\0" not in text for text in texts)
+    if not (is_text and is_whole(plain["seed"], high=MAX_SEED)):
         raise ValueError("it has parts of another kind")
+    lesson = decode_part(Lesson, plain["lesson"], "lesson")
     for found in lesson_flaws(lesson):
         raise ValueError(found)
     given = {name: value for name, value in plain.items() if name != "format"}

@@ -71,14 +71,11 @@ class Arena(SceneKind):
         return self.size if isinstance(self.size, tuple) else (self.size, self.size)
 
 
-ENVIRONMENT = Reference("environment")
-
-
 @kind("task", "gymnasium")
 class Gymnasium(SceneKind):
     """The environment of Gymnasium with that name: each tick is one of its steps, and it says how a run begins."""
 
-    gymnasium: Annotated[str, ENVIRONMENT]
+    gymnasium: Annotated[str, Reference("environment")]
 
     @property
     def environment(self) -> str:

@@ -222,11 +222,7 @@ class Reading(SensorKind):
     def reader(self, scene: Scene) -> Reader:
         """A slice of all readings: the one of the source with that number."""
         place = scene.starts[self.of] + self.reading - 1
-
-        def read(number: int, now: Readings, before: Readings | None) -> Readings:
-            return now[place : place + 1]
-
-        return read
+        return lambda number, now, before: now[place : place + 1]
 
     def row(self, scene: Scene) -> Row:
         """The row of that reading, as `source`."""
