@@ -16,10 +16,11 @@ if TYPE_CHECKING:
 
 
 def used_sensors(graph: Graph, reached: Iterable[Skill], task: Task) -> tuple[list[Sensor], list[Sensor]]:
-    """The sensors on which reached skills depend, and those beside on which only rewards do; sources first."""
+    """The sensors on which reached skills depend, and those beside on which only rewards and ends do; sources first."""
     skills = with_sources(graph, {row for skill in reached for row in skill.inputs})
-    rewards = with_sources(graph, _rewarded(task))
-    return skills, [sensor for sensor in rewards if sensor not in skills]
+    rows = {index for program in task.programs for index in leaves(program, "reading")}
+    rows |= {row for reward in task.rewards if reward.each for row in range(reward.each[0], sum(reward.each))}
+    return skills, [sensor for sensor in with_sources(graph, rows) if sensor not in skills]
 
 
 def measured_in_world(graph: Graph, master: str, task: Task) -> list[Sensor]:
@@ -44,14 +45,6 @@ def rows_of(graph: Graph, sensors: Iterable[Sensor]) -> NDArray[np.bool_]:
         found[each.start : each.start + each.width] = True
     found[[memory.start for memory in graph.memories]] = True
     return found
-
-
-def _rewarded(task: Task) -> set[int]:
-    """The readings that rewards and ends depend on."""
-    rows = {index for program in task.programs for index in leaves(program, "reading")}
-    for reward in task.rewards:
-        rows |= set(range(reward.each[0], sum(reward.each))) if reward.each else set()
-    return rows
 
 
 def with_sources(graph: Graph, rows: set[int]) -> list[Sensor]:
