@@ -13,7 +13,7 @@ from mindrun.graph.bundle import Bundle
 from mindrun.graph.graph import Edge
 from mindrun.graph.policy import Policy
 from mindrun.graph.recording_header import About
-from mindrun.kinds.functions.rule import Rule
+from mindrun.kinds.functions.function import Rule
 from mindrun.robot.loop import Rate
 from numpy.typing import NDArray
 

@@ -210,7 +210,7 @@ def _last_champions(run: RunFolder) -> list[Champion]:
         return []
     if found is None:
         return []
-    state = found.state
+    state, _ = found
     ended = zip(state.lengths, state.champions, strict=True)
     champions = [Champion(number, int(length), genome) for number, (length, genome) in enumerate(ended, 1)]
     generation = state.now.population.generation

@@ -19,7 +19,7 @@ from mindrun.graph.policy import Policy
 from mindrun.graph.recording_header import GOES_ON
 from mindrun.graph.run_scores import paid_by_text, score_of
 from mindrun.kinds.events.event import EventKind
-from mindrun.kinds.functions.rule import Rule
+from mindrun.kinds.functions.function import Rule
 from mindrun.kinds.registry import names
 from mindrun.numbers.arithmetic import ANGLE, BOX_COLUMNS
 from mindrun.sim.codes import GOING_ON, LOST

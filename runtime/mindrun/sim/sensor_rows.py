@@ -7,7 +7,6 @@ from numpy.typing import NDArray
 
 from mindrun.engine.engine import scene_of
 from mindrun.graph.graph import Graph, Sensor, Task
-from mindrun.graph.measured import UsedSensors
 from mindrun.kinds.registry import names
 from mindrun.kinds.sensors.sensor import Physical
 from mindrun.numbers.expression import placed
@@ -18,13 +17,16 @@ from mindrun.sim.task_rows import NOWHERE, boxes_by_name, rows_by_name
 
 
 def sensor_rows(
-    graph: Graph, used: UsedSensors, task: Task, programs: Programs, parameters: Parameters
+    graph: Graph, used: list[Sensor], aside: list[Sensor], task: Task, programs: Programs, parameters: Parameters
 ) -> tuple[dict[str, NDArray[Any]], dict[str, int]]:
-    """The tables of the sensors that are used, their rays and numbers, and how many numbers are remembered of what."""
+    """The tables of the sensors that are used, their rays and numbers, and how many numbers are remembered of what.
+
+    What is measured `aside` draws its noise from a generator of its own: a reward changes nothing in the world.
+    """
     things, boxes, scene, codes = rows_by_name(task), boxes_by_name(task), scene_of(graph), codes_of("sensor")
     rows, before, rough, rings = list[Row](), 0, 0, 0
     rays, ray_row, passes, numbers = list[float](), list[int](), list[tuple[int, int]](), list[float]()
-    for is_aside, sensor in [(False, s) for s in used.skills] + [(True, s) for s in used.aside]:
+    for is_aside, sensor in [(False, each) for each in used] + [(True, each) for each in aside]:
         kind = sensor.kind
         about, solid = things.get(kind.thing, NOWHERE), boxes.get(kind.thing, NOWHERE)
         (code, length), roughness = programs.add(placed(kind.formula, scene.starts)), _roughness(sensor, parameters)

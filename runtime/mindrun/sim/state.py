@@ -11,7 +11,7 @@ from typing import Annotated, Any, NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.kinds.sensors.inertial import TRAIL_TICKS
+from mindrun.kinds.sensors.motion import TRAIL_TICKS
 from mindrun.numbers.arithmetic import BOX_COLUMNS, LOOSE_ROWS, THING_ROWS, X, Y
 from mindrun.sim import chipmunk_internals as chipmunk
 from mindrun.sim.codes import AWAY, PUSH_ROWS

@@ -66,19 +66,19 @@ def build(
     reached = reachable(graph, master)
     skills, most = skill_rows(graph, reached, weights, learners, addresses, programs)
     rewards, ends = task_rows.reward_rows(task, programs), task_rows.end_rows(task, programs)
-    used = used_sensors(graph, reached, task)
-    sensors, remembered = sensor_rows(graph, used, task, programs, parameters)
+    used, aside = used_sensors(graph, reached, task)
+    sensors, remembered = sensor_rows(graph, used, aside, task, programs, parameters)
     driven, delays = actuator_rows(graph, parameters)
     measures, changes = task_rows.measure_rows(task)
     events, patches, arrivals = task_rows.event_rows(task)
     tables = Tables(
         **sensors, **skills, **task_rows.walker_rows(task, graph.tick),
-        world=task_rows.world_row(graph, task, parameters, len(sensors["ray_row"]), used.all, master),
+        world=task_rows.world_row(graph, task, parameters, len(sensors["ray_row"]), used + aside, master),
         codes=np.array(programs.rows, CODE), actuators=driven, memories=memory_rows(graph),
         things=task_rows.thing_rows(graph, task), loose=task_rows.loose_rows(task, graph.tick, parameters),
         obstacles=task_rows.obstacle_rows(task), walls=task_rows.wall_rows(task),
         measures=measures, events=events, ends=ends, rewards=rewards,
-        measured=rows_of(graph, used.all), library=library,
+        measured=rows_of(graph, used + aside), library=library,
         parameters=parameters.table(),  # last: all others add to them
     )  # fmt: skip
     return tables, {

@@ -142,10 +142,12 @@ def measure_rows(task: Task) -> tuple[Array, int]:
     rows: list[Row] = []
     ring = 0
     for measure in task.measures:
-        code, over, about = codes.MEASURE_CODES[names()[type(measure)]], measure.remembered, places[measure.thing]
-        row = {"kind": code, "thing": about.start, "things": len(about), "over": over, "ring": ring if over else 0}
-        rows.append({**row, **measure.row()})
-        ring += over
+        about = places[measure.thing]
+        rows.append({
+            "kind": codes.MEASURE_CODES[names()[type(measure)]], "thing": about.start, "things": len(about),
+            "over": measure.over, "ring": ring if measure.over else 0, "beyond": measure.beyond,
+        })  # fmt: skip
+        ring += measure.over
     return records(rows, codes.MEASURES), ring
 
 

@@ -5,7 +5,7 @@ Which things are reached does not depend on whether a line of the task names the
 
 import numpy as np
 
-from mindrun.kinds.sensors.inertial import TRAIL_TICKS
+from mindrun.kinds.sensors.motion import TRAIL_TICKS
 from mindrun.numbers.arithmetic import COSINE, SINE, X, Y
 from mindrun.sim import codes
 from mindrun.sim.arithmetic import distance_of, evaluate, in_claw, inside, place_of
