@@ -3,10 +3,10 @@
 from collections.abc import Callable, Iterator, Sequence
 from itertools import product
 from math import inf, isnan
-from operator import add, sub, truediv
+from operator import add, ge, gt, le, lt, sub, truediv
 from typing import Any, NamedTuple
 
-from mindrun.numbers.expression import COMPARISONS, OPERATORS, Formula, fold
+from mindrun.numbers.expression import OPERATORS, Formula, fold
 
 from mindlang.compiler.syntax import Comparison, Expression, When
 
@@ -17,6 +17,7 @@ UNBOUNDED: Interval = (-inf, inf)
 UNIT_INTERVAL: Interval = (0.0, 1.0)
 
 COMPARISON_WORDS = {"<": "below", "<=": "at or below", ">": "above", ">=": "at or above"}
+COMPARISONS: dict[str, Callable[[float, float], bool]] = {"<": lt, "<=": le, ">": gt, ">=": ge}
 OPPOSITES = {"<": ">=", "<=": ">", ">": "<=", ">=": "<"}
 TURNED = {"<": ">", "<=": ">=", ">": "<", ">=": "<="}  # the same with its sides the other way round
 UPPER = ("<", "<=")

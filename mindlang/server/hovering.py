@@ -149,7 +149,9 @@ def card(view: MindView, noun: str, name: str) -> str:
 
 def _skill(view: MindView, name: str, declaration: Declaration) -> str:
     lines = []
-    for verb, form in (("reads", Reads), ("drives", Drives), ("influences", Influences)):
+    forms: tuple[tuple[str, type[Reads | Drives | Influences]], ...]
+    forms = (("reads", Reads), ("drives", Drives), ("influences", Influences))
+    for verb, form in forms:
         if said := [_edge(view, fact) for fact in of_form(declaration.facts, form)]:
             lines.append(f"- {verb} {', '.join(said)}")
     if by := _users(view, name, Influences):
