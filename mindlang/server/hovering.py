@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from mindrun.errors import MindError
 from mindrun.graph.graph import VARIED_NOUNS
@@ -149,9 +149,7 @@ def card(view: MindView, noun: str, name: str) -> str:
 
 def _skill(view: MindView, name: str, declaration: Declaration) -> str:
     lines = []
-    forms: tuple[tuple[str, type[Reads | Drives | Influences]], ...]
-    forms = (("reads", Reads), ("drives", Drives), ("influences", Influences))
-    for verb, form in forms:
+    for verb, form in (("reads", Reads), ("drives", Drives), ("influences", Influences)):
         if said := [_edge(view, fact) for fact in of_form(declaration.facts, form)]:
             lines.append(f"- {verb} {', '.join(said)}")
     if by := _users(view, name, Influences):
@@ -161,7 +159,7 @@ def _skill(view: MindView, name: str, declaration: Declaration) -> str:
     return "\n".join([*lines, *(f"- place: {path}" for path in _paths_to(view, name))])
 
 
-def _edge(view: MindView, fact: Reads | Drives | Influences) -> str:
+def _edge(view: MindView, fact: Any) -> str:
     if not isinstance(fact, Reads):
         return f"{fact.name.text}{text_after_name(fact)}"
     width = _width(view, fact.name.text)
