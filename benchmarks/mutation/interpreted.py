@@ -104,10 +104,11 @@ class Rows(list[Row]):
         return Rows(found) if isinstance(key, slice) else found
 
     def __setitem__(self, key: Any, value: Any) -> None:
-        if not isinstance(key, str):
-            return super().__setitem__(key, value)
-        for row in self:
-            setattr(row, key, value)
+        if isinstance(key, str):
+            for row in self:
+                setattr(row, key, value)
+        else:
+            super().__setitem__(key, value)
 
     def copy(self) -> "Rows":
         return Rows(copy(row) for row in self)
