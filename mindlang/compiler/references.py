@@ -90,7 +90,7 @@ def names_in(line: Setting | Header | Fact | syntax.Stop) -> Iterator[Named]:
             yield from _if_any(stands_for, *READABLE_NOUNS)
         case syntax.Sends(name):
             yield name, DRIVABLE_NOUNS if isinstance(line, syntax.Drives) else ("skill",)
-            yield from _in_expressions(*line.expressions)
+            yield from _in_expressions(*syntax.expressions_in(line))
         case syntax.Contains(name, phrase):
             yield name, ("thing",)
             yield from _in_phrase("content", phrase)
@@ -100,12 +100,12 @@ def names_in(line: Setting | Header | Fact | syntax.Stop) -> Iterator[Named]:
             yield name, ("actuator", "sensor")
         case syntax.Outcome(_, event, when):
             yield from _in_phrase("event", event)
-            yield from _in_expressions(*(when.expressions if when else ()))
+            yield from _in_expressions(*syntax.expressions_in(when))
         case syntax.Counts(event):
             yield from _in_phrase("event", event)
         case syntax.Rewards(amount, on, each, when):
             own = each.name.text if each else ""
-            yield from _in_expressions(amount, *(when.expressions if when else ()), own=own)
+            yield from _in_expressions(amount, *syntax.expressions_in(when), own=own)
             yield from _in_phrase("event", on)
             yield from _if_any(each.sensor if each else None, *READABLE_NOUNS)
         case syntax.Teaches(skill, task, master):

@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from mindrun.errors import MindError
 from mindrun.kinds.registry import kinds
@@ -152,7 +152,7 @@ def _skill(view: MindView, name: str, declaration: Declaration) -> str:
     return "\n".join([*lines, *(f"- place: {path}" for path in _paths_to(view, name))])
 
 
-def _edge(view: MindView, fact: Reads | Drives | Influences) -> str:
+def _edge(view: MindView, fact: Any) -> str:
     if not isinstance(fact, Reads):
         return f"{fact.name.text}{text_after_name(fact)}"
     width = _width(view, fact.name.text)

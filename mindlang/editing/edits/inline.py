@@ -1,7 +1,7 @@
 """`mindc edit inline`."""
 
 from mindlang.compiler.splice import Splice
-from mindlang.compiler.syntax import Declaration, Drives, Influences, Phrase, Reads, of_form
+from mindlang.compiler.syntax import Declaration, Drives, Influences, Phrase, Reads, expressions_in, of_form
 from mindlang.editing.insertion import (
     below_siblings,
     indentation,
@@ -47,7 +47,7 @@ def _taken_over(parent: Declaration, child: Declaration) -> list[Splice]:
     lines = [f"{indent}{line_of(fact)}" for fact in edges]
     splices = [replace_line(place, lines) if lines else without_fact(place)]
     read = {fact.name.text for fact in of_form(parent.facts, Reads)}
-    terms = (term for edge in edges for expression in edge.expressions for term in expression.terms)
+    terms = (term for expression in expressions_in(*edges) for term in expression.terms)
     needed = dict.fromkeys(term.kind.text for term in terms if isinstance(term, Phrase))
     if reads := [f"reads {name}" for name in needed if name not in read]:
         splices.append(below_siblings(parent, Reads, reads))

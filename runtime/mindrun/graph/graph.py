@@ -3,8 +3,7 @@
 from dataclasses import dataclass
 from typing import Annotated, Any, Literal
 
-from mindrun.kinds.actuators.actuator import ActuatorKind
-from mindrun.kinds.actuators.gripper import REACH_UNITS
+from mindrun.kinds.actuators.actuator import REACH_UNITS, ActuatorKind
 from mindrun.kinds.bodies.body import BodyKind
 from mindrun.kinds.events.event import EventKind
 from mindrun.kinds.functions.function import Function
