@@ -8,7 +8,6 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
-from math import isfinite
 from pathlib import Path
 from typing import Self
 from urllib.parse import unquote
@@ -17,6 +16,7 @@ from mindrun.errors import MindError
 from mindrun.files.atomic_write import write
 from mindrun.files.printable import visible
 from mindrun.files.regular_files import read_regular
+from msgspec import ValidationError, convert
 
 from mindlang.compiler.source import Source
 from mindlang.lock.training_world import HEADING, TrainingWorld, world_of
@@ -132,30 +132,23 @@ class Entry:
     def of(cls, line: str, folder: Path, worlds: Mapping[str, TrainingWorld] = _NONE) -> Self | None:
         """The entry that a line says, whose worlds are among these; or None."""
         found = _LINE.fullmatch(line)
-        names = (found["worlds"] or "").split() if found else []
-        if found is None or not isfinite(float(found["score"])) or not worlds.keys() >= set(names):
+        said = {key: text for key, text in found.groupdict().items() if text is not None} if found else {}
+        names = said.get("worlds", "").split()
+        try:
+            taught = convert(said | {"jointly": "jointly" in said}, Taught, strict=False)
+        except ValidationError:  # no line, or a number that is too large
             return None
-        taught = Taught(
-            found["task"],
-            found["master"],
-            found["jointly"] is not None,
-            int(found["generations"]),
-            int(found["population"]),
-            int(found["seed"]),
-            float(found["score"]),
-            int(found["number"] or 0),
-            found["curriculum"] or "",
-            None if found["success"] is None else float(found["success"]),
-        )
+        if not worlds.keys() >= set(names):
+            return None
         return cls(
-            found["skill"],
-            Signature(found["function"], tuple(found["reads"].split()), tuple(found["sends"].split())),
-            found["weights"],
+            said["skill"],
+            Signature(said["function"], tuple(said["reads"].split()), tuple(said["sends"].split())),
+            said["weights"],
             taught,
-            _hashed(found["subskills"]),
+            _hashed(said.get("subskills", "")),
             tuple(worlds[name] for name in names),
-            found["how"] == _EVIDENCE_WORDS[True],
-            next(iter(_hashed(found["origin"])), None),
+            said.get("how") == _EVIDENCE_WORDS[True],
+            next(iter(_hashed(said.get("origin", ""))), None),
             folder,
         )
 
@@ -164,9 +157,9 @@ Lock = Mapping[str, Entry]
 Locks = Mapping[Path, Lock]  # by the path of the lock
 
 
-def _hashed(text: str | None) -> tuple[tuple[str, str], ...]:
+def _hashed(text: str) -> tuple[tuple[str, str], ...]:
     """The skills and the SHA-256 of their weights that stand in a line as NAME:SHA."""
-    pairs = (part.rpartition(":") for part in (text or "").split())
+    pairs = (part.rpartition(":") for part in text.split())
     return tuple((skill, weights) for skill, _, weights in pairs)
 
 

@@ -39,6 +39,7 @@ from mindlang.server.offers import (
     things,
     units,
     units_of,
+    varied,
     varying_parts,
     words,
 )
@@ -215,9 +216,8 @@ def _units(line: CursorLine, last: Sequence[Any]) -> Iterator[Offer]:
         case _ if line.code.split()[-1] == "per":
             yield from units("s")
         case [syntax.Varies() as fact, Amount()]:
-            for part, varying in varying_parts(line.view, line.above):
-                of = [each for each in varying if (part.label, each.key) == (fact.of.text, fact.argument.text)]
-                yield from (unit for each in of for unit in units_of(each))
+            argument = varied(line.view, line.above, fact)
+            yield from units_of(argument) if argument else ()
         case [syntax.Starts(facing=facing), Amount() as amount] if amount is facing:
             yield from units("deg")
         case [*_, parent, Amount()]:

@@ -7,8 +7,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from mindrun.errors import MindError
-from mindrun.graph.graph import VARIED_NOUNS
-from mindrun.kinds.registry import arguments, kinds
+from mindrun.kinds.registry import kinds
 from networkx import DiGraph, single_target_shortest_path
 
 from mindlang.compiler.drawing import text_after_name
@@ -36,6 +35,7 @@ from mindlang.explaining.words import language_words
 from mindlang.lock import lock_sources
 from mindlang.lock.report import made_by, rows
 from mindlang.lock.status import Trained
+from mindlang.server.offers import varied
 from mindlang.server.places import SaidArgument, declaration_at, noun_of_kind, path_to, said_argument
 from mindlang.server.workspace import MindView
 
@@ -66,7 +66,10 @@ def _kind(view: MindView, file: File, offset: int) -> Hover | None:
     """A kind, or an argument of one; those of a lesson are of its own learner or the curriculum's."""
     path = path_to((*file.settings, *file.declarations), offset)
     if varies := next((node for node in path if isinstance(node, Varies)), None):
-        return _varied(view, varies) if varies.argument.span.start <= offset <= varies.argument.span.end else None
+        argument = varied(view, declaration_at(file, offset), varies)
+        if argument is None or not varies.argument.span.start <= offset <= varies.argument.span.end:
+            return None
+        return Hover(markdown.parameter_line(parameter(argument)), varies.argument.span)
     match path:
         case [*_, above, Phrase(kind=kind), Name() as name] if name is kind:
             return _kind_itself(noun_of_kind(above), kind)
@@ -77,16 +80,6 @@ def _kind(view: MindView, file: File, offset: int) -> Hover | None:
     if isinstance(value, Name) and said.argument.key.text == USING and value.span.start <= offset:
         return _kind_itself("curriculum", value)
     return _argument(said)
-
-
-def _varied(view: MindView, fact: Varies) -> Hover | None:
-    """The argument that varies, of the part of the robot or the thing that has it."""
-    noun = view.names.noun_of(fact.of.text, VARIED_NOUNS)
-    phrase = view.names.table[noun][fact.of.text].header.phrase if noun else None
-    classes = [cls for name, cls in kinds(noun or "content").items() if not phrase or name == phrase.kind.text]
-    known = [each for cls in classes for each in arguments(cls) if each.field in cls.varying]
-    found = next((markdown.parameter_line(parameter(each)) for each in known if each.field == fact.argument.text), None)
-    return Hover(found, fact.argument.span) if found else None
 
 
 def _kind_itself(noun: str, kind: Name) -> Hover | None:
@@ -150,7 +143,7 @@ def card(view: MindView, noun: str, name: str) -> str:
 def _skill(view: MindView, name: str, declaration: Declaration) -> str:
     lines = []
     for verb, form in (("reads", Reads), ("drives", Drives), ("influences", Influences)):
-        if said := [_edge(view, fact) for fact in of_form(declaration.facts, form)]:
+        if said := [_edge(view, fact) for fact in declaration.facts if isinstance(fact, form)]:
             lines.append(f"- {verb} {', '.join(said)}")
     if by := _users(view, name, Influences):
         lines.append(f"- influenced by {', '.join(by)}")

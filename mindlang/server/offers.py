@@ -11,7 +11,7 @@ from mindrun.numbers.quantity import Quantity
 
 from mindlang.compiler.names import declared_things
 from mindlang.compiler.source import comment_of
-from mindlang.compiler.syntax import Declaration, Reads
+from mindlang.compiler.syntax import Declaration, Reads, Varies
 from mindlang.explaining import markdown
 from mindlang.explaining.kinds import kind_article
 from mindlang.explaining.parameters import meaning, parameter
@@ -110,6 +110,12 @@ def varying_parts(view: MindView, task: Declaration | None) -> Iterator[tuple[Of
             yield part, _varying(noun, phrase.kind.text if phrase else "")
     for thing in things(view, task, kinds("content")):
         yield thing, _varying("content", *thing.detail.split())
+
+
+def varied(view: MindView, task: Declaration | None, fact: Varies) -> Argument | None:
+    """The argument that a line varies, of the part or the thing that it names."""
+    its = (varying for part, varying in varying_parts(view, task) if part.label == fact.of.text)
+    return next((each for varying in its for each in varying if each.key == fact.argument.text), None)
 
 
 def _varying(noun: str, *of: str) -> list[Argument]:
