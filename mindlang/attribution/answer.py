@@ -67,8 +67,8 @@ def attributed_recording(path: Path, bundle: Path) -> AttributedRun:
     rows = np.concatenate([*parts, np.zeros(0, of.row)])
     if not len(rows):
         raise RecordingError(f"{path} has no tick in it")
-    computed = [*computed_again(path, of, rows, Engine(mind.policy, mind.procedures, of.master))]
-    readings, influence = np.array([each.readings for each in computed]), rows["influence"]
+    engine = Engine(mind.policy, mind.procedures, of.master)
+    readings, influence = np.array([engine.readings for _ in computed_again(path, of, rows, engine)]), rows["influence"]
     ready, begins = hierarchy(mind.policy, mind.procedures, of.master), np.flatnonzero(rows["tick"] == 0).tolist()
     flows = EdgeFlows(mind.graph, ready, lambda places: (readings[places], influence[places]), begins)
     about = {"recording": path.name, "master": of.master}

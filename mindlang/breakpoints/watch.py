@@ -13,7 +13,7 @@ from mindrun.graph.bundle import Bundle
 from mindrun.graph.graph import Graph
 from mindrun.graph.recording_header import About
 from mindrun.kinds.events.event import EventKind
-from mindrun.numbers.evaluation import OPERATORS
+from mindrun.numbers.arrays import OPERATORS
 from mindrun.numbers.expression import Program, fold
 from numpy.typing import NDArray
 

@@ -3,13 +3,12 @@
 from collections.abc import Callable, Iterator, Sequence
 from itertools import product
 from math import inf, isnan
-from operator import add, sub, truediv
+from operator import add, ge, gt, le, lt, sub, truediv
 from typing import Any, NamedTuple
 
-from mindrun.numbers.expression import COMPARISONS, Formula, fold
+from mindrun.numbers.expression import OPERATORS, Formula, fold
 
-from mindlang.compiler.model import Comparison, Expression, Number, When
-from mindlang.compiler.syntax import Operator
+from mindlang.compiler.syntax import Comparison, Expression, When
 
 Interval = tuple[float, float]
 Readings = Callable[[str], Interval]  # the range of each reading
@@ -18,6 +17,7 @@ UNBOUNDED: Interval = (-inf, inf)
 UNIT_INTERVAL: Interval = (0.0, 1.0)
 
 COMPARISON_WORDS = {"<": "below", "<=": "at or below", ">": "above", ">=": "at or above"}
+COMPARISONS: dict[str, Callable[[float, float], bool]] = {"<": lt, "<=": le, ">": gt, ">=": ge}
 OPPOSITES = {"<": ">=", "<=": ">", ">": "<=", ">=": "<"}
 TURNED = {"<": ">", "<=": ">=", ">": "<", ">=": "<="}  # the same with its sides the other way round
 UPPER = ("<", "<=")
@@ -86,7 +86,7 @@ def _combined(symbol: str, left: Interval, right: Interval) -> Interval:
 
 def is_constant(of: Expression) -> bool:
     """True if an expression is made of numbers alone."""
-    return all(isinstance(term, Number | Operator) for term in of.terms)
+    return all(word in ("number", "negate", *OPERATORS) for word, _ in of.formula)
 
 
 def range_in_words(of: Interval) -> str:

@@ -4,6 +4,7 @@ import re
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 from mindrun.graph.graph import Graph
 from mindrun.graph.tasks import goals
@@ -14,10 +15,10 @@ from mindlang.compiler.beginning import Beginning, task_beginning
 from mindlang.compiler.compile import Compiled
 from mindlang.compiler.diagnostic import Fix, Label
 from mindlang.compiler.hierarchy import reverse_topological_order, topological_order, with_descendants
-from mindlang.compiler.model import Edge, End, Expression, Mind, Reading, Reward, Skill, Task, When, source_graph
+from mindlang.compiler.model import Edge, End, Mind, Reward, Skill, Task, source_graph
 from mindlang.compiler.references import Mention, mentions
 from mindlang.compiler.source import Source, Span
-from mindlang.compiler.syntax import Declaration, Fact, Setting
+from mindlang.compiler.syntax import Declaration, Fact, Setting, When, expressions_in
 from mindlang.editing.insertion import first_line, remove_lines, without_declarations
 from mindlang.lint.intervals import UNIT_INTERVAL, Interval, Range, interval, why_never
 from mindlang.lock import Lock, lock_sources, read_locks
@@ -288,6 +289,6 @@ def name_words(name: str) -> list[str]:
     return [word.lower() for word in _WORD.findall(name)]
 
 
-def readings(expressions: Iterable[Expression]) -> set[str]:
-    """The names of the readings in some expressions."""
-    return {term.name for expression in expressions for term in expression.terms if isinstance(term, Reading)}
+def readings(*nodes: Any) -> set[str]:
+    """The names of the readings in some expressions and conditions."""
+    return {term.operand for expression in expressions_in(*nodes) for term in expression.found("reading")}

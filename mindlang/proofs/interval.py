@@ -12,7 +12,7 @@ import numpy as np
 from mindrun.graph.graph import Gate, Program, Skill
 from mindrun.graph.weights import Weights, genes
 from mindrun.numbers.arithmetic import sigmoid
-from mindrun.numbers.evaluation import OPERATORS
+from mindrun.numbers.arrays import OPERATORS
 from mindrun.numbers.expression import fold
 from mindrun.numbers.network import matrices
 from numpy.typing import NDArray

@@ -10,9 +10,9 @@ from operator import neg
 import numpy as np
 from mindrun.graph.graph import Gate, Graph, Program, Skill
 from mindrun.graph.weights import Weights, genes, reachable
-from mindrun.numbers.evaluation import OPERATORS
+from mindrun.numbers.arrays import OPERATORS
 from mindrun.numbers.expression import fold
-from mindrun.numbers.network import running
+from mindrun.numbers.network import FLOAT32, NOTHING
 from networkx import DiGraph
 
 from mindlang.compiler.hierarchy import with_ancestors
@@ -74,7 +74,8 @@ def _outputs(skill: Skill, weights: Weights | None, readings: Singles) -> Single
     if not layers:
         return np.zeros((len(readings), skill.outputs), np.float32)
     with np.errstate(all="ignore"):
-        return running(skill.function.forward, layers, 0)(readings[:, list(skill.inputs)])
+        found: Singles = skill.function.forward(FLOAT32, layers, readings[:, list(skill.inputs)], NOTHING)[0]
+    return found
 
 
 def _evaluate(program: Program, readings: Singles) -> Singles:

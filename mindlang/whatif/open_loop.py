@@ -65,8 +65,8 @@ def compare_recording(path: Path, bundle: Path, request: Request, other: Bundle 
     ours = Engine(mind.policy, mind.procedures, about.master)
     computed = computed_again(path, about, chain.from_iterable(parts), ours)
     ticks = [
-        ((each.readings, each.influence, each.commands), changed(number, each.row))
-        for number, each in enumerate(computed, 1)
+        ((ours.readings, ours.influence, row["commands"]), changed(number, row))
+        for number, row in enumerate(computed, 1)
     ]
     if len(ticks) < request.tick:
         raise ChangeError(f"{path} has {in_words(len(ticks))}: there is no tick {request.tick:,}", "say an earlier one")

@@ -55,11 +55,10 @@ def check(study: Study) -> Found:
 def _read(study: Study) -> set[str]:
     """The readings that skills, sensors, rewards and ends look at."""
     rewards = [reward for task in study.mind.tasks for reward in task.rewards]
-    ends = [end.when for task in study.mind.tasks for end in task.ends if end.when]
+    ends = [end.when for task in study.mind.tasks for end in task.ends]
     return {
         *(name for skill in study.mind.skills for name in skill.reads),
         *(name for kind in study.sensors.values() for name in kind.sources),
         *(reward.each for reward in rewards if reward.each),
-        *readings(expression for reward in rewards for expression in reward.expressions),
-        *readings(expression for when in ends for expression in when.expressions),
+        *readings(*((reward.amount, reward.when) for reward in rewards), *ends),
     }

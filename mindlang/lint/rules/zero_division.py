@@ -11,7 +11,7 @@ from math import inf, nextafter
 
 from msgspec.structs import replace
 
-from mindlang.compiler.model import Comparison, Expression, Reading, When
+from mindlang.compiler.syntax import Comparison, Expression, Term, When
 from mindlang.lint.intervals import OPPOSITES, UPPER, Interval, bounds, divisors
 from mindlang.lint.study import AnalysedWorld, Conditional, Finding, Found, Study
 
@@ -103,7 +103,7 @@ def _narrowed(world: AnalysedWorld, all_: Sequence[Comparison]) -> dict[str, Int
     found: dict[str, Interval] = {}
     for side, compare, number in bounds(all_):
         match side.terms:
-            case (Reading(name),):
+            case (Term("reading", name),):
                 found[name] = _within(found.get(name, world.reading(name)), compare, number)
     return found
 
