@@ -45,9 +45,8 @@ def meaning(asked: Asked) -> str:
 
 def _also(quantity: Quantity) -> str:
     """Other ways to write the number than the one that stands first."""
-    shares = [", or in %"] if "%" in quantity.units and "" in quantity.units else []
-    rates = [", or so much per s"] if quantity.rate else []
-    return "".join([*shares, *rates])
+    share = ", or in %" if {"%", ""} <= quantity.units.keys() else ""
+    return share + (", or so much per s" if quantity.rate else "")
 
 
 def _bounds(quantity: Quantity) -> str:

@@ -1,7 +1,5 @@
 """All claims about a mind, each with what it rests on."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
@@ -32,7 +30,7 @@ class ActuatorClaims:
     paths: Paths
     leak: Leak | None
     driven: Driven
-    tried: Tried | None
+    tried: Tried
     weights: tuple[str, ...]
 
     @property
@@ -42,7 +40,7 @@ class ActuatorClaims:
             return "always"
         if self.driven.is_always_driven:
             return "never"
-        return "can be" if self.tried and self.tried.readings is not None else "not excluded"
+        return "can be" if self.tried.readings is not None else "not excluded"
 
     @property
     def command(self) -> tuple[float, float]:
@@ -84,49 +82,6 @@ class Proof:
     dead: Mapping[str, tuple[str, ...]]  # the skills on whose weights it rests
 
 
-def prove(graph: Graph, weights: Mapping[str, Weights], delta: float) -> Proof:
-    """All claims about a mind under its master; `delta` is the influence of a leak."""
-    count = len(graph.actuators)
-    found, alone = influence_edges(graph), prove_reach(graph, weights)
-    tried: Sequence[Tried | None] = try_readings(graph, weights) or [None] * count
-    bounds = tighten(graph, weights, alone, [bool(seen and seen.readings is not None) for seen in tried])
-    listed, leaking = paths(found, count, MAX_LISTED_PATHS), leaks(found, count, delta)
-    rests = _Rests(graph, weights, bounds)
-    below = reachable(graph, graph.master)
-    names = {skill.name for skill in below}
-    return Proof(
-        graph,
-        delta,
-        {
-            skill.name: skill.function.opaque or "has no weights that fit"
-            for skill in below
-            if not is_known(skill, weights.get(skill.owner))
-        },
-        tuple(skill.name for skill in graph.skills if skill.name not in names),
-        tuple(
-            ActuatorClaims(
-                actuator,
-                listed[i],
-                leaking[i],
-                bounds.actuators[i],
-                tried[i],
-                rests.of_actuator(i, is_joint=bounds.actuators[i] != alone.actuators[i]),
-            )
-            for i, actuator in enumerate(graph.actuators)
-        ),
-        tuple(_edges(graph, below, bounds, rests)),
-        {name: rests.of_dead(name) for name, bound in bounds.influence.items() if bound.high <= 0},
-    )
-
-
-def _edges(graph: Graph, below: Sequence[Skill], bounds: ProvedReach, rests: _Rests) -> Iterator[EdgeClaim]:
-    for skill in below:
-        for edge, sends in zip(skill.edges, bounds.edges[skill.name], strict=True):
-            if edge.to == "skill":
-                weights = (skill.owner,) if rests.narrows(skill, edge, sends) else ()
-                yield EdgeClaim(skill.name, graph.named("skill", edge.target), sends, weights)
-
-
 class _Rests:
     """The skills on whose weights a claim rests: those on the paths whose weights narrow 0..1 to less."""
 
@@ -165,3 +120,46 @@ class _Rests:
 
     def _in_order(self, names: Iterable[str]) -> tuple[str, ...]:
         return tuple(sorted({*names}, key=self._place.__getitem__))
+
+
+def prove(graph: Graph, weights: Mapping[str, Weights], delta: float) -> Proof:
+    """All claims about a mind under its master; `delta` is the influence of a leak."""
+    count = len(graph.actuators)
+    found, alone = influence_edges(graph), prove_reach(graph, weights)
+    tried = try_readings(graph, weights)
+    bounds = tighten(graph, weights, alone, [seen.readings is not None for seen in tried])
+    listed, leaking = paths(found, count, MAX_LISTED_PATHS), leaks(found, count, delta)
+    rests = _Rests(graph, weights, bounds)
+    below = reachable(graph, graph.master)
+    names = {skill.name for skill in below}
+    return Proof(
+        graph,
+        delta,
+        {
+            skill.name: skill.function.opaque or "has no weights that fit"
+            for skill in below
+            if not is_known(skill, weights.get(skill.owner))
+        },
+        tuple(skill.name for skill in graph.skills if skill.name not in names),
+        tuple(
+            ActuatorClaims(
+                actuator,
+                listed[i],
+                leaking[i],
+                bounds.actuators[i],
+                tried[i],
+                rests.of_actuator(i, is_joint=bounds.actuators[i] != alone.actuators[i]),
+            )
+            for i, actuator in enumerate(graph.actuators)
+        ),
+        tuple(_edges(graph, below, bounds, rests)),
+        {name: rests.of_dead(name) for name, bound in bounds.influence.items() if bound.high <= 0},
+    )
+
+
+def _edges(graph: Graph, below: Sequence[Skill], bounds: ProvedReach, rests: _Rests) -> Iterator[EdgeClaim]:
+    for skill in below:
+        for edge, sends in zip(skill.edges, bounds.edges[skill.name], strict=True):
+            if edge.to == "skill":
+                weights = (skill.owner,) if rests.narrows(skill, edge, sends) else ()
+                yield EdgeClaim(skill.name, graph.named("skill", edge.target), sends, weights)

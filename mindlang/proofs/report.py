@@ -64,7 +64,7 @@ def _actuator(found: ActuatorClaims, place: int, proof: Proof, hashes: Hashes, r
         "command": {
             "low": low,
             "high": high,
-            "seen": tried and tried.commands,
+            "seen": tried.commands,
             "needs_influence_of": 1e-30 if found.is_rough else 0.0,
             "rests_on": _rests_on(found.weights, hashes),
         },
@@ -91,9 +91,9 @@ def _leak(leak: Leak) -> Data:
     }
 
 
-def _example(graph: Graph, tried: Tried | None) -> Data | None:
+def _example(graph: Graph, tried: Tried) -> Data | None:
     """Readings for which nothing influences an actuator, and which skills keep still then."""
-    if tried is None or tried.readings is None:
+    if tried.readings is None:
         return None
     values = tried.readings.tolist()
     readings = {sensor.name: values[sensor.start : sensor.start + sensor.width] for sensor in graph.sensors}

@@ -95,16 +95,16 @@ class Tried:
     `still` are the skills that then have influence and pass none on towards the actuator.
     """
 
-    commands: tuple[float, float] | None
-    readings: Singles | None
-    still: tuple[str, ...]
+    commands: tuple[float, float] | None = None
+    readings: Singles | None = None
+    still: tuple[str, ...] = ()
 
 
-def try_readings(graph: Graph, weights: Mapping[str, Weights]) -> list[Tried] | None:
-    """The trial of each actuator; None where the function of a skill below the master is not known."""
+def try_readings(graph: Graph, weights: Mapping[str, Weights]) -> list[Tried]:
+    """The trial of each actuator, empty where the function of a skill below the master is not known."""
     skills = reachable(graph, graph.master)
     if not all(is_known(skill, weights.get(skill.owner)) for skill in skills):
-        return None
+        return [Tried()] * len(graph.actuators)
     rows = max(64, min(TRIED_READINGS, MAX_WEIGHT_READINGS // sum(genes(skill) + 100 for skill in skills)))
     readings = readings_to_try(graph.width, rows)
     thoughts = think_rows(graph, weights, readings)
@@ -116,7 +116,7 @@ def _of(graph: Graph, readings: Singles, thoughts: ThoughtRows, actuator: int) -
     sent = thoughts.command[driven, actuator]
     commands = (float(sent.min()), float(sent.max())) if len(sent) else None
     if driven.all():
-        return Tried(commands, None, ())
+        return Tried(commands)
     row = int(np.argmin(driven))  # the first: corners come first, and read best
     return Tried(commands, readings[row], _still(graph, thoughts.influence[row], actuator))
 
