@@ -18,7 +18,7 @@ from mindrun.terminal.command_line import command_line
 
 from mindlang.compiler.compile import Compiled
 from mindlang.executors.jobs import Block, JobScorer, empty_scores, write_scores
-from mindlang.limits import as_runs, as_seed
+from mindlang.limits import RUN_BOUNDS, SEED_BOUNDS, bounded_int
 from mindlang.lock.ready import ReadyMind, make_ready
 from mindlang.run.chosen_task import SetupError, master_of, task_of
 
@@ -96,7 +96,7 @@ def untaught_skills(ready: ReadyMind) -> list[str]:
 
 def layouts(seed: int, runs: int) -> list[int]:
     """The seeds of so many runs; MindError where these are none."""
-    seed, runs = as_seed(seed), as_runs(runs)
+    seed, runs = bounded_int("seed", SEED_BOUNDS, seed), bounded_int("runs", RUN_BOUNDS, runs)
     return [int(word) for word in np.random.SeedSequence(seed).generate_state(runs, np.uint64)]
 
 

@@ -16,7 +16,7 @@ from mindrun.train.run_folder import RunFolder, create, unfinished
 from mindlang.compiler.compile import Compiled
 from mindlang.compiler.diagnostic import listed
 from mindlang.compiler.resolve.curricula import counterparts
-from mindlang.limits import as_seed
+from mindlang.limits import SEED_BOUNDS, bounded_int
 from mindlang.lock import Lock, lock_path, lock_sources, read_lock, read_locks
 from mindlang.lock.blobs import Origin
 from mindlang.lock.signature import arrange, places, signature, width
@@ -107,7 +107,7 @@ def begin_run(
     manifest = Manifest(
         lesson=lesson,
         learners=learners(subject.graph, lesson),
-        seed=as_seed(seed),
+        seed=bounded_int("seed", SEED_BOUNDS, seed),
         mind=fingerprint(subject.graph, lesson, subject.folder),
         weights=hashes(weights),
         source=str(subject.source),
