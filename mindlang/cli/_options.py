@@ -5,7 +5,7 @@ from dataclasses import dataclass, fields
 from functools import partial, wraps
 from math import isfinite, nan
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import Any, TypeVar
 
 import click
 from click.core import ParameterSource
@@ -14,13 +14,10 @@ from click.shell_completion import CompletionItem
 from mindlang import limits
 from mindlang.cli._terminal import MISUSE, refusing
 
-if TYPE_CHECKING:
-    from _typeshed import DataclassInstance
-
 SHOWN_CHARACTERS = 20  # of what is refused
 MAX_TICK_DIGITS = 15
 Completion = Callable[[click.Context, click.Parameter, str], list[CompletionItem]]
-Chosen = TypeVar("Chosen", bound="DataclassInstance")
+Chosen = TypeVar("Chosen")
 Option = Callable[[Callable[..., Any]], Callable[..., Any]]  # a decorator of a command
 
 
@@ -119,7 +116,8 @@ def unless(flag: str, name: str, about: str) -> Option:
 
 def taken(of: type[Chosen], said: dict[str, Any]) -> Chosen:
     """A value of a dataclass that has fields called as options; what it takes is no longer among what was `said`."""
-    return of(**{each.name: said.pop(each.name) for each in fields(of) if each.name in said})
+    known = fields(of)  # type: ignore[arg-type]  # there is no name for the type of dataclasses
+    return of(**{each.name: said.pop(each.name) for each in known if each.name in said})
 
 
 def refuse_ineffective(what_they_are: str, *names: str) -> None:

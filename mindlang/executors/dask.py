@@ -44,10 +44,7 @@ class Destination:
     is_trusted: bool = False
 
     def address(self) -> str:
-        """The address of the scheduler, as scheme://host:port.
-
-        WorkError where there is no file that says one, or nothing is encrypted on the way to another machine.
-        """
+        """The scheduler, as scheme://host:port; WorkError where no file says its address, or others could listen."""
         address = self.place if _parts(self.place) else _address_in(Path(self.place))
         self.refuse_open(address)
         return address if "://" in address else f"tcp://{address}"

@@ -169,10 +169,7 @@ class JobExecutor:
         self._ask(Job(number, work))
 
     def next_result(self) -> tuple[int, Done] | None:
-        """The number of a job that has been done, and its answer; None after POLL_SECONDS without one.
-
-        WorkError where none can come any more.
-        """
+        """The number of a job that is done, and its answer; None after POLL_SECONDS. WorkError where none can come."""
         try:
             future = self._ended.get(timeout=POLL_SECONDS)
         except Empty:
@@ -206,10 +203,7 @@ class JobExecutor:
         raise NotImplementedError
 
     def _answer(self, future: Any, job: Job) -> Done | Failed | None:
-        """The answer in a future that has ended; None where its worker was lost, so that it is asked for again.
-
-        TimeoutError where it has not come yet, WorkError where none will.
-        """
+        """The answer in a future; None if its worker was lost, TimeoutError before it comes, WorkError if none will."""
         raise NotImplementedError
 
 
@@ -251,10 +245,7 @@ def refuse_without(packages: tuple[str, ...], who: str, extra: str) -> None:
 
 
 class JobScorer:
-    """Scores as `rollout` would, by the workers of an executor. A result depends on its genome and its seed alone.
-
-    So neither how many workers there are, nor how runs are cut into jobs, nor in which order these end, changes a bit.
-    """
+    """Scores as `rollout` would, to the bit, by any workers: a result depends on its genome and its seed alone."""
 
     def __init__(self, rollout: Any, jobs: JobExecutor) -> None:
         self.rollout, self.jobs = rollout, jobs

@@ -28,7 +28,7 @@ USAGE = "processes:N"
 MAX_PROCESSES = 1024
 MAX_DIGITS = 4
 MAX_STARTS = 20  # of processes for a job: where others end them, or the machine is busy, few come to it
-Make = Callable[[Assignment, int], Any]
+Make = Callable[[Assignment, int], Any]  # which is pickled by its name
 
 
 def flaw(argument: str) -> str:
@@ -45,10 +45,7 @@ def begin(argument: str, assignment: Assignment, say: Callable[[str], object]) -
 
 
 class ProcessJobs(JobExecutor):
-    """The jobs of one assignment, done by so many processes of so many threads each.
-
-    `make` is how an assignment becomes a scorer in a process; it is pickled by its name.
-    """
+    """The jobs of one assignment, done by so many processes of so many threads; `make` makes the scorer of each."""
 
     def __init__(self, count: int, threads: int, assignment: Assignment, make: Make = jobs.rollout_of) -> None:
         super().__init__()

@@ -15,10 +15,7 @@ MAX_CORES = 10_000
 
 
 def flaw(argument: str) -> str:
-    """The flaw of a number of jobs with their options; "" where they have none.
-
-    MindError without dask-jobqueue.
-    """
+    """The flaw of a number of jobs with their options; "" where they have none. MindError without dask-jobqueue."""
     refuse_without(("dask_jobqueue",), "SLURM is asked by", "slurm")
     count, *options = argument.split(",")
     if not _is_count(count, MAX_JOBS):
@@ -33,10 +30,7 @@ def flaw(argument: str) -> str:
 
 
 def begin(argument: str, assignment: Assignment, say: Callable[[str], object]) -> JobExecutor:
-    """A scheduler in this process, and so many jobs.
-
-    What is not said of them is read in ~/.config/dask/jobqueue.yaml.
-    """
+    """A scheduler in this process, and so many jobs; the rest is read in ~/.config/dask/jobqueue.yaml."""
     handler = signal.getsignal(signal.SIGINT)
     from dask_jobqueue import SLURMCluster
 

@@ -29,10 +29,7 @@ Rows = NDArray[Any]
 
 
 def running_bundle(path: Path, of: About) -> Bundle:
-    """The bundle of a recording, which `path` names, or the source that it is built from.
-
-    MindError where it cannot be read or built, or the recording was made with another.
-    """
+    """The bundle at `path`, or of the source there; MindError where there is none, or not that of the recording."""
     is_source = path.suffix == SOURCE_SUFFIX
     found, sha = _built(path, of) if is_source else (read_bundle(path), digest(path))
     if is_source and sha != of.bundle:

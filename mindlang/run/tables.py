@@ -87,10 +87,7 @@ def runs_table(task: Task, scores: Scores, seeds: Sequence[int]) -> dict[str, Co
 
 
 def joined(tables: Mapping[str, Table]) -> dict[str, Column]:
-    """The rows of several tables of runs one after the other, and in a first column `mind` the name of each.
-
-    What one of them has no column for is NaN there, and nothing in a file.
-    """
+    """The rows of several tables of runs, a first column `mind` with the name of each; NaN where one has no column."""
     rows = {name: len(table["seed"]) for name, table in tables.items()}
     names = dict.fromkeys(column for table in tables.values() for column in table)
     whole = {

@@ -112,10 +112,7 @@ def drive(options: argparse.Namespace) -> int:
 
 
 def _run(engine: Engine, options: argparse.Namespace) -> None:
-    """Print one line of commands per line of readings, each at once: a robot may be waiting for it.
-
-    Where nobody takes them any more it ends.
-    """
+    """Print a line of commands per line of readings, each at once: a robot may wait; end where nobody takes them."""
     names = [actuator.name for actuator in engine.graph.actuators]
     skills = [skill.name for skill in engine.graph.skills]
     needed = read_by(engine.graph, options.master or engine.graph.master)

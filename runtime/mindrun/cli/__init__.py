@@ -1,7 +1,4 @@
-"""The command line of `mindrun`: its options and help, and its tools, one file each.
-
-`options` of a tool adds its arguments, `run` does it.
-"""
+"""The command line of `mindrun`, and its tools, one file each: `options` adds the arguments of one, `run` does it."""
 
 from argparse import ArgumentParser
 from importlib import import_module

@@ -155,10 +155,7 @@ def output_failure() -> OSError | None:
 
 
 def finish() -> str:
-    """Write out what is left; why standard output is not whole, or nothing.
-
-    A reader that is gone, `head` say, has seen enough: that is no reason.
-    """
+    """Write out what is left; why standard output is not whole, or nothing: a reader that is gone has seen enough."""
     sys.stdout.flush()
     failure = output_failure()
     if failure is None or isinstance(failure, BrokenPipeError):
