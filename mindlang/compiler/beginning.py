@@ -25,7 +25,7 @@ Role = Literal["body", "fixed", "floor"]
 APART: frozenset[frozenset[Role]] = frozenset({
     frozenset[Role]({"body"}), frozenset[Role]({"body", "fixed"}), frozenset[Role]({"floor", "fixed"}),
 })  # fmt: skip
-AXES: tuple[Place, Place] = ((1.0, 0.0), (0.0, 1.0))
+UNIT_AXES: tuple[Place, Place] = ((1.0, 0.0), (0.0, 1.0))
 PLAIN_START: Place = (0.0, 0.0)  # where a robot starts in a plain scene that says nothing else
 
 
@@ -63,7 +63,7 @@ def _axes(one: Outline, other: Outline) -> Iterator[Place]:
 
     Along x and y most are found at once.
     """
-    yield from AXES
+    yield from UNIT_AXES
     for of in (one, other):
         for (x, y), (to_x, to_y) in zip(of.corners, (*of.corners[1:], of.corners[0]), strict=True):
             yield from _direction(y - to_y, to_x - x)
@@ -134,7 +134,7 @@ class Beginning:
         robot = self.robot or replace(self, at=PLAIN_START).robot
         if self.scene is None or robot is None:
             return True
-        ends = zip((robot.span(axis) for axis in AXES), self.scene.sides, strict=True)
+        ends = zip((robot.span(axis) for axis in UNIT_AXES), self.scene.sides, strict=True)
         return all(max(-low, high) <= side / 2 + TOUCHING_UNITS for (low, high), side in ends)
 
     def overlapping(self) -> Iterator[tuple[Part[Any], Part[Any]]]:
