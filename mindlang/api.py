@@ -83,9 +83,7 @@ class Mind(ShortRepr):
         >>> mind.graph.master, [actuator.name for actuator in mind.graph.actuators]
         ('Collect', ['left_wheel', 'right_wheel', 'claw'])
         """
-        graph = self._without_errors().graph
-        assert graph
-        return graph
+        return self._without_errors().whole[1]
 
     @property
     def hierarchy(self) -> DiGraph:
@@ -94,9 +92,7 @@ class Mind(ShortRepr):
         >>> sorted(str(node) for node in networkx.descendants(mind.hierarchy, ("skill", "Grab")))
         ['actuator claw']
         """
-        mind = self._without_errors().mind
-        assert mind
-        return mind.hierarchy
+        return self._without_errors().whole[0].hierarchy
 
     def policy(self, master: str | None = None) -> Policy:
         """The hierarchy with the weights that `master` (default: the mind's) needs to act.

@@ -54,6 +54,13 @@ class Compiled(ShortRepr):
         """True if the main file could be read."""
         return bool(self.sources)
 
+    @property
+    def whole(self) -> tuple[Mind, Graph]:
+        """The mind and its graph, of a file that compiled."""
+        assert self.mind
+        assert self.graph
+        return self.mind, self.graph
+
 
 def load(path: Path | str, texts: Mapping[Path, str] = NO_TEXTS) -> Compiled:
     """The file at `path`, or with "-" standard input, compiled; whatever is wrong is in the diagnostics.

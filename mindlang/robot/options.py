@@ -1,12 +1,8 @@
-"""The options of a wire: the fields of its own dataclass and of its driver's, and the JSON Schema that they make.
-
-By the schema an editor completes and underlines `robot.yaml` while one writes.
-"""
+"""The options of a wire, fields of its own dataclass and of its driver's, and the JSON Schema by which editors help."""
 
 import re
 from dataclasses import MISSING, Field, dataclass, fields, replace
 from functools import cache
-from importlib import import_module
 from math import isinf
 from types import NoneType, UnionType
 from typing import Annotated, Any, Union, get_args, get_origin, get_type_hints
@@ -68,7 +64,6 @@ class DriverOption:
 @cache
 def drivers(noun: str) -> dict[str, type[Any]]:
     """The drivers of "sensor" or "actuator" by name; those that users bring have another."""
-    import_module("mindrun.robot.drivers")
     return {name: cls for name, cls in kinds(f"{noun} {DRIVER}").items() if name.isidentifier()}
 
 
@@ -87,7 +82,8 @@ def own_options(noun: str) -> tuple[DriverOption, ...]:
 def driver_options(cls: type[Any], skipped: tuple[str, ...] = ()) -> tuple[DriverOption, ...]:
     """The options of a driver, required ones and others."""
     hints = get_type_hints(cls, include_extras=True)
-    return tuple(_option(field, hints[field.name]) for field in fields(cls) if field.init and field.name not in skipped)
+    found = sorted(fields(cls), key=lambda field: field.kw_only is True)  # its own before those that others have too
+    return tuple(_option(field, hints[field.name]) for field in found if field.init and field.name not in skipped)
 
 
 def _option(field: Field[Any], hint: Any) -> DriverOption:

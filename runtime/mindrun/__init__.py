@@ -27,33 +27,16 @@ if TYPE_CHECKING:
     from mindrun.sim.trace import Trace as Trace
 
 VERSION = "0.1.0"
-__getattr__ = lazy_names(
-    __name__,
-    {
-        "mindrun.graph.bundle": ("Bundle", "read_bundle", "write_bundle"),
-        "mindrun.engine.engine": ("Engine",),
-        "mindrun.errors": ("MindError",),
-        "mindrun.graph.graph": ("Graph",),
-        "mindrun.graph.policy": ("Policy",),
-        "mindrun.robot.replay": ("Replayed", "replay_recording"),
-        "mindrun.graph.run_scores": ("Scores",),
-        "mindrun.sim.rollout": ("Rollout",),
-        "mindrun.sim.trace": ("Moment", "Trace"),
-    },
-)
-__all__ = [
-    "VERSION",
-    "Bundle",
-    "Engine",
-    "Graph",
-    "MindError",
-    "Moment",
-    "Policy",
-    "Replayed",
-    "Rollout",
-    "Scores",
-    "Trace",
-    "read_bundle",
-    "replay_recording",
-    "write_bundle",
-]
+HOMES = {  # where the public names stand
+    "mindrun.graph.bundle": ("Bundle", "read_bundle", "write_bundle"),
+    "mindrun.engine.engine": ("Engine",),
+    "mindrun.errors": ("MindError",),
+    "mindrun.graph.graph": ("Graph",),
+    "mindrun.graph.policy": ("Policy",),
+    "mindrun.robot.replay": ("Replayed", "replay_recording"),
+    "mindrun.graph.run_scores": ("Scores",),
+    "mindrun.sim.rollout": ("Rollout",),
+    "mindrun.sim.trace": ("Moment", "Trace"),
+}
+__getattr__ = lazy_names(__name__, HOMES)
+__all__ = sorted(["VERSION", *(name for names in HOMES.values() for name in names)])

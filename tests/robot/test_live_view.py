@@ -6,17 +6,18 @@ import shlex
 import signal
 import socket
 import subprocess
-from contextlib import ExitStack, nullcontext, suppress
+from contextlib import ExitStack, suppress
 from http.client import HTTPConnection
 from pathlib import Path
 from threading import Timer
 
 import pytest
+from mindrun.cli import driving_parser
 from mindrun.files.printable import visible
-from mindrun.graph.bundle import Bundle, digest, read_bundle, write_bundle
+from mindrun.graph.bundle import Bundle, read_bundle, write_bundle
 from mindrun.graph.policy import Policy
 from mindrun.robot import live_view as live
-from mindrun.robot.drive import DriveOptions, drive
+from mindrun.robot.drive import drive
 from mindrun.robot.live_view import breakpoint_mistakes
 from mindrun.robot.loop import Loop
 from mindrun.robot.recording import read
@@ -212,8 +213,8 @@ def test_each_tick_can_be_read_before_the_next(bundle: Path, tmp_path: Path) -> 
         until(lambda: loop.ticks == len(ticks(day)))
         return True
 
-    options = DriveOptions(record=day, ticks=6, view=nullcontext())
-    drive(found, digest(bundle), wiring(), options, lambda sentence: None, watch=watch)
+    options = driving_parser().parse_args([str(bundle), "--record", str(day), "--ticks", "6"])
+    drive(found, wiring(), options, lambda sentence: None, watch=watch)
     assert ticks(day)[-1] == 5
 
 

@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mindrun.robot.camera import (
+    DEGREES_PER_SECOND,
     Aim,
-    BallTarget,
-    PanTiltLimits,
+    BallCamera,
     SeenBall,
     blindness,
     distance,
@@ -33,7 +33,8 @@ from tests.robot.drivers.frames import (
     taken,
 )
 
-LOOK = BallTarget(view=VIEW)
+REACHES = 90.0, 45.0  # of a neck
+LOOK = BallCamera(view=VIEW)
 WHITE = np.full(3, 255, np.float32)
 
 
@@ -72,8 +73,8 @@ def test_upwards_is_positive() -> None:
 @pytest.mark.parametrize("hue", [0, 10, 60, 120, 200, 240, 350, 360])
 def test_only_the_colour_that_is_looked_for_is_found(hue: float) -> None:
     frame = taken(ball(room(), 100, 100, 24, hue))
-    assert off(find_ball(frame, BallTarget(hue=hue, view=VIEW)), 100) < 0.3
-    assert find_ball(frame, BallTarget(hue=(hue + 90) % 360, view=VIEW)) is None
+    assert off(find_ball(frame, BallCamera(hue=hue, view=VIEW)), 100) < 0.3
+    assert find_ball(frame, BallCamera(hue=(hue + 90) % 360, view=VIEW)) is None
 
 
 def test_of_two_balls_the_larger_is_taken_every_time() -> None:
@@ -129,7 +130,7 @@ def test_a_moving_ball_is_in_the_middle_of_its_streak(length: int, angle: float)
     kernel[length // 2] = 1
     turned = cv2.warpAffine(kernel, cv2.getRotationMatrix2D((length // 2, length // 2), angle, 1), (length, length))
     frame = cv2.filter2D(ball(room(), 150, 110, 24), -1, turned / turned.sum())
-    found = find_ball(taken(frame), BallTarget(view=VIEW, brightness=0.4))
+    found = find_ball(taken(frame), BallCamera(view=VIEW, brightness=0.4))
     assert off(found, 150) < 0.6
     assert found.diameter == pytest.approx(24, abs=7)
 
@@ -155,33 +156,33 @@ def test_size_is_distance() -> None:
     assert far == pytest.approx(2 * near, rel=0.06)
 
 
-def followed(angle: float, seconds: float, neck: PanTiltLimits) -> Aim:
+def followed(angle: float, seconds: float) -> Aim:
     """Where a camera points that has followed a ball for a while, thirty times a second."""
     aim = Aim()
     for _ in range(round(30 * seconds)):
-        aim = follow(aim, SeenBall(angle - aim.pan, -aim.tilt, 20), 1 / 30, neck)
+        aim = follow(aim, SeenBall(angle - aim.pan, -aim.tilt, 20), 1 / 30, *REACHES)
     return aim
 
 
 @pytest.mark.parametrize(("angle", "pan"), [(50.0, 50.0), (-50.0, -50.0), (120.0, 90.0), (0.0, 0.0)])
 def test_the_camera_turns_to_the_ball_as_far_as_it_can(angle: float, pan: float) -> None:
-    assert followed(angle, 3, PanTiltLimits()).pan == pytest.approx(pan, abs=0.5)
+    assert followed(angle, 3).pan == pytest.approx(pan, abs=0.5)
 
 
 def test_it_turns_no_faster_than_it_may() -> None:
-    assert followed(90, 0.5, PanTiltLimits(speed=60.0)).pan == pytest.approx(30, abs=0.1)
+    assert followed(90, 0.2).pan == pytest.approx(0.2 * DEGREES_PER_SECOND, abs=0.1)
 
 
 def test_a_lost_ball_is_waited_for_and_then_given_up() -> None:
     aim = Aim(pan=60.0, tilt=20.0)
     for _ in range(29):
-        aim = follow(aim, None, 1 / 30, PanTiltLimits())
+        aim = follow(aim, None, 1 / 30, *REACHES)
     assert (aim.pan, aim.tilt) == (60.0, 20.0)
     for _ in range(90):
-        aim = follow(aim, None, 1 / 30, PanTiltLimits())
+        aim = follow(aim, None, 1 / 30, *REACHES)
     assert (aim.pan, aim.tilt) == pytest.approx((0, 0), abs=0.5)
-    assert follow(aim, SeenBall(10, 0, 20), 1 / 30, PanTiltLimits()).alone == 0
+    assert follow(aim, SeenBall(10, 0, 20), 1 / 30, *REACHES).alone == 0
 
 
 def test_a_camera_that_is_fixed_stays() -> None:
-    assert follow(Aim(), SeenBall(30, 20, 20), 1 / 30, PanTiltLimits(pan=0.0, tilt=0.0)) == Aim()
+    assert follow(Aim(), SeenBall(30, 20, 20), 1 / 30, 0.0, 0.0) == Aim()

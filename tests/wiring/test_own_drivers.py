@@ -172,9 +172,7 @@ def test_the_guardian_opens_it_without_numpy(built: Path) -> None:
     plan = to_json(plan_of(bundle.graph.tick, {"left_wheel": 0.5, "right_wheel": 0.5}, bundle.wiring))
     program = """
     import sys
-    from mindrun.robot.guardian.plan import DRIVERS, from_json
-    from mindrun.robot.guardian.realtime import import_little
-    import_little(DRIVERS)
+    from mindrun.robot.guardian.plan import from_json
     from_json(sys.stdin.readline()).channels[0].driver.open().write(1.0)
     assert "numpy" not in sys.modules
     """

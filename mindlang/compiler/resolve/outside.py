@@ -4,8 +4,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from mindrun.errors import MindError
-from mindrun.kinds.bodies.body import BodyKind
-from mindrun.kinds.bodies.disc import Disc
+from mindrun.kinds.bodies.body import BodyKind, Disc
 from mindrun.kinds.registry import names as kind_names
 from mindrun.kinds.sensors.sensor import Physical
 

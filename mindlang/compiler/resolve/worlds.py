@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from mindrun.graph.graph import VARIED_NOUNS, Failure, Start, Variation, Varying, varied_quantity
-from mindrun.kinds.actuators.gripper import REACH_UNITS
+from mindrun.kinds.actuators.actuator import REACH_UNITS
 from mindrun.kinds.bodies.body import BodyKind
 from mindrun.kinds.registry import arguments
 from mindrun.kinds.registry import names as kind_names

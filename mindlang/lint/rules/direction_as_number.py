@@ -44,7 +44,6 @@ BAD = (
 
 
 def check(study: Study) -> Found:
-    """Latches of directions, and conditions that hold behind the robot on one side."""
     known = directions(study.sensors)
     for sensor in study.mind.sensors:
         if sensor.kind.compares and sensor.kind.source in known:
@@ -55,7 +54,7 @@ def check(study: Study) -> Found:
     decaying = {memory.name for memory in study.mind.memories if memory.kind.decay > 0}
     for edge in (edge for _, edge in study.edges if edge.to == "memory" and edge.target in decaying):
         yield from _mixed(edge.values, edge.target, known)
-    for when in (condition.when for condition in study.conditions):
+    for when, *_ in study.conditions:
         yield from _one_sided(when, known)
         yield from _of_two(when, known)
 

@@ -7,20 +7,17 @@ One that starts above 0 and decays is a clock, and needs no driver. With `decay 
 from mindlang.lint.study import Finding, Found, Study, readings, removal
 
 ELSEWHERE = True
-GOOD = (
-    """
+MOOD = """
 memory mood is cell decay 0.9
 skill Go is rule
   reads mood
-  drives left_wheel at 1 - mood
+  drives left_wheel at mood
   drives mood at 1
-""",
-    """
-memory youth is cell decay 0.9 start 1
-skill Go is rule
-  reads youth
-  drives left_wheel at youth
-""",
+"""
+UNDRIVEN = MOOD.replace("  drives mood at 1\n", "")
+GOOD = (
+    MOOD,
+    UNDRIVEN.replace("0.9", "0.9 start 1"),
     """
 memory tired is cell decay 0.99
 skill Go is rule
@@ -32,30 +29,13 @@ task Run in arena
 """,
 )
 BAD = (
-    """
-memory mood is cell decay 0.9
-skill Go is rule
-  drives left_wheel at 1
-  drives mood at 1
-""",
-    """
-memory mood is cell decay 0.9
-skill Go is rule
-  reads mood
-  drives left_wheel at mood
-""",
-    """
-memory mood is cell decay 1
-skill Go is rule
-  reads mood
-  drives left_wheel at mood
-  drives mood at 1
-""",
+    MOOD.replace("  reads mood\n", "").replace("at mood", "at 1"),
+    UNDRIVEN,
+    MOOD.replace("decay 0.9", "decay 1"),
 )
 
 
 def check(study: Study) -> Found:
-    """Memories that nobody reads or nobody drives; one that neither happens to is taken out safely."""
     read = _read(study)
     driven = {edge.target for skill in study.mind.skills for edge in skill.edges if edge.to == "memory"}
     for part in study.mind.memories:

@@ -14,7 +14,6 @@ BAD = f"{EYES}{GO}  drives left_wheel at right_eye\n  drives right_wheel at righ
 
 
 def check(study: Study) -> Found:
-    """Lines of rules that read what stands after none of their `at`."""
     for skill in (skill for skill in study.mind.skills if not skill.function.has_outputs):
         used = readings(*((edge.at, edge.gate) for edge in skill.edges))
         for fact in of_form(skill.declaration.facts, Reads):

@@ -15,7 +15,6 @@ from pathlib import Path
 from statistics import median, pstdev
 from time import monotonic, sleep
 
-import mindrun.robot.drivers  # noqa: F401  every driver is known once this is imported
 from mindrun.errors import MindError
 from mindrun.files.printable import visible
 from mindrun.graph.bundle import read_bundle

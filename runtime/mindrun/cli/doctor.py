@@ -19,7 +19,6 @@ from importlib.util import find_spec
 from pathlib import Path
 from threading import Thread
 
-import mindrun.robot.drivers  # noqa: F401  every driver is known once this is imported
 from mindrun.driver import driver_name
 from mindrun.graph.bundle import read_bundle
 from mindrun.graph.wiring import SensorWire, Wiring, still

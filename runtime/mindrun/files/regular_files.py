@@ -14,15 +14,12 @@ IRREGULAR = {stat.S_IFDIR: "a folder", stat.S_IFIFO: "a pipe", stat.S_IFSOCK: "a
 
 def read_regular(path: Path, most: int) -> bytes:
     """The first `most` bytes of a regular file; OSError, with words of its own, where a path leads to anything else."""
-    descriptor = open_regular(path)
-    try:
+    with open(open_regular(path), "rb", buffering=0) as file:
         parts, left = [], most
-        while left and (part := os.read(descriptor, min(left, READ_BYTES))):
+        while left and (part := file.read(min(left, READ_BYTES))):
             parts.append(part)
             left -= len(part)
-        return b"".join(parts)
-    finally:
-        os.close(descriptor)
+    return b"".join(parts)
 
 
 def read_whole(path: Path, most: int) -> bytes:

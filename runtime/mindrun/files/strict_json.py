@@ -10,7 +10,6 @@ def parsed(data: bytes | str, most: int = 1 << 20) -> Any:
     """The value of a JSON text; ValueError where it is none, longer than `most`, nested too deep, or not finite.
 
     A name that stands twice in a table is an error, too: which of its values holds, readers would not agree on.
-    What has this value may still be of any kind and size: who asks says what must stand there.
     """
     if len(data) > most:
         raise ValueError(f"it is larger than {most / (1 << 20):g} MiB")

@@ -7,7 +7,6 @@ import json
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, fields
 from hashlib import sha256
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -204,8 +203,6 @@ def decode(data: object, is_older: bool = False) -> Graph:
 
 def decode_wiring(data: object, graph: Graph) -> Wiring:
     """The wiring that `encode` made this data of; BundleError where it is damaged, or one for another mind."""
-    import_module("mindrun.robot.drivers")  # registers them all; a mind without a robot needs none
-
     wiring = decode_part(Wiring, data, "wiring")
     for found in flaws(wiring, graph):
         raise BundleError(f"this wiring does not fit its mind: {found}")

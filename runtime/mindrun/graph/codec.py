@@ -1,6 +1,6 @@
 """Dataclasses as plain data for JSON, and back: their annotations say what must stand there, and nothing else may."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import MISSING, dataclass, fields, is_dataclass
 from math import isfinite
 from types import NoneType, UnionType
@@ -14,9 +14,7 @@ PLAIN = (bool, int, float, str)
 MAX_WHOLE_NUMBER = 2**53 - 1  # what any reader of JSON takes
 
 T = TypeVar("T")
-Options = Mapping[str, Any]
 _known_hints: dict[type[Any], dict[str, Any]] = {}  # of each class that was decoded
-Prepare = Callable[[str, Options], Options]  # what is done with the data of a kind of a noun before it is looked for
 
 
 class CodecError(ValueError):
@@ -27,26 +25,23 @@ class CodecError(ValueError):
         self.unknown = unknown
 
 
-def encode(value: object, extra: Callable[[object], Options] = lambda value: {}) -> Any:
-    """A dataclass, or any part of one, as dicts, lists, strings and numbers; a kind names itself under "is".
-
-    `extra` is what else a kind says.
-    """
+def encode(value: object) -> Any:
+    """A dataclass, or any part of one, as dicts, lists, strings and numbers; a kind names itself under "is"."""
     if isinstance(value, tuple):
-        return [encode(part, extra) for part in value]
+        return [encode(part) for part in value]
     if not is_dataclass(value):
         return value
-    data = {field.name: encode(getattr(value, field.name), extra) for field in fields(value)}
+    data = {field.name: encode(getattr(value, field.name)) for field in fields(value)}
     name = names().get(type(value))
-    return data if name is None else {"is": name, **extra(value), **data}
+    return data if name is None else {"is": name, **data}
 
 
-def decode(hint: Any, data: Any, where: str, prepare: Prepare = lambda noun, data: data, is_older: bool = False) -> Any:
+def decode(hint: Any, data: Any, where: str, is_older: bool = False) -> Any:
     """The value of type `hint` of which `encode` made this data; CodecError says `where` there is none.
 
     A field that data which `is_older` lacks has its default: it is from before there was a word for it.
     """
-    return _Decoder(prepare, is_older).value(hint, data, where)
+    return _Decoder(is_older).value(hint, data, where)
 
 
 def decode_part(hint: type[T], data: object, where: str, is_older: bool = False) -> T:
@@ -60,7 +55,6 @@ def decode_part(hint: type[T], data: object, where: str, is_older: bool = False)
 
 @dataclass(frozen=True, slots=True)
 class _Decoder:
-    prepare: Prepare
     is_older: bool
 
     def value(self, hint: Any, data: Any, where: str) -> Any:
@@ -104,8 +98,7 @@ class _Decoder:
 
     def kind(self, noun: str, data: Any, where: str) -> Any:
         """A kind of a noun; another noun may have one of the same name."""
-        data = self.prepare(noun, data) if isinstance(data, Mapping) else {}
-        name = data.get("is")
+        name = data.get("is") if isinstance(data, Mapping) else None
         cls = find_kind(noun, name) if isinstance(name, str) else None
         if cls is None:
             raise CodecError(f"{where} is {name!r:.60}, which is no {noun} of this mindrun", unknown=True)

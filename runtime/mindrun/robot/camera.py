@@ -12,14 +12,19 @@ from math import atan2, degrees, hypot, pi, radians, tan
 from pathlib import Path
 from threading import Condition, Event, Thread
 from time import monotonic, sleep
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Annotated, Any, Protocol
 
 from mindrun.driver import ActuatorDevice, DeviceError
-from mindrun.robot.driver_support import library
+from mindrun.numbers.quantity import COUNT, RATIO, Quantity
+from mindrun.robot.driver_support import METRES, PATH, library
 
 if TYPE_CHECKING:
     from mindrun.numbers.arrays import Frame
 
+HUE = Quantity("a hue", {"deg": 1.0}, low=0.0, high=360.0)
+TOLERANCE = Quantity("how far a hue may be off", {"deg": 1.0}, low=1.0, high=90.0)
+VIEW = Quantity("an angle of view", {"deg": 1.0}, low=5.0, high=170.0)
+LEAST_DIAMETER = 5.0  # of a ball, in pixels
 STILL_IMAGE_STRIDE = 8  # every so many pixels are compared with the frame before
 FRAME_SECONDS = 1 / 30  # of most cameras
 STALE_SECONDS = 0.2  # for which the same frame may come
@@ -31,21 +36,27 @@ BLIND_SHARES = 0.005, 0.6  # shares of the frame: at least so much must not be b
 OVEREXPOSED_BRIGHTNESS = 245  # a brightness from which a colour may be gone
 ROUNDNESS_TOLERANCE = 0.14  # how far a blob's area may be off a round one's
 MAX_STREAK_RATIO = 2.8  # length of a streak to its width
+DEGREES_PER_SECOND = 120.0  # at most, of a neck
+GAIN_PER_SECOND = 6.0  # how fast a neck goes towards a ball that is a degree off
+PATIENCE_SECONDS = 1.0  # without a ball, until it looks straight ahead again
 
 
-@dataclass(frozen=True, slots=True)
-class BallTarget:
-    """A ball to look for: its hue (0 red, 120 green, 240 blue), how strong its colour and how bright it is.
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BallCamera:
+    """A camera and the ball to look for: the options that drivers of such a camera have in common.
 
-    `diameter` is the least, in pixels. `view` is how much the camera sees from left to right.
+    `view` is how much it sees from left to right; `colour` and `brightness` are the least that a ball has.
     """
 
-    hue: float = 120.0
-    tolerance: float = 25.0
-    colour: float = 0.4
-    brightness: float = 0.5
-    diameter: float = 5.0
-    view: float = 60.0
+    camera: Annotated[str, PATH] = "/dev/video0"
+    width: Annotated[int, COUNT] = 320
+    height: Annotated[int, COUNT] = 240
+    view: Annotated[float, VIEW] = 60.0
+    size: Annotated[float, METRES] = 0.1
+    hue: Annotated[float, HUE] = 120.0
+    tolerance: Annotated[float, TOLERANCE] = 25.0
+    colour: Annotated[float, RATIO] = 0.4
+    brightness: Annotated[float, RATIO] = 0.5
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,12 +87,12 @@ def blindness(frame: Frame) -> str:
     return "all white" if (brightness >= WHITE_BRIGHTNESS).sum() > most * brightness.size else ""
 
 
-def find_ball(frame: Frame, target: BallTarget) -> SeenBall | None:
+def find_ball(frame: Frame, target: BallCamera) -> SeenBall | None:
     """The largest round thing that is bright and of the right colour, None where there is none."""
     height, width = frame.shape[:2]
     if blindness(frame):
         return None
-    candidates = (blob for blob in blobs(frame, target) if blob.diameter >= target.diameter and blob.roundness > 0)
+    candidates = (blob for blob in blobs(frame, target) if blob.diameter >= LEAST_DIAMETER and blob.roundness > 0)
     best = max(candidates, key=lambda blob: blob.diameter, default=None)
     if best is None:
         return None
@@ -101,7 +112,7 @@ def focal_length(width: int, view: float) -> float:
     return width / 2 / tan(radians(view) / 2)
 
 
-def blobs(frame: Frame, target: BallTarget) -> list[Blob]:
+def blobs(frame: Frame, target: BallCamera) -> list[Blob]:
     """Everything bright that has the colour, or is overexposed and has it around its rim."""
     cv2 = library("cv2")
     hsv = cv2.cvtColor(cv2.GaussianBlur(frame, (5, 5), 0), cv2.COLOR_BGR2HSV)
@@ -109,11 +120,11 @@ def blobs(frame: Frame, target: BallTarget) -> list[Blob]:
     glare = cv2.inRange(hsv, (0, 0, OVEREXPOSED_BRIGHTNESS), (180, round(target.colour * 255), 255))
     mask = cv2.morphologyEx(coloured | glare, cv2.MORPH_OPEN, cv2.getStructuringElement(cv2.MORPH_RECT, (3, 3)))
     contours, _ = cv2.findContours(mask, cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE)
-    large = [contour for contour in contours if len(contour) >= 2 * target.diameter]
+    large = [contour for contour in contours if len(contour) >= 2 * LEAST_DIAMETER]
     return [blob(contour, mask.shape) for contour in large if is_coloured(contour, coloured)]
 
 
-def in_colour(hsv: Frame, target: BallTarget) -> Frame:
+def in_colour(hsv: Frame, target: BallCamera) -> Frame:
     """A mask of the pixels that are bright and of the colour; hues go round, which OpenCV counts in two degrees."""
     cv2, floor = library("cv2"), (round(target.colour * 255), round(target.brightness * 255))
     first, last = round((target.hue - target.tolerance) / 2) % 180, round((target.hue + target.tolerance) / 2) % 180
@@ -154,26 +165,15 @@ class Aim:
     alone: float = 0.0
 
 
-@dataclass(frozen=True, slots=True)
-class PanTiltLimits:
-    """Limits of a camera's neck: up to `pan` and `tilt` degrees to either side, `speed` degrees a second at most."""
-
-    pan: float = 90.0
-    tilt: float = 45.0
-    speed: float = 120.0
-    gain: float = 6.0  # a second: how fast it goes towards a ball that is a degree off
-    patience: float = 1.0  # seconds without a ball until it looks straight ahead again
-
-
-def follow(aim: Aim, ball: SeenBall | None, seconds: float, limits: PanTiltLimits) -> Aim:
-    """The aim that the camera should have so many seconds later."""
-    if ball is None and aim.alone + seconds < limits.patience:
+def follow(aim: Aim, ball: SeenBall | None, seconds: float, pan_reach: float, tilt_reach: float) -> Aim:
+    """The aim so many seconds later of a camera that turns up to so many degrees to either side, and up and down."""
+    if ball is None and aim.alone + seconds < PATIENCE_SECONDS:
         return Aim(aim.pan, aim.tilt, aim.alone + seconds)
     pan, tilt = (ball.bearing, ball.elevation) if ball else (-aim.pan, -aim.tilt)
-    share, most = min(1.0, limits.gain * seconds), limits.speed * seconds
+    share, most = min(1.0, GAIN_PER_SECOND * seconds), DEGREES_PER_SECOND * seconds
     return Aim(
-        clamp(aim.pan + clamp(share * pan, most), limits.pan),
-        clamp(aim.tilt + clamp(share * tilt, most), limits.tilt),
+        clamp(aim.pan + clamp(share * pan, most), pan_reach),
+        clamp(aim.tilt + clamp(share * tilt, most), tilt_reach),
         0.0 if ball else aim.alone + seconds,
     )
 
@@ -242,6 +242,11 @@ class Joint:
         self.servo.write(min(1.0, max(0.0, 0.5 + angle / self.travel)))
 
 
+def reach(joint: Joint | None) -> float:
+    """How many degrees a joint turns to either side: 0 where there is none."""
+    return abs(joint.travel) / 2 if joint else 0.0
+
+
 @dataclass(frozen=True, slots=True)
 class BallSighting:
     """The ball in a frame, if any, where the camera pointed, and how wide the frame was; or why there was no frame."""
@@ -258,8 +263,7 @@ class TrackingCamera:
     """A camera, what it looks for, and the joints that turn it, pan and tilt, as far as it has them."""
 
     camera: Camera
-    target: BallTarget
-    limits: PanTiltLimits
+    target: BallCamera
     pan: Joint | None = None
     tilt: Joint | None = None
     sighting: BallSighting = field(default_factory=BallSighting)
@@ -303,7 +307,7 @@ class TrackingCamera:
         if reason := blindness(frame):
             raise DeviceError(f"the camera sees nothing: its frames are {reason}")
         sighting = BallSighting(0, find_ball(frame, self.target), self.aim, frame.shape[1])
-        self.aim, self.then = follow(self.aim, sighting.ball, now - self.then, self.limits), now
+        self.aim, self.then = follow(self.aim, sighting.ball, now - self.then, *map(reach, (self.pan, self.tilt))), now
         self.point()
         return sighting
 

@@ -8,12 +8,11 @@ import os
 import socket
 import sys
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import AbstractContextManager, ExitStack, contextmanager, nullcontext, suppress
-from dataclasses import dataclass, replace
+from contextlib import ExitStack, contextmanager, nullcontext, suppress
+from dataclasses import replace
 from pathlib import Path
 from time import monotonic, sleep
 
-import mindrun.robot.drivers  # noqa: F401  every driver is known once this is imported
 from mindrun.driver import DeviceError
 from mindrun.engine.engine import Engine
 from mindrun.errors import MindError
@@ -44,24 +43,6 @@ class DriveError(MindError):
     """A robot that cannot be driven with this bundle."""
 
 
-@dataclass(frozen=True, slots=True)
-class DriveOptions:
-    """Options of a drive: whether anything may move, where to record to, after how many ticks to end (0: never).
-
-    `master` is another skill than the mind's own to be in charge. `view` is entered for as long as there is a
-    recording, of which it can read each tick at once; `world` is that of a dry run, to be recorded. The robot stops
-    where a recording that `is_kept` cannot be written; one that is not is given up.
-    """
-
-    armed: bool = False
-    record: Path | None = None
-    ticks: int = 0
-    master: str | None = None
-    view: AbstractContextManager[None] | None = None
-    world: SeenWorld | None = None
-    is_kept: bool = True
-
-
 def run(options: argparse.Namespace) -> int:
     """Drive until a signal comes; the exit code."""
     bundle = read_bundle(options.bundle)
@@ -69,11 +50,7 @@ def run(options: argparse.Namespace) -> int:
     _refuse_wrong_breakpoints(options, bundle.graph)
     if not options.arm:
         line.tell("nothing will move: --arm lets it")
-    with _seen(options, line.tell) as (record, view):
-        drive_options = DriveOptions(
-            options.arm, record, options.ticks, options.master, view, is_kept=bool(options.record)
-        )
-        loop = (_dry if options.dry else _wired)(options, bundle, drive_options, line)
+    loop = (_dry if options.dry else _wired)(options, bundle, line)
     line.tell(_summary(loop))
     return 0
 
@@ -89,51 +66,34 @@ def _refuse_wrong_breakpoints(options: argparse.Namespace, graph: Graph) -> None
         raise MindError("nothing moves: the page cannot pause where that file says", "mend it, or leave --break out")
 
 
-@contextmanager
-def _seen(
-    options: argparse.Namespace, tell: Callable[[str], None]
-) -> Iterator[tuple[Path | None, AbstractContextManager[None] | None]]:
-    """The path to record to, and the page of that recording, if one is asked for; its address is told in any case."""
-    if not options.view:
-        yield options.record, None
-        return
-    with nullcontext(options.record) if options.record else temporary_recording(tell) as record:
-        yield (
-            record,
-            live_view(
-                record, options.bundle, options.view_port, _print_error if options.quiet else tell, options.breaks
-            ),
-        )
-
-
-def _wired(options: argparse.Namespace, bundle: Bundle, drive_options: DriveOptions, line: StatusLine) -> Loop:
+def _wired(options: argparse.Namespace, bundle: Bundle, line: StatusLine) -> Loop:
     if bundle.wiring is None:
         raise MindError("this bundle is wired to no robot", "mindc build … --robot robot.yaml, or try it with --dry")
     wiring = bundle.wiring
     if not is_adopted(wiring, bundle.graph):
         remedy = f"if it is wired as this bundle has it: {command_line('mindrun', 'adopt', options.bundle)}"
-        if drive_options.armed:
+        if options.arm:
             raise IdentityError("nothing may move yet: this robot has not said how it is wired", remedy)
         line.tell("this robot has not said how it is wired: no actuator is opened")
         wiring = replace(wiring, actuators=tuple(replace(wire, driver=MockActuator()) for wire in wiring.actuators))
-    if not drive_options.armed:
+    if not options.arm:
         wiring = replace(wiring, sensors=tuple(map(still, wiring.sensors)))
     with hold_devices(wiring) as held:
-        return drive(bundle, digest(options.bundle), wiring, drive_options, line.tell, held)
+        return drive(bundle, wiring, options, line.tell, held)
 
 
-def _dry(options: argparse.Namespace, bundle: Bundle, drive_options: DriveOptions, line: StatusLine) -> Loop:
+def _dry(options: argparse.Namespace, bundle: Bundle, line: StatusLine) -> Loop:
     task, why = _task(bundle.graph, options.task)
     refuse_environment(task)
     master = options.master or bundle.graph.master
     for sentence in (*filter(None, [why]), *beginning(bundle.graph, task, master, options.seed)):
         line.tell(sentence)
     with simulated(options.bundle, task.name, options.seed, options.master or "") as socket:
-        seen = SeenWorld(task, options.seed, socket) if drive_options.record else None
+        seen = SeenWorld(task, options.seed, socket) if options.record or options.view else None
         run = DryRun(bundle.graph, task, master, socket, line, seen)
-        wiring, watched = simulated_wiring(bundle.graph, socket, master), replace(drive_options, world=seen)
+        wiring = simulated_wiring(bundle.graph, socket, master)
         with run.shown(), seen.watched() if seen else nullcontext():
-            loop = drive(bundle, digest(options.bundle), wiring, watched, line.tell, watch=run.watch)
+            loop = drive(bundle, wiring, options, line.tell, watch=run.watch, world=seen)
         with suppress(DeviceError):  # the run was as good without it
             for sentence in outcome(task, master, status(socket)):
                 line.tell(sentence)
@@ -167,17 +127,18 @@ def _print_error(sentence: str) -> None:
 
 def drive(
     bundle: Bundle,
-    identity: str,
     wiring: Wiring,
-    options: DriveOptions,
+    options: argparse.Namespace,
     tell: Callable[[str], None],
     held: Sequence[int] = (),
     watch: Callable[[Loop], bool] = lambda loop: True,
+    world: SeenWorld | None = None,
 ) -> Loop:
     """Run a mind on a robot until a signal comes or the ticks are over; the loop as it ended.
 
     `tell` gets sentences for people; the guardian inherits the descriptors `held`; `watch` sees the loop after each
-    tick, and says whether it goes on. MindError where something fails; then every actuator is at neutral, too.
+    tick, and says whether it goes on; `world` is that of a dry run, to be recorded. MindError where something fails;
+    then every actuator is at neutral, too.
     """
     graph, master = bundle.graph, options.master or bundle.graph.master
     engine = Engine(bundle.policy, bundle.procedures, options.master)
@@ -186,13 +147,12 @@ def drive(
     neutrals = {actuator.name: actuator.kind.neutral for actuator in graph.actuators}
     with ExitStack() as stack:
         stop = stack.enter_context(stopping(STOP_SECONDS * max(1.0, graph.tick)))
-        about = About.of(graph, identity, master, tuple(wire.sensor for wire in wiring.sensors))
-        recorder = stack.enter_context(_recorder(options, about, tell))
-        stack.enter_context(options.view or nullcontext())
+        about = About.of(graph, digest(options.bundle), master, tuple(wire.sensor for wire in wiring.sensors))
+        recorder = stack.enter_context(_recording(options, about, world, tell))
         stack.enter_context(refuse_success("; every actuator comes to neutral"))
         samplers = stack.enter_context(_sampling(wiring))
         guardian = stack.enter_context(Guardian(plan_of(graph.tick, neutrals, wiring), inherited=held))
-        loop = Loop(engine, ReadingFilter(graph, samplers), guardian, Rate(graph.tick), options.armed, recorder, tell)
+        loop = Loop(engine, ReadingFilter(graph, samplers), guardian, Rate(graph.tick), options.arm, recorder, tell)
         _wait(samplers, guardian, loop, stop)
         notify("READY=1")
         try:
@@ -203,19 +163,33 @@ def drive(
         return loop
 
 
-def _recorder(
-    options: DriveOptions, about: About, tell: Callable[[str], None]
-) -> AbstractContextManager[Recorder | None]:
-    """The recorder that is wished for; DriveError where it would write over something, or cannot write."""
-    path, world, latest = options.record, options.world, None
-    if path is None:
-        return nullcontext()
+@contextmanager
+def _recording(
+    options: argparse.Namespace, about: About, world: SeenWorld | None, tell: Callable[[str], None]
+) -> Iterator[Recorder | None]:
+    """Record, if that is wished for, and show the page of the recording, if there is one; its address is told."""
+    if not options.record and not options.view:
+        yield None
+        return
+    with ExitStack() as stack:
+        path = options.record or stack.enter_context(temporary_recording(tell))
+        recorder = stack.enter_context(_recorder(path, about, world, None if options.record else tell))
+        if options.view:
+            told = _print_error if options.quiet else tell
+            stack.enter_context(live_view(path, options.bundle, options.view_port, told, options.breaks))
+        yield recorder
+
+
+def _recorder(path: Path, about: About, world: SeenWorld | None, tell: Callable[[str], None] | None) -> Recorder:
+    """The recorder that is wished for, or a temporary one, which tells where it cannot write any more.
+
+    DriveError where it would write over something, or cannot write.
+    """
+    latest = None
     if world is not None:
         about, latest = replace(about, world=world.about), world.latest
     try:
-        if not options.is_kept:
-            return TemporaryRecorder(path, about, tell, world=latest)
-        return Recorder(path, about, world=latest)
+        return TemporaryRecorder(path, about, tell, world=latest) if tell else Recorder(path, about, world=latest)
     except FileExistsError:
         raise DriveError(f"{path} exists already", "record to another file, or delete it") from None
     except OSError as error:

@@ -2,7 +2,7 @@
 
 import os
 import warnings
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from importlib import import_module
@@ -22,6 +22,7 @@ MICROSECONDS = Quantity("a pulse width", {"us": 1.0}, low=100.0, high=4000.0)
 PWM_HERTZ = Quantity("a rate of pulses", {"Hz": 1.0, "kHz": 1000.0}, low=10.0, high=10_000.0)
 DEGREES = Quantity("an angle", {"deg": 1.0}, low=-360.0, high=360.0)
 PATH = Reference("path")
+TEXT = Reference("text")
 SWITCH = Reference("switch", ("true", "false"))
 Face = Literal["up", "down"]
 FACE = Reference("face", get_args(Face))
@@ -68,6 +69,25 @@ def answering(device: Opened, ask: Callable[[], object]) -> Opened:
     return device
 
 
+@dataclass(frozen=True, slots=True)
+class OpenSensor:
+    """A sensor that is open: the function that measures, and the one that lets go of the hardware."""
+
+    read: Callable[[], Sequence[float | None]]
+    close: Callable[[], None]
+
+
+def measuring(read: Callable[[], Sequence[float | None]], close: Callable[[], None]) -> OpenSensor:
+    """A sensor that was just opened, once it has measured; where it does not, it is closed again."""
+    return answering(OpenSensor(read, close), read)
+
+
+def close_all(parts: Iterable[Closes]) -> None:
+    """Close one part after the other."""
+    for part in parts:
+        part.close()
+
+
 class SharedParts(Generic[Key, Opened]):
     """Parts that several devices use together: opened for the first of them, closed with the last."""
 
@@ -92,8 +112,7 @@ class SharedParts(Generic[Key, Opened]):
                 part.close()
 
     def close(self) -> None:
-        for part, _ in self._parts.values():
-            part.close()
+        close_all(part for part, _ in self._parts.values())
 
 
 class Ranging:
@@ -110,6 +129,9 @@ class Ranging:
     possible = usual
 
 
+Part = tuple[str, str, Mapping[str, Any]]  # an object of gpiozero: its name in messages, its class, its arguments
+
+
 @contextmanager
 def pins(what: str) -> Iterator[None]:
     """A context in which every error of GPIO pins becomes a DeviceError."""
@@ -121,8 +143,8 @@ def pins(what: str) -> Iterator[None]:
         raise DeviceError(f"{what}: {error}", INSTALL_PINS) from error
 
 
-def open_pins(*parts: tuple[str, str, Mapping[str, Any]]) -> list[Any]:
-    """An object of gpiozero for each part (its name in messages, its class, its arguments); where one fails, no pin."""
+def open_pins(*parts: Part) -> list[Any]:
+    """An object of gpiozero for each part; where one fails, no pin."""
     gpiozero = library("gpiozero")
     with ExitStack() as opened:
         made = []
@@ -133,27 +155,21 @@ def open_pins(*parts: tuple[str, str, Mapping[str, Any]]) -> list[Any]:
     return made
 
 
-@dataclass(frozen=True, slots=True)
-class InputPins:
-    """A sensor of inputs of gpiozero, a reading of each; `what` is wired to them."""
+def open_inputs(what: str, *parts: Part) -> OpenSensor:
+    """Inputs of gpiozero: each reads 1 while it is active, else 0; an analogue one a share of its reference."""
+    inputs = open_pins(*parts)
 
-    what: str
-    inputs: list[Any]
+    def read() -> tuple[float, ...]:
+        with pins(f"{what} cannot be read"):
+            return tuple(float(each.value) for each in inputs)
 
-    def read(self) -> tuple[float, ...]:
-        """The value of each: 1 for one that is active, else 0; of analogue ones a share of the reference."""
-        with pins(f"{self.what} cannot be read"):
-            return tuple(float(each.value) for each in self.inputs)
-
-    def close(self) -> None:
-        for each in self.inputs:
-            each.close()
+    return OpenSensor(read, lambda: close_all(inputs))
 
 
-def digital_inputs(what: str, numbers: tuple[int, ...], **options: Any) -> InputPins:
+def digital_inputs(what: str, numbers: tuple[int, ...], **options: Any) -> OpenSensor:
     """The pins of these numbers as inputs, all with these `options` of gpiozero's DigitalInputDevice."""
     parts = ((f"{what} on GPIO {number}", "DigitalInputDevice", {"pin": number, **options}) for number in numbers)
-    return InputPins(what, open_pins(*parts))
+    return open_inputs(what, *parts)
 
 
 @dataclass(frozen=True, slots=True)

@@ -154,7 +154,10 @@ def outcome(task: Task, master: str, run: Mapping[str, Any]) -> list[str]:
     for number, (event, times) in enumerate(run["events"].items()):
         facts.append(("" if number else "events", f"{times} × {event}"))
     facts.append(("ticks", f"{run['tick']:,} of {task.ticks:,}, {_ending(run['ended'])}"))
-    paid = [(_number(value), text) for text, value in [*run["by_line"].items(), ("score", run["score"])]]
+    paid = [
+        (f"{value:,.2f}" if isfinite(value) else "not a number", text)
+        for text, value in [*run["by_line"].items(), ("score", run["score"])]
+    ]
     return [f"{task.name} with {master} in charge", *_aligned(facts), "", *_aligned(paid)]
 
 
@@ -170,10 +173,6 @@ def _ending(ended: str | None) -> str:
             return f"ended by {event}"
 
 
-def _number(value: float) -> str:
-    return f"{value:,.2f}" if isfinite(value) else "not a number"
-
-
 def _aligned(rows: Sequence[tuple[str, str]]) -> list[str]:
     """A line per row, the first column to the right."""
     width = max(len(first) for first, _ in rows)
@@ -181,10 +180,7 @@ def _aligned(rows: Sequence[tuple[str, str]]) -> list[str]:
 
 
 class SeenWorld:
-    """The state of a simulated world, for a recording: `about` as it was first, `latest` when a thread asked last.
-
-    It asks beside the loop, which waits for nobody.
-    """
+    """The state of a simulated world, for a recording: `about` as it was first, `latest` when a thread asked last."""
 
     def __init__(self, task: Task, seed: int, socket: str) -> None:
         self._row, self._link = world_row_of(task), WorldConnection(socket)

@@ -9,7 +9,7 @@ from time import monotonic, sleep
 from typing import Any
 
 from mindrun.driver import DeviceError
-from mindrun.robot.driver_support import answering, library
+from mindrun.robot.driver_support import OpenSensor, library, measuring
 
 MAX_TRIES = 3
 RETRY_SECONDS = 0.002  # between two tries, and between two questions to a chip whether it is done
@@ -139,11 +139,11 @@ class WiredDevice:
         self.wire.close()
 
 
-@dataclass(slots=True)
-class MeasuringChip(WiredDevice):
-    """A chip that measures again and again: the registers that say who it is, set it up, and have what it measured."""
+@dataclass(frozen=True, slots=True)
+class ChipModel:
+    """A model of chips that measure: the registers that say who it is, set it up, and have what it measured."""
 
-    model: str
+    name: str
     identity: tuple[int, int]  # a register, and what it holds in this model
     settings: tuple[tuple[int, int], ...]  # registers, and what makes it measure
     status: tuple[int, int, int]  # a register, its bit for a new value, and those that are never set
@@ -151,6 +151,14 @@ class MeasuringChip(WiredDevice):
     layout: str  # of what is at `out`, as struct has it
     seconds: float  # until a new value must be there
     limit: int = 32767  # counts from which on it measures more than it can
+
+
+@dataclass(slots=True)
+class MeasuringChip:
+    """A chip that measures again and again."""
+
+    wire: I2cDevice
+    model: ChipModel
     ready: bool = False
 
     def measure(self) -> tuple[int, ...]:
@@ -165,48 +173,34 @@ class MeasuringChip(WiredDevice):
         except Exception:
             self.ready = False  # after a brown-out it has to be set up again
             raise
-        if max(map(abs, counts)) >= self.limit:
+        if max(map(abs, counts)) >= self.model.limit:
             raise self.wire.error("measures more than it can")
         return counts
 
     def identify(self) -> None:
         """DeviceError where something else answers, or a line is stuck: any counts could be a measurement."""
-        register, expected = self.identity
+        register, expected = self.model.identity
         if (found := self.wire.byte(register)) != expected:
-            raise self.wire.error(f"is no {self.model} (it says 0x{found:02x}, not 0x{expected:02x})")
+            raise self.wire.error(f"is no {self.model.name} (it says 0x{found:02x}, not 0x{expected:02x})")
 
     def prepare(self) -> None:
         """Write the registers that make it measure."""
-        for register, value in self.settings:
+        for register, value in self.model.settings:
             self.wire.write(register, value)
 
     def wait(self) -> None:
         """Return when there is a new value: a chip that has stopped must not look like a robot that has."""
-        register, fresh, never = self.status
-        found = self.wire.wait(register, fresh, self.seconds, "does not measure anything new")
+        register, fresh, never = self.model.status
+        found = self.wire.wait(register, fresh, self.model.seconds, "does not measure anything new")
         if found & never:
             raise self.wire.error(f"has an impossible status (0x{found:02x})")
 
     def read_counts(self) -> tuple[int, ...]:
         """Read the newest measurement."""
-        return unpack(self.layout, self.wire.read(self.out, calcsize(self.layout)))
+        return unpack(self.model.layout, self.wire.read(self.model.out, calcsize(self.model.layout)))
 
 
-@dataclass(frozen=True, slots=True)
-class ChipDevice:
-    """A measuring chip as a sensor of one reading: `value` converts its counts."""
-
-    chip: MeasuringChip
-    value: Callable[[tuple[int, ...]], float]
-
-    def read(self) -> tuple[float]:
-        return (self.value(self.chip.measure()),)
-
-    def close(self) -> None:
-        self.chip.close()
-
-
-def open_chip(chip: MeasuringChip, value: Callable[[tuple[int, ...]], float]) -> ChipDevice:
-    """A chip as a device, once it has measured."""
-    device = ChipDevice(chip, value)
-    return answering(device, device.read)
+def open_chip(wire: I2cDevice, model: ChipModel, value: Callable[[tuple[int, ...]], float]) -> OpenSensor:
+    """A chip as a sensor of one reading, once it has measured: `value` converts its counts."""
+    chip = MeasuringChip(wire, model)
+    return measuring(lambda: (value(chip.measure()),), wire.close)

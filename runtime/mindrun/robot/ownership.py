@@ -83,10 +83,7 @@ class DrivenError(MindError):
 
 @contextmanager
 def hold_devices(wiring: Wiring) -> Iterator[tuple[int, ...]]:
-    """Let no other process drive what is wired; descriptors that the guardian has to hold as well.
-
-    DrivenError where one does already.
-    """
+    """Descriptors that let no other process drive what is wired, for the guardian too; DrivenError where one does."""
     with ExitStack() as stack:
         yield tuple(stack.enter_context(bound_address(what)) for what in claims(wiring))
 
@@ -146,8 +143,6 @@ def _driven(what: str, process: int) -> DrivenError:
 def _lives(process: int) -> bool:
     try:
         os.kill(process, 0)
-    except ProcessLookupError:
-        return False
-    except OSError:  # another user's
-        pass
+    except OSError as error:
+        return error.errno != errno.ESRCH  # it may be another user's
     return True

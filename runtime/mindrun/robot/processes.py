@@ -53,10 +53,7 @@ os.register_at_fork(after_in_child=_in_child)
 
 @contextmanager
 def refuse_success(then: str = "") -> Iterator[None]:
-    """Meanwhile `os._exit(0)` of this process, in whatever thread, is a failure; what C code ends is not seen.
-
-    `then` says what comes of it.
-    """
+    """Meanwhile `os._exit(0)` in any thread is a failure; `then` says what comes of it. What C ends is not seen."""
     leave, process = os._exit, os.getpid()
 
     def _exit(status: int) -> NoReturn:

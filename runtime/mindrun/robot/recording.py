@@ -8,14 +8,13 @@ import errno
 import os
 import zlib
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import AbstractContextManager, contextmanager, suppress
 from itertools import chain
 from pathlib import Path
 from queue import SimpleQueue
 from tempfile import TemporaryDirectory
 from threading import Event, Thread
-from types import TracebackType
-from typing import Any, BinaryIO, Self
+from typing import Any, BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
@@ -86,15 +85,15 @@ class BackgroundFile:
                     self._failure = error
 
 
-class Recorder:
-    """Writes a recording; a context manager. OSError where the file is there already, or cannot be written.
+class Recorder(AbstractContextManager["Recorder"]):
+    """Writes a recording. OSError where the file is there already, or cannot be written.
 
-    Others see each row at once; rows are brought to the disk `every` so many seconds. Where there is a world, `world`
-    says what its columns are now.
+    Others see each row at once; rows are brought to the disk `every` so many seconds, or in the end. Where there is a
+    world, `world` says what its columns are now.
     """
 
     def __init__(
-        self, path: Path, about: About, every: float = 1.0, world: Callable[[], NDArray[Any]] | None = None
+        self, path: Path, about: About, every: float | None = 1.0, world: Callable[[], NDArray[Any]] | None = None
     ) -> None:
         line = line_of(about)
         self._world = world
@@ -138,16 +137,13 @@ class Recorder:
         except OSError as error:
             raise RecordingError(f"{self._path} cannot be written: {error.strerror}") from error
 
-    def _sync(self, every: float) -> None:
+    def _sync(self, every: float | None) -> None:
         """Bring to the disk what has been written, beside the loop: a slow card must not hold a tick."""
         while not self._ending.wait(every):
             with suppress(OSError):  # the writer hears of it
                 os.fsync(self._file.fileno())
 
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
+    def __exit__(self, *error: object) -> None:
         self.close()
 
 
@@ -163,7 +159,7 @@ class TemporaryRecorder(Recorder):
     """A recording that is no reason for a robot to stop: where it cannot be written, `tell` gets one sentence."""
 
     def __init__(self, path: Path, about: About, tell: Callable[[str], None], **how: Any) -> None:
-        super().__init__(path, about, **how)
+        super().__init__(path, about, every=None, **how)  # it need not survive a power cut, and no card is worn by it
         self._tell, self._has_failed = tell, False
 
     def write(self, **columns: Any) -> None:
@@ -175,9 +171,6 @@ class TemporaryRecorder(Recorder):
         except RecordingError as error:
             self._has_failed = True
             self._tell(f"nothing more is seen, and the robot drives on: {error}")
-
-    def _sync(self, every: float) -> None:
-        """Do nothing: it need not survive a power cut, and no card is worn by it."""
 
     def close(self) -> None:
         """Let go of it; what was not written is missed by nobody."""
@@ -227,25 +220,20 @@ def read_growing(path: Path, parts: Iterator[bytes]) -> tuple[About, Iterator[ND
 
 def _first_line(path: Path, parts: Iterator[bytes]) -> tuple[bytes, bytes]:
     """The first line, and what has come behind it."""
-    waiting, empty, end = bytearray(), 0, -1
+    waiting, empty = bytearray(), 0
     for part in parts:
-        empty = 0 if part else empty + 1
-        before = len(waiting)
         waiting += part
-        end = waiting.find(b"\n", before)
-        if end >= 0 or len(waiting) >= MAX_HEADER_BYTES:
+        if b"\n" in part or len(waiting) >= MAX_HEADER_BYTES:
             break
+        empty = 0 if part else empty + 1
         if empty == MAX_EMPTY_PARTS:
             raise RecordingError(f"{path} has no first line yet", "is it still written?")
-    end = min(end + 1 if end >= 0 else len(waiting), MAX_HEADER_BYTES)
-    return bytes(waiting[:end]), bytes(waiting[end:])
+    line, end, rest = bytes(waiting).partition(b"\n")
+    return line + end, rest
 
 
 def whole_rows(path: Path, about: About, parts: Iterable[bytes]) -> Iterator[NDArray[Any]]:
-    """The rows of a recording whose bytes come in parts, however they are cut: those that are whole with each part.
-
-    RecordingError where one is damaged, behind all that are before it. A last row that is not whole is no row.
-    """
+    """The rows of a recording whose bytes come in parts, however they are cut: those that are whole with each part."""
     size, number, waiting = about.row.itemsize, 0, bytearray()
     for part in parts:
         waiting += part

@@ -40,10 +40,7 @@ def replay_recording(
 
 
 def replay(path: Path, bundle: str, engine: Engine, told: Callable[[int], None] = lambda ticks: None) -> Replayed:
-    """Compute the ticks of a recording with the mind of a bundle of that SHA-256.
-
-    RecordingError where it was made with another.
-    """
+    """Compute the ticks of a recording with a bundle of that SHA-256; RecordingError where it was made with another."""
     about, parts = read(path)
     about.refuse_another(bundle, engine.graph)
     ticks = 0
@@ -67,23 +64,12 @@ class DifferenceError(RecordingError):
         self.tick, self.what = tick, what
 
 
-@dataclass(frozen=True, slots=True)
-class ComputedRow:
-    """A row of a recording, and what the mind read in it, with virtual sensors and memories, influenced and sent."""
-
-    row: Any
-    readings: Singles
-    influence: Singles
-    commands: Singles
-
-
-def computed_again(
-    path: Path, about: About, rows: Iterable[Any], engine: Engine, first: int = 1
-) -> Iterator[ComputedRow]:
+def computed_again(path: Path, about: About, rows: Iterable[Any], engine: Engine, first: int = 1) -> Iterator[Any]:
     """Rows of a recording, computed again by an engine that has computed those before; the first is number `first`.
 
-    Where a row says the first tick again, the mind was begun anew. DifferenceError where commands or influence are not
-    those that were recorded, to the bit.
+    With each the engine has what was read, of virtual sensors and memories too, and who had influence. Where a row says
+    the first tick again, the mind was begun anew. DifferenceError where commands or influence are not those that were
+    recorded, to the bit.
     """
     skills = tuple(skill.name for skill in reachable(engine.graph, about.master))
     reached = [about.skills.index(name) for name in skills]  # that others have no influence was written as 0 once
@@ -95,7 +81,7 @@ def computed_again(
         what = what or _difference(skills, engine.influence[reached], row["influence"][reached])
         if what:
             raise DifferenceError(path, number, int(row["tick"]), what)
-        yield ComputedRow(row, engine.readings, engine.influence, commands)
+        yield row
 
 
 def _difference(names: tuple[str, ...], now: Singles, then: Singles) -> str:

@@ -6,6 +6,7 @@ In each tick the newest samples are filtered; a sensor with a fault reads what i
 import threading
 from collections import deque
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from math import inf, isfinite, nan
 from statistics import median
@@ -114,10 +115,8 @@ def checked(given: object, at: float, wire: SensorWire) -> Sample:
 
 def _close(device: SensorDevice | None) -> None:
     if device is not None:
-        try:
+        with suppress(BaseException):  # whatever its driver raises: it is of no use any more
             device.close()
-        except BaseException:  # whatever its driver raises: it is of no use any more
-            return
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,7 +11,7 @@ import socket as sockets  # AF_UNIX by its name: there is none on Windows, where
 import subprocess
 import sys
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from struct import Struct
@@ -80,12 +80,9 @@ def _whole(answers: BinaryIO, count: int) -> bytes:
 
 def status(path: str) -> dict[str, Any]:
     """The state of the world at a socket: `tick`, `pose`, `events`, `ended` and more (`SimulatedScene.status`)."""
-    link = WorldConnection(path)
-    try:
+    with closing(WorldConnection(path)) as link:
         found: dict[str, Any] = json.loads(link.ask(STATUS))
-        return found
-    finally:
-        link.close()
+    return found
 
 
 @contextmanager
@@ -97,8 +94,8 @@ def simulated(bundle: Path, task: str, seed: int, master: str = "") -> Iterator[
     with TemporaryDirectory(prefix="mind-") as folder:
         path = f"{folder}/world"
         # -P: a file of the user's folder that is named like a module must not be imported.
-        program = [sys.executable, "-P", "-m", "mindrun.robot.world_server", f"--task={task}", f"--seed={seed}"]
-        program += [f"--master={master}", f"--socket={path}", "--", str(bundle)]
+        program = [sys.executable, "-P", "-m", "mindrun.robot.world_server"]
+        program += [str(bundle), task, str(seed), master, path]
         # A session of its own: Ctrl-C ends the robot, and the guardian still finds the wheels that it stops.
         with subprocess.Popen(program, stdout=subprocess.PIPE, text=True, start_new_session=True) as process:
             assert process.stdout

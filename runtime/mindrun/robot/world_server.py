@@ -1,4 +1,4 @@
-"""`python -P -m mindrun.robot.world_server --task T --socket PATH BUNDLE`: a simulated world, behind a socket.
+"""`python -P -m mindrun.robot.world_server BUNDLE TASK SEED MASTER SOCKET`: a simulated world, behind a socket.
 
 It says `ready` on its standard output, or in one line what is wrong; `simulated_world` begins it and talks to it.
 """
@@ -8,7 +8,6 @@ import json
 import os
 import signal
 import sys
-from argparse import Namespace
 from collections.abc import Iterator
 from contextlib import contextmanager
 from importlib import import_module
@@ -26,26 +25,19 @@ from mindrun.graph.bundle import read_bundle
 from mindrun.graph.recording_header import world_row_of
 from mindrun.robot.processes import end_with_parent
 from mindrun.robot.simulated_world import ANSWER, BOXES, NEUTRAL_SECONDS, READ, REQUEST, STATUS, WORLD, WRITE
-from mindrun.terminal.arguments import MAX_SEED, parser, whole
 
 DEAF_SECONDS = 1.0  # in which a client has to take an answer
 
 
 def main() -> None:
     """Simulate a world until the parent process ends."""
-    known = parser("mindrun.robot.world_server", "A simulated world, behind a socket.")
-    known.add_argument("bundle", type=Path, metavar="FILE.bundle")
-    known.add_argument("--task", required=True, help="the task whose world it is")
-    known.add_argument("--socket", required=True, type=Path, metavar="PATH")
-    known.add_argument("--seed", type=whole(0, MAX_SEED), default=0, help="of the layout (default: 0)")
-    known.add_argument("--master", default="", help="the skill in charge (default: the mind's master)")
-    options = known.parse_args()
+    bundle, task, seed, master, path = sys.argv[1:]
     end_with_parent(os.getppid(), signal.SIGTERM)
     try:
-        world = _world(options)
+        world = _world(Path(bundle), task, int(seed), master)
         server = WorldServer(SimulatedScene(world))
         signal.signal(signal.SIGTERM, server.end)
-        with listening(options.socket) as listener:
+        with listening(Path(path)) as listener:
             print("ready", flush=True)
             server.serve(listener, world.graph.tick)
     except MindError as error:
@@ -55,17 +47,17 @@ def main() -> None:
         sys.exit(130)
 
 
-def _world(options: Namespace) -> Any:
-    """The world of a bundle, `mindrun.sim.commanded_world.CommandedWorld`. Here alone the simulator is imported."""
+def _world(bundle: Path, task: str, seed: int, master: str) -> Any:
+    """A `mindrun.sim.commanded_lanes.CommandedWorld`; here alone the simulator is imported."""
     try:
-        simulator = import_module("mindrun.sim.commanded_world")
+        simulator = import_module("mindrun.sim.commanded_lanes")
     except ImportError as error:
         raise MindError(f"there is no simulator here ({error})", "pip install mindlang") from error
-    graph = read_bundle(options.bundle).graph
+    graph = read_bundle(bundle).graph
     try:
-        return simulator.CommandedWorld(graph, options.task, options.seed, options.master or None)
+        return simulator.CommandedWorld(graph, task, seed, master or None)
     except MemoryError as error:
-        raise MindError(f"this computer has too little memory for task {options.task}") from error
+        raise MindError(f"this computer has too little memory for task {task}") from error
 
 
 class SimulatedScene:
@@ -138,7 +130,8 @@ class WorldServer:
 
     def serve(self, listener: socket, period: float) -> None:
         """Tick every so many seconds, until the end; a tick that is past is missed, not made up for."""
-        with asyncio.Runner(loop_factory=_loop) as runner:
+        # A loop that waits for a tick to the microsecond: epoll would wait in whole milliseconds.
+        with asyncio.Runner(loop_factory=lambda: asyncio.SelectorEventLoop(SelectSelector())) as runner:
             runner.run(self._tick(listener, period))
 
     async def _tick(self, listener: socket, period: float) -> None:
@@ -170,34 +163,19 @@ class WorldServer:
             writer.transport.abort()
 
 
-def _loop() -> asyncio.AbstractEventLoop:
-    """A loop that waits for a tick to the microsecond: epoll would wait in whole milliseconds."""
-    return asyncio.SelectorEventLoop(SelectSelector())
-
-
 @contextmanager
 def listening(path: Path) -> Iterator[socket]:
-    """A socket at `path` for this user alone, which is removed in the end; one that is dead is replaced."""
+    """A socket at `path`, in a folder of this user alone, which is removed in the end."""
     with socket(AF_UNIX, SOCK_STREAM) as listener:
-        old = os.umask(0o177)
         try:
-            if path.is_socket() and not _lives(path):
-                path.unlink()
             listener.bind(str(path))
             listener.listen()
         except OSError as error:
             raise MindError(f"cannot listen at {path}: {error.strerror or error}") from error
-        finally:
-            os.umask(old)
         try:
             yield listener
         finally:
             path.unlink(missing_ok=True)
-
-
-def _lives(path: Path) -> bool:
-    with socket(AF_UNIX, SOCK_STREAM) as client:
-        return client.connect_ex(str(path)) == 0
 
 
 if __name__ == "__main__":

@@ -12,7 +12,6 @@ import threading
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
-from importlib import import_module
 from typing import Annotated, Any
 
 from mindrun.driver import DeviceError
@@ -123,11 +122,7 @@ class Hostile:
 def guard() -> None:
     """Be a guardian."""
     from mindrun.robot.guardian.__main__ import main
-    from mindrun.robot.guardian.plan import DRIVERS
-    from mindrun.robot.guardian.realtime import import_little
 
-    import_little(DRIVERS)
-    import_module(f"{DRIVERS}.lamp")  # which is replaced
     kind("actuator driver", "lamp")(Hostile)
     main()
 

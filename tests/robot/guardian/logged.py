@@ -19,15 +19,12 @@ import sys
 import time
 from collections import Counter
 from dataclasses import dataclass
-from importlib import import_module
 from typing import Annotated
 
 from mindrun.driver import DeviceError
 from mindrun.kinds.registry import kind
 from mindrun.robot.driver_support import PIN
 from mindrun.robot.guardian.__main__ import main
-from mindrun.robot.guardian.plan import DRIVERS
-from mindrun.robot.guardian.realtime import import_little
 
 LOG = os.open(os.environ["MIND_LOG"], os.O_WRONLY | os.O_APPEND | os.O_CREAT)
 MANNERS = os.environ.get("MIND_MANNERS", "fine fine fine").split()
@@ -89,7 +86,5 @@ class Logged:
 
 
 if __name__ == "__main__":
-    import_little(DRIVERS)
-    import_module(f"{DRIVERS}.lamp")  # which is replaced
     kind("actuator driver", "lamp")(Logged)
     main()

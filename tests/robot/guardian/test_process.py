@@ -340,7 +340,7 @@ def test_without_a_plan_it_does_not_start(text: bytes) -> None:
 
 def test_it_needs_no_numpy_and_imports_nothing_from_where_it_is_started(tmp_path: Path) -> None:
     (tmp_path / "argparse.py").write_text("raise SystemExit('imported what the user wrote')")
-    program = "import sys, mindrun.robot.guardian.__main__ as main; main.import_little(main.DRIVERS)\n"
-    program += "import mindrun.robot.drivers.mock; print({'numpy', 'cv2'} & {*sys.modules})"
+    program = "import sys, mindrun.robot.guardian.__main__, mindrun.kinds.registry as registry\n"
+    program += "registry.kinds('actuator driver'); print({'numpy', 'cv2'} & {*sys.modules})"
     done = subprocess.run([sys.executable, *PROGRAM[1:2], "-c", program], capture_output=True, cwd=tmp_path)
     assert (done.stdout, done.stderr) == (b"set()\n", b"")

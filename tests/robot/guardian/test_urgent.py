@@ -2,9 +2,7 @@
 
 import os
 import resource
-import sys
 from collections.abc import Callable
-from importlib import import_module
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -68,21 +66,3 @@ def test_what_is_refused_keeps_it_from_nothing_else(
             monkeypatch.setattr("ctypes.CDLL", lambda *given, **named: SimpleNamespace())  # a system without it
     realtime.set_realtime()
     assert list(asked) == [each for each in ASKED if each != what]
-
-
-def test_a_module_is_imported_without_all_that_its_package_imports(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    (tmp_path / "loud_package").mkdir()
-    (tmp_path / "loud_package" / "__init__.py").write_text("raise SystemExit('imported')")
-    (tmp_path / "loud_package" / "quiet.py").write_text("word = 7")
-    monkeypatch.syspath_prepend(str(tmp_path))
-    for name in ("loud_package", "loud_package.quiet"):
-        monkeypatch.delitem(sys.modules, name, raising=False)
-    realtime.import_little("loud_package")
-    little = sys.modules["loud_package"]
-    assert import_module("loud_package.quiet").word == 7
-    realtime.import_little("loud_package")
-    assert sys.modules["loud_package"] is little
-    for name in ("loud_package", "loud_package.quiet"):
-        del sys.modules[name]

@@ -1,12 +1,11 @@
 """A battery's voltage by an ADS1115 (Texas Instruments, 4 inputs of 16 bits; data sheet SBAS444)."""
 
-from dataclasses import dataclass
 from typing import Annotated
 
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import Quantity
-from mindrun.robot.driver_support import ADDRESS, BUS, answering
-from mindrun.robot.i2c import I2C_BYTE_SECONDS, I2cDevice, WiredDevice, on_bus
+from mindrun.robot.driver_support import ADDRESS, BUS, OpenSensor, measuring
+from mindrun.robot.i2c import I2C_BYTE_SECONDS, I2cDevice, on_bus
 
 INPUT = Quantity("an input", {"": 1.0}, low=0, high=3, whole=True)
 RATIO_OF_DIVIDER = Quantity("how many times more than the input gets", {"": 1.0}, low=1.0, high=100.0)
@@ -17,28 +16,7 @@ TOO_MUCH = 0x7FFF
 DONE_IN = 0.05  # seconds; at 128 a second it takes 8 ms
 
 
-@dataclass(slots=True)
-class VoltageDevice(WiredDevice):
-    """One input of the converter."""
-
-    config: int
-    divider: float
-
-    def read(self) -> tuple[float]:
-        """The battery's voltage, measured now."""
-        with self.wire.lock:
-            self.wire.write(CONFIG, (self.config | START) >> 8, self.config & 0xFF)
-            found = self.wire.wait(CONFIG, START, DONE_IN, "does not finish measuring", count=2)
-            if found & ~START != self.config:
-                raise self.wire.error(f"has settings nobody gave it (0x{found:04x})")
-            count = int.from_bytes(self.wire.read(CONVERSION, 2), "big", signed=True)
-        if count >= TOO_MUCH:
-            raise self.wire.error("has more than 4.096 V on its input; the divider is wrong or open")
-        return (max(count, 0) * VOLTS_PER_COUNT * self.divider,)
-
-
 @kind("sensor driver", "ads1115")
-@dataclass(frozen=True, slots=True)
 class Ads1115:
     """A battery's voltage, in volts, on one input of an ADS1115.
 
@@ -63,7 +41,19 @@ class Ads1115:
         """The converter: its inputs are measured one after the other."""
         return on_bus(self.bus, self.address)
 
-    def open(self) -> VoltageDevice:
+    def open(self) -> OpenSensor:
+        wire = I2cDevice("the voltage converter", self.bus, self.address)
+        return measuring(lambda: (self.volts(wire),), wire.close)
+
+    def volts(self, wire: I2cDevice) -> float:
+        """The battery's voltage, measured now."""
         config = FROM_GROUND | self.channel << 12 | RANGE_4V | ONCE | RATE_128 | NO_COMPARATOR
-        device = VoltageDevice(I2cDevice("the voltage converter", self.bus, self.address), config, self.divider)
-        return answering(device, device.read)
+        with wire.lock:
+            wire.write(CONFIG, (config | START) >> 8, config & 0xFF)
+            found = wire.wait(CONFIG, START, DONE_IN, "does not finish measuring", count=2)
+            if found & ~START != config:
+                raise wire.error(f"has settings nobody gave it (0x{found:04x})")
+            count = int.from_bytes(wire.read(CONVERSION, 2), "big", signed=True)
+        if count >= TOO_MUCH:
+            raise wire.error("has more than 4.096 V on its input; the divider is wrong or open")
+        return max(count, 0) * VOLTS_PER_COUNT * self.divider

@@ -1,34 +1,13 @@
 """An eye: how near the ball is that a camera sees, in some directions."""
 
-from dataclasses import dataclass
+from dataclasses import fields
 from math import cos, radians, sin, sqrt
 from typing import Annotated
 
 from mindrun.kinds.registry import kind
-from mindrun.numbers.quantity import COUNT, RATIO
-from mindrun.robot.camera import FRAME_SECONDS, distance
-from mindrun.robot.driver_support import DEGREES, METRES, PATH, Ranging
-from mindrun.robot.drivers.ball_tracker import HUE, TOLERANCE, VIEW, BallTracker, BallTrackerDevice
-
-
-@dataclass(frozen=True, slots=True)
-class BallEyeDevice:
-    """A camera's ball, as seen along rays."""
-
-    driver: "BallEye"
-    tracker: BallTrackerDevice
-
-    def read(self) -> tuple[float | None, ...]:
-        """Metres to the ball along each ray in a frame that was not read before; None where the ray misses it."""
-        seen, driver = self.tracker.sighting(), self.driver
-        if seen.ball is None:
-            return (None,) * driver.readings
-        metres = distance(seen.ball.diameter, driver.size, seen.width, driver.view)
-        rays = (along_ray(radians(angle - seen.ball.bearing), metres, driver.size / 2) for angle in driver.angles)
-        return tuple(found if found is not None and found <= driver.range else None for found in rays)
-
-    def close(self) -> None:
-        self.tracker.close()
+from mindrun.robot.camera import FRAME_SECONDS, BallCamera, BallSighting, distance
+from mindrun.robot.driver_support import DEGREES, METRES, OpenSensor, Ranging
+from mindrun.robot.drivers.ball_tracker import BallTracker
 
 
 def along_ray(angle: float, metres: float, radius: float) -> float | None:
@@ -40,8 +19,7 @@ def along_ray(angle: float, metres: float, radius: float) -> float | None:
 
 
 @kind("sensor driver", "ball_eye")
-@dataclass(frozen=True, slots=True)
-class BallEye(Ranging):
+class BallEye(Ranging, BallCamera):
     """A camera that looks for a ball as `ball_tracker` does, for an `eye`: metres to it along each of some `angles`.
 
     They are those of the sensor, to the left positive; a ray that misses the ball of diameter `size`, or finds it
@@ -51,15 +29,6 @@ class BallEye(Ranging):
 
     angles: Annotated[tuple[float, ...], DEGREES]
     range: Annotated[float, METRES] = 3.0
-    camera: Annotated[str, PATH] = "/dev/video0"
-    width: Annotated[int, COUNT] = 320
-    height: Annotated[int, COUNT] = 240
-    view: Annotated[float, VIEW] = 60.0
-    size: Annotated[float, METRES] = 0.1
-    hue: Annotated[float, HUE] = 120.0
-    tolerance: Annotated[float, TOLERANCE] = 25.0
-    colour: Annotated[float, RATIO] = 0.4
-    brightness: Annotated[float, RATIO] = 0.5
 
     seconds = FRAME_SECONDS
 
@@ -67,6 +36,14 @@ class BallEye(Ranging):
     def readings(self) -> int:
         return len(self.angles)
 
-    def open(self) -> BallEyeDevice:
-        said = {name: getattr(self, name) for name in self.__dataclass_fields__ if name not in ("angles", "range")}
-        return BallEyeDevice(self, BallTracker(**said).open())
+    def open(self) -> OpenSensor:
+        tracker = BallTracker(**{option.name: getattr(self, option.name) for option in fields(BallCamera)}).open()
+        return OpenSensor(lambda: self.metres(tracker.sighting()), tracker.close)
+
+    def metres(self, seen: BallSighting) -> tuple[float | None, ...]:
+        """Metres to the ball along each ray in a frame; None where the ray misses it."""
+        if seen.ball is None:
+            return (None,) * self.readings
+        metres = distance(seen.ball.diameter, self.size, seen.width, self.view)
+        rays = (along_ray(radians(angle - seen.ball.bearing), metres, self.size / 2) for angle in self.angles)
+        return tuple(found if found is not None and found <= self.range else None for found in rays)

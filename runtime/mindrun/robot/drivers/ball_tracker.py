@@ -7,28 +7,15 @@ from typing import Annotated, Literal, get_args
 
 from mindrun.driver import DeviceError
 from mindrun.kinds.registry import kind
-from mindrun.numbers.quantity import COUNT, RATIO, Quantity, Reference
+from mindrun.numbers.quantity import Reference
 from mindrun.robot import camera
-from mindrun.robot.camera import FRAME_SECONDS, BallSighting, BallTarget, Joint, PanTiltLimits, TrackingCamera, distance
-from mindrun.robot.driver_support import (
-    ADDRESS,
-    BUS,
-    CHANNEL,
-    DEGREES,
-    METRES,
-    MICROSECONDS,
-    PATH,
-    SharedParts,
-    answering,
-)
+from mindrun.robot.camera import FRAME_SECONDS, BallCamera, BallSighting, Joint, TrackingCamera, distance
+from mindrun.robot.driver_support import ADDRESS, BUS, CHANNEL, DEGREES, MICROSECONDS, SharedParts, answering
 from mindrun.robot.drivers.pca9685 import Pca9685
 from mindrun.robot.i2c import on_bus
 
 Measure = Literal["bearing", "elevation", "distance"]
 MEASURE = Reference("measure", get_args(Measure))
-HUE = Quantity("a hue", {"deg": 1.0}, low=0.0, high=360.0)
-TOLERANCE = Quantity("how far a hue may be off", {"deg": 1.0}, low=1.0, high=90.0)
-VIEW = Quantity("an angle of view", {"deg": 1.0}, low=5.0, high=170.0)
 MAX_FRAME_AGE_SECONDS = 0.2  # seconds without a frame that are a fault
 FIRST_FRAME_SECONDS = 5.0  # until the first frame: cameras take their time to start
 CENTRING_SECONDS = 0.4  # seconds that servos need to the middle
@@ -73,8 +60,7 @@ class BallTrackerDevice:
 
 
 @kind("sensor driver", "ball_tracker")
-@dataclass(frozen=True, slots=True)
-class BallTracker:
+class BallTracker(BallCamera):
     """A camera that looks for the largest round thing that is bright and has a hue: 0 red, 120 green, 240 blue.
 
     `measure` says what is read: the bearing or the elevation in degrees, to the left and up positive, or the distance
@@ -87,15 +73,6 @@ class BallTracker:
     """
 
     measure: Annotated[Measure, MEASURE] = "bearing"
-    camera: Annotated[str, PATH] = "/dev/video0"
-    width: Annotated[int, COUNT] = 320
-    height: Annotated[int, COUNT] = 240
-    view: Annotated[float, VIEW] = 60.0
-    size: Annotated[float, METRES] = 0.1
-    hue: Annotated[float, HUE] = 120.0
-    tolerance: Annotated[float, TOLERANCE] = 25.0
-    colour: Annotated[float, RATIO] = 0.4
-    brightness: Annotated[float, RATIO] = 0.5
     pan: Annotated[int | None, CHANNEL] = None
     tilt: Annotated[int | None, CHANNEL] = None
     travel: Annotated[float, DEGREES] = 90.0
@@ -141,10 +118,7 @@ class BallTracker:
 
     def open_tracking(self) -> TrackingCamera:
         """The camera, and its servos, in the middle."""
-        target = BallTarget(self.hue, self.tolerance, self.colour, self.brightness, view=self.view)
-        tracking = TrackingCamera(
-            camera.open_camera(self.camera, self.width, self.height), target, PanTiltLimits(pan=0.0, tilt=0.0)
-        )
+        tracking = TrackingCamera(camera.open_camera(self.camera, self.width, self.height), self)
         try:
             tracking.pan = self.joint(self.pan, self.travel)
             tracking.tilt = self.joint(self.tilt, self.tilt_travel)
@@ -154,8 +128,6 @@ class BallTracker:
             raise
         if tracking.pan or tracking.tilt:
             sleep(CENTRING_SECONDS)
-        reach = [abs(joint.travel) / 2 if joint else 0.0 for joint in (tracking.pan, tracking.tilt)]
-        tracking.limits = PanTiltLimits(*reach)
         tracking.thread.start()
         return tracking
 

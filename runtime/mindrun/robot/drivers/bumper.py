@@ -1,14 +1,12 @@
 """A bumper: switches around a body, each of which closes where it is touched."""
 
-from dataclasses import dataclass
 from typing import Annotated
 
 from mindrun.kinds.registry import kind
-from mindrun.robot.driver_support import PIN, PULL, InputPins, Pull, digital_inputs
+from mindrun.robot.driver_support import PIN, PULL, OpenSensor, Pull, digital_inputs
 
 
 @kind("sensor driver", "bumper")
-@dataclass(frozen=True, slots=True)
 class Bumper:
     """The switches of a bumper, for a sensor `bumper` or `contact`: of each 1 while it is touched, else 0.
 
@@ -28,5 +26,5 @@ class Bumper:
     def readings(self) -> int:
         return len(self.pins)
 
-    def open(self) -> InputPins:
+    def open(self) -> OpenSensor:
         return digital_inputs("the bumper", self.pins, pull_up=self.pull == "up")

@@ -47,7 +47,6 @@ class EncoderDevice:
 
 
 @kind("sensor driver", "encoder")
-@dataclass(frozen=True, slots=True)
 class Encoder:
     """A rotary encoder with two pins, `a` and `b`, that has `steps` in a turn of the wheel (A leads B: forwards).
 

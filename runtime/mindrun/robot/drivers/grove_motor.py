@@ -91,7 +91,6 @@ class MotorDevice:
 
 
 @kind("actuator driver", "grove_motor")
-@dataclass(frozen=True, slots=True)
 class GroveMotor:
     """A wheel on a Grove I2C motor driver V1.3, `motor` 1 or 2; both wheels of a board have the same bus and address.
 

@@ -1,13 +1,12 @@
 """Grove ultrasonic rangers on a GrovePi board, over I2C (protocol of the board's firmware 1.2 to 1.4)."""
 
-from dataclasses import dataclass
 from time import monotonic, sleep
 from typing import Annotated
 
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import Quantity
-from mindrun.robot.driver_support import ADDRESS, BUS, METRES, Ranging, answering
-from mindrun.robot.i2c import I2C_BYTE_SECONDS, I2cDevice, WiredDevice, on_bus
+from mindrun.robot.driver_support import ADDRESS, BUS, METRES, OpenSensor, Ranging, answering
+from mindrun.robot.i2c import I2C_BYTE_SECONDS, I2cDevice, on_bus
 
 PORT = Quantity("a digital port of the GrovePi", {"": 1.0}, low=2, high=8, whole=True)
 RANGER_COMMAND, VERSION_COMMAND = 7, 8  # commands
@@ -20,43 +19,22 @@ ANSWERED_IN = 0.15  # seconds; the board itself listens for 75 ms
 MAX_DISTANCE_METRES = 5.2  # metres: where nothing echoes the ranger's pulse ends at about 5 m, and is longer on some
 
 
-@dataclass(slots=True)
-class GroveUltrasonicDevice(WiredDevice):
-    """The rangers of one board."""
-
-    ports: tuple[int, ...]
-    reach: float
-
-    def read(self) -> tuple[float | None, ...]:
-        """One measurement of each, one after the other."""
-        return tuple(self.measure(port) for port in self.ports)
-
-    def measure(self, port: int) -> float | None:
-        """Metres to what echoed, None where nothing did."""
-        high, low = self.ask(RANGER_COMMAND, port, count=3)
-        centimetres = high << 8 | low
-        if not centimetres:  # the board heard no pulse at all; where nothing echoes there is a long one
-            raise self.wire.error(f"hears no ranger on port D{port}")
-        metres = centimetres / 100
-        return metres if metres <= min(self.reach, MAX_DISTANCE_METRES) else None
-
-    def ask(self, command: int, port: int = UNUSED_BYTE, *, count: int) -> bytes:
-        """The board's answer, without the command that it repeats; asks until a deadline that no answer can put off."""
-        with self.wire.lock:
-            self.wire.write(command, port, UNUSED_BYTE, UNUSED_BYTE)
-            begin = monotonic()
-            while monotonic() - begin < ANSWERED_IN:
-                sleep(POLL_SECONDS)
-                answer = self.wire.transfer(b"", count)
-                if answer[0] == command:
-                    return answer[1:]
-                if answer[0] not in (BUSY_BYTE, IDLE_BUS_BYTE):
-                    raise self.wire.error(f"answers nonsense ({answer.hex(' ')})")
-            raise self.wire.error("does not finish measuring")
+def ask(board: I2cDevice, command: int, port: int = UNUSED_BYTE, *, count: int) -> bytes:
+    """The board's answer, without the command that it repeats; asks until a deadline that no answer can put off."""
+    with board.lock:
+        board.write(command, port, UNUSED_BYTE, UNUSED_BYTE)
+        begin = monotonic()
+        while monotonic() - begin < ANSWERED_IN:
+            sleep(POLL_SECONDS)
+            answer = board.transfer(b"", count)
+            if answer[0] == command:
+                return answer[1:]
+            if answer[0] not in (BUSY_BYTE, IDLE_BUS_BYTE):
+                raise board.error(f"answers nonsense ({answer.hex(' ')})")
+        raise board.error("does not finish measuring")
 
 
 @kind("sensor driver", "grove_ultrasonic")
-@dataclass(frozen=True, slots=True)
 class GroveUltrasonic(Ranging):
     """Grove ultrasonic rangers on the digital ports of a GrovePi board: metres to an echo.
 
@@ -88,6 +66,16 @@ class GroveUltrasonic(Ranging):
         """The board: it listens to one ranger at a time."""
         return on_bus(self.bus, self.address)
 
-    def open(self) -> GroveUltrasonicDevice:
-        device = GroveUltrasonicDevice(I2cDevice("the GrovePi", self.bus, self.address), self.ports, self.range)
-        return answering(device, lambda: device.ask(VERSION_COMMAND, count=4))
+    def open(self) -> OpenSensor:
+        board = I2cDevice("the GrovePi", self.bus, self.address)
+        device = OpenSensor(lambda: tuple(self.metres(board, port) for port in self.ports), board.close)
+        return answering(device, lambda: ask(board, VERSION_COMMAND, count=4))
+
+    def metres(self, board: I2cDevice, port: int) -> float | None:
+        """Metres to what echoed to the ranger on a port, None where nothing did."""
+        high, low = ask(board, RANGER_COMMAND, port, count=3)
+        centimetres = high << 8 | low
+        if not centimetres:  # the board heard no pulse at all; where nothing echoes there is a long one
+            raise board.error(f"hears no ranger on port D{port}")
+        metres = centimetres / 100
+        return metres if metres <= min(self.range, MAX_DISTANCE_METRES) else None

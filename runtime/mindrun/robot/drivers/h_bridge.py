@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import Annotated, Any
 
 from mindrun.kinds.registry import kind
-from mindrun.robot.driver_support import PIN, PWM_HERTZ, on_pin, open_pins, pins, share
+from mindrun.robot.driver_support import PIN, PWM_HERTZ, close_all, on_pin, open_pins, pins, share
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,13 +31,10 @@ class HBridgeDevice:
             self.enable.value = abs(speed)
 
     def close(self) -> None:
-        for pin in (self.enable, self.forward, self.backward):
-            if pin is not None:
-                pin.close()
+        close_all(pin for pin in (self.enable, self.forward, self.backward) if pin is not None)
 
 
 @kind("actuator driver", "h_bridge")
-@dataclass(frozen=True, slots=True)
 class HBridge:
     """A motor on half of an H-bridge: a `wheel`, a `thruster`, whatever turns both ways.
 

@@ -1,6 +1,5 @@
 """A lamp on a GPIO pin."""
 
-from dataclasses import dataclass
 from typing import Annotated
 
 from mindrun.kinds.registry import kind
@@ -8,7 +7,6 @@ from mindrun.robot.driver_support import PIN, PWM_HERTZ, OutputPin, on_pin, open
 
 
 @kind("actuator driver", "lamp")
-@dataclass(frozen=True, slots=True)
 class Lamp:
     """A lamp, an LED or a small fan that a GPIO `pin` switches: 0 is off, 1 on, between them it is dimmed by pulses.
 

@@ -1,14 +1,12 @@
 """Reflectance sensors that say whether the floor below them is dark."""
 
-from dataclasses import dataclass
 from typing import Annotated
 
 from mindrun.kinds.registry import kind
-from mindrun.robot.driver_support import PIN, SWITCH, InputPins, digital_inputs
+from mindrun.robot.driver_support import PIN, SWITCH, OpenSensor, digital_inputs
 
 
 @kind("sensor driver", "line_sensor")
-@dataclass(frozen=True, slots=True)
 class LineSensor:
     """Digital line sensors (TCRT5000, QRE1113 with a comparator), for a sensor `floor`: 1 above a dark floor, else 0.
 
@@ -28,6 +26,6 @@ class LineSensor:
     def readings(self) -> int:
         return len(self.pins)
 
-    def open(self) -> InputPins:
+    def open(self) -> OpenSensor:
         # Sensors drive their pins both ways, so nothing pulls at these.
         return digital_inputs("the line sensor", self.pins, pull_up=None, active_state=not self.inverted)

@@ -1,20 +1,18 @@
 """The direction of north, by the magnetometer of an LSM9DS1."""
 
-from dataclasses import dataclass
 from math import atan2, degrees, hypot
 from typing import Annotated
 
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import Quantity
-from mindrun.robot.driver_support import ADDRESS, BUS, DEGREES, FACE, Face
-from mindrun.robot.i2c import ChipDevice, I2cDevice, open_chip
-from mindrun.robot.lsm9ds1 import BUS_SECONDS, MILLIGAUSS_PER_COUNT, magnetometer
+from mindrun.robot.driver_support import ADDRESS, BUS, DEGREES, FACE, Face, OpenSensor
+from mindrun.robot.i2c import I2cDevice, open_chip
+from mindrun.robot.lsm9ds1 import BUS_SECONDS, MAGNETOMETER, MILLIGAUSS_PER_COUNT
 
 MILLIGAUSS_OFFSET = Quantity("a magnetic field in milligauss", {"": 1.0}, low=-4000.0, high=4000.0)
 
 
 @kind("sensor driver", "lsm9ds1_compass")
-@dataclass(frozen=True, slots=True)
 class MagneticCompass:
     """Where magnetic north is, seen from the robot, in degrees: 0 straight ahead, to the left positive, −180 to 180.
 
@@ -38,7 +36,7 @@ class MagneticCompass:
     seconds = 1 / 80
     bus_seconds = BUS_SECONDS
 
-    def open(self) -> ChipDevice:
+    def open(self) -> OpenSensor:
         wire = I2cDevice("the compass", self.bus, self.address)
 
         def bearing(counts: tuple[int, ...]) -> float:
@@ -49,4 +47,4 @@ class MagneticCompass:
             angle = degrees(atan2(y, x - self.x)) + self.turn
             return (angle + 180) % 360 - 180
 
-        return open_chip(magnetometer(wire), bearing)
+        return open_chip(wire, MAGNETOMETER, bearing)

@@ -1,7 +1,6 @@
 """The motion of the robot, felt by the accelerometer of an LSM9DS1."""
 
 from collections import deque
-from dataclasses import dataclass, field
 from math import hypot, sqrt
 from statistics import pvariance
 from time import monotonic
@@ -9,48 +8,19 @@ from typing import Annotated
 
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import Quantity
-from mindrun.robot.driver_support import ADDRESS, BUS, answering
+from mindrun.robot.driver_support import ADDRESS, BUS, OpenSensor, measuring
 from mindrun.robot.i2c import I2cDevice, MeasuringChip
-from mindrun.robot.lsm9ds1 import ACCELERATION_PER_COUNT, BUS_SECONDS, STANDARD_GRAVITY, accelerometer
+from mindrun.robot.lsm9ds1 import ACCELERATION_PER_COUNT, ACCELEROMETER, BUS_SECONDS, STANDARD_GRAVITY
 
 WINDOW = Quantity("a time", {"s": 1.0}, low=0.2, high=10.0)
 MIN_VALUES = 5  # until a deviation means something
 READ_IN = 0.5  # seconds until there must be enough of them
 
 
-@dataclass(slots=True)
-class MotionDevice:
-    """How much an acceleration varies: the root of the mean square of its deviation from its mean over a time."""
-
-    chip: MeasuringChip
-    window: float
-    kept: deque[tuple[float, tuple[float, ...]]] = field(default_factory=deque)
-
-    def read(self) -> tuple[float]:
-        """The variation with the next values, m/s²."""
-        begin = monotonic()
-        while monotonic() - begin < READ_IN:
-            self.keep(tuple(count * ACCELERATION_PER_COUNT for count in self.chip.measure()))
-            if len(self.kept) >= MIN_VALUES:
-                axes = zip(*(vector for _, vector in self.kept), strict=True)
-                return (sqrt(sum(map(pvariance, axes))),)
-        raise self.chip.wire.error("measures too slowly")
-
-    def keep(self, vector: tuple[float, ...]) -> None:
-        """Take another acceleration into the window, and leave out what is too old for it."""
-        if not 0.3 * STANDARD_GRAVITY < hypot(*vector) < 3 * STANDARD_GRAVITY:
-            raise self.chip.wire.error("feels no gravity")
-        now = monotonic()
-        self.kept.append((now, vector))
-        while self.kept[0][0] < now - self.window:
-            self.kept.popleft()
-
-    def close(self) -> None:
-        self.chip.close()
+Accelerations = deque[tuple[float, tuple[float, ...]]]  # with the time of each
 
 
 @kind("sensor driver", "lsm9ds1_motion")
-@dataclass(frozen=True, slots=True)
 class Motion:
     """The motion of the robot, for a sensor `inertial`: how much its acceleration varies, in m/s².
 
@@ -71,6 +41,23 @@ class Motion:
     seconds = 1 / 119
     bus_seconds = BUS_SECONDS
 
-    def open(self) -> MotionDevice:
-        device = MotionDevice(accelerometer(I2cDevice("the accelerometer", self.bus, self.address)), self.window)
-        return answering(device, device.read)
+    def open(self) -> OpenSensor:
+        wire, kept = I2cDevice("the accelerometer", self.bus, self.address), Accelerations()
+        chip = MeasuringChip(wire, ACCELEROMETER)
+        return measuring(lambda: (self.variation(chip, kept),), wire.close)
+
+    def variation(self, chip: MeasuringChip, kept: Accelerations) -> float:
+        """The root of the mean square of the deviation from the mean, with the next values, m/s²."""
+        begin = monotonic()
+        while monotonic() - begin < READ_IN:
+            vector = tuple(count * ACCELERATION_PER_COUNT for count in chip.measure())
+            if not 0.3 * STANDARD_GRAVITY < hypot(*vector) < 3 * STANDARD_GRAVITY:
+                raise chip.wire.error("feels no gravity")
+            now = monotonic()
+            kept.append((now, vector))
+            while kept[0][0] < now - self.window:
+                kept.popleft()
+            if len(kept) >= MIN_VALUES:
+                axes = zip(*(vector for _, vector in kept), strict=True)
+                return sqrt(sum(map(pvariance, axes)))
+        raise chip.wire.error("measures too slowly")

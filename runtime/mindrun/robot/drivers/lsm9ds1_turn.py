@@ -1,17 +1,15 @@
 """How fast the robot turns, by the gyroscope of an LSM9DS1."""
 
-from dataclasses import dataclass
 from typing import Annotated
 
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import NUMBER
-from mindrun.robot.driver_support import ADDRESS, BUS, FACE, Face
-from mindrun.robot.i2c import ChipDevice, I2cDevice, open_chip
-from mindrun.robot.lsm9ds1 import BUS_SECONDS, DEGREES_PER_SECOND_PER_COUNT, gyroscope
+from mindrun.robot.driver_support import ADDRESS, BUS, FACE, Face, OpenSensor
+from mindrun.robot.i2c import I2cDevice, open_chip
+from mindrun.robot.lsm9ds1 import BUS_SECONDS, DEGREES_PER_SECOND_PER_COUNT, GYROSCOPE
 
 
 @kind("sensor driver", "lsm9ds1_turn")
-@dataclass(frozen=True, slots=True)
 class Turn:
     """How fast the robot turns, in degrees a second, to the left (counterclockwise) positive.
 
@@ -30,6 +28,6 @@ class Turn:
     seconds = 1 / 119
     bus_seconds = BUS_SECONDS
 
-    def open(self) -> ChipDevice:
-        chip, sign = gyroscope(I2cDevice("the gyroscope", self.bus, self.address)), 1 if self.face == "up" else -1
-        return open_chip(chip, lambda counts: sign * (counts[2] * DEGREES_PER_SECOND_PER_COUNT) - self.still)
+    def open(self) -> OpenSensor:
+        wire, sign = I2cDevice("the gyroscope", self.bus, self.address), 1 if self.face == "up" else -1
+        return open_chip(wire, GYROSCOPE, lambda counts: sign * (counts[2] * DEGREES_PER_SECOND_PER_COUNT) - self.still)

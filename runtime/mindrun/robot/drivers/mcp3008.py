@@ -1,17 +1,15 @@
 """Analogue sensors on an MCP3008 (Microchip, 8 inputs of 10 bits on SPI; data sheet DS21295)."""
 
-from dataclasses import dataclass
 from typing import Annotated
 
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import Quantity
-from mindrun.robot.driver_support import CHIP, InputPins, open_pins
+from mindrun.robot.driver_support import CHIP, OpenSensor, open_inputs
 
 INPUT = Quantity("an input", {"": 1.0}, low=0, high=7, whole=True)
 
 
 @kind("sensor driver", "mcp3008")
-@dataclass(frozen=True, slots=True)
 class Mcp3008:
     """Analogue sensors (of `light`, of the `floor`) on an MCP3008: voltages as shares of its reference, 3.3 V.
 
@@ -32,7 +30,7 @@ class Mcp3008:
     def readings(self) -> int:
         return len(self.inputs)
 
-    def open(self) -> InputPins:
+    def open(self) -> OpenSensor:
         what, where = "the analogue converter", {"port": 0, "device": self.chip}
         inputs = ((f"input {number} of {what}", "MCP3008", {"channel": number, **where}) for number in self.inputs)
-        return InputPins(what, open_pins(*inputs))
+        return open_inputs(what, *inputs)

@@ -5,20 +5,7 @@ from typing import Annotated
 
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import COUNT, NUMBER
-from mindrun.robot.driver_support import share
-
-
-@dataclass(frozen=True, slots=True)
-class MockSensorDevice:
-    """Reads the same all the time."""
-
-    values: tuple[float, ...]
-
-    def read(self) -> tuple[float, ...]:
-        return self.values
-
-    def close(self) -> None:
-        """Nothing to let go."""
+from mindrun.robot.driver_support import OpenSensor, share
 
 
 @dataclass(slots=True)
@@ -35,7 +22,6 @@ class MockActuatorDevice:
 
 
 @kind("sensor driver", "mock")
-@dataclass(frozen=True, slots=True)
 class MockSensor:
     """A sensor that always reads `value`, `count` times: to try a mind without hardware."""
 
@@ -49,12 +35,11 @@ class MockSensor:
     def readings(self) -> int:
         return self.count
 
-    def open(self) -> MockSensorDevice:
-        return MockSensorDevice((self.value,) * self.count)
+    def open(self) -> OpenSensor:
+        return OpenSensor(lambda: (self.value,) * self.count, lambda: None)
 
 
 @kind("actuator driver", "mock")
-@dataclass(frozen=True, slots=True)
 class MockActuator:
     """An actuator that moves nothing."""
 

@@ -1,12 +1,11 @@
 """How fast the robot turns, by the gyroscope of an MPU-6050 (InvenSense; register map RM-MPU-6000A)."""
 
-from dataclasses import dataclass
 from typing import Annotated
 
 from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import NUMBER
-from mindrun.robot.driver_support import ADDRESS, BUS, FACE, Face
-from mindrun.robot.i2c import I2C_BYTE_SECONDS, ChipDevice, I2cDevice, MeasuringChip, open_chip
+from mindrun.robot.driver_support import ADDRESS, BUS, FACE, Face, OpenSensor
+from mindrun.robot.i2c import I2C_BYTE_SECONDS, ChipModel, I2cDevice, open_chip
 
 WHO_AM_I, CHIP_ID = 0x75, 0x68  # 4.32
 STATUS, DATA_READY, NEVER_SET = 0x3A, 0x01, 0xE6  # 4.16; free fall and the like, which are off
@@ -20,10 +19,10 @@ SETTINGS = (
 )
 COUNTS_PER_DEGREE_PER_SECOND = 65.5  # at ±500 °/s, 4.19
 MEASURED_IN = 0.2  # seconds until a new value must be there; they come every 10 ms, the first after 30
+MODEL = ChipModel("MPU-6050", (WHO_AM_I, CHIP_ID), SETTINGS, (STATUS, DATA_READY, NEVER_SET), OUT_Z, ">h", MEASURED_IN)
 
 
 @kind("sensor driver", "mpu6050")
-@dataclass(frozen=True, slots=True)
 class Mpu6050:
     """How fast the robot turns, in degrees a second, to the left (counterclockwise) positive: for a `turn_rate`.
 
@@ -43,9 +42,7 @@ class Mpu6050:
     seconds = 0.01
     bus_seconds = 13 * I2C_BYTE_SECONDS  # who it is, whether there is a value, and the value
 
-    def open(self) -> ChipDevice:
+    def open(self) -> OpenSensor:
         """The gyroscope, awake."""
         wire, sign = I2cDevice("the gyroscope", self.bus, self.address), 1 if self.face == "up" else -1
-        status = STATUS, DATA_READY, NEVER_SET
-        chip = MeasuringChip(wire, "MPU-6050", (WHO_AM_I, CHIP_ID), SETTINGS, status, OUT_Z, ">h", MEASURED_IN)
-        return open_chip(chip, lambda counts: sign * counts[0] / COUNTS_PER_DEGREE_PER_SECOND - self.still)
+        return open_chip(wire, MODEL, lambda counts: sign * counts[0] / COUNTS_PER_DEGREE_PER_SECOND - self.still)

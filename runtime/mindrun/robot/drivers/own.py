@@ -19,10 +19,9 @@ from typing import Annotated, Any
 
 from mindrun.driver import ActuatorDevice, DeviceError, SensorDevice
 from mindrun.kinds.registry import kind
-from mindrun.numbers.quantity import NUMBER, Quantity, Reference
-from mindrun.robot.driver_support import SWITCH, share
+from mindrun.numbers.quantity import NUMBER, Quantity
+from mindrun.robot.driver_support import SWITCH, TEXT, share
 
-TEXT = Reference("text")
 READINGS = Quantity("a number of readings", {"": 1.0}, low=1, high=1000, whole=True)
 KIND = "of one's own"  # no word of robot.yaml: there stands the name of the class
 ENTRY_POINTS = "mindrun.drivers"  # the group under which a package says its drivers
@@ -44,6 +43,10 @@ class DriverCode:
     lines: Annotated[tuple[str, ...], TEXT]
     package: Annotated[str, TEXT]
 
+    def __post_init__(self) -> None:
+        if not self.package and sha256(self.text.encode()).hexdigest() != self.digest:
+            raise ValueError("its text is not the one that its hash names")
+
     @property
     def origin(self) -> str:
         """The name of the file or the package, for messages."""
@@ -53,11 +56,6 @@ class DriverCode:
     def text(self) -> str:
         """The file."""
         return "\n".join(self.lines)
-
-    @property
-    def is_whole(self) -> bool:
-        """True if the text of a file has the hash `digest`; always for a package."""
-        return bool(self.package) or sha256(self.text.encode()).hexdigest() == self.digest
 
 
 def of_file(name: str, text: str) -> DriverCode:
@@ -81,8 +79,6 @@ def load_class(code: DriverCode) -> Any:
     """
     if code.package:
         return _package_class(code)
-    if not code.is_whole:
-        raise DeviceError(f"the text of {code.origin} is not the one that its hash names")
     return getattr(module_of(code), code.name.split(".")[1])
 
 
@@ -178,10 +174,6 @@ class OwnDriver(DriverCode):
 
     options: Annotated[str, TEXT]
 
-    def __post_init__(self) -> None:
-        if not self.is_whole:
-            raise ValueError("its text is not the one that its hash names")
-
     def made(self) -> Any:
         """The user's driver itself; DeviceError where its code does not run."""
         try:
@@ -193,7 +185,6 @@ class OwnDriver(DriverCode):
 
 
 @kind("sensor driver", KIND)
-@dataclass(frozen=True, slots=True)
 class OwnSensor(OwnDriver):
     """A sensor's driver of a user, with what its class says of the options: unit, readings, and what they mean."""
 
@@ -217,7 +208,6 @@ class OwnSensor(OwnDriver):
 
 
 @kind("actuator driver", KIND)
-@dataclass(frozen=True, slots=True)
 class OwnActuator(OwnDriver):
     """An actuator's driver of a user."""
 

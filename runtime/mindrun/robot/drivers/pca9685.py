@@ -61,7 +61,6 @@ class ServoDevice(WiredDevice):
 
 
 @kind("actuator driver", "pca9685")
-@dataclass(frozen=True, slots=True)
 class Pca9685:
     """A servo, or a motor controller that takes servo pulses, on a PCA9685 servo card.
 

@@ -1,6 +1,5 @@
 """A servo on a GPIO pin."""
 
-from dataclasses import dataclass
 from typing import Annotated
 
 from mindrun.kinds.registry import kind
@@ -10,7 +9,6 @@ FRAME_SECONDS = 0.02  # between two pulses
 
 
 @kind("actuator driver", "servo")
-@dataclass(frozen=True, slots=True)
 class PinServo:
     """A servo, the steering of a car, or a speed controller that takes servo pulses, on a GPIO `pin`.
 

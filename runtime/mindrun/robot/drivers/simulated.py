@@ -8,33 +8,13 @@ from typing import Annotated
 
 from mindrun.driver import DeviceError
 from mindrun.kinds.registry import kind
-from mindrun.numbers.quantity import COUNT, Reference
-from mindrun.robot.driver_support import answering
+from mindrun.numbers.quantity import COUNT
+from mindrun.robot.driver_support import TEXT, OpenSensor, measuring
 from mindrun.robot.simulated_world import READ, WRITE, WorldConnection, status
 
-TEXT = Reference("text")
 VALUE = Struct("<d")
 
 _seen: set[str] = set()  # the sockets of worlds that have answered this process
-
-
-@dataclass(frozen=True, slots=True)
-class SimulatedSensorDevice:
-    """A sensor of a simulated world."""
-
-    link: WorldConnection
-    sensor: str
-    count: int
-
-    def read(self) -> tuple[float | None, ...]:
-        """The sensor's readings in this tick, rough as the mind declares them; None where no skill there reads it."""
-        held = self.link.ask(READ, self.sensor)
-        if len(held) != VALUE.size * self.count:
-            raise DeviceError(f"{self.sensor} has {len(held) // VALUE.size} readings there, not {self.count}")
-        return tuple(None if isnan(reading) else reading for reading in unpack(f"<{self.count}d", held))
-
-    def close(self) -> None:
-        self.link.close()
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,7 +37,6 @@ class SimulatedActuatorDevice:
 
 
 @kind("sensor driver", "simulated")
-@dataclass(frozen=True, slots=True)
 class SimulatedSensor:
     """A `sensor` of the simulated world at a `socket`, which has `count` readings."""
 
@@ -72,14 +51,20 @@ class SimulatedSensor:
     def readings(self) -> int:
         return self.count
 
-    def open(self) -> SimulatedSensorDevice:
+    def open(self) -> OpenSensor:
         """The sensor; DeviceError where the world has none such."""
-        device = SimulatedSensorDevice(WorldConnection(self.socket), self.sensor, self.count)
-        return answering(device, device.read)
+        link = WorldConnection(self.socket)
+        return measuring(lambda: self.values(link), link.close)
+
+    def values(self, link: WorldConnection) -> tuple[float | None, ...]:
+        """The sensor's readings in this tick, rough as the mind declares them; None where no skill there reads it."""
+        held = link.ask(READ, self.sensor)
+        if len(held) != VALUE.size * self.count:
+            raise DeviceError(f"{self.sensor} has {len(held) // VALUE.size} readings there, not {self.count}")
+        return tuple(None if isnan(reading) else reading for reading in unpack(f"<{self.count}d", held))
 
 
 @kind("actuator driver", "simulated")
-@dataclass(frozen=True, slots=True)
 class SimulatedActuator:
     """An `actuator` of the simulated world at a `socket`."""
 

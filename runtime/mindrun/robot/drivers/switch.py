@@ -1,14 +1,12 @@
 """A switch between a GPIO pin and ground, or 3.3 V."""
 
-from dataclasses import dataclass
 from typing import Annotated
 
 from mindrun.kinds.registry import kind
-from mindrun.robot.driver_support import PIN, PULL, InputPins, Pull, digital_inputs
+from mindrun.robot.driver_support import PIN, PULL, OpenSensor, Pull, digital_inputs
 
 
 @kind("sensor driver", "switch")
-@dataclass(frozen=True, slots=True)
 class Switch:
     """A switch or a bumper: 1 while it is closed, else 0; for a range finder `from: 1` and `to: 0`.
 
@@ -24,5 +22,5 @@ class Switch:
     possible = (0.0, 1.0)
     near = 1.0
 
-    def open(self) -> InputPins:
+    def open(self) -> OpenSensor:
         return digital_inputs("the switch", (self.pin,), pull_up=self.pull == "up")

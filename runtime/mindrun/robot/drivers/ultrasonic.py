@@ -8,7 +8,7 @@ from typing import Annotated, Any
 
 from mindrun.driver import DeviceError
 from mindrun.kinds.registry import kind
-from mindrun.robot.driver_support import METRES, PIN, Ranging, open_pins, pins
+from mindrun.robot.driver_support import METRES, PIN, OpenSensor, Ranging, close_all, open_pins, pins
 
 SOUND_METRES_PER_SECOND = 343.2  # metres a second, at 20 °C
 TRIGGER_SECONDS = 10e-6  # seconds, HC-SR04 data sheet
@@ -73,28 +73,6 @@ class Pair:
         self.echo.close()
 
 
-@dataclass(frozen=True, slots=True)
-class UltrasonicDevice:
-    """Range finders in a ring."""
-
-    pairs: tuple[Pair, ...]
-    reach: float
-
-    def read(self) -> tuple[float | None, ...]:
-        """One measurement of each, in turn; each takes as long as sound needs to and fro, so that echoes die away."""
-        found: dict[int, float | None] = {}
-        for index in firing_order(len(self.pairs)):
-            begin = monotonic()
-            with pins(f"range finder {index + 1} cannot be read"):
-                found[index] = self.pairs[index].measure(self.reach)
-            sleep(max(0.0, begin + 2 * self.reach / SOUND_METRES_PER_SECOND - monotonic()))
-        return tuple(found[index] for index in range(len(self.pairs)))
-
-    def close(self) -> None:
-        for pair in self.pairs:
-            pair.close()
-
-
 def firing_order(count: int) -> list[int]:
     """The order of firing: where it can be, two neighbours of the ring never follow each other, nor last and first."""
     strides = [stride for stride in range(2, count - 1) if gcd(stride, count) == 1]
@@ -105,7 +83,6 @@ def firing_order(count: int) -> list[int]:
 
 
 @kind("sensor driver", "ultrasonic")
-@dataclass(frozen=True, slots=True)
 class Ultrasonic(Ranging):
     """Ultrasonic range finders with a trigger and an echo pin each (HC-SR04, US-100, RCWL-1601): metres to an echo.
 
@@ -127,7 +104,7 @@ class Ultrasonic(Ranging):
         """The seconds for which all of them are listened to."""
         return len(self.trigger) * 2 * self.range / SOUND_METRES_PER_SECOND
 
-    def open(self) -> UltrasonicDevice:
+    def open(self) -> OpenSensor:
         if len(self.trigger) != len(self.echo) or not self.trigger:
             raise DeviceError(f"{len(self.trigger)} trigger pins and {len(self.echo)} echo pins make no pairs")
         parts = []
@@ -136,4 +113,15 @@ class Ultrasonic(Ranging):
             parts.append((what, "OutputDevice", {"pin": trigger}))
             parts.append((what, "InputDevice", {"pin": echo, "pull_up": False}))
         made = open_pins(*parts)
-        return UltrasonicDevice(tuple(map(Pair, made[::2], made[1::2])), self.range)
+        pairs = [*map(Pair, made[::2], made[1::2])]
+        return OpenSensor(lambda: self.metres(pairs), lambda: close_all(pairs))
+
+    def metres(self, pairs: list[Pair]) -> tuple[float | None, ...]:
+        """One measurement of each, in turn; each takes as long as sound needs to and fro, so that echoes die away."""
+        found: list[float | None] = [None] * len(pairs)
+        for index in firing_order(len(pairs)):
+            begin = monotonic()
+            with pins(f"range finder {index + 1} cannot be read"):
+                found[index] = pairs[index].measure(self.range)
+            sleep(max(0.0, begin + 2 * self.range / SOUND_METRES_PER_SECOND - monotonic()))
+        return tuple(found)

@@ -4,13 +4,12 @@ By STMicroelectronics; data sheet DocID029104. That names few registers: those o
 named here as there.
 """
 
-from dataclasses import dataclass
 from time import monotonic, sleep
 from typing import Annotated
 
 from mindrun.kinds.registry import kind
-from mindrun.robot.driver_support import ADDRESS, BUS, METRES, Ranging, answering
-from mindrun.robot.i2c import I2C_BYTE_SECONDS, I2cDevice, MeasuringChip
+from mindrun.robot.driver_support import ADDRESS, BUS, METRES, OpenSensor, Ranging, measuring
+from mindrun.robot.i2c import I2C_BYTE_SECONDS, ChipModel, I2cDevice, MeasuringChip
 
 IDENTITY, CHIP_ID = 0xC0, 0xEE  # table 4 of the data sheet
 RESET = 0xBF  # 0 holds the chip in reset, 1 lets it go
@@ -29,9 +28,11 @@ VALID, DEFECTS = 11, (1, 2, 3)  # of the result's status: the laser or its suppl
 MEASURED_IN = 0.25  # seconds until a measurement must be there; one takes 33 ms
 NO_LIMIT = 1 << 16  # of millimetres
 RESET_IN = 0.1  # seconds until it must be there again; it takes 1.2 ms
+MODEL = ChipModel(
+    "VL53L0X", (IDENTITY, CHIP_ID), (), (STATUS, MEASURED, NEVER_SET), RESULT, ">B9xH", MEASURED_IN, NO_LIMIT
+)
 
 
-@dataclass(slots=True)
 class RangeChip(MeasuringChip):
     """One chip, set up to measure again and again; a measurement is a status and millimetres."""
 
@@ -84,35 +85,12 @@ class RangeChip(MeasuringChip):
 
     def read_counts(self) -> tuple[int, ...]:
         """Read the newest measurement, and let the chip say when there is another."""
-        counts = MeasuringChip.read_counts(self)
+        counts = super().read_counts()
         self.wire.write(CLEAR_INTERRUPT, 1)
         return counts
 
 
-@dataclass(frozen=True, slots=True)
-class LightRangeDevice:
-    """A chip, and how far it is believed."""
-
-    chip: RangeChip
-    range: float
-
-    def read(self) -> tuple[float | None]:
-        """Metres, measured since the last one was read; None where nothing within the range sends light back."""
-        found, millimetres = self.chip.measure()
-        status = (found & 0x78) >> 3
-        if status in DEFECTS:
-            self.chip.ready = False
-            raise self.chip.wire.error(f"says that its laser does not work ({status})")
-        metres = millimetres / 1000
-        return (metres if status == VALID and metres <= self.range else None,)
-
-    def close(self) -> None:
-        """Let go of the bus; the chip goes on measuring, for nobody."""
-        self.chip.close()
-
-
 @kind("sensor driver", "vl53l0x")
-@dataclass(frozen=True, slots=True)
 class Vl53l0x(Ranging):
     """A range finder of light: metres to what is within 12 degrees of its axis, for one ray of a `range_finder`.
 
@@ -129,10 +107,18 @@ class Vl53l0x(Ranging):
     seconds = 0.033
     bus_seconds = 16 * I2C_BYTE_SECONDS  # whether it has measured, what, and that this has been read
 
-    def open(self) -> LightRangeDevice:
-        """The chip, which measures."""
-        wire, status = I2cDevice("the range finder", self.bus, self.address), (STATUS, MEASURED, NEVER_SET)
-        identity, layout = (IDENTITY, CHIP_ID), ">B9xH"
-        chip = RangeChip(wire, "VL53L0X", identity, (), status, RESULT, layout, MEASURED_IN, NO_LIMIT)
-        device = LightRangeDevice(chip, self.range)
-        return answering(device, device.read)
+    def open(self) -> OpenSensor:
+        """The chip, which measures; once it is closed, for nobody."""
+        wire = I2cDevice("the range finder", self.bus, self.address)
+        chip = RangeChip(wire, MODEL)
+        return measuring(lambda: (self.metres(chip),), wire.close)
+
+    def metres(self, chip: RangeChip) -> float | None:
+        """Metres, measured since the last one was read; None where nothing within the range sends light back."""
+        found, millimetres = chip.measure()
+        status = (found & 0x78) >> 3
+        if status in DEFECTS:
+            chip.ready = False
+            raise chip.wire.error(f"says that its laser does not work ({status})")
+        metres = millimetres / 1000
+        return metres if status == VALID and metres <= self.range else None

@@ -9,9 +9,9 @@ from pathlib import Path
 
 from mindrun.errors import MindError, text_of
 from mindrun.robot.guardian.messages import OVER, REST, say
-from mindrun.robot.guardian.plan import DRIVERS, MAX_PLAN_BYTES, Plan, from_json, read_plan
+from mindrun.robot.guardian.plan import MAX_PLAN_BYTES, Plan, from_json, read_plan
 from mindrun.robot.guardian.process import Process
-from mindrun.robot.guardian.realtime import import_little, printing_never_waits, set_realtime, wake_on_signals
+from mindrun.robot.guardian.realtime import printing_never_waits, set_realtime, wake_on_signals
 from mindrun.robot.guardian.watch import ERROR_DESCRIPTOR, report, rescue, watch
 from mindrun.terminal.arguments import parser
 from mindrun.terminal.standard_streams import LineWriter
@@ -39,8 +39,6 @@ def main() -> None:
 def _done(status: int, neutral: str, seconds: float) -> int:
     """Guard, or bring the actuators of a bundle or plan to neutral once, in so many seconds; the exit code."""
     is_heard = neutral in ("", "-")
-    if is_heard:  # a bundle needs all drivers to be read
-        import_little(DRIVERS)
     try:
         plan = _plan() if is_heard else read_plan(Path(neutral))
     except MindError as error:

@@ -5,12 +5,10 @@ import os
 import signal
 import subprocess
 import sys
-from array import array
 from collections.abc import Iterable, Sequence
-from contextlib import suppress
+from contextlib import AbstractContextManager, suppress
 from termios import FIONREAD
 from time import monotonic, monotonic_ns, sleep
-from types import TracebackType
 from typing import IO
 
 from mindrun.errors import MindError
@@ -76,10 +74,9 @@ class Processes:
 
     def let_go(self) -> None:
         """Close both pipes: neither speak to it nor hear it, nor keep it alive."""
-        with suppress(OSError):
-            self.input.close()
-        with suppress(OSError):
-            self.output.close()
+        for pipe in (self.input, self.output):
+            with suppress(OSError):
+                pipe.close()
 
     def _kill(self) -> None:
         """End all of its processes."""
@@ -130,7 +127,7 @@ class GuardianError(MindError):
     """The guardian did not start, has latched, or is gone; whatever it is, nothing can be moved any more."""
 
 
-class Guardian:
+class Guardian(AbstractContextManager["Guardian"]):
     """The guardian as a process of its own. Use it in `with`: at the end every actuator is at neutral.
 
     Call `send` once a tick, from the control loop and nowhere else: that it is called is what shows that the loop runs.
@@ -202,10 +199,7 @@ class Guardian:
         self._number += 1
 
     def close(self) -> None:
-        """End the frames and wait until every actuator is at neutral; GuardianError where one is not in time.
-
-        So it is where the guardian has been lost, or hangs; then others have tried.
-        """
+        """End the frames and wait until every actuator is at neutral; GuardianError where that is not known in time."""
         end_in_child(self._controller)  # a procedure may have forked it
         heard = self._heard
         hangs = self.state in (NEUTRAL, FOLLOWING) and not heard.is_lost and not self._reads_last_frame()
@@ -225,12 +219,7 @@ class Guardian:
         finally:
             self._finish()
 
-    def __enter__(self) -> "Guardian":
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
         try:
             self.close()
         except GuardianError as later:
@@ -278,9 +267,7 @@ class Guardian:
 
     def _unread(self) -> int:
         """How many bytes wait in the pipe."""
-        unread = array("i", [0])
-        fcntl.ioctl(self._frames, FIONREAD, unread)
-        return unread[0]
+        return int.from_bytes(fcntl.ioctl(self._frames, FIONREAD, bytes(4)), sys.byteorder)
 
     def _lost(self, how: str) -> GuardianError:
         """The error of a guardian that is lost, once others have brought to neutral what they could."""

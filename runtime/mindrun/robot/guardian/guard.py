@@ -46,7 +46,8 @@ class Guard:
 
     def __init__(self, plan: Plan) -> None:
         self._plan = plan
-        self._rest = tuple(map(resting, plan.channels))
+        # Neutral with the trim, which corrects where a wheel stands still; limits and slew do not hold it.
+        self._rest = tuple(min(max(each.neutral + each.trim, 0.0), 1.0) for each in plan.channels)
         self._values, self._then = self._rest, -inf
         self.limit = SILENT_TICKS * plan.tick
         self.state, self.why = NEUTRAL, STARTED
@@ -125,11 +126,6 @@ def moved(channel: Channel, command: float, before: float, seconds: float) -> fl
         step = channel.slew * seconds
         value = min(max(value, before - step), before + step)
     return min(max(value, 0.0), 1.0)
-
-
-def resting(channel: Channel) -> float:
-    """Neutral with the trim, which corrects where a wheel stands still; limits and slew do not hold it."""
-    return min(max(channel.neutral + channel.trim, 0.0), 1.0)
 
 
 def turned(channel: Channel, value: float) -> float:

@@ -5,23 +5,21 @@ Not the bundle itself: to read that takes numpy, and the guardian has no use for
 
 import json
 from collections.abc import Mapping
-from contextlib import suppress
 from dataclasses import dataclass
-from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, NoReturn
+from typing import TYPE_CHECKING, Annotated
 
 from mindrun.driver import ActuatorDriver
 from mindrun.errors import MindError
 from mindrun.files.regular_files import read_regular
-from mindrun.graph.codec import Options, decode, encode
+from mindrun.files.strict_json import parsed
+from mindrun.graph.codec import decode, encode
 from mindrun.numbers.quantity import RATIO, SECONDS, Quantity
 from mindrun.robot.guardian.messages import MAX_COMMANDS
 
 if TYPE_CHECKING:
-    from mindrun.graph.wiring import Wiring  # which needs numpy
+    from mindrun.graph.wiring import Wiring  # which brings all kinds along
 
-DRIVERS = "mindrun.robot.drivers"
 MAX_PLAN_BYTES = 1 << 20
 RATIO_EITHER_WAY = Quantity("a share of the travel", {}, low=-1.0, high=1.0)
 NOT_NEGATIVE = Quantity("a number", {}, low=0.0)
@@ -74,14 +72,14 @@ def checked(plan: Plan) -> Plan:
 
 def to_json(plan: Plan) -> str:
     """A plan as one line."""
-    return json.dumps(encode(plan, _module), ensure_ascii=True, allow_nan=False)
+    return json.dumps(encode(plan), ensure_ascii=True, allow_nan=False)
 
 
 def from_json(text: str | bytes) -> Plan:
     """The plan in this text; PlanError unless it is one."""
     try:
-        plan: Plan = decode(Plan, json.loads(text, parse_constant=_no_number), "plan", _imported)
-    except (ValueError, RecursionError) as error:
+        plan: Plan = decode(Plan, parsed(text, MAX_PLAN_BYTES), "plan")
+    except ValueError as error:
         raise PlanError(f"this is no plan of a robot: {error}") from error
     return checked(plan)
 
@@ -100,22 +98,3 @@ def read_plan(path: Path) -> Plan:
     if bundle.wiring is None:
         raise PlanError(f"{path} is for no robot", "build it with its wiring")
     return plan_of(bundle.graph.tick, {each.name: each.kind.neutral for each in bundle.graph.actuators}, bundle.wiring)
-
-
-def _module(value: object) -> Mapping[str, str]:
-    """The module of a driver: to import all of them would take numpy, and longer."""
-    return {"in": type(value).__module__.rpartition(".")[2]}
-
-
-def _imported(noun: str, data: Options) -> Options:
-    """Import the one module that has a driver; the driver's options."""
-    match data:
-        case {"in": str(module), **options} if module.isidentifier():
-            with suppress(ModuleNotFoundError):
-                import_module(f"{DRIVERS}.{module}")
-            return options
-    return {}
-
-
-def _no_number(text: str) -> NoReturn:
-    raise ValueError(f"{text} is no number")

@@ -82,13 +82,17 @@ class ActuatorOutput:
         self._device = device
         self._thread.start()
 
-    def move(self, value: float) -> None:
+    def move(self, value: float, neutral: bool = False) -> None:
         """Order a value; returns at once."""
-        self._want(value, False)
+        with self._change:
+            self._wanted = Wanted(value, neutral)
+            if self._waiting is None:
+                self._waiting = self._clock()
+            self._change.notify()
 
     def rest(self) -> None:
         """Order neutral; returns at once."""
-        self._want(self._neutral, True)
+        self.move(self._neutral, True)
 
     @property
     def settled(self) -> bool:
@@ -154,13 +158,6 @@ class ActuatorOutput:
             with suppress(BaseException):  # whatever its driver raises: it is of no use any more
                 device.close()
             end_in_child(self._process)
-
-    def _want(self, value: float, neutral: bool) -> None:
-        with self._change:
-            self._wanted = Wanted(value, neutral)
-            if self._waiting is None:
-                self._waiting = self._clock()
-            self._change.notify()
 
     def _run(self) -> None:
         pause = MIN_RETRY_SECONDS

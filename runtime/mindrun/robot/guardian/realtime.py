@@ -1,4 +1,4 @@
-"""Settings of a process for real time: few imports, SCHED_FIFO, locked memory, signals, prints that never wait."""
+"""Settings of a process for real time: SCHED_FIFO, locked memory, signals, prints that never wait."""
 
 import ctypes
 import gc
@@ -9,7 +9,6 @@ import sys
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from importlib.util import find_spec, module_from_spec
 from pathlib import Path
 
 from mindrun.terminal.standard_streams import LineWriter
@@ -21,14 +20,6 @@ OUTPUT_DESCRIPTOR, ERROR_DESCRIPTOR = 1, 2
 PIECE_BYTES, LAST_SECONDS = 1 << 16, 0.3  # that are read at once; for what is left in the end
 IGNORED_SIGNALS = ("SIGINT", "SIGTSTP", "SIGTTIN", "SIGTTOU", "SIGPIPE", "SIGUSR1", "SIGUSR2", "SIGALRM")
 ENDING_SIGNALS = ("SIGTERM", "SIGHUP", "SIGQUIT")
-
-
-def import_little(package: str) -> None:
-    """Let modules of a package be imported without all the others that its `__init__` imports."""
-    found = find_spec(package)
-    assert found
-    if package not in sys.modules:
-        sys.modules[package] = module_from_spec(found)
 
 
 def set_realtime() -> None:
