@@ -108,15 +108,12 @@ def compile_source(source: Source, path: Path = Path("-"), texts: Mapping[Path, 
         from mindlang.compiler.procedures import mistakes  # else nothing of Python's has to be imported
 
         findings.diagnostics += mistakes(graph.skills, mind, source.folder)
-    return Compiled(graph, mind, _sorted(findings, parsed), tuple(file.source for file in parsed))
+    sources = tuple(file.source for file in parsed)
 
+    def place(of: Diagnostic) -> tuple[int, int]:
+        return (sources.index(of.span.source), of.span.start) if of.span else (-1, 0)
 
-def _sorted(findings: Findings, parsed: list[File]) -> tuple[Diagnostic, ...]:
-    """The diagnostics file by file, in the order of their lines."""
-    order = {id(file.source): index for index, file in enumerate(parsed)}
-    return tuple(
-        sorted(findings.diagnostics, key=lambda d: (order[id(d.span.source)], d.span.start) if d.span else (-1, 0))
-    )
+    return Compiled(graph, mind, tuple(sorted(findings.diagnostics, key=place)), sources)
 
 
 @dataclass(slots=True)

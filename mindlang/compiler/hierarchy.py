@@ -29,10 +29,7 @@ def with_ancestors(graph: DiGraph, nodes: Iterable[Any]) -> set[Any]:
 
 
 def circles(graph: DiGraph) -> list[list[Any]]:
-    """The circles of a graph, at most MAX_CIRCLES, each from its node that was added first, sorted by their nodes.
-
-    Of more than MAX_CIRCLES so many.
-    """
+    """The circles of a graph, at most MAX_CIRCLES, each from its node that was added first, sorted by their nodes."""
     if nx.is_directed_acyclic_graph(graph):
         return []
     nodes, numbered = list(graph), nx.convert_node_labels_to_integers(graph)  # a set of names has no order

@@ -60,20 +60,16 @@ def without_comment(line: str) -> str:
 
 
 def _lines(source: Source, findings: Findings, start: Start = "line") -> Iterator[Any]:
-    for span, code in _coded_lines(source):
-        if len(findings.diagnostics) > MAX_UNREADABLE_LINES:
-            hint = f"Is this a {'.mind' if start == 'line' else '.break'} file?"
-            findings.error("too-many-mistakes", span, "Too many lines cannot be read; this is where I stop.", hint)
-            return
-        yield _line(span, code, findings, start)
-
-
-def _coded_lines(source: Source) -> Iterator[tuple[Span, str]]:
-    """The lines of a source that are more than a comment, each without it and without the blanks before it."""
+    """The lines that are more than a comment, each without it and without the blanks before it; None is unreadable."""
     offset = 0
     for text in source.text.split("\n"):
         if code := without_comment(text).rstrip(BLANKS):
-            yield Span(source, offset, offset + len(code)), code
+            span = Span(source, offset, offset + len(code))
+            if len(findings.diagnostics) > MAX_UNREADABLE_LINES:
+                hint = f"Is this a {'.mind' if start == 'line' else '.break'} file?"
+                findings.error("too-many-mistakes", span, "Too many lines cannot be read; this is where I stop.", hint)
+                return
+            yield _line(span, code, findings, start)
         offset += len(text) + 1
 
 

@@ -82,16 +82,10 @@ def overrides(cls: type[Any], kind: str, written: Sequence[Argument], findings: 
 def _by_key(
     kind: str, written: Sequence[Argument], parameters: Mapping[str, Parameter], findings: Findings
 ) -> dict[str, Argument]:
-    found: dict[str, Argument] = {}
-    for argument in written:
-        key = argument.key.text
-        if key not in parameters:
-            _unknown(kind, argument.key, parameters, findings)
-        else:
-            found.setdefault(key, argument)
-    for key in found:
-        once(key, written, findings)
-    return found
+    for argument in (each for each in written if each.key.text not in parameters):
+        _unknown(kind, argument.key, parameters, findings)
+    keys = dict.fromkeys(argument.key.text for argument in written)
+    return {key: first for key in keys if key in parameters and (first := once(key, written, findings))}
 
 
 def once(key: str, written: Iterable[Argument], findings: Findings) -> Argument | None:
