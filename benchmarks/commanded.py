@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 from mindrun.graph.graph import Graph
 from mindrun.graph.policy import Policy
-from mindrun.kinds.functions.rule import Rule
+from mindrun.kinds.functions.function import Rule
 from mindrun.sim.lanes.stages import after, before
 from mindrun.sim.rollout import Rollout
 from numpy.typing import ArrayLike
@@ -18,7 +18,7 @@ class Commanded:
     def __init__(self, graph: Graph, task: str, master: str, lanes: int, seeds: ArrayLike, interrupt: bool) -> None:
         silent = replace(graph, skills=tuple(replace(skill, function=Rule()) for skill in graph.skills))
         rollout = Rollout(Policy(silent, {}), task, master, interrupt=interrupt)
-        self.lanes, self.boxes = lanes, rollout.sizes.boxes
+        self.lanes, self.boxes = lanes, rollout.sizes["boxes"]
         self.jobs = rollout.jobs(np.zeros((1, 0), np.float32), np.asarray(seeds, np.uint64))
         self._tables, self._tile, self._interrupt = rollout.tables, rollout.tile(lanes), interrupt
         self.state = self._tile.state

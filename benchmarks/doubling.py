@@ -151,8 +151,8 @@ def _acted(case: Case) -> None:
     session = case.session()
     workspace, lsp = session.workspace, session.lsp
     view = workspace.view(case.path)
-    for each in mendings(view, case.path, 0, len(case.text)):
-        lsp.workspace_edit(each.splices, {}, plain=True)
+    for _, fix in mendings(view, case.path, 0, len(case.text)):
+        lsp.workspace_edit(fix.splices, {}, plain=True)
     all_mended(view, case.path, workspace.texts)
     if case.compiled.graph:
         at = max(case.text.find("skill Go"), 0)

@@ -31,7 +31,7 @@ from mindlang.editing import edits
 from mindlang.editing.apply import Edited, apply_edit, write
 from mindlang.editing.project import EditError, open_project
 from mindlang.editing.summary import broken_sentences, diff, summarise
-from mindlang.limits import as_layout, as_workers, refuse_too_large, refuse_too_many
+from mindlang.limits import LAYOUT_BOUNDS, WORKER_BOUNDS, bounded_int, refuse_too_large, refuse_too_many
 from mindlang.lock.ready import ReadyMind, make_ready
 from mindlang.run.chosen_task import master_of, skill_of, task_of, unknown
 from mindlang.run.outcome import bench_data, over_at_once
@@ -83,9 +83,7 @@ class Mind(ShortRepr):
         >>> mind.graph.master, [actuator.name for actuator in mind.graph.actuators]
         ('Collect', ['left_wheel', 'right_wheel', 'claw'])
         """
-        graph = self._without_errors().graph
-        assert graph
-        return graph
+        return self._without_errors().whole[1]
 
     @property
     def hierarchy(self) -> DiGraph:
@@ -94,9 +92,7 @@ class Mind(ShortRepr):
         >>> sorted(str(node) for node in networkx.descendants(mind.hierarchy, ("skill", "Grab")))
         ['actuator claw']
         """
-        mind = self._without_errors().mind
-        assert mind
-        return mind.hierarchy
+        return self._without_errors().whole[0].hierarchy
 
     def policy(self, master: str | None = None) -> Policy:
         """The hierarchy with the weights that `master` (default: the mind's) needs to act.
@@ -136,7 +132,7 @@ class Mind(ShortRepr):
         >>> rollout.score(genomes, seeds=[1, 2, 3]).total.shape
         (2, 3)
         """
-        (chosen, _), threads = task_of(self.graph, task), as_workers(workers)
+        (chosen, _), threads = task_of(self.graph, task), bounded_int("workers", WORKER_BOUNDS, workers)
         leader = master_of(self.graph, chosen, master)
         for skill in learners:
             skill_of(self.graph, skill)
@@ -151,7 +147,7 @@ class Mind(ShortRepr):
         >>> [*mind.trace("Avoid", seed=3).moments][-1].tick
         10000
         """
-        return trace(self.rollout(task, master), as_layout(seed))
+        return trace(self.rollout(task, master), bounded_int("seed", LAYOUT_BOUNDS, seed))
 
     def trace_table(self, task: str | None = None, seed: int = 0, master: str | None = None) -> dict[str, Column]:
         """One run as columns by name, a row for each tick, as `mindc run --trace` has it; pandas takes it as it is.
@@ -160,7 +156,7 @@ class Mind(ShortRepr):
         12
         """
         setup = self._set_up(task, master)
-        return trace_table(record_run(setup, setup.rollout(), as_layout(seed)))
+        return trace_table(record_run(setup, setup.rollout(), bounded_int("seed", LAYOUT_BOUNDS, seed)))
 
     def bench(
         self, task: str | None = None, runs: int = 200, seed: int = 1, master: str | None = None, workers: int = 1
@@ -176,7 +172,7 @@ class Mind(ShortRepr):
         setup = self._set_up(task, master)
         seeds = setup.layouts(seed, runs)
         refuse_too_many(setup.task, runs)
-        rollout = setup.rollout(workers=as_workers(workers))
+        rollout = setup.rollout(workers=bounded_int("workers", WORKER_BOUNDS, workers))
         refuse_too_large(rollout, 1, runs)
         scores, *took = run_timed(rollout, seeds)
         notes = setup.notes(rollout, *over_at_once(setup.task, scores))
@@ -207,7 +203,8 @@ class Mind(ShortRepr):
         """
         if self.graph and not self.path.is_file():  # a mind that does not compile says so first
             raise MindError(f"{self.path} is no file, and what is learnt is kept beside one", "save it, and load that")
-        results, threads, elsewhere = list[Result](), as_workers(workers), executors.where(on)
+        threads = bounded_int("workers", WORKER_BOUNDS, workers)
+        results, elsewhere = list[Result](), executors.where(on)
         watch = Watch(lambda state, record: on_generation(record), warn, cancelled, perf_counter)
         by = "mindlang.Mind.train", *skills
         for subject, lesson in lessons_to_teach(self.path, self.compiled, curriculum, skills, options):

@@ -28,6 +28,7 @@ RUNG_BOUNDS: Bounds = (0, 1000)
 
 RUN_BYTES, ENTRY_BYTES = 160, 12  # bytes that a run takes, and each of its rewards and events
 LANE_BYTES, GENOME_COPIES = 2048, 6
+WAITING_BYTES = {"delays": 4, "changes": 16, "depth": 8, "skills": 12}
 MAX_TICKS_PER_SECOND = 20_000_000  # agent-ticks in a second and worker, which no lesson reaches
 YEAR_SECONDS = 366 * 24 * 3600  # nobody waits for longer
 CGROUP_LIMIT_FILES = "/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"  # of a container
@@ -43,26 +44,6 @@ def bounded_int(what: str, bounds: Bounds, value: Any) -> int:
     if isinstance(value, bool) or not low <= number <= high:
         raise MindError(f"{what} cannot be {value!r:.40}", f"{what} is a whole number from {low} to {high}")
     return number
-
-
-def as_seed(value: Any) -> int:
-    """The seed of a training, or of many runs."""
-    return bounded_int("seed", SEED_BOUNDS, value)
-
-
-def as_layout(value: Any) -> int:
-    """The seed of one run."""
-    return bounded_int("seed", LAYOUT_BOUNDS, value)
-
-
-def as_runs(value: Any) -> int:
-    """A number of runs."""
-    return bounded_int("runs", RUN_BOUNDS, value)
-
-
-def as_workers(value: Any) -> int:
-    """A number of threads."""
-    return bounded_int("workers", WORKER_BOUNDS, value)
 
 
 def refuse_too_many(task: Task, runs: int) -> None:
@@ -106,12 +87,12 @@ def bytes_of(rollout: Rollout, genomes: int, layouts: int) -> int:
 def _parts(sizes: Sizes) -> dict[str, int]:
     """The bytes of a lane by what they are for."""
     return {
-        "the weights": 4 * sizes.genome,
-        "the neurons of its widest layer": 4 * sizes.scratch,
-        "the readings": 4 * (sizes.readings + sizes.inputs + sizes.before + sizes.rough + sizes.rings),
-        "the patches to visit": sizes.patches,
-        "the obstacles": (24 + 24 + 16 + 8) * sizes.boxes,
-        "what waits and changes": 4 * sizes.delays + 16 * sizes.changes + 8 * sizes.depth + 12 * sizes.skills,
+        "the weights": 4 * sizes["genome"],
+        "the neurons of its widest layer": 4 * sizes["scratch"],
+        "the readings": 4 * sum(sizes[name] for name in ("readings", "inputs", "before", "rough", "rings")),
+        "the patches to visit": sizes["patches"],
+        "the obstacles": (24 + 24 + 16 + 8) * sizes["boxes"],
+        "what waits and changes": sum(count * sizes[name] for name, count in WAITING_BYTES.items()),
     }
 
 

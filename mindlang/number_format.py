@@ -9,6 +9,11 @@ def score(value: float | None, digits: int = 2) -> str:
     return f"{value:,.{digits}f}" if value is not None else "not a number"
 
 
+def finite(value: float) -> float | None:
+    """The number itself; None, as JSON has no other word for it, where it is not finite."""
+    return float(value) if isfinite(value) else None
+
+
 def short_score(value: float | None) -> str:
     """A score in a line of progress; – where there is none yet, or it is not finite."""
     return f"{value:.2f}" if value is not None and isfinite(value) else "–"

@@ -9,40 +9,24 @@ import numpy as np
 from hypothesis import strategies as st
 from mindrun.graph.graph import Actuator, Edge, Gate, Graph, Memory, Program, Sensor, Skill
 from mindrun.graph.weights import genes
-from mindrun.kinds.actuators.gripper import Gripper
-from mindrun.kinds.actuators.servo import Servo
-from mindrun.kinds.actuators.wheel import Wheel
-from mindrun.kinds.bodies.disc import Disc
-from mindrun.kinds.functions.function import Function
+from mindrun.kinds.actuators.actuator import Gripper, Servo, Wheel
+from mindrun.kinds.bodies.body import Disc
+from mindrun.kinds.functions.function import Function, Rule
 from mindrun.kinds.functions.procedure import Procedure
-from mindrun.kinds.functions.rule import Rule
 from mindrun.kinds.memory import Cell
 from mindrun.kinds.registry import arguments, kinds
-from mindrun.kinds.sensors.average import Average
 from mindrun.kinds.sensors.battery import Battery
-from mindrun.kinds.sensors.bearing import Bearing
 from mindrun.kinds.sensors.bumper import Bumper
-from mindrun.kinds.sensors.clock import Clock
+from mindrun.kinds.sensors.claw import Contact, Held
 from mindrun.kinds.sensors.compass import Compass
 from mindrun.kinds.sensors.computed import Computed
-from mindrun.kinds.sensors.contact import Contact
-from mindrun.kinds.sensors.derivative import Derivative
-from mindrun.kinds.sensors.distance import Distance
-from mindrun.kinds.sensors.eye import Eye
-from mindrun.kinds.sensors.floor import Floor
-from mindrun.kinds.sensors.held import Held
-from mindrun.kinds.sensors.inertial import Inertial
-from mindrun.kinds.sensors.inside import Inside
-from mindrun.kinds.sensors.latch import Latch
-from mindrun.kinds.sensors.light import Light
-from mindrun.kinds.sensors.odometer import Odometer
-from mindrun.kinds.sensors.position import Position
-from mindrun.kinds.sensors.range_finder import RangeFinder
-from mindrun.kinds.sensors.reading import Reading
+from mindrun.kinds.sensors.derived import Average, Derivative, Latch, Reading
+from mindrun.kinds.sensors.floor import Floor, Inside
+from mindrun.kinds.sensors.motion import Inertial, Odometer, Position, Speed, TurnRate
+from mindrun.kinds.sensors.nearest import Bearing, Distance, Light
+from mindrun.kinds.sensors.rays import Eye, RangeFinder
 from mindrun.kinds.sensors.sensor import Physical, SensorKind, directions
-from mindrun.kinds.sensors.sine import Sine
-from mindrun.kinds.sensors.speed import Speed
-from mindrun.kinds.sensors.turn_rate import TurnRate
+from mindrun.kinds.sensors.waves import Clock, Sine
 from numpy.typing import NDArray
 
 SHARES = st.floats(0, 1, width=32)

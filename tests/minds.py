@@ -1,11 +1,9 @@
 """Small minds for tests, put together by hand."""
 
 from mindrun.graph.graph import Actuator, Edge, Graph, Memory, Program, Sensor, Skill
-from mindrun.kinds.actuators.gripper import Gripper
-from mindrun.kinds.actuators.wheel import Wheel
-from mindrun.kinds.bodies.disc import Disc
-from mindrun.kinds.functions.function import Function
-from mindrun.kinds.functions.rule import Rule
+from mindrun.kinds.actuators.actuator import Gripper, Wheel
+from mindrun.kinds.bodies.body import Disc
+from mindrun.kinds.functions.function import Function, Rule
 from mindrun.kinds.memory import Cell
 from mindrun.kinds.sensors.battery import Battery
 

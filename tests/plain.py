@@ -5,14 +5,11 @@ import operator
 
 import numpy as np
 from mindrun.kinds.functions.procedure import Procedure
-from mindrun.kinds.sensors.average import Average
-from mindrun.kinds.sensors.bearing import Bearing
-from mindrun.kinds.sensors.clock import Clock
 from mindrun.kinds.sensors.compass import Compass
 from mindrun.kinds.sensors.computed import Computed
-from mindrun.kinds.sensors.derivative import Derivative
-from mindrun.kinds.sensors.reading import Reading
-from mindrun.kinds.sensors.sine import Sine
+from mindrun.kinds.sensors.derived import Average, Derivative, Reading
+from mindrun.kinds.sensors.nearest import Bearing
+from mindrun.kinds.sensors.waves import Clock, Sine
 from mindrun.numbers.arithmetic import DENOMINATOR, LIMIT, NUMERATOR
 from mindrun.numbers.network import Terms, matrices
 from mindrun.numbers.trigonometry import sine

@@ -11,7 +11,8 @@ import importlib
 import importlib.abc
 import importlib.machinery
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
+from copy import copy
 from types import ModuleType
 from typing import Any
 
@@ -102,6 +103,16 @@ class Rows(list[Row]):
         found = super().__getitem__(key)
         return Rows(found) if isinstance(key, slice) else found
 
+    def __setitem__(self, key: Any, value: Any) -> None:
+        if isinstance(key, str):
+            for row in self:
+                setattr(row, key, value)
+        else:
+            super().__setitem__(key, value)
+
+    def copy(self) -> "Rows":
+        return Rows(copy(row) for row in self)
+
 
 def call(address: Any, *arguments: Any) -> int:
     """A C function called with whole numbers, pointers and doubles, as `chipmunk.call` does."""
@@ -116,14 +127,6 @@ def _plain(*given: Any, **options: Any) -> Any:
     return given[0] if given else _plain
 
 
-def _quiet(function: Callable[..., Any]) -> Callable[..., Any]:
-    def run(*given: Any) -> Any:
-        with np.errstate(all="ignore"):
-            return function(*given)
-
-    return run
-
-
 def _install() -> None:
     importlib.import_module("mindrun.sim.exact")  # what formulas call stays compiled, as they are
     numba.njit = _plain
@@ -131,8 +134,8 @@ def _install() -> None:
     from mindrun.sim import compiling
 
     compiling.keep_code = lambda dispatcher, code: None
-    from mindrun.sim import changed_ticks, procedures, rollout
-    from mindrun.sim.lanes import advance, chipmunk, runs, stages
+    from mindrun.sim import procedures, rollout
+    from mindrun.sim.lanes import chipmunk
 
     chipmunk.call = procedures.call = call
     build = rollout.build
@@ -142,12 +145,6 @@ def _install() -> None:
         return type(found)(*(Rows(Row(row) for row in part) if part.dtype.names else part for part in found)), sizes
 
     rollout.build = build_rows
-    for module in (advance, runs, stages):
-        for name in ("advance", "fill", "before", "after", "run_skills", "wake", "send"):
-            for place in (module, rollout, changed_ticks):
-                found = vars(place).get(name) if place else None
-                if callable(found) and getattr(found, "__name__", "") == name and found.__module__ == module.__name__:
-                    setattr(place, name, _quiet(found))
 
 
 _install()

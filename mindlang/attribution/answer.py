@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 from mindrun.engine.engine import Engine, procedure_sources
+from mindrun.engine.think import hierarchy
 from mindrun.graph.weights import reachable
 from mindrun.kinds.sensors.sensor import directions
 from mindrun.robot.recording import RecordingError, read
@@ -46,14 +47,6 @@ class AttributedRun:
         return len(self.acted)
 
 
-@dataclass(frozen=True, slots=True)
-class ReplayedTicks:
-    """Readings of a recording, computed again, and its influence [ticks, numbers]."""
-
-    readings: Singles
-    influence: Singles
-
-
 def attributed_run(run: RecordedRun, seed: int) -> AttributedRun:
     """A run in the simulator with its flows."""
     setup = run.setup
@@ -75,10 +68,9 @@ def attributed_recording(path: Path, bundle: Path) -> AttributedRun:
     if not len(rows):
         raise RecordingError(f"{path} has no tick in it")
     engine = Engine(mind.policy, mind.procedures, of.master)
-    readings = np.array([engine.readings for _ in computed_again(path, of, rows, engine)])
-    again = ReplayedTicks(readings, rows["influence"])
-    begins = np.flatnonzero(rows["tick"] == 0).tolist()
-    flows = edge_flows(mind.policy, mind.procedures, of.master, again, begins)
+    readings, influence = np.array([engine.readings for _ in computed_again(path, of, rows, engine)]), rows["influence"]
+    ready, begins = hierarchy(mind.policy, mind.procedures, of.master), np.flatnonzero(rows["tick"] == 0).tolist()
+    flows = EdgeFlows(mind.graph, ready, lambda places: (readings[places], influence[places]), begins)
     about = {"recording": path.name, "master": of.master}
     run = run_of(of, rows, mind, bundle.parent) if of.world else None
     return AttributedRun(about, flows, rows["sent"], rows["stopped"] != 0, run)

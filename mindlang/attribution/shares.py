@@ -9,13 +9,13 @@ it, and the `share` of the command that this part makes with the value v that th
 add up to the command, parts to 1.
 """
 
-from __future__ import annotations
-
+from bisect import insort
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from heapq import heappop, heappush
 from itertools import count
 from math import fsum
+from operator import attrgetter
 
 import numpy as np
 from mindrun.engine.think import clamped
@@ -102,14 +102,14 @@ def shares(flows: EdgeFlows, target: Sink, rows: range, paths: int = NAMED_PATHS
     if target == ("skill", flows.skills[0]):
         return _master_shares(flows, len(rows))
     ends = _ends(flows, target, carried)
-    into = {skill: ways for skill in order if (ways := _into(flows, skill, carried)) is not None}
-    weights = IncomingEdges(ends.edges, ends.sources, ends.parts)
-    found = largest_paths(weights, into, order, paths)
-    named = tuple(sorted((_contribution(flows, ends, path) for path in found.paths), key=_size, reverse=True))
+    into = {skill: _into(flows, skill, carried) for skill in order[1:]}
+    found, are_largest = largest_paths(ends, into, order, paths)
+    contributions = (_contribution(flows, ends, path) for path in found)
+    named = tuple(sorted(contributions, key=attrgetter("part", "share"), reverse=True))
     neutral = _neutral(flows, ends)
     command = ends.mean(ends.engine) + (neutral or 0.0) if ends.ticks else None
-    every, part = ends.mean(ends.shares.sum(axis=0)), ends.mean(ends.parts.sum(axis=0))
-    count = path_count(weights, into, order)
+    every, part = ends.mean(ends.shares.sum(axis=0)), ends.mean(ends.fractions.sum(axis=0))
+    count = path_count(ends, into, order)
     rest = RemainingPaths(
         count - len(named) * (count < MAX_COUNTED_PATHS),
         max(0.0, part - fsum(each.part for each in named)),
@@ -126,12 +126,8 @@ def shares(flows: EdgeFlows, target: Sink, rows: range, paths: int = NAMED_PATHS
         named,
         rest,
         tuple(np.array(ends.sources, int)[~ends.behind.any(axis=1)].tolist()),
-        found.are_largest,
+        are_largest,
     )
-
-
-def _size(contribution: Contribution) -> tuple[float, float]:
-    return contribution.part, contribution.share
 
 
 def _master_shares(flows: EdgeFlows, ticks: int) -> Shares:
@@ -142,7 +138,29 @@ def _master_shares(flows: EdgeFlows, ticks: int) -> Shares:
 
 
 @dataclass(frozen=True, slots=True)
-class _Ends:
+class IncomingEdges:
+    """The edges [n] over which influence comes to a skill, from the skills `sources` [n].
+
+    `fractions` [n, ticks] are the parts of its influence that come over each, which add up to 1 in each tick in which
+    it has any.
+    """
+
+    edges: tuple[int, ...]
+    sources: tuple[int, ...]
+    fractions: Doubles
+
+
+@dataclass(frozen=True, slots=True)
+class FoundPath:
+    """A path by its edges, from the master down, its part [ticks] of what is asked about, and the sum of that."""
+
+    edges: tuple[int, ...]
+    part: Doubles
+    size: float
+
+
+@dataclass(frozen=True, slots=True)
+class _Ends(IncomingEdges):
     """The edges to what is asked about, and what they carry [edges, ticks]; `total`, `engine`, `driven` are [ticks].
 
     `engine` is what the engine computes of it in float32, where it is driven. Means are over so many `ticks`: of a
@@ -150,11 +168,8 @@ class _Ends:
     """
 
     target: Sink
-    edges: tuple[int, ...]
-    sources: tuple[int, ...]
     values: Doubles
     behind: Doubles
-    parts: Doubles
     shares: Doubles
     total: Doubles
     engine: Doubles
@@ -199,7 +214,7 @@ def _ends(flows: EdgeFlows, target: Sink, carried: EdgeFlow) -> _Ends:
         gain = np.where(driven, product / (1.0 if is_skill else total), 0.0)
     commands = np.array([value if is_skill else clamped(value) for value in np.where(driven, engine, NOTHING)], float)
     sources = tuple(flows.links[edge].source for edge in edges)
-    return _Ends(target, edges, sources, values, behind, parts, gain, total, commands, driven)
+    return _Ends(edges, sources, parts, target, values, behind, gain, total, commands, driven)
 
 
 def _neutral(flows: EdgeFlows, ends: _Ends) -> float | None:
@@ -215,7 +230,7 @@ def _contribution(flows: EdgeFlows, ends: _Ends, path: FoundPath) -> Contributio
     sources = [flows.links[edge].source for edge in path.edges]
     names = [flows.graph.skills[source].name for source in sources] + [flows.graph.named(*ends.target)]
     with np.errstate(all="ignore"):
-        along = np.where(ends.parts[place] > 0, path.part / ends.parts[place], 0.0)
+        along = np.where(ends.fractions[place] > 0, path.part / ends.fractions[place], 0.0)
     sent = ends.values[place]
     value = sent[0] if (sent == sent[0]).all() else np.average(sent, weights=path.part)
     influence, share = ends.mean(along * ends.behind[place]), ends.mean(along * ends.shares[place])
@@ -232,10 +247,8 @@ def _above(flows: EdgeFlows, target: Sink) -> list[int]:
     return [skill for skill in flows.skills if skill in found]
 
 
-def _into(flows: EdgeFlows, skill: int, carried: EdgeFlow) -> IncomingEdges | None:
-    edges = tuple(flows.links_to.get(("skill", skill), ()))
-    if not edges:
-        return None
+def _into(flows: EdgeFlows, skill: int, carried: EdgeFlow) -> IncomingEdges:
+    edges = tuple(flows.links_to["skill", skill])
     arrived = carried.carried[:, edges].T.astype(float)
     # influence beyond float32 is no number: where some of it is none, that is all of it
     arrived = np.where(np.isfinite(arrived).all(axis=0), arrived, ~np.isfinite(arrived))
@@ -244,39 +257,10 @@ def _into(flows: EdgeFlows, skill: int, carried: EdgeFlow) -> IncomingEdges | No
     return IncomingEdges(edges, tuple(flows.links[edge].source for edge in edges), fractions)
 
 
-@dataclass(frozen=True, slots=True)
-class IncomingEdges:
-    """The edges [n] over which influence comes to a skill, from the skills `sources` [n].
-
-    `fractions` [n, ticks] are the parts of its influence that come over each, which add up to 1 in each tick in which
-    it has any.
-    """
-
-    edges: tuple[int, ...]
-    sources: tuple[int, ...]
-    fractions: Doubles
-
-
-@dataclass(frozen=True, slots=True)
-class FoundPath:
-    """A path by its edges, from the master down, and its part [ticks] of what is asked about."""
-
-    edges: tuple[int, ...]
-    part: Doubles
-
-
-@dataclass(frozen=True, slots=True)
-class LargestPaths:
-    """The largest paths, the largest first. Unless `are_largest`, the search was given up before it was sure of it."""
-
-    paths: list[FoundPath]
-    are_largest: bool
-
-
 def largest_paths(
     ends: IncomingEdges, into: Mapping[int, IncomingEdges], order: Sequence[int], limit: int
-) -> LargestPaths:
-    """The paths whose parts, summed over the ticks, are largest.
+) -> tuple[list[FoundPath], bool]:
+    """The paths whose parts, summed over the ticks, are largest, and False where the search was given up before.
 
     `ends` are the edges to what is asked about, with the part that comes over each; `into` has the ways into each
     skill, `order` the skills parents first, the master before all. A path's end can at most come to its part times that
@@ -285,7 +269,7 @@ def largest_paths(
     """
     ticks = ends.fractions.shape[1]
     best, number = _best(into, order, ticks), count()
-    followed, found = 0, list[tuple[float, int, FoundPath]]()
+    followed, found = 0, list[FoundPath]()
 
     def onward(ways: IncomingEdges, part: Doubles, edges: Linked) -> list[End]:
         """A path's end with this part, longer by each of the ways on, the best first."""
@@ -297,9 +281,9 @@ def largest_paths(
         )
 
     waiting = onward(ends, np.ones(ticks), ())  # sorted, so a heap
-    while waiting and not (len(found) >= limit and found[limit - 1][0] >= -waiting[0][0]):
+    while waiting and not (len(found) >= limit and found[limit - 1].size >= -waiting[0][0]):
         if followed > MAX_FOLLOWED_EDGES:
-            return LargestPaths([path for _, _, path in found[:limit]], are_largest=False)
+            return found, False
         _, _, edges, skill, part, fraction = heappop(waiting)
         while True:
             part = part * fraction
@@ -309,17 +293,16 @@ def largest_paths(
             (_, _, edges, skill, _, fraction), *others = onward(into[skill], part, edges)
             for other in others:
                 heappush(waiting, other)
-        found.append((float(part.sum()), -len(found), FoundPath(tuple(_unlinked(edges)), part)))
-        found.sort(key=lambda each: each[:2], reverse=True)
+        insort(found, FoundPath(tuple(_unlinked(edges)), part, float(part.sum())), key=lambda path: -path.size)
         del found[limit:]
-    return LargestPaths([path for _, _, path in found], are_largest=True)
+    return found, True
 
 
 def path_count(ends: IncomingEdges, into: Mapping[int, IncomingEdges], order: Sequence[int]) -> int:
     """How many paths there are over edges that carried something in any of the ticks, up to `MAX_COUNTED_PATHS`."""
     counts: dict[int, int] = {order[0]: 1}
     for skill in order[1:]:
-        counts[skill] = _counted(into[skill], counts) if skill in into else 0
+        counts[skill] = _counted(into[skill], counts)
     return _counted(ends, counts)
 
 
@@ -332,8 +315,7 @@ def _best(into: Mapping[int, IncomingEdges], order: Sequence[int], ticks: int) -
     """The part [ticks] of each skill's influence that comes over the best path to it in that tick."""
     best = {order[0]: np.ones(ticks)}
     for skill in order[1:]:
-        ways = into.get(skill)
-        best[skill] = np.zeros(ticks) if ways is None else _part_above(ways, best).max(axis=0)
+        best[skill] = _part_above(into[skill], best).max(axis=0)
     return best
 
 

@@ -26,17 +26,17 @@ from mindlang.breakpoints.breakpoint import (
     Transmission,
 )
 from mindlang.breakpoints.subject import BreakpointSubject
-from mindlang.compiler import lower, model
+from mindlang.compiler import lower
 from mindlang.compiler.compile import read_main
 from mindlang.compiler.diagnostic import Diagnostic, Findings, did_you_mean, listed
 from mindlang.compiler.expand import number_values, number_writer
 from mindlang.compiler.parse import parse_stops
-from mindlang.compiler.resolve import expressions
+from mindlang.compiler.resolve.expressions import Visible, resolve_expressions
 from mindlang.compiler.resolve.kinds import a_name
 from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.resolve.tasks import MAX_RUN_TICKS, TIMES, event_in
 from mindlang.compiler.source import Source, Span
-from mindlang.compiler.syntax import Comparison, Phrase, Stop, Transmits, When
+from mindlang.compiler.syntax import Comparison, Expression, Phrase, Stop, Term, Transmits, When, rebuilt
 
 WEIGHT = Quantity("how much a skill influences", {"": 1.0, "%": 0.01}, low=0, high=1)
 WHICH_TICK = Quantity("the number of a tick", {"": 1.0}, low=1, high=MAX_RUN_TICKS, whole=True)
@@ -96,7 +96,7 @@ class _Resolver:
             event = self._event(line.event)
             return None if event is None or times is None else Happens(event, int(times))
         last = self.subject.task.ticks if self.subject.task else MAX_RUN_TICKS
-        tick = convert(line.tick, replace(WHICH_TICK, high=last), self.findings) if line.tick else None
+        tick = convert(line.tick.amount, replace(WHICH_TICK, high=last), self.findings) if line.tick else None
         return None if tick is None else Reaches(int(tick))
 
     def _event(self, written: Phrase) -> EventKind | RobotEvent | None:
@@ -157,23 +157,16 @@ class _Resolver:
     def _holds(self, when: When) -> Holds:
         places = replace(self.subject.places, measures={})
         widths = {name: width for name, (_, width) in places.readings.items()}
-        visible = expressions.Visible(
+        visible = Visible(
             widths,
             commands=frozenset(places.actuators),
             made_of="numbers, readings, memories and the commands of actuators",
             where="What a run stops at",
         )
 
-        def compared(each: Comparison | Transmits) -> model.Comparison:
-            if isinstance(each, Transmits):
-                return self._transmits(each)
-            left, right = (
-                expressions.resolve_expression(side, visible, self.findings) for side in (each.left, each.right)
-            )
-            return model.Comparison(left, each.compare, right)
-
         before = len(self.findings.diagnostics)
-        found = model.When(tuple(tuple(map(compared, all_)) for all_ in when.alternatives), when.span)
+        compared: When = rebuilt(when, lambda node: self._transmits(node) if isinstance(node, Transmits) else node)
+        found = resolve_expressions(compared, visible, self.findings)
         if len(self.findings.diagnostics) > before:
             return Holds((), (), ())
         program = lower.lower_condition(found, places)
@@ -186,18 +179,17 @@ class _Resolver:
         transmissions = tuple(places.measures)
         return Holds(program, transmissions, tuple(_named(program, transmissions, self.subject)))
 
-    def _transmits(self, written: Transmits) -> model.Comparison:
+    def _transmits(self, written: Transmits) -> Comparison:
         """`SKILL influences NAME above AMOUNT`, the weight on the left."""
         level = convert(written.amount, WEIGHT, self.findings)
         skill = self.subject.names.find(written.skill, ("skill",), self.findings)
         is_skill = written.to.text.rpartition(".")[2][:1].isupper()
         nouns: tuple[Receiver, ...] = ("skill",) if is_skill else ("actuator", "memory")
         to = self.subject.names.find(written.to, nouns, self.findings)
-        terms: tuple[model.Term, ...] = ()
-        if skill and to and (found := self._transmission(written, to)):
-            terms = (model.Measured(found, written.span),)
-        right = model.Expression((model.Number(float(level or 0), written.amount.span),), written.amount.span)
-        return model.Comparison(model.Expression(terms, written.span), "<" if written.level == "below" else ">", right)
+        found = self._transmission(written, to) if skill and to else None
+        left = Expression((Term("measure", found, written.span),), written.span)
+        right = Expression((Term("number", float(level or 0), written.amount.span),), written.amount.span)
+        return Comparison(left, "<" if written.level == "below" else ">", right, written.span)
 
     def _transmission(self, written: Transmits, to: Receiver) -> Transmission | None:
         """The transmission of a skill of the run to a target over its own edges; None after reporting an error."""

@@ -13,19 +13,11 @@ from mindrun.graph.bundle import Bundle
 from mindrun.graph.graph import Graph
 from mindrun.graph.recording_header import About
 from mindrun.kinds.events.event import EventKind
-from mindrun.numbers.evaluation import OPERATORS
+from mindrun.numbers.arrays import OPERATORS
 from mindrun.numbers.expression import Program, fold
 from numpy.typing import NDArray
 
-from mindlang.breakpoints.breakpoint import (
-    Breakpoint,
-    Happens,
-    Holds,
-    Reaches,
-    RobotEvent,
-    Transmission,
-    robot_events,
-)
+from mindlang.breakpoints.breakpoint import Breakpoint, Happens, Holds, Reaches, RobotEvent, Transmission, robot_events
 from mindlang.breakpoints.subject import BreakpointSubject
 from mindlang.run.edge_flow import EdgeFlow, EdgeFlows, Places, Singles, accumulated
 from mindlang.run.recorded_run import RecordedRun
@@ -139,11 +131,9 @@ def watcher(breakpoints: Sequence[Breakpoint], setup: RunSetup) -> Watcher:
 def evaluate_rows(program: Program, leaf: Leaf, rows: int) -> NDArray[np.float64]:
     """The value of an expression in each of so many rows, `leaf` giving those of its readings [rows]."""
 
-    def combined(operator: str, left: Any, right: Any) -> Any:
-        return OPERATORS[operator](left, right)
-
     with np.errstate(all="ignore"):
-        return np.broadcast_to(np.float64(fold(program, leaf, neg, combined)), (rows,))
+        value = fold(program, leaf, neg, lambda operator, left, right: OPERATORS[operator](left, right))
+        return np.broadcast_to(np.float64(value), (rows,))
 
 
 def _leaf(rows: Rows, measures: Sequence[NDArray[np.float64]]) -> Leaf:

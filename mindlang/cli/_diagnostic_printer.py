@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
-from unicodedata import combining, east_asian_width
 
 from mindrun.files.printable import visible
 
@@ -79,6 +78,8 @@ def _where(span: Span) -> str:
 
 def _excerpt(span: Span, mark: str, style: str) -> Iterator[Segment]:
     """The line of a span, as much of it as fits, and marks below the span."""
+    from rich.cells import cell_len
+
     line = span.source.line(span.line)
     column = span.column - 1
     first = max(0, column - EXCERPT_COLUMNS // 2) if len(line) > EXCERPT_COLUMNS else 0
@@ -88,10 +89,5 @@ def _excerpt(span: Span, mark: str, style: str) -> Iterator[Segment]:
     number = str(span.line)
     yield f"  {number} | ", "dim"
     yield f"{'…' if first else ''}{visible(shown)}{'…' if first + EXCERPT_COLUMNS < len(line) else ''}\n", ""
-    yield f"  {' ' * len(number)} | {' ' * (_cells(indent) + bool(first))}", "dim"
-    yield f"{mark * max(1, _cells(marked))}\n", style
-
-
-def _cells(text: str) -> int:
-    """The number of columns that a terminal gives to a text."""
-    return sum(0 if combining(c) else 2 if east_asian_width(c) in "WF" else 1 for c in text)
+    yield f"  {' ' * len(number)} | {' ' * (cell_len(indent) + bool(first))}", "dim"
+    yield f"{mark * max(1, cell_len(marked))}\n", style

@@ -1,11 +1,11 @@
 """Types of options and arguments: numbers that say both of their bounds, files, names that a shell completes."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from functools import wraps
+from dataclasses import dataclass, fields
+from functools import partial, wraps
 from math import isfinite, nan
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 from click.core import ParameterSource
@@ -14,9 +14,14 @@ from click.shell_completion import CompletionItem
 from mindlang import limits
 from mindlang.cli._terminal import MISUSE, refusing
 
+if TYPE_CHECKING:
+    from _typeshed import DataclassInstance
+
 SHOWN_CHARACTERS = 20  # of what is refused
 MAX_TICK_DIGITS = 15
 Completion = Callable[[click.Context, click.Parameter, str], list[CompletionItem]]
+Chosen = TypeVar("Chosen", bound="DataclassInstance")
+Option = Callable[[Callable[..., Any]], Callable[..., Any]]  # a decorator of a command
 
 
 class WholeOption(click.IntRange):
@@ -39,7 +44,7 @@ class LayoutOption(WholeOption):
         if not slash:
             return super().convert(value, param, ctx)
         first = SEED.convert(seed, param, ctx)
-        run = WholeOption(*limits.RUN_BOUNDS).convert(number, param, ctx)
+        run = RUNS.convert(number, param, ctx)
         from mindlang.run.setup import layouts
 
         return layouts(first, run)[-1]
@@ -60,60 +65,61 @@ class NumberOption(click.FloatRange):
         return self.fail(f"{_shortened(value)} is not a number {low} {self.max:g}.", param, ctx)
 
 
-class TickSpan(click.ParamType[tuple[int, int]]):
-    """A tick, or the first and the last of several: 812 or 800..812."""
-
-    name = "ticks"
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> tuple[int, int]:
-        """The first tick and the last one."""
-        first, dots, last = str(value).partition("..")
-        words = [first, last] if dots else [first]
-        if all(word.isascii() and word.isdigit() and len(word) <= MAX_TICK_DIGITS for word in words):
-            ticks = [int(word) for word in words]
-            if 1 <= ticks[0] <= ticks[-1]:
-                return ticks[0], ticks[-1]
-        return self.fail(
-            f"{_shortened(value)} is no tick from 1 on, and no span of ticks: 812 or 800..812.", param, ctx
-        )
+def tick_span(text: str) -> tuple[int, int]:
+    """The first and the last tick of a span, 800..812, or of a single one, 812."""
+    first, dots, last = text.partition("..")
+    words = [first, last] if dots else [first]
+    if all(word.isascii() and word.isdigit() and len(word) <= MAX_TICK_DIGITS for word in words):
+        ticks = [int(word) for word in words]
+        if 1 <= ticks[0] <= ticks[-1]:
+            return ticks[0], ticks[-1]
+    raise click.BadParameter(f"{_shortened(text)} is no tick from 1 on, and no span of ticks: 812 or 800..812.")
 
 
-class WhereOption(click.ParamType[Any]):
-    """An option for the executor of jobs: threads, or a kind and its argument."""
+def executor(text: str) -> Any:
+    """The executor of jobs that --on says, None for threads; a sentence where it says none that is known."""
+    from mindrun.errors import MindError
 
-    name = "where"
+    from mindlang.executors import where
 
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        """The executor that it says, None for threads; a sentence where it says none that is known."""
-        from mindrun.errors import MindError
-
-        from mindlang.executors import where
-
-        try:
-            return where(str(value))
-        except MindError as error:
-            return self.fail(f"{error}; {error.hint}.", param, ctx)
-
-    def shell_complete(self, ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
-        """The kinds; what stands behind their colon is the user's."""
-        from mindlang.executors import THREADS, kinds_by_usage
-
-        known = {THREADS: "of this process", **{f"{name}:": usage for name, usage in kinds_by_usage().items()}}
-        return one_of(lambda: known)(ctx, param, incomplete)
+    try:
+        return where(text)
+    except MindError as error:
+        raise click.BadParameter(f"{error}; {error.hint}.") from error
 
 
-class NewFile(click.Path):
-    """The path of a file that is to be written."""
+def _executors() -> dict[str, str]:
+    """The kinds of executors; what stands behind their colon is the user's."""
+    from mindlang.executors import THREADS, kinds_by_usage
 
-    def __init__(self) -> None:
-        super().__init__(path_type=Path)
+    return {THREADS: "of this process", **{f"{name}:": usage for name, usage in kinds_by_usage().items()}}
 
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        """The path, unless it has no name or is that of a folder."""
-        text = str(value)
-        if "\0" in text or text.endswith("/") or Path(text).name in ("", ".."):
-            self.fail(f"{text!r} names no file.", param, ctx)
-        return Path(text)
+
+def new_file(text: str) -> Path:
+    """The path of a file that is to be written; a sentence where it has no name or is that of a folder."""
+    if "\0" in text or text.endswith("/") or Path(text).name in ("", ".."):
+        raise click.BadParameter(f"{text!r} names no file.")
+    return Path(text)
+
+
+def named(flag: str, metavar: str, names: Completion, about: str, **more: Any) -> Option:
+    """An option for a name, which a shell completes; behind the flag may stand what the command calls it."""
+    return click.option(*flag.split(), metavar=metavar, shell_complete=names, help=about, **more)
+
+
+def written(flag: str, metavar: str, about: str, **more: Any) -> Option:
+    """An option for a file that is to be written; behind the flag may stand what the command calls it."""
+    return click.option(*flag.split(), type=new_file, metavar=metavar, help=about, **more)
+
+
+def unless(flag: str, name: str, about: str) -> Option:
+    """A flag for what holds without it: what the command calls by that name is False where the flag is given."""
+    return click.option(flag, name, is_flag=True, callback=lambda context, parameter, value: not value, help=about)
+
+
+def taken(of: type[Chosen], said: dict[str, Any]) -> Chosen:
+    """A value of a dataclass that has fields called as options; what it takes is no longer among what was `said`."""
+    return of(**{each.name: said.pop(each.name) for each in fields(of) if each.name in said})
 
 
 def refuse_ineffective(what_they_are: str, *names: str) -> None:
@@ -195,16 +201,18 @@ def _declarations(context: click.Context, parameter: click.Parameter) -> Iterato
 
 SEED = WholeOption(*limits.SEED_BOUNDS)
 LAYOUT = LayoutOption(*limits.LAYOUT_BOUNDS)
-WORKERS = WholeOption(*limits.WORKER_BOUNDS)
-ON = WhereOption()
+RUNS = WholeOption(*limits.RUN_BOUNDS)
+WORKERS = click.option(
+    "--workers",
+    type=WholeOption(*limits.WORKER_BOUNDS),
+    help="How many cores to use (default: all). Changes nothing else.",
+)
+ON = partial(click.option, "--on", "where", type=executor, metavar="WHERE", shell_complete=one_of(_executors))
 PATH = click.Path(path_type=Path)
 SKILLS, TASKS = declared("skill"), declared("task")
 IN_CHARGE = "Who is in charge. Default: the mind's master if a lesson on the task is under it, else that of the first."
-UNDER_MASTER = click.option("--master", metavar="SKILL", shell_complete=SKILLS, help=IN_CHARGE)
-OF_TASK = click.option(
-    "--task", metavar="TASK", shell_complete=TASKS, help="Default: that on which the master is taught, or of its name."
-)
-OF_A_CAST = "task", "master", "no_interruption"  # who does what in a run
+OF_TASK = named("--task", "TASK", TASKS, "Default: that on which the master is taught, or of its name.")
+OF_A_CAST = "task", "master", "interrupt"  # who does what in a run
 OF_A_RUN = (*OF_A_CAST, "seed")
 OF_RUNS_ALONE = "of runs, not of recordings"
 
@@ -219,22 +227,18 @@ class RunChoice:
     interrupt: bool
 
 
-def run_options(seed: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+def run_options(seed: str) -> Option:
     """The options of a command that say which run it makes, with a help for --seed; it takes them as `chosen`."""
 
     def decorated(command: Callable[..., Any]) -> Callable[..., Any]:
+        @OF_TASK
+        @click.option("--seed", type=LAYOUT, help=seed)
+        @named("--master", "SKILL", SKILLS, IN_CHARGE)
+        @unless("--no-interruption", "interrupt", "Go on to the last tick, whatever would end the run.")
         @wraps(command)
-        def called(task: str | None, seed: int | None, master: str | None, no_interruption: bool, **said: Any) -> Any:
-            return command(chosen=RunChoice(task, seed, master, not no_interruption), **said)
+        def called(**said: Any) -> Any:
+            return command(chosen=taken(RunChoice, said), **said)
 
-        to_the_end = "Go on to the last tick, whatever would end the run."
-        for option in (
-            click.option("--no-interruption", is_flag=True, help=to_the_end),
-            UNDER_MASTER,
-            click.option("--seed", type=LAYOUT, help=seed),
-            OF_TASK,
-        ):
-            called = option(called)
         return called
 
     return decorated

@@ -4,9 +4,10 @@ import os
 import signal
 import sys
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import AbstractContextManager, contextmanager
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from types import FrameType
 from typing import NamedTuple
 
 from mindrun.errors import MindError, ProcedureError
@@ -20,11 +21,11 @@ from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, T
 from mindlang.breakpoints.breakpoint import Breakpoint
 from mindlang.breakpoints.resolve import load_breakpoints
 from mindlang.breakpoints.subject import BreakpointSubject
+from mindlang.breakpoints.watch import noticing
 from mindlang.cli import _terminal as terminal
 from mindlang.cli._diagnostic_printer import print_report
 from mindlang.cli._options import RunChoice
 from mindlang.compiler.compile import Compiled
-from mindlang.executors import Where, scorer_on
 from mindlang.executors.jobs import JobScorer
 from mindlang.limits import refuse_too_large, refuse_too_many
 from mindlang.run.chosen_task import SetupError
@@ -40,7 +41,7 @@ def ensure_compiled(rollout: Rollout, say: Callable[[str], None] = terminal.comp
     had = warmup.is_there(rollout.entries)  # compiled of these very files, kept or shipped
     if not had:
         say(COMPILING)
-    with _ended_by_ctrl_c():
+    with on_ctrl_c(_end_at_once):
         rollout.compile()
     if had and not warmup.is_native(rollout.entries):  # it was shipped, for any processor of its kind
         warmup.start(warmup.IN_BACKGROUND)
@@ -50,14 +51,19 @@ def ensure_stages_compiled(rollout: Rollout, say: Callable[[str], None]) -> None
     """Compile the stages of a tick one by one if need be, which runs with changes take, and say so."""
     if not warmup.is_there(STAGES):
         say(COMPILING_STAGES)
-    with _ended_by_ctrl_c():
+    with on_ctrl_c(_end_at_once):
         rollout.compile(*STAGES)
 
 
+def _end_at_once(number: int, frame: FrameType | None) -> None:
+    """End the program without an exception, which numba may swallow while it compiles."""
+    os._exit(terminal.INTERRUPTED)
+
+
 @contextmanager
-def _ended_by_ctrl_c() -> Iterator[None]:
-    """Let Ctrl-C end the program at once, because numba may swallow it while it compiles."""
-    before = signal.signal(signal.SIGINT, lambda number, frame: os._exit(terminal.INTERRUPTED))
+def on_ctrl_c(handler: Callable[[int, FrameType | None], object]) -> Iterator[None]:
+    """Have a function called at Ctrl-C."""
+    before = signal.signal(signal.SIGINT, handler)
     try:
         yield
     finally:
@@ -90,6 +96,16 @@ class RunSession:
         self.say(*(f"note: {note}" for note in (*found.ready.notes, found.note) if note))
         return found
 
+    def prepare_stopping(
+        self, file: str, compiled: Compiled, chosen: RunChoice, breaks: Path | None
+    ) -> tuple[RunSetup, Prepared, tuple[Breakpoint, ...]]:
+        """A run that is set up; the one that notices what a .break file asks, in its simulator; its breakpoints."""
+        setup, breakpoints = self.set_up(file, compiled, chosen), tuple[Breakpoint, ...]()
+        if breaks:
+            breakpoints = read_breakpoints(breaks, BreakpointSubject.of_run(compiled.whole[0].names, setup))
+        noticed = noticing(setup, breakpoints)
+        return setup, Prepared(noticed, self.simulator(noticed, chosen.interrupt)), breakpoints
+
     @terminal.procedures_talk()
     def simulator(self, setup: RunSetup, interrupt: bool, workers: int = 1, runs: int = 1) -> Rollout:
         """The simulator of a run that is set up, compiled for it."""
@@ -101,13 +117,6 @@ class RunSession:
         for skill, reason in rollout.procedures.slow.items():
             self.say(f"{skill} runs in Python, which is slow: {reason}")
         return rollout
-
-    def scorer(
-        self, prepared: Prepared, interrupt: bool, where: Where | None, workers: int
-    ) -> AbstractContextManager[Rollout | JobScorer]:
-        """The scorer of many runs, on so many `workers` of this machine, or as --on says."""
-        setup, rollout = prepared
-        return scorer_on(where, rollout, lambda: setup.assignment(interrupt), workers, self.say)
 
     @terminal.procedures_talk()
     def score(self, scorer: Rollout | JobScorer, seeds: Sequence[int], whose: str = "") -> tuple[Scores, float, float]:
@@ -161,12 +170,6 @@ def refusing_recordings() -> Iterator[None]:
     except MindError as error:
         is_found = isinstance(error, (DifferenceError, ProcedureError))
         terminal.fail(str(error), error.hint, terminal.FINDINGS if is_found else terminal.MISUSE)
-
-
-def breakpoints_of_run(path: Path, compiled: Compiled, setup: RunSetup) -> tuple[Breakpoint, ...]:
-    """The breakpoints of a run that is set up, in the .break file at `path`."""
-    assert compiled.mind
-    return read_breakpoints(path, BreakpointSubject.of_run(compiled.mind.names, setup))
 
 
 def read_breakpoints(path: Path, subject: BreakpointSubject) -> tuple[Breakpoint, ...]:

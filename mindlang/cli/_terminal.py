@@ -41,7 +41,7 @@ def console(stderr: bool = False) -> Console:
 def tell(*lines: str, quiet: bool = False) -> None:
     """Print lines on stderr, unless it is to be quiet."""
     for line in () if quiet else lines:
-        console(stderr=True).print(line, markup=False)
+        console(stderr=True).print(line, markup=False, emoji=False)
 
 
 def complain(message: str, hint: str = "") -> None:
@@ -110,11 +110,9 @@ def print_document(text: str) -> None:
 
 def text_columns(console: Console, rows: Sequence[tuple[Sequence[Text], Text]]) -> Text:
     """A line or more for each row: its short texts whole, then the long one, whose lines go on below one another."""
-    from rich.cells import cell_len
     from rich.text import Text
 
-    columns = zip(*(short for short, _ in rows), strict=True)
-    widths = [max(cell_len(text.plain) for text in column) for column in columns]
+    widths = [max(text.cell_len for text in column) for column in zip(*(short for short, _ in rows), strict=True)]
     indent = sum(widths) + 2 * len(widths)
     is_beside = console.width - indent >= LEAST_BODY_COLUMNS
     indent = indent if is_beside else 2
@@ -122,15 +120,10 @@ def text_columns(console: Console, rows: Sequence[tuple[Sequence[Text], Text]]) 
     for short, body in rows:
         line = Text()
         for text, width in zip(short, widths, strict=True):
-            line.append_text(text).append(" " * (width - cell_len(text.plain) + 2))
-        parts = [part for part in body.split("\n") if part]
-        wrapped = [each for part in parts for each in part.wrap(console, max(1, console.width - indent))]
-        lines = [Text(" " * indent).append_text(each) for each in wrapped]
-        if is_beside and lines:
-            lines[0] = line.append_text(lines[0][indent:])
-        else:
-            lines.insert(0, line)
-        for each in lines:
+            line.append_text(text).append(" " * (width - text.cell_len + 2))
+        wrapped = [each for each in body.wrap(console, max(1, console.width - indent)) if each]
+        beside = [line.append_text(wrapped.pop(0)) if is_beside and wrapped else line]
+        for each in [*beside, *(Text(" " * indent).append_text(rest) for rest in wrapped)]:
             each.rstrip()
             found.append_text(each).append("\n")
     return found
@@ -151,20 +144,25 @@ def refuse_unwritable(path: Path | None, *suffixes: str) -> None:
         return
     if path.suffix.lower() not in suffixes:
         fail(f"{path} must end in {' or '.join(suffixes)}", code=MISUSE)
-    try:
+    with writing(path):
         refuse(path)
+
+
+@contextmanager
+def writing(path: Path | str, code: int = MISUSE) -> Iterator[None]:
+    """End the program with one message where a file cannot be written."""
+    try:
+        yield
     except OSError as error:
-        fail(f"{path} cannot be written: {error.strerror}", code=MISUSE)
+        fail(f"{path} cannot be written: {error.strerror}", code=code)
 
 
 def write_file(path: Path, data: Data) -> None:
     """Write a file whose contents are done; where that fails the program ends, and the old one is still there."""
     from mindrun.files.atomic_write import write_out
 
-    try:
+    with writing(path):
         write_out(path, data)
-    except OSError as error:
-        fail(f"{path} cannot be written: {error.strerror}", code=MISUSE)
 
 
 def rewrite_source(file: str, old: str, new: str) -> None:
@@ -174,10 +172,8 @@ def rewrite_source(file: str, old: str, new: str) -> None:
     from mindlang.compiler.source import encode_source
 
     path = Path(file)
-    try:
+    with writing(file, FINDINGS):
         rewrite(path, encode_source(path, new), encode_source(path, old))
-    except OSError as error:
-        fail(f"{file} cannot be written: {error.strerror}")
 
 
 def load_compiled(path: Path | str) -> Compiled:

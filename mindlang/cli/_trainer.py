@@ -4,8 +4,7 @@ import json
 import secrets
 import signal
 import sys
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
@@ -23,7 +22,7 @@ from mindrun.train.run_folder import RunFolder, open_run, read_result
 from mindrun.train.scoring import Scorer
 from mindrun.train.training import Watch, train
 
-from mindlang.cli._session import ensure_compiled
+from mindlang.cli._session import ensure_compiled, on_ctrl_c
 from mindlang.cli._terminal import console, load_compiled, procedures_talk, tell
 from mindlang.cli._training_progress import LessonDisplay, TimeLeft
 from mindlang.executors import Where
@@ -33,15 +32,7 @@ from mindlang.training.event_files import EventFiles
 from mindlang.training.lesson_choice import TrainOptions, lessons_to_teach
 from mindlang.training.lock_update import Kept
 from mindlang.training.subject import Subject, begin_run, open_subject, refuse_changed
-from mindlang.training.teaching import (
-    Result,
-    finish,
-    make_again,
-    opening,
-    outcome,
-    rollout_of,
-    workers_of,
-)
+from mindlang.training.teaching import Result, finish, make_again, opening, outcome, rollout_of, workers_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -143,8 +134,12 @@ class Trainer:
         generations = run.manifest.lesson.generations
         display = None if self.quiet else LessonDisplay(console(stderr=True), run.manifest.name, pace)
         event_files = EventFiles(run) if self.event_files else None
+        asked = Event()
 
-        def when_asked() -> None:
+        def stop(number: int, frame: FrameType | None) -> None:
+            """Stop after this generation; at the next Ctrl-C at once, even where compiled code runs no handler."""
+            signal.signal(signal.SIGINT, signal.SIG_DFL)
+            asked.set()
             if display:
                 display.close()
             if isinstance(scorer, JobScorer) and not scorer.jobs.has_begun:
@@ -163,7 +158,7 @@ class Trainer:
                 event_files.report(record, now)
 
         try:
-            with stop_asked(when_asked) as asked:
+            with on_ctrl_c(stop):
                 watch = Watch(report, self._say, asked.is_set, perf_counter, pace.count_ahead)
                 return train(run, scorer, watch, executor)
         finally:
@@ -185,21 +180,3 @@ class Trainer:
 
 class StoppedWhileIdleError(KeyboardInterrupt):
     """A run is to be stopped before anybody is at work: there is nothing to wait for."""
-
-
-@contextmanager
-def stop_asked(when_asked: Callable[[], None]) -> Iterator[Event]:
-    """An event that the first SIGINT sets, which calls `when_asked`; a second one ends the process."""
-    asked = Event()
-
-    def first(number: int, frame: FrameType | None) -> None:
-        # The default action, and no handler: compiled code may keep Python from running one for a while.
-        signal.signal(signal.SIGINT, signal.SIG_DFL)
-        asked.set()
-        when_asked()
-
-    before = signal.signal(signal.SIGINT, first)
-    try:
-        yield asked
-    finally:
-        signal.signal(signal.SIGINT, before)

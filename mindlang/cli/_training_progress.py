@@ -126,14 +126,15 @@ class LessonDisplay:
 
     def __init__(self, console: Console, name: str, pace: TimeLeft) -> None:
         self._console, self._name, self._pace, self._due = console, name, pace, pace.began
-        self._live = Live(self._line(None, 0), console=console, transient=True) if console.is_terminal else None
-        if self._live:
+        self._live: Live | None = None
+        if console.is_terminal:
+            self._live = Live(ProgressLine(name, None, 0.0), console=console, transient=True)
             self._live.start()
 
     def report(self, standing: ProgressText, done: int, now: float) -> None:
         """Move the bar, or print a line if the last one is long enough ago; one is for the last generation."""
         if self._live:
-            self._live.update(self._line(standing, done))
+            self._live.update(ProgressLine(self._name, standing, self._pace.share(done)))
         elif now >= self._due or done == self._pace.generations:
             self._console.print(f"{self._name}: {standing.text()}", markup=False)
             self._due = now + LINE_SECONDS
@@ -142,9 +143,6 @@ class LessonDisplay:
         """Take the bar away; the cursor is back."""
         if self._live:
             self._live.stop()
-
-    def _line(self, standing: ProgressText | None, done: int) -> RenderableType:
-        return ProgressLine(self._name, standing, self._pace.share(done))
 
 
 @dataclass(frozen=True, slots=True)

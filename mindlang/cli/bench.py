@@ -3,26 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 from mindrun.processors import cores
 
-from mindlang import limits
-from mindlang.cli._options import (
-    IN_CHARGE,
-    OF_TASK,
-    ON,
-    SEED,
-    SKILLS,
-    WORKERS,
-    NewFile,
-    RunChoice,
-    WholeOption,
-    refuse_ineffective,
-)
+from mindlang.cli import _options as options
 from mindlang.cli._terminal import MISUSE, fail, print_result, refuse_unwritable, write_file
 
 if TYPE_CHECKING:
@@ -49,42 +38,19 @@ Examples:
 
 @click.command(epilog=EXAMPLES)
 @click.argument("files", nargs=-1, required=True, metavar="FILE [OTHER]")
-@OF_TASK
-@click.option(
-    "--runs",
-    type=WholeOption(*limits.RUN_BOUNDS),
-    default=200,
-    show_default=True,
-    help="How many layouts to run the task on.",
+@options.OF_TASK
+@click.option("--runs", type=options.RUNS, default=200, show_default=True, help="How many layouts to run the task on.")
+@click.option("--seed", type=options.SEED, default=1, show_default=True, help="Draws the layouts.")
+@options.WORKERS
+@options.named(
+    "--master masters", "SKILL", options.SKILLS, f"{options.IN_CHARGE} Twice: both are compared.", multiple=True
 )
-@click.option("--seed", type=SEED, default=1, show_default=True, help="Draws the layouts.")
-@click.option("--workers", type=WORKERS, help="How many cores to use (default: all). Changes nothing else.")
-@click.option(
-    "--master",
-    "masters",
-    metavar="SKILL",
-    shell_complete=SKILLS,
-    multiple=True,
-    help=f"{IN_CHARGE} Twice: both are compared.",
-)
-@click.option("--on", "where", type=ON, metavar="WHERE", help="Who makes the runs: processes:N, ssh:HOST,HOST …")
-@click.option("--no-interruption", is_flag=True, help="Go on to the last tick, whatever would end a run.")
-@click.option("--csv", "table", type=NewFile(), metavar="PATH.csv", help="Write a row for each run.")
+@options.ON(help="Who makes the runs: processes:N, ssh:HOST,HOST …")
+@options.unless("--no-interruption", "interrupt", "Go on to the last tick, whatever would end a run.")
+@options.written("--csv table", "PATH.csv", "Write a row for each run.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON document instead.")
 @click.option("-q", "--quiet", is_flag=True, help="Print nothing but results and errors.")
-def command(
-    files: tuple[str, ...],
-    task: str | None,
-    runs: int,
-    seed: int,
-    workers: int | None,
-    where: Any,
-    masters: tuple[str, ...],
-    no_interruption: bool,
-    table: Path | None,
-    as_json: bool,
-    quiet: bool,
-) -> None:
+def command(files: tuple[str, ...], masters: tuple[str, ...], workers: int | None, quiet: bool, **said: Any) -> None:
     """Run a task of FILE on many layouts, for figures to trust.
 
     With the weights that its skills were taught. Runs the Python code of the file's procedures. Each run has a seed of
@@ -95,11 +61,10 @@ def command(
     """
     from mindlang.cli._session import RunSession
 
-    refuse_unwritable(table, ".csv")
-    if where is not None:
-        refuse_ineffective("for the cores of this machine: with --on others make the runs", "workers")
-    chosen = RunChoice(task, seed, None, not no_interruption)
-    bench = Bench(RunSession(quiet), chosen, seed, runs, workers or cores(), where, table, as_json)
+    bench = Bench(RunSession(quiet), workers or cores(), **said)
+    refuse_unwritable(bench.table, ".csv")
+    if bench.where is not None:
+        options.refuse_ineffective("for the cores of this machine: with --on others make the runs", "workers")
     who = contenders(files, masters)
     if len(who) > 1:
         bench.compare(who)
@@ -137,11 +102,12 @@ class Bench:
     """The runs to make, the workers that make them, so many of this machine or those of --on, and the output."""
 
     session: RunSession
-    chosen: RunChoice
-    seed: int
-    runs: int
     workers: int
+    task: str | None
+    runs: int
+    seed: int
     where: Where | None
+    interrupt: bool
     table: Path | None
     as_json: bool
 
@@ -151,7 +117,7 @@ class Bench:
         from mindlang.run.summary import bench_summary
         from mindlang.run.tables import runs_table
 
-        prepared = self._prepared(who, self.chosen.task)
+        prepared = self._prepared(who, self.task)
         setup = prepared.setup
         task, seeds = setup.task, setup.layouts(self.seed, self.runs)
         self.session.say(*(f"note: {note}" for note in setup.world_notes))
@@ -168,7 +134,7 @@ class Bench:
         from mindlang.run.summary import comparison_summary
         from mindlang.run.tables import joined, runs_table
 
-        first = self._prepared(who[0], self.chosen.task)
+        first = self._prepared(who[0], self.task)
         second = self._prepared(who[1], first.setup.task.name)
         is_one_world = first.setup.is_one_world and second.setup.is_one_world
         seeds = max((each.setup.layouts(self.seed, self.runs) for each in (first, second)), key=len)
@@ -188,15 +154,19 @@ class Bench:
         print_result(self.as_json, found, lambda: comparison_summary(found, compared))
 
     def _prepared(self, who: Contender, task: str | None) -> Prepared:
-        chosen = replace(self.chosen, task=task, master=who.master)
+        chosen = options.RunChoice(task, self.seed, who.master, self.interrupt)
         return self.session.prepare(who.file, chosen, self.workers, self.runs)
 
     def _score(self, prepared: Prepared, seeds: Sequence[int], whose: str = "") -> tuple[Scores, dict[str, Any]]:
         """The score of each run, and the data of all of them; notes on stderr say `whose` they are."""
+        from mindlang.executors import scorer_on
+        from mindlang.executors.jobs import assignment_of
         from mindlang.run.outcome import bench_data, over_at_once
 
         setup, rollout = prepared
-        with self.session.scorer(prepared, self.chosen.interrupt, self.where, self.workers) as scorer:
+        cast = setup.ready.policy, setup.task.name, setup.master, setup.folder
+        assignment = partial(assignment_of, *cast, interrupt=self.interrupt)
+        with scorer_on(self.where, rollout, assignment, self.workers, self.session.say) as scorer:
             scores, seconds, cpu = self.session.score(scorer, seeds, whose)
         data = bench_data(setup.task, scores, seeds, seconds, None if self.where else cpu)
         return scores, data | {"notes": setup.notes(rollout, *over_at_once(setup.task, scores))}

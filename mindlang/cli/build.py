@@ -11,8 +11,8 @@ import click
 from mindrun.errors import MindError
 
 from mindlang.cli._diagnostic_printer import print_report
-from mindlang.cli._options import PATH, SKILLS, NewFile
-from mindlang.cli._terminal import FINDINGS, MISUSE, complain, console, fail, load_compiled, print_json
+from mindlang.cli._options import PATH, SKILLS, named, written
+from mindlang.cli._terminal import FINDINGS, MISUSE, complain, console, fail, load_compiled, print_json, writing
 from mindlang.compiler.diagnostic import did_you_mean, listed
 
 if TYPE_CHECKING:
@@ -33,8 +33,8 @@ Examples:
 
 @click.command(epilog=EXAMPLES)
 @click.argument("file")
-@click.option("-o", "--output", required=True, type=NewFile(), help="The bundle: -o collect.bundle")
-@click.option("--master", metavar="SKILL", shell_complete=SKILLS, help="Another skill in charge: --master Avoid")
+@written("-o --output", "PATH", "The bundle: -o collect.bundle", required=True)
+@named("--master", "SKILL", SKILLS, "Another skill in charge: --master Avoid")
 @click.option("--robot", type=PATH, metavar="FILE", help="What it is wired to: --robot robot.yaml")
 @click.option("--json", "as_json", is_flag=True, help="Say what was built as one JSON document: --json")
 @click.option("-q", "--quiet", is_flag=True, help="Print nothing but errors: -q")
@@ -52,23 +52,21 @@ def command(file: str, output: Path, master: str | None, robot: Path | None, as_
     from mindlang.lock.ready import make_ready
 
     compiled = load_compiled(file)
-    assert compiled.mind is not None
-    assert compiled.graph is not None
-    skills, folder = [skill.name for skill in compiled.graph.skills], compiled.sources[0].folder
+    (mind, graph), folder = compiled.whole, compiled.sources[0].folder
+    skills = [skill.name for skill in graph.skills]
     if master is not None and master not in skills:
         fail(f"There is no skill {master}.", did_you_mean(master, skills), MISUSE)
-    graph = replace(compiled.graph, master=master or compiled.graph.master)
-    _refuse_procedures(graph, compiled.mind, folder)
-    wiring = _wiring(robot, graph, compiled.mind.unit_metres) if robot else None
+    graph = replace(graph, master=master or graph.master)
+    _refuse_procedures(graph, mind, folder)
+    wiring = _wiring(robot, graph, mind.unit_metres) if robot else None
     try:
-        ready = make_ready(compiled.graph, compiled.sources, master)
-        _refuse_missing(ready, file)
-        procedures = procedure_sources(ready.policy.graph, folder)
-        digest = write_bundle(output, Bundle(ready.policy, procedures, wiring))
+        with writing(output, FINDINGS):
+            ready = make_ready(graph, compiled.sources)
+            _refuse_missing(ready, file)
+            procedures = procedure_sources(ready.policy.graph, folder)
+            digest = write_bundle(output, Bundle(ready.policy, procedures, wiring))
     except MindError as error:
         fail(str(error), code=MISUSE)
-    except OSError as error:
-        fail(f"{output} cannot be written: {error.strerror}")
     notes = [*ready.notes, *_needed_modules(ready, folder)]
     for note in notes:
         complain(f"note: {note}")

@@ -13,7 +13,7 @@ from mindrun.terminal.command_line import command_line
 
 from mindlang.breakpoints import SUFFIX
 from mindlang.cli._diagnostic_printer import as_data, print_report
-from mindlang.cli._options import SKILLS, TASKS, files_of, in_files
+from mindlang.cli._options import SKILLS, TASKS, files_of, in_files, named
 from mindlang.cli._terminal import FINDINGS, MISUSE, OK, console, print_json, refusing, tell
 from mindlang.compiler.diagnostic import Diagnostic, distinct
 
@@ -46,12 +46,8 @@ class _Checked:
 
 @click.command(epilog=EXAMPLES)
 @click.argument("files", nargs=-1, required=True, metavar="FILE_OR_FOLDER…")
-@click.option(
-    "--task", metavar="TASK", shell_complete=TASKS, help="What .break files are about. Default: as of mindc run."
-)
-@click.option(
-    "--master", metavar="SKILL", shell_complete=SKILLS, help="Who is in charge then. Default: as of mindc run."
-)
+@named("--task", "TASK", TASKS, "What .break files are about. Default: as of mindc run.")
+@named("--master", "SKILL", SKILLS, "Who is in charge then. Default: as of mindc run.")
 @click.option("--json", "as_json", is_flag=True, help="One JSON document instead: mindc check collect.mind --json")
 def command(files: tuple[str, ...], task: str | None, master: str | None, as_json: bool) -> None:
     """Read files, and report everything that is wrong in them.

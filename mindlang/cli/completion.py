@@ -1,15 +1,7 @@
 """`mindc completion`: click's script with which a shell completes the words of mindc, and names of files."""
 
 import click
-from click.shell_completion import (
-    BashComplete,
-    CompletionItem,
-    FishComplete,
-    ShellComplete,
-    ZshComplete,
-    add_completion_class,
-    get_completion_class,
-)
+from click import shell_completion as shells
 
 from mindlang.cli._terminal import print_document
 
@@ -19,7 +11,7 @@ Examples:
   mindc completion zsh >> ~/.zshrc
   mindc completion fish > ~/.config/fish/completions/mindc.fish
 """
-SHELLS = {"bash": BashComplete, "zsh": ZshComplete, "fish": FishComplete}
+SHELLS = {"bash": shells.BashComplete, "zsh": shells.ZshComplete, "fish": shells.FishComplete}
 
 
 @click.command(epilog=EXAMPLES)
@@ -30,19 +22,19 @@ def command(context: click.Context, shell: str) -> None:
 
     Commands, options, files, and the names in the mind that stands on the line.
     """
-    script = get_completion_class(shell)
+    script = shells.get_completion_class(shell)
     assert script
     print_document(script(context.find_root().command, {}, "mindc", "_MINDC_COMPLETE").source())
 
 
-class Files(ShellComplete):
+class Files(shells.ShellComplete):
     """Names of files where an argument or an option takes any word."""
 
-    def get_completions(self, args: list[str], incomplete: str) -> list[CompletionItem]:
+    def get_completions(self, args: list[str], incomplete: str) -> list[shells.CompletionItem]:
         """Complete a word as click does, and by names of files where click knows nothing."""
         found = super().get_completions(args, incomplete)
-        return found if found or incomplete.startswith("-") else [CompletionItem(incomplete, type="file")]
+        return found if found or incomplete.startswith("-") else [shells.CompletionItem(incomplete, type="file")]
 
 
 for _name, _class in SHELLS.items():
-    add_completion_class(type(_class.__name__, (Files, _class), {}), _name)
+    shells.add_completion_class(type(_class.__name__, (Files, _class), {}), _name)

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 from mindrun.errors import BundleError
 from mindrun.files.printable import visible
 
-from mindlang.cli._terminal import INTERRUPTED, MISUSE, fail, print_json, refusing
+from mindlang.cli import _options as options
+from mindlang.cli._terminal import INTERRUPTED, MISUSE, fail, print_json, refusing, tell
 
 if TYPE_CHECKING:
     from mindrun.graph.bundle import Bundle
@@ -32,28 +33,18 @@ Examples:
 @click.argument("words", nargs=-1, required=True, metavar="[BUNDLE] HOST")
 @click.option("--rollback", is_flag=True, help="Go back to the release before: --rollback")
 @click.option("--list", "as_list", is_flag=True, help="Show the releases that are there: --list")
-@click.option("--arm-service", is_flag=True, help="The service moves the robot, at every start: --arm-service")
-@click.option("--no-service", is_flag=True, help="No service runs it, an older one is removed: --no-service")
+@click.option("--arm-service", "armed", is_flag=True, help="The service moves the robot, at every start: --arm-service")
+@options.unless("--no-service", "service", "No service runs it, an older one is removed: --no-service")
 @click.option("--keep", type=click.IntRange(2, 1000), default=3, show_default=True, help="Releases that stay: --keep 5")
 @click.option(
     "--watch", type=click.IntRange(0, 60), default=5, show_default=True, help="Seconds to see it run: --watch 10"
 )
-@click.option("--no-auto-rollback", is_flag=True, help="Stay with a release that does not run: --no-auto-rollback")
+@options.unless("--no-auto-rollback", "go_back", "Stay with a release that does not run: --no-auto-rollback")
 @click.option("--dry-run", is_flag=True, help="Say what would be done, and do nothing: --dry-run")
 @click.option("--json", "as_json", is_flag=True, help="Say what came of it as one JSON document: --json")
 @click.option("-q", "--quiet", is_flag=True, help="Print nothing but errors: -q")
 def command(
-    words: tuple[str, ...],
-    rollback: bool,
-    as_list: bool,
-    arm_service: bool,
-    no_service: bool,
-    keep: int,
-    watch: int,
-    no_auto_rollback: bool,
-    dry_run: bool,
-    as_json: bool,
-    quiet: bool,
+    words: tuple[str, ...], rollback: bool, as_list: bool, dry_run: bool, as_json: bool, quiet: bool, **said: Any
 ) -> None:
     """Bring BUNDLE to HOST over ssh, and start it as a service.
 
@@ -70,9 +61,9 @@ def command(
             click.echo(message, err=True)
 
     path, host = _path_and_host(words, rollback or as_list)
-    if (rollback and as_list) or (arm_service and no_service):
+    settings = Settings(**said)
+    if (rollback and as_list) or (settings.armed and not settings.service):
         raise click.UsageError("--rollback and --list, like --arm-service and --no-service, exclude each other.")
-    settings = Settings(not no_service, arm_service, keep, watch, not no_auto_rollback)
     try:
         with refusing():
             check_host(host)
@@ -87,8 +78,7 @@ def command(
     except KeyboardInterrupt:
         whole = "Interrupted: the robot has the old release or the new one, whole."
         fail(whole, "The same command goes on.", INTERRUPTED)
-    for note in done.notes:
-        click.echo(f"note: {note}", err=True)
+    tell(*(f"note: {note}" for note in done.notes))
     if as_json:
         print_json(_result(host, done, settings, dry_run))
     elif not dry_run:

@@ -31,12 +31,10 @@ def command(old: str, new: str, as_json: bool) -> None:
     from mindlang.lock.report import as_data, rows, survival
 
     before, after = load_compiled(old), load_compiled(new)
-    assert before.mind is not None
-    assert after.mind is not None
-    assert after.graph is not None
-    found = mind_differences(before.mind, after.mind)
+    mind, graph = after.whole
+    found = mind_differences(before.whole[0], mind)
     has_lock = lock_path(after.sources[0].path).exists()
-    standing = rows(after.graph, lock_sources((after if has_lock else before).sources))
+    standing = rows(graph, lock_sources((after if has_lock else before).sources))
 
     def text() -> Text:
         lines: list[Text] = []

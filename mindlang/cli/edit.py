@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Mapping
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
@@ -76,11 +76,6 @@ def command() -> None:
 
 def _command(of: Edit) -> click.Command:
     """A click command with the parameters of an edit, and those that all of them have."""
-
-    def run(file: str, write: bool, anyway: bool, keep_weights: bool, verify: bool, as_json: bool, **said: Any) -> None:
-        file, said = _file_first(of, file, said)
-        _perform(of, said, file, write, anyway, keep_weights, verify, as_json)
-
     parameters = [
         click.Argument(["file"]),
         *(
@@ -102,7 +97,9 @@ def _command(of: Edit) -> click.Command:
         ),
         click.Option(["--json", "as_json"], is_flag=True, help="One JSON document instead."),
     ]  # fmt: skip
-    return click.Command(of.name, params=parameters, callback=run, help=of.text, epilog=f"\b\n{of.example}")
+    return click.Command(
+        of.name, params=parameters, callback=partial(_perform, of), help=of.text, epilog=f"\b\n{of.example}"
+    )
 
 
 def _file_first(of: Edit, first: str, said: dict[str, Any]) -> tuple[str, dict[str, Any]]:
@@ -133,14 +130,7 @@ def _option(option: EditOption) -> click.Option:
 
 
 def _perform(
-    of: Edit,
-    said: Mapping[str, Any],
-    file: str,
-    write: bool,
-    anyway: bool,
-    keep_weights: bool,
-    verify: bool,
-    as_json: bool,
+    of: Edit, file: str, write: bool, anyway: bool, keep_weights: bool, verify: bool, as_json: bool, **said: Any
 ) -> None:
     """Make an edit of a file, or only show it; an impossible one ends the program with its reason."""
     from mindlang.editing.apply import apply_edit
@@ -148,6 +138,7 @@ def _perform(
     from mindlang.editing.project import EditError, open_project
     from mindlang.editing.summary import broken_sentences, diff, not_followed, summarise
 
+    file, said = _file_first(of, file, said)
     if write and file == "-":
         terminal.fail("Standard input cannot be written.", "Leave --write out: the diff is printed.", terminal.MISUSE)
     project = open_project(terminal.load_compiled(file))

@@ -4,7 +4,7 @@ import click
 from mindrun.files.printable import visible
 
 from mindlang.cli._options import one_of
-from mindlang.cli._terminal import MISUSE, console, fail, print_json, print_result
+from mindlang.cli._terminal import MISUSE, fail, print_result
 
 EXAMPLES = """\b
 Examples:
@@ -53,8 +53,5 @@ def command(name: tuple[str, ...], as_json: bool) -> None:
     if not known:
         hint = unknown_hint(asked, [*articles(), *command_articles()])
         fail(f"There is nothing called {visible(asked)}.", hint, MISUSE)
-    if as_json:
-        print_json({"articles": [article_data(each) for each in known]})
-        return
-    for number, each in enumerate(known):
-        console().print(Text.assemble("\n" * (number > 0), *article_text(each)), end="")
+    data = {"articles": [article_data(each) for each in known]}
+    print_result(as_json, data, lambda: Text("\n").join(Text.assemble(*article_text(each)) for each in known), end="")

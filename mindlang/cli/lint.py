@@ -12,7 +12,7 @@ import click
 from click.shell_completion import CompletionItem
 
 from mindlang.cli._diagnostic_printer import as_data, print_report
-from mindlang.cli._options import files_of, in_files
+from mindlang.cli._options import files_of, in_files, named
 from mindlang.cli._terminal import FINDINGS, MISUSE, OK, console, fail, print_json, refusing
 from mindlang.compiler.diagnostic import Diagnostic, distinct
 
@@ -41,16 +41,8 @@ def _rules(context: click.Context, parameter: click.Parameter, begun: str) -> li
 @click.command(epilog=EXAMPLES)
 @click.argument("files", nargs=-1, required=True, metavar="FILE_OR_FOLDER…")
 @click.option("--fix", is_flag=True, help="Make the fixes that never change what the robot does.")
-@click.option(
-    "--select",
-    multiple=True,
-    metavar="CODES",
-    shell_complete=_rules,
-    help="Only these rules: --select unread-sensor,edge-at-zero",
-)
-@click.option(
-    "--ignore", multiple=True, metavar="CODES", shell_complete=_rules, help="Not these rules: --ignore untaught-skill"
-)
+@named("--select", "CODES", _rules, "Only these rules: --select unread-sensor,edge-at-zero", multiple=True)
+@named("--ignore", "CODES", _rules, "Not these rules: --ignore untaught-skill", multiple=True)
 @click.option("--format", "as_", type=click.Choice(FORMATS), default="text", show_default=True, help="Of the findings.")
 def command(files: tuple[str, ...], fix: bool, select: tuple[str, ...], ignore: tuple[str, ...], as_: str) -> None:
     """Report what is wrong in files, and what is hardly meant so.
@@ -80,8 +72,6 @@ def command(files: tuple[str, ...], fix: bool, select: tuple[str, ...], ignore: 
 
 def _settings(file: str) -> LintSettings:
     """The settings that count for a file; what is wrong in them ends the program."""
-    from mindlang.cli._diagnostic_printer import print_report
-    from mindlang.cli._terminal import MISUSE, console
     from mindlang.lint.settings import settings_of
 
     found = settings_of(Path(realpath(file)))
@@ -93,7 +83,6 @@ def _settings(file: str) -> LintSettings:
 
 def _codes(said: Sequence[str]) -> list[str]:
     """The codes of an option; one that is none ends the program."""
-    from mindlang.cli._terminal import MISUSE, fail
     from mindlang.lint.settings import why_no_rule
 
     codes = [code for text in said for code in text.replace(",", " ").split()]

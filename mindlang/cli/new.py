@@ -5,10 +5,9 @@ from pathlib import Path
 from typing import Any
 
 import click
-from mindrun.errors import MindError
 
-from mindlang.cli._options import one_of
-from mindlang.cli._terminal import MISUSE, fail, print_json
+from mindlang.cli._options import named, one_of
+from mindlang.cli._terminal import MISUSE, fail, print_json, refusing
 from mindlang.templates import Robot, Task, fitting, known, robots, robots_for, tasks, tasks_of
 from mindlang.templates.project import check_free, check_name, make_folder, project
 
@@ -28,8 +27,8 @@ TASKS = one_of(lambda: {name: each.about for name, each in tasks().items()})
 
 @click.command(epilog=EXAMPLES)
 @click.argument("name", required=False)
-@click.option("--robot", metavar="ROBOT", shell_complete=ROBOTS, help="What it is: --robot differential")
-@click.option("--task", metavar="TASK", shell_complete=TASKS, help="What it is to learn: --task patrol")
+@named("--robot", "ROBOT", ROBOTS, "What it is: --robot differential")
+@named("--task", "TASK", TASKS, "What it is to learn: --task patrol")
 @click.option("--list", "as_list", is_flag=True, help="Print which robots and tasks there are: --list")
 @click.option("--json", "as_json", is_flag=True, help="Print that as one JSON document: --list --json")
 def command(name: str | None, robot: str | None, task: str | None, as_list: bool, as_json: bool) -> None:
@@ -44,7 +43,7 @@ def command(name: str | None, robot: str | None, task: str | None, as_list: bool
         return
     if as_json:
         fail("--json goes with --list.", "mindc new --list --json", MISUSE)
-    try:
+    with refusing(MISUSE):
         if name is not None:
             check_name(name)
             check_free(Path(name))
@@ -53,8 +52,6 @@ def command(name: str | None, robot: str | None, task: str | None, as_list: bool
             name = _asked_name()
             check_name(name)
         make_folder(Path(name), project(name, chosen_robot, chosen_task))
-    except MindError as error:
-        fail(str(error), error.hint, MISUSE)
     click.echo(f"{name}: a {chosen_robot.name} robot, and how it learns to {chosen_task.name}", err=True)
     click.echo(f"  cd {name}", err=True)
     click.echo(f"  mindc train {name}.mind --seed 1     # in about a minute", err=True)

@@ -1,18 +1,12 @@
 """`mindc plot`: how skills were learnt, as curves."""
 
-from __future__ import annotations
-
 from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
 
-from mindlang.cli._options import PATH, NewFile
+from mindlang.cli._options import PATH, written
 from mindlang.cli._terminal import MISUSE, fail, print_json, refuse_unwritable, refusing, write_file
-
-if TYPE_CHECKING:
-    from mindlang.pictures.learning_log import Curve
 
 EXAMPLES = """\b
 Examples:
@@ -26,7 +20,7 @@ Examples:
 
 @click.command(epilog=EXAMPLES)
 @click.argument("runs", nargs=-1, required=True, metavar="RUN…", type=PATH)
-@click.option("-o", "--output", type=NewFile(), default="curves.svg", show_default=True, help="A .svg or a .png file.")
+@written("-o --output", "PATH", "A .svg or a .png file.", default="curves.svg", show_default=True)
 @click.option("--mean", is_flag=True, help="A panel for each lesson: the mean of its runs, and how sure it is.")
 @click.option("--json", "as_json", is_flag=True, help="Say what was drawn as one JSON document.")
 @click.option("-q", "--quiet", is_flag=True, help="Print nothing but results and errors.")
@@ -55,18 +49,17 @@ def command(runs: tuple[Path, ...], output: Path, mean: bool, as_json: bool, qui
     lessons = by_lesson(curves) if mean else []
     write_file(output, image(mean_figure(lessons) if mean else figure(curves), output.suffix))
     if as_json:
-        data = [each.data() for each in lessons] or [_data(curve) for curve in curves]
+        data = [each.data() for each in lessons] or [
+            {
+                "name": curve.name,
+                "run": str(curve.path),
+                "attempts": len(curve.attempts),
+                "generations": len(curve.records),
+                "failed": curve.failure or None,
+            }
+            for curve in curves
+        ]
         print_json({"picture": str(output), "curves": data})
     if not quiet:
         shown = curves[0].name if len(curves) == 1 else f"{len(curves)} runs"
         click.echo(f"{output}: how {shown} {'was' if len(curves) == 1 else 'were'} learnt", err=True)
-
-
-def _data(curve: Curve) -> dict[str, object]:
-    return {
-        "name": curve.name,
-        "run": str(curve.path),
-        "attempts": len(curve.attempts),
-        "generations": len(curve.records),
-        "failed": curve.failure or None,
-    }

@@ -1,19 +1,11 @@
 """`mindc prove`: what can be said about a mind without running it."""
 
-from __future__ import annotations
-
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import click
 
-from mindlang.cli._options import LAYOUT, SKILLS, TASKS, NumberOption
-from mindlang.cli._terminal import MISUSE, fail, load_compiled, print_json, print_table, procedures_talk
-from mindlang.compiler.diagnostic import did_you_mean
-
-if TYPE_CHECKING:
-    from mindlang.compiler.compile import Compiled
-    from mindlang.proofs.recorded import Recorded
+from mindlang.cli._options import LAYOUT, SKILLS, TASKS, NumberOption, named
+from mindlang.cli._terminal import MISUSE, load_compiled, print_json, print_table, procedures_talk, refusing
 
 EXAMPLES = """\b
 Examples:
@@ -34,11 +26,9 @@ Examples:
     metavar="δ",
     help="What a learnt line sends where it should send 0. Default: 0.01.",
 )
-@click.option("--master", metavar="SKILL", shell_complete=SKILLS, help="Who is in charge. Default: the mind's master.")
+@named("--master", "SKILL", SKILLS, "Who is in charge. Default: the mind's master.")
 @click.option("--run", "with_run", is_flag=True, help="Run a task, too, and count ticks without influence.")
-@click.option(
-    "--task", metavar="TASK", shell_complete=TASKS, help="Of the run. Default: the one that `mindc run` takes."
-)
+@named("--task", "TASK", TASKS, "Of the run. Default: the one that `mindc run` takes.")
 @click.option("--seed", type=LAYOUT, default=1, help="Of the run. Default: 1.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON document instead.")
 def command(
@@ -58,32 +48,26 @@ def command(
     from mindlang.lock.ready import make_ready
     from mindlang.proofs.proof import prove
     from mindlang.proofs.report import proof_data, proof_report
+    from mindlang.run.chosen_task import skill_of
 
     compiled = load_compiled(file)
-    assert compiled.graph
-    if master is not None:
-        names = [skill.name for skill in compiled.graph.skills]
-        if master not in names:
-            fail(f"there is no skill called {master}", did_you_mean(master, names), MISUSE)
-        compiled = replace(compiled, graph=replace(compiled.graph, master=master))
-    assert compiled.graph
-    ready = make_ready(compiled.graph, compiled.sources)
+    _, graph = compiled.whole
+    with refusing(MISUSE):
+        graph = replace(graph, master=skill_of(graph, master or graph.master))
+    compiled = replace(compiled, graph=graph)
+    ready = make_ready(graph, compiled.sources)
     lock = read_locks(lock_sources(compiled.sources))
     hashes = {skill: lock[skill].weights for skill in ready.policy.weights if skill in lock}
-    run = _run(file, compiled, task, seed) if with_run else None
-    proof = prove(ready.policy.graph, ready.policy.weights, leak)
-    data = proof_data(proof, hashes, run)
+    run = None
+    if with_run:
+        from mindlang.cli._session import ensure_compiled, refusing_setups
+        from mindlang.proofs.recorded import record_undriven
+        from mindlang.run.setup import set_up
+
+        with refusing_setups("--run: "), procedures_talk():
+            run = record_undriven(set_up(file, compiled, task, graph.master), seed, ensure_compiled)
+    data = proof_data(prove(ready.policy.graph, ready.policy.weights, leak), hashes, run)
     if as_json:
         print_json(data)
     else:
         print_table(proof_report(data))
-
-
-def _run(file: str, compiled: Compiled, task: str | None, seed: int) -> Recorded:
-    from mindlang.cli._session import ensure_compiled, refusing_setups
-    from mindlang.proofs.recorded import record_undriven
-    from mindlang.run.setup import set_up
-
-    assert compiled.graph
-    with refusing_setups("--run: "), procedures_talk():
-        return record_undriven(set_up(file, compiled, task, compiled.graph.master), seed, ensure_compiled)

@@ -5,14 +5,14 @@ from __future__ import annotations
 import secrets
 import sys
 from dataclasses import dataclass
-from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
+from mindlang.cli import _options as options
 from mindlang.cli import _terminal as terminal
-from mindlang.cli._options import PATH, NewFile, NumberOption, RunChoice, refuse_ineffective, run_options
+from mindlang.number_format import finite
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -37,42 +37,29 @@ Examples:
   mindc run collect.mind --task Avoid --seed 3 --json
   mindc run collect.mind --task Avoid --seed 1/17   of bench --seed 1
 """
+WRITTEN = {"picture": (".png",), "video": (".mp4", ".gif"), "trace": (".csv", ".parquet"), "record": (".rec",)}
 
 
 @click.command(epilog=EXAMPLES)
 @click.argument("file")
-@run_options(seed="The same seed gives the same run. Default: drawn, and printed.")
-@click.option("--picture", type=NewFile(), metavar="PATH.png", help="Draw the world and the path that the robot took.")
-@click.option(
+@options.run_options(seed="The same seed gives the same run. Default: drawn, and printed.")
+@options.written("--picture", "PATH.png", "Draw the world and the path that the robot took.")
+@options.written(
     "--video",
-    type=NewFile(),
-    metavar="PATH.mp4|gif",
-    help="Film the world, the influence in the hierarchy and the readings. A GIF is smaller, with 10 images a second.",
+    "PATH.mp4|gif",
+    "Film the world, the influence in the hierarchy and the readings. A GIF is smaller, with 10 images a second.",
 )
 @click.option(
     "--speed",
-    type=NumberOption(0.01, 1000),
+    type=options.NumberOption(0.01, 1000),
     help="Of the video. Default: a whole run takes a minute, in a GIF 20 seconds.",
 )
-@click.option(
-    "--trace", type=NewFile(), metavar="PATH.csv", help="Write readings, influence, commands and rewards of every tick."
-)
-@click.option("--record", type=NewFile(), metavar="PATH.rec", help="Write a recording, for mindc view, why and whatif.")
-@click.option("--break", "breaks", type=PATH, metavar="PATH.break", help="Stop where a line of it says.")
+@options.written("--trace", "PATH.csv", "Write readings, influence, commands and rewards of every tick.")
+@options.written("--record", "PATH.rec", "Write a recording, for mindc view, why and whatif.")
+@click.option("--break", "breaks", type=options.PATH, metavar="PATH.break", help="Stop where a line of it says.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON document instead.")
 @click.option("-q", "--quiet", is_flag=True, help="Print nothing but results and errors.")
-def command(
-    file: str,
-    chosen: RunChoice,
-    picture: Path | None,
-    video: Path | None,
-    speed: float | None,
-    trace: Path | None,
-    record: Path | None,
-    breaks: Path | None,
-    as_json: bool,
-    quiet: bool,
-) -> None:
+def command(file: str, chosen: options.RunChoice, breaks: Path | None, as_json: bool, quiet: bool, **said: Any) -> None:
     """Run a task of FILE once, in numbers, pictures and tables.
 
     With the weights that its skills were taught. Runs the Python code of the file's procedures. Refuses skills that
@@ -81,48 +68,38 @@ def command(
     With --break it ends in the first tick in which a line of that file holds, with 1, and says which; with 0 where none
     does.
     """
-    terminal.refuse_unwritable(picture, ".png")
-    terminal.refuse_unwritable(video, ".mp4", ".gif")
-    terminal.refuse_unwritable(trace, ".csv", ".parquet")
-    terminal.refuse_unwritable(record, ".rec")
-    if video is None:
-        refuse_ineffective("of --video: say it, too", "speed")
+    for name, suffixes in WRITTEN.items():
+        terminal.refuse_unwritable(said[name], *suffixes)
+    if said["video"] is None:
+        options.refuse_ineffective("of --video: say it, too", "speed")
     from mindlang.cli._session import RunSession
 
-    seed = secrets.randbits(31) if chosen.seed is None else chosen.seed
-    files = RunFiles(RunSession(quiet), picture, video, speed, trace, record)
-    sys.exit(_run(file, chosen, seed, breaks, files, as_json))
+    sys.exit(_run(file, chosen, breaks, RunFiles(RunSession(quiet), **said), as_json))
 
 
-def _run(file: str, chosen: RunChoice, seed: int, breaks: Path | None, files: RunFiles, as_json: bool) -> int:
+def _run(file: str, chosen: options.RunChoice, breaks: Path | None, files: RunFiles, as_json: bool) -> int:
     """Run to the end or to a line of the .break file, print and write the outcome; the exit code."""
     from rich.console import Group
 
-    from mindlang.breakpoints.watch import noticing, watcher
-    from mindlang.cli._session import breakpoints_of_run
+    from mindlang.breakpoints.watch import watcher
     from mindlang.run.outcome import data_so_far, run_data
-    from mindlang.run.recorded_run import run_result
     from mindlang.run.summary import run_summary
 
+    seed = secrets.randbits(31) if chosen.seed is None else chosen.seed
     session, compiled, run, stop = files.session, terminal.load_compiled(file), None, None
-    plain = session.set_up(file, compiled, chosen)
-    breakpoints = breakpoints_of_run(breaks, compiled, plain) if breaks else ()
-    setup = noticing(plain, breakpoints)
-    rollout = session.simulator(setup, chosen.interrupt)
-    if breaks:
-        with terminal.procedures_talk():
-            made = run_result(setup, rollout, seed)
-            stop = stopped_data(watcher(breakpoints, setup).feed(made.run), str(breaks), made.run.graph.tick)
-        run, came = made.run, made.found
-        if stop and stop["tick"] < run.ticks:
-            run = run.until(stop["tick"])
-            came = data_so_far(run.task, run.lines[-1], run.events[-1], run.ticks, "a breakpoint")
-        came = came | {"stopped": stop}
-    elif files.any():
+    plain, (setup, rollout), breakpoints = session.prepare_stopping(file, compiled, chosen, breaks)
+    if breaks or any(getattr(files, name) for name in WRITTEN):
         made = session.record(setup, rollout, seed)
         run, came = made.run, made.found
     else:
         came = run_data(setup.task, session.score(rollout, [seed])[0])
+    if breaks and run:
+        with terminal.procedures_talk():
+            stop = stopped_data(watcher(breakpoints, setup).feed(run), str(breaks), run.graph.tick)
+        if stop and stop["tick"] < run.ticks:
+            run = run.until(stop["tick"])
+            came = data_so_far(run.task, run.lines[-1], run.events[-1], run.ticks, "a breakpoint")
+        came = came | {"stopped": stop}
     found = {"task": setup.task.name, "master": setup.master, "seed": seed}
     found |= {"notes": [*setup.ready.notes, *rollout.notes], **came}
     where = [stop_summary(stop)] if breaks else []
@@ -145,7 +122,7 @@ def stopped_data(stops: Sequence[Stop], file: str, tick_seconds: float) -> dict[
                 "file": file,
                 "line": stop.breakpoint.line,
                 "text": stop.breakpoint.text,
-                "values": {name: value if isfinite(value) else None for name, value in stop.values},
+                "values": {name: finite(value) for name, value in stop.values},
             }
             for stop in stops
             if stop.tick == tick
@@ -177,10 +154,6 @@ class RunFiles:
     speed: float | None
     trace: Path | None
     record: Path | None
-
-    def any(self) -> bool:
-        """True if there is something to write."""
-        return bool(self.picture or self.video or self.trace or self.record)
 
     @terminal.procedures_talk()
     def write(self, run: RecordedRun, setup: RunSetup, found: dict[str, Any]) -> None:
@@ -220,10 +193,7 @@ class RunFiles:
         from mindlang.pictures.film import Film
 
         film = Film(run, found, self.speed, path.suffix.lower())
-        try:
-            with terminal.refusing(terminal.MISUSE), self.session.progress() as progress:
-                bar = progress.add_task(path.name, total=len(film))
-                film.write(path, lambda: progress.advance(bar))
-        except OSError as error:
-            terminal.fail(f"{path} cannot be written: {error.strerror}", code=terminal.MISUSE)
+        with terminal.writing(path), terminal.refusing(terminal.MISUSE), self.session.progress() as progress:
+            bar = progress.add_task(path.name, total=len(film))
+            film.write(path, lambda: progress.advance(bar))
         self.session.say(f"{path}: {film.seconds:.0f} s at {film.speed:g} times the robot's speed")

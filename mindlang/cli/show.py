@@ -26,8 +26,7 @@ def command(file: str, as_dot: bool, as_graphml: bool, as_json: bool) -> None:
 
     if as_dot + as_graphml + as_json > 1:
         raise click.UsageError("Choose one of --dot, --graphml and --json.")
-    mind = load_compiled(file).mind
-    assert mind
+    mind, _ = load_compiled(file).whole
     if as_dot:
         print_document(dot(mind) + "\n")
     elif as_graphml:

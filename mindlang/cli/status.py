@@ -55,8 +55,8 @@ def command(file: str, skills: tuple[str, ...], accept: bool, as_json: bool) -> 
     from mindlang.lock.report import as_data, rows
 
     compiled = terminal.load_compiled(file)
-    assert compiled.graph is not None
-    sources, known = lock_sources(compiled.sources), [skill.name for skill in compiled.graph.skills]
+    _, graph = compiled.whole
+    sources, known = lock_sources(compiled.sources), [skill.name for skill in graph.skills]
     for skill in skills:
         if skill not in known:
             terminal.fail(f"There is no skill {skill}.", did_you_mean(skill, known), terminal.MISUSE)
@@ -65,8 +65,8 @@ def command(file: str, skills: tuple[str, ...], accept: bool, as_json: bool) -> 
         terminal.fail(needed, "Name them: --accept Avoid Collect", terminal.MISUSE)
     if accept:
         with terminal.refusing(end="."):
-            accept_weights(compiled.graph, sources, skills)
-    found = [row for row in rows(compiled.graph, sources) if not skills or row.skill in skills]
+            accept_weights(graph, sources, skills)
+    found = [row for row in rows(graph, sources) if not skills or row.skill in skills]
     data = {"skills": [as_data(row) for row in found]}
     terminal.print_result(as_json, data, lambda: report(found, terminal.console()), end="")
     sys.exit(terminal.OK if all(row.is_fine for row in found if row.is_needed) else terminal.FINDINGS)

@@ -7,7 +7,8 @@ from typing import Any
 import click
 
 from mindlang import limits
-from mindlang.cli._options import ON, PATH, SEED, SKILLS, WORKERS, NumberOption, WholeOption, declared
+from mindlang.cli import _options as options
+from mindlang.cli._options import NumberOption, WholeOption
 from mindlang.cli._terminal import INTERRUPTED, MISUSE, OK, fail, refusing
 
 EXAMPLES = """\b
@@ -33,12 +34,9 @@ A cluster with SLURM (what tls.pem is, and other ways: docs/cluster.md):
 
 @click.command(epilog=EXAMPLES)
 @click.argument("file", required=False)
-@click.argument("skills", nargs=-1, metavar="[SKILL]...", shell_complete=SKILLS)
-@click.option(
-    "--curriculum",
-    metavar="NAME",
-    shell_complete=declared("curriculum"),
-    help="Whose lessons to teach (default: the first in the file).",
+@click.argument("skills", nargs=-1, metavar="[SKILL]...", shell_complete=options.SKILLS)
+@options.named(
+    "--curriculum", "NAME", options.declared("curriculum"), "Whose lessons to teach (default: the first in the file)."
 )
 @click.option("--generations", type=WholeOption(*limits.GENERATION_BOUNDS), help="Instead of what the lesson says.")
 @click.option("--scale", type=NumberOption(0, 1000, min_open=True), default=1.0, help="Times so many generations.")
@@ -46,38 +44,18 @@ A cluster with SLURM (what tls.pem is, and other ways: docs/cluster.md):
 @click.option("--attempts", type=WholeOption(*limits.ATTEMPT_BOUNDS), help="Independent attempts; the best is kept.")
 @click.option("--from-scratch", is_flag=True, help="Forget the weights that the skill has.")
 @click.option("--force", is_flag=True, help="Teach what is up to date, too, and keep it even where it does worse.")
-@click.option("--seed", type=SEED, help="The same seed gives the same weights.")
-@click.option("--workers", type=WORKERS, help="How many cores to use (default: all). Changes nothing else.")
-@click.option(
-    "--on",
-    "where",
-    type=ON,
-    metavar="WHERE",
+@click.option("--seed", type=options.SEED, help="The same seed gives the same weights.")
+@options.WORKERS
+@options.ON(
     help="Who does the attempts: processes:N, ssh:HOST,HOST, slurm:N, dask:SCHEDULER … (default: threads; processes in"
     " environments of Gymnasium).",
 )
-@click.option("--runs", type=PATH, default="runs", show_default=True, help="Where runs are kept.")
-@click.option("--resume", type=PATH, metavar="RUN", help="Go on with a run that was stopped.")
+@click.option("--runs", type=options.PATH, default="runs", show_default=True, help="Where runs are kept.")
+@click.option("--resume", type=options.PATH, metavar="RUN", help="Go on with a run that was stopped.")
 @click.option("--tensorboard", "event_files", is_flag=True, help="Write event files for TensorBoard into the run, too.")
 @click.option("--json", "as_json", is_flag=True, help="Print one line of JSON per lesson.")
 @click.option("-q", "--quiet", is_flag=True, help="Print nothing but errors.")
-def command(
-    file: str | None,
-    skills: tuple[str, ...],
-    resume: Path | None,
-    generations: int | None,
-    scale: float,
-    population: int | None,
-    attempts: int | None,
-    from_scratch: bool,
-    force: bool,
-    workers: int | None,
-    where: Any,
-    event_files: bool,
-    as_json: bool,
-    quiet: bool,
-    **choice: Any,
-) -> int:
+def command(file: str | None, skills: tuple[str, ...], resume: Path | None, force: bool, **said: Any) -> int:
     """Teach the skills of FILE, in the order of its curriculum.
 
     Those named, or all without up-to-date weights: where the skill has changed, or the world in which it was taught, as
@@ -98,14 +76,13 @@ def command(
         fail("Standard input cannot be taught: what is learnt is kept beside a file.", "Save it as a file.", MISUSE)
     if (file is None) == (resume is None):
         fail("Say what to train: a file, or --resume and a run.", "mindc train --help has examples.", MISUSE)
-    if event_files and find_spec("tensorboardX") is None:
+    if said["event_files"] and find_spec("tensorboardX") is None:
         missing = "Event files are written with tensorboardX, which is not installed."
         fail(missing, "pip install 'mindlang[tensorboard]'", MISUSE)
-    trainer = Trainer(workers, as_json, quiet, where, event_files)
-    options = TrainOptions(generations, scale, population, attempts, from_scratch=from_scratch)
+    trainer, numbers = options.taken(Trainer, said), options.taken(TrainOptions, said)
     with refusing(), refusing(MISUSE, of=NotFoundError):
         if resume:
             finished = trainer.resume(resume, force)
         else:
-            finished = trainer.teach_file(Path(str(file)), skills, options=options, force=force, **choice)
+            finished = trainer.teach_file(Path(str(file)), skills, options=numbers, force=force, **said)
     return OK if finished else INTERRUPTED

@@ -7,23 +7,14 @@ import sys
 from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 from mindrun.terminal.command_line import command_line
 
+from mindlang.cli import _options as options
 from mindlang.cli import _terminal as terminal
-from mindlang.cli._options import (
-    OF_A_CAST,
-    OF_A_RUN,
-    OF_RUNS_ALONE,
-    PATH,
-    NewFile,
-    RunChoice,
-    WholeOption,
-    refuse_ineffective,
-    run_options,
-)
+from mindlang.cli._options import OF_A_CAST, OF_A_RUN, OF_RUNS_ALONE, PATH, RunChoice, refuse_ineffective
 
 if TYPE_CHECKING:
     from mindlang.view.learning import Learning
@@ -50,26 +41,16 @@ MAX_PORT = 65535
 @click.command(epilog=EXAMPLES)
 @click.argument("file")
 @click.argument("bundle", required=False)
-@run_options(seed="The same seed gives the same run. Default: drawn.")
+@options.run_options(seed="The same seed gives the same run. Default: drawn.")
 @click.option("--break", "breaks", type=PATH, metavar="PATH.break", help="Pause the page where a line of it says.")
 @click.option(
     "--follow", is_flag=True, help="Of a recording: show what is still written. HOST:FILE.rec is read by ssh."
 )
-@click.option("--port", type=WholeOption(1, MAX_PORT), help="Of this machine. Default: any that is free.")
-@click.option("--no-browser", is_flag=True, help="Print the address, and open nothing.")
-@click.option("--export", type=NewFile(), metavar="PATH.html", help="Write the page with the run in it, and end.")
+@click.option("--port", type=options.WholeOption(1, MAX_PORT), help="Of this machine. Default: any that is free.")
+@options.unless("--no-browser", "opens_browser", "Print the address, and open nothing.")
+@options.written("--export", "PATH.html", "Write the page with the run in it, and end.")
 @click.option("-q", "--quiet", is_flag=True, help="Print nothing but the address and errors.")
-def command(
-    file: str,
-    bundle: str | None,
-    chosen: RunChoice,
-    breaks: Path | None,
-    follow: bool,
-    port: int | None,
-    no_browser: bool,
-    export: Path | None,
-    quiet: bool,
-) -> None:
+def command(file: str, bundle: str | None, chosen: RunChoice, breaks: Path | None, follow: bool, **said: Any) -> None:
     """See a run of FILE, or a robot's day, in a browser.
 
     The world, the hierarchy, and every value over time: of a run; of a recording, with the BUNDLE that was running or
@@ -80,10 +61,10 @@ def command(
     open it again. With --export it is one file, which opens from a disk without a server. Runs the Python code of
     procedures.
     """
-    if export:
-        refuse_ineffective("of a page that is served, not of --export", "port", "no_browser")
-        terminal.refuse_unwritable(export, ".html")
-    output = ViewOutput(port, not no_browser, export, quiet)
+    output = ViewOutput(**said)
+    if output.export:
+        refuse_ineffective("of a page that is served, not of --export", "port", "opens_browser")
+        terminal.refuse_unwritable(output.export, ".html")
     if follow and bundle is None:
         raise click.UsageError("--follow is for a recording and its bundle: mindc view day.rec NAME.bundle --follow")
     if bundle is not None and (follow or not Path(file).is_dir()):
@@ -93,27 +74,23 @@ def command(
         _show_recording(file, Path(bundle), follow, breaks, output)
     elif Path(file).is_dir():
         refuse_ineffective("of a run or a recording, not of trainings", "bundle", *OF_A_CAST, "breaks", "export")
-        output.show(*training_view(Path(file), chosen.seed, quiet))
+        output.show(*training_view(Path(file), chosen.seed, output.quiet))
     elif file.endswith(".rec"):
         instead = command_line("mindc", "view", Path(file), "NAME.bundle")
         raise click.UsageError(f"A recording is seen with the bundle that was running: {instead}")
     else:
-        output.show(run_view(file, chosen, breaks, quiet))
+        output.show(run_view(file, chosen, breaks, output.quiet))
 
 
 def run_view(file: str, chosen: RunChoice, breaks: Path | None, quiet: bool) -> Viewed:
     """A run at its beginning, of a drawn seed where none is said; `breaks` is a file of breakpoints."""
-    from mindlang.breakpoints.watch import noticing
-    from mindlang.cli._session import RunSession, breakpoints_of_run
+    from mindlang.cli._session import RunSession
     from mindlang.compiler.drawing import text_after_name
     from mindlang.view.viewed_run import ViewedRun
 
     compiled, session = terminal.load_compiled(file), RunSession(quiet)
-    setup = session.set_up(file, compiled, chosen)
-    breakpoints = breakpoints_of_run(breaks, compiled, setup) if breaks else ()
-    setup = noticing(setup, breakpoints)
-    rollout = session.simulator(setup, chosen.interrupt)
-    skills = compiled.mind.skills if compiled.mind else ()
+    _, (setup, rollout), breakpoints = session.prepare_stopping(file, compiled, chosen, breaks)
+    skills = compiled.whole[0].skills
     texts = {(skill.name, edge.target): text_after_name(edge.fact) for skill in skills for edge in skill.edges}
     seed = secrets.randbits(31) if chosen.seed is None else chosen.seed
     return ViewedRun(setup, rollout, seed, texts, breakpoints).begun()

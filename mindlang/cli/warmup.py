@@ -2,7 +2,7 @@
 
 import click
 
-from mindlang.cli._terminal import console, fail, print_json, tell
+from mindlang.cli._terminal import fail, print_result, tell
 
 EXAMPLES = """\b
 Examples:
@@ -20,6 +20,7 @@ def command(as_json: bool) -> None:
     (NUMBA_CACHE_DIR, XDG_CACHE_HOME or ~/.cache), for this processor and these versions of mindc and Python.
     """
     from mindrun.sim import cache, warmup
+    from rich.text import Text
 
     from mindlang.cli._session import COMPILING
 
@@ -29,8 +30,6 @@ def command(as_json: bool) -> None:
         warmup.start().wait()
         if not warmup.is_native():
             fail("The simulator could not be compiled.", "python -m mindrun.sim.warmup says why")
-    if as_json:
-        print_json({"processor": cache.processor(), "folder": str(cache.folder()), "compiled": not had})
-        return
+    data = {"processor": cache.processor(), "folder": str(cache.folder()), "compiled": not had}
     done = "had been compiled" if had else "is compiled"
-    console().print(f"the simulator {done} for {cache.processor()}: {cache.folder()}", markup=False, soft_wrap=True)
+    print_result(as_json, data, lambda: Text(f"the simulator {done} for {cache.processor()}: {cache.folder()}"))

@@ -3,23 +3,13 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
+from mindlang.cli import _options as options
 from mindlang.cli import _terminal as terminal
-from mindlang.cli._options import (
-    OF_A_RUN,
-    OF_RUNS_ALONE,
-    PATH,
-    SKILLS,
-    NewFile,
-    RunChoice,
-    WholeOption,
-    declared,
-    refuse_ineffective,
-    run_options,
-)
+from mindlang.cli._options import RunChoice, WholeOption
 
 if TYPE_CHECKING:
     from mindlang.whatif.comparison import Compared
@@ -35,44 +25,28 @@ Examples:
   mindc whatif collect.mind --seed 3 --sensor proximity=other.rec
   mindc whatif day.rec ball.bundle --without Avoid
 """
+SENSORS = options.declared("sensor")
 
 
 @click.command(epilog=EXAMPLES)
 @click.argument("file")
-@click.argument("bundle", required=False, type=PATH)
-@run_options(seed="Of the run. Default: 1.")
+@click.argument("bundle", required=False, type=options.PATH)
+@options.run_options(seed="Of the run. Default: 1.")
 @click.option("--tick", type=WholeOption(1, 2**53), default=1, help="The first tick that is changed. Default: 1.")
 @click.option("--ticks", type=WholeOption(1, 2**53), help="How many are. Default: all that follow; one with --set.")
-@click.option(
-    "--without", multiple=True, metavar="SKILL", shell_complete=SKILLS, help="Silence a skill: it has no influence."
-)
-@click.option(
-    "--sensor",
-    multiple=True,
-    metavar="NAME=0.5",
-    shell_complete=declared("sensor"),
-    help="What a sensor reads: NAME=0.5, NAME=1,0.5,1, NAME=day.rec",
+@options.named("--without", "SKILL", options.SKILLS, "Silence a skill: it has no influence.", multiple=True)
+@options.named(
+    "--sensor sensors", "NAME=0.5", SENSORS, "What a sensor reads: NAME=0.5, NAME=1,0.5,1, NAME=day.rec", multiple=True
 )
 @click.option(
     "--set", "settings", multiple=True, metavar="NAME=0.5", help="A reading, a memory or an influence, for one tick."
 )
 @click.option("--with", "other", metavar="OTHER.mind", help="Another mind takes over: other weights, another version.")
-@click.option("--picture", type=NewFile(), metavar="PATH.png", help="Draw both paths.")
+@options.written("--picture", "PATH.png", "Draw both paths.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON document instead.")
 @click.option("-q", "--quiet", is_flag=True, help="Print nothing but results and errors.")
 def command(
-    file: str,
-    bundle: Path | None,
-    chosen: RunChoice,
-    tick: int,
-    ticks: int | None,
-    without: tuple[str, ...],
-    sensor: tuple[str, ...],
-    settings: tuple[str, ...],
-    other: str | None,
-    picture: Path | None,
-    as_json: bool,
-    quiet: bool,
+    file: str, bundle: Path | None, chosen: RunChoice, picture: Path | None, as_json: bool, quiet: bool, **said: Any
 ) -> None:
     """Run a task of FILE as it is, and again with something changed.
 
@@ -84,13 +58,13 @@ def command(
     """
     from mindlang.whatif.request import Request
 
-    request = Request(tick, ticks, without, sensor, settings, other)
-    if other and ticks:
+    request = Request(**said)
+    if request.other and request.ticks:
         raise click.UsageError("A mind that takes over goes on to the end: leave out --ticks.")
     if bundle is None and file.endswith(".rec"):
         raise click.UsageError(f"{file} is a recording: say the bundle that was running after it.")
     if bundle is not None:
-        refuse_ineffective(OF_RUNS_ALONE, *OF_A_RUN, "picture")
+        options.refuse_ineffective(options.OF_RUNS_ALONE, *options.OF_A_RUN, "picture")
     if not request.parts:
         words = "--without SKILL, --sensor NAME=0.5, --set NAME=0.5 or --with OTHER.mind"
         terminal.fail("nothing is changed", f"Say what: {words}", terminal.MISUSE)

@@ -4,16 +4,7 @@ from pathlib import Path
 
 import click
 
-from mindlang.cli._options import (
-    OF_A_RUN,
-    OF_RUNS_ALONE,
-    RunChoice,
-    TickSpan,
-    WholeOption,
-    declared,
-    refuse_ineffective,
-    run_options,
-)
+from mindlang.cli import _options as options
 from mindlang.cli._terminal import MISUSE, print_result, procedures_talk, refusing
 
 EXAMPLES = """\b
@@ -25,24 +16,19 @@ Examples:
   mindc why day.rec ball.bundle --tick 812 left_wheel
   mindc why run.rec collect.mind --tick 812 left_wheel   of mindc run --record
 """
+ASKED_ABOUT = options.declared("actuator", "memory", "skill")
 
 
 @click.command(epilog=EXAMPLES)
-@click.argument(
-    "words",
-    nargs=-1,
-    required=True,
-    metavar="FILE [BUNDLE] WHAT",
-    shell_complete=declared("actuator", "memory", "skill"),
-)
-@run_options(seed="Of the run. Default: 1.")
-@click.option("--tick", type=TickSpan(), metavar="T or T..U", help="Which ticks, from 1. Default: all of them.")
-@click.option("--paths", type=WholeOption(1, 1000), help="How many are named. Default: 10.")
+@click.argument("words", nargs=-1, required=True, metavar="FILE [BUNDLE] WHAT", shell_complete=ASKED_ABOUT)
+@options.run_options(seed="Of the run. Default: 1.")
+@click.option("--tick", type=options.tick_span, metavar="T or T..U", help="Which ticks, from 1. Default: all of them.")
+@click.option("--paths", type=options.WholeOption(1, 1000), help="How many are named. Default: 10.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON document instead.")
 @click.option("-q", "--quiet", is_flag=True, help="Print nothing but results and errors.")
 def command(
     words: tuple[str, ...],
-    chosen: RunChoice,
+    chosen: options.RunChoice,
     tick: tuple[int, int] | None,
     paths: int | None,
     as_json: bool,
@@ -68,7 +54,7 @@ def command(
             made = session.record(*session.prepare(file, chosen), seed)
             attributed = attributed_run(made.run, seed)
         case [recording, bundle]:
-            refuse_ineffective(OF_RUNS_ALONE, *OF_A_RUN)
+            options.refuse_ineffective(options.OF_RUNS_ALONE, *options.OF_A_RUN)
             with refusing_recordings():
                 attributed = attributed_recording(Path(recording), Path(bundle))
         case _:

@@ -25,6 +25,7 @@ Role = Literal["body", "fixed", "floor"]
 APART: frozenset[frozenset[Role]] = frozenset({
     frozenset[Role]({"body"}), frozenset[Role]({"body", "fixed"}), frozenset[Role]({"floor", "fixed"}),
 })  # fmt: skip
+AXES: tuple[Place, Place] = ((1.0, 0.0), (0.0, 1.0))
 PLAIN_START: Place = (0.0, 0.0)  # where a robot starts in a plain scene that says nothing else
 
 
@@ -34,16 +35,10 @@ class Outline(NamedTuple):
     corners: tuple[Place, ...]
     rim: float = 0.0
 
-    @property
-    def ends(self) -> tuple[float, float, float, float]:
-        """The least x and y of the shape, then the greatest."""
-        xs, ys = zip(*self.corners, strict=True)
-        return min(xs) - self.rim, min(ys) - self.rim, max(xs) + self.rim, max(ys) + self.rim
-
-
-def disc_outline(place: Place, radius: float) -> Outline:
-    """A disc around a place."""
-    return Outline((place,), radius)
+    def span(self, axis: Place) -> tuple[float, float]:
+        """The ends of the shape along an axis of length 1."""
+        along = [x * axis[0] + y * axis[1] for x, y in self.corners]
+        return min(along) - self.rim, max(along) + self.rim
 
 
 def rectangle_outline(of: Rectangle) -> Outline:
@@ -60,14 +55,15 @@ def turned_outline(place: Place, angle: float, corners: Sequence[Place]) -> Outl
 
 def overlap(one: Outline, other: Outline) -> bool:
     """True if two convex outlines overlap: no axis separates them (separating axis theorem)."""
-    ends, others = one.ends, other.ends
-    if not all(_cover((ends[i], ends[i + 2]), (others[i], others[i + 2])) for i in (0, 1)):
-        return False
-    return all(_cover(_span(one, axis), _span(other, axis)) for axis in _axes(one, other))
+    return all(_cover(one.span(axis), other.span(axis)) for axis in _axes(one, other))
 
 
 def _axes(one: Outline, other: Outline) -> Iterator[Place]:
-    """Unit directions to look for a separating axis in: normals of sides and, where a rim is round, between corners."""
+    """Unit directions to look for a separating axis in: normals of sides and, where a rim is round, between corners.
+
+    Along x and y most are found at once.
+    """
+    yield from AXES
     for of in (one, other):
         for (x, y), (to_x, to_y) in zip(of.corners, (*of.corners[1:], of.corners[0]), strict=True):
             yield from _direction(y - to_y, to_x - x)
@@ -85,11 +81,6 @@ def _direction(x: float, y: float) -> Iterator[Place]:
 def _cover(one: Place, other: Place) -> bool:
     """True if two intervals (low, high) overlap in more than an end; an interval may be a point."""
     return one[0] < other[1] - TOUCHING_UNITS and other[0] < one[1] - TOUCHING_UNITS
-
-
-def _span(of: Outline, axis: Place) -> tuple[float, float]:
-    along = [x * axis[0] + y * axis[1] for x, y in of.corners]
-    return min(along) - of.rim, max(along) + of.rim
 
 
 def role(kind: ThingKind) -> Role:
@@ -117,14 +108,10 @@ class Beginning:
         """The outline of each copy of a thing that has a place; of one that lies on the floor its middle alone."""
         if kind.is_obstacle:
             return [rectangle_outline(each) for each in kind.standing(self.scene, self.may)]
-        half = self.half(kind)
-        square = not kind.is_round and not kind.is_area
-        return [
-            rectangle_outline(Rectangle(*place, half, half))
-            if square
-            else disc_outline(place, 0.0 if kind.is_area else half)
-            for place in kind.places[: kind.copies]
-        ]
+        half, places = self.half(kind), kind.places[: kind.copies]
+        if kind.is_round or kind.is_area:
+            return [Outline((place,), 0.0 if kind.is_area else half) for place in places]
+        return [rectangle_outline(Rectangle(*place, half, half)) for place in places]
 
     def half(self, kind: ThingKind) -> float:
         """Half of the size with which a thing begins."""
@@ -136,10 +123,10 @@ class Beginning:
         if self.at is None:
             return None
         if self.body is None:
-            return disc_outline(self.at, 0.0)
+            return Outline((self.at,))
         if self.body.outline and self.facing is not None:
             return turned_outline(self.at, self.facing, self.body.outline)
-        return disc_outline(self.at, self.body.radius if self.may else min(self.body.side, self.body.front))
+        return Outline((self.at,), self.body.radius if self.may else min(self.body.side, self.body.front))
 
     @property
     def is_inside(self) -> bool:
@@ -147,8 +134,8 @@ class Beginning:
         robot = self.robot or replace(self, at=PLAIN_START).robot
         if self.scene is None or robot is None:
             return True
-        ends = zip(robot.ends, self.scene.sides * 2, strict=True)
-        return all(abs(end) <= side / 2 + TOUCHING_UNITS for end, side in ends)
+        ends = zip((robot.span(axis) for axis in AXES), self.scene.sides, strict=True)
+        return all(max(-low, high) <= side / 2 + TOUCHING_UNITS for (low, high), side in ends)
 
     def overlapping(self) -> Iterator[tuple[Part[Any], Part[Any]]]:
         """Pairs of things that overlap, a fixed one as the second; one that walks is tried at all places of its way."""
@@ -157,7 +144,7 @@ class Beginning:
         for number, (thing, its, outlines) in enumerate(found):
             if its == "body" and any(overlap(a, b) for i, a in enumerate(outlines) for b in outlines[:i]):
                 yield thing, thing
-            spots = [*outlines, *(disc_outline(place, 0.0) for place in thing.kind.places)]
+            spots = [*outlines, *(Outline((place,)) for place in thing.kind.places)]
             for other, other_role, others in found[:number]:
                 mine = spots if other_role == "fixed" else outlines
                 if {its, other_role} in APART and any(overlap(a, b) for a in mine for b in others):

@@ -5,7 +5,7 @@ The files of a mind are the main one and those that it uses, all of them inside 
 
 import re
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
@@ -54,6 +54,13 @@ class Compiled(ShortRepr):
         """True if the main file could be read."""
         return bool(self.sources)
 
+    @property
+    def whole(self) -> tuple[Mind, Graph]:
+        """The mind and its graph, of a file that compiled."""
+        assert self.mind
+        assert self.graph
+        return self.mind, self.graph
+
 
 def load(path: Path | str, texts: Mapping[Path, str] = NO_TEXTS) -> Compiled:
     """The file at `path`, or with "-" standard input, compiled; whatever is wrong is in the diagnostics.
@@ -97,17 +104,11 @@ def compile_source(source: Source, path: Path = Path("-"), texts: Mapping[Path, 
     parsed, complete = read_files(source, path, findings, texts)
     mind = resolve_mind(parsed, findings) if complete else None  # names of a missing file would all seem unknown
     graph = lower(mind) if mind else None
-    if graph and mind:
-        findings.diagnostics += _procedure_mistakes(graph, mind, source.folder)
+    if graph and mind and any(skill.function.calls is not None for skill in graph.skills):
+        from mindlang.compiler.procedures import mistakes  # else nothing of Python's has to be imported
+
+        findings.diagnostics += mistakes(graph.skills, mind, source.folder)
     return Compiled(graph, mind, _sorted(findings, parsed), tuple(file.source for file in parsed))
-
-
-def _procedure_mistakes(graph: Graph, mind: Mind, folder: Path) -> Iterator[Diagnostic]:
-    """The mistakes in the modules of procedures."""
-    if any(skill.function.calls is not None for skill in graph.skills):  # else nothing of Python's has to be imported
-        from mindlang.compiler.procedures import mistakes
-
-        yield from mistakes(graph.skills, mind, folder)
 
 
 def _sorted(findings: Findings, parsed: list[File]) -> tuple[Diagnostic, ...]:

@@ -8,11 +8,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import accumulate, pairwise
-from typing import Any
 
-from mindlang.compiler import syntax
 from mindlang.compiler.parse import BLANKS, without_comment
-from mindlang.compiler.parse.shape import MAX_SHAPES, Start, grammar, parse_line, pieces, shape_of
+from mindlang.compiler.parse.shape import MAX_SHAPES, Start, grammar, pieces, shape_of
 from mindlang.compiler.source import Source
 from mindlang.compiler.splice import Splice
 from mindlang.compiler.syntax import NOUNS, SETTINGS
@@ -121,33 +119,25 @@ def _plan(shape: str, start: Start) -> Plan | None:
     """The spacing of the words in lines of a shape; None where Lark cannot read it."""
     from lark import UnexpectedInput
 
-    try:
-        line = parse_line(shape, Source("shape", shape), 0, start)
-    except UnexpectedInput:
-        return None
     starts = accumulate(map(len, pieces(shape)), initial=0)
     places = {start: number for number, start in enumerate(starts)}
-    return tuple((places[first], places[end], after) for first, end, after in _words(shape, line, start))
+    try:
+        return tuple((places[first], places[end], after) for first, end, after in _words(shape, start))
+    except UnexpectedInput:
+        return None
 
 
-def _words(code: str, line: Any, start: Start) -> Iterator[tuple[int, int, str]]:
-    """Offsets (start, end) of the words of a line, which parses as `line`, and the space that belongs after each."""
+def _words(code: str, start: Start) -> Iterator[tuple[int, int, str]]:
+    """Offsets (start, end) of the words of a line, and the space that belongs after each: none after a sign."""
+    from lark import Token
+
+    parts = (tree.children[0] for tree in grammar().parse(code, start=start).iter_subtrees() if tree.children)
+    signs = {part.start_pos for part in parts if isinstance(part, Token) and part.type in ("SIGN", "MINUS")}
     tokens = list(grammar().parse_interactive(code, start=start).iter_parse())
-    signs = {node.span.start for node in syntax.walk_tree(line) if _is_signed(node)}
     for token, following in zip(tokens, [*tokens[1:], None], strict=True):
         first = token.start_pos or 0
         glued = following is None or token == "(" or following in (")", "%") or first in signs
         yield first, token.end_pos or 0, "" if glued else " "
-
-
-def _is_signed(node: Any) -> bool:
-    """True if a node begins with a sign, which belongs to the number or name behind it."""
-    match node:
-        case syntax.Amount(_, _, span):
-            return span.text[0] in "+-"
-        case syntax.Operator("negate"):
-            return True
-    return False
 
 
 def format_splices(source: Source, start: Start = "line") -> list[Splice]:

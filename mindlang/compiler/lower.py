@@ -1,16 +1,16 @@
 """Mind → Graph: names become indices, expressions programs, skills stand in the order of influence."""
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from itertools import accumulate, count
 from typing import Any, TypeVar
 
 from mindrun.graph import graph
-from msgspec.structs import astuple
 
 from mindlang.compiler import model
 from mindlang.compiler.format import spaced
 from mindlang.compiler.hierarchy import topological_order
+from mindlang.compiler.syntax import Comparison, Expression, When, of_form
 
 T = TypeVar("T")
 
@@ -42,7 +42,7 @@ def lower(mind: model.Mind) -> graph.Graph:
         tuple(graph.Actuator(actuator.name, actuator.kind) for actuator in mind.actuators),
         tuple(_skills(mind, readings)),
         tuple(_task(task, Places(readings, commands, {})) for task in mind.tasks),
-        tuple(graph.Lesson(*astuple(lesson)[:-1]) for lesson in mind.lessons),  # all but the line that says it
+        tuple(graph.Lesson(*(getattr(each, of.name) for of in fields(graph.Lesson))) for each in mind.lessons),
     )
 
 
@@ -108,18 +108,18 @@ def _reward(reward: model.Reward, events: dict[Any, int], places: Places) -> gra
     )
 
 
-def lower_condition(when: model.When, places: Places) -> graph.Program:
+def lower_condition(when: When, places: Places) -> graph.Program:
     """A condition as a postfix program: comparisons joined by `and` into alternatives, these by `or`."""
     found: list[tuple[str, float | int]] = []
     for number, all_ in enumerate(when.alternatives):
-        for place, each in enumerate(all_):
+        for place, each in enumerate(of_form(all_, Comparison)):
             found += [*_program(each.left, places), *_program(each.right, places), (each.compare, 0)]
             found += [("and", 0)] if place else []
         found += [("or", 0)] if number else []
     return tuple(found)
 
 
-def _program(expression: model.Expression, places: Places) -> graph.Program:
+def _program(expression: Expression, places: Places) -> graph.Program:
     def placed(word: str, operand: Any) -> tuple[str, float | int]:
         match word:
             case "reading":

@@ -5,13 +5,12 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, Generic, NamedTuple, TypeVar
 
-from mindrun.graph.graph import Failure, Need, Receiver, Sensor, Start, Variation
+from mindrun.graph import graph
+from mindrun.graph.graph import Failure, Receiver, Sensor, Start, Variation
 from mindrun.kinds.actuators.actuator import ActuatorKind
 from mindrun.kinds.bodies.body import BodyKind
 from mindrun.kinds.events.event import EventKind
 from mindrun.kinds.functions.function import Function
-from mindrun.kinds.learners import Learner
-from mindrun.kinds.measures.measure import MeasureKind
 from mindrun.kinds.memory import Cell
 from mindrun.kinds.registry import names as kind_names
 from mindrun.kinds.scenes.scene import SceneKind
@@ -39,117 +38,21 @@ class Part(Struct, Generic[K], frozen=True):
     width: int = 1
 
 
-class Number(Struct, frozen=True):
-    """A number, `%` converted."""
-
-    value: float
-    span: Span
-
-
-class Reading(Struct, frozen=True):
-    """The reading of a sensor or memory of width 1."""
-
-    name: str
-    span: Span
-
-
-class EachReading(Struct, frozen=True):
-    """The reading that `for each` names."""
-
-    span: Span
-
-
-class Command(Struct, frozen=True):
-    """The command of an actuator, as it acts."""
-
-    name: str
-    span: Span
-
-
-class Measured(Struct, frozen=True):
-    """The value of a measure."""
-
-    measure: MeasureKind
-    span: Span
-
-
-Term = Number | Reading | EachReading | Command | Measured | syntax.Operator
-
-
-class Expression(Struct, frozen=True):
-    """Terms in postfix order."""
-
-    terms: tuple[Term, ...]
-    span: Span
-
-    @property
-    def formula(self) -> tuple[tuple[str, Any], ...]:
-        """The terms as words and operands, as `mindrun.numbers.expression` has them; names stand for places."""
-        return tuple(map(_instruction, self.terms))
-
-
-def _instruction(term: Term) -> tuple[str, Any]:
-    match term:
-        case Number(value):
-            return "number", value
-        case Reading(name):
-            return "reading", name
-        case EachReading():
-            return "each", 0
-        case Command(name):
-            return "command", name
-        case Measured(measure):
-            return "measure", measure
-    return term.symbol, 0
-
-
-class Comparison(Struct, frozen=True):
-    """`left compare right`."""
-
-    left: Expression
-    compare: str
-    right: Expression
-
-
-class When(Struct, frozen=True):
-    """A condition: one of the alternatives holds, each of which is comparisons that all hold."""
-
-    alternatives: tuple[tuple[Comparison, ...], ...]
-    span: Span
-
-    @property
-    def expressions(self) -> tuple[Expression, ...]:
-        """Both sides of every comparison."""
-        return tuple(side for all_ in self.alternatives for each in all_ for side in (each.left, each.right))
-
-
-class Gate(Struct, frozen=True):
-    """The condition under which something is sent, and the value sent otherwise; nothing where that is None."""
-
-    when: When
-    otherwise: Expression | None
-
-
 class Edge(Struct, frozen=True):
     """An edge of a skill: it sends an output of its function, or the value of `at`; an influence below `cuts` is 0."""
 
     to: Receiver
     target: str
-    at: Expression | None
+    at: syntax.Expression | None
     fact: syntax.Drives | syntax.Influences
-    gate: Gate | None = None
+    gate: syntax.Gate | None = None
     cuts: float = 0.0
 
     @property
-    def values(self) -> tuple[Expression, ...]:
+    def values(self) -> tuple[syntax.Expression, ...]:
         """The expressions that its line sends: after `at`, and after `otherwise`."""
         otherwise = self.gate.otherwise if self.gate else None
         return tuple(value for value in (self.at, otherwise) if value)
-
-    @property
-    def expressions(self) -> tuple[Expression, ...]:
-        """The expressions of its values and of its condition."""
-        return (*self.values, *(self.gate.when.expressions if self.gate else ()))
 
 
 class Skill(Struct, frozen=True):
@@ -186,16 +89,11 @@ class Skill(Struct, frozen=True):
 class Reward(Struct, frozen=True):
     """A reward, per tick where `on` is None; `each` is the sensor that it goes through."""
 
-    amount: Expression
+    amount: syntax.Expression
     on: EventKind | None
     each: str | None
-    when: When | None
+    when: syntax.When | None
     fact: syntax.Rewards
-
-    @property
-    def expressions(self) -> tuple[Expression, ...]:
-        """All that a reward computes: its amount, and both sides of its comparisons."""
-        return (self.amount, *(self.when.expressions if self.when else ()))
 
 
 class End(Struct, frozen=True):
@@ -203,7 +101,7 @@ class End(Struct, frozen=True):
 
     event: EventKind | None
     times: int
-    when: When | None
+    when: syntax.When | None
     succeeds: bool
     fact: syntax.Ends | syntax.Succeeds
 
@@ -233,21 +131,11 @@ class Task(Struct, frozen=True):
         return self.declaration.header.name.span
 
 
-class Lesson(Struct, frozen=True):
-    """Who learns what, driven by whom, for how many generations, and how."""
+@dataclass(frozen=True, slots=True)
+class Lesson(graph.Lesson):
+    """A lesson and the line that says it."""
 
-    curriculum: str
-    skill: str
-    task: str
-    master: str
-    generations: int
-    from_scratch: bool
-    with_subskills: bool
-    learner: Learner
-    number: int
-    starts_from: str
-    needs: tuple[Need, ...]
-    fact: syntax.Teaches
+    fact: syntax.Teaches = field(kw_only=True)
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from typing import TypeVar
 
 from msgspec.structs import replace
 
-from mindlang.compiler.diagnostic import Findings, Label, a, listed
+from mindlang.compiler.diagnostic import Findings, a, listed
 from mindlang.compiler.source import Span
 from mindlang.compiler.syntax import Contains, Declaration, File, Name, Number, of_form
 
@@ -149,6 +149,6 @@ def declared_names(files: Iterable[File], findings: Findings) -> Names:
 
 
 def _refuse_again(names: Names, noun: str, name: Name, findings: Findings) -> None:
-    first = Label(names.place_of(noun, name.text), "first declared here")
-    message = f"There is already {a(noun)} called {name.text}."
-    findings.error("duplicate-name", name.span, message, "Give one of the two another name.", first)
+    message, hint = f"There is already {a(noun)} called {name.text}.", "Give one of the two another name."
+    places = names.place_of(noun, name.text), name.span
+    findings.refuse_again("duplicate-name", places, message, hint, "first declared here")

@@ -9,7 +9,8 @@ from warnings import catch_warnings
 from mindrun.errors import ProcedureError
 from mindrun.graph.graph import Skill
 from mindrun.graph.procedure_source import is_installed, source_of
-from mindrun.kinds.procedure_text import file_of, imports
+from mindrun.kinds.procedure_names import imports
+from mindrun.kinds.procedure_text import file_of, parsed
 
 from mindlang.compiler.diagnostic import Diagnostic
 from mindlang.compiler.model import Mind
@@ -72,7 +73,7 @@ def _needed(skills: Iterable[Skill], folder: Path) -> Iterator[tuple[str, str, s
     """The modules that procedures cannot do without, what of them, and where that stands."""
     for skill in skills:
         if (calls := skill.function.calls) is not None:
-            for line, module, what, may_be_missing in imports(calls, source_of(skill, folder)):
+            for line, module, what, may_be_missing in imports(parsed(calls, source_of(skill, folder))):
                 if not may_be_missing:
                     yield module, what, f"({file_of(calls)}, line {line})"
 

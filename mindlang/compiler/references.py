@@ -1,6 +1,6 @@
 """Every name in the files of a mind, with what it names: where a rename writes, and what a removal would break."""
 
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,7 +11,7 @@ from mindrun.numbers.quantity import Reference as Noun
 
 from mindlang.compiler import syntax
 from mindlang.compiler.names import Names
-from mindlang.compiler.syntax import Declaration, Fact, File, Header, Name, Phrase, of_form
+from mindlang.compiler.syntax import Declaration, Fact, File, Header, Name, Phrase, Setting, of_form
 
 READABLE_NOUNS = ("sensor", "memory")
 VALUE_NOUNS = (*READABLE_NOUNS, "number", "actuator")  # an actuator is its command, in a task
@@ -34,23 +34,31 @@ class Mention:
 def mentions(files: Iterable[File], names: Names) -> Iterator[Mention]:
     """Every name in these files that is declared somewhere in them, in no particular order."""
     for file in files:
-        reader = _Reader(names, None)
         for setting in file.settings:
-            if isinstance(setting, syntax.Master):
-                yield from reader.first_declared(setting.name, "skill")
             if isinstance(setting, syntax.Number):
                 yield Mention("number", setting.name, None, is_own=True)
-            yield from reader.amounts(setting)
+            yield from mentions_in(setting, names, None)
+            yield from _amounts(setting, names, None)
         for declaration in file.declarations:
-            reader = _Reader(names, declaration)
             for line in (declaration.header, *declaration.facts):
-                yield from reader.line(line)
-                yield from reader.amounts(line)
+                yield from mentions_in(line, names, declaration)
+                yield from _amounts(line, names, declaration)
 
 
-def mentions_in(line: Header | Fact, names: Names, by: Declaration | None) -> Iterator[Mention]:
+def mentions_in(line: Setting | Header | Fact, names: Names, by: Declaration | None) -> Iterator[Mention]:
     """The names in a line, of a declaration where that is known, without those that stand in the place of amounts."""
-    return _Reader(names, by).line(line)
+    if isinstance(line, Header):
+        yield Mention(line.noun.text, line.name, by, is_own=True)
+    for name, nouns in names_in(line):
+        if noun := names.noun_of(name.text, nouns) or ("thing" if "thing" in nouns else ""):
+            yield Mention(noun, name, by)
+
+
+def _amounts(line: Any, names: Names, by: Declaration | None) -> Iterator[Mention]:
+    """The numbers that are named in a line in the place of an amount."""
+    for node in syntax.walk_tree(line) if names.numbers else ():
+        if isinstance(node, syntax.Amount) and node.name in names.numbers:
+            yield Mention("number", node.constant, by)
 
 
 def introductions(files: Collection[File]) -> Iterator[Mention]:
@@ -63,90 +71,78 @@ def introductions(files: Collection[File]) -> Iterator[Mention]:
         yield from (Mention("thing", fact.name, declaration) for fact in contained)
 
 
-@dataclass(frozen=True, slots=True)
-class _Reader:
-    """Resolves the names in a line by what is declared: a memory is read like a sensor, a sensor hides a measure."""
+Named = tuple[Name, Sequence[str]]  # with the nouns that it may be of: the first that declares it counts
 
-    names: Names
-    by: Declaration | None
 
-    def first_declared(self, name: Name | None, *nouns: str) -> Iterator[Mention]:
-        """A name with the first of the nouns that it is declared with."""
-        if name and (noun := self.names.noun_of(name.text, nouns)):
-            yield Mention(noun, name, self.by)
+def names_in(line: Setting | Header | Fact | syntax.Stop) -> Iterator[Named]:
+    """The names in a line but for its own, and for those that stand in the place of amounts.
 
-    def amounts(self, line: Any) -> Iterator[Mention]:
-        """The numbers that are named in a line in the place of an amount."""
-        for node in syntax.walk_tree(line) if self.names.numbers else ():
-            if isinstance(node, syntax.Amount) and node.name:
-                yield from self.first_declared(node.constant, "number")
+    A memory is read like a sensor, a sensor hides a measure; a thing need not be declared.
+    """
+    match line:
+        case syntax.Master(name):
+            yield name, ("skill",)
+        case Header(noun, _, phrase, like=like, inside=inside, at=at):
+            yield from (*_if_any(like, noun.text), *_if_any(inside, "scene"), *_in_phrase(noun.text, phrase))
+            yield from _in_expressions(at)
+        case syntax.Reads(name, stands_for):
+            yield name, READABLE_NOUNS
+            yield from _if_any(stands_for, *READABLE_NOUNS)
+        case syntax.Sends(name):
+            yield name, DRIVABLE_NOUNS if isinstance(line, syntax.Drives) else ("skill",)
+            yield from _in_expressions(*syntax.expressions_in(line))
+        case syntax.Contains(name, phrase):
+            yield name, ("thing",)
+            yield from _in_phrase("content", phrase)
+        case syntax.Varies(of=of):
+            yield of, (*VARIED_NOUNS, "thing")
+        case syntax.Fails(name):
+            yield name, ("actuator", "sensor")
+        case syntax.Outcome(_, event, when):
+            yield from _in_phrase("event", event)
+            yield from _in_expressions(*syntax.expressions_in(when))
+        case syntax.Counts(event):
+            yield from _in_phrase("event", event)
+        case syntax.Rewards(amount, on, each, when):
+            own = each.name.text if each else ""
+            yield from _in_expressions(amount, *syntax.expressions_in(when), own=own)
+            yield from _in_phrase("event", on)
+            yield from _if_any(each.sensor if each else None, *READABLE_NOUNS)
+        case syntax.Teaches(skill, task, master):
+            yield from ((skill, ("skill",)), (task, ("task",)), *_if_any(master, "skill"))
+            yield from _in_arguments(line.arguments, kinds("curriculum").values())
 
-    def line(self, line: Header | Fact) -> Iterator[Mention]:
-        """The names in a line; that of `for each` is its own."""
-        match line:
-            case Header(noun, name, phrase, like=like, inside=inside, at=at):
-                yield Mention(noun.text, name, self.by, is_own=True)
-                yield from self.first_declared(like, noun.text)
-                yield from self.first_declared(inside, "scene")
-                yield from self.phrase(noun.text, phrase)
-                yield from self.expressions(at)
-            case syntax.Reads(name, stands_for):
-                yield from self.first_declared(name, *READABLE_NOUNS)
-                yield from self.first_declared(stands_for, *READABLE_NOUNS)
-            case syntax.Drives(name):
-                yield from self.first_declared(name, *DRIVABLE_NOUNS)
-                yield from self.expressions(*line.expressions)
-            case syntax.Influences(name):
-                yield from self.first_declared(name, "skill")
-                yield from self.expressions(*line.expressions)
-            case syntax.Contains(name, phrase):
-                yield Mention("thing", name, self.by)
-                yield from self.phrase("content", phrase)
-            case syntax.Varies(of=of):
-                yield Mention(self.names.noun_of(of.text, VARIED_NOUNS) or "thing", of, self.by)
-            case syntax.Fails(name):
-                yield from self.first_declared(name, "actuator", "sensor")
-            case syntax.Outcome(_, event, when):
-                yield from self.phrase("event", event)
-                yield from self.expressions(*(when.expressions if when else ()))
-            case syntax.Counts(event):
-                yield from self.phrase("event", event)
-            case syntax.Rewards(amount, on, each, when):
-                own = each.name.text if each else ""
-                yield from self.expressions(amount, *(when.expressions if when else ()), own=own)
-                yield from self.phrase("event", on)
-                yield from self.first_declared(each.sensor if each else None, *READABLE_NOUNS)
-            case syntax.Teaches(skill, task, master):
-                yield from self.first_declared(skill, "skill")
-                yield from self.first_declared(task, "task")
-                yield from self.first_declared(master, "skill")
-                yield from self.arguments(line.arguments, kinds("curriculum").values())
 
-    def expressions(self, *expressions: syntax.Expression | None, own: str = "") -> Iterator[Mention]:
-        """The readings and commands in expressions, and the things that their measures are about."""
-        for term in (term for expression in expressions if expression for term in expression.terms):
-            if not isinstance(term, Phrase) or (term.kind.text == own and not term.arguments):
-                continue
-            if not term.arguments and self.names.noun_of(term.kind.text, VALUE_NOUNS):
-                yield from self.first_declared(term.kind, *VALUE_NOUNS)
-            else:
-                yield from self.phrase("measure", term)
+def _if_any(name: Name | None, *nouns: str) -> Iterator[Named]:
+    if name:
+        yield name, nouns
 
-    def phrase(self, noun: str, phrase: Phrase | None) -> Iterator[Mention]:
-        """The names among the arguments of a kind."""
-        if phrase and phrase.arguments and (cls := find_kind(noun, phrase.kind.text)):
-            yield from self.arguments(phrase.arguments, [cls])
 
-    def arguments(self, written: Iterable[syntax.Argument], classes: Iterable[type[Any]]) -> Iterator[Mention]:
-        """The names among arguments of some kinds; a lesson begins `from` a skill."""
-        wanted = {each.key: each.type for cls in classes for each in arguments(cls)}
-        for key, value in ((each.key.text, each.value) for each in written):
-            match value, wanted.get(key):
-                case Name(), Noun(noun="thing"):
-                    yield Mention("thing", value, self.by)
-                case Name(), Noun(noun="sensor"):
-                    yield from self.first_declared(value, *READABLE_NOUNS)
-                case Name(), Quantity():
-                    yield from self.first_declared(value, "number")
-                case Name(), None if key == "from":
-                    yield from self.first_declared(value, "skill")
+def _in_expressions(*expressions: syntax.Expression | None, own: str = "") -> Iterator[Named]:
+    """The readings and commands in expressions, and the things that their measures are about."""
+    for term in (term for expression in expressions if expression for term in expression.terms):
+        if isinstance(term, Phrase) and term.arguments:
+            yield from _in_phrase("measure", term)
+        elif isinstance(term, Phrase) and term.kind.text != own:
+            yield term.kind, VALUE_NOUNS
+
+
+def _in_phrase(noun: str, phrase: Phrase | None) -> Iterator[Named]:
+    """The names among the arguments of a kind."""
+    if phrase and phrase.arguments and (cls := find_kind(noun, phrase.kind.text)):
+        yield from _in_arguments(phrase.arguments, [cls])
+
+
+def _in_arguments(written: Iterable[syntax.Argument], classes: Iterable[type[Any]]) -> Iterator[Named]:
+    """The names among arguments of some kinds; a lesson begins `from` a skill."""
+    wanted = {each.key: each.type for cls in classes for each in arguments(cls)}
+    for key, value in ((each.key.text, each.value) for each in written):
+        match value, wanted.get(key):
+            case Name(), Noun(noun="thing"):
+                yield value, ("thing",)
+            case Name(), Noun(noun="sensor"):
+                yield value, READABLE_NOUNS
+            case Name(), Quantity():
+                yield value, ("number",)
+            case Name(), None if key == "from":
+                yield value, ("skill",)

@@ -100,21 +100,31 @@ class Phrase(Struct, frozen=True):
     span: Span
 
 
-class Operator(Struct, frozen=True):
-    """One of + - * / least greatest or, for the minus of a single value, negate."""
+class Term(Struct, frozen=True):
+    """A word and its operand, as `mindrun.numbers.expression` has them, but for names: a reading is not a place yet.
 
-    symbol: str
+    As it is written, an expression has operators alone as such terms; `resolve` makes one of all else.
+    """
+
+    word: str
+    operand: Any
     span: Span
-
-
-Term = Amount | Phrase | Operator
 
 
 class Expression(Struct, frozen=True):
     """Terms in postfix order: a flat tuple, so that no depth of nesting ever needs a deep stack."""
 
-    terms: tuple[Term, ...]
+    terms: tuple[Amount | Phrase | Term, ...]
     span: Span
+
+    @property
+    def formula(self) -> tuple[tuple[str, Any], ...]:
+        """The words and operands of its resolved terms."""
+        return tuple((term.word, term.operand) for term in of_form(self.terms, Term))
+
+    def found(self, word: str) -> list[Term]:
+        """The resolved terms of a word, such as reading."""
+        return [term for term in of_form(self.terms, Term) if term.word == word]
 
 
 class Comparison(Struct, frozen=True):
@@ -142,12 +152,6 @@ class When(Struct, frozen=True):
     alternatives: tuple[tuple[Comparison, ...], ...]
     span: Span
 
-    @property
-    def expressions(self) -> tuple[Expression, ...]:
-        """Both sides of every comparison."""
-        compared = of_form((each for all_ in self.alternatives for each in all_), Comparison)
-        return tuple(side for each in compared for side in (each.left, each.right))
-
 
 class Gate(Struct, frozen=True):
     """`when CONDITION [otherwise EXPRESSION]`"""
@@ -155,11 +159,6 @@ class Gate(Struct, frozen=True):
     when: When
     otherwise: Expression | None
     span: Span
-
-    @property
-    def expressions(self) -> tuple[Expression, ...]:
-        """The expressions of the condition, and the value sent otherwise."""
-        return (*self.when.expressions, self.otherwise) if self.otherwise else self.when.expressions
 
 
 class Reads(Struct, frozen=True):
@@ -177,11 +176,6 @@ class Sends(Struct, frozen=True):
     at: Expression | None
     gate: Gate | None
     span: Span
-
-    @property
-    def expressions(self) -> tuple[Expression, ...]:
-        """The expressions of its value, its condition and the value sent otherwise."""
-        return (*((self.at,) if self.at else ()), *(self.gate.expressions if self.gate else ()))
 
 
 class Drives(Sends, frozen=True):
@@ -305,12 +299,6 @@ class Teaches(Struct, frozen=True):
     span: Span
 
 
-class Stop(Outcome, frozen=True):
-    """A line of a .break file: `stop OUTCOME` or `stop in tick TICK`."""
-
-    tick: Amount | None = None
-
-
 Fact = (
     Reads | Drives | Influences | Stays | Contains | Starts | Varies | Fails | Lasts | Ends | Succeeds | Rewards
     | Counts | Teaches
@@ -395,6 +383,12 @@ class Number(Struct, frozen=True):
     span: Span
 
 
+class Stop(Outcome, frozen=True):
+    """A line of a .break file: `stop OUTCOME` or `stop in tick TICK`."""
+
+    tick: Tick | None = None
+
+
 Setting = Use | Master | Tick | Version | Unit | Number
 Line = Setting | Header | Fact
 
@@ -425,6 +419,20 @@ def walk_tree(node: Any) -> Iterator[Any]:
     if isinstance(node, tuple):
         for part in node:
             yield from walk_tree(part)
+
+
+def expressions_in(*nodes: Any) -> Iterator[Expression]:
+    """The expressions in some lines or parts of lines, such as conditions."""
+    for node in nodes:
+        match node:
+            case Expression():
+                yield node
+            case Header(at=at):
+                yield from expressions_in(at)
+            case Sends() | Gate() | Outcome() | When() | Comparison() | Rewards():
+                yield from expressions_in(*astuple(node))
+            case tuple():
+                yield from expressions_in(*node)
 
 
 def rebuilt(node: Any, change: Callable[[Any], Any]) -> Any:

@@ -18,10 +18,12 @@ from mindlang.compiler.diagnostic import Diagnostic, errors
 from mindlang.compiler.source import MAX_SOURCE_BYTES, Span, decode_source, encode_source
 from mindlang.compiler.splice import spliced
 from mindlang.editing import transaction
-from mindlang.editing.lock_update import Locks, UpdatedLocks, locks_of, new_names, update_locks
+from mindlang.editing.lock_update import UpdatedLocks, new_names, update_locks
 from mindlang.editing.project import EditError, MindChange, Project
 from mindlang.editing.world_names import now_called, renamed
-from mindlang.lock import LockError, lock_text
+from mindlang.lock import LockError, Locks, lock_text, locks_of
+
+NOTHING_UNSAVED: Mapping[Path, str] = {}
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,11 +63,17 @@ class Edited:
         return [path for path, lock in self.followed.locks.items() if lock != self.locks[path]]
 
 
-def apply_edit(project: Project, change: MindChange, keep_weights: bool) -> Edited:
-    """The edit made in memory; EditError where its result would not compile, nothing is written."""
+def apply_edit(
+    project: Project, change: MindChange, keep_weights: bool, unsaved: Mapping[Path, str] = NOTHING_UNSAVED
+) -> Edited:
+    """The edit made in memory; EditError where its result would not compile, nothing is written.
+
+    Files that are open in an editor have texts that are `unsaved`.
+    """
     _refuse_under_alias(change)
     touched = {id(splice.source): splice.source for splice in change.splices}
-    texts = {source.path: spliced(source, change.splices) for source in touched.values()} | dict(change.created)
+    changed = {source.path: spliced(source, change.splices) for source in touched.values()}
+    texts = {**unsaved, **changed, **change.created}
     graph = _compiled(project, texts)
     _refuse_captured(project, change, graph)
     locks = locks_of([*project.taught, *change.created])

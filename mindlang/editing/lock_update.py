@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence, Set
+from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -12,7 +12,7 @@ from mindrun.graph.skill_sets import owners, reachable
 
 from mindlang.editing.project import EditError, MindChange, Replaced, Unshared
 from mindlang.editing.world_names import Renaming
-from mindlang.lock import Entry, Lock, Signature, lock_path, read_lock
+from mindlang.lock import Entry, Lock, Locks, Signature
 from mindlang.lock.blobs import blob, digest, load_weights
 from mindlang.lock.signature import signature, width
 from mindlang.lock.status import Stale, Trained, status
@@ -21,8 +21,6 @@ from mindlang.lock.training_world import TrainingWorld
 if TYPE_CHECKING:
     from mindrun.numbers.arrays import Weights
 
-Locks = Mapping[Path, Lock]  # by the path of the lock
-
 
 @dataclass(frozen=True, slots=True)
 class UpdatedLocks:
@@ -30,19 +28,6 @@ class UpdatedLocks:
 
     locks: Mapping[Path, Lock]
     weights: Mapping[Path, Weights]
-
-
-def locks_of(sources: Iterable[Path]) -> dict[Path, dict[str, Entry]]:
-    """The locks of files, by their paths; LockError where one is damaged."""
-    return {path: read_lock(path) for path in map(lock_path, sources)}
-
-
-def merged(locks: Locks, sources: Iterable[Path]) -> Lock:
-    """The entries of the locks of these files, main file first; for a skill in several locks that of the first."""
-    known: dict[str, Entry] = {}
-    for path in map(lock_path, sources):
-        known = {**locks.get(path, {}), **known}
-    return known
 
 
 def update_locks(

@@ -3,7 +3,6 @@
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TypeVar
 
 from mindrun.errors import MindError
 from mindrun.graph.graph import Graph
@@ -25,17 +24,16 @@ from mindlang.compiler.syntax import (
     Contains,
     Declaration,
     Drives,
-    Fact,
     File,
     Influences,
     Master,
     Number,
     Reads,
+    of_form,
 )
 from mindlang.editing.neighbours import neighbours
 from mindlang.lock import lock_sources
 
-F = TypeVar("F", bound=Fact)
 MAX_SUGGESTED_NAMES = 8  # names in a message
 EXAMPLES = dict.fromkeys((*PARTS, "thing", "number"), "left_wheel")  # of the other nouns it is GoThere
 
@@ -149,7 +147,7 @@ class Project:
 
     def refuse_existing(self, skill: Declaration, form: type[Reads | Drives | Influences], name: str) -> None:
         """EditError where a skill reads, drives or influences something already."""
-        for fact in facts(skill, form):
+        for fact in of_form(skill.facts, form):
             if fact.name.text == name:
                 verb = form.__name__.lower()
                 raise EditError(f"{skill.header.name.text} already {verb} {name}.", "", fact.span)
@@ -230,7 +228,9 @@ class Project:
     def places(self, skill: str) -> Iterator[Mention]:
         """The mentions that place a skill in the hierarchy: as a subskill, and as the master."""
         for parent in self.parents(skill):
-            yield from (Mention("skill", f.name, parent) for f in facts(parent, Influences) if f.name.text == skill)
+            yield from (
+                Mention("skill", f.name, parent) for f in of_form(parent.facts, Influences) if f.name.text == skill
+            )
         masters = (setting.name for setting in self.main.settings if isinstance(setting, Master))
         yield from (Mention("skill", name, None) for name in masters if name.text == skill)
 
@@ -246,11 +246,6 @@ def project_alone(compiled: Compiled) -> Project:
     assert compiled.mind is not None
     assert compiled.graph is not None
     return Project(compiled.mind, compiled.graph)
-
-
-def facts(declaration: Declaration, form: type[F]) -> list[F]:
-    """The facts of one verb."""
-    return [fact for fact in declaration.facts if isinstance(fact, form)]
 
 
 def kind_of(declaration: Declaration) -> str:
@@ -304,5 +299,5 @@ def _is_name(noun: str, name: str) -> bool:
         read = parse(Source("name", f"number {name} is 1"), findings).settings
         return not findings.diagnostics and [each.name.text for each in read if isinstance(each, Number)] == [name]
     task, *others = parse(Source("name", f"task Task in plain\n{line}"), findings).declarations
-    names = [other.header.name for other in others] or [fact.name for fact in facts(task, Contains)]
+    names = [other.header.name for other in others] or [fact.name for fact in of_form(task.facts, Contains)]
     return not findings.diagnostics and [known.text for known in names] == [name]

@@ -9,9 +9,9 @@ from mindrun.graph.graph import Graph
 
 from mindlang.compiler.diagnostic import listed
 from mindlang.editing.apply import Edited
-from mindlang.editing.lock_update import Locks, merged
 from mindlang.editing.unified_diff import unified
 from mindlang.files import files_beside, readable_text, within_read_limits
+from mindlang.lock import Locks, merged
 from mindlang.lock.signature import arrange
 from mindlang.lock.status import Stale, Status, Trained, Untaught, status
 

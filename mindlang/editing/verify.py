@@ -9,20 +9,19 @@ import numpy as np
 from mindrun.engine.engine import Engine
 from mindrun.graph.graph import Graph, Skill
 from mindrun.graph.policy import Policy
-from mindrun.graph.weights import Weights, genes, owner_of, reachable, weights_of
+from mindrun.graph.weights import Weights, owner_of, reachable
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.rollouts import rollout_for
 from mindrun.sim.trace import trace
 from numpy.typing import NDArray
 
 from mindlang.editing.apply import Edited
-from mindlang.editing.lock_update import merged, new_names
+from mindlang.editing.lock_update import new_names
 from mindlang.editing.project import EditError
 from mindlang.editing.world_names import NounNames, now_called, renamed
-from mindlang.lock import Lock
-from mindlang.lock.blobs import blob, load_weights
+from mindlang.lock import Lock, merged
 from mindlang.lock.signature import arrange
-from mindlang.lock.status import Trained, status
+from mindlang.lock.status import Trained, status, trained_weights
 
 VERIFIED_TICKS = 2000  # of a run that is recorded
 VERIFIED_SEED = 1
@@ -43,19 +42,9 @@ class MindVersion:
 
     def weights(self, master: str) -> dict[str, Weights] | None:
         """The weights of all skills below a master; None where one is missing or stale."""
-        states = status(self.graph, self.lock)
-        found = {}
-        for skill in reachable(self.graph, master):
-            if genes(skill):
-                state = states[skill.name]
-                if not isinstance(state, Trained):
-                    return None
-                entry = state.entry
-                fresh = self.fresh.get(blob(entry.folder, entry.weights))
-                found[skill.owner] = (
-                    load_weights(entry, skill) if fresh is None else weights_of(skill, {skill.owner: fresh})
-                )
-        return found
+        names = {skill.name for skill in reachable(self.graph, master)}
+        weights, refusals = trained_weights(self.graph, self.lock, names, self.fresh)
+        return None if refusals else weights
 
     def engine(self, master: str, weights: Mapping[str, Weights]) -> Engine:
         """The engine of a master, as it runs on a robot."""
@@ -107,7 +96,7 @@ def _is_untouched(
 
 def _shape(graph: Graph, skill: Skill) -> object:
     """The function, readings and edges of a skill, all by name, so that two graphs can be compared."""
-    readings = _readings(graph)
+    readings = graph.readings
     edges = [
         (
             edge.to,
@@ -120,19 +109,13 @@ def _shape(graph: Graph, skill: Skill) -> object:
     return skill.function, [readings[index] for index in skill.inputs], edges
 
 
-def _readings(graph: Graph) -> list[tuple[str, int]]:
-    """The name of each reading, and its number among those of its sensor."""
-    wide = [(sensor.name, number) for sensor in graph.sensors for number in range(sensor.width)]
-    return wide + [(memory.name, 0) for memory in graph.memories]
-
-
 def _hold(recorded: NDArray[np.float32], before: Graph, after: Graph, old: Engine, new: Engine, master: str) -> None:
     """Run a skill before and after on the same readings; EditError at the first tick that differs.
 
     `before` has the names that are called otherwise now.
     """
-    columns = {reading: column for column, reading in enumerate(_readings(before))}
-    places = [columns.get(reading, -1) for reading in _readings(after)]
+    columns = {reading: column for column, reading in enumerate(before.readings)}
+    places = [columns.get(reading, -1) for reading in after.readings]
     with_zero = np.concatenate([recorded, np.zeros((len(recorded), 1), np.float32)], axis=1)  # for what is new
     actuators = [actuator.name for actuator in after.actuators]
     order = [actuators.index(actuator.name) for actuator in before.actuators]

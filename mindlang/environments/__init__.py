@@ -4,9 +4,6 @@ from mindlang import environments
 environments.register("collect.mind")
 env = gymnasium.make("mind/Collect-v0")
 many = gymnasium.make_vec("mind/Collect-v0", num_envs=1024)
-
-Without `register`, by any program that makes environments by their names:
-env = gymnasium.make("mindlang.environments:Mind-v0", file="collect.mind", task="Collect")
 """
 
 from contextlib import suppress
@@ -14,6 +11,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from mindrun.errors import MindError
+from mindrun.lazy_import import lazy_names
 
 if TYPE_CHECKING:
     from mindlang.environments.registration import register as register
@@ -22,12 +20,15 @@ if TYPE_CHECKING:
     from mindlang.environments.task_vector_env import TaskVectorEnv as TaskVectorEnv
 
 __all__ = ["StableBaselinesEnv", "TaskEnv", "TaskVectorEnv", "register"]
-MODULES = {
-    "register": "registration",
-    "TaskEnv": "task_env",
-    "TaskVectorEnv": "task_vector_env",
-    "StableBaselinesEnv": "stable_baselines",
-}
+_found = lazy_names(
+    __name__,
+    {
+        f"{__name__}.registration": ("register",),
+        f"{__name__}.task_env": ("TaskEnv",),
+        f"{__name__}.task_vector_env": ("TaskVectorEnv",),
+        f"{__name__}.stable_baselines": ("StableBaselinesEnv",),
+    },
+)
 EXTRAS = {"gymnasium": "pip install 'mindlang[gymnasium]'", "stable_baselines3": "pip install 'mindlang[sb3]'"}
 
 
@@ -36,10 +37,8 @@ with suppress(ModuleNotFoundError):  # whatever is asked for then says so
 
 
 def __getattr__(name: str) -> Any:
-    if name not in MODULES:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     try:
-        return getattr(import_module(f"{__name__}.{MODULES[name]}"), name)
+        return _found(name)
     except ModuleNotFoundError as error:
         package = (error.name or "").partition(".")[0]
         if package not in EXTRAS:

@@ -11,11 +11,10 @@ from typing import Any
 import numpy as np
 from gymnasium.spaces import Box
 from mindrun.errors import MindError
-from mindrun.graph.graph import Graph, Skill, Task
+from mindrun.graph.graph import Graph, Skill
 from mindrun.graph.policy import Policy
 from mindrun.graph.weights import reachable
-from mindrun.sim.commanded_lanes import CommandedLanes, commanded_lanes
-from mindrun.sim.commanded_world import ended_by
+from mindrun.sim.commanded_lanes import CommandedLanes, commanded_lanes, ended_by
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.state import State
 from mindrun.terminal.command_line import command_line
@@ -25,9 +24,9 @@ from mindlang.api import Mind, load
 from mindlang.compiler.diagnostic import listed
 from mindlang.lock.ready import ReadyMind, make_ready
 from mindlang.pictures.canvas import Image
-from mindlang.pictures.film_images import empty_window, half_window, window
+from mindlang.pictures.film_images import half_window, window
 from mindlang.pictures.robot import draw_robot
-from mindlang.pictures.scene import draw_items, draw_names, draw_zones
+from mindlang.pictures.scene import draw_items, draw_names, draw_zones, empty_world
 from mindlang.pictures.theme import NIGHT
 from mindlang.run.chosen_task import master_of, task_of, unknown
 from mindlang.run.recorded_run import RecordedRun
@@ -118,7 +117,8 @@ def episodes_of(file: Path, task: str | None, master: str | None, skill: str | N
     seen = {row for each in reachable(mind.graph, leader) for row in each.inputs}
     sensed = sum(sensor.width for sensor in mind.graph.sensors)  # behind these are the memories of skills
     rows = np.array(sorted(row for row in seen if row < sensed), np.int64)
-    return Episodes(_setup(mind, chosen, leader, ready), several, rows, len(mind.graph.actuators))
+    setup = RunSetup(chosen, leader, ready, mind.path.absolute().parent)
+    return Episodes(setup, several, rows, len(mind.graph.actuators))
 
 
 def _of_skill(mind: Mind, task: str | None, master: str | None, skill: str, lanes: int) -> Episodes:
@@ -139,7 +139,7 @@ def _of_skill(mind: Mind, task: str | None, master: str | None, skill: str, lane
     row = int(np.flatnonzero(rollout.tables.skills["index"] == number)[0])
     inputs = np.array(ready.policy.graph.skills[number].inputs, np.int64)
     several = CommandedLanes(rollout, lanes)
-    return Episodes(_setup(mind, chosen, leader, ready), several, inputs, played.outputs, row, skill)
+    return Episodes(RunSetup(chosen, leader, ready, folder), several, inputs, played.outputs, row, skill)
 
 
 def _played(graph: Graph, master: str, name: str) -> Skill:
@@ -153,10 +153,6 @@ def _played(graph: Graph, master: str, name: str) -> Skill:
     if like := [each.name for each in reached if each.owner == skill.owner and each.name != name]:
         raise MindError(f"{name} shares its weights with {like[0]}", "a master above one of them can be played")
     return skill
-
-
-def _setup(mind: Mind, task: Task, master: str, ready: ReadyMind) -> RunSetup:
-    return RunSetup(task, master, ready, mind.path.absolute().parent)
 
 
 def to_actions(actions: ArrayLike, shape: tuple[int, ...]) -> Floats:
@@ -197,16 +193,16 @@ def unit_box(length: int) -> Box:
 
 def image_of(episodes: Episodes, lane: int) -> Image:
     """An image of the world around the robot of a lane, [height, width, 3] as red, green, blue."""
-    run = _as_run(episodes, lane)
+    run = as_run(episodes, lane)
     half = half_window(run)
     size = [max(1, round(IMAGE_PIXELS * side / max(half))) for side in half]
-    canvas = empty_window(run, window(run, SHOWN_TICK, *size), *size)
+    canvas = empty_world(run, NIGHT, window(run, SHOWN_TICK, *size), *size)
     for draw in (draw_zones, draw_items, draw_robot, draw_names):
         draw(canvas, run, NIGHT, SHOWN_TICK)
     return np.ascontiguousarray(canvas.image[:, :, ::-1])
 
 
-def _as_run(episodes: Episodes, lane: int) -> RecordedRun:
+def as_run(episodes: Episodes, lane: int) -> RecordedRun:
     """The present of a lane as a run of one tick, in which nothing has moved."""
     lanes, here = episodes.lanes, slice(lane, lane + 1)
     world, mind, graph = lanes.world_columns(lane), lanes.state.mind, episodes.setup.ready.policy.graph

@@ -13,12 +13,12 @@ from mindrun.graph.bundle import Bundle
 from mindrun.graph.graph import Edge
 from mindrun.graph.policy import Policy
 from mindrun.graph.recording_header import About
-from mindrun.kinds.functions.rule import Rule
+from mindrun.kinds.functions.function import Rule
 from mindrun.robot.loop import Rate
 from numpy.typing import NDArray
 
-from mindlang.environments.episodes import Episodes
-from mindlang.run.recording import recorded_task, world_of
+from mindlang.environments.episodes import Episodes, as_run
+from mindlang.run.recording import recorded_rows, recorded_task, world_of
 from mindlang.view.server import BackgroundView, open_browser
 from mindlang.view.viewed import Viewed
 from mindlang.view.viewed_rows import viewed_rows
@@ -31,10 +31,7 @@ log = getLogger(__name__)
 
 
 class LiveView:
-    """The page of `mindc view` for episodes of one lane, in real time: `show` waits until the next tick is due.
-
-    The page is served at `address` from the first episode on, and a browser opened there.
-    """
+    """The page of `mindc view` for episodes of one lane, in real time: `show` waits until the next tick is due."""
 
     def __init__(self, episodes: Episodes) -> None:
         self._episodes = episodes
@@ -63,17 +60,12 @@ class LiveView:
 
     def show(self) -> None:
         """Add the tick that has been made, which has not been followed by sensing, and wait until it is over."""
-        row = np.zeros(1, self._about.row)
-        state = self._episodes.lanes.state.mind
-        row["tick"], row["armed"] = self._ticks, 1
         self._ticks += 1
-        row["time"] = self._ticks * self._about.tick
-        row["readings"] = state.readings[: self._about.readings, 0]
-        if self._episodes.played:  # else no skill has any: not one of them acts
-            row["influence"] = state.influence[: len(self._about.skills), 0]
-        row["commands"] = row["sent"] = state.commands[: len(self._about.actuators), 0]
-        for name, value in self._episodes.lanes.world_columns(0).items():
-            row["world"][name] = value
+        run = as_run(self._episodes, 0)
+        row = recorded_rows(self._about, self._ticks, run, run.events)
+        row["world"]["ended"] = run.ended
+        if not self._episodes.played:  # no skill has any influence: not one of them acts
+            row["influence"] = 0.0
         self._coming.put(row)
         self._rate.wait()
 

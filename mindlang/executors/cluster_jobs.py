@@ -26,20 +26,8 @@ from distributed import Client, Future, KilledWorker, get_worker
 from distributed.security import Security
 from mindrun.train.manifest import Build, difference, own_build, sources_hash
 
-from mindlang.executors.jobs import (
-    FATAL,
-    MAX_LOSSES,
-    SHOWN_CHARACTERS,
-    Assignment,
-    Done,
-    Failed,
-    Job,
-    JobExecutor,
-    JobScorer,
-    WorkError,
-    answer,
-    rollout_of,
-)
+from mindlang.executors import jobs
+from mindlang.executors.jobs import Assignment, Done, Failed, Job, JobExecutor, WorkError
 from mindlang.executors.processes import ProcessJobs
 
 CONNECT_SECONDS = 10.0
@@ -102,10 +90,7 @@ class ClusterJobs(JobExecutor):
         self._client, self._say, self._when_over = client, say, ended
         module, _, name = function.rpartition(".")
         self._call = f"__import__({module!r}, fromlist=[{name!r}]).{name}(build, assignment, work)"
-        self._shared = {
-            "build": dict(cluster_build()),
-            "assignment": pickle.dumps(replace(assignment, folder=None)),
-        }
+        self._shared = {"build": dict(cluster_build()), "assignment": pickle.dumps(replace(assignment, folder=None))}
         self._address: str = client.scheduler.address
         self._slots, self._looked = 0, float("-inf")
         self._missed_since: float | None = None
@@ -142,16 +127,16 @@ class ClusterJobs(JobExecutor):
             raise self._gone() from error
         except KilledWorker as why:
             job.losses += 1
-            if job.losses < MAX_LOSSES:
+            if job.losses < jobs.MAX_LOSSES:
                 return None
             last = why.last_worker.address
             message = f"a job was lost {job.losses} times, the last time its workers ended, the last at {last}"
-            raise WorkError(message, FATAL) from why
+            raise WorkError(message, jobs.FATAL) from why
         except (ImportError, AttributeError) as error:
             raise WorkError(f"a worker of {self._address} has no such mindlang: {error}", INSTALL) from error
         except Exception as error:
             said = f"a job failed at {self._address}: {type(error).__name__}: {error}"
-            raise WorkError(said[:SHOWN_CHARACTERS], INSTALL) from error
+            raise WorkError(said[: jobs.SHOWN_CHARACTERS], INSTALL) from error
         future.release()
         match found:
             case "done", bytes(pickled):
@@ -190,11 +175,7 @@ class ClusterJobs(JobExecutor):
 
 
 def jobs_of_cluster(
-    cluster: Any,
-    security: Security,
-    assignment: Assignment,
-    say: Callable[[str], object],
-    end: Callable[[], object],
+    cluster: Any, security: Security, assignment: Assignment, say: Callable[[str], object], end: Callable[[], object]
 ) -> ClusterJobs:
     """The jobs of a cluster that was begun for them: `end` is called when they are over, or nobody answers there."""
     try:
@@ -209,7 +190,7 @@ def answer_here(build: Build, assignment: bytes, work: bytes) -> WireAnswer:
     """The answer of a thread of a worker to a job; REFUSED where the job comes from another build."""
     if differs := difference(build, cluster_build()):
         return REFUSED, differs, "install the same wheel there, and the same versions of what it needs"
-    found = answer(lambda: _scorers.of(assignment), pickle.loads(work))
+    found = jobs.answer(lambda: _scorers.of(assignment), pickle.loads(work))
     return (DONE, pickle.dumps(found)) if isinstance(found, Done) else (FAILED, found.message, found.hint)
 
 
@@ -221,12 +202,13 @@ def _scorer(assignment: bytes) -> Any:
     state = get_worker().state
     threads = max(1, int(state.total_resources.get(CORES, state.nthreads)) // state.nthreads)
     found: Assignment = pickle.loads(assignment)
-    rollout = rollout_of(found, threads)
+    rollout = jobs.rollout_of(found, threads)
     if not rollout.task.scene.environment:
         return rollout
     multiprocessing.current_process().daemon = False  # one may have no children
-    scorer = JobScorer(rollout, jobs := ProcessJobs(threads, 1, found))
-    finalize(scorer, jobs.close)
+    processes = ProcessJobs(threads, 1, found)
+    scorer = jobs.JobScorer(rollout, processes)
+    finalize(scorer, processes.close)
     return scorer
 
 

@@ -19,9 +19,11 @@ from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from mindrun.engine.engine import procedure_sources
 from mindrun.errors import MindError
-from mindrun.graph.bundle import unpack
+from mindrun.graph.bundle import Bundle, pack, unpack
 from mindrun.graph.graph import Task
+from mindrun.graph.policy import Policy
 from mindrun.graph.run_scores import Scores
 from mindrun.train.attempt import Segment, Stretch, advance
 from mindrun.train.lesson_state import Course
@@ -68,6 +70,14 @@ class Assignment:
     learners: tuple[str, ...] = ()
     interrupt: bool = True
     folder: Path | None = None
+
+
+def assignment_of(
+    policy: Policy, task: str, master: str, folder: Path, learners: tuple[str, ...] = (), interrupt: bool = True
+) -> Assignment:
+    """The assignment of a mind whose procedures lie in `folder`; MindError where it is too large for a bundle."""
+    procedures = procedure_sources(policy.graph, folder, master)
+    return Assignment(pack(Bundle(policy, procedures)), task, master, learners, interrupt, folder)
 
 
 @dataclass(frozen=True, slots=True)
@@ -298,10 +308,6 @@ class JobScorer:
     def tally(self) -> Tally:
         """The counts of all workers beside the results."""
         return tally_of(self.rollout)
-
-    def add(self, tally: Tally) -> None:
-        """Count what was counted elsewhere."""
-        self.rollout.add(tally)
 
 
 def _score(genomes: NDArray[np.float32], seeds: NDArray[np.uint64], scorer: Any) -> Scores:

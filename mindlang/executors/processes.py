@@ -21,19 +21,8 @@ from typing import Any
 
 from mindrun.processors import cores
 
-from mindlang.executors.jobs import (
-    FATAL,
-    MAX_LOSSES,
-    Assignment,
-    Done,
-    Failed,
-    Job,
-    JobExecutor,
-    Work,
-    WorkError,
-    answer,
-    rollout_of,
-)
+from mindlang.executors import jobs
+from mindlang.executors.jobs import FATAL, MAX_LOSSES, Assignment, Done, Failed, Job, JobExecutor, Work, WorkError
 
 USAGE = "processes:N"
 MAX_PROCESSES = 1024
@@ -61,7 +50,7 @@ class ProcessJobs(JobExecutor):
     `make` is how an assignment becomes a scorer in a process; it is pickled by its name.
     """
 
-    def __init__(self, count: int, threads: int, assignment: Assignment, make: Make = rollout_of) -> None:
+    def __init__(self, count: int, threads: int, assignment: Assignment, make: Make = jobs.rollout_of) -> None:
         super().__init__()
         setup = assignment, threads, make
         self.members = [Member(f"process {number}", setup) for number in range(1, count + 1)]
@@ -195,4 +184,4 @@ def _load() -> None:
 
 def _answer(work: Work) -> Done | Failed:
     """The answer to a job, in the process."""
-    return answer(_scorer, work)
+    return jobs.answer(_scorer, work)

@@ -11,12 +11,8 @@ from mindlang.explaining.words import word_articles
 from mindlang.lint.rules import all_rules
 
 ERROR, RULE = "error", "lint rule"  # sorts of codes
-ALSO_CALLED = {
-    "task": "scene",
-    "content": "thing",
-    "function": "skill",
-    "mindc": "command",
-}  # nouns of kinds that people say as well
+# Nouns of kinds that people say as well.
+ALSO_CALLED = {"task": "scene", "content": "thing", "function": "skill", "mindc": "command"}
 NAMED_OWNERS = 4  # of an argument, so many of whose kinds are named
 
 

@@ -14,17 +14,7 @@ from mindlang.robot.options import driver_options, drivers
 
 NOUNS = ("sensor", "actuator")
 # The pins of a Raspberry Pi's header: what has a name, and the GPIOs from 0 on, as Broadcom counts them.
-NAMED_PINS = {
-    "3.3 V": 1,
-    "5 V": 2,
-    "GND": 6,
-    "SDA": 3,
-    "SCL": 5,
-    "MOSI": 19,
-    "MISO": 21,
-    "SCLK": 23,
-    "CE0": 24,
-}
+NAMED_PINS = {"3.3 V": 1, "5 V": 2, "GND": 6, "SDA": 3, "SCL": 5, "MOSI": 19, "MISO": 21, "SCLK": 23, "CE0": 24}
 GPIO_PINS = (
     *(27, 28, 3, 5, 7, 29, 31, 26, 24, 21, 19, 23, 32, 33),
     *(8, 10, 36, 11, 12, 35, 38, 40, 15, 16, 18, 22, 37, 13),

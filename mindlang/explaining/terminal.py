@@ -77,18 +77,9 @@ def _by_chapter(articles: Iterable[Article], heading: Callable[[Article], str]) 
 
 def article_data(article: Article) -> dict[str, Any]:
     """An article as plain data."""
-    return {
-        "name": article.name,
-        "noun": article.noun,
-        "sort": article.sort,
-        "chapter": article.chapter,
-        "summary": article.summary,
-        "text": article.text,
-        "arguments": [
-            {"key": each.key, "for": each.purpose, "takes": each.meaning, "default": each.default or None}
-            for each in article.parameters
-        ],
-        "scale": dict(article.scale),
-        "wrong": list(article.wrong),
-        "right": list(article.right),
-    }
+    arguments = [
+        {"key": each.key, "for": each.purpose, "takes": each.meaning, "default": each.default or None}
+        for each in article.parameters
+    ]
+    words = {key: getattr(article, key) for key in ("name", "noun", "sort", "chapter", "summary", "text")}
+    return words | {"arguments": arguments} | {key: getattr(article, key) for key in ("scale", "wrong", "right")}

@@ -21,15 +21,11 @@ def sarif(found: Iterable[Diagnostic]) -> dict[str, Any]:
     results = [_result(each) for each in found]
     rules = all_rules()
     codes = sorted({result["ruleId"] for result in results})
-    titles = {code: _title(rules[code].text if code in rules else code) for code in codes}
+    titles = {code: rules[code].text.splitlines()[0] if code in rules else code for code in codes}
     described = [{"id": code, "shortDescription": {"text": title}} for code, title in titles.items()]
     driver = {"name": "mindc", "version": version("mindlang"), "rules": described}
     run = {"tool": {"driver": driver}, "columnKind": "unicodeCodePoints", "results": results}
     return {"$schema": SCHEMA, "version": "2.1.0", "runs": [run]}
-
-
-def _title(text: str) -> str:
-    return text.splitlines()[0]
 
 
 def _result(diagnostic: Diagnostic) -> dict[str, Any]:

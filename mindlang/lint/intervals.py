@@ -1,15 +1,14 @@
 """Interval arithmetic: the range of an expression's value, and conditions that hold always or never."""
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from itertools import product
 from math import inf, isnan
-from typing import Any
+from operator import add, ge, gt, le, lt, sub, truediv
+from typing import Any, NamedTuple
 
-from mindrun.numbers.expression import Formula, fold
+from mindrun.numbers.expression import OPERATORS, Formula, fold
 
-from mindlang.compiler.model import Comparison, Expression, Number, When
-from mindlang.compiler.syntax import Operator
+from mindlang.compiler.syntax import Comparison, Expression, When
 
 Interval = tuple[float, float]
 Readings = Callable[[str], Interval]  # the range of each reading
@@ -18,6 +17,7 @@ UNBOUNDED: Interval = (-inf, inf)
 UNIT_INTERVAL: Interval = (0.0, 1.0)
 
 COMPARISON_WORDS = {"<": "below", "<=": "at or below", ">": "above", ">=": "at or above"}
+COMPARISONS: dict[str, Callable[[float, float], bool]] = {"<": lt, "<=": le, ">": gt, ">=": ge}
 OPPOSITES = {"<": ">=", "<=": ">", ">": "<=", ">=": "<"}
 TURNED = {"<": ">", "<=": ">=", ">": "<", ">=": "<="}  # the same with its sides the other way round
 UPPER = ("<", "<=")
@@ -31,7 +31,7 @@ def unknown_reading(name: str) -> Interval:
 
 def interval(of: Expression | Formula, reading: Readings = unknown_reading, each: Interval = UNIT_INTERVAL) -> Interval:
     """The range of an expression whose readings have these ranges, that of `for each` the range `each`."""
-    return fold(_formula(of), _leaf(reading, each), _negated, _combined)
+    return _folded(of, reading, each, _combined)
 
 
 def divisors(
@@ -45,15 +45,13 @@ def divisors(
             found.append(right)
         return _combined(symbol, left, right)
 
-    fold(_formula(of), _leaf(reading, each), _negated, combined)
+    _folded(of, reading, each, combined)
     return found
 
 
-def _formula(of: Expression | Formula) -> Formula:
-    return of.formula if isinstance(of, Expression) else of
-
-
-def _leaf(reading: Readings, each: Interval) -> Callable[[str, Any], Interval]:
+def _folded(
+    of: Expression | Formula, reading: Readings, each: Interval, combined: Callable[[str, Interval, Interval], Interval]
+) -> Interval:
     def leaf(word: str, operand: Any) -> Interval:
         match word:
             case "number":
@@ -65,39 +63,30 @@ def _leaf(reading: Readings, each: Interval) -> Callable[[str, Any], Interval]:
                 return interval
         return each if word == "each" else UNIT_INTERVAL
 
-    return leaf
+    formula = of.formula if isinstance(of, Expression) else of
+    return fold(formula, leaf, lambda value: (-value[1], -value[0]), combined)
 
 
-def _negated(of: Interval) -> Interval:
-    return -of[1], -of[0]
+def _product(left: float, right: float) -> float:
+    return left * right if left and right else 0.0  # an infinite bound is no value: 0 times whatever is read is 0
+
+
+OPERATIONS: dict[str, Callable[[float, float], float]] = {
+    "+": add, "-": sub, "*": _product, "/": truediv, "least": min, "greatest": max,
+}  # fmt: skip
 
 
 def _combined(symbol: str, left: Interval, right: Interval) -> Interval:
-    match symbol:
-        case "+":
-            return _around([left[0] + right[0]], [left[1] + right[1]])
-        case "-":
-            return _around([left[0] - right[1]], [left[1] - right[0]])
-        case "least":
-            return min(left[0], right[0]), min(left[1], right[1])
-        case "greatest":
-            return max(left[0], right[0]), max(left[1], right[1])
-        case "*":
-            values = [a * b if a and b else 0.0 for a, b in product(left, right)]
-            return _around(values, values)
-    if right[0] <= 0 <= right[1]:
+    """All operations have their least and greatest value in corners, unless the divisor can be 0."""
+    if symbol == "/" and right[0] <= 0 <= right[1]:
         return UNBOUNDED
-    values = [a / b for a, b in product(left, right)]
-    return _around(values, values)
-
-
-def _around(lows: list[float], highs: list[float]) -> Interval:
-    return UNBOUNDED if any(map(isnan, [*lows, *highs])) else (min(lows), max(highs))
+    corners = [OPERATIONS[symbol](a, b) for a, b in product(left, right)]
+    return UNBOUNDED if any(map(isnan, corners)) else (min(corners), max(corners))
 
 
 def is_constant(of: Expression) -> bool:
     """True if an expression is made of numbers alone."""
-    return all(isinstance(term, Number | Operator) for term in of.terms)
+    return all(word in ("number", "negate", *OPERATORS) for word, _ in of.formula)
 
 
 def range_in_words(of: Interval) -> str:
@@ -127,20 +116,13 @@ def why_always(when: When, value: Range) -> str | None:
 def _why_never(all_: Sequence[Comparison], value: Range) -> str | None:
     """Why comparisons never hold all at once, in words; None where they may."""
     never = next((each for each in all_ if not _can_be(each, each.compare, value)), None)
-    return _in_words(never, "never", value) if never else _contradiction(all_, value)
+    return _in_words(never, "never", value) if never else _contradiction(all_)
 
 
 def _can_be(each: Comparison, compare: str, value: Range) -> bool:
     """True if the sides of a comparison can be so that `left compare right` holds."""
-    left, right = value(each.left), value(each.right)
-    match compare:
-        case "<":
-            return left[0] < right[1]
-        case "<=":
-            return left[0] <= right[1]
-        case ">":
-            return left[1] > right[0]
-    return left[1] >= right[0]
+    (low, high), (least, most) = value(each.left), value(each.right)
+    return COMPARISONS[compare](low, most) if compare in UPPER else COMPARISONS[compare](high, least)
 
 
 def _in_words(each: Comparison, how_often: str, value: Range) -> str:
@@ -149,13 +131,17 @@ def _in_words(each: Comparison, how_often: str, value: Range) -> str:
     return f"{each.left.span.text} is {left}, {how_often} {compared}"
 
 
-@dataclass(frozen=True, slots=True)
-class _Bound:
-    """`subject compare number`."""
+class Bound(NamedTuple):
+    """`side compare number`."""
 
-    subject: str
+    side: Expression
     compare: str
     number: float
+
+    @property
+    def subject(self) -> str:
+        """The text of its side."""
+        return " ".join(self.side.span.text.split())
 
     @property
     def strictness(self) -> tuple[float, bool]:
@@ -166,20 +152,20 @@ class _Bound:
         return f"{COMPARISON_WORDS[self.compare]} {self.number:g}"
 
 
-def _bounds(all_: Sequence[Comparison], value: Range) -> Iterator[_Bound]:
+def bounds(all_: Sequence[Comparison]) -> Iterator[Bound]:
     """The bounds that comparisons with a number set to their other side."""
     for each in all_:
         if is_constant(each.right):
-            yield _Bound(" ".join(each.left.span.text.split()), each.compare, value(each.right)[0])
+            yield Bound(each.left, each.compare, interval(each.right)[0])
         elif is_constant(each.left):
-            yield _Bound(" ".join(each.right.span.text.split()), TURNED[each.compare], value(each.left)[0])
+            yield Bound(each.right, TURNED[each.compare], interval(each.left)[0])
 
 
-def _contradiction(all_: Sequence[Comparison], value: Range) -> str | None:
+def _contradiction(all_: Sequence[Comparison]) -> str | None:
     """In words, which reading the comparisons want below a number and above a greater one; None if there is none."""
-    bounds = [*_bounds(all_, value)]
-    for subject in dict.fromkeys(bound.subject for bound in bounds):
-        own = [bound for bound in bounds if bound.subject == subject]
+    found = [*bounds(all_)]
+    for subject in dict.fromkeys(bound.subject for bound in found):
+        own = [bound for bound in found if bound.subject == subject]
         upper = min((each for each in own if each.compare in UPPER), key=lambda each: each.strictness, default=None)
         lower = max((each for each in own if each.compare not in UPPER), key=lambda each: each.strictness, default=None)
         if upper and lower:

@@ -16,8 +16,8 @@ from mindlang.compiler.source import Source, encode_source
 from mindlang.compiler.splice import Splice, spliced
 from mindlang.editing import transaction
 from mindlang.editing.neighbours import neighbours
-from mindlang.lint.rules import Rule, all_rules
-from mindlang.lint.study import Finding, study
+from mindlang.lint.rules import all_rules
+from mindlang.lint.study import study
 from mindlang.lock import LockError
 
 MAX_FIX_ROUNDS = 100  # a fix may make room for another
@@ -35,14 +35,14 @@ def lint(compiled: Compiled, codes: Collection[str] | None = None) -> list[Diagn
         return list(compiled.diagnostics)
     about = study(compiled)
     held = [rule for code, rule in all_rules().items() if codes is None or code in codes]
-    found = [_diagnostic(rule, finding) for rule in held if not rule.elsewhere for finding in rule.check(about)]
-    useless = [_diagnostic(rule, finding) for rule in held if rule.elsewhere for finding in rule.check(about)]
-    if useless:
-        named = _named_elsewhere(compiled)
-        found += [each for each in useless if each.span and each.span.text not in named]
-    main = compiled.sources[0]
-    own = [each for each in found if each.span and each.span.source is main and not _is_silenced(each)]
-    return [*compiled.diagnostics, *sorted(own, key=lambda each: (each.span.start if each.span else 0, each.code))]
+    found = [(rule, finding) for rule in held for finding in rule.check(about)]
+    named = _named_elsewhere(compiled) if any(rule.elsewhere for rule, _ in found) else set()
+    own = [
+        Diagnostic(rule.code, each.message, each.span, each.hint, each.labels, "warning", each.fix)
+        for rule, each in sorted(found, key=lambda pair: (pair[1].span.start, pair[0].code))
+        if each.span.source is compiled.sources[0] and not (rule.elsewhere and each.span.text in named)
+    ]
+    return [*compiled.diagnostics, *(each for each in own if not _is_silenced(each))]
 
 
 def _named_elsewhere(compiled: Compiled) -> set[str]:
@@ -54,10 +54,6 @@ def _named_elsewhere(compiled: Compiled) -> set[str]:
     users = (user.mind for user in neighbours([main]) if user.mind)
     found = (each for user in users for each in mentions(user.files, user.names))
     return {each.name.text for each in found if not each.is_own and each.name.span.source.path not in own}
-
-
-def _diagnostic(rule: Rule, of: Finding) -> Diagnostic:
-    return Diagnostic(rule.code, of.message, of.span, of.hint, of.labels, "warning", of.fix)
 
 
 def _is_silenced(diagnostic: Diagnostic) -> bool:

@@ -1,11 +1,10 @@
 """`Study`: a mind as the lint rules see it; `Finding`: what a rule returns."""
 
 import re
-from collections.abc import Callable, Hashable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
-from functools import cached_property, wraps
-from operator import attrgetter
-from typing import NamedTuple
+from functools import cached_property
+from typing import Any
 
 from mindrun.graph.graph import Graph
 from mindrun.graph.tasks import goals
@@ -16,11 +15,11 @@ from mindlang.compiler.beginning import Beginning, task_beginning
 from mindlang.compiler.compile import Compiled
 from mindlang.compiler.diagnostic import Fix, Label
 from mindlang.compiler.hierarchy import reverse_topological_order, topological_order, with_descendants
-from mindlang.compiler.model import Edge, End, Expression, Mind, Reading, Reward, Skill, Task, When, source_graph
+from mindlang.compiler.model import Edge, End, Mind, Reward, Skill, Task, source_graph
 from mindlang.compiler.references import Mention, mentions
 from mindlang.compiler.source import Source, Span
-from mindlang.compiler.syntax import Declaration, Fact
-from mindlang.editing.insertion import without_declarations, without_fact
+from mindlang.compiler.syntax import Declaration, Fact, Setting, When, expressions_in
+from mindlang.editing.insertion import first_line, remove_lines, without_declarations
 from mindlang.lint.intervals import UNIT_INTERVAL, Interval, Range, interval, why_never
 from mindlang.lock import Lock, lock_sources, read_locks
 
@@ -92,14 +91,7 @@ class AnalysedWorld:
 
 
 Conditional = Edge | Reward | End
-
-
-class Condition(NamedTuple):
-    """A condition, what it is a condition of, and the world in which it is."""
-
-    when: When
-    of: Conditional
-    world: AnalysedWorld
+Condition = tuple[When, Conditional, AnalysedWorld]  # what it is a condition of, and the world in which it is
 
 
 @dataclass(frozen=True)
@@ -112,7 +104,6 @@ class Study:
 
     @cached_property
     def skills(self) -> dict[str, Skill]:
-        """The skills by name."""
         return {skill.name: skill for skill in self.mind.skills}
 
     @cached_property
@@ -122,12 +113,10 @@ class Study:
 
     @cached_property
     def tasks(self) -> dict[str, Task]:
-        """The tasks by name."""
         return {task.name: task for task in self.mind.tasks}
 
     @cached_property
     def sensors(self) -> dict[str, SensorKind]:
-        """The kinds of the sensors by name."""
         return {sensor.name: sensor.kind for sensor in self.mind.sensors}
 
     @cached_property
@@ -222,12 +211,12 @@ class Study:
         """Every condition of what skills send, of rewards and of ends."""
         for _, edge in self.edges:
             if edge.gate:
-                yield Condition(edge.gate.when, edge, self.any_world)
+                yield edge.gate.when, edge, self.any_world
         for task in self.mind.tasks:
             judging: tuple[Reward | End, ...] = (*task.rewards, *task.ends)
             for each in judging:
                 if each.when:
-                    yield Condition(each.when, each, self.worlds[task.name])
+                    yield each.when, each, self.worlds[task.name]
 
     def beginning(self, task: Task) -> Beginning:
         """The world of a task when a run begins."""
@@ -270,30 +259,24 @@ def study(compiled: Compiled) -> Study:
     return Study(compiled.mind, compiled.graph, lock)
 
 
-def first_of_each(found: Iterable[Finding], key: Callable[[Finding], Hashable] = attrgetter("span")) -> Found:
-    """The findings, each once: several tasks can have one from the same line."""
-    told = set[Hashable]()
-    for finding in found:
-        if key(finding) not in told:
-            told.add(key(finding))
-            yield finding
-
-
 def once_a_line(check: Callable[[Study], Found]) -> Callable[[Study], Found]:
     """A rule that tells once of a line which several tasks have."""
 
-    @wraps(check)
     def checked(study: Study) -> Found:
-        return first_of_each(check(study))
+        found: dict[Span, Finding] = {}
+        for finding in check(study):
+            found.setdefault(finding.span, finding)
+        yield from found.values()
 
     return checked
 
 
-def removal(what: Declaration | Fact, title: str = "", is_safe: bool = False) -> Fix:
-    """The fix that takes out a declaration, or the line of a fact."""
+def removal(what: Declaration | Fact | Setting, title: str = "", is_safe: bool = False) -> Fix:
+    """The fix that takes out a declaration, or the line of a fact or a setting."""
     if isinstance(what, Declaration):
         return Fix(title or f"Remove {what.header.name.text}", without_declarations([what]), is_safe)
-    return Fix(title or "Remove the line", (without_fact(what),), is_safe)
+    line = first_line(what.span)
+    return Fix(title or "Remove the line", (remove_lines(line, line),), is_safe)
 
 
 def is_zero_influence(edge: Edge) -> bool:
@@ -306,6 +289,6 @@ def name_words(name: str) -> list[str]:
     return [word.lower() for word in _WORD.findall(name)]
 
 
-def readings(expressions: Iterable[Expression]) -> set[str]:
-    """The names of the readings in some expressions."""
-    return {term.name for expression in expressions for term in expression.terms if isinstance(term, Reading)}
+def readings(*nodes: Any) -> set[str]:
+    """The names of the readings in some expressions and conditions."""
+    return {term.operand for expression in expressions_in(*nodes) for term in expression.found("reading")}

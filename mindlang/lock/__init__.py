@@ -161,6 +161,7 @@ class Entry:
 
 
 Lock = Mapping[str, Entry]
+Locks = Mapping[Path, Lock]  # by the path of the lock
 
 
 def _hashed(text: str | None) -> tuple[tuple[str, str], ...]:
@@ -227,12 +228,22 @@ def _worlds(path: Path, lines: Sequence[tuple[int, str]]) -> dict[str, TrainingW
     return worlds
 
 
-def read_locks(sources: Iterable[Path]) -> dict[str, Entry]:
-    """The entries of a `.mind` file's lock, then of the files that it uses; the first that knows a skill counts."""
+def locks_of(sources: Iterable[Path]) -> dict[Path, dict[str, Entry]]:
+    """The locks of files, by their paths; LockError where one is damaged."""
+    return {path: read_lock(path) for path in map(lock_path, sources)}
+
+
+def merged(locks: Locks, sources: Iterable[Path]) -> dict[str, Entry]:
+    """The entries of the locks of these files, main file first; for a skill in several locks that of the first."""
     known: dict[str, Entry] = {}
-    for source in sources:
-        known = read_lock(lock_path(source)) | known
+    for path in map(lock_path, sources):
+        known = {**locks.get(path, {}), **known}
     return known
+
+
+def read_locks(sources: Sequence[Path]) -> dict[str, Entry]:
+    """The entries of a `.mind` file's lock, then of the files that it uses; the first that knows a skill counts."""
+    return merged(locks_of(sources), sources)
 
 
 def lock_text(entries: Lock) -> str:

@@ -33,15 +33,21 @@ MAX_WEIGHTS_BYTES = 1 << 27  # of the weights of a skill; a bundle cannot hold m
 EMPTY_LOCK: Lock = {}
 Origin = tuple[str, str]  # a skill, and the SHA-256 of its weights; or file:NAME, and that of the file
 NO_ORIGINS: Mapping[str, Origin] = {}
+NO_WEIGHTS: Mapping[Path, Weights] = {}
 
 
-def load_weights(entry: Entry, skill: Skill) -> Weights:
-    """The weights of an entry, held against its hash and its skill; LockError where they are not those."""
+def load_weights(entry: Entry, skill: Skill, fresh: Mapping[Path, Weights] = NO_WEIGHTS) -> Weights:
+    """The weights of an entry, held against its hash and its skill; LockError where they are not those.
+
+    Those of a file that is not written yet are `fresh`.
+    """
     from mindrun.graph.weights import read_weights, weights_of  # which need numpy
 
     path = blob(entry.folder, entry.weights)
     remedy = f"get it back, or train {entry.skill} --from-scratch"
     try:
+        if path in fresh:
+            return weights_of(skill, {skill.owner: fresh[path]})
         if not path.resolve().is_relative_to(entry.folder.resolve()):
             raise LockError(f"{path} leads out of {entry.folder}")
         data = read_whole(path, MAX_WEIGHTS_BYTES)

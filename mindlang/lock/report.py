@@ -59,16 +59,7 @@ class Row:
     @property
     def word(self) -> str:
         """The status of the skill in a word or two."""
-        if self.damage:
-            return "damaged"
-        match self.status:
-            case Trained():
-                return "taught elsewhere" if self.status.is_elsewhere else "trained"
-            case Stale():
-                return "stale"
-            case Untaught():
-                return "untaught"
-        return "does not learn"
+        return "damaged" if self.damage else self.status.word
 
     @property
     def remarks(self) -> tuple[str, ...]:
@@ -128,14 +119,11 @@ def weights_text(row: Row) -> str:
 
 def made_by(taught: Taught) -> str:
     """How a genome came about, in words."""
-    under = f" under {taught.master}"
+    how = "not taught here"
+    if taught.generations:
+        how = f"{taught.generations} generations of {taught.population} from seed {taught.seed}"
     jointly = " with subskills" * taught.jointly
-    if not taught.generations:
-        return f"{taught.score:.1f} on {taught.task}{under}, not taught here"
-    return (
-        f"{taught.score:.1f} on {taught.task}{under}{jointly}, "
-        f"{taught.generations} generations of {taught.population} from seed {taught.seed}"
-    )
+    return f"{taught.score:.1f} on {taught.task} under {taught.master}{jointly}, {how}"
 
 
 def as_data(row: Row) -> dict[str, Any]:

@@ -43,22 +43,32 @@ class Trained:
         """True if the world in which it was taught is known, and is another now."""
         return bool(self.changes)
 
+    @property
+    def word(self) -> str:
+        """The status in a word or two."""
+        return "taught elsewhere" if self.is_elsewhere else "trained"
+
 
 @dataclass(frozen=True, slots=True)
 class Stale:
     """A skill that has changed since it was taught: its weights fit no longer; each difference is a sentence."""
 
     differences: tuple[str, ...]
+    word = "stale"
 
 
 @dataclass(frozen=True, slots=True)
 class Untaught:
     """A skill that learns, and has no weights yet."""
 
+    word = "untaught"
+
 
 @dataclass(frozen=True, slots=True)
 class NotLearning:
     """A skill that has no weights to learn."""
+
+    word = "does not learn"
 
 
 Status = Trained | Stale | Untaught | NotLearning
@@ -191,11 +201,13 @@ class _Standing:
         return found
 
 
-def trained_weights(graph: Graph, lock: Lock, skills: Collection[str]) -> tuple[dict[str, Weights], list[str]]:
+def trained_weights(
+    graph: Graph, lock: Lock, skills: Collection[str], fresh: Mapping[Path, Weights] | None = None
+) -> tuple[dict[str, Weights], list[str]]:
     """The weights of those of `skills` that learn, and a message for each that has none or stale ones.
 
     They stand under the names of the skills that own them. The graph must be `arrange`d. LockError where a file of
-    weights is damaged.
+    weights is damaged; those that are `fresh` have not been written yet.
     """
     weights: dict[str, Weights] = {}
     refusals = []
@@ -207,7 +219,7 @@ def trained_weights(graph: Graph, lock: Lock, skills: Collection[str]) -> tuple[
         frozen = " (and is frozen: unfreeze it first)" * skill.frozen
         match states[skill.name]:
             case Trained(entry):
-                weights[skill.name] = load_weights(entry, skill)
+                weights[skill.name] = load_weights(entry, skill, fresh or {})
             case Stale(found):
                 refusals.append(f"the weights of {skill.name} are stale: {'; '.join(found)}{frozen}")
             case Untaught():

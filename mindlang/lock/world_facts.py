@@ -116,8 +116,7 @@ class Worlds:
     @cached_property
     def _names(self) -> list[str]:
         """The sensor or memory of every reading, by its index."""
-        of_sensors = [sensor.name for sensor in self.graph.sensors for _ in range(sensor.width)]
-        return of_sensors + [memory.name for memory in self.graph.memories]
+        return [name for name, _ in self.graph.readings]
 
     def _skill(self, skill: Skill) -> dict[str, Any]:
         """The facts of a skill that its weights do not say: all of it where it does not learn."""

@@ -59,7 +59,7 @@ class Region(NamedTuple):
     def overlaps(self, other: "Region") -> bool:
         """True if both share an area."""
         is_beside = self.left >= other.left + other.width or other.left >= self.left + self.width
-        return not is_beside and self.low < other.low + other.height and other.low < self.low + self.height
+        return not (is_beside or self.low >= other.low + other.height or other.low >= self.low + self.height)
 
     def is_within(self, other: "Region") -> bool:
         """True if the other covers all of it."""
@@ -142,10 +142,7 @@ class Canvas:
         align: str = "left",
         halo: Colour | None = None,
     ) -> None:
-        """Draw text with capitals of `size` pixels on the line that begins, is centred or ends in x, y.
-
-        A halo sets it off from what is drawn below it.
-        """
+        """Draw text with capitals of `size` pixels that begins, is centred or ends in x, y; a halo sets it off."""
         font, scale, line = _font(size * self.pen, bold)
         start = {"left": 0.0, "centre": 0.5, "right": 1.0}[align] * text_width(text, size * self.pen, bold)
         column, row = self.places([x, y])[0] / 2**COORDINATE_BITS
@@ -198,11 +195,6 @@ def flow_layout(widths: Sequence[float], gap: float, room: float) -> list[tuple[
         places.append((along, line))
         along += width + gap
     return places
-
-
-def square(x: float, y: float, half: float) -> Sequence[tuple[float, float]]:
-    """The corners of a square."""
-    return rectangle_corners(x, y, half, half)
 
 
 def rectangle_corners(x: float, y: float, half_x: float, half_y: float) -> Sequence[tuple[float, float]]:

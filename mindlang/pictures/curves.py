@@ -1,9 +1,10 @@
 """Learning curves, as in the paper's Figures 11 to 14: one panel a lesson, one colour an attempt, or their mean."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from io import BytesIO
 from math import ceil, sqrt
-from typing import Any
+from pathlib import Path
+from typing import Any, TypeVar
 
 from matplotlib import style
 from matplotlib.axes import Axes
@@ -16,49 +17,18 @@ from matplotlib.transforms import offset_copy
 
 from mindlang.pictures.learning_log import Curve, MeanCurve
 
-INK, FAINT, GRID, PAGE = "#23272f", "#8a8f99", "#ececee", "#ffffff"
+INK, FAINT, PAGE = "#23272f", "#8a8f99", "#ffffff"
 ATTEMPTS = (  # Paul Tol's muted colours, which all eyes tell apart, and a grey
     *("#332288", "#cc6677", "#44aa99", "#ddaa33", "#88ccee"),
     *("#882255", "#117733", "#aa4499", "#999933", "#7a7f8a"),
 )
-STYLE = {
-    "font.family": "DejaVu Sans",  # comes with matplotlib: the same letters everywhere
-    "font.size": 8.0,
-    "text.color": INK,
-    "text.parse_math": False,
-    "axes.edgecolor": FAINT,
-    "axes.labelcolor": INK,
-    "axes.linewidth": 0.6,
-    "axes.spines.left": False,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "axes.titlesize": 9.5,
-    "axes.titlelocation": "left",
-    "axes.titleweight": "bold",
-    "axes.grid": True,
-    "axes.grid.axis": "y",
-    "axes.axisbelow": True,
-    "grid.color": GRID,
-    "grid.linewidth": 0.7,
-    "xtick.color": FAINT,
-    "ytick.color": FAINT,
-    "xtick.labelcolor": INK,
-    "ytick.labelcolor": INK,
-    "xtick.major.width": 0.6,
-    "xtick.major.size": 3.0,
-    "ytick.major.size": 0.0,
-    "legend.frameon": False,
-    "lines.solid_joinstyle": "round",
-    "figure.constrained_layout.h_pad": 0.08,
-    "figure.constrained_layout.w_pad": 0.08,
-    "savefig.dpi": 220.0,
-    "svg.hashsalt": "mind",  # names that do not change from one drawing to the next
-}
+STYLE: Sequence[str | Path] = ["default", Path(__file__).with_name("curves.mplstyle")]
 SINGLE_PANEL_INCHES, GRID_PANEL_INCHES = (6.4, 3.8), (3.7, 2.7)  # inches: a panel by itself, and one of several
 MAX_PANELS_PER_ROW = 4  # panels
 ROUND = [1, 2, 5, 10]  # steps of the axes
 VERDICT_OFFSET_POINTS = 9.0  # points from the last generation to the verdict on it
 
+T = TypeVar("T", Curve, MeanCurve)
 Entry = tuple[Any, str]  # of a legend: what is drawn, and what it means
 EDGE = {"markeredgecolor": PAGE, "markeredgewidth": 0.6}  # so that marks which overlap can be told apart
 CURVE_STYLES: dict[str, dict[str, Any]] = {
@@ -81,39 +51,48 @@ BAND: dict[str, Any] = {"alpha": 0.22, "linewidth": 0}  # of a standard error ar
 MAX_LEGEND_COLOURS = 5  # of attempts
 
 
-@style.context(["default", STYLE])
+@style.context(STYLE)
 def figure(curves: Sequence[Curve]) -> Figure:
     """A panel for each curve, and below them what its lines and marks mean."""
-    drawn, panels = _grid(len(curves))
-    for axes, curve in zip(panels, curves, strict=True):
-        _panel(drawn, axes, curve)
     shown = [name for name in MEANINGS if any(curve.points(a, name) for curve in curves for a in curve.attempts)]
     entries: list[Entry] = [(Line2D([], [], color=INK, **CURVE_STYLES[name]), MEANINGS[name]) for name in shown]
     if (attempts := max(len(curve.attempts) for curve in curves)) > 1:
         colours = ATTEMPTS[: min(attempts, MAX_LEGEND_COLOURS)]
         entries.append((tuple(Line2D([], [], color=each, linewidth=1.5) for each in colours), "one colour per attempt"))
-    _legend(drawn, len(curves), entries)
-    return drawn
+    return _figure(curves, _draw, entries)
 
 
-@style.context(["default", STYLE])
+@style.context(STYLE)
 def mean_figure(curves: Sequence[MeanCurve]) -> Figure:
     """A panel for each lesson, and below them what the lines and bands mean."""
-    drawn, panels = _grid(len(curves))
-    for axes, curve in zip(panels, curves, strict=True):
-        _mean_panel(axes, curve)
     shown = [column for column in MEAN_MEANINGS if any(curve.points(column) for curve in curves)]
     entries: list[Entry] = [
         (Line2D([], [], color=MEAN_COLOURS[column], **CURVE_STYLES[column]), MEAN_MEANINGS[column]) for column in shown
     ]
     if any(curve.attempts > 1 for curve in curves):
         entries.append((Patch(color=MEAN_COLOURS["reevaluated"], **BAND), "± the standard error of the mean"))
-    _legend(drawn, len(curves), entries)
+    return _figure(curves, _draw_mean, entries)
+
+
+def _figure(curves: Sequence[T], draw: Callable[[Axes, T], None], entries: Sequence[Entry]) -> Figure:
+    """A panel for each curve, which `draw` fills, and a legend below them."""
+    count = len(curves)
+    columns = count if count <= 3 else min(MAX_PANELS_PER_ROW, ceil(sqrt(count)))
+    rows = ceil(count / columns)
+    wide, high = SINGLE_PANEL_INCHES if count == 1 else GRID_PANEL_INCHES
+    drawn = Figure(figsize=(wide * columns, high * rows + 0.4), layout="constrained", facecolor=PAGE)
+    for place, curve in enumerate(curves):
+        axes = drawn.add_subplot(rows, columns, place + 1)
+        axes.set_ylabel("" if place % columns else "score")
+        draw(axes, curve)
+    handles, labels = zip(*entries, strict=True) if entries else ((), ())
+    looks = {tuple: HandlerTuple(ndivide=None, pad=0.0)}
+    drawn.legend(handles, labels, loc="outside lower center", ncols=4 if columns > 2 else 2, handler_map=looks)
     return drawn
 
 
-def _panel(drawn: Figure, axes: Axes, curve: Curve) -> None:
-    beyond = offset_copy(axes.transData, drawn, x=VERDICT_OFFSET_POINTS, units="points")
+def _draw(axes: Axes, curve: Curve) -> None:
+    beyond = offset_copy(axes.transData, axes.get_figure(root=True), x=VERDICT_OFFSET_POINTS, units="points")
     for layer, (column, look) in enumerate(CURVE_STYLES.items(), 3):
         where = beyond if column == "verdict" else axes.transData
         for attempt in curve.attempts:
@@ -126,7 +105,7 @@ def _panel(drawn: Figure, axes: Axes, curve: Curve) -> None:
     _frame(axes, name, curve.note, max(map(curve.last, curve.attempts)))
 
 
-def _mean_panel(axes: Axes, curve: MeanCurve) -> None:
+def _draw_mean(axes: Axes, curve: MeanCurve) -> None:
     for layer, column in enumerate(("best", "reevaluated"), 3):
         points, colour = curve.points(column), MEAN_COLOURS[column]
         generations, means = [point.generation for point in points], [point.mean for point in points]
@@ -140,34 +119,6 @@ def _mean_panel(axes: Axes, curve: MeanCurve) -> None:
     _frame(axes, curve.name, curve.note, curve.generations)
 
 
-def _legend(drawn: Figure, panels: int, entries: Sequence[Entry]) -> None:
-    handles, labels = zip(*entries, strict=True) if entries else ((), ())
-    drawn.legend(
-        handles,
-        labels,
-        loc="outside lower center",
-        ncols=4 if _panels_per_row(panels) > 2 else 2,
-        handler_map={tuple: HandlerTuple(ndivide=None, pad=0.0)},
-    )
-
-
-def _panels_per_row(count: int) -> int:
-    """How many of so many panels are beside each other."""
-    return count if count <= 3 else min(MAX_PANELS_PER_ROW, ceil(sqrt(count)))
-
-
-def _grid(count: int) -> tuple[Figure, list[Axes]]:
-    """A figure with `count` empty panels, and the panels."""
-    columns = _panels_per_row(count)
-    rows = ceil(count / columns)
-    wide, high = SINGLE_PANEL_INCHES if count == 1 else GRID_PANEL_INCHES
-    drawn = Figure(figsize=(wide * columns, high * rows + 0.4), layout="constrained", facecolor=PAGE)
-    panels = [drawn.add_subplot(rows, columns, number + 1) for number in range(count)]
-    for axes in panels[::columns]:
-        axes.set_ylabel("score")
-    return drawn, panels
-
-
 def _frame(axes: Axes, name: str, note: str, generations: int) -> None:
     """Draw the frame of a panel: its name, a note below that, and its axes."""
     axes.set_title(name, pad=20.0 if note else 8.0)
@@ -178,7 +129,7 @@ def _frame(axes: Axes, name: str, note: str, generations: int) -> None:
     axes.yaxis.set_major_locator(MaxNLocator(6, steps=ROUND))
 
 
-@style.context(["default", STYLE])
+@style.context(STYLE)
 def image(drawn: Figure, suffix: str) -> bytes:
     """The contents of an .svg or a .png file, the same for the same figure."""
     file, kind = BytesIO(), suffix.lower().removeprefix(".")

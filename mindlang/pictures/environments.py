@@ -1,11 +1,13 @@
 """Pictures of a run in an environment: some images of it in the order of time, as the environment draws them."""
 
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from mindrun.errors import MindError
-from mindrun.sim.outside.seen import UNKNOWN_FAILURES, SeenEpisode
+from mindrun.graph.graph import Graph, Task
+from mindrun.sim.outside.seen import UNKNOWN_FAILURES, SeenEpisode, Sent
 
 from mindlang.pictures.canvas import Image, letterbox, paste, reduced
 from mindlang.pictures.picture import (
@@ -27,11 +29,17 @@ SAID_PIXELS = 14.0
 
 def seen_run(run: RecordedRun, seed: int) -> SeenEpisode:
     """The images of a run of that seed; MindError where its environment cannot be made to be seen."""
-    acting = run.commands if run.acting is None else run.acting
-    if run.task.fails and run.acting is None:
+    if run.acting is None:
+        return seen_episode(run.graph, run.task, run.setup.folder, seed, lambda first, last: run.commands[first:last])
+    acting, environment = run.acting, run.task.scene.environment
+    return SeenEpisode(run.graph, environment, run.setup.folder, seed, lambda first, last: acting[first:last])
+
+
+def seen_episode(graph: Graph, task: Task, folder: Path, seed: int, sent: Sent) -> SeenEpisode:
+    """The images of a run of which only the commands are known; MindError where some may not have reached actuators."""
+    if task.fails:
         raise MindError(UNKNOWN_FAILURES, "mindc run --picture and --video draw such a run")
-    environment, folder = run.task.scene.environment, run.setup.folder
-    return SeenEpisode(run.graph, environment, folder, seed, lambda first, last: acting[first:last])
+    return SeenEpisode(graph, task.scene.environment, folder, seed, sent)
 
 
 def environment_picture(run: RecordedRun, found: dict[str, Any]) -> Image:

@@ -12,7 +12,7 @@ from functools import cached_property
 from itertools import chain
 from math import ceil
 from pathlib import Path
-from typing import Any, Never
+from typing import Any
 
 import cv2
 import numpy as np
@@ -90,7 +90,10 @@ class Film:
     def write(self, path: Path, wrote: Callable[[], None]) -> None:
         """Encode the film into `path`, which is only replaced when it is whole; `wrote` is told of each image."""
         if self.format.most and len(self) > self.format.most:
-            self._refuse(path, self.format.most)
+            most, seconds = self.format.most, self.run.ticks * self.run.graph.tick
+            fast = ceil(10 * seconds * self.format.fps / (most - round(END_SECONDS * self.format.fps) - 1)) / 10
+            said = f"{path} would have {len(self):,} images, and a {path.suffix} of more than {most} is too large"
+            raise VideoError(said, f"--speed {fast:g} or faster, or a film: {path.with_suffix('.mp4').name}")
         place = destination(path)
         spare = place.with_name(f".{place.stem}.part{place.suffix}")
         try:
@@ -100,13 +103,6 @@ class Film:
             raise VideoError(f"{path} cannot be written: {error}") from error
         finally:
             spare.unlink(missing_ok=True)
-
-    def _refuse(self, path: Path, most: int) -> Never:
-        """Raise VideoError: more images than `most`."""
-        seconds = self.run.ticks * self.run.graph.tick
-        fast = ceil(10 * seconds * self.format.fps / (most - round(END_SECONDS * self.format.fps) - 1)) / 10
-        said = f"{path} would have {len(self):,} images, and a {path.suffix} of more than {most} is too large"
-        raise VideoError(said, f"--speed {fast:g} or faster, or a film: {path.with_suffix('.mp4').name}")
 
 
 def _mp4(path: Path, film: Film, wrote: Callable[[], None]) -> None:

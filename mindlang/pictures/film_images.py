@@ -1,7 +1,4 @@
-"""One image of a film: the world beside the hierarchy and the readings, after the paper's Figure 15.
-
-Where the arena is long, the world stands above them.
-"""
+"""One image of a film, after the paper's Figure 15: the world beside the hierarchy and the readings, or above them."""
 
 from dataclasses import dataclass
 from math import ceil
@@ -24,7 +21,7 @@ from mindlang.pictures.path import (
 )
 from mindlang.pictures.readings_panel import COLUMN_PIXELS, ROW_PIXELS, ReadingsPanel, sensors_read
 from mindlang.pictures.robot import draw_robot
-from mindlang.pictures.scene import WALL_UNITS, draw_floor, draw_items, draw_names, draw_zones, each_thing, half_sides
+from mindlang.pictures.scene import WALL_UNITS, draw_items, draw_names, draw_zones, each_thing, empty_world, half_sides
 from mindlang.pictures.theme import NIGHT
 from mindlang.run.recorded_run import RecordedRun
 
@@ -85,10 +82,7 @@ def _even(pixels: float) -> int:
 
 
 class FilmImages:
-    """Draws any tick of a run: its path of the last `trail` ticks, its collisions of the last `flash` ones.
-
-    MindError where its world is an environment that draws nothing.
-    """
+    """Draws any tick of a run: its path of the last `trail` ticks, its collisions of the last `flash` ones."""
 
     def __init__(self, run: RecordedRun, found: dict[str, Any], speed: float, trail: int, flash: float) -> None:
         self._run, self._found, self._speed = run, found, speed
@@ -103,7 +97,7 @@ class FilmImages:
         self._panel = HierarchyPanel(run, hierarchy)
         self._readings = ReadingsPanel(run, readings)
         self._empty_image = self._drawn_once()
-        self._empty_world = self._floor(1) if run.task.scene.is_bounded else None
+        self._empty_world = self._floor(1).image if run.task.scene.is_bounded else None
 
     def image(self, tick: int) -> Image:
         """The film's image of a tick, the first of which is 1."""
@@ -154,15 +148,15 @@ class FilmImages:
         self._readings.draw(page, tick)
         return page
 
-    def _floor(self, tick: int) -> Image:
-        return empty_window(self._run, self.view(tick), *self.layout.world).image
+    def _floor(self, tick: int) -> Canvas:
+        return empty_world(self._run, NIGHT, self.view(tick), *self.layout.world)
 
     def _world(self, tick: int, has_ended: bool = False) -> Image:
         if self._seen:
             return letterbox(self._seen.image(tick), *self.layout.world, NIGHT.page)
         run = self._run
-        image = self._floor(tick) if self._empty_world is None else self._empty_world.copy()
-        canvas = Canvas(image, self.view(tick))
+        empty = self._empty_world
+        canvas = self._floor(tick) if empty is None else Canvas(empty.copy(), self.view(tick))
         draw_zones(canvas, run, NIGHT, tick)
         self._path.draw(canvas, max(0, tick - self._trail_ticks), tick, 2.0)
         if has_ended:
@@ -204,10 +198,3 @@ def window(run: RecordedRun, tick: int, width: int, height: int) -> Viewport:
     half = np.array(half_window(run))
     middle = run.body[tick, :2] * (not run.task.scene.is_bounded)
     return Viewport.around(middle - half, middle + half, width, height)
-
-
-def empty_window(run: RecordedRun, view: Viewport, width: int, height: int) -> Canvas:
-    """The floor with all that stands on it for good."""
-    canvas = Canvas(blank(width, height, NIGHT.page if run.task.scene.is_bounded else NIGHT.floor), view)
-    draw_floor(canvas, run, NIGHT)
-    return canvas

@@ -1,7 +1,4 @@
-"""The hierarchy in one tick, after the paper's Figure 15: a link's middle is the command, its rim the influence.
-
-Skills, actuators and memories stand in rows from the master down, so that few links cross.
-"""
+"""The hierarchy in one tick, after the paper's Figure 15: a link's middle is the command, its rim the influence."""
 
 from __future__ import annotations
 
@@ -151,10 +148,7 @@ class Place:
 
 
 def laid_out(links: Sequence[Link], skills: Sequence[int], room: Region) -> tuple[dict[Sink, Place], list[list[Place]]]:
-    """The boxes, and for each link the places that it goes through: from box to box, between the others of a row.
-
-    `skills` stand parents first.
-    """
+    """The boxes in rows from the master down, so that few links cross, and the places that each link goes through."""
     level = _levels(links, skills)
     routes = [_route(number, link, level) for number, link in enumerate(links)]
     rows = _ordered(_rows(level, routes), routes)

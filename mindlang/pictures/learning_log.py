@@ -1,7 +1,4 @@
-"""Logs of runs as data for pictures: generations, from a run's folder or a table, and the mean of several runs.
-
-The mean is that of all attempts of the runs of a lesson, with the standard error of that mean.
-"""
+"""Logs of runs as data for pictures: generations, from a run's folder or a table, and the mean of several runs."""
 
 import csv
 import gzip
@@ -73,7 +70,10 @@ class Curve:
 def load_curves(paths: Iterable[Path]) -> list[Curve]:
     """The curves of all runs and tables, each once; NotFoundError or RunError where there is nothing to show."""
     logs = dict.fromkeys(log for path in paths for log in _logs(path))
-    return _with_distinct_notes([_from_table(log) if log.is_file() else _from_run(log) for log in logs])
+    curves = [_from_table(log) if log.is_file() else _from_run(log) for log in logs]
+    if empty := next((curve for curve in curves if not curve.records), None):
+        raise RunError(f"{empty.path} has no generations yet")
+    return _with_distinct_notes(curves)
 
 
 def _logs(path: Path) -> list[Path]:
@@ -98,7 +98,7 @@ def _from_run(folder: Path) -> Curve:
     except RunError as error:
         raise RunError(f"{folder}: {error}", f"its {TABLE} can be drawn all the same") from error
     lesson = replace(manifest, seed=0, weights={}).identity
-    return _unless_empty(Curve(manifest.name, read_progress(folder), folder, "", lesson, read_failure(folder)))
+    return Curve(manifest.name, read_progress(folder), folder, "", lesson, read_failure(folder))
 
 
 def _from_table(path: Path) -> Curve:
@@ -112,7 +112,7 @@ def _from_table(path: Path) -> Curve:
         raise RunError(f"{path} is not the log of a run: it has no column {missing[0]}")
     if rows and len(rows[-1]) < len(header):
         rows.pop()  # of a run that is just writing it
-    return _unless_empty(Curve(path.name.partition(".csv")[0], list(_records(path, header, rows)), path))
+    return Curve(path.name.partition(".csv")[0], list(_records(path, header, rows)), path)
 
 
 def _text(path: Path) -> str:
@@ -136,12 +136,6 @@ def _records(path: Path, header: list[str], rows: list[list[str]]) -> Iterator[d
             yield counts | scores
         except ValueError as error:
             raise RunError(f"{path}, line {line}: not a generation of a log") from error
-
-
-def _unless_empty(curve: Curve) -> Curve:
-    if not curve.records:
-        raise RunError(f"{curve.path} has no generations yet")
-    return curve
 
 
 def _with_distinct_notes(curves: list[Curve]) -> list[Curve]:

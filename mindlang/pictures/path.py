@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mindlang.number_format import score
-from mindlang.pictures.canvas import Canvas, Region, rectangle_corners, square, text_width
+from mindlang.pictures.canvas import Canvas, Region, rectangle_corners, text_width
 from mindlang.pictures.scene import SceneLabel, free, thing_colours
 from mindlang.pictures.theme import NIGHT, PAPER, Colour, Theme, mixed
 from mindlang.run.recorded_run import RecordedRun
@@ -70,7 +70,8 @@ class Path:
     def draw(self, canvas: Canvas, first: int, last: int, width: float) -> None:
         """Draw the path from tick `first` to tick `last`."""
         keys = self.keys[first:last]
-        for begin, end in _stretches(keys):
+        changes = np.flatnonzero(np.diff(keys, prepend=-1, append=-1)).tolist()
+        for begin, end in pairwise(changes):
             self.strokes[keys[begin]].draw(canvas, self.places[first + begin : first + end + 1], width)
 
 
@@ -79,12 +80,6 @@ def strokes_of(theme: Theme, count: int) -> list[Stroke]:
     cores = (None, theme.floor, theme.ink)
     many = len(theme.skills)
     return [Stroke(theme.skills[i % many], cores[i // many % len(cores)]) for i in range(count)]
-
-
-def _stretches(keys: NDArray[np.int64]) -> list[tuple[int, int]]:
-    """The stretches of equal keys, as (start, end)."""
-    changes = np.flatnonzero(np.diff(keys)) + 1
-    return list(pairwise([0, *(int(change) for change in changes), len(keys)])) if len(keys) else []
 
 
 def draw_start(canvas: Canvas, run: RecordedRun) -> None:
@@ -122,8 +117,9 @@ def draw_former(canvas: Canvas, run: RecordedRun) -> None:
                 canvas.disc(x, y, size / 2, colour, 0.16)
                 canvas.disc(x, y, size / 2, colour, 0.45, width=1.0)
             else:
-                canvas.polygon(square(x, y, size / 2), colour, 0.08)
-                canvas.line(square(x, y, size / 2), colour, 1.0, 0.4, closed=True)
+                corners = rectangle_corners(x, y, size / 2, size / 2)
+                canvas.polygon(corners, colour, 0.08)
+                canvas.line(corners, colour, 1.0, 0.4, closed=True)
             if order <= len(former) and 1 < len(former) <= MOST_NUMBERED:
                 below = 9 * canvas.pixel
                 canvas.text(x + size / 2 + below / 3, y - below, str(order), 9, PAPER.faint)
@@ -163,10 +159,7 @@ def draw_rings(canvas: Canvas, x: float, y: float, radius: float, found: dict[st
 
 
 def draw_banner(canvas: Canvas, run: RecordedRun, found: dict[str, Any], room: Region, taken: Iterable[Region]) -> None:
-    """Draw the end of a run, its time and score, at an edge of the room where nothing that is `taken` lies below it.
-
-    All are in pixels, from the upper left corner.
-    """
+    """Draw the end of a run, its time and score, at an edge of the room, in pixels, that covers nothing `taken`."""
     colour, seconds = ending_colour(found, NIGHT), found["ticks"] * run.graph.tick
     words, detail = ending_words(found), f"after {seconds:.1f} s with a score of {score(found['score'])}"
     widest = max(text_width(words, WORDS_PIXELS, True), text_width(detail, DETAIL_PIXELS)) + 2 * BANNER_MARGIN_PIXELS

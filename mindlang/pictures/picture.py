@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindlang.number_format import score
-from mindlang.pictures.canvas import Canvas, Image, Viewport, blank, flow_layout, paste, reduced, square
+from mindlang.pictures.canvas import Canvas, Image, Viewport, blank, flow_layout, paste, rectangle_corners, reduced
 from mindlang.pictures.path import (
     MIN_CONTROL_SHARE,
     Path,
@@ -25,10 +25,10 @@ from mindlang.pictures.path import (
 from mindlang.pictures.robot import draw_robot
 from mindlang.pictures.scene import (
     WALL_UNITS,
-    draw_floor,
     draw_items,
     draw_names,
     draw_zones,
+    empty_world,
     half_sides,
     thing_colours,
 )
@@ -49,7 +49,7 @@ Entry = tuple[Callable[[float, float], None], str]  # what draws the mark at a p
 
 def picture(run: RecordedRun, found: dict[str, Any]) -> Image:
     """The picture of a run with the outcome `found`."""
-    world, path = empty_world(run), Path.of(run, PAPER)
+    world, path = world_of(run), Path.of(run, PAPER)
     draw_former(world, run)
     draw_zones(world, run, PAPER, run.ticks)
     path.draw(world, 0, run.ticks, 2.0)
@@ -66,14 +66,11 @@ def picture(run: RecordedRun, found: dict[str, Any]) -> Image:
     return reduced(page.image, 1 / SCALE_FACTOR)
 
 
-def empty_world(run: RecordedRun, *others: RecordedRun) -> Canvas:
+def world_of(run: RecordedRun, *others: RecordedRun) -> Canvas:
     """A floor to draw on: the arena, or in a plain scene all that happened, in other runs of the task as well."""
-    size = PICTURE_PIXELS - 2 * SIDE_PIXELS, height_of(run) - TOP_PIXELS - BOTTOM_PIXELS
-    width, height = (SCALE_FACTOR * side for side in size)
-    image = blank(width, height, PAPER.page if run.task.scene.is_bounded else PAPER.floor)
-    canvas = Canvas(image, view_of(run, width, height, *others), pen=SCALE_FACTOR)
-    draw_floor(canvas, run, PAPER)
-    return canvas
+    width = SCALE_FACTOR * (PICTURE_PIXELS - 2 * SIDE_PIXELS)
+    height = SCALE_FACTOR * (height_of(run) - TOP_PIXELS - BOTTOM_PIXELS)
+    return empty_world(run, PAPER, view_of(run, width, height, *others), width, height, SCALE_FACTOR)
 
 
 def height_of(run: RecordedRun) -> int:
@@ -172,7 +169,7 @@ def _entries(canvas: Canvas, run: RecordedRun, found: dict[str, Any], path: Path
             canvas.line([(x + i, y), (x + i + 1, y)], mixed(PAPER.early, PAPER.late, i / 17), 3.0)
 
     def box(colour: Colour, x: float, y: float) -> None:
-        canvas.polygon(square(x + 9, y, 6), colour, 0.75)
+        canvas.polygon(rectangle_corners(x + 9, y, 6, 6), colour, 0.75)
 
     def dot(colour: Colour, x: float, y: float) -> None:
         canvas.disc(x + 9, y, 6, colour)

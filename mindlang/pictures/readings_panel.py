@@ -1,6 +1,6 @@
 """The readings of one tick as a panel: beside each name a bar and its number, or a small bar for each reading."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 from mindrun.graph.graph import Sensor
@@ -72,27 +72,19 @@ class ReadingsPanel:
 
 
 def cell_layout(sensors: Sequence[Sensor], room: Region) -> tuple[Sequence[Sensor], list[Region], int]:
-    """The sensors that are shown in a room, the cells, and how many are left out.
+    """The sensors that are shown in a room, the cells column by column, and how many are left out: the last says that.
 
-    A cell is given by its left end and its middle row. Where some are left out, the last cell says how many.
+    A cell is given by its left end and its middle row.
     """
-    cells = list(_cells(len(sensors), room))
-    if len(sensors) <= len(cells):
-        return sensors, cells, 0
-    shown = max(0, len(cells) - 1)
-    return sensors[:shown], cells, len(sensors) - shown
-
-
-def _cells(count: int, room: Region) -> Iterator[Region]:
-    """At most so many cells, column by column."""
     columns = max(1, int(room.width // COLUMN_PIXELS))
-    most = int(room.height // ROW_PIXELS)
-    rows = min(most, -(-count // columns))
-    wide = room.width / columns
-    for number in range(min(count, rows * columns)):
+    rows = min(int(room.height // ROW_PIXELS), -(-len(sensors) // columns))
+    wide, cells = room.width / columns, []
+    for number in range(min(len(sensors), rows * columns)):
         column, row = divmod(number, rows)
         left = room.left + column * wide + INDENT_PIXELS
-        yield Region(left, room.low + (row + 0.5) * ROW_PIXELS, wide - 2 * INDENT_PIXELS, ROW_PIXELS)
+        cells.append(Region(left, room.low + (row + 0.5) * ROW_PIXELS, wide - 2 * INDENT_PIXELS, ROW_PIXELS))
+    shown = len(cells) if len(sensors) <= len(cells) else max(0, len(cells) - 1)
+    return sensors[:shown], cells, len(sensors) - shown
 
 
 def fit_name(name: str, room: float) -> tuple[str, float]:

@@ -12,7 +12,7 @@ from mindrun.kinds.registry import names
 from mindrun.kinds.scenes.scene import SceneKind
 from numpy.typing import ArrayLike, NDArray
 
-from mindlang.pictures.canvas import Canvas, Region, rectangle_corners, square, text_width
+from mindlang.pictures.canvas import Canvas, Region, Viewport, blank, rectangle_corners, text_width
 from mindlang.pictures.theme import Colour, Theme, mixed
 from mindlang.run.recorded_run import RecordedRun
 
@@ -33,9 +33,9 @@ def to_world(points: ArrayLike, pose: Floats) -> Floats:
     return there
 
 
-def draw_floor(canvas: Canvas, run: RecordedRun, theme: Theme) -> None:
-    """Draw the floor with a line every ten units, the walls and the obstacles."""
-    view, (height, width) = canvas.view, canvas.image.shape[:2]
+def empty_world(run: RecordedRun, theme: Theme, view: Viewport, width: int, height: int, pen: float = 1.0) -> Canvas:
+    """An image of the floor with a line every ten units, the walls and the obstacles."""
+    canvas = Canvas(blank(width, height, theme.page if run.task.scene.is_bounded else theme.floor), view, pen)
     left, right, low, high = view.left, view.left + width / view.scale, view.top - height / view.scale, view.top
     if run.task.scene.is_bounded:
         right, high = half_sides(run.task.scene)
@@ -50,6 +50,7 @@ def draw_floor(canvas: Canvas, run: RecordedRun, theme: Theme) -> None:
         canvas.line(rectangle_corners(*box), theme.rock_edge, 2.4, closed=True)
     for box in run.boxes:
         canvas.polygon(rectangle_corners(*box), theme.rock)
+    return canvas
 
 
 def _grid(first: float, last: float) -> Floats:
@@ -83,8 +84,9 @@ def draw_zones(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> Non
     """Draw the zones as they are after a tick: below the path."""
     for thing, fill, (x, y, size) in each_thing(run, theme, tick):
         if thing.kind.is_area:
-            canvas.polygon(square(x, y, size / 2), fill, 0.22)
-            canvas.line(square(x, y, size / 2), fill, 1.6, closed=True)
+            corners = rectangle_corners(x, y, size / 2, size / 2)
+            canvas.polygon(corners, fill, 0.22)
+            canvas.line(corners, fill, 1.6, closed=True)
 
 
 def draw_items(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> None:
@@ -96,7 +98,7 @@ def draw_items(canvas: Canvas, run: RecordedRun, theme: Theme, tick: int) -> Non
             canvas.disc(x, y, size / 2, fill)
             canvas.disc(x, y, size / 2, edge, width=1.2)
         elif not thing.kind.is_area:
-            shape = to_world(square(0.0, 0.0, size / 2), np.array([x, y, angle]))
+            shape = to_world(rectangle_corners(0.0, 0.0, size / 2, size / 2), np.array([x, y, angle]))
             canvas.polygon(shape, fill)
             canvas.line(shape, edge, 1.2, closed=True)
 

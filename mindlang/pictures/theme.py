@@ -1,8 +1,5 @@
 """Colours: a light theme for pictures on paper, a dark one for films, in which influence glows."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass
-
 Colour = tuple[int, int, int]  # blue, green, red, as OpenCV has them
 
 
@@ -24,50 +21,17 @@ def mixed(first: Colour, second: Colour, share: float) -> Colour:
     return blue, green, red
 
 
-@dataclass(frozen=True, slots=True)
-class Theme:
-    """The colours of a picture, by their use."""
+class Shade:
+    """A colour of each theme: on paper, and at night."""
 
-    page: Colour
-    floor: Colour
-    grid: Colour
-    wall: Colour
-    rock: Colour
-    rock_edge: Colour
-    ink: Colour
-    faint: Colour
-    robot: Colour
-    lamp: Colour
-    ray: Colour
-    crash: Colour
-    early: Colour  # a path by time, from
-    late: Colour  # to
-    dark: Colour  # no influence
-    glow: Colour  # full influence
-    skills: tuple[Colour, ...]  # a path by skill
-    things: Mapping[str, tuple[Colour, ...]]  # by kind: one each, as long as they last
-    named: Mapping[str, Colour]  # of things that are called by their colour
+    def __init__(self, paper: str, night: str) -> None:
+        self._colours = colour(paper), colour(night)
+
+    def __get__(self, theme: "Theme", owner: type) -> Colour:
+        return self._colours[theme.at_night]
 
 
 # Each on paper, and at night.
-SINGLE = {
-    "page": ("#f6f4ef", "#14171c"),
-    "floor": ("#fffefb", "#1b1f26"),
-    "grid": ("#eeebe3", "#242932"),
-    "wall": ("#3b4252", "#79839a"),
-    "rock": ("#c3c7cf", "#3d4554"),
-    "rock_edge": ("#8b919e", "#606b80"),
-    "ink": ("#23272f", "#eceff4"),
-    "faint": ("#8a8f99", "#8b94a5"),
-    "robot": ("#23272f", "#f4f6fa"),
-    "lamp": ("#ffb703", "#ffb703"),
-    "ray": ("#e2555f", "#ff6b74"),
-    "crash": ("#d62839", "#ff4d5e"),
-    "early": ("#a9d6f5", "#1f3a5c"),
-    "late": ("#123c7c", "#6fb8ff"),
-    "dark": ("#dddad2", "#262b34"),
-    "glow": ("#1f9d4d", "#39ff88"),
-}
 SKILLS = (
     "#2878c8 #e0559b #14a39a #d9a404 #7b5cd6 #6b8e23 #c0562f #5b6b7f",
     "#5aa9f0 #f07db8 #3fcfc4 #f2c744 #a58bf5 #a5c94c #f08a5d #93a4bb",
@@ -92,16 +56,36 @@ NAMED = {
 }
 
 
-def _theme(at_night: int) -> Theme:
-    def several(codes: tuple[str, str]) -> tuple[Colour, ...]:
-        return tuple(map(colour, codes[at_night].split()))
+class Theme:
+    """The colours of a picture, by their use.
 
-    return Theme(
-        **{name: colour(codes[at_night]) for name, codes in SINGLE.items()},
-        skills=several(SKILLS),
-        things={kind: several(codes) for kind, codes in THINGS.items()},
-        named={name: colour(codes[at_night]) for name, codes in NAMED.items()},
-    )
+    `skills` are for a path by skill, `things` by kind, one each as long as they last, `named` for what is called so.
+    """
+
+    page = Shade("#f6f4ef", "#14171c")
+    floor = Shade("#fffefb", "#1b1f26")
+    grid = Shade("#eeebe3", "#242932")
+    wall = Shade("#3b4252", "#79839a")
+    rock = Shade("#c3c7cf", "#3d4554")
+    rock_edge = Shade("#8b919e", "#606b80")
+    ink = Shade("#23272f", "#eceff4")
+    faint = Shade("#8a8f99", "#8b94a5")
+    robot = Shade("#23272f", "#f4f6fa")
+    lamp = Shade("#ffb703", "#ffb703")
+    ray = Shade("#e2555f", "#ff6b74")
+    crash = Shade("#d62839", "#ff4d5e")
+    early = Shade("#a9d6f5", "#1f3a5c")  # a path by time, from
+    late = Shade("#123c7c", "#6fb8ff")  # to
+    dark = Shade("#dddad2", "#262b34")  # no influence
+    glow = Shade("#1f9d4d", "#39ff88")  # full influence
+
+    def __init__(self, at_night: bool) -> None:
+        def several(codes: tuple[str, str]) -> tuple[Colour, ...]:
+            return tuple(map(colour, codes[at_night].split()))
+
+        self.at_night, self.skills = at_night, several(SKILLS)
+        self.things = {kind: several(codes) for kind, codes in THINGS.items()}
+        self.named = {name: colour(codes[at_night]) for name, codes in NAMED.items()}
 
 
-PAPER, NIGHT = _theme(False), _theme(True)
+PAPER, NIGHT = Theme(False), Theme(True)

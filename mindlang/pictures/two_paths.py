@@ -13,9 +13,9 @@ from mindlang.pictures.picture import (
     SCALE_FACTOR,
     SIDE_PIXELS,
     SMALL_PIXELS,
-    empty_world,
     height_of,
     page_around,
+    world_of,
 )
 from mindlang.pictures.robot import draw_robot
 from mindlang.pictures.scene import draw_items, draw_names, draw_zones
@@ -50,7 +50,7 @@ def two_paths(both: Sequence[tuple[RecordedRun, dict[str, Any]]], words: str, ti
 def _world(was: RecordedRun, now: RecordedRun, tick: int) -> Canvas:
     """Floor and things as they were before the change, both paths, both robots where they came to."""
     parted = min(tick - 1, was.ticks, now.ticks)
-    canvas = empty_world(was, now)
+    canvas = world_of(was, now)
     draw_zones(canvas, was, PAPER, parted)
     draw_items(canvas, was, PAPER, parted)
     canvas.line(was.body[: parted + 1, :2], PAPER.faint, PATH_PIXELS[1])

@@ -3,8 +3,6 @@
 A box whose bounds reach no further than what the skill was seen to send cannot be improved on, and is left alone.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from functools import reduce
 from typing import NamedTuple
@@ -17,7 +15,6 @@ from numpy.typing import NDArray
 
 from mindlang.proofs.interval import (
     Boxes,
-    SentBounds,
     Singles,
     is_known,
     join_boxes,
@@ -49,14 +46,13 @@ class EdgeRange:
 
 
 class Pool(NamedTuple):
-    """Boxes, and the bounds of what is sent in them."""
+    """Boxes of readings, `least` to `most` [boxes, width], and the bounds of what is sent in them [boxes, edges]."""
 
-    boxes: Boxes
-    sent: SentBounds
-
-
-def _some(of: Pool, rows: NDArray[np.intp] | NDArray[np.bool_]) -> Pool:
-    return Pool(select_boxes(of.boxes, rows), select_boxes(of.sent, rows))
+    least: Singles
+    most: Singles
+    low: Singles
+    high: Singles
+    sure: NDArray[np.bool_]
 
 
 def ranges(skill: Skill, weights: Weights | None, most: int) -> tuple[EdgeRange, ...]:
@@ -65,7 +61,7 @@ def ranges(skill: Skill, weights: Weights | None, most: int) -> tuple[EdgeRange,
         return tuple(EdgeRange(0.0, 1.0, sure=False) for _ in skill.edges)
     skill = by_itself(skill)
     low, high = _seen(skill, weights)
-    found = reduce(join_boxes, (pool.sent for pool in _cut(skill, weights, low, high, most)))
+    found = reduce(join_boxes, _cut(skill, weights, low, high, most))
     bounds = [found.low.min(axis=0), found.high.max(axis=0), found.sure.all(axis=0)]
     known = is_known(skill, weights)
     seen = [
@@ -83,9 +79,7 @@ def by_itself(skill: Skill) -> Skill:
         return tuple((word, place[int(x)] if word == "reading" else x) for word, x in program)
 
     def moved_edge(edge: Edge) -> Edge:
-        gate = edge.gate
-        if gate:
-            gate = Gate(moved(gate.when), None if gate.otherwise is None else moved(gate.otherwise))
+        gate = edge.gate and Gate(*map(moved, edge.gate.programs))
         return replace(edge, value=moved(edge.value), gate=gate)
 
     return replace(skill, inputs=tuple(range(len(place))), edges=tuple(moved_edge(edge) for edge in skill.edges))
@@ -95,7 +89,7 @@ def _seen(skill: Skill, weights: Weights | None) -> tuple[Singles, Singles]:
     """The least and the most that each edge sends for readings that are tried; 0 and 1 where it cannot be known."""
     tried = readings_to_try(len(skill.inputs), SAMPLED_READINGS)
     known = is_known(skill, weights)
-    found = sent_values(skill if known else _without_function(skill), weights, tried)
+    found = sent_values(skill if known else replace(skill, function=Mlp(), inputs=()), weights, tried)
     sound = np.isfinite(found)
     found = np.clip(found, 0, 1)
     low, high = found.min(axis=0, initial=1, where=sound), found.max(axis=0, initial=0, where=sound)
@@ -103,29 +97,30 @@ def _seen(skill: Skill, weights: Weights | None) -> tuple[Singles, Singles]:
     return low, np.where(hidden, np.float32(1), high)
 
 
-def _without_function(skill: Skill) -> Skill:
-    return replace(skill, function=Mlp(), inputs=())
-
-
 def _cut(skill: Skill, weights: Weights | None, low: Singles, high: Singles, most: int) -> list[Pool]:
     """Pools that cover the box together; the boxes that say least are cut first."""
     sides = len(skill.inputs)
-    open_, done, made = Pool(whole_box(sides), sent_bounds(skill, weights, whole_box(sides))), [], 1
+    open_, done, made = _pool(skill, weights, whole_box(sides)), [], 1
     sway = sway_of(skill, weights)
     while True:
-        excess = _excess(open_.sent, low, high)
-        done.append(_some(open_, excess <= 0))
-        open_, excess = _some(open_, excess > 0), excess[excess > 0]
+        excess = _excess(open_, low, high)
+        done.append(select_boxes(open_, excess <= 0))
+        open_, excess = select_boxes(open_, excess > 0), excess[excess > 0]
         if not len(excess) or made >= most or sides == 0:
             return [*done, open_]
         order = np.argsort(-excess, kind="stable")
-        cut = halves(select_boxes(open_.boxes, order[:BOXES_PER_ROUND]), sway)
+        worst = select_boxes(open_, order[:BOXES_PER_ROUND])
+        cut = halves(Boxes(worst.least, worst.most), sway)
         made += len(cut.low)
-        rest = _some(open_, order[BOXES_PER_ROUND:])
-        open_ = Pool(join_boxes(rest.boxes, cut), join_boxes(rest.sent, sent_bounds(skill, weights, cut)))
+        open_ = join_boxes(select_boxes(open_, order[BOXES_PER_ROUND:]), _pool(skill, weights, cut))
 
 
-def _excess(found: SentBounds, low: Singles, high: Singles) -> Singles:
+def _pool(skill: Skill, weights: Weights | None, boxes: Boxes) -> Pool:
+    sent = sent_bounds(skill, weights, boxes)
+    return Pool(boxes.low, boxes.high, sent.low, sent.high, sent.sure)
+
+
+def _excess(found: Pool, low: Singles, high: Singles) -> Singles:
     """How far the bounds of each box exceed what was seen, the most of its edges; 0 where that is close."""
     below, above = np.maximum(low - found.low, 0), np.maximum(found.high - high, 0)
     below[(below <= SHARP_ENOUGH) & (low < 1)] = 0  # "always 1" and "always 0" are to be proved exactly

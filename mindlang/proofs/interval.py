@@ -5,8 +5,6 @@ that is computed by the engine's operations, in its precision and its order, is 
 computes, rounding included. Only the sigmoid, a quotient, needs a margin: `SIGMOID_ERROR`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any, NamedTuple, TypeVar
 
@@ -14,7 +12,7 @@ import numpy as np
 from mindrun.graph.graph import Gate, Program, Skill
 from mindrun.graph.weights import Weights, genes
 from mindrun.numbers.arithmetic import sigmoid
-from mindrun.numbers.evaluation import OPERATORS
+from mindrun.numbers.arrays import OPERATORS
 from mindrun.numbers.expression import fold
 from mindrun.numbers.network import matrices
 from numpy.typing import NDArray
@@ -41,7 +39,7 @@ class SentBounds(NamedTuple):
     sure: NDArray[np.bool_]
 
 
-Bounds = TypeVar("Bounds", Boxes, SentBounds)
+Bounds = TypeVar("Bounds", bound=tuple[Any, ...])  # NamedTuples of arrays [boxes, …]
 
 
 def whole_box(width: int) -> Boxes:

@@ -16,8 +16,6 @@ parents the worst counts, because more leaks above a skill are never better. So 
 listed.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from itertools import islice
@@ -28,6 +26,7 @@ from mindrun.graph.weights import reachable
 from networkx import DiGraph, all_simple_paths
 from numpy.typing import NDArray
 
+from mindlang.compiler.hierarchy import with_ancestors
 from mindlang.proofs.interval import Boxes, expression_bounds, whole_box
 
 MAX_COUNTED_PATHS = 10**15  # stands for itself and for more
@@ -88,32 +87,28 @@ def _influence_edge(skill: Skill, edge: Edge, everything: Boxes) -> InfluenceEdg
 
 def paths(found: InfluenceEdges, actuators: int, listed: int) -> list[Paths]:
     """The paths to each actuator."""
-    counts = _counts(found, actuators)
-    master = found.skills[0]
+    counts = dict.fromkeys(found.skills, 0) | {found.skills[0]: 1}  # of paths from the master to each skill
+    for skill in found.skills:
+        for way in found.onward[skill]:
+            counts[way.target] = min(MAX_COUNTED_PATHS, counts[way.target] + counts[skill])
     return [
-        Paths(int(counts[master][actuator]), tuple(islice(_first(found, counts, actuator), listed)))
+        Paths(
+            min(MAX_COUNTED_PATHS, sum(counts[skill] for skill in found.skills if actuator in found.drives[skill])),
+            tuple(islice(_first(found, actuator), listed)),
+        )
         for actuator in range(actuators)
     ]
 
 
-def _counts(found: InfluenceEdges, actuators: int) -> dict[int, list[int]]:
-    """By skill, how many paths lead from it to each actuator, up to MAX_COUNTED_PATHS."""
-    counts: dict[int, list[int]] = {}
-    for skill in reversed(found.skills):
-        own = [int(actuator in found.drives[skill]) for actuator in range(actuators)]
-        for way in found.onward[skill]:
-            own = [min(MAX_COUNTED_PATHS, a + b) for a, b in zip(own, counts[way.target], strict=True)]
-        counts[skill] = own
-    return counts
-
-
-def _first(found: InfluenceEdges, counts: dict[int, list[int]], actuator: int) -> Iterator[tuple[str, ...]]:
+def _first(found: InfluenceEdges, actuator: int) -> Iterator[tuple[str, ...]]:
     """All paths to an actuator, in the order of the lines; only edges that lead to it are followed."""
     graph, end = DiGraph(), -1  # the actuator, below all that drive it
-    for skill in (skill for skill in found.skills if counts[skill][actuator]):
+    graph.add_nodes_from((found.skills[0], end))
+    for skill in found.skills:
         graph.add_edges_from((skill, end) for driven in found.drives[skill] if driven == actuator)
-        graph.add_edges_from((skill, way.target) for way in found.onward[skill] if counts[way.target][actuator])
-    if counts[found.skills[0]][actuator]:
+        graph.add_edges_from((skill, way.target) for way in found.onward[skill])
+    graph.remove_nodes_from({*graph} - with_ancestors(graph, [end]))
+    if found.skills[0] in graph:
         for path in all_simple_paths(graph, found.skills[0], end):
             yield tuple(found.names[skill] for skill in path[:-1])
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 from mindrun.graph.graph import Actuator, Edge, Graph, Skill
 from mindrun.graph.weights import Weights, reachable
@@ -87,12 +87,9 @@ class Proof:
 def prove(graph: Graph, weights: Mapping[str, Weights], delta: float) -> Proof:
     """All claims about a mind under its master; `delta` is the influence of a leak."""
     count = len(graph.actuators)
-    found, bounds = influence_edges(graph), prove_reach(graph, weights)
+    found, alone = influence_edges(graph), prove_reach(graph, weights)
     tried: Sequence[Tried | None] = try_readings(graph, weights) or [None] * count
-    alone, bounds = (
-        bounds,
-        tighten(graph, weights, bounds, [bool(seen and seen.readings is not None) for seen in tried]),
-    )
+    bounds = tighten(graph, weights, alone, [bool(seen and seen.readings is not None) for seen in tried])
     listed, leaking = paths(found, count, MAX_LISTED_PATHS), leaks(found, count, delta)
     rests = _Rests(graph, weights, bounds)
     below = reachable(graph, graph.master)
@@ -100,7 +97,11 @@ def prove(graph: Graph, weights: Mapping[str, Weights], delta: float) -> Proof:
     return Proof(
         graph,
         delta,
-        {skill.name: _why(skill) for skill in below if not is_known(skill, weights.get(skill.owner))},
+        {
+            skill.name: skill.function.opaque or "has no weights that fit"
+            for skill in below
+            if not is_known(skill, weights.get(skill.owner))
+        },
         tuple(skill.name for skill in graph.skills if skill.name not in names),
         tuple(
             ActuatorClaims(
@@ -116,10 +117,6 @@ def prove(graph: Graph, weights: Mapping[str, Weights], delta: float) -> Proof:
         tuple(_edges(graph, below, bounds, rests)),
         {name: rests.of_dead(name) for name, bound in bounds.influence.items() if bound.high <= 0},
     )
-
-
-def _why(skill: Skill) -> str:
-    return skill.function.opaque or "has no weights that fit"
 
 
 def _edges(graph: Graph, below: Sequence[Skill], bounds: ProvedReach, rests: _Rests) -> Iterator[EdgeClaim]:
@@ -153,23 +150,18 @@ class _Rests:
     def of_actuator(self, actuator: int, is_joint: bool) -> tuple[str, ...]:
         """The skills on whose weights the bounds of an actuator rest; a joint claim rests on all that have weights."""
         node = "actuator", actuator
-        if node not in self._flow:
-            return ()
-        ways = self._flow.in_edges(with_ancestors(self._flow, [node]), data="sends")
-        return self._in_order(
-            {
-                skill.owner
-                for _, _, (skill, edge, sends) in ways
-                if self.narrows(skill, edge, sends) or (is_joint and skill.owner in self._weights)
-            }
-        )
+        ways = self._ways(with_ancestors(self._flow, [node]) if node in self._flow else ())
+        joint = self._weights if is_joint else ()
+        return self._in_order(way[0].owner for way in ways if self.narrows(*way) or way[0].owner in joint)
 
     def of_dead(self, name: str) -> tuple[str, ...]:
         """The skills whose weights stop influence on its way to a dead skill."""
-        ways = self._flow.in_edges(with_ancestors(self._live, [("skill", self._place[name])]), data="sends")
-        return self._in_order(
-            {skill.owner for _, _, (skill, edge, sends) in ways if sends.is_dead and self.narrows(skill, edge, sends)}
-        )
+        ways = self._ways(with_ancestors(self._live, [("skill", self._place[name])]))
+        return self._in_order(way[0].owner for way in ways if way[2].is_dead and self.narrows(*way))
 
-    def _in_order(self, names: set[str]) -> tuple[str, ...]:
-        return tuple(sorted(names, key=self._place.__getitem__))
+    def _ways(self, to: Iterable[Any]) -> Iterator[tuple[Skill, Edge, EdgeRange]]:
+        """All that is sent to some nodes, and by whom."""
+        return (way for *_, way in self._flow.in_edges(to, data="sends"))
+
+    def _in_order(self, names: Iterable[str]) -> tuple[str, ...]:
+        return tuple(sorted({*names}, key=self._place.__getitem__))

@@ -9,9 +9,7 @@ its rounding: with n drivers a share of at most (2n + 1)·2^−24, for which ROU
 are left.
 """
 
-from __future__ import annotations
-
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -73,7 +71,7 @@ def prove_reach(graph: Graph, weights: Mapping[str, Weights]) -> ProvedReach:
     skills = reachable(graph, graph.master)
     boxes = max(1, min(MAX_SKILL_BOXES, MAX_TOTAL_BOXES // len(skills)))
     edges = {skill.name: ranges(skill, weights.get(skill.owner), boxes) for skill in skills}
-    found = influence_bounds(graph, 1, {name: as_bounds(sends) for name, sends in edges.items()}.__getitem__)
+    found = influence_bounds(graph, 1, lambda skill: as_bounds(edges[skill.name]))
     drivers: list[list[EdgeRange]] = [[] for _ in graph.actuators]
     for place, skill in enumerate(graph.skills):
         if found.high[0, place] > 0:
@@ -95,7 +93,7 @@ def as_bounds(sends: Sequence[EdgeRange]) -> SentBounds:
     return SentBounds(low, high, np.array([[s.sure for s in sends]], np.bool_))
 
 
-def influence_bounds(graph: Graph, boxes: int, sends: Callable[[str], SentBounds]) -> InfluenceBounds:
+def influence_bounds(graph: Graph, boxes: int, sends: Callable[[Skill], SentBounds]) -> InfluenceBounds:
     """Influence from the master down to the actuators, in so many boxes, from what each skill sends in them."""
     low, high = np.zeros((2, boxes, len(graph.skills)), np.float32)
     total_low, total_high = np.zeros((2, boxes, len(graph.actuators)), np.float32)
@@ -103,7 +101,7 @@ def influence_bounds(graph: Graph, boxes: int, sends: Callable[[str], SentBounds
     low[:, places[graph.master]] = high[:, places[graph.master]] = 1
     with np.errstate(all="ignore"):
         for skill in reachable(graph, graph.master):
-            found, place = sends(skill.name), places[skill.name]
+            found, place = sends(skill), places[skill.name]
             for number, edge in enumerate(skill.edges):
                 drives = edge.to == "actuator"
                 if edge.to == "memory":
@@ -143,16 +141,13 @@ def tighten(
 
 def _least(graph: Graph, weights: Mapping[str, Weights], found: ProvedReach, actuator: int, most: int) -> float:
     """The least Σ influence of an actuator over boxes that cover all readings; 0 where that would take too many."""
-    skills = {skill.name: skill for skill in reachable(graph, graph.master)}
-    sway = _sway(graph, weights, skills.values())
+    sway = _sway(graph, weights)
     waiting = whole_box(graph.width)
     least, made = np.inf, 1
     while len(waiting.low):
-        now, waiting = (
-            select_boxes(waiting, slice(BOXES_PER_ROUND)),
-            select_boxes(waiting, slice(BOXES_PER_ROUND, None)),
-        )
-        low = _flow(graph, weights, skills, found, now).total_low[:, actuator]
+        now = select_boxes(waiting, slice(BOXES_PER_ROUND))
+        waiting = select_boxes(waiting, slice(BOXES_PER_ROUND, None))
+        low = _flow(graph, weights, found, now).total_low[:, actuator]
         is_open = low <= 0
         made += 2 * int(is_open.sum())
         if made > most or not sway.any():
@@ -166,22 +161,20 @@ def _least(graph: Graph, weights: Mapping[str, Weights], found: ProvedReach, act
     return least
 
 
-def _flow(
-    graph: Graph, weights: Mapping[str, Weights], skills: Mapping[str, Skill], found: ProvedReach, boxes: Boxes
-) -> InfluenceBounds:
+def _flow(graph: Graph, weights: Mapping[str, Weights], found: ProvedReach, boxes: Boxes) -> InfluenceBounds:
     """Influence in each box, from what every skill sends there, or what it sends anywhere, whichever says more."""
 
-    def sends(name: str) -> SentBounds:
-        here, anywhere = sent_bounds(skills[name], weights.get(skills[name].owner), boxes), as_bounds(found.edges[name])
+    def sends(skill: Skill) -> SentBounds:
+        here, anywhere = sent_bounds(skill, weights.get(skill.owner), boxes), as_bounds(found.edges[skill.name])
         low, high = np.maximum(here.low, anywhere.low), np.minimum(here.high, anywhere.high)
         return SentBounds(low, high, here.sure | anywhere.sure)
 
     return influence_bounds(graph, len(boxes.low), sends)
 
 
-def _sway(graph: Graph, weights: Mapping[str, Weights], skills: Collection[Skill]) -> Singles:
+def _sway(graph: Graph, weights: Mapping[str, Weights]) -> Singles:
     """How much each reading moves what all skills send, roughly."""
     sway = np.zeros(graph.width, np.float32)
-    for skill in skills:
+    for skill in reachable(graph, graph.master):
         sway[list(skill.inputs)] += sway_of(by_itself(skill), weights.get(skill.owner))
     return sway

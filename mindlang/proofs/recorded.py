@@ -1,7 +1,5 @@
 """Runs of the simulator beside a proof: how often nothing influenced an actuator."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -17,8 +15,8 @@ from mindlang.run.setup import RunSetup
 class Undriven:
     """The ticks in which nothing influenced an actuator, the first of them (from 1), and the commands it was sent."""
 
-    ticks: int
-    first: int | None
+    neutral_ticks: int
+    first_tick: int | None
     commands: tuple[float, float]
 
 

@@ -6,6 +6,7 @@ Every claim says what it rests on: the declaration, weights, a run.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from mindrun.graph.graph import Graph
@@ -58,11 +59,7 @@ def _actuator(found: ActuatorClaims, place: int, proof: Proof, hashes: Hashes, r
     low, high = found.command
     data: Data = {
         "actuator": found.actuator.name,
-        "paths": {
-            "count": found.paths.count,
-            "first": [list(path) for path in found.paths.first],
-            "rests_on": [DECLARATION],
-        },
+        "paths": asdict(found.paths) | {"rests_on": [DECLARATION]},
         "leak": found.leak and _leak(found.leak),
         "command": {
             "low": low,
@@ -80,14 +77,8 @@ def _actuator(found: ActuatorClaims, place: int, proof: Proof, hashes: Hashes, r
         },
     }
     if run is not None:
-        undriven = run.actuators[place]
         said = f"a run of {in_words(run.ticks)} of task {run.task}, seed {run.seed}"
-        data["run"] = {
-            "neutral_ticks": undriven.ticks,
-            "first_tick": undriven.first,
-            "commands": list(undriven.commands),
-            "rests_on": [said],
-        }
+        data["run"] = asdict(run.actuators[place]) | {"rests_on": [said]}
     return data
 
 
@@ -95,7 +86,7 @@ def _leak(leak: Leak) -> Data:
     return {
         "share": leak.share,
         "worst": leak.worst and leak.worst.skill,
-        "levels": [{"skill": level.skill, "share": level.share, "into": list(level.into)} for level in leak.levels],
+        "levels": [asdict(level) for level in leak.levels],
         "rests_on": [DECLARATION],
     }
 

@@ -3,18 +3,19 @@
 Readings for which nothing influences an actuator are looked for by trying, so that one that is found is a proof.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
+from operator import neg
 
 import numpy as np
 from mindrun.graph.graph import Gate, Graph, Program, Skill
 from mindrun.graph.weights import Weights, genes, reachable
-from mindrun.numbers.evaluation import OPERATORS
+from mindrun.numbers.arrays import OPERATORS
 from mindrun.numbers.expression import fold
-from mindrun.numbers.network import running
+from mindrun.numbers.network import FLOAT32, NOTHING
+from networkx import DiGraph
 
+from mindlang.compiler.hierarchy import with_ancestors
 from mindlang.proofs.interval import Doubles, Singles, is_known, perceptron_matrices
 
 TRIED_READINGS, MAX_WEIGHT_READINGS = 4096, 20_000_000  # readings, and weights times readings
@@ -73,7 +74,8 @@ def _outputs(skill: Skill, weights: Weights | None, readings: Singles) -> Single
     if not layers:
         return np.zeros((len(readings), skill.outputs), np.float32)
     with np.errstate(all="ignore"):
-        return running(skill.function.forward, layers, 0)(readings[:, list(skill.inputs)])
+        found: Singles = skill.function.forward(FLOAT32, layers, readings[:, list(skill.inputs)], NOTHING)[0]
+    return found
 
 
 def _evaluate(program: Program, readings: Singles) -> Singles:
@@ -82,12 +84,8 @@ def _evaluate(program: Program, readings: Singles) -> Singles:
             return readings[:, int(operand)].astype(np.float64)
         return np.full(len(readings), operand, np.float64)
 
-    def combined(operator: str, left: Doubles, right: Doubles) -> Doubles:
-        found: Doubles = OPERATORS[operator](left, right)
-        return found
-
-    found: Singles = fold(program, leaf, np.negative, combined).astype(np.float32)
-    return found
+    found: Doubles = fold(program, leaf, neg, lambda operator, left, right: OPERATORS[operator](left, right))
+    return found.astype(np.float32)
 
 
 @dataclass(frozen=True, slots=True)
@@ -125,18 +123,13 @@ def _of(graph: Graph, readings: Singles, thoughts: ThoughtRows, actuator: int) -
 
 def _still(graph: Graph, influence: Singles, actuator: int) -> tuple[str, ...]:
     """The skills that have influence and could lead to the actuator, none of whose subskills does both."""
-    leading = [False] * len(graph.skills)
-    for place in reversed(range(len(graph.skills))):
-        leading[place] = any(
-            edge.target == actuator if edge.to == "actuator" else edge.to == "skill" and leading[edge.target]
-            for edge in graph.skills[place].edges
-        )
-    awake = [here and found > 0 for here, found in zip(leading, influence.tolist(), strict=True)]
-    return tuple(
-        skill.name
-        for skill, here in zip(graph.skills, awake, strict=True)
-        if here and not any(edge.to == "skill" and awake[edge.target] for edge in skill.edges)
-    )
+    sent = [(edge.to, edge.target, place) for place, skill in enumerate(graph.skills) for edge in skill.edges]
+    flow = DiGraph((("skill", place), (to, target)) for to, target, place in sent)
+    flow.add_node(("actuator", actuator))
+    leading = with_ancestors(flow, [("actuator", actuator)])
+    awake = {place for place in np.flatnonzero(influence > 0).tolist() if ("skill", place) in leading}
+    onward = {place for to, target, place in sent if to == "skill" and target in awake}
+    return tuple(graph.skills[place].name for place in sorted(awake - onward))
 
 
 def readings_to_try(width: int, rows: int) -> Singles:

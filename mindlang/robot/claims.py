@@ -1,7 +1,4 @@
-"""The claims of a wiring: pins, addresses and channels, each of which belongs to one, and time, which has to suffice.
-
-How much time is what drivers say of themselves, beside how often wires ask for it.
-"""
+"""The claims of a wiring: pins, addresses and channels, each of which belongs to one, and time, which must suffice."""
 
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence

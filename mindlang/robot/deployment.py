@@ -14,6 +14,7 @@ from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
 from hashlib import sha256
+from importlib.resources import files
 from pathlib import Path
 
 import mindrun
@@ -31,36 +32,6 @@ from mindlang.robot.remote import RemoteRobot, RobotEvent
 WORKSTATION = "sim"  # the room of mindrun that no robot has a use for
 SERVICE, ARMED = "mind.service", "mind-armed.service"  # what they are called in a release
 PYTHON = "%h/mind/venv/bin/python"
-UNIT = """\
-# Written by `mindc deploy`, which replaces it; `systemctl --user edit mind.service` is for changes that stay.
-[Unit]
-Description=The mind of this robot, {state}
-StartLimitIntervalSec=60
-StartLimitBurst=5
-
-[Service]
-# Ready when every sensor has been measured once; then each tick is told, and two seconds without one are the end.
-Type=notify
-NotifyAccess=main
-WatchdogSec=2
-# Entered once: a process keeps the release that it was started in, whatever is current later.
-WorkingDirectory=%h/mind/current
-# No .pyc files: a release stays what was sent, and a power cut leaves none that is half written.
-Environment=PYTHONPATH=runtime PYTHONDONTWRITEBYTECODE=1 PYTHONUNBUFFERED=1
-ExecStart={run}
-{neutral}Restart=on-failure
-# 2 is said on purpose: a bundle that is refused, or a guardian that will move nothing more.
-RestartPreventExitStatus=2
-RestartSec=2
-# Only the controller is told to end; the guardian ends after it, once every actuator is at neutral.
-KillMode=mixed
-TimeoutStopSec=10
-LimitCORE=0
-NoNewPrivileges=yes
-
-[Install]
-WantedBy=default.target
-"""
 MOMENT = "%Y%m%dT%H%M%SZ"
 RELEASE = re.compile(r"(\d{8}T\d{6}Z)-[0-9a-f]{8}", re.ASCII)
 LAST_YEAR = 9999  # after which no release could be named
@@ -81,10 +52,6 @@ class Release:
     folder: Path
     fingerprint: str
     size: int
-
-    def named(self, moment: str) -> str:
-        """The name of a release on the robot: names sort by their age."""
-        return f"{moment}-{self.fingerprint[:8]}"
 
 
 def check_deployable(bundle: Bundle, with_service: bool) -> None:
@@ -109,19 +76,19 @@ def make_release(path: Path, bundle: Bundle, folder: Path) -> Release:
     made_of |= {"master": bundle.graph.master}
     if bundle.wiring and (digests := code_digests(bundle.wiring)):
         made_of |= {"drivers": digests}
-    files = {
+    contents = {
         "mind.bundle": data,  # never by its own name: no text of a user becomes a path on the robot
         "release.json": json.dumps(made_of).encode(),  # in ASCII, on one line
         SERVICE: unit().encode(),
         ARMED: unit(arm=True).encode(),
         **dict(_runtime()),
     }
-    sums = "".join(f"{sha256(content).hexdigest()}  {name}\n" for name, content in sorted(files.items())).encode()
-    for name, content in {**files, "SHA256SUMS": sums}.items():
+    sums = "".join(f"{sha256(content).hexdigest()}  {name}\n" for name, content in sorted(contents.items())).encode()
+    for name, content in {**contents, "SHA256SUMS": sums}.items():
         place = folder / name
         place.parent.mkdir(parents=True, exist_ok=True)
         place.write_bytes(content)
-    return Release(folder, sha256(sums).hexdigest(), sum(map(len, files.values())))
+    return Release(folder, sha256(sums).hexdigest(), sum(map(len, contents.values())))
 
 
 def unit(arm: bool = False) -> str:
@@ -131,7 +98,8 @@ def unit(arm: bool = False) -> str:
     """
     run = f"{PYTHON} -m mindrun mind.bundle" + " --arm" * arm
     neutral = f"ExecStopPost={PYTHON} -P -m mindrun.robot.guardian --neutral mind.bundle\n" * arm
-    return UNIT.format(state="armed" if arm else "not armed", run=run, neutral=neutral)
+    template = (files("mindlang.robot") / SERVICE).read_text("utf-8")
+    return template.format(state="armed" if arm else "not armed", run=run, neutral=neutral)
 
 
 def _runtime() -> Iterator[tuple[str, bytes]]:
@@ -169,10 +137,6 @@ class ReleaseState:
         if older := [name for name in self._whole if name < self.current]:
             return older[-1]
         raise DeployError("There is no whole release before the current one.", "mindc deploy HOST --list")
-
-    def is_gone(self) -> bool:
-        """True if somebody has deleted the current release on the robot."""
-        return bool(self.current) and self.current not in {each.name for each in self.releases}
 
     def moment(self, now: datetime) -> str:
         """A time for a new release, later than those there: the clocks of two workstations differ."""
@@ -260,7 +224,7 @@ class Deployment:
             if state.has(release.fingerprint):
                 self.tell(f"{self.robot.host} has this release already: {state.current}")
                 return self._switch(state, state.current)
-            name = release.named(state.moment(now))
+            name = f"{state.moment(now)}-{release.fingerprint[:8]}"  # names sort by their age
             self._tell_of(f"copy {release.size / 1024:,.0f} KiB to {self.robot.host} as {name}")
             if not self.try_only:
                 for _, detail in self.robot.run_verb("prepare"):
@@ -292,7 +256,7 @@ class Deployment:
     def _looked(self) -> ReleaseState:
         """The state of the robot; says so where its current release has been deleted."""
         state = read_state(self.robot)
-        if state.is_gone():
+        if state.current and state.current not in {each.name for each in state.releases}:
             self.tell(f"the current release, {state.current}, has been deleted on {self.robot.host}")
         return state
 

@@ -1,7 +1,4 @@
-"""The options of a wire: the fields of its own dataclass and of its driver's, and the JSON Schema that they make.
-
-By the schema an editor completes and underlines `robot.yaml` while one writes.
-"""
+"""The options of a wire, fields of its own dataclass and of its driver's, and the JSON Schema by which editors help."""
 
 import re
 from dataclasses import MISSING, Field, dataclass, fields, replace

@@ -8,7 +8,7 @@ is told in the user's words.
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import NamedTuple, NoReturn
+from typing import NamedTuple
 
 import yaml
 
@@ -47,7 +47,7 @@ PROBLEMS = (
      "Begin all keys of one table in the same column."),
     ("incompatible YAML document", "This is another version of YAML.", "Remove the lines that begin with %."),
 )  # fmt: skip
-NUMBER_SIGN = re.compile(r"(^|\s)#.*")
+FIRST_TABS = re.compile(r"^(?:(?!(?:^|\s)#)[^\t\n])*(?!\s#)(\t+)", re.MULTILINE)  # of a line, before its comment
 MAX_SHOWN_CHARACTERS = 40
 WORD = re.compile(r"[\w.]+|[^\n]")
 
@@ -129,18 +129,20 @@ class _Reader:
         self.loader.get_event()  # a stream begins
         if self.loader.check_event(yaml.StreamEndEvent):
             hint = "Write robot and its name, sensors and actuators: docs/robot-yaml.md has an example."
-            self._stop("yaml-empty", Span(self.source, 0, 0), "There is nothing in this file.", hint)
+            raise UnreadableError("yaml-empty", Span(self.source, 0, 0), "There is nothing in this file.", hint)
         begin = self.loader.get_event()
         if begin.version or begin.tags:
             start = self.source.text.index("%")
             line = self.source.text[start:].split("\n")[0].rstrip("\r")
             span = Span(self.source, start, start + len(line))
-            self._stop("yaml-directive", span, "A directive stands here.", "Remove the lines that begin with %.")
+            hint = "Remove the lines that begin with %."
+            raise UnreadableError("yaml-directive", span, "A directive stands here.", hint)
         node = self._node(0)
         self.loader.get_event()  # the document ends
         if not self.loader.check_event(yaml.StreamEndEvent):
             hint = "One file is one robot: remove the line --- and what follows, or write a second file."
-            self._stop("yaml-documents", self._span(self.loader.get_event()), "A second document begins here.", hint)
+            span = self._span(self.loader.get_event())
+            raise UnreadableError("yaml-documents", span, "A second document begins here.", hint)
         return node
 
     def _node(self, depth: int) -> Node:
@@ -149,7 +151,7 @@ class _Reader:
         self.values += 1
         if self.values > MAX_VALUES:
             message = f"This file has more than {MAX_VALUES} values."
-            self._stop("yaml-large", self._span(event), message, "Write only what is wired to this robot.")
+            raise UnreadableError("yaml-large", self._span(event), message, "Write only what is wired to this robot.")
         if isinstance(event, yaml.AliasEvent):
             span = self._span(event)
             hint = "Write out what it stands for: every sensor and actuator is read by itself."
@@ -162,7 +164,7 @@ class _Reader:
         if depth == MAX_NESTING:
             message = f"Lists and tables stand more than {MAX_NESTING} deep in one another here."
             hint = "Four are enough for any robot: look for a bracket too many."
-            self._stop("yaml-deep", Span(self.source, start, start + 1), message, hint)
+            raise UnreadableError("yaml-deep", Span(self.source, start, start + 1), message, hint)
         nodes = []
         while not self.loader.check_event(yaml.SequenceEndEvent, yaml.MappingEndEvent):
             nodes.append(self._node(depth + 1))
@@ -223,9 +225,6 @@ class _Reader:
     def _span(self, event: yaml.Event) -> Span:
         return Span(self.source, event.start_mark.index, event.end_mark.index)
 
-    def _stop(self, code: str, span: Span, message: str, hint: str) -> NoReturn:
-        raise UnreadableError(code, span, message, hint)
-
 
 def first_line(span: Span) -> Span:
     """The part of a span on its first line."""
@@ -239,14 +238,11 @@ def shortened(text: str) -> str:
 
 def check_tabs(source: Source) -> Answer | None:
     """The finding of the first tab of a text, None without one: YAML takes tabs in some places and not in others."""
-    start = 0
-    for line in source.text.split("\n") if "\t" in source.text else ():
-        if found := re.search("\t+", NUMBER_SIGN.sub("", line)):
-            tabs = re.compile("\t+").match(source.text, start + found.start())
-            span = Span(source, *tabs.span()) if tabs else Span(source, start, start)
-            return "yaml-tab", span, "A tab stands here.", "Write spaces: YAML counts how far in a line is."
-        start += len(line) + 1
-    return None
+    found = FIRST_TABS.search(source.text)
+    if found is None:
+        return None
+    hint = "Write spaces: YAML counts how far in a line is."
+    return "yaml-tab", Span(source, *found.span(1)), "A tab stands here.", hint
 
 
 def misread(error: Exception, source: Source, at: int) -> Answer:
@@ -267,10 +263,6 @@ def misread(error: Exception, source: Source, at: int) -> Answer:
     if "double quotes" in message:
         start, end = max(start - 1, 0), start + 1
     return "yaml-syntax", Span(source, start, end), message, hint
-
-
-def _boolean(text: str) -> str:
-    return "true" if text.lower() in ("yes", "on", "true") else "false"
 
 
 def _seconds(text: str) -> str:
@@ -308,10 +300,6 @@ def _whole(text: str) -> str:
     return f"{sign}{whole or '0'}{'.' * bool(part)}{part}"
 
 
-def _text(text: str) -> str:
-    return text
-
-
 class Surprise(NamedTuple):
     """A text that YAML takes for something else; message and hint have `text` as written, and what it is `meant` as."""
 
@@ -319,7 +307,7 @@ class Surprise(NamedTuple):
     code: str
     message: str
     hint: str
-    meant: Callable[[str], str] = _text
+    meant: Callable[[str], str] = str
 
 
 QUOTES = 'Where a word is meant, write it in quotes: "{text}".'
@@ -328,7 +316,8 @@ BASE = "To YAML {text} is a number of base %s or 10: its versions differ."
 WHOLE = (
     Surprise(
         re.compile(r"(?i:yes|no|on|off)|True|TRUE|False|FALSE"),
-        "yaml-boolean", "To YAML {text} is {meant}, and not a word.", "Write {meant}. " + QUOTES, _boolean,
+        "yaml-boolean", "To YAML {text} is {meant}, and not a word.", "Write {meant}. " + QUOTES,
+        lambda text: "true" if text.lower() in ("yes", "on", "true") else "false",
     ),
     Surprise(
         re.compile(r"~|null|Null|NULL"), "yaml-null", "To YAML {text} is nothing.", "Leave the line out. " + QUOTES
@@ -366,10 +355,7 @@ NUMBERS = (
 
 
 def surprise(text: str) -> tuple[str, str, str] | None:
-    """Code, message and hint of a text without quotes that YAML takes for something else: `no` is false, 12:30 is 750.
-
-    None of it is taken.
-    """
+    """Code, message and hint of a text without quotes that YAML takes for something else: `no` is false, 1:30 is 90."""
     words = text.split() if text[:1] in "+-.0123456789" else []
     for said, table in ((text, WHOLE), *((word, NUMBERS) for word in words)):
         for row in table:

@@ -1,23 +1,19 @@
 """Two minds on the same layouts: how much they differ, and a sentence that says no more than its interval does."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from math import ceil, floor, log10
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from mindrun.graph.graph import Task
+from mindrun.graph.run_scores import Scores
 from mindrun.train.scoring import succeeded
 from numpy.typing import NDArray
 
 from mindlang.number_format import score
 from mindlang.run.outcome import events
 from mindlang.run.paired_difference import CONFIDENCE_LEVEL, PairedDifference, difference
-
-if TYPE_CHECKING:
-    from mindrun.graph.run_scores import Scores
 
 SCORE, SUCCESS = "score", "success"  # the figures that are no events
 PERCENT = f"{CONFIDENCE_LEVEL:.0%}".replace("%", " %")
@@ -57,7 +53,7 @@ class MindComparison:
 
     def data(self) -> dict[str, Any]:
         """The part of `mindc bench --json` that is about both minds."""
-        plain = {name: found.data() for name, found in self.differences.items()}
+        plain = {name: asdict(found) for name, found in self.differences.items()}
         by_event = {name: plain.pop(name) for name in list(plain) if name not in (SCORE, SUCCESS)}
         differences = {**plain, "by_event": by_event}
         return {"confidence": CONFIDENCE_LEVEL, "differences": differences, "conclusion": self.conclusion}

@@ -1,24 +1,20 @@
 """The outcome of one run, and of many, as plain data: the contents of `--json`."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Sequence
-from math import isfinite, sqrt
-from typing import TYPE_CHECKING, Any
+from math import sqrt
+from typing import Any
 
 import numpy as np
 from mindrun.graph.graph import Task
-from mindrun.graph.run_scores import paid_by_text, score_of
+from mindrun.graph.run_scores import Scores, paid_by_text, score_of
 from mindrun.sim.codes import BROKEN_OFF, GOING_ON, LOST
 from mindrun.train.scoring import succeeded
 from numpy.typing import NDArray
 
 from mindlang.compiler.drawing import phrase
+from mindlang.number_format import finite
 from mindlang.run.paired_difference import unseen_share
-
-if TYPE_CHECKING:
-    from mindrun.graph.run_scores import Scores
 
 TIME = "time"
 NOTHING = np.zeros(0)
@@ -88,10 +84,7 @@ def data_so_far(
 def rewards_data(task: Task, paid: NDArray[np.float64]) -> dict[str, Any]:
     """`score` and `by_line` of what each line has paid."""
     by_line = paid_by_text(task.rewards, paid)
-    return {
-        "score": _number(score_of(paid)),
-        "by_line": {text: _number(value) for text, value in by_line.items()},
-    }
+    return {"score": finite(score_of(paid)), "by_line": {text: finite(value) for text, value in by_line.items()}}
 
 
 def bench_data(
@@ -105,9 +98,9 @@ def bench_data(
     nobody may know.
     """
     totals, ticks = scores.total[0], int(scores.ticks.sum())
-    finite = np.flatnonzero(np.isfinite(totals))
+    scored = np.flatnonzero(np.isfinite(totals))
     best, worst = (
-        (int(finite[place(totals[finite])]) for place in (np.argmax, np.argmin)) if len(finite) else (None,) * 2
+        (int(scored[place(totals[scored])]) for place in (np.argmax, np.argmin)) if len(scored) else (None,) * 2
     )
     happened, ended = events(task), Counter(scores.ended_by[0].tolist())
     numbers = [*range(len(task.ends)), *OTHERWISE, GOING_ON]
@@ -148,9 +141,5 @@ def _success(runs: NDArray[np.float64]) -> dict[str, float | None]:
 def _spread(of: str, values: NDArray[Any]) -> dict[str, float | None]:
     deviation = float(values.std(ddof=1)) if len(values) > 1 and np.isfinite(values).all() else None
     error = None if deviation is None else deviation / sqrt(len(values))
-    mean = _number(values.mean()) if len(values) else None
+    mean = finite(values.mean()) if len(values) else None
     return {f"{of}mean": mean, f"{of}std": deviation, f"{of}standard_error": error}
-
-
-def _number(value: float) -> float | None:
-    return float(value) if isfinite(value) else None

@@ -11,7 +11,7 @@ The interval is Student's for the mean of the differences d of n runs, mean ± t
 What no score has shown, it does not contain: layouts rarer than one in 1 / share that bring more than any run did.
 """
 
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from functools import cache
 from math import atan, ceil, exp, lgamma, log, pi, sqrt
 
@@ -73,10 +73,6 @@ class PairedDifference:
         if self.mean is None or self.unseen is None:
             return False
         return self.low == self.mean - self.unseen or self.high == self.mean + self.unseen
-
-    def data(self) -> dict[str, float | int | None]:
-        """The figures of the difference by their names, as plain data."""
-        return asdict(self)
 
 
 def difference(first: NDArray[np.float64], second: NDArray[np.float64]) -> PairedDifference:

@@ -11,14 +11,7 @@ from mindrun.graph.bundle import Bundle, digest, pack, read_bundle
 from mindrun.graph.graph import Task
 from mindrun.graph.measured import measured_in_world, measured_on_robot, rows_of
 from mindrun.graph.named_readings import physical
-from mindrun.graph.recording_header import (
-    GOES_ON,
-    POSE_COLUMNS,
-    THING_COLUMNS,
-    About,
-    RecordedWorld,
-    RecordingError,
-)
+from mindrun.graph.recording_header import GOES_ON, POSE_COLUMNS, THING_COLUMNS, About, RecordedWorld, RecordingError
 from mindrun.graph.skill_sets import reachable
 from mindrun.graph.wiring import read_by
 from mindrun.robot.recording import recording_bytes
@@ -100,8 +93,7 @@ def run_bytes(run: RecordedRun, setup: RunSetup, seed: int) -> bytes:
     sha = sha256(pack(bundle_without_robot(setup.ready, setup.folder))).hexdigest()
     about = About.of(graph, sha, setup.master, sensors)
     about = replace(about, world=world_of(setup.task, seed, run.boxes, run.body[0], run.things[0], run.turned[0]))
-    after = replace(run, body=run.body[1:], things=run.things[1:], turned=run.turned[1:], held=run.held[1:])
-    rows = recorded_rows(about, 1, after, run.events)
+    rows = recorded_rows(about, 1, run, run.events)
     varies = any((each.noun, each.argument) == ("actuator", "delay") for each in setup.task.varies)
     if varies or any(each.kind.delay for each in graph.actuators):  # what reaches one was sent some ticks ago
         engine = Engine(setup.ready.policy, setup.folder, setup.master)
@@ -131,11 +123,13 @@ def recorded_rows(about: About, first: int, written: Ticks | RecordedRun, events
     rows["influence"] = written.influence[:, : len(about.skills)]
     rows["commands"] = rows["sent"] = written.commands
     world = rows["world"]
-    world["pose"] = written.body[:, :POSE_COLUMNS]
-    world["things"][:, :, : THING_COLUMNS - 1], world["things"][:, :, -1] = written.things, written.turned
+    after = slice(len(written.body) - len(rows), None)  # without the beginning, where it is written
+    world["pose"] = written.body[after, :POSE_COLUMNS]
+    world["things"][:, :, : THING_COLUMNS - 1] = written.things[after]
+    world["things"][:, :, -1] = written.turned[after]
     world["battery"], world["rewards"] = written.battery, written.lines
     world["events"] = events[:, : about.world.events]
-    world["held"], world["touching"], world["ended"] = written.held, written.touching, GOES_ON
+    world["held"], world["touching"], world["ended"] = written.held[after], written.touching, GOES_ON
     return rows
 
 

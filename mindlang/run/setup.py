@@ -9,8 +9,6 @@ from time import perf_counter
 from typing import TYPE_CHECKING
 
 import numpy as np
-from mindrun.engine.engine import procedure_sources
-from mindrun.graph.bundle import Bundle, pack
 from mindrun.graph.graph import Task
 from mindrun.graph.run_scores import Scores
 from mindrun.graph.skill_sets import owners, reachable
@@ -19,8 +17,8 @@ from mindrun.processors import cpu_seconds
 from mindrun.terminal.command_line import command_line
 
 from mindlang.compiler.compile import Compiled
-from mindlang.executors.jobs import Assignment, Block, JobScorer, empty_scores, write_scores
-from mindlang.limits import as_runs, as_seed
+from mindlang.executors.jobs import Block, JobScorer, empty_scores, write_scores
+from mindlang.limits import RUN_BOUNDS, SEED_BOUNDS, bounded_int
 from mindlang.lock.ready import ReadyMind, make_ready
 from mindlang.run.chosen_task import SetupError, master_of, task_of
 
@@ -67,25 +65,19 @@ class RunSetup:
         of, task = self.ready.policy, self.task.name
         return rollout_for(of, task, self.master, procedures=self.folder, interrupt=interrupt, workers=workers)
 
-    def assignment(self, interrupt: bool = True) -> Assignment:
-        """All that a worker has to know to make such runs; MindError where it is too large for a bundle."""
-        procedures = procedure_sources(self.ready.policy.graph, self.folder, self.master)
-        bundle = pack(Bundle(self.ready.policy, procedures))
-        return Assignment(bundle, self.task.name, self.master, (), interrupt, self.folder)
-
 
 def set_up(file: str, compiled: Compiled, task: str | None, master: str | None) -> RunSetup:
     """The task and the master of these names, or the default ones; SetupError where they cannot run."""
-    assert compiled.graph is not None
-    chosen, note = task_of(compiled.graph, task)
-    leader = master_of(compiled.graph, chosen, master)
+    _, graph = compiled.whole
+    chosen, note = task_of(graph, task)
+    leader = master_of(graph, chosen, master)
     return RunSetup(chosen, leader, ready_to_act(file, compiled, leader), compiled.sources[0].folder, note)
 
 
 def ready_to_act(file: str, compiled: Compiled, master: str | None = None) -> ReadyMind:
     """The mind under a master, by default its own; SetupError where a skill has no weights that fit."""
-    assert compiled.graph is not None
-    ready = make_ready(compiled.graph, compiled.sources, master)
+    _, graph = compiled.whole
+    ready = make_ready(graph, compiled.sources, master)
     if ready.refusals:
         raise SetupError("\n".join(ready.refusals), train_command(Path(file), ready))
     return ready
@@ -104,7 +96,7 @@ def untaught_skills(ready: ReadyMind) -> list[str]:
 
 def layouts(seed: int, runs: int) -> list[int]:
     """The seeds of so many runs; MindError where these are none."""
-    seed, runs = as_seed(seed), as_runs(runs)
+    seed, runs = bounded_int("seed", SEED_BOUNDS, seed), bounded_int("runs", RUN_BOUNDS, runs)
     return [int(word) for word in np.random.SeedSequence(seed).generate_state(runs, np.uint64)]
 
 

@@ -3,12 +3,11 @@
 from collections.abc import Collection, Iterator, Sequence
 from typing import Any
 
-import numpy as np
 from mindrun.sim.outside.making import GAVE_NO_NUMBER
 from rich.console import Group, RenderableType
 from rich.text import Text
 
-from mindlang.number_format import duration, score, speed
+from mindlang.number_format import duration, finite, score, speed
 from mindlang.run.comparison import PERCENT, SCORE, SUCCESS, MindComparison, amount
 from mindlang.run.outcome import TIME
 from mindlang.run.paired_difference import MAX_RUNS, PairedDifference
@@ -123,7 +122,7 @@ def comparison_summary(found: dict[str, Any], comparison: MindComparison) -> Ren
 def _figure(name: str, value: float) -> str:
     if name == SUCCESS:
         return f"{100 * value:.1f} %"
-    return score(float(value) if np.isfinite(value) else None)
+    return score(finite(value))
 
 
 def _difference(name: str, found: PairedDifference) -> tuple[str, str]:

@@ -11,15 +11,13 @@ import numpy as np
 from mindrun.errors import MindError
 from mindrun.graph.graph import Task
 from mindrun.graph.named_readings import reading_names
-from mindrun.graph.run_scores import score_of
+from mindrun.graph.run_scores import Scores, score_of
 from mindrun.train.scoring import succeeded
 from numpy.typing import NDArray
 
 from mindlang.run.outcome import TIME, ended_by, events
 
 if TYPE_CHECKING:
-    from mindrun.graph.run_scores import Scores
-
     from mindlang.run.recorded_run import RecordedRun
 
 Column = NDArray[Any]

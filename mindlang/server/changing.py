@@ -12,14 +12,13 @@ from typing import Any
 
 from mindlang.compiler.compile import Compiled, load
 from mindlang.compiler.diagnostic import did_you_mean, listed
-from mindlang.compiler.splice import Splice
 from mindlang.editing import transaction
 from mindlang.editing.apply import apply_edit
 from mindlang.editing.edits import Edit, edit, names
-from mindlang.editing.lock_update import Locks, locks_of, merged, update_locks
+from mindlang.editing.lock_update import update_locks
 from mindlang.editing.project import EditError, MindChange, Project, Renamed, Replaced, project_alone
 from mindlang.editing.summary import broken_sentences, summarise
-from mindlang.lock import lock_sources, lock_text
+from mindlang.lock import Locks, lock_sources, lock_text, locks_of, merged
 from mindlang.lock.signature import arrange
 from mindlang.lock.status import Trained, status
 from mindlang.server.navigating import sharing
@@ -74,7 +73,7 @@ def perform(workspace: Workspace, path: Path, name: str, arguments: Mapping[str,
     """An edit of the mind to which a file belongs; MindError where it is impossible or would break a mind."""
     on = project(workspace, workspace.view(path))
     change = proposed(on, name, arguments)
-    edited = apply_edit(on, _as_open(on, change, workspace), keep_weights=False)
+    edited = apply_edit(on, change, keep_weights=False, unsaved=workspace.texts)
     if broken := broken_sentences(edited):
         raise EditError(f"After this edit {broken[0]}", "mindc edit --anyway makes it nevertheless.")
     sentences = summarise(edited)
@@ -101,19 +100,6 @@ def _checked_arguments(of: Edit, arguments: Mapping[str, Any]) -> dict[str, Any]
         texts = [str(each) for each in value] if isinstance(value, list | tuple) else [str(value)]
         found[key] = bool(value) if key in flags else tuple(texts) if many[key] else " ".join(texts)
     return found
-
-
-def _as_open(project: Project, change: MindChange, workspace: Workspace) -> MindChange:
-    """The change with an empty splice for each open file that it leaves alone, so that this is held against, too."""
-    touched = {splice.source.path for splice in change.splices}
-    open_ = {
-        path: file.source
-        for mind in reversed(project.minds)
-        for path, file in mind.paths.items()
-        if path in workspace.texts
-    }
-    idle = (Splice(source, 0, 0, "") for path, source in open_.items() if path not in touched)
-    return replace(change, splices=(*change.splices, *idle))
 
 
 def keep_up(following: PendingRename) -> list[Path]:

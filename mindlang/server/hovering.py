@@ -1,8 +1,10 @@
 """Explanations of what stands under the mouse, as Markdown: a name, a kind, an argument, a word."""
 
 import re
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any, TypeVar
 
 from mindrun.errors import MindError
 from mindrun.graph.graph import VARIED_NOUNS
@@ -14,19 +16,18 @@ from mindlang.compiler.resolve.curricula import USING
 from mindlang.compiler.source import Span, comment_of
 from mindlang.compiler.syntax import (
     NOUNS,
-    Argument,
     Contains,
     Declaration,
     Drives,
-    Expression,
+    Fact,
     File,
-    Header,
     Influences,
     Name,
     Phrase,
     Reads,
     Teaches,
     Varies,
+    of_form,
 )
 from mindlang.explaining import markdown
 from mindlang.explaining.kinds import kind_article
@@ -35,8 +36,10 @@ from mindlang.explaining.words import language_words
 from mindlang.lock import lock_sources
 from mindlang.lock.report import made_by, rows
 from mindlang.lock.status import Trained
-from mindlang.server.workspace import MindView, declaration_at, path_to
+from mindlang.server.places import SaidArgument, declaration_at, noun_of_kind, path_to, said_argument
+from mindlang.server.workspace import MindView
 
+F = TypeVar("F", bound=Fact)
 _WORD = r"[A-Za-z_][\w.]*(?:\+[A-Z]\w*)*|%"
 
 
@@ -61,30 +64,19 @@ def hover(view: MindView, path: Path, offset: int) -> Hover | None:
 
 def _kind(view: MindView, file: File, offset: int) -> Hover | None:
     """A kind, or an argument of one; those of a lesson are of its own learner or the curriculum's."""
-    path = path_to(file, offset)
+    path = path_to((*file.settings, *file.declarations), offset)
     if varies := next((node for node in path if isinstance(node, Varies)), None):
         return _varied(view, varies) if varies.argument.span.start <= offset <= varies.argument.span.end else None
-    places = [place for place, node in enumerate(path) if isinstance(node, Phrase | Teaches)]
-    match path[places[-1] - 1 : places[-1] + 2] if places else []:
-        case above, Phrase(kind=kind), Name() as name if name is kind:
-            return _kind_itself(_noun_of(above), kind)
-        case above, Phrase() as phrase, Argument() as argument:
-            return _argument(_noun_of(above), phrase.kind.text, argument)
-        case _, Teaches() as lesson, Argument() as argument if declaration := declaration_at(file, offset):
-            return _of_lesson(lesson, declaration.header.phrase, argument, offset)
-    return None
-
-
-def _noun_of(above: object) -> str:
-    """The noun of the kind that a phrase names, told by what is around it."""
-    match above:
-        case Header(noun=noun):
-            return noun.text
-        case Contains():
-            return "content"
-        case Expression():
-            return "measure"
-    return "event"
+    match path:
+        case [*_, above, Phrase(kind=kind), Name() as name] if name is kind:
+            return _kind_itself(noun_of_kind(above), kind)
+    said = said_argument(path, declaration_at(file, offset))
+    if said is None:
+        return None
+    value = said.argument.value
+    if isinstance(value, Name) and said.argument.key.text == USING and value.span.start <= offset:
+        return _kind_itself("curriculum", value)
+    return _argument(said)
 
 
 def _varied(view: MindView, fact: Varies) -> Hover | None:
@@ -97,25 +89,16 @@ def _varied(view: MindView, fact: Varies) -> Hover | None:
     return Hover(found, fact.argument.span) if found else None
 
 
-def _of_lesson(lesson: Teaches, of_all: Phrase | None, argument: Argument, offset: int) -> Hover | None:
-    """The kind after `using`, or an argument of the lesson's learner."""
-    own = [said.value for said in lesson.arguments if said.key.text == USING]
-    learner = own[0] if own else of_all and of_all.kind
-    if not isinstance(learner, Name):
-        return None
-    if argument.value is learner and learner.span.start <= offset:
-        return _kind_itself("curriculum", learner)
-    return _argument("curriculum", learner.text, argument)
-
-
 def _kind_itself(noun: str, kind: Name) -> Hover | None:
     return Hover(markdown.article_card(kind_article(noun, kind.text)), kind.span) if kind.text in kinds(noun) else None
 
 
-def _argument(noun: str, kind: str, argument: Argument) -> Hover | None:
-    article = kind_article(noun, kind) if kind in kinds(noun) else None
-    said = next((each for each in article.parameters if each.key == argument.key.text), None) if article else None
-    return Hover(markdown.parameter_card(said, article), argument.span) if article and said else None
+def _argument(said: SaidArgument) -> Hover | None:
+    if said.meaning is None:
+        return None
+    article = kind_article(said.noun, said.kind)
+    known = next(each for each in article.parameters if each.key == said.meaning.key)
+    return Hover(markdown.parameter_card(known, article), said.argument.span)
 
 
 def _word(view: MindView, file: File, offset: int) -> Hover | None:
@@ -167,7 +150,7 @@ def card(view: MindView, noun: str, name: str) -> str:
 def _skill(view: MindView, name: str, declaration: Declaration) -> str:
     lines = []
     for verb, form in (("reads", Reads), ("drives", Drives), ("influences", Influences)):
-        if said := [_edge(view, fact) for fact in declaration.facts if isinstance(fact, form)]:
+        if said := [_edge(view, fact) for fact in of_form(declaration.facts, form)]:
             lines.append(f"- {verb} {', '.join(said)}")
     if by := _users(view, name, Influences):
         lines.append(f"- influenced by {', '.join(by)}")
@@ -176,7 +159,7 @@ def _skill(view: MindView, name: str, declaration: Declaration) -> str:
     return "\n".join([*lines, *(f"- place: {path}" for path in _paths_to(view, name))])
 
 
-def _edge(view: MindView, fact: Reads | Drives | Influences) -> str:
+def _edge(view: MindView, fact: Any) -> str:
     if not isinstance(fact, Reads):
         return f"{fact.name.text}{text_after_name(fact)}"
     width = _width(view, fact.name.text)
@@ -190,11 +173,8 @@ def _width(view: MindView, sensor: str) -> int:
 
 def _paths_to(view: MindView, skill: str) -> list[str]:
     """The ways on which influence comes down to a skill, the shortest one from each top."""
-    influences = DiGraph()
-    for name, declaration in view.names.declarations("skill"):
-        influences.add_node(name)
-        facts = (fact for fact in declaration.facts if isinstance(fact, Influences))
-        influences.add_edges_from((name, fact.name.text) for fact in facts)
+    influences = DiGraph((name, fact.name.text) for name, fact in _saying(view, Influences, "skill"))
+    influences.add_node(skill)
     ways = single_target_shortest_path(influences, skill).items()
     return [" → ".join(way) for top, way in ways if top != skill and not influences.pred[top]]
 
@@ -231,32 +211,27 @@ def _part(view: MindView, noun: str, name: str) -> str:
     return "\n".join([*lines, *([f"- stands in {', '.join(others)}"] if others else [])])
 
 
+def _saying(view: MindView, form: type[F], *nouns: str) -> Iterator[tuple[str, F]]:
+    """Each fact of a verb in the declarations of some nouns, with their names."""
+    for noun in nouns:
+        for name, declaration in view.names.declarations(noun):
+            yield from ((name, fact) for fact in of_form(declaration.facts, form))
+
+
 def _users(view: MindView, name: str, form: type[Reads | Drives | Influences]) -> list[str]:
     """The skills that have a fact of this verb about a name."""
-    return [
-        skill
-        for skill, declaration in view.names.declarations("skill")
-        if any(isinstance(fact, form) and fact.name.text == name for fact in declaration.facts)
-    ]
+    return list(dict.fromkeys(skill for skill, fact in _saying(view, form, "skill") if fact.name.text == name))
 
 
 def _lessons(view: MindView, part: str, name: str) -> str:
     """The lessons that teach a skill, or are on a task."""
-    return "\n".join(
-        f"- `{curriculum}: {fact.span.text.strip()}`"
-        for curriculum, declaration in view.names.declarations("curriculum")
-        for fact in declaration.facts
-        if isinstance(fact, Teaches) and getattr(fact, part).text == name
-    )
+    said = _saying(view, Teaches, "curriculum")
+    its = ((of, fact.span.text.strip()) for of, fact in said if getattr(fact, part).text == name)
+    return "\n".join(f"- `{curriculum}: {line}`" for curriculum, line in its)
 
 
 def _thing(view: MindView, name: str) -> str:
     """The lines of scenes and tasks that contain a thing."""
-    lines = [
-        f"- in {world}: `{fact.phrase.span.text}`"
-        for noun in ("scene", "task")
-        for world, declaration in view.names.declarations(noun)
-        for fact in declaration.facts
-        if isinstance(fact, Contains) and fact.name.text == name
-    ]
+    said = _saying(view, Contains, "scene", "task")
+    lines = [f"- in {world}: `{fact.phrase.span.text}`" for world, fact in said if fact.name.text == name]
     return "\n".join([f"**{name}**, a thing", "", *lines])

@@ -13,7 +13,8 @@ from mindlang.compiler.references import Mention, introductions
 from mindlang.compiler.source import Source, Span
 from mindlang.compiler.syntax import Argument, Contains, File, Name, Phrase, Use
 from mindlang.files import files_below, readable_text, within_read_limits
-from mindlang.server.workspace import MindView, Workspace, path_to
+from mindlang.server.places import path_to
+from mindlang.server.workspace import MindView, Workspace
 
 MAX_SYMBOLS = 500  # that are found
 CACHED_FILES = 1000  # files whose symbols are remembered
@@ -108,7 +109,7 @@ def _start_of(path: Path) -> list[Span]:
 
 def _procedure(file: File, offset: int) -> list[Span]:
     """The function of a procedure in the text of its module, which is not run."""
-    match path_to(file, offset):
+    match path_to(file.declarations, offset):
         case [*_, Phrase(kind=Name(text="procedure")), Argument(value=Name(text=name)), Name()]:
             module, _, function = name.rpartition(".")
             path = file.source.folder.joinpath(*module.split(".")).with_suffix(".py")

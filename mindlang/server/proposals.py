@@ -10,15 +10,16 @@ from typing import Any
 from mindrun.graph.skill_sets import genes
 
 from mindlang.compiler.compile import compile_source
-from mindlang.compiler.diagnostic import Diagnostic, listed
+from mindlang.compiler.diagnostic import Diagnostic, Fix, listed
 from mindlang.compiler.hierarchy import with_ancestors, with_descendants
 from mindlang.compiler.source import Source
 from mindlang.compiler.splice import Splice
-from mindlang.compiler.syntax import Declaration, Drives, Fact, Influences, Reads, Stays
-from mindlang.editing.project import EditError, Project, facts, has_outputs, kind_of
+from mindlang.compiler.syntax import Declaration, Drives, Fact, Influences, Reads, of_form
+from mindlang.editing.project import EditError, Project, has_outputs, kind_of
 from mindlang.lint.lint import apply_safe_fixes
 from mindlang.server.changing import proposed
-from mindlang.server.workspace import MindView, fact_at, on_line
+from mindlang.server.places import fact_at, on_line
+from mindlang.server.workspace import MindView
 
 MAX_TARGETS = 6  # of each sort; the command line and the editor's own dialogue know them all
 _SUGGESTED_NAME = re.compile(r"Did you mean (\S+)\?")
@@ -106,10 +107,10 @@ def _of_fact(declaration: Declaration, fact: Fact) -> Iterator[Proposal]:
 
 def _of_lines(selection: Selection, skill: Declaration) -> Iterator[Proposal]:
     """The subskills on the selected lines, under a skill of their own."""
-    edges = [fact for fact in facts(skill, Influences) if selection.touches(fact)]
+    edges = [fact for fact in of_form(skill.facts, Influences) if selection.touches(fact)]
     if chosen := [fact.name.text for fact in edges]:
         new = _fresh_title(selection.project, "New" + "+".join(chosen))
-        is_ = {"is_": "rule"} if all(fact.at for fact in edges) or not facts(skill, Reads) else {}
+        is_ = {"is_": "rule"} if all(fact.at for fact in edges) or not of_form(skill.facts, Reads) else {}
         arguments = {"parent": skill.header.name.text, "new": new, "subskills": chosen, **is_}
         yield Proposal(f"Put {listed(chosen, 'and')} under a new skill", "extract", arguments, new, "refactor.extract")
 
@@ -117,14 +118,11 @@ def _of_lines(selection: Selection, skill: Declaration) -> Iterator[Proposal]:
 def _of_skill(project: Project, skill: Declaration) -> Iterator[Proposal]:
     """The edits of the skill whose line this is."""
     name = skill.header.name.text
-    if facts(skill, Stays):
-        yield Proposal(f"Let {name} be taught again", "unfreeze", {"skill": name})
-    else:
-        yield Proposal(f"Freeze {name}", "freeze", {"skill": name})
-    if skill.header.like:
-        yield Proposal(f"Give {name} weights of its own", "unshare", {"skill": name})
+    yield Proposal(f"Let {name} be taught again", "unfreeze", {"skill": name})
+    yield Proposal(f"Freeze {name}", "freeze", {"skill": name})
+    yield Proposal(f"Give {name} weights of its own", "unshare", {"skill": name})
     new = _fresh_title(project, f"New{name}")
-    reads = [fact.name.text for fact in facts(skill, Reads)]  # the new one is a rule where that is nothing
+    reads = [fact.name.text for fact in of_form(skill.facts, Reads)]  # the new one is a rule where that is nothing
     put = {"skill": name, "new": new, **({"reads": reads} if reads else {"is_": "rule"})}
     yield Proposal(f"Put a new skill over {name}", "encapsulate", put, new, "refactor.extract")
     yield Proposal(f"Let the subskills of {name} take its place", "inline", {"skill": name}, kind="refactor.inline")
@@ -222,27 +220,16 @@ def _lesson(project: Project, skill: str) -> dict[str, Any]:
     return {"lines": [f"teaches {skill} on {task} for 100 generations"], "to": curricula[0], "noun": "curriculum"}
 
 
-@dataclass(frozen=True, slots=True)
-class Mending:
-    """A quick fix: its title, what it mends, what it splices, and whether it is safe to choose without thinking."""
-
-    title: str
-    of: Diagnostic
-    splices: tuple[Splice, ...]
-    is_safe: bool
-
-
-def mendings(view: MindView, path: Path, start: int, end: int) -> Iterator[Mending]:
-    """The quick fixes of what is found between two offsets of a file."""
+def mendings(view: MindView, path: Path, start: int, end: int) -> Iterator[tuple[Diagnostic, Fix]]:
+    """What is found between two offsets of a file, with a quick fix of it."""
     for found in view.findings:
         span = found.span
         if span is None or span.source.path != path or span.start > end or span.end < start:
             continue
         if found.fix:
-            yield Mending(found.fix.title, found, found.fix.splices, found.fix.is_safe)
+            yield found, found.fix
         if nearly := _SUGGESTED_NAME.search(found.hint):
-            splice = Splice(span.source, span.start, span.end, nearly[1])
-            yield Mending(f"Write {nearly[1]}", found, (splice,), True)
+            yield found, Fix(f"Write {nearly[1]}", (Splice(span.source, span.start, span.end, nearly[1]),))
 
 
 def all_mended(view: MindView, path: Path, texts: dict[Path, str]) -> str | None:

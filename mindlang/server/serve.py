@@ -12,12 +12,13 @@ from lsprotocol import types
 from mindrun.errors import MindError
 from pygls.exceptions import JsonRpcException
 
+from mindlang.compiler.diagnostic import Diagnostic, Fix
 from mindlang.compiler.source import Source, Span
 from mindlang.compiler.splice import Splice, spliced
 from mindlang.editing.edits import edit, names
 from mindlang.editing.project import EditError
 from mindlang.server.changing import EditOutcome, project
-from mindlang.server.proposals import Mending, Selection, all_mended, mendings, proposals
+from mindlang.server.proposals import Selection, all_mended, mendings, proposals
 from mindlang.server.questions import QUESTIONS
 from mindlang.server.server import MindServer, failed
 
@@ -142,7 +143,7 @@ def acted(ls: MindServer, params: types.CodeActionParams) -> list[types.CodeActi
     wanted = params.context.only
     actions: list[types.CodeAction] = []
     if _wants(wanted, "quickfix"):
-        actions += [_mending(ls, each) for each in mendings(view, path, start, end)]
+        actions += [_mending(ls, *each) for each in mendings(view, path, start, end)]
     if _wants(wanted, FIX_ALL) and (text := all_mended(view, path, ls.session.workspace.texts)) is not None:
         source = Source(str(path), ls.session.workspace.text(path), path.parent)
         edit = ls.workspace_edit((Splice(source, 0, len(source.text), text),))
@@ -162,13 +163,13 @@ def _wants(only: Any, kind: str) -> bool:
     return not asked or any(f"{kind}.".startswith(f"{each}.") or f"{each}.".startswith(f"{kind}.") for each in asked)
 
 
-def _mending(ls: MindServer, mending: Mending) -> types.CodeAction:
+def _mending(ls: MindServer, found: Diagnostic, fix: Fix) -> types.CodeAction:
     return types.CodeAction(
-        mending.title,
+        fix.title,
         kind="quickfix",
-        diagnostics=[ls.session.lsp.diagnostic(mending.of)],
-        is_preferred=mending.is_safe,
-        edit=ls.workspace_edit(mending.splices),
+        diagnostics=[ls.session.lsp.diagnostic(found)],
+        is_preferred=fix.is_safe,
+        edit=ls.workspace_edit(fix.splices),
     )
 
 

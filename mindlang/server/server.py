@@ -5,7 +5,7 @@ import re
 from bisect import bisect_right
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -55,13 +55,26 @@ class LspConverter:
         return self.uris.get(path) or from_fs_path(str(path)) or ""
 
     def offset(self, text: str, position: types.Position) -> int:
-        """The offset of a position."""
-        return lines_of(text).offset(position, self.codec)
+        """The offset of a position; one behind the end of its line, or of the text, is that end."""
+        starts = line_starts(text)
+        if position.line >= len(starts):
+            return len(text)
+        start, end = [*starts, len(text)][position.line : position.line + 2]
+        line = text[start:end].rstrip("\r\n")
+        column = min(position.character, self.codec.client_num_units(line))
+        found = self.codec.position_from_client_units([line], types.Position(0, column))
+        return start + found.character
+
+    def position(self, text: str, offset: int) -> types.Position:
+        """The position of an offset."""
+        starts = line_starts(text)
+        line = bisect_right(starts, offset) - 1
+        return types.Position(line, self.codec.client_num_units(text[starts[line] : offset]))
 
     def range(self, span: Span) -> types.Range:
         """A span as a range."""
-        lines = lines_of(span.source.text)
-        return types.Range(lines.position(span.start, self.codec), lines.position(span.end, self.codec))
+        text = span.source.text
+        return types.Range(self.position(text, span.start), self.position(text, span.end))
 
     def location(self, span: Span) -> types.Location:
         """A span with its file."""
@@ -110,37 +123,10 @@ class LspConverter:
         return types.TextDocumentEdit(document, list(edits))
 
 
-@dataclass(frozen=True)
-class TextLines:
-    """The lines of a text as the protocol counts them: a lone carriage return ends one, too."""
-
-    text: str
-
-    @cached_property
-    def starts(self) -> list[int]:
-        """The offset at which each line begins."""
-        return [0, *(end.end() for end in _LINE_END.finditer(self.text))]
-
-    def offset(self, position: types.Position, codec: PositionCodec) -> int:
-        """The offset of a position; one behind the end of its line, or of the text, is that end."""
-        if position.line >= len(self.starts):
-            return len(self.text)
-        start, end = [*self.starts, len(self.text)][position.line : position.line + 2]
-        line = self.text[start:end].rstrip("\r\n")
-        column = min(position.character, codec.client_num_units(line))
-        found = codec.position_from_client_units([line], types.Position(0, column))
-        return start + found.character
-
-    def position(self, offset: int, codec: PositionCodec) -> types.Position:
-        """The position of an offset."""
-        line = bisect_right(self.starts, offset) - 1
-        return types.Position(line, codec.client_num_units(self.text[self.starts[line] : offset]))
-
-
 @lru_cache(CACHED_TEXTS)
-def lines_of(text: str) -> TextLines:
-    """The lines of a text."""
-    return TextLines(text)
+def line_starts(text: str) -> list[int]:
+    """The offset at which each line of a text begins, as the protocol counts them: a lone carriage return ends one."""
+    return [0, *(end.end() for end in _LINE_END.finditer(text))]
 
 
 @dataclass

@@ -6,11 +6,8 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import chain
 from pathlib import Path
-from typing import Any
 
 from mindrun.errors import MindError
-from msgspec import Struct
-from msgspec.structs import astuple
 
 from mindlang.breakpoints import SUFFIX
 from mindlang.compiler.compile import Compiled, load, read_files
@@ -20,7 +17,7 @@ from mindlang.compiler.names import Names, declared_names
 from mindlang.compiler.references import Mention, mentions
 from mindlang.compiler.resolve.maps import map_paths
 from mindlang.compiler.source import Span, checked_text
-from mindlang.compiler.syntax import Declaration, Fact, File, Setting
+from mindlang.compiler.syntax import File
 from mindlang.files import files_beside, folders_above, readable_text, within_read_limits
 
 _MASTER = re.compile(r"^[ \t]*master\b", re.MULTILINE)
@@ -100,48 +97,6 @@ def view(main: Path, texts: Texts) -> MindView:
     else:
         found = ()
     return MindView(main, compiled, found, declared_names(found, Findings()))
-
-
-def declaration_at(file: File, offset: int) -> Declaration | None:
-    """The declaration to which a line at an offset belongs: the one whose header stands last before it."""
-    lines: list[tuple[int, Setting | Declaration]] = [(setting.span.start, setting) for setting in file.settings]
-    lines += [(declaration.header.span.start, declaration) for declaration in file.declarations]
-    above = max((line for line in lines if line[0] <= offset), key=lambda line: line[0], default=(0, None))[1]
-    return above if isinstance(above, Declaration) else None
-
-
-def fact_at(declaration: Declaration, offset: int) -> Fact | None:
-    """The fact on whose line an offset lies."""
-    return next((fact for fact in declaration.facts if on_line(fact.span, offset)), None)
-
-
-def on_line(span: Span, offset: int) -> bool:
-    """True if an offset lies on the line of a span."""
-    text = span.source.text
-    end = text.find("\n", span.end)
-    return text.rfind("\n", 0, span.start) < offset <= (len(text) if end < 0 else end)
-
-
-def path_to(file: File, offset: int) -> list[Any]:
-    """The nodes that hold an offset, each inside the one before; a declaration holds what stands in it."""
-    path: list[Any] = []
-    nodes: Iterator[Any] = iter((*file.settings, *file.declarations))
-    while (found := next((node for node in nodes if _holds(node, offset)), None)) is not None:
-        path.append(found)
-        nodes = _parts(found)
-    return path
-
-
-def _parts(node: Any) -> Iterator[Any]:
-    for value in astuple(node):
-        yield from (part for part in (value if isinstance(value, tuple) else (value,)) if isinstance(part, Struct))
-
-
-def _holds(node: Any, offset: int) -> bool:
-    span = getattr(node, "span", None)
-    if span is None:
-        return any(_holds(part, offset) for part in _parts(node))
-    return bool(span.start <= offset <= span.end)
 
 
 @dataclass

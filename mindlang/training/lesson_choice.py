@@ -13,7 +13,7 @@ from mindlang import limits
 from mindlang.compiler.compile import Compiled
 from mindlang.compiler.diagnostic import did_you_mean, listed
 from mindlang.lock.status import needed_skills
-from mindlang.training.subject import Subject, open_subject, refuse_frozen
+from mindlang.training.subject import Subject, open_subject, refuse_failed_below, refuse_frozen
 
 BOUNDS = {
     "generations": limits.GENERATION_BOUNDS,
@@ -92,7 +92,10 @@ def lessons_to_teach(
         if not subject.standing(lesson):
             frozen += 1
             note(f"{lesson.skill} is frozen, and is not taught")
-        elif force or subject.takes(lesson, bool(skills)):
+            continue
+        if skills and not force:
+            refuse_failed_below(subject, lesson)
+        if force or skills or subject.is_due(lesson):
             wished = options.applied(lesson)
             if lesson.needs and not wished.needs:
                 note(f"{lesson.skill} has fewer generations than its lesson says: nothing is needed of it")

@@ -16,7 +16,7 @@ from mindrun.train.run_folder import RunFolder, create, unfinished
 from mindlang.compiler.compile import Compiled
 from mindlang.compiler.diagnostic import listed
 from mindlang.compiler.resolve.curricula import counterparts
-from mindlang.limits import as_seed
+from mindlang.limits import SEED_BOUNDS, bounded_int
 from mindlang.lock import Lock, lock_path, lock_sources, read_lock, read_locks
 from mindlang.lock.blobs import Origin
 from mindlang.lock.signature import arrange, places, signature, width
@@ -49,15 +49,6 @@ class Subject:
         here = Path.cwd().resolve()
         return self.source.relative_to(here) if self.source.is_relative_to(here) else self.source
 
-    def takes(self, lesson: Lesson, is_named: bool) -> bool:
-        """True if a lesson is to be taught: it is due, or somebody has named it.
-
-        RunError where one that is named stands on a skill that has not what its own lesson needs.
-        """
-        if is_named:
-            refuse_failed_below(self, lesson)
-        return is_named or self.is_due(lesson)
-
     def keep_path(self, lesson: Lesson) -> Path:
         """The lock to which goes what a lesson teaches: that of the file in which the lesson stands.
 
@@ -85,16 +76,13 @@ class Subject:
 
 def open_subject(path: Path, compiled: Compiled) -> Subject:
     """The subject of a file that compiled; LockError where its lock is damaged."""
-    assert compiled.graph is not None
-    assert compiled.mind is not None
-    source = path.resolve()
-    lock = read_locks(lock_sources(compiled.sources))
+    mind, graph = compiled.whole
+    source, taught = path.resolve(), lock_sources(compiled.sources)
+    lock = read_locks(taught)
     sources = {file.path.relative_to(source.parent).as_posix(): file.text for file in compiled.sources}
-    graph = arrange(compiled.graph, lock)
-    taught = lock_sources(compiled.sources)
-    places = {lesson.curriculum: lesson.fact.span.source.path for lesson in compiled.mind.lessons}
+    places = {lesson.curriculum: lesson.fact.span.source.path for lesson in mind.lessons}
     homes = {curriculum: path for curriculum, path in places.items() if path in taught}
-    return Subject(source, sources, graph, lock, homes, taught)
+    return Subject(source, sources, arrange(graph, lock), lock, homes, taught)
 
 
 def begin_run(
@@ -119,7 +107,7 @@ def begin_run(
     manifest = Manifest(
         lesson=lesson,
         learners=learners(subject.graph, lesson),
-        seed=as_seed(seed),
+        seed=bounded_int("seed", SEED_BOUNDS, seed),
         mind=fingerprint(subject.graph, lesson, subject.folder),
         weights=hashes(weights),
         source=str(subject.source),

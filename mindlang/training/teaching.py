@@ -2,11 +2,9 @@
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from math import isfinite
+from functools import partial
 from typing import Any
 
-from mindrun.engine.engine import procedure_sources
-from mindrun.graph.bundle import Bundle, pack
 from mindrun.graph.policy import Policy
 from mindrun.graph.weights import parts
 from mindrun.sim.rollout import Rollout
@@ -22,10 +20,10 @@ from mindrun.train.scoring import Scorer, breeding_generator, layouts
 from mindrun.train.training import Watch, train
 
 from mindlang.executors import Where, scorer_on
-from mindlang.executors.jobs import Assignment, JobScorer, StretchExecutor, WorkError
+from mindlang.executors.jobs import JobScorer, StretchExecutor, WorkError, assignment_of
 from mindlang.limits import refuse_too_large, refuse_too_long
 from mindlang.lock.blobs import digest
-from mindlang.number_format import duration, short_score, speed
+from mindlang.number_format import duration, finite, short_score, speed
 from mindlang.training.lock_update import Kept, keep
 from mindlang.training.subject import Subject
 
@@ -58,14 +56,6 @@ def make_again(run: RunFolder, rollout: Rollout) -> None:
     rollout.make_again(genome, int(layouts(seed, 0, 0, 1)[0]))
 
 
-def assignment_of(run: RunFolder, subject: Subject) -> Assignment:
-    """All that a worker has to know to do the jobs of a run; MindError where it is too large for a bundle."""
-    lesson = run.manifest.lesson
-    procedures = procedure_sources(subject.graph, subject.folder, lesson.master)
-    bundle = pack(Bundle(Policy(subject.graph, run.weights), procedures))
-    return Assignment(bundle, lesson.task, lesson.master, run.manifest.learners, folder=subject.folder)
-
-
 @contextmanager
 def workers_of(
     run: RunFolder,
@@ -81,8 +71,10 @@ def workers_of(
     They `say` what they wait for, and are sent away in the end, whatever they do. What they cannot do is a WorkError,
     whose hint says how the run goes on.
     """
+    lesson, policy = run.manifest.lesson, Policy(subject.graph, run.weights)
+    cast = lesson.task, lesson.master, subject.folder, run.manifest.learners
     try:
-        with scorer_on(where, rollout, lambda: assignment_of(run, subject), workers, say) as scorer:
+        with scorer_on(where, rollout, partial(assignment_of, policy, *cast), workers, say) as scorer:
             course = run.course(rollout.genome_length)
             if (stretches := _stretches(course, rollout, scorer if where else rollout, clock)) is None:
                 yield scorer, None
@@ -183,18 +175,14 @@ def result_of(run: RunFolder, subject: Subject, state: LessonState, kept: Kept) 
         "seconds": round(state.seconds, 3),
         "ticks_per_second": round(state.ticks / max(state.seconds, 1e-9)),
         "faults": state.faults,
-        "verdicts": [_finite(verdict) for verdict in state.verdicts[:, 1]],
+        "verdicts": [finite(verdict) for verdict in state.verdicts[:, 1]],
         "weights": {skill: digest(weights) for skill, weights in learnt.items()},
         "kept": kept.is_new,
-        "compared": [_finite(score) for score in (kept.comparison.old, kept.comparison.new)]
+        "compared": [finite(score) for score in (kept.comparison.old, kept.comparison.new)]
         if kept.comparison
         else None,
         "run": str(run.folder),
     }
-
-
-def _finite(score: float) -> float | None:
-    return float(score) if isfinite(score) else None
 
 
 def outcome(run: RunFolder, result: Result, kept: Kept, lock: str) -> list[str]:

@@ -35,10 +35,7 @@ class PlacedNode(NamedTuple):
 def about_data(
     of: About, graph: Graph, task: Task | None, skills: Sequence[Skill], columns: Columns, texts: Texts
 ) -> Data:
-    """The constant data of rows with these columns; `skills` are those below the master, parents first.
-
-    There is a task where there is a world.
-    """
+    """The constant data of rows with these columns; `skills` are those below the master, parents first."""
     rewards = [reward.text for reward in task.rewards] if task else []
     has_robot = not (task and task.scene.environment)
     return {
@@ -56,31 +53,18 @@ def about_data(
 
 def _nodes(graph: Graph, skills: Sequence[Skill]) -> dict[tuple[str, int], PlacedNode]:
     """The nodes by noun and place there: sensors, memories, the skills that are reached, actuators."""
-    reached = {skill.name for skill in skills}
-    return {
-        **{
-            ("sensor", place): PlacedNode(each.name, each.kind, "readings", range(each.start, each.start + each.width))
-            for place, each in enumerate(graph.sensors)
-        },
-        **{
-            ("memory", place): PlacedNode(each.name, each.kind, "readings", [each.start])
-            for place, each in enumerate(graph.memories)
-        },
-        **{
-            ("skill", place): PlacedNode(each.name, each.function, "influence", [place])
-            for place, each in enumerate(graph.skills)
-            if each.name in reached
-        },
-        **{
-            ("actuator", place): PlacedNode(each.name, each.kind, "commands", [place])
-            for place, each in enumerate(graph.actuators)
-        },
-    }
-
-
-def node_numbers(graph: Graph, skills: Sequence[Skill]) -> dict[tuple[str, int], int]:
-    """The number of each node by its noun and its place there."""
-    return {node: number for number, node in enumerate(_nodes(graph, skills))}
+    found: dict[tuple[str, int], PlacedNode] = {}
+    for place, sensor in enumerate(graph.sensors):
+        places = range(sensor.start, sensor.start + sensor.width)
+        found["sensor", place] = PlacedNode(sensor.name, sensor.kind, "readings", places)
+    for place, cell in enumerate(graph.memories):
+        found["memory", place] = PlacedNode(cell.name, cell.kind, "readings", [cell.start])
+    for place, skill in enumerate(graph.skills):
+        if skill in skills:
+            found["skill", place] = PlacedNode(skill.name, skill.function, "influence", [place])
+    for place, actuator in enumerate(graph.actuators):
+        found["actuator", place] = PlacedNode(actuator.name, actuator.kind, "commands", [place])
+    return found
 
 
 def _hierarchy(graph: Graph, master: str, skills: Sequence[Skill], columns: Columns, texts: Texts) -> Data:
@@ -120,10 +104,7 @@ def _hierarchy(graph: Graph, master: str, skills: Sequence[Skill], columns: Colu
 def _curves(
     graph: Graph, skills: Sequence[Skill], columns: Columns, rewards: Sequence[str], has_robot: bool
 ) -> list[Data]:
-    """Every column that can be drawn over time, by name; of rewards where there are any, and of a robot.
-
-    Those of directions are `circular`: no line leads from 1 to 0.
-    """
+    """Every column that can be drawn over time, by name; in `circular` ones (directions) no line leads from 1 to 0."""
     reached, scene = {skill.name for skill in skills}, scene_of(graph)
     circular = {scene.starts[name] for name in scene.directions}
     named: list[tuple[str, str, list[tuple[int, str]]]] = [
@@ -139,7 +120,7 @@ def _curves(
         {"name": shown(name), "group": group, "column": columns[of].column(place)}
         | {"circular": of == "readings" and place in circular}
         for group, of, each in named
-        if of in columns.groups and (has_robot or group != "world")
+        if of in columns and (has_robot or group != "world")
         for place, name in each
     ]
 
@@ -211,9 +192,8 @@ def world_event_data(task: Task) -> list[dict[str, str]]:
     """The texts and kinds of a task's events; touching is one, unless an event says it or there is nothing to touch."""
     kinds = [names()[type(event)] for event in task.events]
     found = [{"text": shown(text), "kind": kind} for text, kind in zip(outcome.events(task), kinds, strict=True)]
-    if COLLISION in kinds or task.scene.environment:
-        return found
-    return [*found, {"text": TOUCH, "kind": TOUCH}]
+    is_said = COLLISION in kinds or task.scene.environment
+    return found if is_said else [*found, {"text": TOUCH, "kind": TOUCH}]
 
 
 def robot_event_data(of: About) -> list[dict[str, str]]:

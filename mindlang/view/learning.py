@@ -105,15 +105,12 @@ class LearntRun:
 
 @dataclass(slots=True)
 class Learning:
-    """The runs of a folder, in the order in which they were found, whose champions play in the world of that seed.
-
-    A mind is compiled once for each run.
-    """
+    """The runs of a folder, in the order in which they were found, whose champions play in the world of that seed."""
 
     path: Path
     seed: int
     runs: list[LearntRun] = field(default_factory=list)
-    _minds: dict[Path, tuple[Subject, Texts]] = field(default_factory=dict)
+    _minds: dict[Path, tuple[Subject, Texts]] = field(default_factory=dict)  # compiled once for each run
 
     def read(self) -> bool:
         """Look for new runs and read all of them; True if something has come."""
@@ -213,7 +210,7 @@ def _last_champions(run: RunFolder) -> list[Champion]:
         return []
     if found is None:
         return []
-    state = found.state
+    state, _ = found
     ended = zip(state.lengths, state.champions, strict=True)
     champions = [Champion(number, int(length), genome) for number, (length, genome) in enumerate(ended, 1)]
     generation = state.now.population.generation

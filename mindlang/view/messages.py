@@ -1,9 +1,7 @@
 """The messages that the page sends, and texts as it may show them.
 
-Messages are JSON objects told apart by `say`, decoded by msgspec with the bounds of every part.
-
-Numbers of rows go into the header of a frame, which has 32 bits for each. It is msgspec, not cattrs, since bounds and
-unknown keys are part of its types, and cattrs comes with the extra of the language server alone.
+Messages are JSON objects told apart by `say`, decoded by msgspec: bounds and unknown keys are part of its types.
+Numbers of rows go into the header of a frame, which has 32 bits for each.
 """
 
 from __future__ import annotations
@@ -90,15 +88,12 @@ class AskChange(_RunMessage, tag="change", frozen=True):
 
 
 class PlayChampion(_PageMessage, tag="champion", frozen=True):
-    """Asks to show the champion of a generation of a training instead; `seed` None keeps the world.
-
-    A seed is told as text: JavaScript has no whole numbers of 64 bits.
-    """
+    """Asks to show the champion of a generation of a training instead; `seed` None keeps the world."""
 
     run: Whole
     attempt: Counted
     generation: Counted
-    seed: Annotated[str, Meta(pattern="^[0-9]{1,20}$")] | None = None
+    seed: Annotated[str, Meta(pattern="^[0-9]{1,20}$")] | None = None  # JavaScript has no whole numbers of 64 bits
 
     fork: ClassVar[int] = 0
 

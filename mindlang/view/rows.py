@@ -8,7 +8,6 @@ from __future__ import annotations
 import struct
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -21,7 +20,6 @@ FLOW = "flow"  # the last group of singles: it is not kept, but computed for the
 Doubles = NDArray[np.float64]
 Singles = NDArray[np.float32]
 TickNumbers = NDArray[np.int64]
-MERGED_ROWS = 256
 HEADER = struct.Struct("<6I")
 ROWS_KIND, COLUMNS_KIND = 1, 2
 MAX_FRAME_BYTES = 4 << 20
@@ -46,79 +44,51 @@ class Group:
         return [self.block, self.first + number]
 
 
-@dataclass(frozen=True, slots=True)
-class Columns:
+class Columns(dict[str, Group]):
     """The groups of a row by their names."""
-
-    groups: Mapping[str, Group]
 
     @classmethod
     def of(cls, doubles: Mapping[str, int], singles: Mapping[str, int]) -> Columns:
         """Groups of so many columns each, in this order; `flow` is the last of the singles."""
-        groups: dict[str, Group] = {}
+        found = cls()
         for block, counts in ((DOUBLE_BLOCK, doubles), (SINGLE_BLOCK, singles)):
             first = 0
             for name, count in counts.items():
-                groups[name] = Group(block, first, count)
+                found[name] = Group(block, first, count)
                 first += count
-        return cls(groups)
-
-    def __getitem__(self, name: str) -> Group:
-        return self.groups[name]
+        return found
 
     def width(self, block: int) -> int:
         """How many columns a block has."""
-        return sum(group.count for group in self.groups.values() if group.block == block)
+        return sum(group.count for group in self.values() if group.block == block)
 
     @property
     def kept_singles(self) -> int:
         """How many columns of the singles are kept."""
-        return self.groups[FLOW].first
-
-
-@dataclass(frozen=True, slots=True)
-class Chunk:
-    """Some ticks, one after the other: doubles and singles [ticks, columns that are kept].
-
-    `happened` has pairs of a tick and the number of an event, `stops` of a tick and the breakpoint that holds there;
-    `ended_by` is what ended the run, in the last chunk of all.
-    """
-
-    blocks: tuple[Doubles, Singles]
-    happened: Sequence[tuple[int, int]] = ()
-    stops: Sequence[tuple[int, str]] = ()
-    ended_by: str | None = None
-    is_last: bool = False
-
-    def __len__(self) -> int:
-        return len(self.blocks[DOUBLE_BLOCK])
+        return self[FLOW].first
 
 
 @dataclass(slots=True)
 class RowBlocks:
     """Rows by their tick, from 0 on. One thread adds rows while others read those that were there before."""
 
-    chunks: list[tuple[Doubles, Singles]] = field(default_factory=list)
-    firsts: list[int] = field(default_factory=list)  # the tick of the first row of each chunk
+    blocks: list[NDArray[Any]] = field(default_factory=list)  # with room for rows to come
     rows: int = 0
     kept_bytes: int = 0
 
-    def append(self, chunk: Chunk) -> None:
-        """Put a chunk behind all others; its rows are there when `rows` counts them.
-
-        Small ones become one: of what is seen live, each tick is a chunk.
-        """
-        doubles, singles = chunk.blocks
-        if not len(chunk):
-            return
-        if self.chunks and self.rows - self.firsts[-1] + len(chunk) <= MERGED_ROWS:
-            before = self.chunks[-1]
-            self.chunks[-1] = np.concatenate([before[0], doubles]), np.concatenate([before[1], singles])
-        else:
-            self.chunks.append(chunk.blocks)
-            self.firsts.append(self.rows)
-        self.kept_bytes += doubles.nbytes + singles.nbytes
-        self.rows += len(chunk)
+    def append(self, doubles: Doubles, singles: Singles) -> None:
+        """Put rows [rows, columns that are kept] behind all others; they are there when `rows` counts them."""
+        end = self.rows + len(doubles)
+        parts: list[NDArray[Any]] = [doubles, singles]
+        self.blocks = self.blocks or [part[:0] for part in parts]
+        for block, part in enumerate(parts):
+            if end > len(self.blocks[block]):
+                larger = np.empty((2 * end, part.shape[1]), part.dtype)
+                larger[: self.rows] = self.blocks[block][: self.rows]
+                self.blocks[block] = larger
+            self.blocks[block][self.rows : end] = part
+            self.kept_bytes += part.nbytes
+        self.rows = end
 
     def ticks(self, first: int, below: int, every: int, most: int) -> TickNumbers:
         """The ticks first, first + every … that are below `below` and known, and of these no more than `most`."""
@@ -126,15 +96,8 @@ class RowBlocks:
 
     def kept(self, block: int, ticks: TickNumbers, columns: Sequence[int] | None = None) -> NDArray[Any]:
         """The rows [ticks, columns] of a block, of ticks in rising order; of `columns` alone, or of all."""
-        firsts = np.array(self.firsts)
-        of_chunk = np.searchsorted(firsts, ticks, side="right") - 1
-        bounds = np.flatnonzero(np.diff(of_chunk, prepend=-1, append=len(firsts)))
-        parts = [(of_chunk[row], ticks[row:below] - firsts[of_chunk[row]]) for row, below in pairwise(bounds.tolist())]
-        found = []
-        for chunk, rows in parts or [(0, ticks)]:
-            here = self.chunks[chunk][block]
-            found.append(here[rows] if columns is None else here[rows[:, None], np.asarray(columns, np.intp)])
-        return np.concatenate(found)
+        here = self.blocks[block]
+        return here[ticks] if columns is None else here[ticks[:, None], np.asarray(columns, np.intp)]
 
 
 def rows_per_frame(doubles: int, singles: int) -> int:

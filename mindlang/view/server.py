@@ -27,7 +27,7 @@ from websockets.frames import CloseCode
 from websockets.http11 import Request, Response
 
 from mindlang.view.learning import MAX_GENERATIONS
-from mindlang.view.messages import MAX_MESSAGE_BYTES, RefusedError, message, refusal
+from mindlang.view.messages import MAX_MESSAGE_BYTES, RefusedError, error_text, message, refusal
 from mindlang.view.session import MAX_HAPPENED, ViewSession
 from mindlang.view.viewed import Viewed
 
@@ -190,6 +190,8 @@ class ViewServer:
                 answer = await self._session.answer(message(text), viewer.edits)
             except RefusedError as error:
                 answer = refusal(text, str(error))
+            except MindError as error:
+                answer = refusal(text, error_text(error))
             if answer is not None:
                 await viewer.send(answer)
 
@@ -263,11 +265,7 @@ def http_answer(request: Request, port: int) -> Response | None:
     if request.path not in FILES:
         return _refusal(HTTPStatus.NOT_FOUND)
     name, content = FILES[request.path]
-    try:
-        body = (FOLDER / name).read_bytes()
-    except OSError:
-        return _refusal(HTTPStatus.NOT_FOUND)
-    return _response(HTTPStatus.OK, body, content)
+    return _response(HTTPStatus.OK, (FOLDER / name).read_bytes(), content)
 
 
 def _refusal(status: HTTPStatus, **headers: str) -> Response:
@@ -285,7 +283,7 @@ class BackgroundView:
     def __init__(self, viewed: Viewed) -> None:
         self._session = ViewSession(viewed)
         self._ready: Future[str] = Future()
-        self._thread = Thread(target=self._run, name="view", daemon=True)
+        self._thread = Thread(target=asyncio.run, args=(self._serve(),), name="view", daemon=True)
         self._thread.start()
         self.address = self._ready.result()
 
@@ -299,14 +297,11 @@ class BackgroundView:
             self._loop.call_soon_threadsafe(self._serving.cancel)
             self._thread.join()
 
-    def _run(self) -> None:
-        with suppress(asyncio.CancelledError):
-            asyncio.run(self._serve())
-
     async def _serve(self) -> None:
         self._loop, self._serving = asyncio.get_running_loop(), cast("asyncio.Task[None]", asyncio.current_task())
         try:
-            await ViewServer(self._session).serve(self._ready.set_result)
+            with suppress(asyncio.CancelledError):  # it is closed
+                await ViewServer(self._session).serve(self._ready.set_result)
         except Exception as error:  # said where the view was asked for
             self._ready.set_exception(error)
 

@@ -9,24 +9,10 @@ from concurrent.futures import ThreadPoolExecutor
 from math import isfinite
 from typing import TYPE_CHECKING, Any
 
-from mindrun.errors import MindError
-
 from mindlang.attribution.shares import shares
-from mindlang.view.about import node_numbers
+from mindlang.view import messages
 from mindlang.view.learning import WATCH_SECONDS
-from mindlang.view.messages import (
-    MAX_FORKS,
-    AskChange,
-    AskColumns,
-    AskImage,
-    AskRows,
-    AskRun,
-    AskShares,
-    Message,
-    PlayChampion,
-    RefusedError,
-    error_text,
-)
+from mindlang.view.messages import Message, RefusedError, shown
 from mindlang.view.rows import DOUBLE_BLOCK, SINGLE_BLOCK
 from mindlang.view.viewed import Viewed, data_url
 
@@ -88,7 +74,7 @@ class ViewSession:
             "edits": edits,
             "doubles": columns.width(DOUBLE_BLOCK),
             "singles": columns.width(SINGLE_BLOCK),
-            "columns": {name: [g.block, g.first, g.count] for name, g in columns.groups.items()},
+            "columns": {name: [g.block, g.first, g.count] for name, g in columns.items()},
             **viewed.about,
         }
 
@@ -108,59 +94,53 @@ class ViewSession:
         }
 
     async def answer(self, message: Message, edits: bool) -> bytes | dict[str, Any] | None:
-        """The answer to a message, None where there is none; RefusedError where it cannot be answered."""
+        """The answer to a message, None where there is none; RefusedError or MindError where it cannot be answered."""
         if message.fork >= len(self.forks):
             raise RefusedError(f"there is no fork {message.fork}")
         match message:
-            case AskRun(fork=fork, to=to):
+            case messages.AskRun(fork=fork, to=to):
                 self._run(fork, to)
                 self.changed()  # said also where the run is there already
                 return None
-            case AskChange() | PlayChampion() if not edits:
+            case messages.AskChange() | messages.PlayChampion() if not edits:
                 raise RefusedError("somebody else may change this run: the first who opened it")
-            case PlayChampion():
+            case messages.PlayChampion():
                 await self._play(message)
                 return None
-            case AskChange():
+            case messages.AskChange():
                 await self._fork(message)
                 return None
         viewed = self.forks[message.fork]  # another run may be seen when it is this question's turn
         return await asyncio.get_running_loop().run_in_executor(self._answerer, _computed, viewed, message)
 
-    async def _play(self, asked: PlayChampion) -> None:
+    async def _play(self, asked: messages.PlayChampion) -> None:
         """Show the champion of another generation."""
         if self.learning is None or asked.run >= len(self.learning.runs):
             raise RefusedError(f"there is no training {asked.run}")
         seed = None if asked.seed is None else int(asked.seed)
         given = asked.run, asked.attempt, asked.generation, seed
-        try:
-            viewed = await asyncio.get_running_loop().run_in_executor(self._grower, self.learning.begin, *given)
-        except MindError as error:
-            raise RefusedError(error_text(error)) from error
-        self.show(viewed)
+        self.show(await asyncio.get_running_loop().run_in_executor(self._grower, self.learning.begin, *given))
 
-    async def _fork(self, change: AskChange) -> None:
+    async def _fork(self, change: messages.AskChange) -> None:
         """Fork a run, and let the fork go on at once to where that run is."""
         of = self.forks[change.fork]
         if of.forked is None:
             raise RefusedError("a recording is what it is: nothing in it can be changed")
-        if len(self.forks) > MAX_FORKS:
-            raise RefusedError(f"there are {MAX_FORKS} forks already: open the run anew")
+        if len(self.forks) > messages.MAX_FORKS:
+            raise RefusedError(f"there are {messages.MAX_FORKS} forks already: open the run anew")
         loop = asyncio.get_running_loop()
         self._wait(await loop.run_in_executor(self._answerer, of.delay))
         try:
-            fork = await loop.run_in_executor(self._grower, of.forked, change)
-        except MindError as error:
-            raise RefusedError(error_text(error)) from error
+            viewed, text = await loop.run_in_executor(self._grower, of.forked, change)
         finally:
             self._wait(None)
         if of not in self.forks:
             raise RefusedError("another run is seen now")
         number = len(self.forks)
-        told = {"say": "fork", "fork": number, "of": change.fork, "tick": change.tick, "text": fork.text}
+        told = {"say": "fork", "fork": number, "of": change.fork, "tick": change.tick, "text": text}
         self.forks_data.append(told)
         self._wanted.append(0)
-        self.forks.append(fork.viewed)
+        self.forks.append(viewed)
         self._run(number, max(of.known, change.tick))
 
     def _wait(self, what: str | None) -> None:
@@ -184,23 +164,19 @@ class ViewSession:
 
 
 def _computed(viewed: Viewed, message: Message) -> bytes | dict[str, Any]:
-    try:
-        match message:
-            case AskRows():
-                return viewed.rows(message)
-            case AskColumns():
-                return viewed.some_columns(message)
-            case AskImage(fork=fork, tick=tick):
-                image = data_url(viewed.image(tick), "png")
-                return {"say": "image", "fork": fork, "tick": tick, "image": image}
-            case AskShares():
-                return command_shares(viewed, message)
-    except MindError as error:
-        raise RefusedError(error_text(error)) from error
+    match message:
+        case messages.AskRows():
+            return viewed.rows(message)
+        case messages.AskColumns():
+            return viewed.some_columns(message)
+        case messages.AskImage(fork=fork, tick=tick):
+            return {"say": "image", "fork": fork, "tick": tick, "image": data_url(viewed.image(tick), "png")}
+        case messages.AskShares():
+            return command_shares(viewed, message)
     raise RefusedError("that is no question")
 
 
-def command_shares(viewed: Viewed, asked: AskShares) -> dict[str, Any]:
+def command_shares(viewed: Viewed, asked: messages.AskShares) -> dict[str, Any]:
     """The contribution of each path to a command; RefusedError where there is no such actuator or tick."""
     flows, graph = viewed.flows, viewed.flows.graph
     if viewed.about["source"] == "environment":
@@ -212,8 +188,8 @@ def command_shares(viewed: Viewed, asked: AskShares) -> dict[str, Any]:
     found = shares(flows, ("actuator", asked.actuator), range(asked.tick, asked.tick + 1))
     if not all(isfinite(number) for each in found.paths for number in (each.influence, each.share)):
         raise RefusedError(f"the influence of tick {asked.tick} is beyond all numbers")
-    numbers = node_numbers(graph, [graph.skills[place] for place in flows.skills])
-    end, own = numbers["actuator", asked.actuator], graph.skill_numbers
+    numbers = {(node["kind"], node["name"]): number for number, node in enumerate(viewed.about["nodes"])}
+    end = numbers["actuator", shown(graph.actuators[asked.actuator].name)]
     return {
         "say": "why",
         "fork": asked.fork,
@@ -224,7 +200,7 @@ def command_shares(viewed: Viewed, asked: AskShares) -> dict[str, Any]:
         "rounding": found.rounding,
         "paths": [
             {
-                "path": [*(numbers["skill", own[name]] for name in each.path[:-1]), end],
+                "path": [*(numbers["skill", shown(name)] for name in each.path[:-1]), end],
                 "value": each.value,
                 "influence": each.influence,
                 "share": each.share,

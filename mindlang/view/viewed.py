@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 import base64
-from collections.abc import Callable, Iterator, Mapping, Set
-from dataclasses import dataclass
-from functools import partial
-from pathlib import Path
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 import cv2
 import numpy as np
 from mindrun.engine.think import Hierarchy
 from mindrun.errors import MindError, reason
-from mindrun.graph.graph import Graph, Task
-from mindrun.sim.outside.seen import UNKNOWN_FAILURES, SeenEpisode, Sent
+from mindrun.graph.graph import Graph
+from mindrun.sim.outside.seen import SeenEpisode, Sent
 from numpy.typing import NDArray
 
 from mindlang.run.edge_flow import EdgeFlows
@@ -22,7 +19,6 @@ from mindlang.view.messages import AskChange, AskColumns, AskRows, RefusedError,
 from mindlang.view.rows import (
     DOUBLE_BLOCK,
     SINGLE_BLOCK,
-    Chunk,
     Columns,
     Doubles,
     RowBlocks,
@@ -40,17 +36,6 @@ MAX_COMPUTED_EDGES = 200_000  # in one answer, so that nobody waits long for ano
 MAX_KEPT_BYTES = 2 << 30  # of rows, of a run and of all that are beside it
 
 
-def drawing_of(graph: Graph, task: Task | None, folder: Path, seed: int) -> Drawing | None:
-    """The drawing of a task's run by its environment; None where its world is none."""
-    if task is None or not task.scene.environment:
-        return None
-    return _undrawn if task.fails else partial(SeenEpisode, graph, task.scene.environment, folder, seed)
-
-
-def _undrawn(sent: Sent) -> SeenEpisode:
-    raise MindError(UNKNOWN_FAILURES, "mindc run --picture and --video draw such a run")
-
-
 def data_url(image: Image, kind: str, quality: tuple[int, ...] = ()) -> str:
     """An image [height, width, 3], red first, as an address that a page takes it from; `kind` is png or webp."""
     done, data = cv2.imencode(f".{kind}", image[:, :, ::-1], quality)
@@ -59,28 +44,29 @@ def data_url(image: Image, kind: str, quality: tuple[int, ...] = ()) -> str:
 
 
 class Viewed:
-    """A run that is seen: `about` does not change, `chunks` are still to come; the first one begins with tick 0.
+    """A run that is seen: `about` does not change, and `growth` adds some rows each time, from tick 0 on.
 
-    In the ticks of `begins` the mind was begun anew; they come with the rows. `drawing` is of its environment. What
-    `is_live` grows without being asked. `forked` makes the same run with a change; RefusedError where that cannot be,
-    None where nothing can be changed. `delay` says, where it is so, what has to be done first and takes a while. One
-    thread lets it `grow`; others may ask at the same time.
+    `happened` has pairs of a tick and the number of an event, `stops` of a tick and the breakpoint that holds there; in
+    the ticks of `begins` the mind was begun anew. `drawing` is of its environment. What `is_live` grows without being
+    asked. `forked` makes the same run with a change, and says that in words; RefusedError where that cannot be, None
+    where nothing can be changed. `delay` says what has to be done first and takes a while, if anything. One thread lets
+    it `grow`; others may ask at the same time.
     """
 
     def __init__(
         self,
         about: Mapping[str, Any],
         columns: Columns,
-        chunks: Iterator[Chunk],
+        growth: Callable[[Viewed], Iterator[bool]],
         graph: Graph,
         mind: Hierarchy,
-        begins: Set[int],
         drawing: Drawing | None = None,
         is_live: bool = False,
     ) -> None:
         self.about, self.columns, self.is_live, self.drawing = about, columns, is_live, drawing
-        self.flows = EdgeFlows(graph, mind, self._thought, begins)
-        self.forked: Callable[[AskChange], Fork] | None = None
+        self.begins: set[int] = set()
+        self.flows = EdgeFlows(graph, mind, self._thought, self.begins)
+        self.forked: Callable[[AskChange], tuple[Viewed, str]] | None = None
         self.delay: Callable[[], str | None] = lambda: None
         self.blocks = RowBlocks()
         self.happened: list[tuple[int, int]] = []
@@ -88,7 +74,7 @@ class Viewed:
         self.over = False
         self.ended_by: str | None = None
         self.failed: str | None = None
-        self._chunks = chunks
+        self._growth = growth(self)
         self._seen: SeenEpisode | None = None
 
     def _thought(self, ticks: TickNumbers) -> tuple[Singles, Singles]:
@@ -106,27 +92,21 @@ class Viewed:
         return self.blocks.kept_bytes + self.flows.kept_bytes
 
     def grow(self, bytes_elsewhere: int = 0) -> None:
-        """Add a chunk of rows; where a procedure fails, or memory ends, the run is over and `failed` says why.
+        """Add some rows; where a procedure fails, or memory ends, the run is over and `failed` says why.
 
         `bytes_elsewhere` are those of other runs, whose rows are kept at the same time.
         """
-        chunk = None
+        has_grown = False
         if bytes_elsewhere + self.kept_bytes > MAX_KEPT_BYTES:
             self.failed = f"more than {MAX_KEPT_BYTES >> 30} GiB of rows, of a run and its forks together, are not kept"
         else:
             try:
-                chunk = next(self._chunks, None)
+                has_grown = next(self._growth, False)
             except MindError as error:
                 self.failed = error_text(error)
             except OSError as error:
                 self.failed = shown(reason(error))
-        if chunk is None:
-            self.over = True
-            return
-        self.happened.extend(chunk.happened)
-        self.stops.extend(chunk.stops)
-        self.blocks.append(chunk)
-        self.ended_by, self.over = chunk.ended_by, chunk.is_last
+        self.over = self.over or not has_grown
 
     def rows(self, asked: AskRows) -> bytes:
         """A frame of rows: as many as are known and fit."""
@@ -174,7 +154,7 @@ class Viewed:
 
     def _sent(self, first: int, last: int) -> Singles:
         """The commands that reached the actuators after tick `first`, up to `last`; of a run, the mind's own."""
-        return self.group("sent" if "sent" in self.columns.groups else "commands", np.arange(first + 1, last + 1))
+        return self.group("sent" if "sent" in self.columns else "commands", np.arange(first + 1, last + 1))
 
     def group(self, name: str, ticks: TickNumbers) -> NDArray[Any]:
         """The columns [ticks, count] of a group that is kept."""
@@ -184,11 +164,3 @@ class Viewed:
     def _computed_rows(self) -> int:
         """The number of rows whose flows are computed at once."""
         return max(1, MAX_COMPUTED_EDGES // max(1, len(self.flows.links)))
-
-
-@dataclass(frozen=True, slots=True)
-class Fork:
-    """A run beside another, from a tick on: what is changed, in words."""
-
-    viewed: Viewed
-    text: str

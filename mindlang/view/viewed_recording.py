@@ -119,9 +119,16 @@ def growing_bytes(name: str) -> Iterator[Iterator[bytes]]:
 
 
 def _local(path: Path) -> Iterator[bytes]:
+    """The parts of a file as they come, and an empty one after IDLE_SECONDS without any."""
+    empty = 0
     try:
         with open(open_regular(path), "rb", buffering=0) as file:  # noqa: PTH123
-            yield from _parts(lambda: _read_on(path, file.fileno()))
+            while True:
+                part = _read_on(path, file.fileno())
+                empty = 0 if part else empty + 1
+                if part or empty * POLL_SECONDS >= IDLE_SECONDS:
+                    yield part
+                    empty = 0
     except OSError as error:
         raise RecordingError(f"cannot read {path}: {error.strerror}") from error
 
@@ -139,26 +146,11 @@ def _read_on(path: Path, descriptor: int) -> bytes:
     return b""
 
 
-def _parts(read_on: Callable[[], bytes]) -> Iterator[bytes]:
-    """The parts of a stream as they come, and an empty one after IDLE_SECONDS without any."""
-    empty = 0
-    while True:
-        part = read_on()
-        empty = 0 if part else empty + 1
-        if part or empty * POLL_SECONDS >= IDLE_SECONDS:
-            yield part
-            empty = 0
-
-
-def ssh_command(host: str, path: str) -> list[str]:
-    """The command that follows a file on a host over ssh; its path is quoted for the shell there."""
-    return ["ssh", "-T", "--", host, f"exec tail -c +1 -f -- {shlex.quote(path)}"]
-
-
 @contextmanager
 def _tail(host: str, path: str) -> Iterator[subprocess.Popen[bytes]]:
+    command = ["ssh", "-T", "--", host, f"exec tail -c +1 -f -- {shlex.quote(path)}"]
     try:
-        process = subprocess.Popen(ssh_command(host, path), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE)
+        process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE)
     except OSError as error:
         raise RecordingError(f"ssh cannot be run: {error.strerror}", "install OpenSSH, or copy the file") from error
     try:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,11 +14,12 @@ from mindrun.graph.graph import Task
 from mindrun.graph.recording_header import GOES_ON, POSE_COLUMNS, THING_COLUMNS, About
 from numpy.typing import NDArray
 
+from mindlang.pictures.environments import seen_episode
 from mindlang.run import outcome
 from mindlang.view.about import Texts, about_data, robot_event_data, world_event_data
 from mindlang.view.messages import shown
-from mindlang.view.rows import DOUBLE_BLOCK, FLOW, Chunk, Columns, Doubles, Singles
-from mindlang.view.viewed import Viewed, drawing_of
+from mindlang.view.rows import DOUBLE_BLOCK, FLOW, Columns, Doubles, Singles
+from mindlang.view.viewed import Viewed
 
 if TYPE_CHECKING:
     from mindlang.breakpoints.watch import Stop
@@ -50,7 +52,9 @@ def viewed_rows(
     ready = hierarchy(mind.policy, mind.procedures, of.master)
     skills = [mind.graph.skills[skill.index] for skill in ready.skills]
     columns = columns_of(of, mind, source == RUN, sum(len(skill.edges) for skill in skills))
-    drawing = drawing_of(mind.graph, task, folder, of.world.seed) if of.world else None
+    drawing = None
+    if of.world and task and task.scene.environment:
+        drawing = partial(seen_episode, mind.graph, task, folder, of.world.seed)
     happens = [*([] if source == RUN else robot_event_data(of)), *(world_event_data(task) if task else [])]
     about = {
         "title": shown(title),
@@ -60,9 +64,8 @@ def viewed_rows(
         "events": happens,
         **about_data(of, mind.graph, task, skills, columns, texts or {}),
     }
-    begins: set[int] = set()  # filled while the rows come
-    chunks = _chunks(rows, of, task, columns, len(happens), begins, watch)
-    return Viewed(about, columns, chunks, mind.graph, ready, begins, drawing, of_ticks is None)
+    growth = partial(_growth, rows, of, task, len(happens), watch)
+    return Viewed(about, columns, growth, mind.graph, ready, drawing, of_ticks is None)
 
 
 def columns_of(of: About, mind: Bundle, is_run: bool, edges: int) -> Columns:
@@ -80,25 +83,21 @@ def columns_of(of: About, mind: Bundle, is_run: bool, edges: int) -> Columns:
     return Columns.of(doubles, {**singles, FLOW: edges})
 
 
-def _chunks(
-    parts: Iterator[Filled],
-    of: About,
-    task: Task | None,
-    columns: Columns,
-    events: int,
-    begins: set[int],
-    watch: Watch | None,
-) -> Iterator[Chunk]:
-    """The rows with what happened in them; `begins` gets the ticks in which the mind was begun anew."""
-    yield Chunk(_beginning(columns, of))
-    is_run = "time" not in columns.groups
+def _growth(
+    parts: Iterator[Filled], of: About, task: Task | None, events: int, watch: Watch | None, viewed: Viewed
+) -> Iterator[bool]:
+    """Add rows with what happened in them to what is viewed, a part each time."""
+    columns = viewed.columns
+    viewed.blocks.append(*_beginning(columns, of))
+    yield True
+    is_run = "time" not in columns
     number, start, before = 0, 0.0, np.zeros((1, events), np.uint64)
     for rows, readings in parts:
         doubles, singles = _blocks(rows, columns, readings)
         if not len(rows):  # nothing has come for a while
-            yield Chunk((doubles, singles))
+            yield True
             continue
-        begins |= {number + 1 + int(row) for row in np.flatnonzero(rows["tick"] == 0)}
+        viewed.begins |= {number + 1 + int(row) for row in np.flatnonzero(rows["tick"] == 0)}
         levels = _levels(rows, is_run, task)[:, :events]
         if not is_run:
             start = start if number else float(rows["time"][0])
@@ -108,16 +107,12 @@ def _chunks(
         happened = np.argwhere(levels > np.concatenate([before, levels[:-1]]))
         ended = int(rows["world"]["ended"][-1]) if task else GOES_ON
         by = outcome.ended_by(task, ended) if task else None
-        yield Chunk(
-            (doubles, singles),
-            [(number + 1 + int(row), int(event)) for row, event in happened],
-            [
-                (stop.tick, shown(f"line {stop.breakpoint.line}: {stop.breakpoint.text}"))
-                for stop in (watch(rows, readings) if watch else ())
-            ],
-            by and shown(by),
-            is_run and ended != GOES_ON,
-        )
+        viewed.happened += [(number + 1 + int(row), int(event)) for row, event in happened]
+        stops = watch(rows, readings) if watch else ()
+        viewed.stops += [(each.tick, shown(f"line {each.breakpoint.line}: {each.breakpoint.text}")) for each in stops]
+        viewed.blocks.append(doubles, singles)
+        viewed.ended_by, viewed.over = by and shown(by), is_run and ended != GOES_ON
+        yield True
         number, before = number + len(rows), levels[-1:]
 
 
@@ -133,7 +128,7 @@ def _beginning(columns: Columns, of: About) -> tuple[Doubles, Singles]:
     doubles = np.full((1, columns.width(DOUBLE_BLOCK)), np.nan)
     singles = np.zeros((1, columns.kept_singles), np.float32)
     for name in UNKNOWN_AT_FIRST:
-        if name in columns.groups:
+        if name in columns:
             singles[0, columns[name].places] = np.nan
     if of.world:
         begin = np.array(of.world.begin, np.float64)  # None becomes NaN
@@ -147,7 +142,7 @@ def _blocks(rows: Rows, columns: Columns, readings: Singles) -> tuple[Doubles, S
     """Both blocks [ticks, columns] of rows whose readings are these; `flow` is not kept."""
     doubles = np.empty((len(rows), columns.width(DOUBLE_BLOCK)))
     singles = np.empty((len(rows), columns.kept_singles), np.float32)  # bits of readings stay what they are
-    for name, group in columns.groups.items():
+    for name, group in columns.items():
         if name != FLOW:
             value = readings if name == "readings" else _value(name, rows)
             block = doubles if group.block == DOUBLE_BLOCK else singles

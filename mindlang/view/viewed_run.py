@@ -27,7 +27,7 @@ from mindlang.view import messages
 from mindlang.view.about import Texts
 from mindlang.view.messages import RefusedError, shown
 from mindlang.view.rows import Columns
-from mindlang.view.viewed import Fork, Viewed
+from mindlang.view.viewed import Viewed
 from mindlang.view.viewed_rows import RUN, Filled, Watch, viewed_rows
 
 GROUPS: dict[What, str] = {"reading": "readings", "influence": "influence", "memory": "readings"}
@@ -55,7 +55,8 @@ class ViewedRun:
         title = f"{task.name} with {setup.master} in charge, seed {self.seed}"
         rows, watch = _rows(run, of, len(task.events)), self._watch()
         viewed = viewed_rows(title, RUN, of, mind, task, setup.folder, rows, task.ticks, watch, self.texts)
-        viewed.forked, viewed.delay = partial(self._forked, viewed.columns), _compilation
+        viewed.forked = partial(self._forked, viewed.columns)
+        viewed.delay = lambda: None if is_there(STAGES) else COMPILING
         return viewed
 
     def _watch(self) -> Watch | None:
@@ -66,17 +67,13 @@ class ViewedRun:
             RowBlock(readings, rows["influence"], rows["commands"], rows["world"]["events"].astype(np.int64))
         )
 
-    def _forked(self, columns: Columns, asked: messages.AskChange) -> Fork:
+    def _forked(self, columns: Columns, asked: messages.AskChange) -> tuple[Viewed, str]:
         graph = self.setup.ready.policy.graph
         change = _replacement(graph, self.setup.task, columns, asked)
         beside = replace(self, changes=(*self.changes, change), breakpoints=())  # the page pauses where the run does
         viewed = beside.begun()
         viewed.grow()
-        return Fork(viewed, _replacement_text(graph, change))
-
-
-def _compilation() -> str | None:
-    return None if is_there(STAGES) else COMPILING
+        return viewed, _replacement_text(graph, change)
 
 
 def _rows(run: Trace, of: About, events: int) -> Iterator[Filled]:

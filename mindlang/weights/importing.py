@@ -1,7 +1,7 @@
 """Imports weights: compared with the engine, tried in their lesson, and written into the lock if they do well."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from functools import partial
 from hashlib import sha256
 from math import isfinite
@@ -76,42 +76,28 @@ def _clamped(values: NDArray[np.floating]) -> Rows:
 
 
 def _reference(network: SkillNetwork, genome: Weights) -> tuple[str, Compute]:
+    """The function of `mindlang.torch.Skill` or, without PyTorch, products of matrices and 1/(1 + e^−x) in float64."""
     try:
         import torch
     except ImportError:
-        return "float64", partial(_in_float64, network, genome)
-    return f"PyTorch {torch.__version__}", partial(_in_torch, network, genome)
+        return "float64", partial(_computed, network, genome, FLOAT64, partial(np.asarray, dtype=np.float64))
+    from mindlang.weights.torch_skill import TERMS
+
+    return f"PyTorch {torch.__version__}", partial(_computed, network, genome, TERMS, torch.tensor)
 
 
-def _in_torch(network: SkillNetwork, genome: Weights, inputs: Rows) -> Rows:
-    """Outputs of `mindlang.torch.Skill`."""
-    import torch
-
-    from mindlang.weights.torch_skill import NetworkModule
-
-    module, rows = NetworkModule(network, genome), torch.from_numpy(inputs)
-    with torch.no_grad():
-        if not network.state:
-            return np.asarray(module(rows).numpy())
-        found, state = [], None
-        for row in rows:
-            outputs, state = module(row, state)
-            found.append(outputs.numpy())
-    return np.array(found, np.float32).reshape(len(inputs), network.outputs)
-
-
-def _in_float64(network: SkillNetwork, genome: Weights, inputs: Rows) -> Rows:
-    """Products of matrices and 1/(1 + e^−x), in float64."""
-    found = [matrix.astype(np.float64) for matrix in matrices(genome, network.shapes)]
-    state, rows = np.zeros(network.state), []
-    for row in inputs.astype(np.float64):
-        outputs, state = network.skill.function.forward(FLOAT64, found, row, state)
-        rows.append(outputs)
-    return _clamped(np.array(rows, np.float64).reshape(len(inputs), network.outputs))
+def _computed(network: SkillNetwork, genome: Weights, terms: Terms, made: Callable[[Any], Any], inputs: Rows) -> Rows:
+    """The outputs in these terms, of numbers that are `made` theirs; of a network that remembers tick by tick."""
+    found = [made(matrix) for matrix in matrices(genome, network.shapes)]
+    state, outputs = made(np.zeros(network.state, np.float32)), []
+    for rows in inputs if network.state else inputs[np.newaxis]:
+        sent, state = network.skill.function.forward(terms, found, made(rows), state)
+        outputs.append(np.asarray(sent))
+    return _clamped(np.array(outputs).reshape(len(inputs), network.outputs))
 
 
 FLOAT64 = Terms(
-    product=lambda values, matrix: matrix @ values,
+    product=lambda values, matrix: values @ matrix.T,
     sigmoid=lambda values: 1 / (1 + np.exp(-values)),
     joined=lambda one, other: np.concatenate([one, other]),
 )
@@ -216,10 +202,7 @@ class Imported:
             "file_sha256": trial.file_digest,
             "weights": digest(trial.genome),
             "kept": self.is_kept,
-            "reference": compared.reference,
-            "ticks": compared.ticks,
-            "difference": compared.difference,
-            "faults": compared.faults,
+            **asdict(compared),
             "task": trial.lesson.task,
             "master": trial.lesson.master,
             "score": self.score,

@@ -29,23 +29,16 @@ OPEN_LOOP = "open loop: the readings are those of the recording, whatever other 
 
 
 @dataclass(frozen=True, slots=True)
-class CommandDifference:
-    """How far a command is from the recorded one: ticks that differ, mean, most and when that was, None where never."""
-
-    ticks: int
-    mean: float
-    most: float
-    most_tick: int | None
-
-
-@dataclass(frozen=True, slots=True)
 class OpenLoop:
-    """The differences from a recording, `sent` by actuator; ticks are counted from 1 over the whole recording."""
+    """The differences from a recording; ticks are counted from 1 over the whole recording.
+
+    `sent` has by actuator how far its commands are from those recorded: ticks that differ, the mean, the most, when.
+    """
 
     master: str
     ticks: int
     differences: list[TickDifference]
-    sent: dict[str, CommandDifference]
+    sent: dict[str, dict[str, Any]]
 
 
 def compare_recording(path: Path, bundle: Path, request: Request, other: Bundle | None = None) -> OpenLoop:
@@ -113,9 +106,8 @@ def _from(columns: dict[str, Columns], begin: int) -> dict[str, Columns]:
     return {kind: {name: rows[begin:] for name, rows in of.items()} for kind, of in columns.items()}
 
 
-def _sent(was: NDArray[np.float32], now: NDArray[np.float32], begin: int) -> CommandDifference:
+def _sent(was: NDArray[np.float32], now: NDArray[np.float32], begin: int) -> dict[str, Any]:
     apart = np.abs(now[begin:].astype(np.float64) - was[begin:])
     ticks = int(np.count_nonzero(apart))
-    return CommandDifference(
-        ticks, float(apart.mean()), float(apart.max()), begin + 1 + int(apart.argmax()) if ticks else None
-    )
+    most_tick = begin + 1 + int(apart.argmax()) if ticks else None
+    return {"ticks": ticks, "mean": float(apart.mean()), "most": float(apart.max()), "most_tick": most_tick}

@@ -1,7 +1,6 @@
 """A comparison for reading, and as data: the first tick that differs, and outcome beside outcome."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import asdict
 from itertools import groupby
 from typing import Any
 
@@ -68,20 +67,15 @@ def comparison_data(request: Request, compared: Compared) -> dict[str, Any]:
     was, now = compared.was.found, compared.now.found
     of_both = {name: was[name] for name in ("task", "master", "seed")}
     was, now = ({name: value for name, value in found.items() if name not in of_both} for found in (was, now))
-    return {**of_both, **_asked(request), "differs": _differs(compared.differences), "as_it_was": was, "changed": now}
+    differs = [each.as_data() for each in compared.differences]
+    return {**of_both, **_asked(request), "differs": differs, "as_it_was": was, "changed": now}
 
 
 def recording_summary(request: Request, name: str, found: OpenLoop) -> RenderableType:
     """A text: what the mind would have sent for the readings of a recording."""
     rows = [
-        (
-            name,
-            f"{sent.ticks:,}",
-            f"{sent.mean:.4g}",
-            f"{sent.most:.4g}",
-            f"{sent.most_tick:,}" if sent.most_tick else "–",
-        )
-        for name, sent in found.sent.items()
+        (actuator, f"{of['ticks']:,}", f"{of['mean']:.4g}", f"{of['most']:.4g}", _tick(of["most_tick"]))
+        for actuator, of in found.sent.items()
     ]
     return Group(
         Text.assemble((name, "bold"), f" with {found.master} in charge, {in_words(found.ticks)}"),
@@ -101,17 +95,17 @@ def recording_data(request: Request, found: OpenLoop) -> dict[str, Any]:
         "ticks": found.ticks,
         **_asked(request),
         "open_loop": True,
-        "differs": _differs(found.differences),
-        "commands": {name: asdict(sent) for name, sent in found.sent.items()},
+        "differs": [each.as_data() for each in found.differences],
+        "commands": found.sent,
     }
+
+
+def _tick(number: int | None) -> str:
+    return f"{number:,}" if number else "–"
 
 
 def _asked(request: Request) -> dict[str, Any]:
     return {"changes": [*request.parts], "tick": request.tick}
-
-
-def _differs(differences: Sequence[TickDifference]) -> list[dict[str, Any]]:
-    return [each.as_data() for each in differences]
 
 
 def _table(rows: Sequence[Sequence[str]]) -> Text:

@@ -9,10 +9,8 @@ from hypothesis import strategies as st
 from mindrun.engine.engine import procedure_sources
 from mindrun.engine.think import Hierarchy, hierarchy, think
 from mindrun.graph.policy import Policy
-from mindrun.kinds.events.collision import Collision
-from mindrun.kinds.events.exhaustion import Exhaustion
-from mindrun.numbers.evaluation import evaluate
-from mindrun.numbers.expression import Program
+from mindrun.kinds.events.event import Collision, Exhaustion
+from mindrun.numbers.expression import Program, evaluate
 from numpy.typing import NDArray
 
 from mindlang.breakpoints.breakpoint import Breakpoint, Happens, Holds, Reaches, Transmission

@@ -86,7 +86,7 @@ def statuses(path: Path) -> dict[str, Status]:
     """How the skills of a file stand."""
     compiled = load(path)
     assert compiled.graph
-    lock = read_locks(source.path for source in compiled.sources)
+    lock = read_locks([source.path for source in compiled.sources])
     return status(arrange(compiled.graph, lock), lock)
 
 

@@ -8,18 +8,14 @@ from mindrun.graph.graph import End, Lesson, Reward, Task, Thing
 from mindrun.graph.policy import Policy
 from mindrun.graph.weights import genes
 from mindrun.graph.wiring import ActuatorWire, SensorWire, Wiring
-from mindrun.kinds.events.delivery import Delivery
-from mindrun.kinds.events.reach import Reach
-from mindrun.kinds.events.visit import Visit
+from mindrun.kinds.events.event import Delivery, Reach, Visit
 from mindrun.kinds.functions.mlp import Mlp
 from mindrun.kinds.functions.procedure import Procedure
 from mindrun.kinds.learners import Restarting
-from mindrun.kinds.measures.change import CommandChange
-from mindrun.kinds.measures.progress import Retreat
-from mindrun.kinds.scenes.arena import Arena
-from mindrun.kinds.things.item import Item
+from mindrun.kinds.measures.measure import CommandChange, Retreat
+from mindrun.kinds.scenes.scene import Arena
 from mindrun.kinds.things.obstacle import Obstacle
-from mindrun.kinds.things.zone import Zone
+from mindrun.kinds.things.thing import Item, Zone
 from mindrun.numbers.quantity import Span
 from mindrun.robot.drivers.mock import MockActuator, MockSensor
 

@@ -24,7 +24,7 @@ from mindrun.graph.graph import Graph
 from mindrun.graph.policy import Policy
 from mindrun.graph.weights import genes
 from mindrun.graph.wiring import Wiring
-from mindrun.kinds.actuators.wheel import Wheel
+from mindrun.kinds.actuators.actuator import Wheel
 from mindrun.robot.drivers.mock import MockSensor
 
 from tests.draws import cases

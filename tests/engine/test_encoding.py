@@ -17,7 +17,7 @@ from mindrun.graph.codec import decode_part, encode
 from mindrun.graph.graph import Graph
 from mindrun.graph.wiring import Wiring
 from mindrun.kinds.registry import arguments, kinds, names
-from mindrun.kinds.things.zone import Zone
+from mindrun.kinds.things.thing import Zone
 from mindrun.numbers.quantity import Quantity, Span
 
 from tests.draws import cases

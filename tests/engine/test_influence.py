@@ -12,9 +12,9 @@ from mindrun.graph.weights import genes
 from mindrun.kinds.functions.mlp import Mlp
 from mindrun.kinds.memory import Cell
 from mindrun.kinds.sensors.battery import Battery
-from mindrun.kinds.sensors.derivative import Derivative
+from mindrun.kinds.sensors.derived import Derivative
 from mindrun.kinds.sensors.sensor import Scene
-from mindrun.kinds.sensors.sine import Sine
+from mindrun.kinds.sensors.waves import Sine
 from mindrun.numbers.network import matrices
 
 from tests.hierarchies import doubling

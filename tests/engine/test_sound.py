@@ -9,24 +9,18 @@ from mindrun.engine.engine import virtual_sensors
 from mindrun.graph.graph import Edge, End, Gate, Graph, Lesson, Memory, Reward, Sensor, Task, Thing
 from mindrun.graph.measured import with_sources
 from mindrun.graph.validate import graph_flaw
-from mindrun.kinds.events.delivery import Delivery
-from mindrun.kinds.events.reach import Reach
-from mindrun.kinds.events.success import Success
-from mindrun.kinds.events.visit import Visit
+from mindrun.kinds.events.event import Delivery, Reach, Success, Visit
 from mindrun.kinds.functions.mlp import Mlp
 from mindrun.kinds.learners import Genetic
-from mindrun.kinds.measures.progress import Advance, Progress, Retreat
+from mindrun.kinds.measures.measure import Advance, Progress, Retreat
 from mindrun.kinds.memory import Cell
-from mindrun.kinds.scenes.arena import Arena
-from mindrun.kinds.scenes.plain import Plain
+from mindrun.kinds.scenes.scene import Arena, Plain
 from mindrun.kinds.sensors.battery import Battery
-from mindrun.kinds.sensors.derivative import Derivative
-from mindrun.kinds.sensors.range_finder import RangeFinder
-from mindrun.kinds.sensors.sine import Sine
-from mindrun.kinds.things.item import Item
+from mindrun.kinds.sensors.derived import Derivative
+from mindrun.kinds.sensors.rays import RangeFinder
+from mindrun.kinds.sensors.waves import Sine
 from mindrun.kinds.things.obstacle import Obstacle
-from mindrun.kinds.things.thing import ThingKind
-from mindrun.kinds.things.zone import Zone
+from mindrun.kinds.things.thing import Item, ThingKind, Zone
 from mindrun.numbers.expression import is_valid_program
 from mindrun.numbers.quantity import UNSAID, Span
 

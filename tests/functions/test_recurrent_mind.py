@@ -16,7 +16,7 @@ from mindrun.robot.loop import Loop, Rate
 from mindrun.robot.recording import About, Recorder
 from mindrun.robot.replay import replay
 from mindrun.robot.sensing import ReadingFilter, Sampler
-from mindrun.sim.commanded_world import CommandedWorld
+from mindrun.sim.commanded_lanes import CommandedWorld
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 

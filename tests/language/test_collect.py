@@ -4,15 +4,14 @@ from itertools import pairwise
 
 import pytest
 from mindrun.graph.graph import Edge, End, Graph, Reward, Skill
+from mindrun.kinds.functions.function import Rule
 from mindrun.kinds.functions.mlp import Mlp
-from mindrun.kinds.functions.rule import Rule
 from mindrun.kinds.learners import Genetic
-from mindrun.kinds.measures.change import CommandChange
-from mindrun.kinds.measures.forward import Forward
-from mindrun.kinds.scenes.arena import Arena
-from mindrun.kinds.sensors.sine import Sine
-from mindrun.kinds.things.item import Item
+from mindrun.kinds.measures.measure import CommandChange, Forward
+from mindrun.kinds.scenes.scene import Arena
+from mindrun.kinds.sensors.waves import Sine
 from mindrun.kinds.things.obstacle import Obstacle
+from mindrun.kinds.things.thing import Item
 from mindrun.numbers.quantity import Span
 
 from mindlang.compiler.compile import load

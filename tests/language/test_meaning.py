@@ -6,7 +6,7 @@ import pytest
 from mindrun.graph.graph import Graph
 from mindrun.kinds.learners import EvolutionStrategy, Genetic, Restarting
 from mindrun.kinds.registry import arguments, kinds
-from mindrun.kinds.sensors.range_finder import RangeFinder
+from mindrun.kinds.sensors.rays import RangeFinder
 from mindrun.kinds.things.obstacle import Obstacle
 from mindrun.numbers.quantity import Span
 

@@ -8,9 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mindlang.compiler.model import Command, EachReading, Expression, Number, Reading, Term
 from mindlang.compiler.source import Source, Span
-from mindlang.compiler.syntax import Operator
+from mindlang.compiler.syntax import Expression, Term
 from mindlang.lint.intervals import (
     UNBOUNDED,
     UNIT_INTERVAL,
@@ -42,9 +41,9 @@ def expression(*words: str | float) -> Expression:
 def terms(*words: str | float) -> Iterator[Term]:
     for word in words:
         if isinstance(word, str):
-            yield Operator(word, HERE) if word in (*COMPUTED, "negate") else Reading(word, HERE)
+            yield Term(word, 0, HERE) if word in (*COMPUTED, "negate") else Term("reading", word, HERE)
         else:
-            yield Number(word, HERE)
+            yield Term("number", word, HERE)
 
 
 @given(RANGES, RANGES, st.sampled_from([*COMPUTED]), st.booleans())
@@ -82,21 +81,18 @@ def test_of_what_has_no_end_as_much_is_known_as_can_be(words: tuple[str, ...], f
 
 
 def test_commands_and_readings_are_shares_where_nothing_is_known() -> None:
-    for term in (Reading("x", HERE), Command("x", HERE), EachReading(HERE)):
+    for term in (Term("reading", "x", HERE), Term("command", "x", HERE), Term("each", 0, HERE)):
         assert interval(Expression((term,), HERE)) == UNIT_INTERVAL
-    assert interval(Expression((Reading("x", HERE), EachReading(HERE), Operator("+", HERE)), HERE), each=(2, 3)) == (
-        2,
-        4,
-    )
+    of = Expression((Term("reading", "x", HERE), Term("each", 0, HERE), Term("+", 0, HERE)), HERE)
+    assert interval(of, each=(2, 3)) == (2, 4)
 
 
 def test_all_that_is_divided_by_is_told() -> None:
     of = expression(1, "half", 2, "/", "/", "c", 3, "+", "/")
     assert divisors(of, READ.__getitem__) == [(2, 2), (0.25, 0.25), (3, inf)]
     assert divisors(expression("a", "b", "*")) == []
-    assert divisors(Expression((Number(1, HERE), EachReading(HERE), Operator("/", HERE)), HERE), each=(1, 4)) == [
-        (1, 4)
-    ]
+    of = Expression((Term("number", 1, HERE), Term("each", 0, HERE), Term("/", 0, HERE)), HERE)
+    assert divisors(of, each=(1, 4)) == [(1, 4)]
     formula = (("reading", "b"), ("number", 4.0), ("/", 0), ("reading", "a"), ("/", 0))
     assert divisors(formula, READ.__getitem__) == [(4, 4), (-inf, 2)]
     assert divisors(formula) == [(4, 4), UNIT_INTERVAL]

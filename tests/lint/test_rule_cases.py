@@ -6,9 +6,8 @@ from pathlib import Path
 import pytest
 
 from mindlang.compiler.compile import load
-from mindlang.compiler.model import Expression, Number, Reading
 from mindlang.compiler.source import Source, Span
-from mindlang.compiler.syntax import Operator
+from mindlang.compiler.syntax import Expression, Term
 from mindlang.lint.intervals import UNBOUNDED, interval
 from mindlang.lint.lint import lint
 from tests.lint.examples import whole
@@ -232,7 +231,7 @@ def span() -> Span:
     [("+", 2, (2, 3)), ("-", 2, (-2, -1)), ("*", -2, (-2, 0)), ("/", -2, (-0.5, 0)), ("/", 0, UNBOUNDED)],
 )
 def test_intervals(symbol: str, right: float, expected: tuple[float, float]) -> None:
-    terms = (Reading("eye", span()), Number(right, span()), Operator(symbol, span()))
+    terms = (Term("reading", "eye", span()), Term("number", right, span()), Term(symbol, 0, span()))
     assert interval(Expression(terms, span())) == expected
 
 

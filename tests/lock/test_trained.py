@@ -13,7 +13,7 @@ from mindrun.graph.policy import Policy
 from mindrun.graph.weights import genes
 from mindrun.kinds.functions.mlp import Mlp
 from mindrun.kinds.functions.procedure import Procedure
-from mindrun.kinds.sensors.range_finder import RangeFinder
+from mindrun.kinds.sensors.rays import RangeFinder
 
 from mindlang.lock import LockError, Taught, read_lock
 from mindlang.lock.blobs import FOLDER, digest, record

@@ -6,11 +6,10 @@ from typing import Any
 import numpy as np
 from mindrun.graph.graph import Graph
 from mindrun.graph.policy import Policy
-from mindrun.kinds.actuators.action import Action
-from mindrun.kinds.actuators.choice import Choice
-from mindrun.kinds.events.its_end import ItsEnd
-from mindrun.kinds.measures.its_reward import ItsReward
-from mindrun.kinds.scenes.gymnasium import Gymnasium
+from mindrun.kinds.actuators.actuator import Action, Choice
+from mindrun.kinds.events.event import ItsEnd
+from mindrun.kinds.measures.measure import ItsReward
+from mindrun.kinds.scenes.scene import Gymnasium
 from mindrun.sim.outside.rollout import EnvironmentRollout
 
 from mindlang.compiler.compile import Compiled, compile_source

@@ -8,7 +8,7 @@ import numpy as np
 from mindrun.engine.engine import Engine
 from mindrun.graph.graph import Graph, Task
 from mindrun.graph.policy import Policy
-from mindrun.kinds.events.its_end import ItsEnd
+from mindrun.kinds.events.event import ItsEnd
 from mindrun.sim.codes import BROKEN_OFF, GOING_ON
 
 from tests.outside.drawn_worlds import inside

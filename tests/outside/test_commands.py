@@ -182,7 +182,7 @@ def test_a_dry_run_is_refused_before_it_is_begun(mindc: Call, mind: Path, tmp_pa
 
 def test_no_other_simulator_takes_it(mindc: Call, mind: Path) -> None:
     from mindrun.errors import MindError
-    from mindrun.sim.commanded_world import CommandedWorld
+    from mindrun.sim.commanded_lanes import CommandedWorld
 
     from mindlang.compiler.compile import load
 

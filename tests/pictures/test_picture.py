@@ -10,8 +10,7 @@ import cv2
 import numpy as np
 import pytest
 from mindrun.graph.graph import Thing
-from mindrun.kinds.things.item import Item
-from mindrun.kinds.things.zone import Zone
+from mindrun.kinds.things.thing import Item, Zone
 
 from mindlang.compiler.compile import load
 from mindlang.pictures.canvas import Canvas, Image, Viewport, blank

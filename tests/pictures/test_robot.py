@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from mindrun.kinds.scenes.arena import Arena
+from mindrun.kinds.scenes.scene import Arena
 
 from mindlang.compiler.compile import load
 from mindlang.pictures.canvas import Canvas, Region, Viewport, blank, text_width

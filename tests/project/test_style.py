@@ -20,8 +20,6 @@ LONG_FILES = {
 }
 LONG_FUNCTIONS = {
     "mindlang/compiler/resolve/__init__.py: resolve_mind": "a line for each stage, in their order",
-    "mindlang/cli/deploy.py: command": "a parameter in a line of its own for each option of the command",
-    "mindlang/cli/train.py: command": "a parameter in a line of its own for each option of the command",
 }
 SHORT_CONSTANTS = {  # that are numbers of one word
     "mindlang/cli/_terminal.py": "exit codes, as they are called",

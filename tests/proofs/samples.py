@@ -9,7 +9,7 @@ from mindrun.graph.weights import Weights
 from mindrun.kinds.functions.mlp import Mlp
 from mindrun.kinds.functions.procedure import Procedure
 from mindrun.kinds.memory import Cell
-from mindrun.kinds.sensors.range_finder import RangeFinder
+from mindrun.kinds.sensors.rays import RangeFinder
 
 from mindlang.proofs.recorded import Recorded, Undriven
 from tests.hierarchies import doubling

@@ -8,9 +8,9 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 from mindrun.graph.graph import Edge, Program, Skill
 from mindrun.graph.weights import genes
+from mindrun.kinds.functions.function import Rule
 from mindrun.kinds.functions.mlp import Mlp
 from mindrun.kinds.functions.procedure import Procedure
-from mindrun.kinds.functions.rule import Rule
 
 from mindlang.proofs.interval import (
     SIGMOID_ERROR,

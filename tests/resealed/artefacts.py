@@ -26,7 +26,7 @@ from mindrun.graph.weights import genes
 from mindrun.robot.guardian import plan
 from mindrun.robot.recording import About, Recorder
 from mindrun.robot.replay import replay
-from mindrun.sim.commanded_world import CommandedWorld
+from mindrun.sim.commanded_lanes import CommandedWorld
 from mindrun.train import checkpoint
 from mindrun.train.manifest import hashes
 from mindrun.train.progress import LINES, read_progress

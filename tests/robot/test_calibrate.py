@@ -4,8 +4,8 @@ import pytest
 from mindrun.cli.calibrate import lines, reading_statistics
 from mindrun.graph.wiring import SensorWire
 from mindrun.kinds.sensors.compass import Compass
-from mindrun.kinds.sensors.distance import Distance
-from mindrun.kinds.sensors.inertial import Inertial
+from mindrun.kinds.sensors.motion import Inertial
+from mindrun.kinds.sensors.nearest import Distance
 from mindrun.robot.sensing import Sample
 
 from tests.robot.faults import Scripted

@@ -18,7 +18,7 @@ from mindrun.robot.dry_run import MAX_END_TICKS, DryRun, SeenWorld
 from mindrun.robot.recording import read
 from mindrun.robot.replay import replay_recording
 from mindrun.robot.world_server import SimulatedScene, WorldServer, listening
-from mindrun.sim.commanded_world import CommandedWorld
+from mindrun.sim.commanded_lanes import CommandedWorld
 from mindrun.terminal.standard_streams import StatusLine
 
 from mindlang.compiler.compile import load

@@ -14,7 +14,7 @@ from mindrun.graph.graph import Graph, Task, Thing
 from mindrun.graph.policy import Policy
 from mindrun.robot.dry_run import MAX_THINGS_NAMED, DryRun, beginning, outcome
 from mindrun.robot.recording import read
-from mindrun.sim.commanded_world import CommandedWorld
+from mindrun.sim.commanded_lanes import CommandedWorld
 from mindrun.sim.rollout import Rollout
 from mindrun.terminal.standard_streams import CLEAR, PLAIN_SECONDS, StatusLine, error_columns
 

@@ -28,7 +28,7 @@ from mindrun.robot.drivers.simulated import SimulatedActuator, SimulatedSensor
 from mindrun.robot.dry_run import simulated_wiring
 from mindrun.robot.simulated_world import READ, REQUEST, STATUS, WRITE, WorldConnection, simulated, status
 from mindrun.robot.world_server import SimulatedScene, WorldServer, listening
-from mindrun.sim.commanded_world import CommandedWorld
+from mindrun.sim.commanded_lanes import CommandedWorld
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 

@@ -15,7 +15,7 @@ from mindrun.graph.graph import Edge, Graph, Skill
 from mindrun.graph.measured import measured_in_world, rows_of, used_sensors
 from mindrun.graph.policy import Policy
 from mindrun.graph.skill_sets import reachable
-from mindrun.kinds.functions.rule import Rule
+from mindrun.kinds.functions.function import Rule
 from mindrun.kinds.sensors.sensor import Physical
 from mindrun.robot.recording import read
 
@@ -43,7 +43,7 @@ def partly_read(draw: st.DrawFn) -> Graph:
     graph = draw(random_world(most=12))
     graph = replace(graph, master=draw(st.sampled_from([skill.name for skill in graph.skills])))
     task = replace(graph.tasks[0], varies=tuple(v for v in graph.tasks[0].varies if v.noun != "sensor"))
-    aside = used_sensors(graph, reachable(graph, graph.master), task).aside
+    _, aside = used_sensors(graph, reachable(graph, graph.master), task)
     return calm(replace(graph, tasks=(task,)), {each.name for each in aside})
 
 

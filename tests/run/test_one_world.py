@@ -6,7 +6,7 @@ import pytest
 from mindrun.graph.graph import Graph
 from mindrun.graph.policy import Policy
 from mindrun.graph.tasks import is_one_world
-from mindrun.kinds.scenes.gymnasium import Gymnasium
+from mindrun.kinds.scenes.scene import Gymnasium
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 

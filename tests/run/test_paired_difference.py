@@ -53,8 +53,6 @@ def test_its_figures_are_those_of_the_books(turned: int, offset: float) -> None:
     assert found.most_that_differ == pytest.approx(0.0721575, abs=1e-6)
     assert found.detectable == pytest.approx(max(1.96 * error, found.unseen or 0) + 0.8416 * error, rel=1e-4)
     assert not found.is_widened
-    data = found.data()
-    assert PairedDifference(**data) == found  # type: ignore[arg-type]
 
 
 @given(st.floats(0.01, 20), st.floats(0.01, 10), st.booleans())

@@ -7,7 +7,7 @@ from rich.console import Group, RenderableType
 
 from mindlang.run.recorded_run import RecordedRun, RunResult
 from mindlang.whatif.comparison import Compared, TickDifference, first_differences
-from mindlang.whatif.open_loop import CommandDifference, OpenLoop
+from mindlang.whatif.open_loop import OpenLoop
 from mindlang.whatif.report import comparison_summary, differences_text, recording_data, recording_summary
 from mindlang.whatif.request import Request
 
@@ -92,8 +92,8 @@ def test_two_runs() -> None:
 
 def test_a_recording() -> None:
     sent = {
-        "left_wheel": CommandDifference(1100, 0.123, 1.0, 1200),
-        "right_wheel": CommandDifference(0, 0.0, 0.0, None),
+        "left_wheel": {"ticks": 1100, "mean": 0.123, "most": 1.0, "most_tick": 1200},
+        "right_wheel": {"ticks": 0, "mean": 0.0, "most": 0.0, "most_tick": None},
     }
     request, found = Request(20, without=("Avoid",)), OpenLoop("Go", 1200, [], sent)
     assert text(recording_summary(request, "day.rec", found)) == RECORDING

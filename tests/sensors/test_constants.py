@@ -7,12 +7,11 @@ import numpy as np
 import pytest
 from mindrun.graph.graph import Graph, Reward, Sensor, Task, Thing
 from mindrun.graph.policy import Policy
-from mindrun.kinds.scenes.arena import Arena
+from mindrun.kinds.scenes.scene import Arena
 from mindrun.kinds.sensors.battery import Battery
-from mindrun.kinds.sensors.bearing import Bearing
-from mindrun.kinds.sensors.sine import Sine
-from mindrun.kinds.things.item import Item
-from mindrun.kinds.things.power import Power
+from mindrun.kinds.sensors.nearest import Bearing
+from mindrun.kinds.sensors.waves import Sine
+from mindrun.kinds.things.thing import Item, Power
 from mindrun.numbers.quantity import Span
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace

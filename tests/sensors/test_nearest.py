@@ -8,17 +8,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 from mindrun.graph.graph import Reward, Task, Thing
 from mindrun.graph.policy import Policy
-from mindrun.kinds.scenes.arena import Arena
-from mindrun.kinds.sensors.bearing import Bearing
-from mindrun.kinds.sensors.contact import Contact
-from mindrun.kinds.sensors.held import Held
-from mindrun.kinds.sensors.inside import Inside
-from mindrun.kinds.things.item import Item
+from mindrun.kinds.scenes.scene import Arena
+from mindrun.kinds.sensors.claw import Contact, Held
+from mindrun.kinds.sensors.floor import Inside
+from mindrun.kinds.sensors.nearest import Bearing
 from mindrun.kinds.things.map import Map
 from mindrun.kinds.things.obstacle import Obstacle
-from mindrun.kinds.things.thing import ThingKind
+from mindrun.kinds.things.thing import Item, ThingKind, Zone
 from mindrun.kinds.things.wall import Wall
-from mindrun.kinds.things.zone import Zone
 from mindrun.numbers.arithmetic import DISTANCE, HALF_X, THING_ROWS, nearest
 from mindrun.numbers.quantity import Span
 from mindrun.sim.rollout import Rollout

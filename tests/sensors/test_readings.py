@@ -12,18 +12,13 @@ from hypothesis import strategies as st
 from mindrun.graph.graph import Graph, Reward, Sensor
 from mindrun.graph.policy import Policy
 from mindrun.kinds.registry import kinds
-from mindrun.kinds.sensors.bearing import Bearing
 from mindrun.kinds.sensors.bumper import Bumper
-from mindrun.kinds.sensors.clock import Clock
-from mindrun.kinds.sensors.distance import Distance
-from mindrun.kinds.sensors.eye import Eye
 from mindrun.kinds.sensors.floor import Floor
-from mindrun.kinds.sensors.light import Light
-from mindrun.kinds.sensors.odometer import Odometer
-from mindrun.kinds.sensors.position import Position
+from mindrun.kinds.sensors.motion import Odometer, Position, Speed, TurnRate
+from mindrun.kinds.sensors.nearest import Bearing, Distance, Light
+from mindrun.kinds.sensors.rays import Eye
 from mindrun.kinds.sensors.sensor import Physical, SensorKind
-from mindrun.kinds.sensors.speed import Speed
-from mindrun.kinds.sensors.turn_rate import TurnRate
+from mindrun.kinds.sensors.waves import Clock
 from mindrun.numbers.arithmetic import DISTANCE, LOOSE_ROWS, THING_ROWS
 from mindrun.numbers.trigonometry import cosine, sine
 from mindrun.sim.rollout import Rollout

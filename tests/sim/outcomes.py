@@ -5,10 +5,8 @@ from math import sqrt
 
 import numpy as np
 from mindrun.graph.graph import Graph, Task
-from mindrun.kinds.things.item import Item
 from mindrun.kinds.things.obstacle import Obstacle
-from mindrun.kinds.things.power import Power
-from mindrun.kinds.things.zone import Zone
+from mindrun.kinds.things.thing import Item, Power, Zone
 from mindrun.numbers.trigonometry import cosine, sine
 from mindrun.sim.trace import Moment, Trace
 from numpy.typing import NDArray

@@ -2,10 +2,7 @@
 
 import math
 
-from mindrun.kinds.bodies.box import Box
-from mindrun.kinds.bodies.car import Car
-from mindrun.kinds.bodies.disc import Disc
-from mindrun.kinds.bodies.holonomic import Holonomic
+from mindrun.kinds.bodies.body import Box, Car, Disc, Holonomic
 
 
 def sides_of(body):

@@ -3,8 +3,7 @@
 import math
 
 import pymunk
-from mindrun.kinds.things.ball import Ball
-from mindrun.kinds.things.box import LooseBox
+from mindrun.kinds.things.thing import Ball, LooseBox
 
 from tests.sim.plain_strides import Mover
 

@@ -4,14 +4,10 @@ import math
 
 import numpy as np
 from mindrun.kinds.sensors.bumper import Bumper
-from mindrun.kinds.sensors.distance import Distance
-from mindrun.kinds.sensors.eye import Eye
 from mindrun.kinds.sensors.floor import Floor
-from mindrun.kinds.sensors.light import Light
-from mindrun.kinds.sensors.odometer import Odometer
-from mindrun.kinds.sensors.position import Position
-from mindrun.kinds.sensors.speed import Speed
-from mindrun.kinds.sensors.turn_rate import TurnRate
+from mindrun.kinds.sensors.motion import Odometer, Position, Speed, TurnRate
+from mindrun.kinds.sensors.nearest import Distance, Light
+from mindrun.kinds.sensors.rays import Eye
 
 from tests.sim.plain_bodies import rim_of, side_of
 

@@ -5,38 +5,20 @@ from collections import deque
 
 import numpy as np
 import pymunk
-from mindrun.kinds.actuators.gripper import Gripper
-from mindrun.kinds.actuators.motor import Motor
-from mindrun.kinds.actuators.steering import Steering
-from mindrun.kinds.actuators.thruster import Thruster
-from mindrun.kinds.actuators.wheel import Wheel
-from mindrun.kinds.bodies.car import Car
-from mindrun.kinds.bodies.disc import Disc
-from mindrun.kinds.bodies.holonomic import Holonomic
-from mindrun.kinds.events.collision import Collision
-from mindrun.kinds.events.delivery import Delivery
-from mindrun.kinds.events.exhaustion import Exhaustion
-from mindrun.kinds.events.reach import Reach
-from mindrun.kinds.events.success import Success
-from mindrun.kinds.events.visit import Visit
-from mindrun.kinds.measures.change import CommandChange
-from mindrun.kinds.measures.forward import Forward
-from mindrun.kinds.measures.progress import Advance, Progress, Retreat
-from mindrun.kinds.scenes.arena import Arena
+from mindrun.kinds.actuators.actuator import Gripper, Motor, Steering, Thruster, Wheel
+from mindrun.kinds.bodies.body import Car, Disc, Holonomic
+from mindrun.kinds.events.event import Collision, Delivery, Exhaustion, Reach, Success, Visit
+from mindrun.kinds.measures.measure import Advance, CommandChange, Forward, Progress, Retreat
+from mindrun.kinds.scenes.scene import Arena
 from mindrun.kinds.sensors.battery import Battery
-from mindrun.kinds.sensors.bearing import Bearing
+from mindrun.kinds.sensors.claw import Contact, Held
 from mindrun.kinds.sensors.compass import Compass
-from mindrun.kinds.sensors.contact import Contact
-from mindrun.kinds.sensors.held import Held
-from mindrun.kinds.sensors.inertial import Inertial
-from mindrun.kinds.sensors.inside import Inside
-from mindrun.kinds.sensors.range_finder import RangeFinder
-from mindrun.kinds.things.ball import Ball
-from mindrun.kinds.things.box import LooseBox
-from mindrun.kinds.things.item import Item
+from mindrun.kinds.sensors.floor import Inside
+from mindrun.kinds.sensors.motion import Inertial
+from mindrun.kinds.sensors.nearest import Bearing
+from mindrun.kinds.sensors.rays import RangeFinder
 from mindrun.kinds.things.obstacle import Obstacle
-from mindrun.kinds.things.power import Power
-from mindrun.kinds.things.zone import Zone
+from mindrun.kinds.things.thing import Ball, Item, LooseBox, Power, Zone
 from mindrun.numbers.trigonometry import cosine, sine
 
 from tests.plain import f, postfix

@@ -6,20 +6,11 @@ from math import pi
 from random import Random
 
 from mindrun.graph.graph import Actuator, Graph, Thing
-from mindrun.kinds.actuators.motor import Motor
-from mindrun.kinds.actuators.steering import Steering
-from mindrun.kinds.actuators.thruster import Thruster
-from mindrun.kinds.actuators.wheel import Wheel
-from mindrun.kinds.bodies.body import BodyKind
-from mindrun.kinds.bodies.box import Box
-from mindrun.kinds.bodies.car import Car
-from mindrun.kinds.bodies.disc import Disc
-from mindrun.kinds.bodies.holonomic import Holonomic
-from mindrun.kinds.scenes.arena import Arena
-from mindrun.kinds.things.ball import Ball
-from mindrun.kinds.things.box import LooseBox
-from mindrun.kinds.things.item import Item
+from mindrun.kinds.actuators.actuator import Motor, Steering, Thruster, Wheel
+from mindrun.kinds.bodies.body import BodyKind, Box, Car, Disc, Holonomic
+from mindrun.kinds.scenes.scene import Arena
 from mindrun.kinds.things.map import Map
+from mindrun.kinds.things.thing import Ball, Item, LooseBox
 from mindrun.kinds.things.walker import Walker
 from mindrun.kinds.things.wall import Wall
 from mindrun.numbers.quantity import Span

@@ -10,10 +10,10 @@ from mindrun.engine.engine import Engine
 from mindrun.graph.graph import Graph, Reward, Task, Thing
 from mindrun.graph.policy import Policy
 from mindrun.graph.weights import genes
-from mindrun.kinds.events.collision import Collision
-from mindrun.kinds.scenes.arena import Arena
-from mindrun.kinds.things.item import Item
+from mindrun.kinds.events.event import Collision
+from mindrun.kinds.scenes.scene import Arena
 from mindrun.kinds.things.obstacle import Obstacle
+from mindrun.kinds.things.thing import Item
 from mindrun.numbers.quantity import Span
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace

@@ -10,24 +10,18 @@ import pytest
 from mindrun.engine.engine import Engine
 from mindrun.graph.graph import Actuator, Edge, End, Reward, Sensor, Task, Thing
 from mindrun.graph.policy import Policy
-from mindrun.kinds.actuators.gripper import Gripper
-from mindrun.kinds.actuators.wheel import Wheel
-from mindrun.kinds.events.reach import Reach
-from mindrun.kinds.events.visit import Visit
+from mindrun.kinds.actuators.actuator import Gripper, Wheel
+from mindrun.kinds.events.event import Reach, Visit
 from mindrun.kinds.functions.mlp import Mlp
 from mindrun.kinds.memory import Cell
-from mindrun.kinds.scenes.arena import Arena
-from mindrun.kinds.scenes.plain import Plain
+from mindrun.kinds.scenes.scene import Arena, Plain
 from mindrun.kinds.sensors.battery import Battery
-from mindrun.kinds.sensors.bearing import Bearing
-from mindrun.kinds.sensors.derivative import Derivative
-from mindrun.kinds.sensors.range_finder import RangeFinder
-from mindrun.kinds.sensors.sine import Sine
-from mindrun.kinds.things.box import LooseBox
-from mindrun.kinds.things.item import Item
+from mindrun.kinds.sensors.derived import Derivative
+from mindrun.kinds.sensors.nearest import Bearing
+from mindrun.kinds.sensors.rays import RangeFinder
+from mindrun.kinds.sensors.waves import Sine
 from mindrun.kinds.things.obstacle import Obstacle
-from mindrun.kinds.things.power import Power
-from mindrun.kinds.things.zone import Zone
+from mindrun.kinds.things.thing import Item, LooseBox, Power, Zone
 from mindrun.numbers.arithmetic import in_claw
 from mindrun.numbers.quantity import Span
 from mindrun.sim.lanes.placement import uniform

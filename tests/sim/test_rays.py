@@ -5,7 +5,7 @@ import pymunk
 import pytest
 from mindrun.graph.graph import Graph
 from mindrun.graph.policy import Policy
-from mindrun.kinds.sensors.range_finder import RangeFinder
+from mindrun.kinds.sensors.rays import RangeFinder
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 

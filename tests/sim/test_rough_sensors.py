@@ -131,7 +131,7 @@ def hold_in_any_lane(of: Graph) -> None:
 
 def test_the_arguments_of_a_kind_come_before_those_of_all() -> None:
     from mindrun.kinds.registry import arguments
-    from mindrun.kinds.sensors.range_finder import RangeFinder
+    from mindrun.kinds.sensors.rays import RangeFinder
 
     keys = [argument.key for argument in arguments(RangeFinder)]
     assert keys == ["at", "range", "dead_zone", "noise", "lost", "every", "delay"]

@@ -6,42 +6,18 @@ from math import pi
 from hypothesis import strategies as st
 from mindrun.graph.graph import Actuator, End, Failure, Graph, Lesson, Program, Reward, Start, Task, Thing, Variation
 from mindrun.graph.weights import genes
-from mindrun.kinds.actuators.gripper import Gripper
-from mindrun.kinds.actuators.lamp import Lamp
-from mindrun.kinds.actuators.motor import Motor
-from mindrun.kinds.actuators.servo import Servo
-from mindrun.kinds.actuators.steering import Steering
-from mindrun.kinds.actuators.thruster import Thruster
-from mindrun.kinds.actuators.wheel import Wheel
-from mindrun.kinds.bodies.box import Box
-from mindrun.kinds.bodies.car import Car
-from mindrun.kinds.bodies.disc import Disc
-from mindrun.kinds.bodies.holonomic import Holonomic
-from mindrun.kinds.events.collision import Collision
-from mindrun.kinds.events.delivery import Delivery
-from mindrun.kinds.events.event import EventKind
-from mindrun.kinds.events.exhaustion import Exhaustion
-from mindrun.kinds.events.reach import Reach
-from mindrun.kinds.events.success import Success
-from mindrun.kinds.events.visit import Visit
+from mindrun.kinds.actuators.actuator import Gripper, Lamp, Motor, Servo, Steering, Thruster, Wheel
+from mindrun.kinds.bodies.body import Box, Car, Disc, Holonomic
+from mindrun.kinds.events.event import Collision, Delivery, EventKind, Exhaustion, Reach, Success, Visit
 from mindrun.kinds.learners import Learner
-from mindrun.kinds.measures.change import CommandChange
-from mindrun.kinds.measures.forward import Forward
-from mindrun.kinds.measures.measure import MeasureKind
-from mindrun.kinds.measures.progress import Advance, Progress, Retreat
+from mindrun.kinds.measures.measure import Advance, CommandChange, Forward, MeasureKind, Progress, Retreat
 from mindrun.kinds.registry import arguments, kinds
-from mindrun.kinds.scenes.arena import Arena
-from mindrun.kinds.scenes.plain import Plain
-from mindrun.kinds.scenes.scene import SceneKind
-from mindrun.kinds.things.ball import Ball
-from mindrun.kinds.things.box import LooseBox
-from mindrun.kinds.things.item import Item
+from mindrun.kinds.scenes.scene import Arena, Plain, SceneKind
 from mindrun.kinds.things.map import Map
 from mindrun.kinds.things.obstacle import Obstacle
-from mindrun.kinds.things.power import Power
+from mindrun.kinds.things.thing import Ball, Item, LooseBox, Power, Zone
 from mindrun.kinds.things.walker import Walker
 from mindrun.kinds.things.wall import Wall
-from mindrun.kinds.things.zone import Zone
 from mindrun.numbers.quantity import UNSAID, Span
 
 from tests.hierarchies import combined, conditions, random_graph

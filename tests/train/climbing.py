@@ -5,9 +5,9 @@ from time import perf_counter
 
 import numpy as np
 from mindrun.graph.graph import End, Lesson, Need, Task
-from mindrun.kinds.events.collision import Collision
+from mindrun.kinds.events.event import Collision
 from mindrun.kinds.learners import Genetic
-from mindrun.kinds.scenes.plain import Plain
+from mindrun.kinds.scenes.scene import Plain
 from mindrun.train.manifest import Manifest, hashes
 from mindrun.train.training import Watch
 from numpy.typing import NDArray

@@ -174,8 +174,8 @@ def test_the_previous_one_is_taken_and_it_is_said(tmp_path: Path, states: list[L
     (tmp_path / checkpoint.NAME).write_bytes(damage)
     found = load(tmp_path, RUN)
     assert found is not None
-    assert found.state.now.population.generation == 1
-    assert "damaged" in found.warning
+    assert found[0].now.population.generation == 1
+    assert "damaged" in found[1]
 
 
 def test_a_damaged_one_never_replaces_the_good_previous_one(tmp_path: Path, states: list[LessonState]) -> None:
@@ -186,7 +186,7 @@ def test_a_damaged_one_never_replaces_the_good_previous_one(tmp_path: Path, stat
     (tmp_path / checkpoint.NAME).unlink()
     found = load(tmp_path, RUN)
     assert found is not None
-    assert found.state.now.population.generation == 1
+    assert found[0].now.population.generation == 1
 
 
 def test_a_crash_between_the_two_renames_costs_nothing_but_one_checkpoint(
@@ -196,7 +196,7 @@ def test_a_crash_between_the_two_renames_costs_nothing_but_one_checkpoint(
     (tmp_path / checkpoint.NAME).rename(tmp_path / checkpoint.PREVIOUS)
     found = load(tmp_path, RUN)
     assert found is not None
-    assert found.warning == ""
+    assert found[1] == ""
 
 
 def test_with_nothing_whole_left_it_is_refused(tmp_path: Path, states: list[LessonState]) -> None:

@@ -90,7 +90,7 @@ STATES: dict[str, Callable[[LessonState], LessonState]] = {
 def test_a_checkpoint_to_which_no_run_comes_is_refused(run: RunFolder, what: str) -> None:
     found = checkpoint.load(run.folder, run.manifest.identity)
     assert found
-    changed = checkpoint.pack(STATES[what](found.state), run.manifest.identity)
+    changed = checkpoint.pack(STATES[what](found[0]), run.manifest.identity)
     (run.folder / checkpoint.NAME).write_bytes(changed)
     with pytest.raises(RunError, match="no run of this lesson comes to where it stands"):
         train(run, Sphere(), unwatched())

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from mindlang.run.edge_flow import edge_flows
 from mindlang.run.recorded_run import record_run
-from mindlang.view.rows import DOUBLE_BLOCK, SINGLE_BLOCK, Chunk, RowBlocks
+from mindlang.view.rows import DOUBLE_BLOCK, SINGLE_BLOCK, RowBlocks
 from tests.view.serving import Served, prepared, unpacked
 
 
@@ -45,7 +45,7 @@ def test_rows_of_any_parts_are_those_of_the_whole(lengths: list[int], data: st.D
     blocks, first = RowBlocks(), 0
     for length in lengths:
         part = whole[first : first + length]
-        blocks.append(Chunk((part, part.astype(np.float32))))
+        blocks.append(part, part.astype(np.float32))
         first += length
     drawn = data.draw(st.tuples(*[st.integers(0, first)] * 2, st.integers(1, 40), st.integers(1, 500)))
     ticks = blocks.ticks(*drawn)

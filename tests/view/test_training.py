@@ -125,7 +125,7 @@ def test_a_run_from_before_has_the_last_champion_of_each_attempt(run: Path) -> N
     learning, _ = begun(run)
     learnt = learning.runs[0]
     assert not learnt.keeps_all
-    state = checkpoint.load(run, open_run(run).manifest.identity).state  # type: ignore[union-attr]
+    state = checkpoint.load(run, open_run(run).manifest.identity)[0]  # type: ignore[index]
     assert [each.genome.tobytes() for each in learnt.champions] == [each.tobytes() for each in state.champions]
     with pytest.raises(RefusedError, match="only the champion of generation 25 of attempt 1"):
         learning.begin(0, 1, 10)

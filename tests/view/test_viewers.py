@@ -21,7 +21,7 @@ from mindlang.view.messages import AskChange, AskRows
 from mindlang.view.rows import MAX_FRAME_BYTES
 from mindlang.view.server import SECURITY
 from mindlang.view.session import ViewSession
-from mindlang.view.viewed import Fork
+from mindlang.view.viewed import Viewed
 from tests.view.serving import (
     ANSWER_SECONDS,
     UPGRADE,
@@ -80,7 +80,7 @@ def test_what_a_change_waits_for_is_said_until_it_has_come(path: Path) -> None:
     viewed, compiled = simulated(path), Event()
     forked = viewed.forked
 
-    def slow(change: AskChange) -> Fork:
+    def slow(change: AskChange) -> tuple[Viewed, str]:
         assert forked
         assert compiled.wait(ANSWER_SECONDS)
         return forked(change)
@@ -101,7 +101,7 @@ def test_what_a_change_waits_for_is_said_until_it_has_come(path: Path) -> None:
 def test_a_change_that_cannot_be_made_is_refused_with_what_to_do(path: Path) -> None:
     viewed = simulated(path)
 
-    def failing(change: AskChange) -> Fork:
+    def failing(change: AskChange) -> tuple[Viewed, str]:
         raise MindError("this cannot be", "do that")
 
     viewed.forked = failing
@@ -250,7 +250,7 @@ def test_events_come_in_parts_where_they_are_many(path: Path, monkeypatch: pytes
 
 
 def test_forks_are_bounded(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("mindlang.view.session.MAX_FORKS", 1)
+    monkeypatch.setattr("mindlang.view.messages.MAX_FORKS", 1)
     with served(simulated(path)) as view, view.viewer() as viewer:
         column = viewer.hear("about")["nodes"][0]["columns"][0]
         viewer.say(**CHANGE, column=column)

@@ -2,7 +2,6 @@
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Any
 
@@ -26,40 +25,25 @@ _CODE = re.compile(r'(?:"[^"]*"|[^#])*')
 _HEADER = re.compile(r"\s*(\w+)\s+(\w[\w.+]*)")
 
 
-@dataclass(slots=True)
-class _Block:
-    header: syntax.Header | None
-    facts: list[syntax.Fact] = field(default_factory=list)
-    whole: bool = True
-
-
-class _Unread:
-    """A line that cannot be read, and no header."""
-
-
 def parse(source: Source, findings: Findings) -> syntax.File:
     """The file as far as its lines can be read; the others are reported."""
     settings: list[syntax.Setting] = []
-    blocks: list[_Block] = []
-    above: _Block | None = None
+    blocks: list[tuple[syntax.Header | None, list[syntax.Fact | None]]] = []  # None is a line that cannot be read
+    is_below_header = False
     for line in _lines(source, findings):
-        match line:
-            case syntax.Header():
-                above = _Block(line)
-                blocks.append(above)
-            case _ if isinstance(line, syntax.Setting):
-                above = None
-                settings.append(line)
-            case _Unread():
-                above = above or _Block(None)
-                above.whole = False
-            case _ if above is None:
-                hint = "A fact stands below the skill, task or curriculum to which it belongs."
-                findings.error("homeless-fact", line.span, "This fact belongs to no declaration.", hint)
-            case _:
-                above.facts.append(line)
+        if isinstance(line, syntax.Setting):
+            settings.append(line)
+            is_below_header = False
+        elif isinstance(line, syntax.Header) or not (line or is_below_header):  # what cannot be read may be a header
+            blocks.append((line, []))
+            is_below_header = True
+        elif is_below_header:
+            blocks[-1][1].append(line)
+        else:
+            hint = "A fact stands below the skill, task or curriculum to which it belongs."
+            findings.error("homeless-fact", line.span, "This fact belongs to no declaration.", hint)
     declarations = (
-        syntax.Declaration(block.header, tuple(block.facts), block.whole) for block in blocks if block.header
+        syntax.Declaration(header, tuple(filter(None, facts)), None not in facts) for header, facts in blocks if header
     )
     return syntax.File(source, tuple(settings), tuple(declarations))
 
@@ -93,14 +77,14 @@ def _coded_lines(source: Source) -> Iterator[tuple[Span, str]]:
         offset += len(text) + 1
 
 
-def _line(span: Span, code: str, findings: Findings, start: Start) -> syntax.Line | syntax.Stop | _Unread:
-    """The syntax of a line; of one that is wrong, after reporting it, the part that can be saved."""
+def _line(span: Span, code: str, findings: Findings, start: Start) -> syntax.Line | syntax.Stop | None:
+    """The syntax of a line; of one that is wrong, after reporting it, its header, if that can be saved."""
     from lark import UnexpectedInput
 
     if code.count("(") + code.count("-") > MAX_NESTING and _depth(code) > MAX_NESTING:
         hint = f"At most {MAX_NESTING} parentheses and signs may stand inside one another."
         findings.error("nested-too-deep", span, "This expression is nested too deep.", hint)
-        return _Unread()
+        return None
     try:
         return parse_line(code, span.source, span.start, start)
     except UnexpectedInput as error:
@@ -108,12 +92,12 @@ def _line(span: Span, code: str, findings: Findings, start: Start) -> syntax.Lin
         return _saved(code, span)
 
 
-def _saved(code: str, span: Span) -> syntax.Header | _Unread:
-    """The header that a malformed line was meant to be, so that its name is known and its facts have a home."""
+def _saved(code: str, span: Span) -> syntax.Header | None:
+    """The header that a malformed line was meant to be, so that its facts have a home; None where it was none."""
     found = _HEADER.match(code)
     noun = _meant(found[1]) if found else None
     if not found or noun not in NOUNS:
-        return _Unread()
+        return None
     nouns, names = (Span(span.source, span.start + found.start(i), span.start + found.end(i)) for i in (1, 2))
     return syntax.Header(syntax.Name(noun, nouns), syntax.Name(proper(noun, found[2]), names), None, span)
 

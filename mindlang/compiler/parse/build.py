@@ -10,9 +10,9 @@ from msgspec import Struct
 
 from mindlang.compiler import syntax
 from mindlang.compiler.source import Source, Span
-from mindlang.compiler.syntax import Amount, Argument, Expression, Name, Numbers, Operator, Phrase, Term
+from mindlang.compiler.syntax import Amount, Argument, Expression, Name, Numbers, Phrase, Term
 
-Terms = list[Term]
+Terms = list[Amount | Phrase | Term]
 
 _NUMBER = re.compile(r"([+-]?)[ \t]*([0-9./]+)")
 # Rules whose parts are the fields of a struct in their order, but for the span; the last may be missing.
@@ -23,13 +23,16 @@ _FORMS: Mapping[str, type[Struct]] = {
     "transmission": syntax.Transmits, "needs": syntax.Needs, "each": syntax.Each, "when": syntax.When,
     "comparison": syntax.Comparison, "argument": Argument, "setting": Argument, "origin": Argument,
 }  # fmt: skip
+_OUTCOME = {"times": Amount, "event": Phrase, "when": syntax.When}
 # Rules any of whose parts may be missing: which field a part is, its type says.
 _FIELDS: Mapping[str, tuple[type[Struct], Mapping[str, type]]] = {
     "drives": (syntax.Drives, {"name": Name, "at": Expression, "gate": syntax.Gate}),
     "influences": (syntax.Influences, {"name": Name, "at": Expression, "gate": syntax.Gate, "cuts": Amount}),
     "starts": (syntax.Starts, {"place": tuple, "facing": Amount}),
-    "ends": (syntax.Ends, {"times": Amount, "event": Phrase, "when": syntax.When}),
-    "succeeds": (syntax.Succeeds, {"times": Amount, "event": Phrase, "when": syntax.When}),
+    "ends": (syntax.Ends, _OUTCOME),
+    "succeeds": (syntax.Succeeds, _OUTCOME),
+    "stop": (syntax.Stop, {**_OUTCOME, "tick": syntax.Tick}),
+    "rewards": (syntax.Rewards, {"amount": Expression, "on": Phrase, "each": syntax.Each, "when": syntax.When}),
 }
 
 
@@ -54,7 +57,8 @@ class Builder(Transformer_NonRecursive[Token, Any]):
         """A rule of the tables."""
         if data in _FIELDS:
             form, fields = _FIELDS[data]
-            return form(**{field: _one(children, of) for field, of in fields.items()}, span=self._span(meta))
+            found = {field: next(iter(syntax.of_form(children, of)), None) for field, of in fields.items()}
+            return form(**found, span=self._span(meta))
         form = _FORMS[data]
         missing = len(form.__struct_fields__) - 1 - len(children)
         return form(*children, *[None] * missing, self._span(meta))
@@ -119,21 +123,6 @@ class Builder(Transformer_NonRecursive[Token, Any]):
     def place(self, meta: Any, parts: list[Any]) -> tuple[Amount, ...]:
         return tuple(parts)
 
-    def stop(self, meta: Any, parts: list[Any]) -> syntax.Stop:
-        """A tick stands in a list, since the times of an event are an amount, too."""
-        times, event, when, tick = (_one(parts, form) for form in (Amount, Phrase, syntax.When, list))
-        return syntax.Stop(times, event, when, self._span(meta), tick[0] if tick else None)
-
-    def moment(self, meta: Any, parts: list[Any]) -> list[Amount]:
-        return parts
-
-    def rewards(self, meta: Any, parts: list[Any]) -> syntax.Rewards:
-        amount, *rest = parts
-        if isinstance(amount, Phrase):
-            amount = Expression((amount,), amount.span)
-        on, each, when = (_one(rest, form) for form in (Phrase, syntax.Each, syntax.When))
-        return syntax.Rewards(amount, on, each, when, self._span(meta))
-
     def teaches(self, meta: Any, parts: list[Any]) -> syntax.Teaches:
         skill, task, *rest = parts
         master = rest.pop(0) if isinstance(rest[0], Name) else None
@@ -190,29 +179,24 @@ class Builder(Transformer_NonRecursive[Token, Any]):
     def chain(self, meta: Any, parts: list[Any]) -> Terms:
         terms = _terms(parts[0])
         for operator, right in zip(parts[1::2], parts[2::2], strict=True):
-            terms += [*_terms(right), Operator(str(operator), self._span(operator))]
+            terms += [*_terms(right), Term(str(operator), 0, self._span(operator))]
         return terms
 
     product = chain
 
     def negative(self, meta: Any, parts: list[Any]) -> Terms:
-        return [*_terms(parts[1]), Operator("negate", self._span(parts[0]))]
+        return [*_terms(parts[1]), Term("negate", 0, self._span(parts[0]))]
 
     def bare(self, meta: Any, parts: list[Any]) -> Phrase:
         return Phrase(parts[0], (), parts[0].span)
 
     def extreme(self, meta: Any, parts: list[Any]) -> Terms:
         """The least of several is the least of the first and the second, then of that and the third, and so on."""
-        word = Operator(parts[0].split()[0], self._span(parts[0]))
+        word = Term(parts[0].split()[0], 0, self._span(parts[0]))
         terms = _terms(parts[1])
         for operand in parts[2:]:
             terms += [*_terms(operand), word]
         return terms
-
-
-def _one(parts: list[Any], form: type[Any]) -> Any:
-    """The part of a form; None where there is none."""
-    return next((part for part in parts if isinstance(part, form)), None)
 
 
 def _side(part: Numbers | Name) -> Numbers:

@@ -7,7 +7,6 @@ and end, and of what sort they are, is all that the grammar asks of them: lines 
 import re
 import sys
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from functools import cache, lru_cache
 from itertools import accumulate
 from pathlib import Path
@@ -27,15 +26,7 @@ _PIECE = re.compile(r"(?<!\w)[0-9]+|\w+|[ \t]+|\W")
 MAX_SHAPES = 4096  # of a line that are remembered; a file has some dozens
 
 
-@dataclass(frozen=True, slots=True)
-class _Line:
-    """A line in its source, and where each of its pieces begins; the last number is where it ends."""
-
-    source: Source
-    at: Sequence[int]
-
-
-Maker = Callable[[_Line], Any]
+Maker = Callable[[Source, Sequence[int]], Any]  # of a line in a source, and where each of its pieces begins and it ends
 Start = Literal["line", "stop"]  # a rule of the grammar: a line of a mind or of a .break file
 
 
@@ -80,9 +71,8 @@ def parse_line(code: str, source: Source, offset: int, start: Start = "line") ->
     maker = None if '"' in code else _maker(shape_of(code), start)
     if maker is None:
         return _parsed(code, source, offset, start)
-    return cast(
-        syntax.Line | syntax.Stop, maker(_Line(source, tuple(accumulate(map(len, pieces(code)), initial=offset))))
-    )
+    at = tuple(accumulate(map(len, pieces(code)), initial=offset))
+    return cast(syntax.Line | syntax.Stop, maker(source, at))
 
 
 def pieces(code: str) -> list[str]:
@@ -140,24 +130,26 @@ def _making(node: Any, places: dict[int, int]) -> Maker:
         case syntax.Name(text, span):
             spanned = _spanning(places[span.start], places[span.end])
             if text != span.text or " " in text:  # `its  reward`, or an argument that goes without saying
-                return lambda line: syntax.Name(text, spanned(line))
-            return lambda line: syntax.Name((its := spanned(line)).text, its)
+                return lambda source, at: syntax.Name(text, spanned(source, at))
+            return lambda source, at: syntax.Name((its := spanned(source, at)).text, its)
         case syntax.Amount(sign, _, span, name=name) if name:
             spanned = _spanning(places[span.start], places[span.end])
-            return lambda line: syntax.Amount(sign, "", (its := spanned(line)), name=its.text.lstrip("+- \t"))
+            return lambda source, at: syntax.Amount(
+                sign, "", (its := spanned(source, at)), name=its.text.lstrip("+- \t")
+            )
         case syntax.Amount(_, unit, span, per):
             from mindlang.compiler.parse.build import parse_number
 
             spanned = _spanning(places[span.start], places[span.end])
-            return lambda line: syntax.Amount(parse_number((its := spanned(line)).text), unit, its, per)
+            return lambda source, at: syntax.Amount(parse_number((its := spanned(source, at)).text), unit, its, per)
         case tuple():
             makers = [_making(part, places) for part in node]
-            return lambda line: tuple([make(line) for make in makers])
+            return lambda source, at: tuple([make(source, at) for make in makers])
         case Struct():
             cls, parts = type(node), [_making(part, places) for part in astuple(node)]
-            return lambda line: cls(*[make(line) for make in parts])
-    return lambda line: node
+            return lambda source, at: cls(*[make(source, at) for make in parts])
+    return lambda source, at: node
 
 
-def _spanning(first: int, end: int) -> Callable[[_Line], Span]:
-    return lambda line: Span(line.source, line.at[first], line.at[end])
+def _spanning(first: int, end: int) -> Callable[[Source, Sequence[int]], Span]:
+    return lambda source, at: Span(source, at[first], at[end])

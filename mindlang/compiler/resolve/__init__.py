@@ -8,7 +8,7 @@ from mindrun.numbers.quantity import LENGTH_OF_UNIT, TICK, Quantity
 from msgspec.structs import replace
 
 from mindlang.compiler import model
-from mindlang.compiler.diagnostic import Findings, Label
+from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.expand import expand, fill_number, number_values
 from mindlang.compiler.hierarchy import refuse_circles
 from mindlang.compiler.names import Names, declared_names
@@ -98,9 +98,8 @@ def _agreed(
     for setting in _settings(files, form):
         value = convert(fill_number(setting.amount, values), quantity, findings)
         if value and first and value != first[0]:
-            label = Label(first[1], "first said here")
-            message = f"The {word} differs from the one said before."
-            findings.error(f"{word}-differs", setting.span, message, f"Use one {word}.", label)
+            message, places = f"The {word} differs from the one said before.", (first[1], setting.span)
+            findings.refuse_again(f"{word}-differs", places, message, f"Use one {word}.")
         if value and not first:
             first = value, setting.span
     return first[0] if first else None

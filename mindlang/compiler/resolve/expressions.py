@@ -3,18 +3,20 @@
 from collections.abc import Mapping, Set
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import Any, TypeVar
 
 from mindrun.kinds.registry import find_kind, kinds
 from mindrun.numbers.quantity import Quantity
 
-from mindlang.compiler import model, syntax
 from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.resolve.kinds import Scope, make_kind
 from mindlang.compiler.resolve.quantities import convert
-from mindlang.compiler.syntax import Amount, Operator, Phrase
+from mindlang.compiler.syntax import Amount, Expression, Phrase, Term, rebuilt
 
 TRUTH = {"true": 1, "yes": 1, "false": 0, "no": 0}
 PLAIN = Quantity("a plain number", {"": 1.0, "%": 0.01})
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,48 +37,48 @@ class Visible:
     where: str = "An expression after at"
 
 
-def resolve_expression(expression: syntax.Expression, visible: Visible, findings: Findings) -> model.Expression:
+def resolve_expressions(node: T, visible: Visible, findings: Findings) -> T:
+    """An expression, a condition or anything else with the names in its expressions resolved."""
+
+    def resolved(node: Any) -> Any:
+        return resolve_expression(node, visible, findings) if isinstance(node, Expression) else node
+
+    found: T = rebuilt(node, resolved)
+    return found
+
+
+def resolve_expression(expression: Expression, visible: Visible, findings: Findings) -> Expression:
     """The expression with its names resolved; a term that cannot be is reported and left out."""
     for right, operator in pairwise(expression.terms):
-        divides = isinstance(operator, Operator) and operator.symbol == "/"
+        divides = isinstance(operator, Term) and operator.word == "/"
         if divides and isinstance(right, Amount) and right.number == 0:
             findings.error("division-by-zero", right.span, "This divides by zero.", "Divide by something else.")
     terms = [_term(term, visible, findings) for term in expression.terms]
-    return model.Expression(tuple(term for term in terms if term), expression.span)
+    return Expression(tuple(term for term in terms if term), expression.span)
 
 
-def resolve_condition(when: syntax.When, visible: Visible, findings: Findings) -> model.When:
-    """A condition with both sides of its comparisons resolved."""
-
-    def compared(each: syntax.Comparison) -> model.Comparison:
-        left, right = (resolve_expression(side, visible, findings) for side in (each.left, each.right))
-        return model.Comparison(left, each.compare, right)
-
-    return model.When(tuple(tuple(map(compared, all_)) for all_ in when.alternatives), when.span)
-
-
-def _term(term: syntax.Term, visible: Visible, findings: Findings) -> model.Term | None:
+def _term(term: Amount | Phrase | Term, visible: Visible, findings: Findings) -> Term | None:
     match term:
-        case Operator():
+        case Term():
             return term
         case Amount():
             value = convert(term, PLAIN, findings)
-            return None if value is None else model.Number(value, term.span)
+            return None if value is None else Term("number", value, term.span)
         case Phrase(kind, ()) if kind.text == visible.each:
-            return model.EachReading(term.span)
+            return Term("each", 0, term.span)
         case Phrase(kind, ()) if kind.text in visible.readings:
             width = visible.readings[kind.text]
             if width == 1:
-                return model.Reading(kind.text, term.span)
+                return Term("reading", kind.text, term.span)
             hint = f"Only a sensor with one reading can stand here, as sensor ahead is reading 1 of {kind.text}."
             hint = f"Write p instead and add for each p in {kind.text}." if visible.measures else hint
             message = f"{kind.text} has {width} readings; an expression takes one number."
             findings.error("wide-reading", term.span, message, hint)
         case Phrase(kind, ()) if kind.text in visible.commands:
-            return model.Command(kind.text, term.span)
+            return Term("command", kind.text, term.span)
         case Phrase(kind) if visible.measures and find_kind("measure", kind.text):
             measure = make_kind("measure", term, visible.measures, findings)
-            return model.Measured(measure, term.span) if measure else None
+            return Term("measure", measure, term.span) if measure else None
         case Phrase(kind) if kind.text not in visible.unread:  # there it may have been declared
             _refuse_unknown(term, visible, findings)
     return None

@@ -4,8 +4,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from mindrun.errors import MindError
-from mindrun.kinds.bodies.body import BodyKind
-from mindrun.kinds.bodies.disc import Disc
+from mindrun.kinds.bodies.body import BodyKind, Disc
 from mindrun.kinds.registry import names as kind_names
 from mindrun.kinds.sensors.sensor import Physical
 
@@ -14,7 +13,7 @@ from mindlang.compiler.diagnostic import Findings, a
 from mindlang.compiler.model import Part
 from mindlang.compiler.names import Names
 from mindlang.compiler.source import Span
-from mindlang.compiler.syntax import Counts, Phrase, Starts, of_form
+from mindlang.compiler.syntax import Counts, Phrase, Starts, expressions_in, of_form
 
 ENVIRONMENT = "a gymnasium environment"
 
@@ -107,10 +106,9 @@ def _judged(task: model.Task) -> Iterator[tuple[Any, Span]]:
     events += [(reward.on, reward.fact.on) for reward in task.rewards]
     events += zip(task.counts, (fact.event for fact in of_form(task.facts, Counts)), strict=True)
     yield from ((event, phrase.span) for event, phrase in events if event and phrase)
-    expressions = [expression for end in task.ends if end.when for expression in end.when.expressions]
-    expressions += [expression for reward in task.rewards for expression in reward.expressions]
-    for measured in (of_form(expression.terms, model.Measured) for expression in expressions):
-        yield from ((term.measure, term.span) for term in measured)
+    computed = *(end.when for end in task.ends), *((reward.amount, reward.when) for reward in task.rewards)
+    measured = (term for expression in expressions_in(*computed) for term in expression.found("measure"))
+    yield from ((term.operand, term.span) for term in measured)
 
 
 def _check_environment(

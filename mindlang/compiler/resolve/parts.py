@@ -1,8 +1,8 @@
 """Sensors, memories, actuators and the body: how many readings each sensor has, whether the actuators can move it."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from math import prod
-from typing import Any
+from typing import Any, TypeVar
 
 from mindrun.kinds.actuators.actuator import ActuatorKind
 from mindrun.kinds.bodies.body import BodyKind
@@ -17,12 +17,13 @@ from mindlang.compiler.model import Part, source_graph
 from mindlang.compiler.names import Names
 from mindlang.compiler.resolve.expressions import Visible, resolve_expression
 from mindlang.compiler.resolve.kinds import Scope, make_kind
-from mindlang.compiler.syntax import Declaration, verb_of
+from mindlang.compiler.syntax import Declaration, Fact, verb_of
 
 MOST_READINGS = 20_000
 ONE_LINE = "All that there is to say of it stands in its one line; set the fact below the skill or task it belongs to."
 
 Parts = tuple[Part[Any], ...]
+F = TypeVar("F", bound=Fact)
 
 
 def resolve_parts(noun: str, names: Names, findings: Findings) -> Parts:
@@ -47,6 +48,18 @@ def refuse_facts(declaration: Declaration, verbs: Sequence[str], findings: Findi
         if (verb := verb_of(fact)) not in verbs:
             hint = f"Below {noun} {declaration.header.name.text} can stand {listed(verbs)}." if verbs else ONE_LINE
             findings.error("foreign-fact", fact.span, f"{verb} does not belong to {a(noun)}.", hint)
+
+
+def said_once(
+    facts: Iterable[F], says: Callable[[F], str], findings: Findings, hint: str = "Leave one out."
+) -> list[F]:
+    """The first of the facts of which the same is to be said where they are repeated; the others are reported so."""
+    by_message: dict[str, list[F]] = {}
+    for fact in facts:
+        by_message.setdefault(says(fact), []).append(fact)
+    for message, same in by_message.items():
+        findings.refuse_again("repeated-fact", [fact.span for fact in same], message, hint)
+    return [same[0] for same in by_message.values()]
 
 
 def sensors(names: Names, findings: Findings) -> Parts:

@@ -1,7 +1,7 @@
 """Skills: what they read, what they drive and influence, that their function fits, and those that are like others."""
 
-from collections.abc import Iterable, Mapping, Sequence
-from typing import Any, TypeVar
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 from mindrun.graph.graph import Receiver
 from mindrun.kinds.functions.function import Function
@@ -9,18 +9,17 @@ from mindrun.numbers.quantity import RATIO
 from msgspec.structs import replace
 from networkx import DiGraph
 
-from mindlang.compiler import model
+from mindlang.compiler import model, syntax
 from mindlang.compiler.diagnostic import Findings, listed
 from mindlang.compiler.hierarchy import refuse_circles, reverse_topological_order
 from mindlang.compiler.names import Names
-from mindlang.compiler.resolve.expressions import Visible, resolve_condition, resolve_expression
+from mindlang.compiler.resolve.expressions import Visible, resolve_expressions
 from mindlang.compiler.resolve.kinds import Scope, make_kind
-from mindlang.compiler.resolve.parts import refuse_facts
+from mindlang.compiler.resolve.parts import refuse_facts, said_once
 from mindlang.compiler.resolve.quantities import convert
-from mindlang.compiler.source import Span
-from mindlang.compiler.syntax import Declaration, Drives, Influences, Reads, Sends, Stays, of_form, rebuilt
+from mindlang.compiler.syntax import Declaration, Drives, Influences, Reads, Sends, Stays, Term, of_form, rebuilt
 
-F = TypeVar("F", bound=Reads | Sends)
+ONE = "Leave one of the two lines out."
 
 
 def skills(names: Names, widths: Mapping[str, int], findings: Findings) -> tuple[model.Skill, ...]:
@@ -77,42 +76,29 @@ def _reads(declaration: Declaration, names: Names, findings: Findings) -> tuple[
             findings.error("for-without-like", fact.stands_for.span, message, f"Write reads {fact.name.text}.")
         if names.find(fact.name, ("sensor", "memory"), findings):
             known.append(fact)
-    return tuple(_once(known, findings))
+    return tuple(fact.name.text for fact in said_once(known, _repeated, findings, ONE))
 
 
-def _once(facts: Iterable[F], findings: Findings) -> dict[str, F]:
-    """The first fact of each name; others are reported."""
-    by_name: dict[str, list[F]] = {}
-    for fact in facts:
-        by_name.setdefault(fact.name.text, []).append(fact)
-    for name, same in by_name.items():
-        message = f"The skill already {type(same[0]).__name__.lower()} {name}."
-        _refuse_again([fact.span for fact in same], message, findings)
-    return {name: same[0] for name, same in by_name.items()}
+def _repeated(fact: Reads | Drives | Influences) -> str:
+    return f"The skill already {syntax.verb_of(fact)} {fact.name.text}."
 
 
 def _edges(declaration: Declaration, names: Names, visible: Visible, findings: Findings) -> tuple[model.Edge, ...]:
     edges: list[model.Edge] = []
     to: Receiver | None
     for fact in (fact for fact in declaration.facts if isinstance(fact, Drives | Influences)):
-        gate, cuts = None, None
+        cuts = None
         if isinstance(fact, Drives):
             to = names.find(fact.name, ("actuator", "memory"), findings)
         else:
             to = names.find(fact.name, ("skill",), findings)
             cuts = convert(fact.cuts, RATIO, findings) if fact.cuts else None
-        at = resolve_expression(fact.at, visible, findings) if fact.at else None
-        if fact.gate:
-            otherwise = resolve_expression(fact.gate.otherwise, visible, findings) if fact.gate.otherwise else None
-            gate = model.Gate(resolve_condition(fact.gate.when, visible, findings), otherwise)
+        at = resolve_expressions(fact.at, visible, findings)
+        gate = resolve_expressions(fact.gate, visible, findings)
         if to:
             edges.append(model.Edge(to, fact.name.text, at, fact, gate, cuts or 0.0))
-    first = _once((edge.fact for edge in edges), findings)
-    return tuple(edge for edge in edges if first[edge.target] is edge.fact)
-
-
-def _refuse_again(spans: Sequence[Span], message: str, findings: Findings) -> None:
-    findings.refuse_again("repeated-fact", spans, message, "Leave one of the two lines out.")
+    first = set(said_once((edge.fact for edge in edges), _repeated, findings, ONE))
+    return tuple(edge for edge in edges if edge.fact in first)
 
 
 def _is_frozen(declaration: Declaration, findings: Findings) -> bool:
@@ -120,9 +106,8 @@ def _is_frozen(declaration: Declaration, findings: Findings) -> bool:
     for how in (fact.how for fact in stays if fact.how.text != "frozen"):
         hint = "Write stays frozen, or leave the line out."
         findings.error("unknown-state", how.span, f"A skill cannot stay {how.text}.", hint)
-    frozen = [fact.span for fact in stays if fact.how.text == "frozen"]
-    _refuse_again(frozen, "The skill already stays frozen.", findings)
-    return bool(frozen)
+    frozen = (fact for fact in stays if fact.how.text == "frozen")
+    return bool(said_once(frozen, lambda _: "The skill already stays frozen.", findings, ONE))
 
 
 def _check_works(declaration: Declaration, function: Function, edges: Sequence[model.Edge], findings: Findings) -> None:
@@ -164,46 +149,44 @@ def _alike(
         hint = f"Take this line out, or say it of {other.name}: it holds for both."
         findings.error("like-says-more", more.span, message, hint)
     lines = of_form(own.facts, Reads)
-    instead: dict[str, list[Reads]] = {}
-    for fact in lines:
-        if names.find(fact.name, ("sensor", "memory"), findings) and _replaces(fact, other, names, widths, findings):
-            instead.setdefault(fact.stands_for.text if fact.stands_for else "", []).append(fact)
-    for input_, same in instead.items():
-        _refuse_again([fact.span for fact in same], f"Something stands for {input_} already.", findings)
-    read = {input_: same[-1].name.text for input_, same in instead.items()}
+    known = [fact for fact in lines if names.find(fact.name, ("sensor", "memory"), findings)]
+    replaced = ((fact, _replaced(fact, other, names, widths, findings)) for fact in known)
+    instead = {fact: input_ for fact, input_ in replaced if input_}
+    said_once(instead, lambda fact: f"Something stands for {instead[fact]} already.", findings, ONE)
+    read = {input_: fact.name.text for fact, input_ in instead.items()}
     reads = tuple(read.get(each, each) for each in other.reads)
     if twice := next((fact for fact in lines if reads.count(fact.name.text) > 1), None):
         message = f"{name} would read {twice.name.text} twice."
         findings.error("repeated-input", twice.span, message, "Let it read something else here.")
 
     def reading(node: Any) -> Any:
-        is_read = isinstance(node, model.Reading)
-        return replace(node, name=read.get(node.name, node.name)) if is_read else node
+        is_read = isinstance(node, Term) and node.word == "reading"
+        return replace(node, operand=read.get(node.operand, node.operand)) if is_read else node
 
     edges = tuple(replace(edge, at=rebuilt(edge.at, reading), gate=rebuilt(edge.gate, reading)) for edge in other.edges)
     return model.Skill(name, other.function, reads, edges, False, own, other.owner)
 
 
-def _replaces(fact: Reads, other: model.Skill, names: Names, widths: Mapping[str, int], findings: Findings) -> bool:
-    """True if a line says which input of the other skill its own replaces, and both have as many readings."""
+def _replaced(fact: Reads, other: model.Skill, names: Names, widths: Mapping[str, int], findings: Findings) -> str:
+    """The input of the other skill that a line replaces, with as many readings; empty after reporting an error."""
     name = fact.name.text
     reads = f"{other.name} reads {listed(other.reads, 'and') if other.reads else 'nothing'}."
     if fact.stands_for is None:
         message = f"It is not said for which input of {other.name} {name} stands."
         findings.error("stands-for-nothing", fact.span, message, f"Write reads {name} for INPUT: {reads}")
-        return False
+        return ""
     replaced = fact.stands_for.text
     if replaced not in other.reads:
         if replaced not in names.unread and other.declaration.whole:
             message = f"{other.name} does not read {replaced}."
             findings.error("no-such-input", fact.stands_for.span, message, reads)
-        return False
+        return ""
     own, width = widths.get(name, 1), widths.get(replaced, 1)
     if own != width:
         message = f"{name} has {_readings(own)}, {replaced} has {_readings(width)}."
         hint = f"The weights of {other.name} fit a sensor with {_readings(width)} in its place."
         findings.error("other-width", fact.name.span, message, hint)
-    return own == width
+    return replaced if own == width else ""
 
 
 def _readings(width: int) -> str:

@@ -9,11 +9,11 @@ from mindrun.numbers.quantity import SECONDS, TICKS, Quantity
 from mindlang.compiler import model
 from mindlang.compiler.beginning import first_tick_hint, task_beginning
 from mindlang.compiler.diagnostic import Findings, Label
-from mindlang.compiler.resolve.expressions import Visible, resolve_condition, resolve_expression
+from mindlang.compiler.resolve.expressions import Visible, resolve_expressions
 from mindlang.compiler.resolve.kinds import make_kind
-from mindlang.compiler.resolve.parts import refuse_facts
+from mindlang.compiler.resolve.parts import refuse_facts, said_once
 from mindlang.compiler.resolve.quantities import convert
-from mindlang.compiler.resolve.worlds import ResolvedWorld, RobotFacts, refuse_repeated, resolve_world
+from mindlang.compiler.resolve.worlds import ResolvedWorld, RobotFacts, resolve_world
 from mindlang.compiler.syntax import Counts, Declaration, Ends, Lasts, Phrase, Rewards, Succeeds, of_form
 
 MAX_RUN_TICKS = 10_000_000  # of a run
@@ -69,7 +69,7 @@ def _ticks(declaration: Declaration, tick: float, findings: Findings) -> int:
             message = f"{name.text} does not say how long it lasts."
             findings.error("endless-task", name.span, message, "Add lasts 10000 ticks.")
         return 1
-    refuse_repeated(lasts, "The task already says how long it lasts.", "Leave one out.", findings)
+    said_once(lasts, lambda _: "The task already says how long it lasts.", findings)
     amount = lasts[0].amount
     if amount.unit == "s":
         # What would be a single tick, or none, was surely meant otherwise.
@@ -94,7 +94,7 @@ def _ends(
     for fact in (fact for fact in declaration.facts if isinstance(fact, Ends | Succeeds)):
         times = convert(fact.times, TIMES, findings) if fact.times else 1
         event = event_in(fact.event, world, findings) if fact.event else None
-        when = resolve_condition(fact.when, visible, findings) if fact.when else None
+        when = resolve_expressions(fact.when, visible, findings)
         if fact.event and event and event.is_of_success and world.can_succeed:
             hint = "Write what a success is: succeeds on 5 delivery of red."
             findings.error("own-success", fact.event.span, "A success ends the run by itself.", hint)
@@ -121,5 +121,6 @@ def _reward(
         visible = replace(visible, each=fact.each.name.text)
         each = fact.each.sensor.text if robot.names.find(fact.each.sensor, ("sensor", "memory"), findings) else None
     on = event_in(fact.on, world, findings) if fact.on else None
-    when = resolve_condition(fact.when, visible, findings) if fact.when else None
-    return model.Reward(resolve_expression(fact.amount, visible, findings), on, each, when, fact)
+    when = resolve_expressions(fact.when, visible, findings)
+    amount = resolve_expressions(fact.amount, visible, findings)
+    return model.Reward(amount, on, each, when, fact)

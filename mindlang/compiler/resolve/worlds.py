@@ -3,10 +3,10 @@
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 from mindrun.graph.graph import VARIED_NOUNS, Failure, Start, Variation, Varying, varied_quantity
-from mindrun.kinds.actuators.gripper import REACH_UNITS
+from mindrun.kinds.actuators.actuator import REACH_UNITS
 from mindrun.kinds.bodies.body import BodyKind
 from mindrun.kinds.registry import arguments
 from mindrun.kinds.registry import names as kind_names
@@ -20,13 +20,12 @@ from mindlang.compiler.model import Part
 from mindlang.compiler.names import Names, declared_things
 from mindlang.compiler.resolve.kinds import Scope, make_kind
 from mindlang.compiler.resolve.maps import with_places
+from mindlang.compiler.resolve.parts import said_once
 from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.source import Span
-from mindlang.compiler.syntax import Contains, Declaration, Fact, Fails, Name, Phrase, Starts, Succeeds, Varies, of_form
+from mindlang.compiler.syntax import Contains, Declaration, Fails, Name, Phrase, Starts, Succeeds, Varies, of_form
 
 NAMES = "Name the body, an actuator, a sensor or a thing of the task."
-
-F = TypeVar("F", bound=Fact)
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,11 +70,6 @@ class ResolvedWorld:
         return [thing.kind for thing in self.things if thing.kind]
 
 
-def refuse_repeated(facts: Sequence[Fact], message: str, hint: str, findings: Findings) -> None:
-    """Report all but the first of facts that say the same."""
-    findings.refuse_again("repeated-fact", [fact.span for fact in facts], message, hint)
-
-
 def resolve_world(declaration: Declaration, robot: RobotFacts, findings: Findings) -> ResolvedWorld:
     """The world that a task or a scene declares; the lines that are wrong are reported and left out."""
     noun, name = declaration.header.noun.text, declaration.header.name.text
@@ -106,9 +100,9 @@ def _things(declaration: Declaration, scene: Any, scope: Scope, findings: Findin
         name = fact.name.text
         kind = make_kind("content", fact.phrase, scope, findings)
         if name in found:
-            first = Label(found[name].span, "first said here")
+            places, hint = (found[name].span, fact.name.span), "Give one of the two another name."
             message = f"The {declaration.header.noun.text} already contains something called {name}."
-            findings.error("duplicate-thing", fact.name.span, message, "Give one of the two another name.", first)
+            findings.refuse_again("duplicate-thing", places, message, hint)
         if kind:
             _check_obstacles(kind, scene, obstacles, fact.phrase, findings)
             obstacles += min(kind.obstacles(scene), MAX_OBSTACLES)  # as if there were few where there are too many
@@ -162,7 +156,7 @@ def _start(
         facing = convert(fact.facing, ANGLE, findings) if fact.facing else None
         start = Start(_place(fact, findings), facing)
     message = f"The {declaration.header.noun.text} already says where the robot starts."
-    refuse_repeated(said, message, "Write both on one line: starts at 0 0 facing 90 deg.", findings)
+    said_once(said, lambda _: message, findings, "Write both on one line: starts at 0 0 facing 90 deg.")
     is_left_open = declaration.header.noun.text == "scene" and not said  # to the tasks in it
     if scene and not is_left_open and not (said and said[-1].place and not start.at):
         begun = task_beginning(scene, things, start, body, 0.0)
@@ -213,27 +207,18 @@ class _Variable:
 
     def variations(self, declaration: Declaration) -> Iterator[Variation]:
         """The variations of a task or a scene, each once."""
-        facts = {
-            fact: f"how {fact.argument.text} of {fact.of.text} varies" for fact in of_form(declaration.facts, Varies)
-        }
-        return filter(None, map(self._variation, self._once(facts)))
+        facts, already = of_form(declaration.facts, Varies), "The task already says how {} of {} varies."
+        once = said_once(facts, lambda fact: already.format(fact.argument.text, fact.of.text), self.findings)
+        return filter(None, map(self._variation, once))
 
     def failures(self, declaration: Declaration) -> Iterator[Failure]:
         """The failures of actuators in a task or a scene, each once."""
-        for fact in self._once({fact: f"how {fact.name.text} fails" for fact in of_form(declaration.facts, Fails)}):
+        facts = of_form(declaration.facts, Fails)
+        for fact in said_once(facts, lambda fact: f"The task already says how {fact.name.text} fails.", self.findings):
             actuator = self.names.find(fact.name, ("actuator",), self.findings)
             rate = convert(fact.rate, RATE, self.findings)
             if actuator and rate is not None:
                 yield Failure(fact.name.text, rate)
-
-    def _once(self, facts: Mapping[F, str]) -> Iterator[F]:
-        """The facts, each of which says something, without those that say again what one before has said."""
-        by_meaning: dict[str, list[F]] = {}
-        for fact, says in facts.items():
-            by_meaning.setdefault(says, []).append(fact)
-        for says, same in by_meaning.items():
-            refuse_repeated(same, f"The task already says {says}.", "Leave one out.", self.findings)
-            yield same[0]
 
     def _variation(self, fact: Varies) -> Variation | None:
         of, key = self._find(fact.of), fact.argument

@@ -10,7 +10,7 @@ from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.parse import parse
 from mindlang.compiler.source import Source, Span
 from mindlang.compiler.splice import Splice
-from mindlang.compiler.syntax import Declaration, Fact, File, Number, Teaches
+from mindlang.compiler.syntax import Declaration, Fact, File, Number, Teaches, of_form
 from mindlang.editing.insertion import (
     FACTS,
     INDENT,
@@ -23,7 +23,7 @@ from mindlang.editing.insertion import (
     owners,
     text_of,
 )
-from mindlang.editing.project import EditError, MindChange, Project, facts
+from mindlang.editing.project import EditError, MindChange, Project
 from mindlang.lock.status import needed_skills
 
 
@@ -88,7 +88,7 @@ def _first_needing(project: Project, curriculum: Declaration, lesson: Teaches) -
     """The first lesson of a curriculum that needs the skill of a new one, where none before it teaches that."""
     skill, graph = lesson.skill.text, project.graph
     lessons = [each for each in graph.lessons if each.curriculum == curriculum.header.name.text]
-    for fact, each in zip(facts(curriculum, Teaches), lessons, strict=True):
+    for fact, each in zip(of_form(curriculum.facts, Teaches), lessons, strict=True):
         if skill in learners(graph, each):
             return None
         if skill in needed_skills(graph, each):

@@ -3,13 +3,12 @@
 from typing import Annotated
 
 from mindlang.compiler.diagnostic import did_you_mean
-from mindlang.compiler.syntax import Influences, Reads
+from mindlang.compiler.syntax import Influences, Reads, of_form
 from mindlang.editing.insertion import declare_below, indentation, line_of, replace_line, without_fact
 from mindlang.editing.project import (
     EditError,
     MindChange,
     Project,
-    facts,
     influence,
     kind_of,
 )
@@ -32,13 +31,13 @@ def extract(
     """
     declaration = project.own_skill(parent)
     project.refuse_new_skill(new, is_, reads)
-    edges = {fact.name.text: fact for fact in facts(declaration, Influences)}
+    edges = {fact.name.text: fact for fact in of_form(declaration.facts, Influences)}
     for subskill in subskills:
         if subskill not in edges:
             message = f"{parent} does not influence {subskill}."
             raise EditError(message, did_you_mean(subskill, edges), declaration.header.span)
     first, *others = (fact for name, fact in edges.items() if name in subskills)
-    inputs = reads or [fact.name.text for fact in facts(declaration, Reads)]
+    inputs = reads or [fact.name.text for fact in of_form(declaration.facts, Reads)]
     indent = indentation(declaration)
     lines = [
         f"skill {new} is {is_}",

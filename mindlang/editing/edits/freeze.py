@@ -1,8 +1,8 @@
 """`mindc edit freeze`."""
 
-from mindlang.compiler.syntax import Stays
+from mindlang.compiler.syntax import Stays, of_form
 from mindlang.editing.insertion import below_siblings
-from mindlang.editing.project import EditError, MindChange, Project, facts
+from mindlang.editing.project import EditError, MindChange, Project
 
 
 def freeze(project: Project, skill: str) -> MindChange:
@@ -13,6 +13,6 @@ def freeze(project: Project, skill: str) -> MindChange:
     Example: mindc edit freeze collect.mind Avoid
     """
     declaration = project.own_skill(skill)
-    if frozen := facts(declaration, Stays):
+    if frozen := of_form(declaration.facts, Stays):
         raise EditError(f"{skill} is frozen already.", "", frozen[0].span)
     return MindChange((below_siblings(declaration, Stays, ["stays frozen"]),))

@@ -1,7 +1,7 @@
 """`mindc edit inline`."""
 
 from mindlang.compiler.splice import Splice
-from mindlang.compiler.syntax import Declaration, Drives, Influences, Phrase, Reads
+from mindlang.compiler.syntax import Declaration, Drives, Influences, Phrase, Reads, expressions_in, of_form
 from mindlang.editing.insertion import (
     below_siblings,
     indentation,
@@ -10,7 +10,7 @@ from mindlang.editing.insertion import (
     without_declarations,
     without_fact,
 )
-from mindlang.editing.project import EditError, MindChange, Project, facts
+from mindlang.editing.project import EditError, MindChange, Project
 
 Edge = Drives | Influences
 
@@ -26,7 +26,7 @@ def inline(project: Project, skill: str) -> MindChange:
     Example: mindc edit inline collect.mind Fetch
     """
     declaration = project.own_skill(skill)
-    if not facts(declaration, Influences):
+    if not of_form(declaration.facts, Influences):
         message = f"{skill} is a base skill: there is nothing below it to take its place."
         raise EditError(message, "", declaration.header.span)
     parents = project.parents(skill)
@@ -42,12 +42,12 @@ def _taken_over(parent: Declaration, child: Declaration) -> list[Splice]:
     """The lines of a child in the place of that with which its parent influences it, but for what the parent says."""
     said = {fact.name.text for fact in parent.facts if isinstance(fact, Edge)}
     edges = [fact for fact in child.facts if isinstance(fact, Edge) and fact.name.text not in said]
-    place = next(fact for fact in facts(parent, Influences) if fact.name.text == child.header.name.text)
+    place = next(fact for fact in of_form(parent.facts, Influences) if fact.name.text == child.header.name.text)
     indent = indentation(parent)
     lines = [f"{indent}{line_of(fact)}" for fact in edges]
     splices = [replace_line(place, lines) if lines else without_fact(place)]
-    read = {fact.name.text for fact in facts(parent, Reads)}
-    terms = (term for edge in edges for expression in edge.expressions for term in expression.terms)
+    read = {fact.name.text for fact in of_form(parent.facts, Reads)}
+    terms = (term for expression in expressions_in(*edges) for term in expression.terms)
     needed = dict.fromkeys(term.kind.text for term in terms if isinstance(term, Phrase))
     if reads := [f"reads {name}" for name in needed if name not in read]:
         splices.append(below_siblings(parent, Reads, reads))

@@ -8,14 +8,13 @@ from mindrun.terminal.command_line import command_line
 from mindlang.compiler.compile import load
 from mindlang.compiler.diagnostic import Label, a, listed
 from mindlang.compiler.references import VALUE_NOUNS, Mention, introductions
-from mindlang.compiler.syntax import NOUNS, Rewards
+from mindlang.compiler.syntax import NOUNS, Rewards, of_form
 from mindlang.editing.insertion import replace_span
 from mindlang.editing.project import (
     EditError,
     MindChange,
     Project,
     Renamed,
-    facts,
     refuse_misnamed,
     refuse_no_noun,
     suggestion,
@@ -102,7 +101,7 @@ def _refuse_taken(project: Project, noun: str, name: str) -> None:
         if (mention.noun, mention.name.text) == ("thing", name):
             raise EditError(f"There is already a thing called {name}.", "Choose another name.", mention.name.span)
     tasks = (declaration for _, declaration in project.names.declarations("task"))
-    for reward in (reward for task in tasks for reward in facts(task, Rewards)):
+    for reward in (reward for task in tasks for reward in of_form(task.facts, Rewards)):
         if noun in VALUE_NOUNS and reward.each and reward.each.name.text == name:
             message = f"A reward goes through readings by the name {name}."
             raise EditError(message, "Choose another name.", reward.each.name.span)

@@ -1,8 +1,8 @@
 """`mindc edit unfreeze`."""
 
-from mindlang.compiler.syntax import Stays
+from mindlang.compiler.syntax import Stays, of_form
 from mindlang.editing.insertion import without_fact
-from mindlang.editing.project import EditError, MindChange, Project, facts
+from mindlang.editing.project import EditError, MindChange, Project
 
 
 def unfreeze(project: Project, skill: str) -> MindChange:
@@ -11,7 +11,7 @@ def unfreeze(project: Project, skill: str) -> MindChange:
     Example: mindc edit unfreeze collect.mind Avoid
     """
     declaration = project.own_skill(skill)
-    frozen = facts(declaration, Stays)
+    frozen = of_form(declaration.facts, Stays)
     if not frozen:
         raise EditError(f"{skill} is not frozen.", "", declaration.header.span)
     return MindChange(tuple(without_fact(fact) for fact in frozen))

@@ -27,8 +27,7 @@ class Rule:
 @cache
 def all_rules() -> dict[str, Rule]:
     """Every rule by its code: the name of its module with dashes."""
-    found = (_rule(module.name) for module in iter_modules(__path__))
-    return {rule.code: rule for rule in found}
+    return {rule.code: rule for rule in (_rule(module.name) for module in iter_modules(__path__))}
 
 
 def _rule(name: str) -> Rule:

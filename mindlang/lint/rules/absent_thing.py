@@ -32,7 +32,6 @@ Readers = dict[str, tuple[str, str]]  # by thing: a skill and the sensor about t
 
 
 def check(study: Study) -> Found:
-    """Lessons whose world lacks a thing that a skill below their master senses, and so do all of that skill's."""
     readers = _readers(study) if study.mind.lessons else {}
     things = {task.name: {thing.name for thing in task.things} for task in study.mind.tasks}
     known: dict[str, set[str]] = {}

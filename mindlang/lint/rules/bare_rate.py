@@ -21,7 +21,6 @@ BAD = USE + PARTS.format("0.00005")
 
 
 def check(study: Study) -> Found:
-    """Lines that use a file with rates that do not say for how long they are."""
     main, *others = study.mind.files
     uses = {(use.span.source.folder / use.path).resolve(): use for use in reversed(of_form(main.settings, Use))}
     for file in (file for file in others if not of_form(file.settings, Tick)):

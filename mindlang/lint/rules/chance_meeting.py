@@ -5,14 +5,13 @@ its own can be in something else when a run begins: a box that is pushed out of 
 every run it would be an error; what has no place of its own is put where it is clear.
 """
 
-from collections.abc import Iterator
 from dataclasses import replace
 from itertools import chain
 
 from mindlang.compiler.beginning import Beginning
 from mindlang.compiler.diagnostic import Label
 from mindlang.compiler.source import Span
-from mindlang.lint.study import Finding, Found, Study, first_of_each
+from mindlang.lint.study import Finding, Found, Study
 
 HALL = """
 task Hall in arena size 40
@@ -42,12 +41,11 @@ START = "Write another place for the robot, or which way it faces: starts at 0 0
 
 
 def check(study: Study) -> Found:
-    """The things that can overlap: with their largest sizes and jitter, and the robot facing any way."""
     met = (_met(replace(study.beginning(task), may=True), task.span) for task in study.mind.tasks)
-    return first_of_each(chain.from_iterable(met), lambda each: (each.span, *(label.span for label in each.labels)))
+    yield from dict.fromkeys(chain.from_iterable(met))  # several tasks can have one from the same line
 
 
-def _met(begun: Beginning, here: Span) -> Iterator[Finding]:
+def _met(begun: Beginning, here: Span) -> Found:
     hint = "Write places that are farther apart, smaller sizes or a smaller jitter."
     for one, other in begun.overlapping():
         labels = (Label(other.span, "this one"),) if one is not other else ()

@@ -27,7 +27,6 @@ MOST_SIZES = 0.75  # of its lesser side
 
 
 def check(study: Study) -> Found:
-    """A body that full thrust moves further in a tick of any task than it may."""
     graph, body = study.graph, study.mind.body
     far, task = farthest_step(graph)
     size = 2 * min(graph.body.front, graph.body.side)

@@ -32,7 +32,6 @@ AT_ONCE = "A run would end with its first tick: compare with something that is s
 
 
 def check(study: Study) -> Found:
-    """Conditions of what skills send, of rewards and of ends."""
     for when, of, world in study.conditions:
         if isinstance(of, Edge) and (never := why_never(when, world.range_in(of))):
             yield Finding(when.span, f"This condition never holds: {never}.", REMEDY)

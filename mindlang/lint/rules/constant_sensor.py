@@ -13,11 +13,7 @@ task Carry in arena
   lasts 9 s
 """
 GOOD = (
-    f"""
-actuator claw is gripper neutral 0
-skill Go is rule
-  drives claw at 1
-{BALL}""",
+    f"actuator claw is gripper neutral 0\nskill Go is rule\n  drives claw at 1\n{BALL}",
     "sensor pulse is sine period 2 s\n",
 )
 BAD = (
@@ -28,7 +24,6 @@ BAD = (
 
 
 def check(study: Study) -> Found:
-    """Sensors that are constant even in a world in which there is everything."""
     for part in study.mind.sensors:
         constant = study.any_world.constant(part.name)
         if constant is not None:

@@ -41,7 +41,6 @@ HINT = "Make the arena larger, or what is in it smaller or fewer, or say where i
 
 @once_a_line
 def check(study: Study) -> Found:
-    """Tasks of which some worlds that are drawn lack a place for something."""
     for task in study.mind.tasks:
         lacking, worlds = _lacking(study, task)
         if lacking:
@@ -95,21 +94,12 @@ class DrawnWorld:
         obstacles, others = ([each for each in task.things if each.kind.is_obstacle is one] for one in (True, False))
         for kind in (each.kind for each in others):
             self.things += [_square(place, kind.largest / 2) for place in kind.places[: kind.copies]]
-        for name, kind in ((each.name, each.kind) for each in obstacles):
-            for _ in range(sum(int(row["count"]) for row in kind.rows(self.scene))):
-                half = self._size(kind.size) / 2
-                if not self._put(self.solid, name, kind, half, half + 3 * self.radius):
-                    return name
-        for name, kind in ((each.name, each.kind) for each in others if not each.kind.places):
-            for _ in range(kind.copies):
-                if not self._put(self.things, name, kind, self._size(kind.size) / 2, 0.0):
-                    return name
+        loose = [(each, sum(int(row["count"]) for row in each.kind.rows(self.scene))) for each in obstacles]
+        loose += [(each, each.kind.copies) for each in others if not each.kind.places]
+        for thing, count in loose:
+            if not all(self._put(thing.name, thing.kind) for _ in range(count)):
+                return thing.name
         return ""
-
-    @property
-    def radius(self) -> float:
-        """That of the circle around the robot."""
-        return self.body.radius
 
     def _grid(self, kind: ThingKind) -> Iterator[Rectangle]:
         """The obstacles of a kind that stand at places, each off by its jitter."""
@@ -129,8 +119,8 @@ class DrawnWorld:
         loose = [_square(place, each.kind.largest / 2) for each, place in placed if each.kind.is_loose]
         apart = [(each, place) for each, place in placed if not each.kind.is_obstacle]
         for _ in range(MAX_TRIES):
-            self.robot = self._anywhere(3 * self.radius, self.radius)
-            if self._is_clear([*self.solid, *loose], self.robot, self.radius) and not any(
+            self.robot = self._anywhere(3 * self.body.radius, self.body.radius)
+            if self._is_clear([*self.solid, *loose], self.robot, self.body.radius) and not any(
                 self._meets(each.name, each.kind, each.kind.begins[1], place) for each, place in apart
             ):
                 return True
@@ -140,17 +130,18 @@ class DrawnWorld:
         """True if a thing at a place overlaps the robot, or is a goal that it has reached."""
         dx, dy = place[0] - self.robot[0], place[1] - self.robot[1]
         reach, is_goal = self.body.front + self.claw, name in self.goals
-        return meets_robot(kind.is_area, kind.is_round, is_goal, size, dx, dy, self.radius, reach)
+        return meets_robot(kind.is_area, kind.is_round, is_goal, size, dx, dy, self.body.radius, reach)
 
-    def _put(self, where: list[Rectangle], name: str, kind: ThingKind, half: float, room: float) -> bool:
-        """Put a thing down, at least `room` from the robot along one of the axes; False where no try succeeds."""
-        low, high = kind.distances(self.scene)
+    def _put(self, name: str, kind: ThingKind) -> bool:
+        """Put a thing down, an obstacle so that the robot can pass it; False where no try succeeds."""
+        (low, high), half = kind.distances(self.scene), self._size(kind.size) / 2
+        where, room = (self.solid, half + 3 * self.body.radius) if kind.is_obstacle else (self.things, 0.0)
         for _ in range(MAX_TRIES):
-            place = self._anywhere(half + 2 * self.radius) if self.scene.is_bounded else self._around(low, high)
+            place = self._anywhere(half + 2 * self.body.radius) if self.scene.is_bounded else self._around(low, high)
             x, y = place[0] - self.robot[0], place[1] - self.robot[1]
             is_far = low <= hypot(x, y) + 1e-9 and hypot(x, y) <= high + 1e-9 and max(abs(x), abs(y)) >= room
             is_apart = is_far and (kind.is_obstacle or not self._meets(name, kind, 2 * half, place))
-            clear = is_apart and self._is_clear(self.solid, place, half + 2 * self.radius)
+            clear = is_apart and self._is_clear(self.solid, place, half + 2 * self.body.radius)
             if clear and self._is_clear(self.things, place, half):
                 where.append(_square(place, half))
                 return True

@@ -23,7 +23,6 @@ BAD = (
 
 
 def check(study: Study) -> Found:
-    """Events after `ends on`, `succeeds on` and `counts` that the world of their task prevents; conditions, too."""
     for task in study.mind.tasks:
         world = study.worlds[task.name]
         counted = zip(of_form(task.facts, Counts), task.counts, strict=True)

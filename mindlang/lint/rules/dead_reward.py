@@ -29,7 +29,6 @@ task Carry in arena
 
 
 def check(study: Study) -> Found:
-    """Rewards whose event never happens, whose condition never holds or whose amount is 0."""
     for task in study.mind.tasks:
         for reward in task.rewards:
             if why := study.worlds[task.name].why_never_paid(reward):

@@ -25,7 +25,6 @@ BAD = _choices("ABCDEFG")
 
 
 def check(study: Study) -> Found:
-    """The longest way down over skills each of which learns whom to let act."""
     choices = DiGraph()
     for skill in study.mind.skills:
         learnt = [edge.target for edge in skill.edges if edge.to == "skill" and edge.at is None and not edge.cuts]

@@ -13,7 +13,7 @@ from typing import Any
 from mindrun.kinds.sensors.sensor import directions
 from mindrun.numbers.expression import fold
 
-from mindlang.compiler.model import Comparison, Expression, Reading, When
+from mindlang.compiler.syntax import Comparison, Expression, Term, When
 from mindlang.lint.intervals import OPPOSITES, STRICT, TURNED, UPPER
 from mindlang.lint.study import Finding, Found, Study
 
@@ -44,7 +44,6 @@ BAD = (
 
 
 def check(study: Study) -> Found:
-    """Latches of directions, and conditions that hold behind the robot on one side."""
     known = directions(study.sensors)
     for sensor in study.mind.sensors:
         if sensor.kind.compares and sensor.kind.source in known:
@@ -55,17 +54,17 @@ def check(study: Study) -> Found:
     decaying = {memory.name for memory in study.mind.memories if memory.kind.decay > 0}
     for edge in (edge for _, edge in study.edges if edge.to == "memory" and edge.target in decaying):
         yield from _mixed(edge.values, edge.target, known)
-    for when in (condition.when for condition in study.conditions):
+    for when, *_ in study.conditions:
         yield from _one_sided(when, known)
         yield from _of_two(when, known)
 
 
 def _mixed(values: Sequence[Expression], memory: str, known: Set[str]) -> Iterator[Finding]:
     """Directions that a memory is sent which decays."""
-    for reading in (term for value in values for term in value.terms if isinstance(term, Reading)):
-        if reading.name in known:
-            message = f"{reading.name} is a direction, which {memory} mixes as a number: left and right behind it, 0.5."
-            hint = f"Let it hold one, cell decay 0, or read average of {reading.name} over some ticks."
+    for reading in (term for value in values for term in value.found("reading")):
+        if (name := reading.operand) in known:
+            message = f"{name} is a direction, which {memory} mixes as a number: left and right behind it, 0.5."
+            hint = f"Let it hold one, cell decay 0, or read average of {name} over some ticks."
             yield Finding(reading.span, message, hint)
 
 
@@ -116,28 +115,28 @@ def _linear(each: Comparison) -> tuple[Form, float]:
     return {name: times for name, times in form.items() if name}, form.get("", 0.0)
 
 
-def _reading(each: Comparison, name: str) -> Reading:
+def _reading(each: Comparison, name: str) -> Term:
     """The first mention of a reading in a comparison."""
-    terms = (*each.left.terms, *each.right.terms)
-    return next(term for term in terms if isinstance(term, Reading) and term.name == name)
+    terms = (*each.left.found("reading"), *each.right.found("reading"))
+    return next(term for term in terms if term.operand == name)
 
 
 def _one_sided(when: When, known: Set[str]) -> Iterator[Finding]:
     """The directions of which a condition asks for one side of what is behind and nothing else, or for all but that."""
     sides = [[side for each in all_ if (side := _side(each, known))] for all_ in when.alternatives]
-    asked = Counter(reading.name for all_ in sides for reading, *_ in all_)
+    asked = Counter(reading.operand for all_ in sides for reading, *_ in all_)
     for reading, compare, number in (side for all_ in sides for side in all_):
-        if asked[reading.name] > 1:
+        if asked[reading.operand] > 1:
             continue
-        other = f"{reading.name} {TURNED[compare]} {1 - number:g}"
+        other = f"{reading.operand} {TURNED[compare]} {1 - number:g}"
         if _is_behind(OPPOSITES[compare], number):
-            message = f"{reading.name} is a direction, and this leaves out what is behind on one side alone."
+            message = f"{reading.operand} is a direction, and this leaves out what is behind on one side alone."
             yield Finding(reading.span, message, f"Leave out the other side as well: and {other}.")
         elif _is_behind(compare, number):
             is_left = compare in UPPER
             here, there = ("left", "right") if is_left else ("right", "left")
-            same = f"{reading.name} {'>= 0' if is_left else '<= 1'}"
-            message = f"{reading.name} is a direction, and this is behind on the {here} alone, not on the {there}."
+            same = f"{reading.operand} {'>= 0' if is_left else '<= 1'}"
+            message = f"{reading.operand} is a direction, and this is behind on the {here} alone, not on the {there}."
             yield Finding(reading.span, message, f"Add or {other}, or, where one side is meant, and {same}.")
 
 
@@ -147,7 +146,7 @@ def _is_behind(compare: str, number: float) -> bool:
     return off <= 0.25 and (off > 0 or (off == 0 and compare not in STRICT))
 
 
-def _side(each: Comparison, known: Set[str]) -> tuple[Reading, str, float] | None:
+def _side(each: Comparison, known: Set[str]) -> tuple[Term, str, float] | None:
     """The direction that is compared with a number, how, and the number."""
     form, more = _linear(each)
     if len(form) != 1 or not form.keys() <= known:

@@ -47,7 +47,6 @@ BAD = (
 
 
 def check(study: Study) -> Found:
-    """Lessons below whose master a skill is taught for the first time later on."""
     courses: dict[str, list[Lesson]] = {}
     for lesson in study.mind.lessons:
         courses.setdefault(lesson.curriculum, []).append(lesson)

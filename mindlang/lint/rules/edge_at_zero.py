@@ -26,7 +26,6 @@ BAD = (
 
 
 def check(study: Study) -> Found:
-    """Influences whose value lies at 0 or below, where it is clamped to 0."""
     for skill, edge in study.edges:
         if edge.at and is_zero_influence(edge):
             message = f"{skill.name} never has influence on {edge.target}: this is always 0."

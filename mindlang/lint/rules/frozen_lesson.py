@@ -22,7 +22,6 @@ BAD = GOOD.replace("  reads eye", "  stays frozen\n  reads eye")
 
 
 def check(study: Study) -> Found:
-    """Lessons whose learners are all frozen."""
     for lesson in study.mind.lessons:
         taught = with_descendants(study.mind.influences, [lesson.skill]) if lesson.with_subskills else {lesson.skill}
         if taught.isdisjoint(study.learning):

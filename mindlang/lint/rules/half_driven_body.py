@@ -42,7 +42,6 @@ LACKS = {
 
 
 def check(study: Study) -> Found:
-    """The part that is alone on a car, or the last thruster where all push along one line."""
     body, moving = study.mind.body.kind, [part for part in study.mind.actuators if part.kind.drive]
     there = {part.kind.drive for part in moving}
     if "steering" in body.drives and len(there) == 1:

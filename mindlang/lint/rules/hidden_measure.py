@@ -18,7 +18,6 @@ BAD = GOOD.replace("ahead", "forward")
 
 
 def check(study: Study) -> Found:
-    """Sensors and memories called as a measure that is said in a single word."""
     measures = {name for name, kind in kinds("measure").items() if not any(a.required for a in arguments(kind))}
     parts = [*study.mind.names.declarations("sensor"), *study.mind.names.declarations("memory")]
     for name in (declaration.header.name for name, declaration in parts if name in measures):

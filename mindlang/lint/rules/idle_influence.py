@@ -35,7 +35,6 @@ BAD = f"{HIERARCHY}  influences Grab\n"
 
 
 def check(study: Study) -> Found:
-    """Learned influences below which no actuator or memory has a second driver."""
     alone = _alone(study)
     for skill, edge in study.edges:
         if skill.name not in study.active or edge.to != "skill" or edge.at is not None or edge.target not in alone:

@@ -20,7 +20,6 @@ BAD = GO.format(8)
 
 
 def check(study: Study) -> Found:
-    """Skills with many hidden layers that do not say how wide they are."""
     for skill in study.mind.skills:
         hidden = getattr(skill.function, "hidden", 0)
         if hidden > MOST_LAYERS and "width" in skill.function.derived and not skill.like:

@@ -20,7 +20,6 @@ BAD = GOOD.replace("battery_drift", "battery_bearing")
 
 
 def check(study: Study) -> Found:
-    """Declarations whose last words are those of another kind of their noun."""
     outside = {sensor.name for sensor in study.mind.sensors if sensor.kind.is_outside}
     outside |= {actuator.name for actuator in study.mind.actuators if actuator.kind.is_outside}
     for noun, declarations in study.mind.names.table.items():

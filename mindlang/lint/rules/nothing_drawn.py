@@ -33,7 +33,6 @@ HINT = "Let something be drawn: leave out facing or a place, or write varies thr
 
 
 def check(study: Study) -> Found:
-    """Tasks that are one world under every master that acts in them."""
     for written, task in zip(study.mind.tasks, study.graph.tasks, strict=True):
         masters = {lesson.master for lesson in study.mind.lessons if lesson.task == task.name} or {study.mind.master}
         if all(is_one_world(study.graph, task, master) for master in masters):

@@ -14,7 +14,6 @@ BAD = GOOD.replace("side right", "side left")
 
 
 def check(study: Study) -> Found:
-    """The last of two or more wheels that are all on the same side."""
     wheels = [(part, part.kind.mounted) for part in study.mind.actuators if part.kind.mounted]
     sides = {side for _, side in wheels}
     if len(wheels) > 1 and len(sides) == 1:

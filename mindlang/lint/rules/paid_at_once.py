@@ -6,7 +6,6 @@ What an end is about is left clear where the start is drawn; what is only reward
 no world.
 """
 
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from math import pi
 
@@ -57,7 +56,6 @@ BAD = (
 
 @once_a_line
 def check(study: Study) -> Found:
-    """Ends and rewards of events and conditions that have come in the first tick."""
     for task in study.mind.tasks:
         yield from _FirstTick(study, task, study.beginning(task)).found()
 
@@ -68,7 +66,7 @@ class _FirstTick:
     task: Task
     begun: Beginning
 
-    def found(self) -> Iterator[Finding]:
+    def found(self) -> Found:
         """The lines of a task that end a run or pay in the first tick."""
         for end in self.task.ends:
             if end.event and (often := self._often(end.event, end.times)):

@@ -25,7 +25,6 @@ BAD = f"{HIERARCHY}skill Live is rule\n  influences Search at 1\n  influences Go
 
 
 def check(study: Study) -> Found:
-    """Lines `influences` to a skill below another one that the same skill influences."""
     graph = study.mind.influences
     if len(graph) > MAX_REDUCED_SKILLS:
         return

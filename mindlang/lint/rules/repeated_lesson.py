@@ -34,7 +34,6 @@ Said = tuple[str, str, str, str, bool, Learner]
 
 
 def check(study: Study) -> Found:
-    """Lessons that come right after the same lesson, or after it and from scratch."""
     first: dict[Said, Lesson] = {}
     before: Said | None = None
     for lesson in study.mind.lessons:

@@ -36,7 +36,6 @@ HINT = "Leave it out: what the learner does where nothing is said is what has le
 
 
 def check(study: Study) -> Found:
-    """Lessons of which their learner says that nothing can come of them."""
     skills = {skill.name: skill for skill in study.graph.skills}
     for written, lesson in zip(study.mind.lessons, study.graph.lessons, strict=True):
         weights = sum(genes(skills[name]) for name in learners(study.graph, lesson))

@@ -22,7 +22,6 @@ BAD = (COURSE, f"{COURSE}  rewards 0 per tick\n  rewards 1 per tick when eye > 1
 
 
 def check(study: Study) -> Found:
-    """Lessons whose task has no reward that could be paid."""
     for lesson in study.mind.lessons:
         task = study.tasks[lesson.task]
         if all(study.worlds[task.name].why_never_paid(reward) for reward in task.rewards):

@@ -18,15 +18,12 @@ LEARNER = {
     "is": "genetic", "population": 9, "attempts": 1, "layouts": 2, "elite": 0.1, "mutation": 0.5, "mutated": 0.1,
     "octaves": 0, "patience": 0,
 }  # fmt: skip
-EYE = {"is": "range_finder", "at": [0.0], "range": 12.0, "dead_zone": 0.005}
-WHEEL = {"is": "wheel", "side": "left", "neutral": 0.5, "thrust": 80.0, "delay": 0}
-BODY = {"is": "disc", "size": 2.0, "density": 2.0, "linear_damping": 5.0, "angular_damping": 20.0}
 WORLD = TrainingWorld(
     {
         "tick": 1 / 60,
-        "body": BODY,
-        "sensor eye": EYE,
-        "actuator left_wheel": WHEEL,
+        "body": {"is": "disc", "size": 2.0, "density": 2.0, "linear_damping": 5.0, "angular_damping": 20.0},
+        "sensor eye": {"is": "range_finder", "at": [0.0], "range": 12.0, "dead_zone": 0.005},
+        "actuator left_wheel": {"is": "wheel", "side": "left", "neutral": 0.5, "thrust": 80.0, "delay": 0},
         "skill Go": {"sends": []},
         "task": {"scene": {"is": "plain"}, "ticks": 100, "ends": []},
         "rewards": [["forward", "per tick"]],
@@ -53,7 +50,6 @@ BAD = f"sensor eye is range_finder at 0 deg range 3\n{LEARNS}{LOCK}"
 
 
 def check(study: Study) -> Found:
-    """Skills that were taught in a world that the lock knows and the mind no longer has."""
     for name, state in status(study.graph, study.lock, study.main.folder).items():
         if isinstance(state, Trained) and state.is_elsewhere and not study.skills[name].like:
             message = f"{name} was taught elsewhere: {'; '.join(state.changes)}."

@@ -12,14 +12,10 @@ skill Go is rule
   drives left_wheel at 1
   drives right_wheel at 1
 """
-BAD = """
-skill Go is rule
-  drives left_wheel at 1
-"""
+BAD = GOOD.replace("  drives right_wheel at 1\n", "")
 
 
 def check(study: Study) -> Found:
-    """Actuators that stand in no line but their own."""
     for part in study.mind.actuators:
         if ("actuator", part.name) not in study.used:
             hint = f"Add drives {part.name} to a skill, or take the actuator out."

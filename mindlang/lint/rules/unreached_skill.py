@@ -7,14 +7,14 @@ straight or through others, never acts and never learns; and whoever reads the f
 from mindlang.lint.study import Finding, Found, Study, removal
 
 ELSEWHERE = True
-GOOD = (
-    """
-master Live
-skill Live is rule
-  influences Go at 1
+BAD = """
 skill Go is rule
   drives left_wheel at 1
-""",
+skill Rest is rule
+  drives left_wheel at 0.5
+"""
+GOOD = (
+    f"master Live\nskill Live is rule\n  influences Go at 1\n  influences Rest at 0.5{BAD}",
     """
 sensor eye is range_finder at 0 deg
 skill Learn is mlp
@@ -29,16 +29,9 @@ curriculum School is genetic
   teaches Learn on Course for 10 generations
 """,
 )
-BAD = """
-skill Go is rule
-  drives left_wheel at 1
-skill Rest is rule
-  drives left_wheel at 0.5
-"""
 
 
 def check(study: Study) -> Found:
-    """Skills that are not active; one that nobody names can be taken out."""
     for skill in study.mind.skills:
         if skill.name not in study.acting:
             fix = None if ("skill", skill.name) in study.used else removal(skill.declaration)

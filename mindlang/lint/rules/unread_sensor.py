@@ -21,15 +21,10 @@ task Rest in plain
   rewards charge per tick
 """,
 )
-BAD = """
-sensor eye is range_finder at 0 deg
-skill Go is rule
-  drives left_wheel at 1
-"""
+BAD = GOOD[0].replace("  reads eye\n", "").replace("at eye", "at 1")
 
 
 def check(study: Study) -> Found:
-    """Sensors that stand in no line but their own."""
     for part in study.mind.sensors:
         is_needed = study.is_exhausted and part.kind.battery
         if ("sensor", part.name) not in study.used and not is_needed:

@@ -12,29 +12,19 @@ from mindlang.compiler.syntax import Contains, of_form
 from mindlang.lint.study import Finding, Found, Study, once_a_line
 
 REACHED = "reached"  # the argument that is left out
-GOOD = (
-    """
+DOCK = """
 sensor dock_bearing is bearing of dock
 task Dock in plain
-  contains dock is zone size 5 reached stays
+  contains dock is zone size 5{}
   lasts 9 s
-  rewards 10 on reach of dock
-""",
-    """
-sensor dock_bearing is bearing of dock
-task Dock in plain
-  contains dock is zone size 5
-  lasts 9 s
-  ends on reach of dock
-  rewards 10 on reach of dock
-""",
-)
-BAD = GOOD[0].replace(" reached stays", "")
+{}  rewards 10 on reach of dock
+"""
+GOOD = (DOCK.format(" reached stays", ""), DOCK.format("", "  ends on reach of dock\n"))
+BAD = DOCK.format("", "")
 
 
 @once_a_line
 def check(study: Study) -> Found:
-    """Things that are reached for a reward or a count, and leave open what follows."""
     for task in study.mind.tasks:
         reached = _reached(task)
         for name, phrase in ((fact.name, fact.phrase) for fact in of_form(task.facts, Contains)):

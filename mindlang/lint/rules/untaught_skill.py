@@ -22,13 +22,7 @@ task Course in arena
 """
 GOOD = (
     f"{LEARNS}curriculum School is genetic\n  teaches Go on Course for 10 generations\n",
-    """
-sensor eye is range_finder at 0 deg
-skill Go is mlp
-  stays frozen
-  reads eye
-  drives left_wheel
-""",
+    LEARNS.replace("  reads eye", "  stays frozen\n  reads eye"),
 )
 BAD = LEARNS
 

@@ -7,20 +7,17 @@ One that starts above 0 and decays is a clock, and needs no driver. With `decay 
 from mindlang.lint.study import Finding, Found, Study, readings, removal
 
 ELSEWHERE = True
-GOOD = (
-    """
+MOOD = """
 memory mood is cell decay 0.9
 skill Go is rule
   reads mood
-  drives left_wheel at 1 - mood
+  drives left_wheel at mood
   drives mood at 1
-""",
-    """
-memory youth is cell decay 0.9 start 1
-skill Go is rule
-  reads youth
-  drives left_wheel at youth
-""",
+"""
+UNDRIVEN = MOOD.replace("  drives mood at 1\n", "")
+GOOD = (
+    MOOD,
+    UNDRIVEN.replace("0.9", "0.9 start 1"),
     """
 memory tired is cell decay 0.99
 skill Go is rule
@@ -32,30 +29,13 @@ task Run in arena
 """,
 )
 BAD = (
-    """
-memory mood is cell decay 0.9
-skill Go is rule
-  drives left_wheel at 1
-  drives mood at 1
-""",
-    """
-memory mood is cell decay 0.9
-skill Go is rule
-  reads mood
-  drives left_wheel at mood
-""",
-    """
-memory mood is cell decay 1
-skill Go is rule
-  reads mood
-  drives left_wheel at mood
-  drives mood at 1
-""",
+    MOOD.replace("  reads mood\n", "").replace("at mood", "at 1"),
+    UNDRIVEN,
+    MOOD.replace("decay 0.9", "decay 1"),
 )
 
 
 def check(study: Study) -> Found:
-    """Memories that nobody reads or nobody drives; one that neither happens to is taken out safely."""
     read = _read(study)
     driven = {edge.target for skill in study.mind.skills for edge in skill.edges if edge.to == "memory"}
     for part in study.mind.memories:
@@ -75,11 +55,10 @@ def check(study: Study) -> Found:
 def _read(study: Study) -> set[str]:
     """The readings that skills, sensors, rewards and ends look at."""
     rewards = [reward for task in study.mind.tasks for reward in task.rewards]
-    ends = [end.when for task in study.mind.tasks for end in task.ends if end.when]
+    ends = [end.when for task in study.mind.tasks for end in task.ends]
     return {
         *(name for skill in study.mind.skills for name in skill.reads),
         *(name for kind in study.sensors.values() for name in kind.sources),
         *(reward.each for reward in rewards if reward.each),
-        *readings(expression for reward in rewards for expression in reward.expressions),
-        *readings(expression for when in ends for expression in when.expressions),
+        *readings(*((reward.amount, reward.when) for reward in rewards), *ends),
     }

@@ -4,8 +4,6 @@ No line says the number, no task is in the scene and no scene is like it: it cha
 use may be there for them.
 """
 
-from mindlang.compiler.diagnostic import Fix
-from mindlang.editing.insertion import first_line, remove_lines
 from mindlang.lint.study import Finding, Found, Study, removal
 
 ELSEWHERE = True
@@ -17,11 +15,9 @@ BAD = ("number far is 12\n", "scene Rocks is arena\ntask Course in arena\n  last
 
 
 def check(study: Study) -> Found:
-    """Names of numbers and scenes that stand nowhere but where they are declared."""
     for name, number in study.mind.names.numbers.items():
         if ("number", name) not in study.used:
-            line = first_line(number.span)
-            fix = Fix(f"Remove {name}", (remove_lines(line, line),))
+            fix = removal(number, f"Remove {name}", is_safe=True)
             yield Finding(number.name.span, f"Nothing says {name}.", "Say it somewhere, or take it out.", fix=fix)
     for name, scene in study.mind.names.declarations("scene"):
         if ("scene", name) not in study.used:

@@ -14,9 +14,8 @@ BAD = f"{EYES}{GO}  drives left_wheel at right_eye\n  drives right_wheel at righ
 
 
 def check(study: Study) -> Found:
-    """Lines of rules that read what stands after none of their `at`."""
     for skill in (skill for skill in study.mind.skills if not skill.function.has_outputs):
-        used = readings(value for edge in skill.edges for value in edge.expressions)
+        used = readings(*((edge.at, edge.gate) for edge in skill.edges))
         for fact in of_form(skill.declaration.facts, Reads):
             if fact.name.text not in used:
                 message = f"{skill.name} reads {fact.name.text}, but no value of it depends on that."

@@ -26,7 +26,6 @@ BAD = COURSE
 
 
 def check(study: Study) -> Found:
-    """Tasks without a lesson in a mind that has lessons."""
     used = {lesson.task for lesson in study.mind.lessons}
     for task in study.mind.tasks if used else ():
         if task.name not in used and not task.counts:

@@ -24,7 +24,6 @@ BAD = "task Carry in arena\n  contains ball is item\n  lasts 9 s\n"
 
 
 def check(study: Study) -> Found:
-    """Things that no sensor names, nor anything in their task."""
     sensed, named = {*study.senses.values()}, _named(study)
     charges = any(kind.battery for kind in study.sensors.values())
     used: set[Span] = set()

@@ -9,11 +9,9 @@ from pathlib import Path
 
 from networkx import DiGraph
 
-from mindlang.compiler.diagnostic import Fix
 from mindlang.compiler.hierarchy import with_descendants
 from mindlang.compiler.syntax import File, Tick, Use, of_form
-from mindlang.editing.insertion import first_line, remove_lines
-from mindlang.lint.study import Finding, Found, Study
+from mindlang.lint.study import Finding, Found, Study, removal
 from mindlang.lock import lock_path
 
 PASSIVE = {"sensor", "memory", "skill"}
@@ -27,24 +25,19 @@ def check(study: Study) -> Found:
     main, *others = study.mind.files
     known = {file.source.path: file for file in others}
     uses = of_form(main.settings, Use)
-    brings = DiGraph({path: [each for each in _used(file) if each in known] for path, file in known.items()})
+    used = {path: map(_path, of_form(file.settings, Use)) for path, file in known.items()}
+    brings = DiGraph({path: [each for each in paths if each in known] for path, paths in used.items()})
     reach = [with_descendants(brings, {_path(use)} & known.keys()) for use in uses]
     for number, use in enumerate(uses):
         shared = {path for other, paths in enumerate(reach) if other != number for path in paths}
         brought = [known[path] for path in reach[number] - shared]
         if brought and not _is_used(study, brought):
-            line = first_line(use.span)
-            fix = Fix("Remove the line", (remove_lines(line, line),))
             hint = "Take the line out, or use something of it."
-            yield Finding(use.span, f"Nothing of {use.path} is used.", hint, fix=fix)
+            yield Finding(use.span, f"Nothing of {use.path} is used.", hint, fix=removal(use, is_safe=True))
 
 
 def _path(use: Use) -> Path:
     return (use.span.source.folder / use.path).resolve()
-
-
-def _used(file: File) -> list[Path]:
-    return [_path(use) for use in of_form(file.settings, Use)]
 
 
 def _is_used(study: Study, files: Iterable[File]) -> bool:

@@ -24,7 +24,6 @@ BAD = (
 
 
 def check(study: Study) -> Found:
-    """Values outside of 0..1, and those that read something and never get inside."""
     # an influence that is always 0 is for edge-at-zero to tell
     for value in (value for _, edge in study.edges if not is_zero_influence(edge) for value in edge.values):
         low, high = interval(value)

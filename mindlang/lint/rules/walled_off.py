@@ -80,7 +80,6 @@ HINT = "Open a wall or widen a passage, or fill with wall what nobody is to ente
 
 @once_a_line
 def check(study: Study) -> Found:
-    """Tasks in which no way leads from where the robot starts to all of the floor, or to a thing with a place."""
     for task in study.mind.tasks:
         yield from _of_task(study, task)
 
@@ -195,29 +194,20 @@ def _edges(half: float, inner: Iterable[float]) -> list[float]:
 
 
 def _parted(xs: Sequence[float], ys: Sequence[float], free: Sequence[bytearray]) -> Floor:
-    """The free cells by parts, the largest first."""
+    """The free cells by parts; a cell to which a way leads is free no more."""
+    wide, high = ([b - a for a, b in pairwise(edges)] for edges in (xs, ys))
     parts = [[-1] * len(row) for row in free]
     areas: list[float] = []
-    for row, cells in enumerate(free):
-        for column in range(len(cells)):
-            if free[row][column] and parts[row][column] < 0:
-                areas.append(_fill(xs, ys, free, parts, (row, column), len(areas)))
+    for start, cells in enumerate(free):
+        while (first := cells.find(1)) >= 0:
+            waiting, area, cells[first] = [(start, first)], 0.0, 0
+            while waiting:
+                row, column = waiting.pop()
+                parts[row][column] = len(areas)
+                area += wide[column] * high[row]
+                for r, c in ((row + 1, column), (row - 1, column), (row, column + 1), (row, column - 1)):
+                    if 0 <= r < len(free) and 0 <= c < len(wide) and free[r][c]:
+                        free[r][c] = 0
+                        waiting.append((r, c))
+            areas.append(area)
     return Floor(xs, ys, parts, areas)
-
-
-def _fill(
-    xs: Sequence[float], ys: Sequence[float], free: Sequence[bytearray], parts: list[list[int]], start: tuple[int, int],
-    number: int,
-) -> float:  # fmt: skip
-    """Mark all cells that a way leads to with the number of their part; its area."""
-    wide, high = ([b - a for a, b in pairwise(edges)] for edges in (xs, ys))
-    waiting, area = [start], 0.0
-    parts[start[0]][start[1]] = number
-    while waiting:
-        row, column = waiting.pop()
-        area += wide[column] * high[row]
-        for r, c in ((row + 1, column), (row - 1, column), (row, column + 1), (row, column - 1)):
-            if 0 <= r < len(free) and 0 <= c < len(wide) and free[r][c] and parts[r][c] < 0:
-                parts[r][c] = number
-                waiting.append((r, c))
-    return area

@@ -23,7 +23,6 @@ actuator right_wheel is wheel side left neutral 0.5
 
 
 def check(study: Study) -> Found:
-    """Wheels, and sensors that measure on a side, named after the side on which they are not."""
     for name, side, span in _sided(study):
         said = {*name_words(name)}
         if OPPOSITE_SIDES[side] in said and side not in said:

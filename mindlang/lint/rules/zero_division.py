@@ -11,8 +11,8 @@ from math import inf, nextafter
 
 from msgspec.structs import replace
 
-from mindlang.compiler.model import Comparison, Expression, Reading, When
-from mindlang.lint.intervals import OPPOSITES, TURNED, UPPER, Interval, divisors, interval, is_constant
+from mindlang.compiler.syntax import Comparison, Expression, Term, When
+from mindlang.lint.intervals import OPPOSITES, UPPER, Interval, bounds, divisors
 from mindlang.lint.study import AnalysedWorld, Conditional, Finding, Found, Study
 
 READS = """
@@ -40,56 +40,55 @@ BAD = (
     f"{RATIO}sensor ratio is computed at near / (near + far)\n",
 )
 MESSAGE = "What is divided by here can be 0, and then this is not a number."
+Alternatives = tuple[tuple[Comparison, ...], ...]
+ALWAYS: Alternatives = ((),)  # nothing has to hold
 HINT = "Add a little to it, as in 1 / (ahead + 0.01), or say when: 1 / ahead per tick when ahead > 0.01."
 
 
 def check(study: Study) -> Found:
-    """Divisions in sensors, in what skills send, and in rewards and ends."""
     for part in study.mind.sensors:
         if part.kind.formula and _has_zero(divisors(part.kind.formula, study.any_world.reading)):
             yield Finding(part.span, MESSAGE, HINT)
-    for value, when, of, world in _values(study):
-        if _divides_by_zero(value, when, of, world):
+    for value, alternatives, of, world in _values(study):
+        if any(_divides_by_zero(value, all_, of, world) for all_ in alternatives):
             yield Finding(value.span, MESSAGE, HINT)
 
 
-def _values(study: Study) -> Iterator[tuple[Expression, When | None, Conditional, AnalysedWorld]]:
-    """The expressions of edges, rewards and comparisons, each with the condition under which it counts."""
+def _values(study: Study) -> Iterator[tuple[Expression, Alternatives, Conditional, AnalysedWorld]]:
+    """The expressions of edges, rewards and comparisons, each with the alternatives in which it counts."""
     for _, edge in study.edges:
         if edge.at:
-            yield edge.at, edge.gate.when if edge.gate else None, edge, study.any_world
+            yield edge.at, edge.gate.when.alternatives if edge.gate else ALWAYS, edge, study.any_world
         if edge.gate and edge.gate.otherwise:
             yield edge.gate.otherwise, _opposite(edge.gate.when), edge, study.any_world
     for task in study.mind.tasks:
         for reward in task.rewards:
-            yield reward.amount, reward.when, reward, study.worlds[task.name]
+            alternatives = reward.when.alternatives if reward.when else ALWAYS
+            yield reward.amount, alternatives, reward, study.worlds[task.name]
     for when, of, world in study.conditions:
         for all_, comparison in ((each, one) for each in when.alternatives for one in each):
-            beside = replace(when, alternatives=(tuple(other for other in all_ if other is not comparison),))
-            yield comparison.left, beside, of, world
-            yield comparison.right, beside, of, world
+            beside = tuple(other for other in all_ if other is not comparison)
+            yield comparison.left, (beside,), of, world
+            yield comparison.right, (beside,), of, world
 
 
-def _opposite(when: When) -> When | None:
-    """The negation of a condition of one comparison; None for others, whose negation is not one `and`."""
+def _opposite(when: When) -> Alternatives:
+    """The negation of a condition of one comparison; of others, whose negation is not one `and`, nothing is known."""
     match when.alternatives:
         case ((only,),):
-            return replace(when, alternatives=((replace(only, compare=OPPOSITES[only.compare]),),))
-    return None
+            return ((replace(only, compare=OPPOSITES[only.compare]),),)
+    return ALWAYS
 
 
-def _divides_by_zero(value: Expression, when: When | None, of: Conditional, world: AnalysedWorld) -> bool:
-    """True if a divisor in the expression can be 0 while the condition holds."""
-    for all_ in when.alternatives if when else ((),):
-        ranges = _narrowed(world, all_)
+def _divides_by_zero(value: Expression, all_: Sequence[Comparison], of: Conditional, world: AnalysedWorld) -> bool:
+    """True if a divisor in the expression can be 0 while these comparisons hold."""
+    ranges = _narrowed(world, all_)
 
-        def reading(name: str, ranges: dict[str, Interval] = ranges) -> Interval:
-            return ranges.get(name, world.reading(name))
+    def reading(name: str) -> Interval:
+        return ranges.get(name, world.reading(name))
 
-        can_hold = all(low <= high for low, high in ranges.values())
-        if can_hold and _has_zero(divisors(value, reading, world.each(of))):
-            return True
-    return False
+    can_hold = all(low <= high for low, high in ranges.values())
+    return can_hold and _has_zero(divisors(value, reading, world.each(of)))
 
 
 def _has_zero(found: Sequence[Interval]) -> bool:
@@ -102,14 +101,10 @@ def _narrowed(world: AnalysedWorld, all_: Sequence[Comparison]) -> dict[str, Int
     Where they never do, one ends before it begins.
     """
     found: dict[str, Interval] = {}
-    for each in all_:
-        for side, number, compare in (
-            (each.left, each.right, each.compare),
-            (each.right, each.left, TURNED[each.compare]),
-        ):
-            match side.terms:
-                case (Reading(name),) if is_constant(number):
-                    found[name] = _within(found.get(name, world.reading(name)), compare, interval(number)[0])
+    for side, compare, number in bounds(all_):
+        match side.terms:
+            case (Term("reading", name),):
+                found[name] = _within(found.get(name, world.reading(name)), compare, number)
     return found
 
 

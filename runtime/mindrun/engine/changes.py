@@ -4,7 +4,7 @@ And the engine that runs with such changes, bit for bit as `mindrun.sim.changed_
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from math import isfinite
 from typing import Literal
 
@@ -18,6 +18,8 @@ from mindrun.graph.graph import Graph
 from mindrun.numbers.arrays import Reader, Readings
 
 What = Literal["reading", "influence", "memory"]
+Changed = Mapping[What, Mapping[int, float]]  # the numbers that are others in one tick, by their places
+UNCHANGED: Changed = {"reading": {}, "influence": {}, "memory": {}}
 
 
 class ChangeError(MindError):
@@ -47,25 +49,13 @@ class Change:
         return self.values[min(tick - self.first, len(self.values) - 1)]
 
 
-@dataclass(frozen=True, slots=True)
-class Changed:
-    """The numbers that are others in one tick, by their places: readings, influence of skills, memory cells."""
-
-    reading: Mapping[int, float] = field(default_factory=dict)
-    influence: Mapping[int, float] = field(default_factory=dict)
-    memory: Mapping[int, float] = field(default_factory=dict)
-
-
-UNCHANGED = Changed()
-
-
 def in_tick(changes: Sequence[Change], tick: int) -> Changed | None:
     """All that is changed in a tick, of two changes of one number the later one; None where nothing is."""
-    made: dict[What, dict[int, float]] = {"reading": {}, "influence": {}, "memory": {}}
+    made: dict[What, dict[int, float]] = {what: {} for what in UNCHANGED}
     for change in changes:
         if change.holds(tick):
             made[change.what][change.row] = change.value(tick)
-    return Changed(**made) if any(made.values()) else None
+    return made if any(made.values()) else None
 
 
 def calm_ticks(changes: Sequence[Change], tick: int, most: int) -> int:
@@ -75,12 +65,7 @@ def calm_ticks(changes: Sequence[Change], tick: int, most: int) -> int:
 
 
 def change_of(
-    graph: Graph,
-    what: What,
-    name: str,
-    values: Sequence[Sequence[float]],
-    first: int = 1,
-    last: int | None = None,
+    graph: Graph, what: What, name: str, values: Sequence[Sequence[float]], first: int = 1, last: int | None = None
 ) -> tuple[Change, ...]:
     """A sensor's readings, a skill's influence or a memory cell replaced; ChangeError where that cannot be.
 
@@ -98,7 +83,8 @@ def change_of(
     for row in values:
         for value in row:
             if not (isfinite(value) and value >= 0 and (most is None or value <= most)):
-                raise ChangeError(f"{name} cannot be {value:g}", _allowed(what))
+                hint = "influence is a number from 0 on" if most is None else "it is a number from 0 to 1"
+                raise ChangeError(f"{name} cannot be {value:g}", hint)
     return tuple(
         Change(what, start + k, tuple(float(row[k % len(row)]) for row in values), first, last) for k in range(width)
     )
@@ -124,10 +110,6 @@ def _place(graph: Graph, what: What, name: str) -> tuple[str, int, int]:
     return noun, *places[name]
 
 
-def _allowed(what: What) -> str:
-    return "influence is a number from 0 on" if what == "influence" else "it is a number from 0 to 1"
-
-
 class ChangedEngine(Engine):
     """An engine whose `tick_with` makes changes, bit for bit as `mindrun.sim.changed_ticks` makes them in the lanes."""
 
@@ -141,12 +123,12 @@ class ChangedEngine(Engine):
         """Commands [actuators] for readings [graph.width] in a tick in which so much is changed."""
         self._made = made or UNCHANGED
         for number, memory in enumerate(self.graph.memories):
-            if memory.start in self._made.memory:
-                self._cells[number] = self._made.memory[memory.start]
+            if memory.start in self._made["memory"]:
+                self._cells[number] = self._made["memory"][memory.start]
         return self.tick(readings)
 
     def _filled(self, now: NDArray[np.float32]) -> NDArray[np.float32]:
-        for row, value in self._made.reading.items():
+        for row, value in self._made["reading"].items():
             now[row] = value
         return super()._filled(now)
 
@@ -156,11 +138,11 @@ class ChangedEngine(Engine):
         def replacing(number: int, now: Readings, before: Readings | None) -> Readings:
             now[place] = read(number, now, before)
             for row in range(place.start, place.stop):
-                if row in self._made.reading:
-                    now[row] = self._made.reading[row]
+                if row in self._made["reading"]:
+                    now[row] = self._made["reading"][row]
             return now[place]
 
         return replacing
 
     def _thought(self) -> Thought:
-        return think(self._hierarchy, self.readings, self._made.influence)
+        return think(self._hierarchy, self.readings, self._made["influence"])

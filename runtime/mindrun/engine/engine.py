@@ -50,10 +50,7 @@ class Engine:
     """
 
     def __init__(
-        self,
-        policy: Policy,
-        procedures: Path | Mapping[str, str] | None = None,
-        master: str | None = None,
+        self, policy: Policy, procedures: Path | Mapping[str, str] | None = None, master: str | None = None
     ) -> None:
         graph = policy.graph
         master = master or graph.master
@@ -88,7 +85,8 @@ class Engine:
             self.readings = self._filled(np.array(readings, np.float32))
             thought = self._thought()
             actuators = len(self._neutral)
-            self._remember(thought.command[actuators:], thought.driven[actuators:])
+            kept = self._decay * self._cells
+            self._cells = np.where(thought.driven[actuators:], kept + self._rest * thought.command[actuators:], kept)
         self._tick, self._before = self._tick + 1, self.readings
         self.influence = thought.influence
         self.faults += thought.faults
@@ -104,7 +102,3 @@ class Engine:
 
     def _thought(self) -> Thought:
         return think(self._hierarchy, self.readings)
-
-    def _remember(self, command: NDArray[np.float32], driven: NDArray[np.bool_]) -> None:
-        kept = self._decay * self._cells
-        self._cells = np.where(driven, kept + self._rest * command, kept)

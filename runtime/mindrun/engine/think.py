@@ -15,7 +15,7 @@ from mindrun.graph.graph import Edge, Gate, Program
 from mindrun.graph.policy import Policy
 from mindrun.graph.weights import reachable, weights_of
 from mindrun.numbers.arrays import Compute
-from mindrun.numbers.evaluation import evaluate
+from mindrun.numbers.expression import evaluate
 
 _ZERO, _ONE = np.float32(0.0), np.float32(1.0)
 

@@ -3,8 +3,7 @@
 from dataclasses import dataclass
 from typing import Annotated, Any, Literal
 
-from mindrun.kinds.actuators.actuator import ActuatorKind
-from mindrun.kinds.actuators.gripper import REACH_UNITS
+from mindrun.kinds.actuators.actuator import REACH_UNITS, ActuatorKind
 from mindrun.kinds.bodies.body import BodyKind
 from mindrun.kinds.events.event import EventKind
 from mindrun.kinds.functions.function import Function
@@ -280,6 +279,12 @@ class Graph(ShortRepr):
     def width(self) -> int:
         """How many readings there are: those of the sensors, then one per memory."""
         return sum(sensor.width for sensor in self.sensors) + len(self.memories)
+
+    @property
+    def readings(self) -> list[tuple[str, int]]:
+        """The sensor or memory of each reading, and which of its own it is."""
+        wide = [(sensor.name, number) for sensor in self.sensors for number in range(sensor.width)]
+        return wide + [(memory.name, 0) for memory in self.memories]
 
     @property
     def skill_numbers(self) -> dict[str, int]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from mindrun.graph.graph import Graph, Sensor, Skill, Task
@@ -16,32 +15,18 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 
-@dataclass(frozen=True, slots=True)
-class UsedSensors:
-    """The sensors that are measured: those that `skills` depend on, and those `aside` that only rewards do.
-
-    Sources stand before what derives from them.
-    """
-
-    skills: list[Sensor]
-    aside: list[Sensor]
-
-    @property
-    def all(self) -> list[Sensor]:
-        """All sensors that are measured."""
-        return [*self.skills, *self.aside]
-
-
-def used_sensors(graph: Graph, reached: Iterable[Skill], task: Task) -> UsedSensors:
-    """The sensors that a reached skill or a reward reads."""
+def used_sensors(graph: Graph, reached: Iterable[Skill], task: Task) -> tuple[list[Sensor], list[Sensor]]:
+    """The sensors on which reached skills depend, and those beside on which only rewards and ends do; sources first."""
     skills = with_sources(graph, {row for skill in reached for row in skill.inputs})
-    rewards = with_sources(graph, _rewarded(task))
-    return UsedSensors(skills, [sensor for sensor in rewards if sensor not in skills])
+    rows = {index for program in task.programs for index in leaves(program, "reading")}
+    rows |= {row for reward in task.rewards if reward.each for row in range(reward.each[0], sum(reward.each))}
+    return skills, [sensor for sensor in with_sources(graph, rows) if sensor not in skills]
 
 
 def measured_in_world(graph: Graph, master: str, task: Task) -> list[Sensor]:
     """The sensors that a simulated run measures: what skills below the master and rewards depend on."""
-    return used_sensors(graph, reachable(graph, master), task).all
+    skills, aside = used_sensors(graph, reachable(graph, master), task)
+    return skills + aside
 
 
 def measured_on_robot(graph: Graph, wired: Collection[str]) -> list[Sensor]:
@@ -60,14 +45,6 @@ def rows_of(graph: Graph, sensors: Iterable[Sensor]) -> NDArray[np.bool_]:
         found[each.start : each.start + each.width] = True
     found[[memory.start for memory in graph.memories]] = True
     return found
-
-
-def _rewarded(task: Task) -> set[int]:
-    """The readings that rewards and ends depend on."""
-    rows = {index for program in task.programs for index in leaves(program, "reading")}
-    for reward in task.rewards:
-        rows |= set(range(reward.each[0], sum(reward.each))) if reward.each else set()
-    return rows
 
 
 def with_sources(graph: Graph, rows: set[int]) -> list[Sensor]:

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 from mindrun.errors import WeightsError
 from mindrun.graph.graph import Graph, Skill
+from mindrun.graph.named_readings import reading_names
 from mindrun.graph.weights import Weights, checked
 from mindrun.numbers.short_repr import ShortRepr
 
@@ -27,7 +28,7 @@ class Policy(ShortRepr):
         if strangers := sorted(self.weights.keys() - skills.keys()):
             raise WeightsError(f"there are weights of {strangers[0]}, but no such skill has its own")
         ordered = _Ordered((name, checked(skills[name], weights)) for name, weights in self.weights.items())
-        readings = _readings(self.graph)
+        readings = reading_names(self.graph)
         ordered.orders = {name: _order(self.graph, readings, skills[name]) for name in ordered}
         if isinstance(self.weights, _Ordered):
             for name, order in ordered.orders.items():
@@ -42,13 +43,7 @@ class _Ordered(dict[str, Weights]):
     orders: Mapping[str, object]
 
 
-def _readings(graph: Graph) -> list[tuple[str, int]]:
-    """Whose each reading is, and which of its sensor."""
-    wide = [(sensor.name, number) for sensor in graph.sensors for number in range(sensor.width)]
-    return wide + [(memory.name, 0) for memory in graph.memories]
-
-
-def _order(graph: Graph, readings: Sequence[tuple[str, int]], skill: Skill) -> object:
+def _order(graph: Graph, readings: Sequence[str], skill: Skill) -> object:
     """The meaning of a skill's weights, in their order: its function, and by name what it reads and sends."""
     sends = [(graph.named(edge.to, edge.target), edge.output) for edge in skill.edges if edge.output is not None]
     return skill.function, [readings[index] for index in skill.inputs], sends

@@ -1,11 +1,13 @@
 """The text of a procedure's module beside the source of a mind, if it can be all that the skill needs."""
 
+from collections.abc import Callable
 from importlib.util import find_spec
 from pathlib import Path
 
 from mindrun.graph.graph import Skill
 from mindrun.kinds.functions.procedure import module_source
-from mindrun.kinds.procedure_text import STANDS_ALONE, fault, fit, imports, texts
+from mindrun.kinds.procedure_names import imports, texts
+from mindrun.kinds.procedure_text import STANDS_ALONE, fault, fit, parsed
 
 
 def source_of(skill: Skill, folder: Path) -> str:
@@ -17,15 +19,16 @@ def source_of(skill: Skill, folder: Path) -> str:
     calls = str(skill.function.calls)
     source = module_source(calls, folder)
     fit(calls, source, len(skill.inputs), skill.outputs)
-    for line, module, _, _ in imports(calls, source):
+    names = parsed(calls, source)
+    for line, module, _, _ in imports(names):
         top = module.partition(".")[0]
         places = f"{top}.py", f"{top}/__init__.py", f"{module.replace('.', '/')}.py"
-        if not top or any(_is_file(folder / place) for place in places):
+        if not top or any(_is(Path.is_file, folder / place) for place in places):
             raise fault(calls, f"imports {module}, a file that no bundle holds", line, STANDS_ALONE)
-        if _is_folder(folder / top) and not is_installed(top, folder):  # a package without an __init__.py
+        if _is(Path.is_dir, folder / top) and not is_installed(top, folder):  # a package without an __init__.py
             raise fault(calls, f"imports {module}, a folder that no bundle holds", line, STANDS_ALONE)
-    for line, text in texts(calls, source):
-        if "." in text and _is_file(folder / text):
+    for line, text in texts(names):
+        if "." in text and _is(Path.is_file, folder / text):
             raise fault(calls, f"names {text}, a file that no bundle holds", line, STANDS_ALONE)
     return source
 
@@ -42,15 +45,8 @@ def is_installed(module: str, folder: Path) -> bool:
     return any(Path(place).resolve() != own for place in spec.submodule_search_locations)
 
 
-def _is_file(path: Path) -> bool:
+def _is(kind: Callable[[Path], bool], path: Path) -> bool:
     try:
-        return path.is_file()
+        return kind(path)
     except (OSError, ValueError):  # no name that a file could have
-        return False
-
-
-def _is_folder(path: Path) -> bool:
-    try:
-        return path.is_dir()
-    except (OSError, ValueError):
         return False

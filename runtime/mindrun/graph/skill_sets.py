@@ -17,7 +17,6 @@ def reachable(graph: Graph, master: str) -> tuple[Skill, ...]:
 
 def below(graph: Graph, index: int) -> tuple[Skill, ...]:
     """The skill of an index and all that it can influence, parents first."""
-
     found = {index}
     for number in range(index, len(graph.skills)):
         if number in found:

@@ -17,11 +17,15 @@ WORLD_VERSION = 1
 
 def physics() -> dict[str, str | int]:
     """The versions of pymunk, "" where it is not installed, and of the world that is our own."""
+    return {"pymunk": installed_version("pymunk"), "world": WORLD_VERSION}
+
+
+def installed_version(package: str) -> str:
+    """The version of a package; "" where it is not installed."""
     try:
-        found = version("pymunk")
+        return version(package)
     except PackageNotFoundError:
-        found = ""
-    return {"pymunk": found, "world": WORLD_VERSION}
+        return ""
 
 
 def default_task(graph: Graph) -> tuple[Task, str]:

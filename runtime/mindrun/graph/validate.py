@@ -132,7 +132,9 @@ def _task_flaws(task: Task, width: int, actuators: int) -> Iterator[str]:
         yield "contains what has no name of its own"
     if any(thing.kind.size == UNSAID for thing in task.things):
         yield "contains what has no size"
-    if not {*_things_named(task)} - {""} <= {thing.name for thing in task.things if not thing.kind.is_obstacle}:
+    about = (*task.events, *task.measures)
+    named = {getattr(part, each.field) for part in about for each in arguments(type(part)) if each.type == THING}
+    if not named - {""} <= {thing.name for thing in task.things if not thing.kind.is_obstacle}:
         yield "names a thing that is not there"
     yield from _world_flaws(task)
     events, readings = range(len(task.events)), range(width)
@@ -187,12 +189,6 @@ def _variation_flaws(graph: Graph, task: Task) -> Iterator[str]:
     failing = [each.actuator for each in task.fails]
     if len({*failing}) < len(failing) or not {*failing} <= {actuator.name for actuator in graph.actuators}:
         yield "has failures of what is no actuator, or twice"
-
-
-def _things_named(task: Task) -> Iterator[str]:
-    """The things that the events and measures of a task are about."""
-    for part in (*task.events, *task.measures):
-        yield from (getattr(part, argument.field) for argument in arguments(type(part)) if argument.type == THING)
 
 
 def _computes(

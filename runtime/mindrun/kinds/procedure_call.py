@@ -2,7 +2,6 @@
 
 import sys
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
 from functools import lru_cache
 from hashlib import sha256
 from traceback import walk_tb
@@ -18,19 +17,12 @@ from mindrun.kinds.procedure_text import examine, file_of, module_of
 from mindrun.numbers.given_numbers import number, values
 
 
-@dataclass(slots=True)
 class RunningProcedure:
     """A procedure of one run: its function, from a module that is executed anew for each run."""
 
-    calls: str
-    sources: Mapping[str, str]
-    outputs: int
-    function: Callable[..., Any] = field(init=False)
-    was_called: bool = False
-
-    def __post_init__(self) -> None:
-        """Run the module, and keep its function."""
-        self.function = load(self.calls, self.sources)
+    def __init__(self, calls: str, sources: Mapping[str, str], outputs: int) -> None:
+        self.calls, self.sources, self.outputs = calls, sources, outputs
+        self.function, self.was_called = load(calls, sources), False
 
     def reset(self) -> None:
         """Run the module anew, if the function has been called, so that it remembers nothing."""

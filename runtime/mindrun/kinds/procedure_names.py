@@ -10,7 +10,8 @@ from dataclasses import dataclass, field
 Key = tuple[symtable.SymbolTable, str]  # the scope that a name belongs to, and the name
 Scopes = tuple[symtable.SymbolTable, ...]  # of a module, and of what is in it around a place, the inmost last
 DEFINITIONS = ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef
-COMPREHENSIONS: dict[type[ast.AST], str] = {
+UNNAMED: dict[type[ast.AST], str] = {
+    ast.Lambda: "lambda",
     ast.ListComp: "listcomp",
     ast.SetComp: "setcomp",
     ast.DictComp: "dictcomp",
@@ -46,7 +47,6 @@ class ModuleNames:
 
     tree: ast.Module
     table: symtable.SymbolTable
-    imported: set[str] = field(default_factory=set)  # dotted names of all that is imported
     _scopes: dict[ast.AST, Scopes] = field(default_factory=dict)
     _bound: dict[Key, list[str | ast.expr]] = field(default_factory=lambda: defaultdict(list))
     _paths: dict[Key, set[str]] = field(default_factory=lambda: defaultdict(set))
@@ -108,25 +108,20 @@ class ModuleNames:
                 for alias in aliases:
                     top = alias.name.partition(".")[0]
                     self._give(alias.asname or top, scopes, alias.name if alias.asname else top)
-                    self.imported.add(alias.name)
             case ast.ImportFrom(module=str(module), names=aliases, level=0):
                 for alias in aliases:
                     if alias.name == "*":
                         self._everything_of.append(module)
                     self._give(alias.asname or alias.name, scopes, f"{module}.{alias.name}")
-                    self.imported.add(f"{module}.{alias.name}")
             case ast.Assign(targets=targets, value=value):
                 for target in targets:
                     self._assign(target, value, scopes)
             case ast.AnnAssign(target=target, value=ast.expr() as value) | ast.NamedExpr(target=target, value=value):
                 self._assign(target, value, scopes)
             case ast.FunctionDef(args=given) | ast.AsyncFunctionDef(args=given) | ast.Lambda(args=given):
-                plain = [*given.posonlyargs, *given.args][-len(given.defaults) :] if given.defaults else []
-                pairs = [
-                    *zip(plain, given.defaults, strict=True),
-                    *zip(given.kwonlyargs, given.kw_defaults, strict=True),
-                ]
-                for argument, default in pairs:
+                plain = [*given.posonlyargs, *given.args, *given.kwonlyargs]
+                defaults = [*given.defaults, *given.kw_defaults]
+                for argument, default in zip(reversed(plain), reversed(defaults), strict=False):
                     if default is not None:
                         self._give(argument.arg, inner, default)
 
@@ -184,8 +179,7 @@ def _symbol(name: str, scope: symtable.SymbolTable) -> symtable.Symbol | None:
 
 def _begun(node: ast.AST, scope: symtable.SymbolTable, used: set[int]) -> Iterator[symtable.SymbolTable]:
     """The scope that a node begins, with that of its type parameters; none where Python makes it part of another."""
-    name = "lambda" if isinstance(node, ast.Lambda) else COMPREHENSIONS.get(type(node), "")
-    name = node.name if isinstance(node, DEFINITIONS) else name
+    name = node.name if isinstance(node, DEFINITIONS) else UNNAMED.get(type(node), "")
     for child in scope.get_children() if name else ():
         is_its = (child.get_name(), child.get_lineno()) == (name, getattr(node, "lineno", 0))
         if is_its and child.get_id() not in used:
@@ -203,7 +197,7 @@ def _own_parts(node: ast.AST) -> Iterator[ast.AST]:
             yield from body
         case ast.Lambda(body=body):
             yield body
-        case _ if type(node) in COMPREHENSIONS:
+        case _ if type(node) in UNNAMED:
             yield from ast.iter_child_nodes(node)
 
 
@@ -242,6 +236,7 @@ def drawn(names: ModuleNames) -> Iterator[tuple[int, str]]:
 def opened(names: ModuleNames) -> Iterator[tuple[int, str]]:
     """Lines that read a file, and the name that does so; one that only writes is none."""
     is_streaming = any(names.paths(node) & IN_MEMORY for node in ast.walk(names.tree))
+    knows_paths = any(module.startswith("pathlib") for _, module, _, _ in imports(names))
     for node in ast.walk(names.tree):
         match node:
             case ast.Name(id="__file__") if "__file__" in names.paths(node):
@@ -249,7 +244,7 @@ def opened(names: ModuleNames) -> Iterator[tuple[int, str]]:
             case ast.Call(func=func):
                 paths = sorted(names.paths(func))
                 yield from ((node.lineno, used) for used in paths if _reads(used, node, is_streaming))
-                if not paths and isinstance(func, ast.Attribute) and _is_of_a_path(func.attr, node, names):
+                if not paths and isinstance(func, ast.Attribute) and _is_of_a_path(func.attr, node, knows_paths):
                     yield node.lineno, func.attr
 
 
@@ -280,9 +275,8 @@ def _reads(used: str, call: ast.Call, is_streaming: bool) -> bool:
     return is_reader and is_named and not (last == "load" and used.startswith(STREAMED))
 
 
-def _is_of_a_path(method: str, call: ast.Call, names: ModuleNames) -> bool:
-    """True if a method of an unknown object reads a file; `open` is a path's where the module imports pathlib."""
-    knows_paths = any(each.startswith("pathlib") for each in names.imported)
+def _is_of_a_path(method: str, call: ast.Call, knows_paths: bool) -> bool:
+    """True if a method of an unknown object reads a file; `open` is a path's where the module knows paths."""
     return method in OF_PATHS or (method == "open" and knows_paths and not _writes(_modes(call, 0)))
 
 

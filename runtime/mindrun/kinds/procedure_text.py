@@ -11,10 +11,8 @@ from symtable import symtable
 from warnings import catch_warnings
 
 from mindrun.errors import ProcedureError
-from mindrun.kinds import procedure_names as use
-from mindrun.kinds.procedure_names import ModuleNames
+from mindrun.kinds.procedure_names import ModuleNames, drawn, opened
 
-BLOCKS = ast.If | ast.Try | ast.With | ast.For | ast.While
 FUNCTIONS = ast.FunctionDef | ast.AsyncFunctionDef
 STANDS_ALONE = "A module stands alone: write what it needs into it."
 
@@ -52,16 +50,16 @@ def examine(from_: str, source: str) -> FunctionSignature | None:
 
 
 def _examined(from_: str, source: str) -> FunctionSignature | None:
-    names, name = _parsed(from_, source), from_.rpartition(".")[2]
+    names, name = parsed(from_, source), from_.rpartition(".")[2]
     tree = names.tree
-    functions = [node for node in _statements(tree.body) if isinstance(node, FUNCTIONS) and node.name == name]
+    functions = [node for node in _own(tree) if isinstance(node, FUNCTIONS) and node.name == name]
     given = _given(tree)
     if not functions and not given & {name, "*"}:
         raise fault(from_, "its module has no such function")
-    for line, drawn in use.drawn(names):
+    for line, by in drawn(names):
         hint = "Draw from a generator of its own, with a seed: random.Random(1). Each run then begins with it anew."
-        raise fault(from_, f"its module draws from {drawn}, so no run could be made again", line, hint)
-    for line, by in use.opened(names):
+        raise fault(from_, f"its module draws from {by}, so no run could be made again", line, hint)
+    for line, by in opened(names):
         raise fault(from_, f"its module looks for a file with {by}, and no bundle holds one", line, STANDS_ALONE)
     if len(functions) != 1 or name in given:
         return None
@@ -95,19 +93,6 @@ def fit(from_: str, source: str, inputs: int, outputs: int) -> None:
             raise fault(from_, message, line, hint)
 
 
-def imports(from_: str, source: str) -> Iterator[tuple[int, str, str, bool]]:
-    """Each line that imports, the module (with a dot before what is relative), a name in it, whether it may be absent.
-
-    The name is empty for the module alone, and where all of it is taken.
-    """
-    return use.imports(_parsed(from_, source))
-
-
-def texts(from_: str, source: str) -> Iterator[tuple[int, str]]:
-    """The texts in a module and their lines, without docstrings and the names of what is only written."""
-    return use.texts(_parsed(from_, source))
-
-
 def fault(from_: str, message: str, line: int = 0, hint: str = "") -> ProcedureError:
     """An error about a procedure, with the file and the line."""
     where = f" ({file_of(from_)}, line {line})" if line else ""
@@ -115,7 +100,8 @@ def fault(from_: str, message: str, line: int = 0, hint: str = "") -> ProcedureE
 
 
 @lru_cache(16)
-def _parsed(from_: str, source: str) -> ModuleNames:
+def parsed(from_: str, source: str) -> ModuleNames:
+    """The names in the text of a procedure's module; ProcedureError where it is no Python."""
     try:
         with catch_warnings(action="ignore"):
             compile(source, file_of(from_), "exec")  # finds more than the parser does: return outside of a function
@@ -124,16 +110,6 @@ def _parsed(from_: str, source: str) -> ModuleNames:
         raise fault(from_, f"SyntaxError: {error.msg}", error.lineno or 1) from error
     except (ValueError, RecursionError, MemoryError) as error:
         raise fault(from_, f"it is no Python that can be read: {error or 'nested too deep'}") from error
-
-
-def _statements(body: list[ast.stmt]) -> Iterator[ast.stmt]:
-    """The statements of a module, those in its blocks too."""
-    for node in body:
-        yield node
-        if isinstance(node, BLOCKS):
-            for child in ast.iter_child_nodes(node):
-                blocks = [child] if isinstance(child, ast.stmt) else getattr(child, "body", [])
-                yield from _statements([each for each in blocks if isinstance(each, ast.stmt)])
 
 
 def _given(tree: ast.Module) -> set[str]:
@@ -148,13 +124,13 @@ def _given(tree: ast.Module) -> set[str]:
     return names
 
 
-def _own(function: ast.AST) -> Iterator[ast.AST]:
-    """The nodes of a function, without those of functions inside it."""
-    left = list(ast.iter_child_nodes(function))
+def _own(scope: ast.AST) -> Iterator[ast.AST]:
+    """The nodes of a module or a function, without those of functions and classes inside it."""
+    left = list(ast.iter_child_nodes(scope))
     while left:
         node = left.pop()
         yield node
-        if not isinstance(node, FUNCTIONS | ast.Lambda):
+        if not isinstance(node, FUNCTIONS | ast.ClassDef | ast.Lambda):
             left.extend(ast.iter_child_nodes(node))
 
 

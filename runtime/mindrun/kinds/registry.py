@@ -1,5 +1,6 @@
 """Kinds of the language, found by name: frozen dataclasses whose fields are their `.mind` arguments."""
 
+from collections import defaultdict
 from collections.abc import Callable, Mapping
 from dataclasses import MISSING, dataclass, fields
 from functools import cache
@@ -19,14 +20,16 @@ ROOMS = {  # where the kinds of a noun stand: a module for each, of its name, or
     "sensor driver": "mindrun.robot.drivers", "actuator driver": "mindrun.robot.drivers",
 }  # fmt: skip
 SHARED_NOUNS = {"scene": "task"}  # a scene is one of those that a task can be in
-_kinds: dict[str, dict[str, type[Any]]] = {}
+_kinds: dict[str, dict[str, type[Any]]] = defaultdict(dict)
 _names: dict[type[Any], str] = {}
 _bases: dict[type[Any], str] = {}
 _arguments: dict[Any, tuple["Argument", ...]] = {}  # of each kind that was asked for
 
-
 Shape = Literal["one", "list", "span", "name", "extent", "place", "places", "lines"]
 """Of an argument: a number, several, a `Span`, a word, an `Extent`, a place, several, the lines of a text file."""
+SHAPES: Mapping[Any, Shape] = {
+    Span: "span", Extent: "extent", Place: "place", tuple[Place, ...]: "places", tuple[str, ...]: "lines",
+}  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +54,7 @@ def kind(noun: str, name: str) -> Callable[[type[T]], type[T]]:
 
     def register(cls: type[T]) -> type[T]:
         cls = cls if "__dataclass_fields__" in vars(cls) else dataclass(frozen=True, slots=True)(cls)
-        _kinds.setdefault(noun, {})[name] = cls
+        _kinds[noun][name] = cls
         _names[cls] = name
         return cls
 
@@ -62,16 +65,15 @@ def kinds(noun: str) -> dict[str, type[Any]]:
     """Every kind of a noun, by name; all of its modules are imported for it."""
     if noun in ROOMS:
         _import_all(ROOMS[noun])
-    found = _kinds.get(SHARED_NOUNS.get(noun, noun), {})
+    found = _kinds[SHARED_NOUNS.get(noun, noun)]
     return {name: found[name] for name in sorted(found)}
 
 
 def find_kind(noun: str, name: str) -> type[Any] | None:
     """The kind of that name, or None. A module called as the kind is imported alone, else all modules of its noun."""
-    known, module = _kinds.get(SHARED_NOUNS.get(noun, noun), {}), name.replace(" ", "_")
+    known, module = _kinds[SHARED_NOUNS.get(noun, noun)], name.replace(" ", "_")
     if name not in known and noun in ROOMS and module in _modules(ROOMS[noun]):
         import_module(f"{ROOMS[noun]}.{module}")
-        known = _kinds.get(SHARED_NOUNS.get(noun, noun), {})
     return known.get(name) or kinds(noun).get(name)
 
 
@@ -109,7 +111,11 @@ def names() -> Mapping[type[Any], str]:
 def arguments(cls: type[Any]) -> tuple[Argument, ...]:
     """The arguments that a kind takes, in the order of its fields, its own before those that others have too."""
     if cls not in _arguments:
-        _arguments[cls] = _read(cls)
+        hints = get_type_hints(cls, include_extras=True)
+        _arguments[cls] = tuple(
+            Argument(f.name.removesuffix("_"), f.name, *_type(hints[f.name]), default=f.default)
+            for f in sorted(fields(cls), key=lambda field: field.kw_only is True)
+        )
     return _arguments[cls]
 
 
@@ -118,31 +124,12 @@ def named_arguments(cls: type[Any]) -> tuple[Argument, ...]:
     return tuple(each for each in arguments(cls) if each.key != _names[cls] and each.type != SLOT)
 
 
-def _read(cls: type[Any]) -> tuple[Argument, ...]:
-    hints = get_type_hints(cls, include_extras=True)
-    return tuple(
-        Argument(f.name.removesuffix("_"), f.name, *_type(hints[f.name]), default=f.default)
-        for f in sorted(fields(cls), key=lambda field: field.kw_only is True)
-    )
-
-
 def _type(hint: Any) -> tuple[Quantity | Reference, Shape]:
     if get_origin(hint) is not Annotated:
         raise TypeError(f"{hint} does not say what an argument means")
     plain, meaning = get_args(hint)[:2]
-    match plain, meaning:
-        case _, Reference() if plain == tuple[str, ...]:
-            return meaning, "lines"
-        case _, Reference():
-            return meaning, "name"
-        case _ if plain is Span:
-            return meaning, "span"
-        case _ if plain == Extent:
-            return meaning, "extent"
-        case _ if plain == tuple[Place, ...]:
-            return meaning, "places"
-        case _ if plain == Place:
-            return meaning, "place"
-        case _ if get_origin(plain) is tuple:
-            return meaning, "list"
-    return meaning, "one"
+    if plain in SHAPES:
+        return meaning, SHAPES[plain]
+    if isinstance(meaning, Reference):
+        return meaning, "name"
+    return meaning, "list" if get_origin(plain) is tuple else "one"

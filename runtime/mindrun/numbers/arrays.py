@@ -1,6 +1,8 @@
-"""The types of arrays that kinds, engine and learning exchange, and of functions between them."""
+"""The types of arrays that kinds, engine and learning exchange; the operators of expressions on arrays."""
 
 from collections.abc import Callable
+from operator import add, mul, sub, truediv
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,3 +13,26 @@ Weights = NDArray[np.float32]  # of one skill: [genes]
 Layers = tuple[tuple[int, int], ...]  # of a network: (values in, values out) of each
 Compute = Callable[[NDArray[np.float32]], NDArray[np.float32]]  # a skill's inputs to its outputs
 Frame = NDArray[np.uint8]  # of a camera: [row, column, blue green red]
+
+
+def _known(holds: Any, left: Any, right: Any) -> Any:
+    return np.where(np.isnan(left) | np.isnan(right), np.nan, holds)[()]
+
+
+def least(left: Any, right: Any) -> Any:
+    """The smaller of two numbers; NaN where one of them is NaN."""
+    return np.where((right < left) | np.isnan(right), right, left)[()]
+
+
+def greatest(left: Any, right: Any) -> Any:
+    """The larger of two numbers; NaN where one of them is NaN."""
+    return np.where((right > left) | np.isnan(right), right, left)[()]
+
+
+OPERATORS: dict[str, Callable[[Any, Any], Any]] = {
+    "+": add, "-": sub, "*": mul, "/": truediv, "least": least, "greatest": greatest, "and": least, "or": greatest,
+    "<": lambda left, right: _known(left < right, left, right),
+    "<=": lambda left, right: _known(left <= right, left, right),
+    ">": lambda left, right: _known(left > right, left, right),
+    ">=": lambda left, right: _known(left >= right, left, right),
+}  # fmt: skip

@@ -1,9 +1,9 @@
-"""Expressions of the language as postfix programs, without numpy; `mindrun.numbers.evaluation` computes with it."""
+"""Expressions of the language as postfix programs, and their values, without numpy."""
 
 from array import array
 from collections.abc import Callable, Iterable, Mapping
 from math import copysign, inf, isnan, nan
-from operator import ge, gt, le, lt
+from operator import add, ge, gt, le, lt, mul, sub
 from typing import Any, TypeVar
 
 T = TypeVar("T")
@@ -16,7 +16,6 @@ Program = tuple[tuple[str, float | int], ...]
 Formula = tuple[tuple[str, float | int | str], ...]  # a program in which readings stand by their names
 TRUTHS = ("<", "<=", ">", ">=", "and", "or")
 OPERATORS = frozenset({"+", "-", "*", "/", "least", "greatest", *TRUTHS})
-COMPARISONS: Mapping[str, Callable[[float, float], bool]] = {"<": lt, "<=": le, ">": gt, ">=": ge}
 
 
 def fold(
@@ -70,9 +69,18 @@ def is_valid_program(program: Program) -> bool:
     return height == 1
 
 
-def constant_value(program: Program) -> float:
-    """The value in float64 of a program of numbers alone; inf or NaN for a division by zero."""
-    return fold(program, _leaf, _negated, _combined)
+def evaluate(program: Program, readings: Any = ()) -> float:
+    """The value in float64 of a program over readings, by their indices; a division by zero gives inf or NaN."""
+    stack: list[float] = []
+    for word, operand in program:
+        if word in OPERATIONS:
+            right = stack.pop()
+            stack.append(OPERATIONS[word](stack.pop(), right))
+        elif word == "negate":
+            stack.append(-stack.pop())
+        else:
+            stack.append(float(readings[int(operand)] if word == "reading" else operand))
+    return stack.pop()
 
 
 def single(value: float) -> float:
@@ -80,32 +88,27 @@ def single(value: float) -> float:
     return array("f", [value])[0]
 
 
-def _leaf(_: str, number: float) -> float:
-    return float(number)
-
-
-def _negated(value: float) -> float:
-    return -value
-
-
-def _combined(operator: str, left: float, right: float) -> float:
-    match operator:
-        case "+":
-            return left + right
-        case "-":
-            return left - right
-        case "*":
-            return left * right
-        case "/":
-            return _quotient(left, right)
-        case "least" | "and":
-            return right if right < left or isnan(right) else left
-        case "greatest" | "or":
-            return right if right > left or isnan(right) else left
-    return nan if isnan(left) or isnan(right) else float(COMPARISONS[operator](left, right))
-
-
 def _quotient(left: float, right: float) -> float:
     if right:
         return left / right
     return nan if isnan(left) or not left else copysign(inf, left) * copysign(1.0, right)
+
+
+def _least(left: float, right: float) -> float:
+    return right if right < left or isnan(right) else left
+
+
+def _greatest(left: float, right: float) -> float:
+    return right if right > left or isnan(right) else left
+
+
+def _truth(compare: Callable[[float, float], bool]) -> Callable[[float, float], float]:
+    """A comparison as 1, 0 or NaN."""
+    return lambda left, right: nan if isnan(left) or isnan(right) else float(compare(left, right))
+
+
+OPERATIONS: Mapping[str, Callable[[float, float], float]] = {
+    "+": add, "-": sub, "*": mul, "/": _quotient,
+    "least": _least, "greatest": _greatest, "and": _least, "or": _greatest,
+    "<": _truth(lt), "<=": _truth(le), ">": _truth(gt), ">=": _truth(ge),
+}  # fmt: skip

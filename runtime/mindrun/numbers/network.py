@@ -1,14 +1,13 @@
 """Networks (Eq. 1): genomes as matrices, and the outputs for inputs, in float32 and in a fixed order."""
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.numbers.arithmetic import sigmoid
-from mindrun.numbers.arrays import Compute, Layers, Weights
+from mindrun.numbers.arrays import Layers, Weights
 
 Matrix = NDArray[np.float32]
 
@@ -62,27 +61,11 @@ NOTHING = np.zeros(0, np.float32)
 Forward = Callable[[Terms, Sequence[Any], Any, Any], tuple[Any, Any]]
 
 
-def running(forward: Forward, matrices: tuple[Matrix, ...], state_length: int) -> Compute:
-    """A function of a tick's inputs [inputs] to the outputs of these matrices, before the clamp (Eq. 1).
-
-    One that remembers nothing takes rows of inputs [rows, inputs], too.
-    """
-    if state_length:
-        return StatefulNetwork(forward, matrices, state_length)
-    return lambda inputs: forward(FLOAT32, matrices, inputs, NOTHING)[0]
-
-
-@dataclass(slots=True)
 class StatefulNetwork:
-    """A network with a state that it remembers from one tick to the next."""
+    """A network with a state [length] that it remembers from one tick to the next, at first zeros."""
 
-    forward: Forward
-    matrices: tuple[Matrix, ...]
-    length: int
-    state: Matrix = field(init=False)
-
-    def __post_init__(self) -> None:
-        """Begin with a state of zeros."""
+    def __init__(self, forward: Forward, matrices: tuple[Matrix, ...], length: int) -> None:
+        self.forward, self.matrices, self.length = forward, matrices, length
         self.reset()
 
     def reset(self) -> None:

@@ -48,9 +48,9 @@ def main() -> None:
 
 
 def _world(bundle: Path, task: str, seed: int, master: str) -> Any:
-    """A `mindrun.sim.commanded_world.CommandedWorld`; here alone the simulator is imported."""
+    """A `mindrun.sim.commanded_lanes.CommandedWorld`; here alone the simulator is imported."""
     try:
-        simulator = import_module("mindrun.sim.commanded_world")
+        simulator = import_module("mindrun.sim.commanded_lanes")
     except ImportError as error:
         raise MindError(f"there is no simulator here ({error})", "pip install mindlang") from error
     graph = read_bundle(bundle).graph

@@ -5,23 +5,18 @@ from types import FunctionType
 from typing import Any
 
 from mindrun.numbers import arithmetic, stack_machine
-from mindrun.numbers.arithmetic import HALF as HALF
-from mindrun.numbers.arithmetic import ONE as ONE
-from mindrun.numbers.arithmetic import ZERO as ZERO
-from mindrun.numbers.arithmetic import F as F
 from mindrun.sim import vector
 from mindrun.sim.compiling import compiled, inlined
 
-bearing, clamp = inlined(arithmetic.bearing), inlined(arithmetic.clamp)
-finite, sine_cosine = inlined(arithmetic.finite), inlined(arithmetic.sine_cosine)
-wrapped, short_way = inlined(arithmetic.wrapped), inlined(arithmetic.short_way)
+clamp, finite = inlined(arithmetic.clamp), inlined(arithmetic.finite)
+sine_cosine, wrapped = inlined(arithmetic.sine_cosine), inlined(arithmetic.wrapped)
 _COMPILED: dict[Any, Callable[..., Any]] = {
-    arithmetic.bearing: bearing,
+    arithmetic.bearing: inlined(arithmetic.bearing),
     arithmetic.clamp: clamp,
     arithmetic.finite: finite,
     arithmetic.sine_cosine: sine_cosine,
     arithmetic.wrapped: wrapped,
-    arithmetic.short_way: short_way,
+    arithmetic.short_way: inlined(arithmetic.short_way),
     arithmetic.splat: vector.splat,
     arithmetic.broadcast: vector.broadcast,
     arithmetic.load: vector.load,

@@ -23,7 +23,7 @@ import numba
 from llvmlite.binding import get_host_cpu_features, get_host_cpu_name
 
 from mindrun.files.user_cache import user_cache
-from mindrun.sim.numba_internals import KeptCode, made_for, packed, unpacked
+from mindrun.sim.numba_internals import made_for, packed, unpacked
 
 SIM_FOLDER = Path(__file__).parent
 SHIPPED = SIM_FOLDER / "compiled"  # in the wheel
@@ -51,13 +51,8 @@ def stamp() -> str:
 @cache
 def folder() -> Path:
     """The folder of machine code: in the user's cache; where that cannot be written, one of this process alone."""
-    return writable(f"compiled-{stamp()}")
-
-
-def writable(name: str) -> Path:
-    """A folder of that name in the user's cache, or one for this process alone."""
     try:
-        found = user_cache() / name
+        found = user_cache() / f"compiled-{stamp()}"
         found.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=found):
             return found
@@ -67,16 +62,13 @@ def writable(name: str) -> Path:
         return found
 
 
-class MachineCode(KeptCode):
+class MachineCode:
     """The machine code of one function, for each signature: numba asks for it before it compiles."""
+
+    cache_path = ""  # which numba's statistics name
 
     def __init__(self, function: str) -> None:
         self.function = function
-
-    @property
-    def cache_path(self) -> str:
-        """The folder in which it is kept."""
-        return str(folder())
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         """The compiled function, or None."""
@@ -115,11 +107,6 @@ class MachineCode(KeptCode):
         """True if there is some for this processor, as far as one can see without the types."""
         shipped = (path for kind in fitting() for path in SHIPPED.glob(f"{self.function}-{kind}-*.code"))
         return self.is_native() or any(shipped)
-
-    def flush(self) -> None:
-        """Delete all that is kept of this function."""
-        for path in folder().glob(f"{self.function}-*.code"):
-            path.unlink(missing_ok=True)
 
 
 def processor() -> str:

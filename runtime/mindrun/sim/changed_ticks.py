@@ -36,11 +36,11 @@ def changed(rollout: Rollout, changes: Sequence[Change]) -> Advance:
 def _tick(rollout: Rollout, tile: Tile, jobs: Jobs, made: Changed) -> int:
     """Make one tick with its changes; ProcedureError where a procedure fails."""
     readings = tile.state.mind.readings
-    for row, value in made.memory.items():
+    for row, value in made["memory"].items():
         readings[row, 0] = value
     rollout.observe(tile, jobs)
-    _sense(rollout.tables, tile.state, jobs, made.reading)
-    _think(rollout, tile, jobs, made.influence)
+    _sense(rollout.tables, tile.state, jobs, made["reading"])
+    _think(rollout, tile, jobs, made["influence"])
     rollout.conclude(tile, jobs)
     return int(jobs.lanes[0])
 

@@ -37,14 +37,9 @@ EVENT_CODES = {
 }  # fmt: skip
 
 
-def sensor_codes() -> dict[str, int]:
-    """The number of every kind of sensor, by its name."""
-    return {name: code for code, name in enumerate(sorted(kinds("sensor")))}
-
-
-def function_codes() -> dict[str, int]:
-    """The number of every kind of function, by its name."""
-    return {name: code for code, name in enumerate(sorted(kinds("skill")))}
+def codes_of(noun: str) -> dict[str, int]:
+    """The number of every kind of that noun, by its name; for those that say themselves what a lane does."""
+    return {name: code for code, name in enumerate(sorted(kinds(noun)))}
 
 
 Row = Mapping[str, float]  # of a table, by the names of its columns

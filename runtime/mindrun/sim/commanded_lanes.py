@@ -1,29 +1,37 @@
-"""Runs side by side whose robots are commanded from outside, tick by tick; each stays in its lane until it is replaced.
+"""Runs side by side, or a single one, whose robots are commanded from outside, tick by tick.
 
-A tick is `command` or `play`, then `act`, then `sense`; between the last two a run that is over may make room for
-another (`begin`). Under the commands that a mind computes, a run is bit for bit what `Rollout` makes of its seed.
+Each stays in its lane until it is replaced. A tick is `command` or `play`, then `act`, then `sense`; between the last
+two a run that is over may make room for another (`begin`). Under the commands that a mind computes, a run is bit for
+bit what `Rollout` makes of its seed.
 """
 
+from collections import Counter
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mindrun.graph.graph import Graph
+from mindrun.errors import MindError
+from mindrun.graph.graph import Graph, Task
 from mindrun.graph.policy import Policy
 from mindrun.graph.recording_header import GOES_ON
-from mindrun.graph.run_scores import score_of
-from mindrun.kinds.functions.rule import Rule
+from mindrun.graph.run_scores import paid_by_text, score_of
+from mindrun.kinds.events.event import EventKind
+from mindrun.kinds.functions.function import Rule
+from mindrun.kinds.registry import names
 from mindrun.numbers.arithmetic import ANGLE, BOX_COLUMNS
 from mindrun.sim.codes import GOING_ON, LOST
 from mindrun.sim.lanes.stages import after, before, begin_again, send, wake
 from mindrun.sim.rollout import Rollout
-from mindrun.sim.state import Jobs, State
+from mindrun.sim.state import Jobs, State, whole_vectors
 from mindrun.sim.trace import things_in, turned_in
 
 BY_LANE_FIRST = {"boxes"}  # [lane, column], where all others that are sensed are [row, lane] or [lane]
 ENDLESS_TICKS = 1 << 62
+TIME = "time"  # what ends a run that nothing else has ended
+ONE_LANE = np.ones(1, np.bool_)
 
 
 class CommandedLanes:
@@ -38,7 +46,6 @@ class CommandedLanes:
         world = rollout.tables.world.copy()
         world["ticks"] = ENDLESS_TICKS  # a run that has lasted its time stays, and what it reads then can be asked
         self._endless = rollout.tables._replace(world=world)
-        self._aside: State | None = None
         rollout.compile(before, after, begin_again, wake, send)  # now, not in the first ticks
         rollout.fill(self.tile, self.jobs)
         self._lost = np.zeros(lanes, np.bool_)
@@ -81,14 +88,13 @@ class CommandedLanes:
 
     def sensed_aside(self, lanes: NDArray[np.bool_]) -> State:
         """Another state whose first lanes have what the marked lanes [lanes] would read now; nothing here changes."""
-        if self._aside is None:
-            self._aside = self.rollout.tile(self.count).state
         chosen = np.flatnonzero(lanes)
-        for part in ("world", "sight", "mind"):
-            _copy(getattr(self.state, part), chosen, getattr(self._aside, part), self.count)
-        jobs = self.jobs._replace(lanes=np.array([len(chosen)], np.int64))
-        before(self.rollout.tables, self._aside, jobs)
-        return self._aside
+        places = np.resize(chosen, whole_vectors(len(chosen)))
+        aside = self.state._replace(**{
+            name: _of_lanes(getattr(self.state, name), places, self.count) for name in ("world", "sight", "mind")
+        })  # fmt: skip
+        before(self.rollout.tables, aside, self.jobs._replace(lanes=np.array([len(chosen)], np.int64)))
+        return aside
 
     @property
     def terminated(self) -> NDArray[np.bool_]:
@@ -157,12 +163,121 @@ def commanded_lanes(graph: Graph, task: str, master: str, lanes: int = 1) -> Com
     return CommandedLanes(Rollout(Policy(silent, {}), task, master), lanes)
 
 
-def _copy(source: Any, lanes: NDArray[np.int64], target: Any, count: int) -> None:
-    """Copy some lanes of a part of the state to the first ones of another."""
-    for name, rows, others in zip(source._fields, source, target, strict=True):
-        if name in BY_LANE_FIRST:
-            others[: len(lanes)] = rows[lanes]
-        elif rows.ndim == 2:
-            others[:, : len(lanes)] = rows[:, lanes]
-        elif len(rows) == count:
-            others[: len(lanes)] = rows[lanes]
+class CommandedWorld:
+    """A task's world in a single lane of `commanded_lanes`, for an engine that runs elsewhere, as in a dry run.
+
+    The `master` in charge is the mind's own where none is given.
+    """
+
+    def __init__(self, graph: Graph, task: str, seed: int, master: str | None = None) -> None:
+        master = master or graph.master
+        _check("task", task, [known.name for known in graph.tasks])
+        _check("skill", master, [skill.name for skill in graph.skills])
+        self.graph = graph
+        self._lanes = commanded_lanes(graph, task, master)
+        self._state = self._lanes.state
+        self.task = self._lanes.rollout.task
+        self._begin(seed)
+
+    def begin(self, seed: int) -> None:
+        """Begin the run of a seed; RuntimeError where the last one has not ended."""
+        if self.ended is None:
+            raise RuntimeError("a run begins while another goes on")
+        self._begin(seed)
+
+    def _begin(self, seed: int) -> None:
+        self.seed = seed
+        self._lanes.begin(ONE_LANE, [seed])
+        self._lanes.sense()
+
+    def readings(self) -> NDArray[np.float32]:
+        """The readings of all sensors [graph.width], NaN where nobody reads them; the last ones when the run has ended.
+
+        Memories and what derives from them are the engine's to fill in.
+        """
+        return self._state.mind.readings[: self.graph.width, 0].copy()
+
+    def step(self, commands: ArrayLike) -> None:
+        """Make a tick under commands [actuators]; one that is not finite is neutral. Nothing once it has ended."""
+        if self.ended is not None:
+            return
+        self._lanes.command(np.asarray(commands, np.float32)[None])
+        self._lanes.act()
+        if self.ended is None:
+            self._lanes.sense()
+
+    @property
+    def tick(self) -> int:
+        """The number of ticks that the run has lasted."""
+        return int(self._state.world.tick[0])
+
+    @property
+    def pose(self) -> tuple[float, float, float]:
+        """The robot's x, y and angle."""
+        x, y, angle = self._state.world.body[: ANGLE + 1, 0].tolist()
+        return x, y, angle
+
+    @property
+    def events(self) -> dict[str, int]:
+        """The number of times that each event of the task has happened in this run, by its text."""
+        counts: Counter[str] = Counter()
+        for event, happened in zip(self.task.events, self._lanes.counts[0].tolist(), strict=True):
+            counts[_written(event)] += happened
+        return dict(counts)
+
+    @property
+    def boxes(self) -> NDArray[np.float64]:
+        """The obstacles [boxes, 4] as x, y and half of both sides."""
+        return self._lanes.boxes(0)
+
+    def columns(self) -> dict[str, Any]:
+        """The world after the last tick, by the columns that a recording has of it."""
+        return self._lanes.world_columns(0)
+
+    @property
+    def by_line(self) -> dict[str, float]:
+        """The sum that each reward line has paid in this run, by its text."""
+        return {text: float(paid) for text, paid in paid_by_text(self.task.rewards, self._lanes.lines[0]).items()}
+
+    @property
+    def score(self) -> float:
+        """The sum that all reward lines have paid in this run."""
+        return float(self._lanes.scores[0])
+
+    @property
+    def ended(self) -> str | None:
+        """The event or condition that has ended the run, in words, or "time"; None while it goes on."""
+        if not (self._lanes.terminated[0] or self._lanes.timed_out[0]):
+            return None
+        return ended_by(self.task, int(self._lanes.ended_by[0]))
+
+
+def ended_by(task: Task, number: int) -> str:
+    """The end of a run in words, by its `Scores.ended_by`."""
+    if number < 0:
+        return TIME
+    end = task.ends[number]
+    said = end.text if end.event is None else _written(task.events[end.event])
+    return f"success: {said}" if end.succeeds else said
+
+
+def _of_lanes(part: Any, lanes: NDArray[np.int64], count: int) -> Any:
+    """A copy of some lanes of a part of the state, and of what no lane has for itself."""
+
+    def taken(name: str, rows: NDArray[Any]) -> NDArray[Any]:
+        if rows.ndim == 1:
+            return rows.take(lanes) if len(rows) == count else rows.copy()
+        return rows.take(lanes, axis=0 if name in BY_LANE_FIRST else 1)
+
+    return part._make(taken(name, rows) for name, rows in zip(part._fields, part, strict=True))
+
+
+def _written(event: EventKind) -> str:
+    """An event as a mind writes it, without its numbers: "reach of ball"."""
+    words = [f" {word} {getattr(event, word)}" for word in ("of", "to") if getattr(event, word, "")]
+    return names()[type(event)] + "".join(words)
+
+
+def _check(noun: str, name: str, known: Sequence[str]) -> None:
+    if name not in known:
+        raise MindError(f"there is no {noun} {name}", f"There is {', '.join(known)}." if known else "")

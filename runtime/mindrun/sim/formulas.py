@@ -44,9 +44,9 @@ class Term:
     whole: int | None = None
 
     @property
-    def number(self) -> str:
-        """The term as a float."""
-        return f"(1.0 if {self.text} else 0.0)" if self.kind is Kind.TRUTH else self.text
+    def number(self) -> "Term":
+        """The term as a number, for calculating: a truth becomes 1 or 0."""
+        return Term(f"(1.0 if {self.text} else 0.0)", Kind.NUMBER) if self.kind is Kind.TRUTH else self
 
     @property
     def truth(self) -> str:
@@ -78,18 +78,13 @@ def constant(value: Any, node: ast.expr) -> Term:
     return refuse(node)
 
 
-def number_of(term: Term) -> Term:
-    """A term as a number, for calculating: a truth becomes 1 or 0."""
-    return Term(term.number, Kind.NUMBER) if term.kind is Kind.TRUTH else term
-
-
 def unary(op: ast.unaryop, term: Term, node: ast.expr) -> Term:
     """The term of a unary operation: a sign, or `not`."""
     match op:
         case ast.Not():
             return Term(f"(not {term.truth})", Kind.TRUTH)
         case ast.USub() | ast.UAdd():
-            sign, number = "-" if isinstance(op, ast.USub) else "+", number_of(term)
+            sign, number = "-" if isinstance(op, ast.USub) else "+", term.number
             whole = None if term.whole is None else -term.whole if sign == "-" else term.whole
             return replace(number, text=f"({sign}{number.text})", whole=whole)
     return refuse(node)
@@ -97,7 +92,7 @@ def unary(op: ast.unaryop, term: Term, node: ast.expr) -> Term:
 
 def binary(op: ast.operator, left: Term, right: Term, node: ast.expr) -> Term:
     """The term of an operation on two numbers; NoFormulaError where whole ones may not stay exact."""
-    a, b = number_of(left), number_of(right)
+    a, b = left.number, right.number
     if isinstance(op, ast.Pow):
         if b.whole is None or abs(b.whole) > MAX_POWER:
             refuse(node)
@@ -121,7 +116,8 @@ def binary(op: ast.operator, left: Term, right: Term, node: ast.expr) -> Term:
 
 def alike(terms: Sequence[Term]) -> list[str]:
     """The texts of terms of which any may be taken: as truths where all are, else as numbers."""
-    return [term.text if all(each.kind is Kind.TRUTH for each in terms) else term.number for term in terms]
+    are_truths = all(term.kind is Kind.TRUTH for term in terms)
+    return [term.text if are_truths else term.number.text for term in terms]
 
 
 def either(text: str, *terms: Term) -> Term:
@@ -237,7 +233,7 @@ class Translation:
         parts = value.elts if isinstance(value, ast.Tuple | ast.List) else [value]
         if len(parts) != self._outputs:
             raise NoFormulaError(f"line {value.lineno} does not return {self._outputs} numbers")
-        return f"({', '.join(self._term(part, known).number for part in parts)},)"
+        return f"({', '.join(self._term(part, known).number.text for part in parts)},)"
 
     def _raised(self) -> list[str]:
         return ["wrong[0] = 1", f"return ({'0.0, ' * self._outputs})"]
@@ -259,7 +255,7 @@ class Translation:
                 terms = [self._term(value, known) for value in values]
                 return either(f"({word.join(alike(terms))})", *terms)
             case ast.Compare(left=left, ops=ops, comparators=others) if all(type(op) in COMPARISONS for op in ops):
-                first, *rest = (self._term(each, known).number for each in (left, *others))
+                first, *rest = (self._term(each, known).number.text for each in (left, *others))
                 compared = (f" {COMPARISONS[type(op)]} {text}" for op, text in zip(ops, rest, strict=True))
                 return Term(f"({first}{''.join(compared)})", Kind.TRUTH)
             case ast.IfExp(test=test, body=body, orelse=orelse):
@@ -270,16 +266,17 @@ class Translation:
         return refuse(node)
 
     def _call(self, called: Any, terms: Sequence[Term], node: ast.expr) -> Term:
-        texts = [term.number for term in terms]
+        numbers = [term.number for term in terms]
+        texts = [number.text for number in numbers]
         if called is float and len(terms) == 1:
             return Term(texts[0], Kind.FLOAT)
         if called is abs and len(terms) == 1:
-            return replace(number_of(terms[0]), text=f"abs({texts[0]})", whole=None)
+            return replace(numbers[0], text=f"abs({texts[0]})", whole=None)
         if (called is max or called is min) and len(terms) > 1:
             text = texts[0]
             for other in texts[1:]:
                 text = f"{'larger' if called is max else 'smaller'}({text}, {other})"
-            return either(text, *map(number_of, terms))
+            return either(text, *numbers)
         if len(terms) == 1 and isinstance(called, BuiltinFunctionType) and called in exact.MATH:
             return Term(f"{exact.MATH[called]}(wrong, {texts[0]})", Kind.FLOAT)
         return refuse(node)

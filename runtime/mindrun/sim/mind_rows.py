@@ -11,7 +11,7 @@ from mindrun.graph.graph import Edge, Graph, Program, Skill
 from mindrun.graph.weights import NO_WEIGHTS, genes, weights_of
 from mindrun.kinds.registry import names
 from mindrun.numbers.stack_machine import COMMAND, NEGATE, NUMBER, OPERATIONS
-from mindrun.sim.codes import ACTUATOR, ACTUATOR_CODES, EDGE, MEMORY, SKILL, Row, function_codes, records
+from mindrun.sim.codes import ACTUATOR, ACTUATOR_CODES, EDGE, MEMORY, SKILL, Row, codes_of, records
 from mindrun.sim.parameter_rows import SAME_IN_EVERY_RUN, Parameters
 
 Array = NDArray[Any]
@@ -53,7 +53,7 @@ def skill_rows(
     """
     lengths = {skill.owner: genes(skill) for skill in reached}
     starts = dict(zip(learners, np.cumsum([0, *(lengths.get(name, 0) for name in learners)]), strict=False))
-    kinds, numbers = function_codes(), graph.skill_numbers
+    kinds, numbers = codes_of("skill"), graph.skill_numbers
     rows, edges, inputs = list[Row](), list[Row](), list[int]()
     shared, places = _shared_weights([skill for skill in reached if skill.owner not in starts], weights)
     most_inputs = scratch = 1

@@ -11,7 +11,6 @@ from typing import Any
 
 from llvmlite.binding import Linkage, ModulePassManager, create_new_module_pass_manager
 from numba import _dynfunc
-from numba.core.caching import _Cache
 from numba.core.ccallback import CFunc
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import CompilerBase, CompileResult, DefaultPassBuilder
@@ -118,16 +117,6 @@ class InnerCompiler(EntryCompiler):
     """Numba's compiler of a function that only compiled code calls."""
 
     lowering = LowerOnly
-
-
-class KeptCode(_Cache):  # type: ignore[misc]
-    """The base of caches that numba asks for machine code before it compiles a function, and gives it to afterwards."""
-
-    def enable(self) -> None:
-        """Do nothing: it is always enabled."""
-
-    def disable(self) -> None:
-        """Do nothing: it cannot be disabled."""
 
 
 @contextmanager

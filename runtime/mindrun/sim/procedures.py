@@ -22,7 +22,7 @@ from mindrun.graph.weights import reachable
 from mindrun.kinds import procedure_call
 from mindrun.kinds.procedure_call import load
 from mindrun.kinds.procedure_text import module_of
-from mindrun.sim.arithmetic import F
+from mindrun.numbers.arithmetic import F
 from mindrun.sim.compiling import call, compiled
 from mindrun.sim.exact import exactly
 from mindrun.sim.formulas import NoFormulaError, formula
@@ -33,10 +33,7 @@ SIGNATURE = types.intp(types.CPointer(types.float32), types.CPointer(types.float
 
 @compiled
 def call_procedure(address, gathered, hidden, n):
-    """Run a compiled procedure over the gathered inputs; its outputs are the first rows of `hidden`.
-
-    The first lane in which it fails, or −1.
-    """
+    """Run a compiled procedure over the gathered inputs into `hidden`; return the first lane where it fails, or −1."""
     return np.int64(call(address, gathered.ctypes.data, hidden.ctypes.data, n, gathered.shape[1]))
 
 
@@ -72,9 +69,8 @@ def _looped(one: Any, inputs: int, outputs: int) -> Callable[..., int]:
 class Procedures:
     """The procedures that a master can reach, by skill: which Python function each `calls`.
 
-    `addresses` are those of the compiled ones, `slow` has the others, with the reason.
-
-    Raises ProcedureError where a module or function is not there.
+    `addresses` are those of the compiled ones, `slow` has the others, with the reason. ProcedureError where a module or
+    function is not there.
     """
 
     def __init__(self, graph: Graph, master: str, folder: Path | None) -> None:

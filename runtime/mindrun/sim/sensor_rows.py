@@ -7,32 +7,31 @@ from numpy.typing import NDArray
 
 from mindrun.engine.engine import scene_of
 from mindrun.graph.graph import Graph, Sensor, Task
-from mindrun.graph.measured import UsedSensors
 from mindrun.kinds.registry import names
 from mindrun.kinds.sensors.sensor import Physical
 from mindrun.numbers.expression import placed
-from mindrun.sim.codes import SENSOR, Row, records, sensor_codes
+from mindrun.sim.codes import SENSOR, Row, codes_of, records
 from mindrun.sim.mind_rows import Programs
 from mindrun.sim.parameter_rows import Parameters
 from mindrun.sim.task_rows import NOWHERE, boxes_by_name, rows_by_name
 
 
 def sensor_rows(
-    graph: Graph, used: UsedSensors, task: Task, programs: Programs, parameters: Parameters
+    graph: Graph, used: list[Sensor], aside: list[Sensor], task: Task, programs: Programs, parameters: Parameters
 ) -> tuple[dict[str, NDArray[Any]], dict[str, int]]:
     """The tables of the sensors that are used, their rays and numbers, and how many numbers are remembered of what.
 
-    What is measured aside draws its noise from a generator of its own: a reward changes nothing in the world.
+    What is measured `aside` draws its noise from a generator of its own: a reward changes nothing in the world.
     """
-    things, boxes, scene = rows_by_name(task), boxes_by_name(task), scene_of(graph)
+    things, boxes, scene, codes = rows_by_name(task), boxes_by_name(task), scene_of(graph), codes_of("sensor")
     rows, before, rough, rings = list[Row](), 0, 0, 0
     rays, ray_row, passes, numbers = list[float](), list[int](), list[tuple[int, int]](), list[float]()
-    for is_aside, sensor in [(False, s) for s in used.skills] + [(True, s) for s in used.aside]:
+    for is_aside, sensor in [(False, each) for each in used] + [(True, each) for each in aside]:
         kind = sensor.kind
         about, solid = things.get(kind.thing, NOWHERE), boxes.get(kind.thing, NOWHERE)
         (code, length), roughness = programs.add(placed(kind.formula, scene.starts)), _roughness(sensor, parameters)
         rows.append({
-            "kind": sensor_codes()[names()[type(kind)]], "start": sensor.start, "width": sensor.width,
+            "kind": codes[names()[type(kind)]], "start": sensor.start, "width": sensor.width,
             "thing": about.start, "things": len(about), "box": solid.start, "boxes": len(solid),
             "turns": not scene.directions.isdisjoint({sensor.name, kind.source}),
             "is_aside": is_aside, "every": 1, "code": code, "length": length,

@@ -6,13 +6,12 @@ itself says its `shape`. What stands under "for this tick" is computed anew in e
 
 from collections import namedtuple
 from collections.abc import Callable, Mapping
-from dataclasses import asdict
 from typing import Annotated, Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.kinds.sensors.inertial import TRAIL_TICKS
+from mindrun.kinds.sensors.motion import TRAIL_TICKS
 from mindrun.numbers.arithmetic import BOX_COLUMNS, LOOSE_ROWS, THING_ROWS, X, Y
 from mindrun.sim import chipmunk_internals as chipmunk
 from mindrun.sim.codes import AWAY, PUSH_ROWS
@@ -78,7 +77,7 @@ class WorldState(NamedTuple):
     delivered: Annotated[Array, rows("things", kind=U1)]  # the same of items that lie in a zone
     battery: Annotated[Array, each(F8)]
     random: Annotated[Array, each(U8)]  # the generator
-    random_aside: Annotated[Array, each(U8)]  # the generator of what no skill reads
+    random_aside: Annotated[Array, each(U8)]  # the generator of what no skill reads: a reward changes nothing
     tick: Annotated[Array, each()]  # how many the run has lasted
     numbers: Annotated[Array, rows("parameters")]  # what may differ from run to run
     trail: Annotated[Array, rows(TRAIL_TICKS, PLACE_ROWS)]  # where the robot was in the last ticks
@@ -174,9 +173,7 @@ class RunState(NamedTuple):
     ended: Annotated[Array, each()]  # what ended it, by its place among the task's ends, or GOING_ON, or LOST
     met: Annotated[Array, each()]  # the end that came first, or GOING_ON; where nothing interrupts, the run goes on
     faults: Annotated[Array, each()]  # values that were not sent
-    failed: Annotated[
-        Array, shape(2)
-    ]  # the skill whose procedure failed, −1 where none did, and the column of `gathered`
+    failed: Annotated[Array, shape(2)]  # the skill whose procedure failed, or −1, and the column of `gathered`
 
 
 class State(NamedTuple):
@@ -222,13 +219,10 @@ class Jobs(NamedTuple):
 def empty_state(tables: Tables, sizes: Sizes, lanes: int) -> State:
     """A state with room for so many lanes, all idle."""
     n = _counts(tables, sizes)
-    state = State(
-        _empty(WorldState, n, lanes), _empty(SightState, n, lanes), _empty(MindState, n, lanes),
-        _empty(ContactState, n, lanes), _empty(JudgeState, n, lanes), _empty(RunState, n, lanes),
-    )  # fmt: skip
+    state = State(*(_empty(part, n, lanes) for part in State.__annotations__.values()))
     nearby = state.sight.nearby
     nearby[X::BOX_COLUMNS] = nearby[Y::BOX_COLUMNS] = AWAY
-    state.mind.readings[: len(sizes.measured)][~sizes.measured] = np.nan  # the lanes write none of these
+    state.mind.readings[: len(tables.measured)][~tables.measured] = np.nan  # the lanes write none of these
     state.run.failed[:] = -1
     return state
 
@@ -259,7 +253,7 @@ def _empty(part: type[Part], n: Mapping[str, int], lanes: int, **known: Array) -
 
 def _counts(tables: Tables, sizes: Sizes) -> dict[str, int]:
     """The numbers that arrays say their rows or columns by: lengths of tables, Sizes, and sums of these."""
-    n = {name: len(table) for name, table in tables._asdict().items()} | asdict(sizes)
+    n = {name: len(table) for name, table in tables._asdict().items()} | dict(sizes)
     shapes = n["things"] + n["boxes"] + chipmunk.WALL_COUNT
     return n | {
         "sinks": n["actuators"] + n["memories"],

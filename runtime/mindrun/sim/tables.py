@@ -1,7 +1,6 @@
 """A graph, a task and a master as plain tables, a row per sensor, skill, reward: a new mind needs no compiling."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -18,6 +17,7 @@ from mindrun.sim.sensor_rows import sensor_rows
 
 Array = NDArray[Any]
 Floats = NDArray[np.float32]
+Sizes = Mapping[str, int]  # the room that a lane needs, by what it is for
 
 
 class Tables(NamedTuple):
@@ -30,6 +30,7 @@ class Tables(NamedTuple):
     ray_row: Array  # the row of readings that each ray writes
     passes: Array  # [2, rays]: the first thing that each ray goes on through, and the one after the last
     numbers: Array  # float64, of the sensors whose kinds say `numbers`
+    measured: Array  # [graph.width] bool: which readings anybody writes
     skills: Array
     inputs: Array  # rows of readings, skill after skill
     edges: Array
@@ -51,28 +52,6 @@ class Tables(NamedTuple):
     library: Array  # addresses of Chipmunk's functions
 
 
-@dataclass(frozen=True, slots=True)
-class Sizes:
-    """The room that a lane needs, in numbers; `measured` [graph.width] says which readings anybody writes."""
-
-    readings: int
-    skills: int
-    before: int
-    rough: int
-    rings: int
-    inputs: int
-    scratch: int
-    genome: int
-    recurrent: int
-    delays: int
-    changes: int
-    patches: int
-    arrivals: int
-    boxes: int
-    depth: int
-    measured: NDArray[np.bool_]
-
-
 def build(
     graph: Graph,
     weights: Mapping[str, Floats],
@@ -87,25 +66,26 @@ def build(
     reached = reachable(graph, master)
     skills, most = skill_rows(graph, reached, weights, learners, addresses, programs)
     rewards, ends = task_rows.reward_rows(task, programs), task_rows.end_rows(task, programs)
-    used = used_sensors(graph, reached, task)
-    sensors, remembered = sensor_rows(graph, used, task, programs, parameters)
+    used, aside = used_sensors(graph, reached, task)
+    sensors, remembered = sensor_rows(graph, used, aside, task, programs, parameters)
     driven, delays = actuator_rows(graph, parameters)
     measures, changes = task_rows.measure_rows(task)
     events, patches, arrivals = task_rows.event_rows(task)
     tables = Tables(
         **sensors, **skills, **task_rows.walker_rows(task, graph.tick),
-        world=task_rows.world_row(graph, task, parameters, len(sensors["ray_row"]), used.all, master),
+        world=task_rows.world_row(graph, task, parameters, len(sensors["ray_row"]), used + aside, master),
         codes=np.array(programs.rows, CODE), actuators=driven, memories=memory_rows(graph),
         things=task_rows.thing_rows(graph, task), loose=task_rows.loose_rows(task, graph.tick, parameters),
         obstacles=task_rows.obstacle_rows(task), walls=task_rows.wall_rows(task),
         measures=measures, events=events, ends=ends, rewards=rewards,
-        library=library, parameters=parameters.table(),  # last: all others add to them
+        measured=rows_of(graph, used + aside), library=library,
+        parameters=parameters.table(),  # last: all others add to them
     )  # fmt: skip
-    return tables, Sizes(
-        **remembered, **most, readings=max(1, graph.width), measured=rows_of(graph, used.all),
-        skills=len(graph.skills), genome=genome_length(graph, learners), depth=programs.depth, delays=delays,
-        changes=changes, patches=patches, arrivals=arrivals, boxes=task_rows.box_count(task),
-    )  # fmt: skip
+    return tables, {
+        **remembered, **most, "readings": max(1, graph.width), "genome": genome_length(graph, learners),
+        "skills": len(graph.skills), "depth": programs.depth, "delays": delays, "changes": changes,
+        "patches": patches, "arrivals": arrivals, "boxes": sum(each.kind.obstacles(task.scene) for each in task.things),
+    }  # fmt: skip
 
 
 def genome_length(graph: Graph, learners: Sequence[str]) -> int:

@@ -41,11 +41,6 @@ def rows_by_name(task: Task) -> dict[str, range]:
     return found
 
 
-def box_count(task: Task) -> int:
-    """The number of rectangular obstacles in the task's world."""
-    return sum(thing.kind.obstacles(task.scene) for thing in task.things)
-
-
 def boxes_by_name(task: Task) -> dict[str, range]:
     """The boxes that each name has in every lane, as they are drawn: walls, what has a place or a grid, all others."""
     obstacles = [thing for thing in task.things if thing.kind.is_obstacle]
@@ -147,10 +142,12 @@ def measure_rows(task: Task) -> tuple[Array, int]:
     rows: list[Row] = []
     ring = 0
     for measure in task.measures:
-        code, over, about = codes.MEASURE_CODES[names()[type(measure)]], measure.remembered, places[measure.thing]
-        row = {"kind": code, "thing": about.start, "things": len(about), "over": over, "ring": ring if over else 0}
-        rows.append({**row, **measure.row()})
-        ring += over
+        about = places[measure.thing]
+        rows.append({
+            "kind": codes.MEASURE_CODES[names()[type(measure)]], "thing": about.start, "things": len(about),
+            "over": measure.over, "ring": ring if measure.over else 0, "beyond": measure.beyond,
+        })  # fmt: skip
+        ring += measure.over
     return records(rows, codes.MEASURES), ring
 
 

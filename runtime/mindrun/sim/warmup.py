@@ -9,10 +9,10 @@ from typing import Any
 
 from mindrun.graph.graph import Actuator, Graph, Reward, Skill, Task
 from mindrun.graph.policy import Policy
-from mindrun.kinds.actuators.wheel import Wheel
-from mindrun.kinds.bodies.disc import Disc
-from mindrun.kinds.functions.rule import Rule
-from mindrun.kinds.scenes.plain import Plain
+from mindrun.kinds.actuators.actuator import Wheel
+from mindrun.kinds.bodies.body import Disc
+from mindrun.kinds.functions.function import Rule
+from mindrun.kinds.scenes.scene import Plain
 from mindrun.processors import give_way
 from mindrun.sim import cache
 from mindrun.sim.lanes.advance import advance

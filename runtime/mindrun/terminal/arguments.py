@@ -28,18 +28,17 @@ def whole(least: int, most: int) -> Callable[[str], int]:
     return convert
 
 
-def real(least: float, most: float, above: bool = False) -> Callable[[str], float]:
-    """A number in a range; with `above` the lower bound itself is refused."""
+def real(least: float, most: float) -> Callable[[str], float]:
+    """A number in a range."""
 
     def convert(text: str) -> float:
         try:
             value = float(text)
         except ValueError:
             value = float("nan")
-        if isfinite(value) and least <= value <= most and not (above and value == least):
+        if isfinite(value) and least <= value <= most:
             return value + 0.0  # there is no -0
-        bounds = f"above {least:g}, at most {most:g}" if above else f"from {least:g} to {most:g}"
-        raise argparse.ArgumentTypeError(f"{shortened(text)} is not a number {bounds}")
+        raise argparse.ArgumentTypeError(f"{shortened(text)} is not a number from {least:g} to {most:g}")
 
     return convert
 

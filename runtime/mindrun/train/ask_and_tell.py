@@ -24,7 +24,7 @@ def ask(population: Population, learner: Learner, start: Genomes, draw: Draw, rn
         return bounded(draw(founder_count(learner), rng))
     match learner:
         case Genetic():
-            return _ask_genetic(population, learner, start, rng)
+            return breed(population, learner, rng) if population.generation else variants(start, learner, rng)
         case EvolutionStrategy():
             return _ask_strategy(population, learner, start, rng)
 
@@ -44,11 +44,6 @@ def kept_count(learner: Learner) -> int:
     return learner.population if isinstance(learner, Genetic) else 1
 
 
-def _ask_genetic(population: Population, learner: Genetic, start: Genomes, rng: np.random.Generator) -> Genomes:
-    """The genomes [individuals, weights] to score next: at first what the skill knows, `start` [1, weights], varied."""
-    return breed(population, learner, rng) if population.generation else bounded(variants(start, learner, rng))
-
-
 def _tell_genetic(population: Population, learner: Genetic, genomes: Genomes, scores: Scores) -> Population:
     """The next population: these genomes, or the best of them where there are more, as of founders."""
     if len(genomes) > learner.population:
@@ -60,7 +55,7 @@ def _tell_genetic(population: Population, learner: Genetic, genomes: Genomes, sc
 def variants(start: Genomes, learner: Genetic, rng: np.random.Generator) -> Genomes:
     """The first genomes [individuals, weights]: what the skill knows, `start` [1, weights], and mutated copies."""
     copies = np.repeat(start, learner.population - 1, axis=0)
-    return np.concatenate([start, mutate(copies, learner, rng)])
+    return bounded(np.concatenate([start, mutate(copies, learner, rng)]))
 
 
 def breed(population: Population, learner: Genetic, rng: np.random.Generator) -> Genomes:

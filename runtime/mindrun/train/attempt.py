@@ -110,18 +110,19 @@ def generation(course: Course, scorer: Scorer, number: int, state: AttemptState)
     population = tell(state.population, learner, course.start, genomes, marks.scores)
     now = replace(state, population=population, told_apart=state.told_apart or are_different(marks.scores))
     done, reevaluated = [marks], None
-    rung = rung_at(lesson, population.generation)
-    first_or_tenth = population.generation == 1 or population.generation % REEVALUATION_GENERATIONS == 0
+    generations, rung = population.generation, rung_at(lesson, population.generation)
+    first_or_tenth = generations == 1 or generations % REEVALUATION_GENERATIONS == 0
     if first_or_tenth or rung is not None or ends_by_itself(lesson, now):
         now, again, reevaluated = reevaluate(now, scorer, layouts(*key, fresh_count(learner), Purpose.REEVALUATION))
         done.append(again)
     if rung is not None:
-        place = course.seed, 0, population.generation
-        now, there = climb(now, scorer, rung, layouts(*place, VERDICT_LAYOUTS, Purpose.RUNG))
-        done.append(there)
+        done.append(mark(scorer, now.champion, layouts(course.seed, 0, generations, VERDICT_LAYOUTS, Purpose.RUNG)))
+        now = replace(now, climbed=now.climbed.copy())
+        now.climbed[rung] = done[-1].scores[0]
     ticks, faults = sum(each.ticks for each in done), sum(each.faults for each in done)
-    best, mean = float(marks.scores.max()), _mean(marks.scores)
-    return now, Record(number + 1, population.generation, best, mean, reevaluated, None, ticks, 0.0, faults)
+    finite = marks.scores[np.isfinite(marks.scores)]
+    best, mean = float(marks.scores.max()), float(finite.mean()) if len(finite) else -inf
+    return now, Record(number + 1, generations, best, mean, reevaluated, None, ticks, 0.0, faults)
 
 
 def ends_by_itself(lesson: Lesson, state: AttemptState) -> bool:
@@ -133,14 +134,6 @@ def ends_by_itself(lesson: Lesson, state: AttemptState) -> bool:
 def fresh_count(learner: Learner) -> int:
     """The number of layouts of a re-evaluation: the fewer candidates beside champion and rival, the more layouts."""
     return REEVALUATION_LAYOUTS * (REEVALUATED_CANDIDATES + 2) // (min(REEVALUATED_CANDIDATES, kept_count(learner)) + 2)
-
-
-def climb(state: AttemptState, scorer: Scorer, rung: int, seeds: Seeds) -> tuple[AttemptState, Marks]:
-    """Score the champion at a rung, on the layouts that all attempts have there."""
-    marks = mark(scorer, state.champion, seeds)
-    climbed = state.climbed.copy()
-    climbed[rung] = marks.scores[0]
-    return replace(state, climbed=climbed), marks
 
 
 def reevaluate(state: AttemptState, scorer: Scorer, fresh: Seeds) -> tuple[AttemptState, Marks, float]:
@@ -195,8 +188,3 @@ def are_different(scores: Scores) -> bool:
     """True if two finite scores [genomes] differ."""
     finite = scores[np.isfinite(scores)]
     return bool((finite != finite[:1]).any())
-
-
-def _mean(scores: Scores) -> float:
-    finite = scores[np.isfinite(scores)]
-    return float(finite.mean()) if len(finite) else -inf

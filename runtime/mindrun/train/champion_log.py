@@ -51,16 +51,13 @@ class ChampionLog(AppendedFiles):
 
     def append(self, genome: Weights, position: Position) -> None:
         """Add the champion with which a generation ends, unless it was that before."""
-        attempt, generation = position
         last = self._last
-        if last is None or last.attempt != attempt or not np.array_equal(last.genome, genome):
-            self._last = Champion(attempt, generation, genome)
-            self._keep(self._last)
-
-    def _keep(self, champion: Champion) -> None:
+        if last is not None and last.attempt == position[0] and np.array_equal(last.genome, genome):
+            return
+        self._last = Champion(*position, genome)
         self._left -= 1
         if self._left >= 0:
-            self._add(_row(champion))
+            self._add(_row(self._last))
         elif self._left == -1:
             self._warn(f"{CHAMPION_ROWS} is full: later champions are not kept by their generation")
 
@@ -88,8 +85,7 @@ def _champions(data: bytes) -> Iterator[Champion]:
     last = 0, 0
     for at in range(begin, len(data) - size + 1, size):
         attempt, generation, checksum = ROW.unpack_from(data, at)
-        genome = np.frombuffer(data, "<f4", count, at + ROW.size)
-        found = Champion(attempt, generation, genome)
+        found = Champion(attempt, generation, np.frombuffer(data, "<f4", count, at + ROW.size))
         if _checksum(found) != checksum or not last < found.position:
             return
         last = found.position

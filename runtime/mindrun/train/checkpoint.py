@@ -6,7 +6,6 @@ all that. It is read only after that hash is right, so a truncated or altered fi
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass
 from hashlib import sha256
 from math import prod
 from pathlib import Path
@@ -46,14 +45,6 @@ TYPES = {  # of each array in the order of the file: what its numbers are, and h
 }
 
 
-@dataclass(frozen=True, slots=True)
-class LoadedCheckpoint:
-    """A state read back; `warning` says so where the newest checkpoint was damaged and the one before it was taken."""
-
-    state: LessonState
-    warning: str = ""
-
-
 def save(folder: Path, state: LessonState, run: str) -> None:
     """Write the state of the run named `run`; the checkpoint before it is kept if it is whole."""
     spare = write_beside(folder / NAME, pack(state, run))
@@ -63,14 +54,17 @@ def save(folder: Path, state: LessonState, run: str) -> None:
     sync_folder(folder)
 
 
-def load(folder: Path, run: str) -> LoadedCheckpoint | None:
-    """The newest whole checkpoint, None where none was ever written; RunError where all are damaged."""
+def load(folder: Path, run: str) -> tuple[LessonState, str] | None:
+    """The newest whole checkpoint, and a warning where the newest of all is damaged; None where none was ever written.
+
+    RunError where all are damaged.
+    """
     newest, previous = folder / NAME, folder / PREVIOUS
     if (state := _read(newest, run)) is not None:
-        return LoadedCheckpoint(state)
+        return state, ""
     if (state := _read(previous, run)) is not None:
         damaged = f"{newest} is damaged: going on from the one before it" if newest.exists() else ""
-        return LoadedCheckpoint(state, damaged)
+        return state, damaged
     if newest.exists() or previous.exists():
         raise RunError(f"{newest} is damaged, and no other is left", "start the lesson again without --resume")
     return None
@@ -79,6 +73,7 @@ def load(folder: Path, run: str) -> LoadedCheckpoint | None:
 def pack(state: LessonState, run: str) -> bytes:
     """A state as bytes."""
     now = state.now
+    counts = state.attempt, now.population.generation, now.since, state.generations, state.ticks, state.faults
     arrays: Arrays = {
         "genomes": now.population.genomes,
         "scores": now.population.scores,
@@ -90,15 +85,9 @@ def pack(state: LessonState, run: str) -> bytes:
         "verdicts": state.verdicts,
         "passed": state.passed.astype(np.int64),
         "floats": np.array([state.best, state.seconds]),
-        "counts": np.array(_counts(state), np.int64),
+        "counts": np.array([*counts, state.told_apart], np.int64),
     }
     return sealed(MAGIC, {"run": run}, arrays)
-
-
-def _counts(state: LessonState) -> tuple[int, ...]:
-    """The whole numbers of a state, in the order of the file."""
-    now = state.now.population.generation, state.now.since
-    return state.attempt, *now, state.generations, state.ticks, state.faults, state.told_apart
 
 
 def unpack(data: bytes, run: str) -> LessonState | None:

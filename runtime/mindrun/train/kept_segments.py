@@ -145,16 +145,9 @@ class RememberingExecutor:
 
 def is_same(one: AttemptState, other: AttemptState) -> bool:
     """True if two states of an attempt have the same generation, population and champion."""
-    if one is other:
-        return True
-    return one.population.generation == other.population.generation and all(
-        np.array_equal(one_array, other_array)
-        for one_array, other_array in (
-            (one.population.genomes, other.population.genomes),
-            (one.population.scores, other.population.scores),
-            (one.champion, other.champion),
-        )
-    )
+    both = (one.population, one.champion), (other.population, other.champion)
+    states = ((of.generation, of.genomes, of.scores, champion) for of, champion in both)
+    return one is other or all(map(np.array_equal, *states))
 
 
 def _arrays(segment: Segment) -> Arrays:

@@ -9,9 +9,9 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields, replace
 from functools import cache
 from hashlib import sha256
-from importlib.metadata import PackageNotFoundError, version
+from itertools import chain
 from pathlib import Path
-from typing import Any, Self
+from typing import Any
 
 import numpy as np
 
@@ -19,6 +19,7 @@ from mindrun.errors import BundleError
 from mindrun.files.strict_json import is_whole, parsed
 from mindrun.graph.codec import decode_part, encode
 from mindrun.graph.graph import Graph, Lesson
+from mindrun.graph.tasks import installed_version
 from mindrun.graph.validate import lesson_flaws
 from mindrun.graph.weights import Weights, reachable
 from mindrun.kinds.environment import module_beside
@@ -66,10 +67,6 @@ class Manifest:
         parts = (encode(self.lesson), self.learners, self.seed, self.mind, dict(self.weights))
         return _sha256(json.dumps(parts, sort_keys=True).encode())
 
-    def ends_like(self, other: Self) -> bool:
-        """True if another run comes to the same end, bit for bit."""
-        return (self.identity, self.versions) == (other.identity, other.versions)
-
 
 def fingerprint(graph: Graph, lesson: Lesson, procedures: Path | None) -> str:
     """The SHA-256 of what a lesson depends on: its task, the skills under its master, the body, the modules beside."""
@@ -95,7 +92,7 @@ def hashes(weights: Mapping[str, Weights]) -> dict[str, str]:
 
 def versions() -> dict[str, str]:
     """The versions that a result may depend on."""
-    installed = {package: _version(package) for package in ("mindlang", "mindrun", *COMPUTED_WITH)}
+    installed = {package: installed_version(package) for package in ("mindlang", "mindrun", *COMPUTED_WITH)}
     return {"python": platform.python_version(), **{name: found for name, found in installed.items() if found}}
 
 
@@ -103,15 +100,8 @@ def versions() -> dict[str, str]:
 def own_build() -> Build:
     """The build of this process."""
     major, minor, _ = platform.python_version_tuple()
-    packages = {package: _version(package) or "none" for package in COMPUTED_WITH}
+    packages = {package: installed_version(package) or "none" for package in COMPUTED_WITH}
     return {"mindrun": sources_hash(SOURCES), "python": f"{major}.{minor}", **packages}
-
-
-def _version(package: str) -> str:
-    try:
-        return version(package)
-    except PackageNotFoundError:
-        return ""
 
 
 def difference(asked: Build, own: Build) -> str:
@@ -144,12 +134,8 @@ def processor() -> str:
 
 def to_json(manifest: Manifest) -> bytes:
     """The manifest as it stands in the run folder."""
-    return (
-        json.dumps(
-            {"format": MANIFEST_VERSION, **asdict(manifest), "lesson": encode(manifest.lesson)}, indent=2
-        ).encode()
-        + b"\n"
-    )
+    said = {"format": MANIFEST_VERSION, **asdict(manifest), "lesson": encode(manifest.lesson)}
+    return json.dumps(said, indent=2).encode() + b"\n"
 
 
 def from_json(data: bytes) -> Manifest:
@@ -167,18 +153,16 @@ def _manifest(plain: Any) -> Manifest:
     """The manifest that this data is; ValueError or BundleError where it is none."""
     if not isinstance(plain, dict) or plain.keys() != {"format", *(field.name for field in fields(Manifest))}:
         raise ValueError("it has other parts")
-    lesson = decode_part(Lesson, plain["lesson"], "lesson")
-    texts = [plain[name] for name in ("mind", "source", "started", "processor")]
-    tables = [plain[name] for name in ("weights", "sources", "versions")]
     lists = [plain[name] for name in ("learners", "command")]
-    texts += [text for each in lists if isinstance(each, list) for text in each]
-    texts += [text for each in tables if isinstance(each, dict) for pair in each.items() for text in pair]
-    if not all(isinstance(each, list) for each in lists) or not all(isinstance(each, dict) for each in tables):
+    tables = [plain[name] for name in ("weights", "sources", "versions")]
+    if not (all(isinstance(each, list) for each in lists) and all(isinstance(each, dict) for each in tables)):
         raise ValueError("it has parts of another form")
-    if not all(isinstance(text, str) and "\0" not in text for text in texts) or not is_whole(
-        plain["seed"], high=MAX_SEED
-    ):
+    texts = [plain["mind"], plain["source"], plain["started"], plain["processor"], *chain(*lists)]
+    texts += [text for table in tables for pair in table.items() for text in pair]
+    is_text = all(isinstance(text, str) and "\0" not in text for text in texts)
+    if not (is_text and is_whole(plain["seed"], high=MAX_SEED)):
         raise ValueError("it has parts of another kind")
+    lesson = decode_part(Lesson, plain["lesson"], "lesson")
     for found in lesson_flaws(lesson):
         raise ValueError(found)
     given = {name: value for name, value in plain.items() if name != "format"}

@@ -7,7 +7,6 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from io import BytesIO
-from itertools import count
 from pathlib import Path
 from stat import S_ISREG
 from typing import Any
@@ -68,7 +67,8 @@ def create(runs: Path, manifest: Manifest, sources: Mapping[str, str], weights: 
         for path, text in sources.items():
             (folder / SOURCES / path).parent.mkdir(parents=True, exist_ok=True)
             atomic_write.write(folder / SOURCES / path, text.encode())
-        atomic_write.write(folder / START, _packed(weights))
+        packed = write_archive((f"{skill}.npy", to_npy(array)) for skill, array in sorted(weights.items()))
+        atomic_write.write(folder / START, packed)
         atomic_write.write(folder / MANIFEST, to_json(manifest))  # last: with it the folder is a run
     except OSError as error:
         raise RunError(
@@ -82,7 +82,8 @@ def unfinished(runs: Path, manifest: Manifest) -> RunFolder | None:
     for folder in sorted((runs / manifest.name).glob("*"), reverse=True):
         try:
             run = open_run(folder)
-            if run.manifest.ends_like(manifest) and read_result(folder) is None:
+            ends_alike = (run.manifest.identity, run.manifest.versions) == (manifest.identity, manifest.versions)
+            if ends_alike and read_result(folder) is None:
                 checkpoint.load(folder, manifest.identity)
                 return run
         except RunError:  # it is damaged: another is begun
@@ -94,7 +95,8 @@ def open_run(folder: Path) -> RunFolder:
     """The run in a folder; RunError where there is none or a part of it is damaged."""
     try:
         manifest = from_json(read_whole(folder / MANIFEST, MAX_FILE_BYTES))
-        weights = _unpacked(read_whole(folder / START, MAX_FILE_BYTES))
+        members = read_archive(read_whole(folder / START, MAX_FILE_BYTES))
+        weights = {name.removesuffix(".npy"): from_npy(content) for name, content in members.items()}
     except OSError as error:
         raise NotFoundError(
             f"{folder} is not a run: {error.strerror} ({error.filename})",
@@ -182,23 +184,14 @@ def read_failure(folder: Path) -> str:
 
 def _unused(parent: Path, name: str) -> Path:
     parent.mkdir(parents=True, exist_ok=True)
-    for number in count(2):
-        folder = parent / name
+    folder, number = parent / name, 1
+    while True:
         try:
             folder.mkdir()
             return folder
         except FileExistsError:
-            name = f"{name.rpartition('+')[0] or name}+{number}"
-    raise AssertionError("count never ends")
-
-
-def _packed(weights: Mapping[str, Weights]) -> bytes:
-    return write_archive((f"{skill}.npy", to_npy(array)) for skill, array in sorted(weights.items()))
-
-
-def _unpacked(data: bytes) -> dict[str, Weights]:
-    """The weights by skill in these bytes; ValueError where they are not whole."""
-    return {name.removesuffix(".npy"): from_npy(content) for name, content in read_archive(data).items()}
+            number += 1
+            folder = parent / f"{name}+{number}"
 
 
 def _damaged(path: Path) -> RunError:

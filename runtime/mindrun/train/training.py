@@ -79,14 +79,15 @@ def _standing(run: RunFolder, course: Course, watch: Watch) -> LessonState:
     found = checkpoint.load(run.folder, run.manifest.identity)
     if found is None:
         return begin(course)
-    if not is_reachable(course, found.state):
+    state, warning = found
+    if not is_reachable(course, state):
         raise RunError(
             f"{run.folder / checkpoint.NAME} is damaged: no run of this lesson comes to where it stands",
             "start the lesson again without --resume",
         )
-    if found.warning:
-        watch.warn(found.warning)
-    return found.state
+    if warning:
+        watch.warn(warning)
+    return state
 
 
 def _save(run: RunFolder, state: LessonState, *logs: ProgressLog | ChampionLog) -> None:

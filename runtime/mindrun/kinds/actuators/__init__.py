@@ -1,1 +1,1 @@
-"""Kinds of actuators, one file each. `neutral` is sent when nothing influences one and whenever something fails."""
+"""Kinds of actuators. `neutral` is sent when nothing influences one and whenever something fails."""

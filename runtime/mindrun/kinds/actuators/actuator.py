@@ -1,12 +1,27 @@
-"""The base classes of actuators: the rest of the program asks a kind for these, and knows none by name."""
+"""Actuators, and what the rest of the program asks of each: it knows none by name."""
 
 from collections.abc import Mapping
-from typing import Literal
+from math import pi
+from typing import Annotated, Literal, get_args
 
 from mindrun.kinds.bodies.body import BodyKind, Drive, Point
 from mindrun.kinds.environment import Slot
-from mindrun.kinds.registry import base
-from mindrun.numbers.quantity import Quantity
+from mindrun.kinds.registry import base, kind
+from mindrun.numbers.quantity import (
+    ANGLE,
+    INDEX,
+    LENGTH,
+    NUMBER,
+    RATIO,
+    SLOT,
+    TICKS,
+    UNSAID,
+    Place,
+    Quantity,
+    Reference,
+    Span,
+)
+from mindrun.numbers.trigonometry import cosine, sine
 
 Side = Literal["left", "right"]
 Row = Mapping[str, float]  # columns of the lanes' table of actuators
@@ -30,6 +45,7 @@ class ActuatorKind:
     varying: tuple[str, ...] = ("delay",)  # the arguments that can differ from run to run
     drive: Drive | None = None  # what it does to a body, where it can move one
     is_light = False  # whether it shines with its command
+    reach: float | None = None  # ahead of the body, within which it takes items, in world units; None where none
 
     @property
     def slot(self) -> Slot | None:
@@ -49,11 +65,6 @@ class ActuatorKind:
     @property
     def mounted(self) -> Side | None:
         """The side of the body that it is on, where that says what it does."""
-        return None
-
-    @property
-    def reach(self) -> float | None:
-        """The distance ahead of the body within which it takes items, in world units; None where it takes none."""
         return None
 
     @property
@@ -112,3 +123,203 @@ class Pushing(ActuatorKind):
             "thrust": self.thrust, "ahead": ahead, "aside": aside, "arm": x * aside - y * ahead, "is_right": y < 0,
             "noise": self.noise, "slip": self.slip,
         }  # fmt: skip
+
+
+SIDE = Reference("side", get_args(Side))
+
+
+@kind("actuator", "wheel")
+class Wheel(Pushing):
+    """A wheel on the body's rim: 0 full reverse, 0.5 stopped, 1 full forward; force (2v − 1)·thrust along the heading.
+
+    A command acts `delay` ticks after the tick that computed it, with up to `noise` more or less; up to `slip` of the
+    force is lost, anew in every tick.
+    """
+
+    side: Annotated[Side, SIDE]
+    neutral: Annotated[float, RATIO]
+    thrust: Annotated[float, THRUST] = 80.0
+    delay: Annotated[int, TICKS] = 0
+    noise: Annotated[float, RATIO] = 0.0
+    slip: Annotated[float, RATIO] = 0.0
+
+    drive = "wheel"
+
+    @property
+    def mounted(self) -> Side:
+        """The side of the body that it is on."""
+        return self.side
+
+    def place(self, body: BodyKind) -> Point:
+        """A point beside the body's middle, on the wheel's side."""
+        return 0.0, body.side if self.side == "left" else -body.side
+
+
+PLACE = Quantity("a place on the body in world units", {"": 1.0}, low=-1000.0, high=1000.0)
+
+
+@kind("actuator", "thruster")
+class Thruster(Pushing):
+    """A force (2v − 1)·thrust `at` a point of the body, x ahead of its middle and y to its left: 0.5 is none.
+
+    It pushes the body to where it is `facing`, counterclockwise from straight ahead. A command acts `delay` ticks after
+    the tick that computed it, with up to `noise` more or less; up to `slip` of the force is lost, anew in every tick.
+    """
+
+    neutral: Annotated[float, RATIO]
+    at: Annotated[Place, PLACE] = (0.0, 0.0)
+    facing: Annotated[float, ANGLE] = 0.0
+    thrust: Annotated[float, THRUST] = 80.0
+    delay: Annotated[int, TICKS] = 0
+    noise: Annotated[float, RATIO] = 0.0
+    slip: Annotated[float, RATIO] = 0.0
+
+    drive = "thruster"
+
+    def place(self, body: BodyKind) -> Point:
+        """The point of the body that its argument `at` names."""
+        return self.at
+
+    @property
+    def direction(self) -> Point:
+        """The vector of length 1 at the angle that its argument `facing` says."""
+        return cosine(self.facing), sine(self.facing)
+
+    def push(self, body: BodyKind) -> tuple[Point, Point]:
+        """The place of a thruster on the body, and the direction in which it pushes."""
+        return self.at, self.direction
+
+
+@kind("actuator", "motor")
+class Motor(Pushing):
+    """The drive of a car: 0 full reverse, 0.5 stopped, 1 full forward; force (2v − 1)·thrust along the heading.
+
+    A command acts `delay` ticks after the tick that computed it, with up to `noise` more or less; up to `slip` of the
+    force is lost, anew in every tick.
+    """
+
+    neutral: Annotated[float, RATIO]
+    thrust: Annotated[float, THRUST] = 160.0
+    delay: Annotated[int, TICKS] = 0
+    noise: Annotated[float, RATIO] = 0.0
+    slip: Annotated[float, RATIO] = 0.0
+
+    drive = "motor"
+
+
+DEGREE = pi / 180
+TURN = Quantity("an angle between 0 and 80 degrees", {"deg": DEGREE}, low=0.0, high=80 * DEGREE)
+
+
+@kind("actuator", "steering")
+class Steering(ActuatorKind):
+    """The front wheels of a car: 0 is `range` to the left, 0.5 straight ahead, 1 `range` to the right, as a bearing.
+
+    A command acts `delay` ticks after the tick that computed it, with up to `noise` more or less.
+    """
+
+    neutral: Annotated[float, RATIO]
+    range: Annotated[float, TURN] = 30 * DEGREE
+    delay: Annotated[int, TICKS] = 0
+    noise: Annotated[float, RATIO] = 0.0
+
+    varying = ("range", "delay", "noise")
+    drive = "steering"
+
+    @property
+    def acts_at_rest(self) -> bool:
+        """True if it turns at its neutral command, or may with its noise."""
+        return (self.neutral != STOPPED_COMMAND or self.noise > 0) and self.range != 0.0
+
+    def row(self, body: BodyKind) -> Row:
+        """The largest angle, in radians, and its noise."""
+        return {"turn": self.range, "noise": self.noise}
+
+
+REACH_UNITS = 1.5
+CLOSED_COMMAND = 0.5  # command, above which it closes
+
+
+@kind("actuator", "gripper")
+class Gripper(ActuatorKind):
+    """A claw at the front of the body: closed above 0.5. It takes an item ahead of it whose rim is within `reach`.
+
+    It takes none through a wall, and none for which a wall leaves no room in front of it.
+    A command acts `delay` ticks after the tick that computed it, with up to `noise` more or less.
+    """
+
+    neutral: Annotated[float, RATIO]
+    reach: Annotated[float, LENGTH] = REACH_UNITS
+    delay: Annotated[int, TICKS] = 0
+    noise: Annotated[float, RATIO] = 0.0
+
+    varying = ("delay", "noise")
+    zero = 0.0
+
+    @property
+    def acts_at_rest(self) -> bool:
+        """True if it is closed at its neutral command, or may be with its noise."""
+        return self.neutral + self.noise > CLOSED_COMMAND
+
+    def row(self, body: BodyKind) -> Row:
+        """The columns of a gripper: reach in world units, and noise."""
+        return {"reach": self.reach, "noise": self.noise}
+
+
+@kind("actuator", "servo")
+class Servo(ActuatorKind):
+    """A servo: its position as a share of its travel. It moves nothing in the simulated world."""
+
+    neutral: Annotated[float, RATIO]
+    delay: Annotated[int, TICKS] = 0
+
+
+@kind("actuator", "lamp")
+class Lamp(ActuatorKind):
+    """A lamp: 0 dark, 1 bright. It changes nothing in the simulated world, and pictures show it."""
+
+    neutral: Annotated[float, RATIO]
+    delay: Annotated[int, TICKS] = 0
+
+    zero = 0.0
+    is_light = True
+
+
+@kind("actuator", "action")
+class Action(ActuatorKind):
+    """One number of a Gymnasium environment's action: a command of 0 is the low end of its range, 1 the high end.
+
+    The first number is 0; of an array, one index for each axis; of a `Dict`, the name of the part goes before them,
+    of a `Tuple` its number.
+    The `range` is what the environment says, unless it is given, and has to be where the environment says none.
+    """
+
+    action: Annotated[tuple[int, ...], INDEX]
+    neutral: Annotated[float, RATIO]
+    range: Annotated[Span, NUMBER] = UNSAID
+    part: Annotated[str, SLOT] = ""
+    delay: Annotated[int, TICKS] = 0
+
+    @property
+    def slot(self) -> Slot:
+        """The number of the environment's action that the arguments name."""
+        return Slot(self.part, self.action, None if self.range == UNSAID else self.range)
+
+
+@kind("actuator", "choice")
+class Choice(ActuatorKind):
+    """One of the actions of a Gymnasium environment that takes one of a few, by its number; the first is 0.
+
+    In each tick that whose command is the largest is taken; of equal ones, the first that is declared. Where the
+    environment takes several at once (`MultiDiscrete`), the place stands before the number.
+    """
+
+    choice: Annotated[tuple[int, ...], INDEX]
+    neutral: Annotated[float, RATIO]
+    part: Annotated[str, SLOT] = ""
+    delay: Annotated[int, TICKS] = 0
+
+    @property
+    def slot(self) -> Slot:
+        """The place at which it is chosen: the only one, where none is said."""
+        return Slot(self.part, self.choice[:-1] or (0,), chosen=self.choice[-1])

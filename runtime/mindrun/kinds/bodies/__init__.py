@@ -1,1 +1,1 @@
-"""Kinds of bodies, one file each: their outline, their mass, and what can move them."""
+"""Kinds of bodies: their outline, their mass, and what can move them."""

@@ -1,10 +1,10 @@
-"""The base classes of bodies: the rest of the program asks a kind for these, and knows none by name."""
+"""Bodies, and what the rest of the program asks of each: it knows none by name."""
 
 from dataclasses import dataclass
 from math import cos, hypot, pi, sin
 from typing import Annotated, Literal
 
-from mindrun.kinds.registry import base
+from mindrun.kinds.registry import base, kind
 from mindrun.numbers.quantity import Extent, Quantity
 
 DIAMETER = Quantity("a length in world units", {"": 1.0}, low=0.01, high=1000.0)
@@ -161,3 +161,66 @@ class Rectangular(BodyKind):
         """The distance from the middle at which a ray leaves the rectangle."""
         ahead, aside = max(abs(cos(angle)), LEAST_COSINE), max(abs(sin(angle)), LEAST_COSINE)
         return min(self.front / ahead, self.side / aside)
+
+
+@kind("body", "disc")
+class Disc(Round):
+    """A round body of diameter `size` with wheels on its rim, or thrusters.
+
+    Every tick of length dt its velocity is divided by 1 + dt·damping.
+    """
+
+    drives = ("wheel", "thruster")
+
+
+@kind("body", "holonomic")
+class Holonomic(Round):
+    """A round body of diameter `size` that three thrusters or more push in any direction, and turn.
+
+    Every tick of length dt its velocity is divided by 1 + dt·damping.
+    """
+
+    drives = ("thruster",)
+
+
+@kind("body", "box")
+class Box(Rectangular):
+    """A rectangular body, `size` being its length and its width, or both, with wheels at its sides, or thrusters.
+
+    Every tick of length dt its velocity is divided by 1 + dt·damping.
+    """
+
+    size: Annotated[Extent, DIAMETER] = (3.0, 2.0)
+    density: Annotated[float, DENSITY] = 2.0
+    friction: Annotated[float, FRICTION] = FRICTION_COEFFICIENT
+    linear_damping: Annotated[float, DAMPING] = LINEAR_DAMPING
+    angular_damping: Annotated[float, DAMPING] = ANGULAR_DAMPING
+
+    drives = ("wheel", "thruster")
+
+
+WHEELBASE = Quantity("a share of its length", {"": 1.0, "%": 0.01}, low=0.01, high=1.0)
+
+
+@kind("body", "car")
+class Car(Rectangular):
+    """A rectangular body with a motor and a steering, `size` its length and its width, or both: the bicycle model.
+
+    Its two axles, `wheelbase` of its length apart, do not slip sideways: with the steering at δ, a speed of v along its
+    heading goes with v·tan δ / 2 to the left and a turn of v·tan δ / distance of the axles. What a push or a turn of
+    the steering has left of other motion is lost, as to forces that act on the axles and do no work.
+    """
+
+    size: Annotated[Extent, DIAMETER] = (3.0, 2.0)
+    wheelbase: Annotated[float, WHEELBASE] = 0.6
+    density: Annotated[float, DENSITY] = 2.0
+    friction: Annotated[float, FRICTION] = FRICTION_COEFFICIENT
+    linear_damping: Annotated[float, DAMPING] = LINEAR_DAMPING
+    angular_damping: Annotated[float, DAMPING] = ANGULAR_DAMPING
+
+    drives = ("motor", "steering")
+
+    @property
+    def axle_distance(self) -> float:
+        """The share of its length."""
+        return self.wheelbase * self.sides[0]

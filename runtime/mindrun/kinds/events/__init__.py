@@ -1,1 +1,1 @@
-"""Kinds of events, one file each: what can happen in a tick. `sim/lanes/judge.py` notices them."""
+"""Kinds of events: what can happen in a tick. `sim/lanes/judge.py` notices them."""

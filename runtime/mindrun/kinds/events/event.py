@@ -1,11 +1,13 @@
-"""The base class of events: the rest of the program asks a kind for these, and knows none by name."""
+"""Events, and what the rest of the program asks of each: it knows none by name."""
 
 from collections.abc import Collection, Mapping
-from typing import NamedTuple, Protocol
+from math import ceil
+from typing import Annotated, NamedTuple, Protocol
 
-from mindrun.kinds.registry import base
+from mindrun.kinds.registry import base, kind
 from mindrun.kinds.scenes.scene import SceneKind
 from mindrun.kinds.things.thing import AboutThing, ThingKind, WorldFacts
+from mindrun.numbers.quantity import THING, Quantity, Reference
 
 Row = Mapping[str, float]  # columns of the lanes' table of events
 
@@ -53,3 +55,130 @@ class EventKind(AboutThing):
     def row(self, scene: SceneKind) -> Row:
         """Its columns of the lanes' table beside its thing: `columns` and `rows` of patches, and `patch`, a side."""
         return {}
+
+
+@kind("event", "collision")
+class Collision(EventKind):
+    """The body, or the item it holds, begins to touch an obstacle or a wall; to push a box or ball is no collision."""
+
+    def prevented(self, world: WorldFacts) -> Hindrance | None:
+        """A hindrance where nothing solid is fixed in the world."""
+        if world.has_fixed:
+            return None
+        hint = "Write in arena size 100, or add contains rock is obstacle count 10."
+        return Hindrance("there is nothing to collide with", hint)
+
+
+@kind("event", "reach")
+class Reach(EventKind):
+    """An item, box, ball or walker comes into the claw's reach, or the robot's centre into a zone or power.
+
+    Once until it has left again.
+    """
+
+    of: Annotated[str, THING]
+
+    outcome = "reached"
+
+
+PATCH = Quantity("a length in world units", {"": 1.0}, low=0.1, high=1e5)
+
+
+@kind("event", "visit")
+class Visit(EventKind):
+    """The robot's centre enters a square patch of the arena, of side `size`, for the first time."""
+
+    of: Annotated[str, Reference("place", ("patch",))]
+    size: Annotated[float, PATCH] = 4.0
+
+    needs_walls = True
+
+    def missing(self, task: TaskWorld) -> Hindrance | None:
+        """A hindrance where the scene has no walls, and so no end of patches."""
+        if task.scene is None or task.scene.is_bounded:
+            return None
+        return Hindrance("A plain scene has no patches to visit.", "Patches are of an arena: write in arena size 100.")
+
+    def row(self, scene: SceneKind) -> Row:
+        """The number of patches along each axis, rounded up, and their side in world units."""
+        width, depth = scene.sides
+        return {"columns": ceil(width / self.size), "rows": ceil(depth / self.size), "patch": self.size}
+
+
+@kind("event", "delivery")
+class Delivery(EventKind):
+    """The middle of an item that the claw holds, or of a box or ball, comes into a zone.
+
+    Once until it has left all zones again. A box or ball that stands in one when the run begins counts, too.
+    With `to` it is about zones of that name alone, whichever others it comes through.
+    """
+
+    of: Annotated[str, THING]
+    to: Annotated[str, THING] = ""
+
+    outcome = "delivered"
+
+    @staticmethod
+    def is_about(kind: type[ThingKind]) -> bool:
+        """True for things that a claw can take or that can be pushed."""
+        return kind.can_be_delivered
+
+    @classmethod
+    def accepts(cls, argument: str, kind: type[ThingKind]) -> bool:
+        """True for a zone, where `argument` is `to`; else for things that can be delivered."""
+        return kind.takes_items if argument == "to" else cls.is_about(kind)
+
+    def missing(self, task: TaskWorld) -> Hindrance | None:
+        """A hindrance where the task has no zone to deliver to."""
+        if any(kind.takes_items for kind in task.kinds):
+            return None
+        return Hindrance("The task has no zone to deliver to.", "Add contains drop_zone is zone size 5.")
+
+    def prevented(self, world: WorldFacts) -> Hindrance | None:
+        """A hindrance where nothing closes the claw, or the item vanishes before it can be taken."""
+        if self.of not in world.loose and not world.can_hold:
+            return Hindrance("no skill that a master reaches drives a gripper", "Let a skill drive one.")
+        if self.of in world.fleeting:
+            reason = f"{self.of} is gone when it is reached, before the claw can take it"
+            return Hindrance(reason, "Write reached stays.")
+        return None
+
+
+@kind("event", "exhaustion")
+class Exhaustion(EventKind):
+    """The battery is empty."""
+
+    is_of_battery = True
+
+    def missing(self, task: TaskWorld) -> Hindrance | None:
+        """A hindrance where the robot has no battery."""
+        if task.has_battery:
+            return None
+        return Hindrance("Without a battery nothing is exhausted.", "Declare one: sensor battery is battery.")
+
+    def prevented(self, world: WorldFacts) -> Hindrance | None:
+        """A hindrance where the battery never loses any charge."""
+        return None if world.drains else Hindrance("the battery does not drain", "Give it a drain above 0.")
+
+
+@kind("event", "success")
+class Success(EventKind):
+    """The run ends as a success: what a line of the task with `succeeds` says has come."""
+
+    is_of_success = True
+
+    def missing(self, task: TaskWorld) -> Hindrance | None:
+        """A hindrance where no line of the task says when a run succeeds."""
+        if task.can_succeed:
+            return None
+        return Hindrance("The task does not say what a success is.", "Add a line: succeeds on 5 delivery of red.")
+
+
+@kind("event", "its end")
+class ItsEnd(EventKind):
+    """The Gymnasium environment has come to an end of its own (terminated); no further step can be made in it.
+
+    One that breaks a run off (truncated) does not end in this sense, and the run lasted its time.
+    """
+
+    is_outside = True

@@ -1,1 +1,1 @@
-"""Kinds of internal functions (Eq. 1): what turns a skill's inputs into its outputs. One kind a file."""
+"""Kinds of internal functions (Eq. 1): what turns a skill's inputs into its outputs."""

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Protocol, Self, runtime_checkable
 
-from mindrun.kinds.registry import base
+from mindrun.kinds.registry import base, kind
 from mindrun.numbers.quantity import Quantity
 
 if TYPE_CHECKING:
@@ -58,7 +58,7 @@ class Function:
 
     def layers(self, inputs: int, outputs: int) -> Layers:
         """The layers of a feed-forward network without biases; none where it is something else."""
-        return ()
+        return () if self.opaque else self.matrix_shapes(inputs, outputs)
 
     def matrix_shapes(self, inputs: int, outputs: int) -> Layers:
         """(values in, values out) of the matrices in which its genome lies, row by row; none where none is learnt."""
@@ -193,10 +193,20 @@ class NetworkFunction(Function):
         return genome(found)
 
     def ready(self, inputs: int, outputs: int, weights: Weights, sources: Mapping[str, str]) -> Compute:
-        """The network with these weights (Eq. 1), from tick to tick, as a function of inputs."""
-        from mindrun.numbers.network import matrices, running
+        """The network with these weights (Eq. 1), from tick to tick; one without a state takes rows of inputs, too."""
+        from mindrun.numbers.network import FLOAT32, NOTHING, StatefulNetwork, matrices
 
         shapes = self.matrix_shapes(inputs, outputs)
         if not shapes:
             return Function.ready(self, inputs, outputs, weights, sources)
-        return running(self.forward, matrices(weights, shapes), self.state_length(inputs, outputs))
+        found, length = matrices(weights, shapes), self.state_length(inputs, outputs)
+        if length:
+            return StatefulNetwork(self.forward, found, length)
+        return lambda values: self.forward(FLOAT32, found, values, NOTHING)[0]
+
+
+@kind("skill", "rule")
+class Rule(Function):
+    """No function of its own: every edge of the skill has `at`."""
+
+    has_outputs = False

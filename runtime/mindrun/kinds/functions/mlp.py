@@ -25,10 +25,6 @@ class Mlp(NetworkFunction):
     hidden: Annotated[int, HIDDEN] = 2
     width: Annotated[int, WIDTH] = 0
 
-    def layers(self, inputs: int, outputs: int) -> Layers:
-        """One matrix a layer: all hidden neurons are sigmoids, and the last layer is linear."""
-        return self.matrix_shapes(inputs, outputs)
-
     def matrix_shapes(self, inputs: int, outputs: int) -> Layers:
         """A matrix for each hidden layer, and the outputs'; none where the skill has no inputs or outputs."""
         widths = [self.neurons(inputs, outputs)] * self.hidden
@@ -44,7 +40,7 @@ class Mlp(NetworkFunction):
 
     def row(self, inputs: int, outputs: int) -> Mapping[str, int]:
         """The number of hidden layers and their width; empty where it has none, or nothing to compute."""
-        shapes = self.layers(inputs, outputs)
+        shapes = self.matrix_shapes(inputs, outputs)
         return {"hidden": self.hidden, "width": shapes[0][1]} if len(shapes) > 1 else {}
 
     def scratch(self, inputs: int, outputs: int) -> int:

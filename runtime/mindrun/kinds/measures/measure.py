@@ -1,12 +1,12 @@
-"""The base class of measures: the rest of the program asks a kind for these, and knows none by name."""
+"""Measures, and what the rest of the program asks of each: it knows none by name."""
 
-from collections.abc import Mapping
+from dataclasses import replace
 from math import inf
+from typing import Annotated
 
-from mindrun.kinds.registry import base
+from mindrun.kinds.registry import base, kind
 from mindrun.kinds.things.thing import AboutThing
-
-Row = Mapping[str, float]  # columns of the lanes' table of measures
+from mindrun.numbers.quantity import RATIO, THING, TICKS, Reference
 
 
 @base("measure")
@@ -17,12 +17,55 @@ class MeasureKind(AboutThing):
 
     is_outside = False  # whether an environment says what it is
     interval = (-inf, inf)  # its least and its greatest value
+    over = 0  # the number of ticks whose changes of commands the lanes keep for it
+    beyond = 0.0  # the share of a wheel's travel beyond which such a change counts
 
-    @property
-    def remembered(self) -> int:
-        """The number of ticks whose changes of commands the lanes keep for it."""
-        return 0
 
-    def row(self) -> Row:
-        """Its columns of the lanes' table beside its thing: the share `beyond` which it counts."""
-        return {}
+@kind("measure", "progress")
+class Progress(MeasureKind):
+    """Distance to the thing's centre closed in this tick, in world units; negative when moving away."""
+
+    toward: Annotated[str, THING]
+
+
+@kind("measure", "advance")
+class Advance(MeasureKind):
+    """The progress toward the thing where it is positive, else 0."""
+
+    toward: Annotated[str, THING]
+
+    interval = (0.0, inf)
+
+
+@kind("measure", "retreat")
+class Retreat(MeasureKind):
+    """The distance to the thing gained in this tick where it grew, else 0."""
+
+    from_: Annotated[str, THING]
+
+    interval = (0.0, inf)
+
+
+@kind("measure", "forward")
+class Forward(MeasureKind):
+    """1 while the robot moves forward, else 0."""
+
+    interval = (0.0, 1.0)
+
+
+@kind("measure", "change")
+class CommandChange(MeasureKind):
+    """Sum over the wheels of how much the command changed over the last `over` ticks, beyond a share of its travel."""
+
+    of: Annotated[str, Reference("quantity", ("thrust",))]
+    beyond: Annotated[float, RATIO] = 0.0
+    over: Annotated[int, replace(TICKS, low=1.0)] = 10
+
+    interval = (0.0, inf)
+
+
+@kind("measure", "its reward")
+class ItsReward(MeasureKind):
+    """The reward that the Gymnasium environment gave for this step."""
+
+    is_outside = True

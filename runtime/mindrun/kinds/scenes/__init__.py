@@ -1,1 +1,1 @@
-"""Kinds of scenes, one file each: the borders of a task's world, and where the robot starts."""
+"""Kinds of scenes: the borders of a task's world, and where the robot starts."""

@@ -1,9 +1,10 @@
-"""The base class of scenes: the rest of the program asks a kind for these, and knows none by name."""
+"""Scenes, and what the rest of the program asks of each: it knows none by name."""
 
 from math import hypot, inf
+from typing import Annotated
 
-from mindrun.kinds.registry import base
-from mindrun.numbers.quantity import Place
+from mindrun.kinds.registry import base, kind
+from mindrun.numbers.quantity import Extent, Place, Quantity, Reference
 
 TOUCHING_UNITS = 1e-6  # what is so little beyond something, or in it, only touches it: sums of decimals are rounded
 
@@ -41,3 +42,42 @@ class SceneKind:
         `least` is that of such a thing where walls keep it near, if they leave so much room.
         """
         return min(least, hypot(*self.sides) * DISTANCE_SHARE), inf
+
+
+MIN_DISTANCE_UNITS, MAX_DISTANCE_UNITS = 10.0, 40.0  # units from the robot
+
+
+@kind("task", "plain")
+class Plain(SceneKind):
+    """A world without borders; the robot starts in its origin."""
+
+    def distances(self, least: float) -> tuple[float, float]:
+        """The least and the greatest distance, so that the robot can find the thing."""
+        return MIN_DISTANCE_UNITS, MAX_DISTANCE_UNITS
+
+
+SIDE = Quantity("a length in world units", {"": 1.0}, low=0.01, high=1e5)
+
+
+@kind("task", "arena")
+class Arena(SceneKind):
+    """A square world of side `size` with walls, or one of that width and depth; the robot starts anywhere in it."""
+
+    size: Annotated[Extent, SIDE] = 100.0
+
+    @property
+    def sides(self) -> tuple[float, float]:
+        """Its lengths along x and y; a size of one number is both."""
+        return self.size if isinstance(self.size, tuple) else (self.size, self.size)
+
+
+@kind("task", "gymnasium")
+class Gymnasium(SceneKind):
+    """The environment of Gymnasium with that name: each tick is one of its steps, and it says how a run begins."""
+
+    gymnasium: Annotated[str, Reference("environment")]
+
+    @property
+    def environment(self) -> str:
+        """The environment's name, as Gymnasium has it."""
+        return self.gymnasium

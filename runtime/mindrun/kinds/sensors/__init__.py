@@ -1,4 +1,4 @@
-"""Kinds of sensors, one file each. On a robot a driver reads those that measure, and the engine computes the others.
+"""Kinds of sensors, by subject. On a robot a driver reads those that measure, and the engine computes the others.
 
 Every reading is a real number in 0..1. `range` and `dead_zone` are as for a range finder where a kind has them.
 """

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 from mindrun.kinds.registry import kind
 from mindrun.kinds.sensors.sensor import Flaw, Scene, SensorKind
 from mindrun.kinds.things.thing import WorldFacts
-from mindrun.numbers.expression import Formula, constant_value, fold, is_valid_program, named, placed, single
+from mindrun.numbers.expression import Formula, evaluate, fold, is_valid_program, named, placed, single
 from mindrun.numbers.quantity import EXPRESSION
 from mindrun.numbers.stack_machine import evaluate as run_program
 
@@ -65,7 +65,7 @@ class Computed(SensorKind):
         """The value of an expression that names no reading; None where it names one, or is no finite number."""
         if self.sources:
             return None
-        value = single(constant_value(placed(self.at, {})))
+        value = single(evaluate(placed(self.at, {})))
         return min(max(0.0, value), 1.0) if isfinite(value) else None
 
     def reader(self, scene: Scene) -> Reader:
@@ -73,7 +73,6 @@ class Computed(SensorKind):
         import numpy as np
 
         from mindrun.numbers.arithmetic import NAN, clamp
-        from mindrun.numbers.evaluation import evaluate
 
         program, turns = placed(self.at, scene.starts), self.goes_round(scene.directions)
 

@@ -1,1 +1,1 @@
-"""Kinds of what a task's world contains, one file each."""
+"""Kinds of what a task's world contains."""

@@ -1,19 +1,18 @@
 """Walls drawn in characters."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
 from typing import Annotated
 
 from mindrun.kinds.registry import kind
 from mindrun.kinds.scenes.scene import SceneKind
-from mindrun.kinds.things.thing import DEFAULT_DISTANCE, DEFAULT_SIZE, Rectangle, ThingKind, ThingMistake
+from mindrun.kinds.things.thing import Rectangle, ThingKind, ThingMistake
 from mindrun.numbers.quantity import LENGTH, Place, Reference
 
 WALL, FLOOR = "#", "."
 MAX_MAP_CELLS = 40_000  # 200 by 200
 CELL = replace(LENGTH, low=0.01, high=1000.0)
-TEXT_FILE = Reference("text file")
 
 Lines = tuple[str, ...]
 
@@ -25,15 +24,11 @@ class Map(ThingKind):
     A letter is floor on which a thing stands when a run begins: the one of that name, or whose name begins with it.
     """
 
-    from_: Annotated[Lines, TEXT_FILE]
+    from_: Annotated[Lines, Reference("text file")]
     cell: Annotated[float, CELL] = 4.0
 
     is_obstacle = True
     is_solid = True
-    size = DEFAULT_SIZE
-    away = DEFAULT_DISTANCE
-    at = ()
-    count = 1
     unplaceable = "Draw walls with #, and write another letter for what stands there."
 
     def obstacles(self, scene: SceneKind | None) -> int:
@@ -70,9 +65,6 @@ class Map(ThingKind):
         columns, rows = max(map(len, self.from_)), len(self.from_)
         return self.cell * (column - (columns - 1) / 2), self.cell * ((rows - 1) / 2 - row)
 
-    def at_places(self, places: tuple[Place, ...]) -> None:
-        """None: a map is placed by no other map."""
-
     def mistake(self, scene: SceneKind | None) -> ThingMistake | None:
         """An error where its lines differ in length, have no floor, are too many or do not fit into the arena."""
         columns = max(map(len, self.from_), default=0)
@@ -99,10 +91,7 @@ def _rectangles(lines: Lines) -> Sequence[tuple[int, int, int, int]]:
     if sum(map(len, lines)) > MAX_MAP_CELLS:
         return ()
     left = {(column, row) for row, line in enumerate(lines) for column, mark in enumerate(line) if mark == WALL}
-    return tuple(_taken(left))
-
-
-def _taken(left: set[tuple[int, int]]) -> Iterator[tuple[int, int, int, int]]:
+    found = []
     for column, row in sorted(left, key=lambda cell: cell[::-1]):
         if (column, row) not in left:
             continue
@@ -112,4 +101,5 @@ def _taken(left: set[tuple[int, int]]) -> Iterator[tuple[int, int, int, int]]:
         while all((column + i, row + high) in left for i in range(wide)):
             high += 1
         left -= {(column + i, row + k) for i in range(wide) for k in range(high)}
-        yield column, row, wide, high
+        found.append((column, row, wide, high))
+    return found

@@ -1,4 +1,4 @@
-"""The base classes of things: the rest of the program asks a kind for these, and knows none by name."""
+"""What the rest of the program asks of a thing, of which it knows no kind by name; and the kinds that are short."""
 
 from collections.abc import Iterable, Mapping, Set
 from dataclasses import dataclass, replace
@@ -6,20 +6,9 @@ from math import hypot
 from typing import Annotated, Literal, NamedTuple, Protocol, get_args
 
 from mindrun.kinds.bodies.body import DAMPING, DENSITY
-from mindrun.kinds.registry import arguments, base
+from mindrun.kinds.registry import arguments, base, kind
 from mindrun.kinds.scenes.scene import SceneKind
-from mindrun.numbers.quantity import (
-    COORDINATE,
-    COUNT,
-    LENGTH,
-    RATIO,
-    THING,
-    UNSAID,
-    Place,
-    Quantity,
-    Reference,
-    Span,
-)
+from mindrun.numbers.quantity import COORDINATE, COUNT, LENGTH, RATIO, THING, UNSAID, Place, Quantity, Reference, Span
 
 DEFAULT_SIZE = Span(1.0, 1.0)
 DEFAULT_DISTANCE = UNSAID  # as far away as its scene says
@@ -95,10 +84,10 @@ class ThingKind:
 
     __slots__ = ()
 
-    size: Span
-    away: Span
-    at: tuple[Place, ...]
-    count: int
+    size = DEFAULT_SIZE
+    away = DEFAULT_DISTANCE
+    at: tuple[Place, ...] = ()
+    count = 1
 
     varying: tuple[str, ...] = ()  # the arguments that can differ from run to run
     is_obstacle = False  # whether it is squares that stand in the way: no sensor, event or measure is about these
@@ -144,9 +133,9 @@ class ThingKind:
 
     def distances(self, scene: SceneKind) -> tuple[float, float]:
         """The least and the greatest distance from the robot at which it is placed."""
-        return (
-            (self.away.first, self.away.last) if self.away != DEFAULT_DISTANCE else scene.distances(self.least_distance)
-        )
+        if self.away != DEFAULT_DISTANCE:
+            return self.away.first, self.away.last
+        return scene.distances(self.least_distance)
 
     def obstacles(self, scene: SceneKind | None) -> int:
         """The number of rectangles that it puts in the way; `scene` is None where that is not known."""
@@ -172,8 +161,9 @@ class ThingKind:
         return {}
 
     def at_places(self, places: tuple[Place, ...]) -> "ThingKind | None":
-        """The thing at the places that a map draws; None where its own line says other ones, or another count."""
-        return None if self.places or self.count not in (1, len(places)) else replace(self, at=places)  # type: ignore[type-var]
+        """The thing at the places that a map draws; None where its own line or its kind says otherwise."""
+        is_free = not (self.is_obstacle or self.places) and self.count in (1, len(places))
+        return replace(self, at=places) if is_free else None  # type: ignore[type-var]
 
     def rows(self, scene: SceneKind) -> Iterable[Row]:
         """Its rows of the lanes' table of obstacles: a `grid`'s spacing, its `columns` and `rows` around `x` and `y`,
@@ -276,3 +266,61 @@ class AboutThing:
     def accepts(cls, argument: str, kind: type[ThingKind]) -> bool:
         """True if an argument of it can name things of a kind."""
         return cls.is_about(kind)
+
+
+@kind("content", "item")
+class Item(Placed):
+    """A disc of diameter `size` that the claw can take, or `count` of them, `away` from the robot or `at` a place.
+
+    When it is `reached` or `delivered` it stays as it is (in the claw, where that holds it), moves elsewhere with the
+    next size of its schedule, or vanishes for the rest of the run.
+    """
+
+    delivered: Annotated[Outcome, OUTCOME] = MOVES
+
+    can_be_held = True
+    can_be_delivered = True
+    is_round = True
+
+
+@kind("content", "zone")
+class Zone(Placed):
+    """A square of side `size` on the floor, or `count` of them; items are delivered into it.
+
+    When it is `reached` it stays where it is, moves elsewhere with the next size of its schedule, or vanishes for the
+    rest of the run.
+    """
+
+    is_area = True
+    takes_items = True
+
+
+@kind("content", "power")
+class Power(Placed):
+    """A square of side `size` on the floor, or `count` of them, in which the battery charges.
+
+    `reached` is as for a zone.
+    """
+
+    is_area = True
+    charges = True
+
+
+@kind("content", "box")
+class LooseBox(Loose):
+    """A solid square of side `size` that can be pushed, and turns as it is pushed.
+
+    Each tick of length dt divides its velocity and its spin by 1 + dt·damping. `friction` multiplies with that of what
+    it touches: the robot's is 0.2, a wall's and an obstacle's 1. It is `reached` when the claw could take it if it were
+    an item, and `delivered` when its middle is pushed into a zone: it stays, moves elsewhere or vanishes.
+    """
+
+
+@kind("content", "ball")
+class Ball(Loose):
+    """A solid disc of diameter `size` that can be pushed, and rolls on for a while; all else is as of a box."""
+
+    density: Annotated[float, DENSITY] = 0.2
+    damping: Annotated[float, DAMPING] = 1.0
+
+    is_round = True

@@ -7,7 +7,7 @@ from typing import Annotated
 
 from mindrun.kinds.registry import kind
 from mindrun.kinds.scenes.scene import SceneKind
-from mindrun.kinds.things.thing import DEFAULT_DISTANCE, DEFAULT_SIZE, Rectangle, ThingKind, ThingMistake
+from mindrun.kinds.things.thing import Rectangle, ThingKind, ThingMistake
 from mindrun.numbers.quantity import COORDINATE, LENGTH, Place
 
 THICKNESS = replace(LENGTH, low=0.01, high=1000.0)
@@ -22,10 +22,6 @@ class Wall(ThingKind):
 
     is_obstacle = True
     is_solid = True
-    size = DEFAULT_SIZE
-    away = DEFAULT_DISTANCE
-    at = ()
-    count = 1
     unplaceable = "Draw walls with #, and write another letter for what stands there."
 
     def obstacles(self, scene: SceneKind | None) -> int:
@@ -47,9 +43,6 @@ class Wall(ThingKind):
             else:
                 low, high = (y - before, to_y + behind) if y < to_y else (to_y - behind, y + before)
                 yield Rectangle(x, (low + high) / 2, half, (high - low) / 2)
-
-    def at_places(self, places: tuple[Place, ...]) -> None:
-        """None: a wall is placed by no map."""
 
     def mistake(self, scene: SceneKind | None) -> ThingMistake | None:
         """An error where a stretch goes nowhere, or not along an axis, or leaves the arena."""

@@ -20,9 +20,6 @@ A stage is handed the whole `state`, what it calls the parts that it reads and w
 which it has influence: `active[0..count]` are these, and what is gathered for it stands side by side in the columns
 0 to count − 1.
 
-A run that is over is written down, and its lane begins the next job; when none is left the last lane moves to its
-place: `runs`.
-
 `@compiled` is what only compiled code calls, `@entry` can be called from Python. Compiled code owns nothing
 (`_nrt=False`), so in it
 

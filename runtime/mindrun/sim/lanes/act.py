@@ -1,7 +1,7 @@
 """Act: the commands that the influence makes (Eq. 3), their delays, and the claw; the memory cells when all is done."""
 
-from mindrun.numbers.arithmetic import COSINE, SINE, X, Y
-from mindrun.sim.arithmetic import HALF, ONE, ZERO, F, clamp, finite, in_claw, place_of, put_thing, size_of
+from mindrun.numbers.arithmetic import COSINE, HALF, ONE, SINE, ZERO, F, X, Y
+from mindrun.sim.arithmetic import clamp, finite, in_claw, place_of, put_thing, size_of
 from mindrun.sim.codes import GRIPPER, ITEM
 from mindrun.sim.compiling import compiled, part_of_tick
 from mindrun.sim.lanes.placement import uniform

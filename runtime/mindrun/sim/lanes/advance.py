@@ -60,19 +60,11 @@ def conclude(tables, state, jobs, interrupt):
         for lane in range(lanes):
             state.judge.last_commands[row, lane] = state.mind.commands[row, lane]
     jobs.clock[0] = clock + 1
-    if going_on(world.body, state.run.ended, world.tick, tables.world[0].ticks, lanes) < lanes:
-        for k in range(lanes):
-            end(tables, state, jobs, lanes - 1 - k)
-
-
-@compiled
-def going_on(body, ended, tick, ticks, lanes):
-    """The number of lanes whose run is not over: most often all of them."""
-    count = 0
+    over, ticks, ended = 0, tables.world[0].ticks, state.run.ended
     for lane in range(lanes):
-        over = is_lost(body, lane) | (ended[lane] != GOING_ON) | (tick[lane] >= ticks)
-        count += 0 if over else 1
-    return count
+        over += is_lost(world.body, lane) | (ended[lane] != GOING_ON) | (world.tick[lane] >= ticks)
+    for k in range(lanes if over > 0 else 0):
+        end(tables, state, jobs, lanes - 1 - k)
 
 
 @compiled

@@ -5,7 +5,7 @@ Which things are reached does not depend on whether a line of the task names the
 
 import numpy as np
 
-from mindrun.kinds.sensors.inertial import TRAIL_TICKS
+from mindrun.kinds.sensors.motion import TRAIL_TICKS
 from mindrun.numbers.arithmetic import COSINE, SINE, X, Y
 from mindrun.sim import codes
 from mindrun.sim.arithmetic import distance_of, evaluate, in_claw, inside, place_of
@@ -68,7 +68,10 @@ def notice(tables, world, contact, judged, event, out, lanes):
         for lane in range(lanes):
             out[lane] = arrivals(world, judged.arrived, event, lane)
     elif event.kind == codes.VISIT:
-        visit(out, tables.world[0], world.body, judged.visited, event, lanes)
+        for lane in range(lanes):  # the first time that the robot's centre is in a patch
+            patch = event.board + patch_of(world.body, tables.world[0], event, lane)
+            out[lane] = 1 - judged.visited[lane, patch]
+            judged.visited[lane, patch] = 1
     elif event.kind == codes.COLLISION:
         for lane in range(lanes):
             out[lane] = 1 if contact.touching[lane] == 1 else 0
@@ -81,15 +84,6 @@ def notice(tables, world, contact, judged, event, out, lanes):
     for lane in range(lanes):
         count += 1 if out[lane] > 0 else 0
     return count
-
-
-@compiled
-def visit(out, constants, body, visited, event, lanes):
-    """Set `out` to 1 where the robot's centre is in a patch for the first time, else to 0."""
-    for lane in range(lanes):
-        patch = event.board + patch_of(body, constants, event, lane)
-        out[lane] = 1 - visited[lane, patch]
-        visited[lane, patch] = 1
 
 
 @compiled
@@ -249,10 +243,7 @@ def change(tables, commands, judged, measure, out, lanes, clock):
 
 @compiled
 def meet(tables, world, lanes):
-    """Set the bits of `reached` and `delivered`, of things that an event asks about or that then move or vanish.
-
-    Returns how many begin to be either, in all lanes.
-    """
+    """Set the bits of `reached` and `delivered` where anything asks for them; return how many begin, in all lanes."""
     body, things, begun = world.body, world.things, 0
     front, claw = tables.world[0].front, tables.world[0].claw
     for i in range(len(tables.things)):

@@ -112,10 +112,3 @@ def slide(tables, world, lane):
             x, y = next_place_of(tables, world, i, lane)
             put_thing(world.things, tables.loose[i].thing, x, y, lane)
             world.loose[row + TURN, lane] += world.loose[row + PUSHED_SPIN, lane] * tables.world[0].dt
-
-
-@compiled
-def stand(world, i, lane):
-    """Let loose thing i stand straight and still where it has been placed, unsettled: something may touch it there."""
-    world.loose[LOOSE_ROWS * i : LOOSE_ROWS * (i + 1), lane] = 0.0
-    world.still[i, lane], world.restless[lane] = 0, 1

@@ -7,12 +7,11 @@ the same world. Everything is placed clear of everything else, with room for the
 import numpy as np
 
 from mindrun.graph.beginning import meets_robot
-from mindrun.numbers.arithmetic import ANGLE, BOX_COLUMNS, HALF_X, HALF_Y, THING_ROWS, X, Y
+from mindrun.numbers.arithmetic import ANGLE, BOX_COLUMNS, HALF_X, HALF_Y, LOOSE_ROWS, THING_ROWS, X, Y
 from mindrun.sim import parameter_rows
 from mindrun.sim.arithmetic import place_of, put_thing, resize_thing, sine_cosine, size_of
 from mindrun.sim.codes import CONSTANT, DRAWN, DRAWN_WHOLE, FAILING, FAR
 from mindrun.sim.compiling import compiled
-from mindrun.sim.lanes.loose import stand
 from mindrun.sim.lanes.solid import is_clear, put_box
 
 meets, computed = compiled(meets_robot), compiled(parameter_rows.computed)
@@ -172,10 +171,12 @@ def put(tables, world, i, lane):
 
 @compiled
 def put_at(tables, world, i, x, y, lane):
-    """Put thing i at a place."""
+    """Put thing i at a place. What is loose stands straight and still there, unsettled: something may touch it."""
     put_thing(world.things, i, x, y, lane)
-    if tables.things[i].loose >= 0:
-        stand(world, tables.things[i].loose, lane)
+    loose = tables.things[i].loose
+    if loose >= 0:
+        world.loose[LOOSE_ROWS * loose : LOOSE_ROWS * (loose + 1), lane] = 0.0
+        world.still[loose, lane], world.restless[lane] = 0, 1
     if tables.things[i].walker >= 0:
         world.direction[tables.things[i].walker, lane] = uniform(world.random, lane, 0.0, 2 * np.pi)
 

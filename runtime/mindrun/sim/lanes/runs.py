@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mindrun.kinds.sensors.inertial import TRAIL_TICKS
+from mindrun.kinds.sensors.motion import TRAIL_TICKS
 from mindrun.numbers.arithmetic import ANGLE, COSINE, SINE, X, Y
 from mindrun.sim.arithmetic import sine_cosine
 from mindrun.sim.chipmunk_internals import FIXED_BODY

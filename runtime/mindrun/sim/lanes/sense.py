@@ -14,26 +14,18 @@ from mindrun.numbers.arithmetic import (
     HALF_Y,
     LOOSE_ROWS,
     MAX_FLOAT32,
+    ONE,
     SINE,
     THING_ROWS,
     TURN,
+    ZERO,
+    F,
     X,
     Y,
 )
 from mindrun.sim import state as parts
-from mindrun.sim.arithmetic import (
-    ONE,
-    ZERO,
-    F,
-    box_of,
-    clamp,
-    compiled_lane,
-    place_of,
-    sine_cosine,
-    size_of,
-    wrapped,
-)
-from mindrun.sim.codes import AWAY, sensor_codes
+from mindrun.sim.arithmetic import box_of, clamp, compiled_lane, place_of, sine_cosine, size_of, wrapped
+from mindrun.sim.codes import AWAY, codes_of
 from mindrun.sim.compiling import compiled, part_of_tick
 from mindrun.sim.lanes.placement import uniform
 from mindrun.sim.lanes.solid import put_box
@@ -64,7 +56,7 @@ def _reader(lanes_of_kinds: Sequence[Any], first: int = 0) -> Callable[..., None
     return read
 
 
-read = _reader([kinds("sensor")[name].lane for name in sensor_codes()])
+read = _reader([kinds("sensor")[name].lane for name in codes_of("sensor")])
 
 
 @part_of_tick

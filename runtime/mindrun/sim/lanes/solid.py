@@ -133,10 +133,7 @@ def meets(x, y, dx, dy, wide, high):
 
 @compiled
 def find_swift(tables, world, swift, lanes):
-    """Set `swift` [lane] to 1 where a lane has to make strides, if anything may be swift; return how many may be.
-
-    `make_tick` sets a lane's back to 0.
-    """
+    """Set `swift` [lane] to 1 where a lane has to make strides, if anything may be swift; return how many may be."""
     body, held, constants, count = world.body, world.held, tables.world[0], 0
     own_arm, own_least = 0.0 if constants.is_round else constants.radius, min(constants.front, constants.side)
     arm, least, dt = constants.arm, constants.least, constants.dt

@@ -5,19 +5,7 @@ Walkers touch nothing: they are plain arithmetic, too.
 
 import numpy as np
 
-from mindrun.numbers.arithmetic import (
-    ANGLE,
-    BOX_COLUMNS,
-    COSINE,
-    HALF_X,
-    HALF_Y,
-    SINE,
-    SPEED_X,
-    SPEED_Y,
-    SPIN,
-    X,
-    Y,
-)
+from mindrun.numbers.arithmetic import ANGLE, BOX_COLUMNS, COSINE, HALF_X, HALF_Y, SINE, SPEED_X, SPEED_Y, SPIN, X, Y
 from mindrun.sim.arithmetic import place_of, put_thing, sine_cosine, size_of
 from mindrun.sim.chipmunk_internals import PERSISTENCE_TICKS
 from mindrun.sim.codes import FORCE, FORCE_ASIDE, FORCE_X, FORCE_Y, PUSH, STEERING, TORQUE
@@ -61,7 +49,7 @@ def step(tables, state, lanes):
 @compiled
 def thrust(tables, world, commands, lanes):
     """Damp the body's velocities, a car's as its axles let it move, and sum force and torque in `push`."""
-    push, constants, is_aside = world.push, tables.world[0], False
+    body, heading, push, constants, is_aside = world.body, world.heading, world.push, tables.world[0], False
     push[FORCE, :lanes] = 0.0
     push[TORQUE, :lanes] = 0.0
     push[FORCE_ASIDE, :lanes] = 0.0
@@ -73,10 +61,15 @@ def thrust(tables, world, commands, lanes):
             drive(acting, actuator, strength, world.grip[i], push, lanes)
             is_aside |= actuator.aside != 0.0
     linear, angular = world.numbers[constants.linear], world.numbers[constants.angular]
-    damp(world.body, world.heading, push, linear, angular, lanes)
+    for lane in range(lanes):  # by 1 / (1 + dt·c), as JBox2D does; and the force turns into the world's axes
+        body[SPEED_X, lane] = body[SPEED_X, lane] * linear[lane]
+        body[SPEED_Y, lane] = body[SPEED_Y, lane] * linear[lane]
+        body[SPIN, lane] = body[SPIN, lane] * angular[lane]
+        push[FORCE_X, lane] = push[FORCE, lane] * heading[COSINE, lane]
+        push[FORCE_Y, lane] = push[FORCE, lane] * heading[SINE, lane]
     for lane in range(lanes if is_aside else 0):
-        push[FORCE_X, lane] -= push[FORCE_ASIDE, lane] * world.heading[SINE, lane]
-        push[FORCE_Y, lane] += push[FORCE_ASIDE, lane] * world.heading[COSINE, lane]
+        push[FORCE_X, lane] -= push[FORCE_ASIDE, lane] * heading[SINE, lane]
+        push[FORCE_Y, lane] += push[FORCE_ASIDE, lane] * heading[COSINE, lane]
     if constants.axles > 0.0:
         roll(tables, world, commands, lanes)
 
@@ -128,17 +121,6 @@ def steered(tables, world, commands, lane):
 
 
 @compiled
-def damp(body, heading, push, linear, angular, lanes):
-    """Multiply the velocities by 1 / (1 + dt·c), as JBox2D does, and turn the force into the world's axes."""
-    for lane in range(lanes):
-        body[SPEED_X, lane] = body[SPEED_X, lane] * linear[lane]
-        body[SPEED_Y, lane] = body[SPEED_Y, lane] * linear[lane]
-        body[SPIN, lane] = body[SPIN, lane] * angular[lane]
-        push[FORCE_X, lane] = push[FORCE, lane] * heading[COSINE, lane]
-        push[FORCE_Y, lane] = push[FORCE, lane] * heading[SINE, lane]
-
-
-@compiled
 def fly(world, near, constants, lanes):
     """Make Chipmunk's step of a body that touches nothing: move with the old velocity, then add force and torque.
 
@@ -165,7 +147,11 @@ def find_near(tables, world, sight, contact, lanes):
     A robot that would leave all places flies there alone.
     """
     body, near, gap, dt = world.body, contact.near, contact.gap, tables.world[0].dt
-    clearance(body, tables.world[0].half_x, tables.world[0].half_y, dt, gap, lanes)
+    half_x, half_y = tables.world[0].half_x, tables.world[0].half_y
+    for lane in range(lanes):
+        x = half_x - abs(body[X, lane] + body[SPEED_X, lane] * dt)
+        y = half_y - abs(body[Y, lane] + body[SPEED_Y, lane] * dt)
+        gap[lane] = x if x < y else y
     approach_loose(tables, world, gap, lanes)
     for k in range(sight.nearby_most[0]):
         approach(sight.nearby[BOX_COLUMNS * k : BOX_COLUMNS * (k + 1)], body, dt, gap, lanes)
@@ -190,15 +176,6 @@ def find_near(tables, world, sight, contact, lanes):
     if find_swift(tables, world, contact.swift, lanes) > 0:
         for lane in range(lanes):
             near[lane] = CONTACT_TICKS if contact.swift[lane] > 0 else near[lane]
-
-
-@compiled
-def clearance(body, half_x, half_y, dt, gap, lanes):
-    """Set `gap` to the distance between the robot's next centre and the walls."""
-    for lane in range(lanes):
-        x = half_x - abs(body[X, lane] + body[SPEED_X, lane] * dt)
-        y = half_y - abs(body[Y, lane] + body[SPEED_Y, lane] * dt)
-        gap[lane] = x if x < y else y
 
 
 @compiled

@@ -4,9 +4,9 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from mindrun.kinds.registry import kinds
-from mindrun.numbers.arithmetic import NAN
-from mindrun.sim.arithmetic import ONE, ZERO, F, clamp, compiled_lane, evaluate, finite
-from mindrun.sim.codes import function_codes
+from mindrun.numbers.arithmetic import NAN, ONE, ZERO, F
+from mindrun.sim.arithmetic import clamp, compiled_lane, evaluate, finite
+from mindrun.sim.codes import codes_of
 from mindrun.sim.compiling import compiled, part_of_tick
 from mindrun.sim.procedures import call_procedure
 from mindrun.sim.state import FAILED_COLUMN, FAILED_SKILL
@@ -30,7 +30,7 @@ def _chain(functions: Sequence[Any], code: int = 0) -> Callable[..., int]:
     return compute
 
 
-compute = _chain([kinds("skill")[name].lane for name in function_codes()])
+compute = _chain([kinds("skill")[name].lane for name in codes_of("skill")])
 
 
 @compiled
@@ -132,7 +132,9 @@ def send(tables, state, row, out, count, lanes):
             spread(sent, influence, mind.influence[edge.target], mind.active, count, everywhere)
         else:
             spread(sent, influence, mind.command_sums[edge.target], mind.active, count, everywhere)
-            weigh(sent, influence, mind.influence_sums[edge.target], mind.active, count, everywhere)
+            for k in range(count):  # now the influence behind each command (Eq. 3)
+                sent[k] = ONE if sent[k] >= ZERO else NOT_SENT
+            spread(sent, influence, mind.influence_sums[edge.target], mind.active, count, everywhere)
 
 
 @compiled
@@ -180,15 +182,3 @@ def spread(sent, influence, target, active, count, everywhere):
         for k in range(count):
             lane = active[k]
             target[lane] += sent[k] * influence[lane] if sent[k] >= ZERO else ZERO
-
-
-@compiled
-def weigh(sent, influence, target, active, count, everywhere):
-    """Add the influence behind each command that is sent (Eq. 3)."""
-    if everywhere:
-        for lane in range(count):
-            target[lane] += influence[lane] if sent[lane] >= ZERO else ZERO
-    else:
-        for k in range(count):
-            lane = active[k]
-            target[lane] += influence[lane] if sent[k] >= ZERO else ZERO

@@ -1,6 +1,7 @@
 """`python -m mindrun.sim.outside SOCKET FILE`: a process that steps environments, and may end by them.
 
-A question is the name of an environment, the folder of its module, what is asked of its stepper, and arguments.
+A question is the name of an environment, the folder of its module, the method of its stepper, the numbers of the runs
+that it is asked about, and other arguments.
 """
 
 import fcntl
@@ -8,20 +9,18 @@ import os
 import sys
 from contextlib import suppress
 from ctypes import CDLL
-from dataclasses import replace
 from functools import cache, partial
 from mmap import mmap
+from multiprocessing.connection import Connection
 from signal import SIGKILL
-from socket import socket
 from typing import Any
 
 import numpy as np
 
 from mindrun.errors import MindError
 from mindrun.sim.outside import making
-from mindrun.sim.outside.parts import Spaces
 from mindrun.sim.outside.stepper import EnvironmentRun, LocalStepper
-from mindrun.sim.outside.subprocess_stepper import REACHED, MessageChannel
+from mindrun.sim.outside.subprocess_stepper import REACHED
 
 
 class StepperServer:
@@ -42,41 +41,39 @@ class StepperServer:
             return False, MindError(f"a question to an environment failed: {type(error).__name__}: {error}")
 
     def _answer(self, question: tuple[Any, ...]) -> Any:
-        match question:
-            case ["registered"]:
-                return making.registered()
-            case name, folder, "spaces":
-                return _plain(self._stepper(name, folder).spaces)
-            case name, folder, "begin", numbers, *arguments:
-                begun = self._stepper(name, folder).begin(*arguments)
-                self._runs.update(zip(numbers, begun, strict=True))
-                return np.stack([run.row for run in begun])
-            case name, folder, "reset" | "step" as asked, numbers, *arguments:
-                runs = [self._runs[number] for number in numbers]
-                getattr(self._stepper(name, folder), asked)(runs, *arguments)
-                return np.stack([run.row for run in runs])
-            case name, folder, "image", number:
-                image = self._stepper(name, folder).image(self._runs[number])
-                return image if image.dtype == np.uint8 else np.zeros(0, np.uint8)
-            case name, folder, "close", numbers:
-                return self._stepper(name, folder).close([self._runs.pop(number) for number in numbers])
-        raise MindError(f"nobody knows what {question!r:.100} is")
+        if question == ("registered",):
+            return making.registered()
+        name, folder, method, numbers, *arguments = question
+        stepper = self._stepper(name, folder)
+        if method == "spaces":
+            return stepper.spaces
+        if method == "begin":
+            self._runs.update(zip(numbers, stepper.begin(*arguments), strict=True))
+        runs = [self._runs[number] for number in numbers]
+        if method == "image":
+            image = stepper.image(*runs)
+            return image if image.dtype == np.uint8 else np.zeros(0, np.uint8)
+        if method == "close":
+            return stepper.close([self._runs.pop(number) for number in numbers])
+        if method != "begin":
+            getattr(stepper, method)(runs, *arguments)
+        return np.stack([run.row for run in runs])
 
 
 def main() -> None:
     """Answer questions until no more come."""
     end_with_standard_input()
-    channel = MessageChannel(socket(fileno=int(sys.argv[1])))
+    connection = Connection(int(sys.argv[1]))
     server = StepperServer(mmap(int(sys.argv[2]), REACHED.size))
     libc = CDLL(None)
     with suppress(EOFError, OSError):
         if making.is_there():
             making.library()  # its time to be imported is not that of an environment
-        channel.send("ready")
+        connection.send("ready")
         while True:
-            answer = server.answer(channel.receive())
+            answer = server.answer(connection.recv())
             libc.fflush(None)  # C keeps back what does not go to a terminal
-            channel.send(answer)
+            connection.send(answer)
     os._exit(0)  # whatever threads an environment has left
 
 
@@ -91,14 +88,6 @@ def end_with_standard_input() -> None:
     fcntl.fcntl(kept, fcntl.F_SETFL, fcntl.fcntl(kept, fcntl.F_GETFL) | os.O_ASYNC)
     nothing = os.open(os.devnull, os.O_RDONLY)
     os.dup2(nothing, 0)
-
-
-def _plain(spaces: Spaces) -> Spaces:
-    """Spaces without the keys that lead to their parts, which may be of classes that nobody else has."""
-    observed, acted = (
-        {name: replace(part, path=()) for name, part in parts.items()} for parts in (spaces.observed, spaces.acted)
-    )
-    return replace(spaces, observed=observed, acted=acted)
 
 
 if __name__ == "__main__":

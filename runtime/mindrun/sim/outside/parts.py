@@ -1,7 +1,7 @@
 """The arrays that an observation or an action consists of: by the names that lead to them, read and made."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import prod
 from typing import Any
 
@@ -20,16 +20,14 @@ Place = tuple[str, int]  # of a number: the name of its part, and where it stand
 class SpacePart:
     """An array of numbers in `low` to `high` [of its size], which are infinite where a space does not say.
 
-    Where there are `choices`, they are so many at each place, and the numbers are whole, from `low` on. The keys of
-    `path` lead to it.
+    Where each `is_choice`, they are whole.
     """
 
     shape: tuple[int, ...]
     low: Floats
     high: Floats
     dtype: Any
-    choices: NDArray[np.int64] | None = None
-    path: tuple[Any, ...] = ()
+    is_choice: bool = False
 
     @property
     def axes(self) -> tuple[int, ...]:
@@ -48,7 +46,7 @@ class SpacePart:
     def values(self, numbers: Floats) -> list[Any]:
         """Turn numbers [runs, size] into an array of its shape and type for each run; a single choice is a number."""
         values = numbers.astype(self.dtype).reshape(-1, *self.shape)
-        return [*values] if self.shape or self.choices is not None else [np.asarray(value) for value in values]
+        return [*values] if self.shape or self.is_choice else [np.asarray(value) for value in values]
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,16 +60,16 @@ class Spaces:
 
 @dataclass(frozen=True, slots=True)
 class PartReader:
-    """The numbers at some `places` of one part of an observation, which are read to the slots `to`."""
+    """The numbers at some `places` of the part of an observation to which `path` leads, read to the slots `to`."""
 
-    name: str
+    path: tuple[Any, ...]
     part: SpacePart
     places: NDArray[np.int64]
     to: NDArray[np.int64]
 
     def read(self, observation: Any, out: Floats) -> None:
         """Put them into `out` [slots]; ValueError where the observation has another shape, or no real numbers."""
-        for key in self.part.path:
+        for key in self.path:
             observation = observation[key]
         seen = np.asarray(observation)
         if seen.shape != self.part.shape or seen.dtype.kind not in NUMBERS:
@@ -79,19 +77,20 @@ class PartReader:
         out[self.to] = seen.reshape(-1)[self.places]
 
     def _flaw(self, seen: NDArray[Any]) -> str:
-        what = f"the part {self.name} of an observation" if self.name else "an observation"
+        what = f"the part {_name(self.path)} of an observation" if self.path else "an observation"
         if seen.shape != self.part.shape:
             return f"{what} has the shape {seen.shape}, and its space says {self.part.shape}"
         return f"{what} is of {seen.dtype}, which are no real numbers"
 
 
-def sources_of(parts: Mapping[str, SpacePart], places: Sequence[Place]) -> list[PartReader]:
-    """Readers of the numbers at these places, one for each slot, from observations of these parts."""
+def sources_of(observed: Any, parts: Mapping[str, SpacePart], places: Sequence[Place]) -> list[PartReader]:
+    """Readers of the numbers at these places, one for each slot, from observations of a space of these parts."""
     sources = []
+    paths = {_name(path): path for path, _ in _leaves(observed)}
     for name in dict.fromkeys(name for name, _ in places):
         to = [slot for slot, (part, _) in enumerate(places) if part == name]
         indices = np.array([places[slot][1] for slot in to], np.int64)
-        sources.append(PartReader(name, parts[name], indices, np.array(to, np.int64)))
+        sources.append(PartReader(paths[name], parts[name], indices, np.array(to, np.int64)))
     return sources
 
 
@@ -106,8 +105,7 @@ def parts_of(space: Any) -> dict[str, SpacePart]:
 
     The space itself has the empty name, and those of a tuple have numbers, from 0 on.
     """
-    known = ((path, _part(leaf)) for path, leaf in _leaves(space))
-    return {_name(path): replace(part, path=path) for path, part in known if part is not None}
+    return {_name(path): part for path, leaf in _leaves(space) if (part := _part(leaf))}
 
 
 def found(parts: Mapping[str, SpacePart], slot: Slot) -> tuple[str, SpacePart | None, tuple[int, ...]]:
@@ -183,4 +181,4 @@ def _part(space: Any) -> SpacePart | None:
 
 def _choices(shape: tuple[int, ...], counts: Any, start: Any, dtype: Any) -> SpacePart:
     low = np.asarray(start, np.float64)
-    return SpacePart(shape, low, low + counts - 1, dtype, np.asarray(counts, np.int64))
+    return SpacePart(shape, low, low + counts - 1, dtype, is_choice=True)

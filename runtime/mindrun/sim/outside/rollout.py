@@ -20,7 +20,7 @@ from mindrun.sim.outside.stepper import REWARD_COLUMN, TERMINATED_COLUMN, Enviro
 from mindrun.sim.outside.subprocess_stepper import SilentEnvironmentError, Stepper, stepper_for
 from mindrun.sim.outside.wiring import EnvironmentWiring, wiring_of
 from mindrun.sim.rollout import SLOW_SLICE_TICKS, Rollout, Tile
-from mindrun.sim.state import Jobs, State
+from mindrun.sim.state import Jobs
 
 ENVIRONMENT_LANES = 64  # environments side by side: so many share one call of what is compiled
 LEAST_SHARE = 0.001  # of the ticks, that is said as a number
@@ -65,11 +65,11 @@ class EnvironmentRollout(Rollout):
         self._stepper: Stepper = self._another_stepper()
         self.wiring: EnvironmentWiring = wiring_of(self.graph, self._stepper.spaces)
         self.slice_ticks = SLOW_SLICE_TICKS
-        self._measured = self.sizes.measured[self.wiring.rows]
+        self._measured = self.tables.measured[self.wiring.rows]
         self.observed, self.clipped = 0, np.zeros(len(self.wiring.rows), np.int64)
         self.unreal = np.zeros(len(self.wiring.rows) + 1, np.int64)
         self._flaw = ""
-        self._rough = np.array([bool(row["is_rough"]) for row in self.tables.actuators], bool)
+        self._rough = self.tables.actuators["is_rough"].astype(bool)
         self._rewards = [i for i, measure in enumerate(self.task.measures) if measure.is_outside]
         self._ends = [i for i, event in enumerate(self.task.events) if event.is_outside]
 
@@ -154,8 +154,10 @@ class EnvironmentRollout(Rollout):
         state, lanes = tile.state, int(jobs.lanes[0])
         act(self.tables, state, np.int64(lanes))
         episodes = self._episodes(tile, jobs)
-        tile.kept.stepper.step(episodes, self.wiring.actions(self._commands(state, lanes)))
-        judge, ended = state.judge, state.run.ended
+        judge, ended, count = state.judge, state.run.ended, len(self.tables.actuators)
+        commands = state.mind.commands[:count, :lanes].copy()
+        commands[self._rough] = state.world.acting[:count, :lanes][self._rough]
+        tile.kept.stepper.step(episodes, self.wiring.actions(commands))
         rows = np.array([episode.row[REWARD_COLUMN:] for episode in episodes]).reshape(-1, -REWARD_COLUMN)
         rewards = rows[:, REWARD_COLUMN]
         judge.measures[self._rewards, :lanes] = rewards
@@ -164,12 +166,6 @@ class EnvironmentRollout(Rollout):
         is_over = (rows[:, TERMINATED_COLUMN:] != 0).any(axis=1)
         ended[:lanes][is_over] = BROKEN_OFF  # unless one of the task's ends comes
         conclude(self.tables, state, jobs, self.interrupt)
-
-    def _commands(self, state: State, lanes: int) -> NDArray[np.float32]:
-        count = len(self.tables.actuators)
-        commands: NDArray[np.float32] = state.mind.commands[:count, :lanes].copy()
-        commands[self._rough] = state.world.acting[:count, :lanes][self._rough]
-        return commands
 
     def _episodes(self, tile: Tile, jobs: Jobs) -> list[EnvironmentRun]:
         """The environments of the lanes at work; a run that has not begun in one begins."""

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import cached_property
+from itertools import count
 from numbers import Real
 from pathlib import Path
 from typing import Any
@@ -17,13 +18,14 @@ from mindrun.sim.outside.parts import Floats, PartReader, Place, Spaces, actions
 
 SEED_LIMIT = 1 << 31  # some environments take no larger ones
 REWARD_COLUMN, TERMINATED_COLUMN, TRUNCATED_COLUMN = -3, -2, -1  # where they stand in a row, behind what is observed
+_numbers = count()  # of runs, by which another process knows them
 
 
 class EnvironmentRun:
     """An environment in the run of a seed, after so many `steps`: the `row` of what it said last [slots + 3]."""
 
     def __init__(self, seed: int, slots: int) -> None:
-        self.seed, self.steps = seed, 0
+        self.number, self.seed, self.steps = next(_numbers), seed, 0
         self.row: Floats = np.zeros(slots + 3)
 
     @property
@@ -69,7 +71,7 @@ class LocalStepper:
 
     def begin(self, places: Sequence[Place], seeds: Sequence[int], is_seen: bool = False) -> list[EnvironmentRun]:
         """A new environment for the run of each seed, of which the numbers at these places are read, one a slot."""
-        sources = sources_of(self.spaces.observed, places)
+        sources = sources_of(self._spaces[0], self.spaces.observed, places)
         runs = [EnvironmentRun(seed, len(places)) for seed in seeds]
         try:
             for run in self._each(runs):

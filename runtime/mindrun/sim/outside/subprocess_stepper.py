@@ -5,16 +5,15 @@ time, whether it sleeps, holds the interpreter or is stopped, its process is kil
 """
 
 import os
-import pickle
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
 from functools import cache, cached_property
-from itertools import count
 from mmap import mmap
+from multiprocessing.connection import Connection
 from pathlib import Path
 from signal import Signals
-from socket import socket, socketpair
+from socket import SO_RCVTIMEO, SO_SNDTIMEO, SOL_SOCKET, socketpair
 from struct import Struct
 from subprocess import PIPE, Popen, TimeoutExpired
 from tempfile import TemporaryFile
@@ -35,47 +34,8 @@ START_SECONDS = 60  # until its process takes questions
 LOOK_SECONDS = 0.5  # between two looks at whether it comes any further
 SLOW = f"One that needs longer is given it by {VARIABLE}=600, before the command."
 STANDARD_ERROR = 2
-LENGTH = Struct("<Q")  # of a message, before it
+TIME = Struct("@ll")  # seconds and microseconds, as the system takes them
 REACHED = Struct("<I")  # which environment of a question is asked, in memory that outlives the process
-MAX_READ_BYTES = 1 << 20  # at once
-
-
-class MessageChannel:
-    """One end of a connected pair of sockets, on which questions and answers alternate: plain data, pickled.
-
-    `look` is called whenever a wait has taken the socket's time limit.
-    """
-
-    def __init__(self, end: socket, look: Callable[[], object] = lambda: None) -> None:
-        self._socket, self._look = end, look
-
-    def send(self, message: Any) -> None:
-        """Send a message; OSError where nobody is left to take it."""
-        data = pickle.dumps(message, pickle.HIGHEST_PROTOCOL)
-        rest = memoryview(LENGTH.pack(len(data)) + data)
-        while rest:
-            try:
-                rest = rest[self._socket.send(rest) :]
-            except TimeoutError:
-                self._look()
-
-    def receive(self) -> Any:
-        """The next message; EOFError where the other end is closed."""
-        data = bytearray()
-        while len(data) < LENGTH.size or len(data) < LENGTH.size + LENGTH.unpack_from(data)[0]:
-            try:
-                part = self._socket.recv(MAX_READ_BYTES)
-            except TimeoutError:
-                self._look()
-                continue
-            if not part:
-                raise EOFError
-            data += part
-        return pickle.loads(memoryview(data)[LENGTH.size :])
-
-    def close(self) -> None:
-        """Close this end."""
-        self._socket.close()
 
 
 class LostError(Exception):
@@ -97,7 +57,6 @@ class EnvironmentProcess:
         self.step_seconds = _step_seconds()
         self._process: Popen[bytes] | None = None
         self._lock = Lock()
-        self._before, self._silent, self._limit = -1, 0.0, 0.0
 
     @property
     def has_begun(self) -> bool:
@@ -123,7 +82,7 @@ class EnvironmentProcess:
         if self._process is not None:
             with self._process as process:
                 process.kill()
-            self._channel.close()
+            self._connection.close()
             self._process = None
 
     def _begin(self) -> None:
@@ -131,8 +90,9 @@ class EnvironmentProcess:
         # this process alone: a session of its own. Its standard input ends with this process, and it with that.
         path = os.pathsep.join(each or f"{Path.cwd()}" for each in sys.path)
         ours, theirs = socketpair()
-        ours.settimeout(LOOK_SECONDS)
-        self._channel = MessageChannel(ours, self._look)
+        for limit in (SO_RCVTIMEO, SO_SNDTIMEO):  # of the rest of a message, whatever an environment does to it
+            ours.setsockopt(SOL_SOCKET, limit, TIME.pack(int(self.step_seconds), 0))
+        self._connection = Connection(ours.detach())
         with theirs, TemporaryFile() as file:
             file.truncate(REACHED.size)
             self._reached = mmap(file.fileno(), REACHED.size)
@@ -149,27 +109,30 @@ class EnvironmentProcess:
 
     def _answer(self, question: Sequence[Any] | None, seconds: float) -> Any:
         """The answer to a question, of which each environment has so many seconds."""
-        self._before, self._silent, self._limit = -1, 0.0, seconds
         REACHED.pack_into(self._reached, 0, 0)
         try:
             if question is not None:
-                self._channel.send(question)
-            return self._channel.receive()
+                self._connection.send(question)
+            self._wait(seconds)
+            return self._connection.recv()
         except LostError:
             raise
         except Exception as error:  # whatever an environment has written there
             raise LostError(self._ending(), self._now()) from error
 
-    def _look(self) -> None:
-        """Raise EOFError if it has ended, even if its child has the socket, and LostError if it is silent too long."""
-        assert self._process is not None
-        if self._process.poll() is not None:
-            raise EOFError
-        now = self._now()
-        self._silent = self._silent + LOOK_SECONDS if now == self._before else 0.0
-        self._before = now
-        if self._silent >= self._limit:
-            raise LostError(f"no answer in {self._limit:g} seconds", now, is_silent=True)
+    def _wait(self, seconds: float) -> None:
+        """Wait for an answer. EOFError where the process has ended, even if its child has the socket; LostError where
+        one environment is silent for too long.
+        """
+        before, silent = -1, 0.0
+        while not self._connection.poll(LOOK_SECONDS):
+            if self._process is None or self._process.poll() is not None:
+                raise EOFError
+            now = self._now()
+            silent = silent + LOOK_SECONDS if now == before else 0.0
+            before = now
+            if silent >= seconds:
+                raise LostError(f"no answer in {seconds:g} seconds", now, is_silent=True)
 
     def _now(self) -> int:
         """The number of the environment, in the question, that is asked now."""
@@ -195,7 +158,7 @@ class SubprocessStepper:
         self.environment = environment
         self._about = environment, None if folder is None else folder.absolute()
         self._process = process or EnvironmentProcess()
-        self._open, self._numbers = dict[EnvironmentRun, int](), count(1)
+        self._open = set[EnvironmentRun]()
         if process is None:
             finalize(self, _end, self._process, self._about, self._open)
 
@@ -208,43 +171,43 @@ class SubprocessStepper:
     def begin(self, places: Sequence[Place], seeds: Sequence[int], is_seen: bool = False) -> list[EnvironmentRun]:
         """A new environment for the run of each seed, of which the numbers at these places are read, one a slot."""
         runs = [EnvironmentRun(seed, len(places)) for seed in seeds]
-        numbers = [next(self._numbers) for _ in runs]
-        rows = self._ask("begin", runs, numbers, [*places], [*seeds], is_seen)
-        self._open.update(zip(runs, numbers, strict=True))
-        _take(rows, runs, 0)
+        self._take("begin", runs, [*places], [*seeds], is_seen)
+        self._open.update(runs)
         return runs
 
     def reset(self, runs: Sequence[EnvironmentRun]) -> None:
         """Begin runs again, each in its environment."""
-        _take(self._ask("reset", runs, self._numbers_of(runs)), runs, 0)
+        self._take("reset", runs)
 
     def step(self, runs: Sequence[EnvironmentRun], actions: Floats) -> None:
         """Step each run: the numbers of its action, part after part [runs, numbers]."""
-        _take(self._ask("step", runs, self._numbers_of(runs), actions), runs, 1)
+        self._take("step", runs, actions)
 
     def image(self, run: EnvironmentRun) -> NDArray[Any]:
         """The image of a run now [height, width, 3], red first; an empty array where it draws nothing."""
-        found: NDArray[Any] = self._ask("image", [run], self._open[run])
+        found: NDArray[Any] = self._ask("image", [run])
         return found
 
     def close(self, runs: Sequence[EnvironmentRun]) -> None:
         """Give back what runs hold. One that ends the process by that is told where other runs end with it."""
         closed = [run for run in runs if run in self._open]
-        numbers = [self._open.pop(run) for run in closed]
+        self._open.difference_update(closed)
         are_others = bool(self._open)
         try:
-            if numbers:
-                self._ask("close", closed, numbers)
+            if closed:
+                self._ask("close", closed)
         except BrokenEnvironmentError as error:
             if are_others or isinstance(error, SilentEnvironmentError):
                 raise
 
-    def _numbers_of(self, runs: Sequence[EnvironmentRun]) -> list[int]:
-        return [self._open[run] for run in runs]
+    def _take(self, method: str, runs: Sequence[EnvironmentRun], *arguments: Any) -> None:
+        """Ask, and put the rows of the answer into runs: after a step one later, else at the beginning."""
+        for run, row in zip(runs, self._ask(method, runs, *arguments), strict=True):
+            run.row, run.steps = row, run.steps + 1 if method == "step" else 0
 
     def _ask(self, method: str, runs: Sequence[EnvironmentRun], *arguments: Any) -> Any:
         try:
-            return self._process.ask(*self._about, method, *arguments)
+            return self._process.ask(*self._about, method, [run.number for run in runs], *arguments)
         except LostError as lost:
             self._open.clear()
             raise self._blamed(method, runs, lost) from lost
@@ -254,11 +217,8 @@ class SubprocessStepper:
         name, where = self.environment, "being asked for its spaces"
         if runs:
             run = runs[min(lost.reached, len(runs) - 1)]
-            where = {
-                "begin": place_of(run.seed, 0),
-                "reset": place_of(run.seed, 0),
-                "step": place_of(run.seed, run.steps + 1),
-            }.get(method, f"its {method} after {run.where}")
+            steps = {"begin": 0, "reset": 0, "step": run.steps + 1}.get(method)
+            where = f"its {method} after {run.where}" if steps is None else place_of(run.seed, steps)
         if lost.is_silent:
             message = (
                 f"the environment {name} does not come back from {where}, in {self._process.step_seconds:g} seconds"
@@ -318,15 +278,9 @@ def _step_seconds() -> float:
     return float(given)
 
 
-def _take(rows: Floats, runs: Sequence[EnvironmentRun], steps: int) -> None:
-    """Put the rows of an answer into runs: with `steps`, one step later, else at the beginning."""
-    for run, row in zip(runs, rows, strict=True):
-        run.row, run.steps = row, run.steps + 1 if steps else 0
-
-
-def _end(process: EnvironmentProcess, about: Sequence[Any], opened: dict[EnvironmentRun, int]) -> None:
+def _end(process: EnvironmentProcess, about: Sequence[Any], opened: set[EnvironmentRun]) -> None:
     """Give back what the runs hold that are still open, and end the process."""
     if process.has_begun and opened:
         with suppress(Exception):
-            process.ask(*about, "close", [*opened.values()])
+            process.ask(*about, "close", [run.number for run in opened])
     process.end()

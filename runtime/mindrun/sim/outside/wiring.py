@@ -59,7 +59,7 @@ def _of_actuator(name: str, slot: Slot, parts: Mapping[str, SpacePart]) -> Itera
         yield from _of_place(name, "action", slot, parts)
     elif slot.chosen is None:
         yield from _of_number(name, slot, part, place)
-    elif part.choices is None:
+    elif not part.is_choice:
         hint = "Write one actuator for each of them: action 0."
         yield Misfit("unfit-action", name, "The environment takes numbers, and no choices.", hint)
     elif not part.low[place] <= slot.chosen <= part.high[place]:
@@ -68,7 +68,7 @@ def _of_actuator(name: str, slot: Slot, parts: Mapping[str, SpacePart]) -> Itera
 
 
 def _of_number(name: str, slot: Slot, part: SpacePart, place: int) -> Iterator[Misfit]:
-    if part.choices is not None:
+    if part.is_choice:
         hint = f"Write one actuator for each that is to be chosen: choice {part.low[place]:.0f}."
         yield Misfit("unfit-action", name, "The environment takes one of a few actions, and no numbers.", hint)
     elif not slot.has_two_ends:
@@ -89,9 +89,9 @@ def _of_all(slots: Collection[Slot], parts: Mapping[str, SpacePart]) -> Iterator
             index = tuple(map(int, np.unravel_index(place, part.axes)))
             given = places.count((name, index))
             there = _written(name, index)
-            if part.choices is None and given > 1:
+            if not part.is_choice and given > 1:
                 yield Misfit("repeated-action", "", f"Two actuators are action {there}.", "Leave one of them out.")
-            elif part.choices is None and not given:
+            elif not part.is_choice and not given:
                 hint = f"Add it: actuator thrust is action {there} neutral 0.5."
                 yield Misfit("missing-action", "", f"No actuator is action {there} of the environment.", hint)
             elif not given:
@@ -100,22 +100,10 @@ def _of_all(slots: Collection[Slot], parts: Mapping[str, SpacePart]) -> Iterator
                 yield Misfit("missing-action", "", "No actuator is a choice of the environment.", hint)
 
 
-def _is_of_tuple(name: str) -> bool:
-    return name.rpartition(".")[2].isdigit()
-
-
 def _written(name: str, index: tuple[int, ...]) -> str:
     """A place of a part as it is written: the numbers of a tuple's parts are indices."""
-    return " ".join([*name.split("."), *map(str, index)]) if _is_of_tuple(name) else f"{name} {Slot('', index)}".strip()
-
-
-@dataclass(frozen=True, slots=True)
-class ActionChoice:
-    """A choice at a `place` of an action: `numbers[k]` of the largest command, that of the actuator in `rows[k]`."""
-
-    place: int
-    rows: NDArray[np.int64]
-    numbers: NDArray[np.int64]
+    is_of_tuple = name.rpartition(".")[2].isdigit()
+    return " ".join([*name.split("."), *map(str, index)]) if is_of_tuple else f"{name} {Slot('', index)}".strip()
 
 
 @dataclass(frozen=True, slots=True)
@@ -124,7 +112,8 @@ class EnvironmentWiring:
 
     Its sensors, in order: their `rows` among the readings, their `names`, the ends of their ranges, and the `places` of
     their numbers in an observation. An action is as many numbers as its parts have, one part after the other: of the
-    commands `driven` least + command · (most − least) at the places `to`, and at others a choice.
+    commands `driven` least + command · (most − least) at the places `to`, and at others a choice: there it is the k-th
+    of some numbers, where of the actuators in some rows the k-th has the largest command.
     """
 
     rows: NDArray[np.int64]
@@ -137,7 +126,7 @@ class EnvironmentWiring:
     to: NDArray[np.int64]
     least: Floats
     most: Floats
-    choices: tuple[ActionChoice, ...]
+    choices: tuple[tuple[int, NDArray[np.int64], NDArray[np.int64]], ...]
 
     def actions(self, commands: NDArray[np.float32]) -> Floats:
         """The actions [lanes, action_numbers] that commands [actuators, lanes] are."""
@@ -145,8 +134,8 @@ class EnvironmentWiring:
         actions = np.zeros((commands.shape[1], self.action_numbers))
         numbers = self.least[:, None] + given[self.driven] * (self.most - self.least)[:, None]
         actions[:, self.to] = numbers.T
-        for choice in self.choices:
-            actions[:, choice.place] = choice.numbers[given[choice.rows].argmax(axis=0)]
+        for place, rows, choices in self.choices:
+            actions[:, place] = choices[given[rows].argmax(axis=0)]
         return actions
 
 
@@ -180,7 +169,7 @@ def wiring_of(graph: Graph, spaces: Spaces) -> EnvironmentWiring:
         to=places.astype(np.int64),
         least=least,
         most=most,
-        choices=tuple(ActionChoice(to, *np.array(pairs, np.int64).T) for to, pairs in chosen.items()),
+        choices=tuple((to, *np.array(pairs, np.int64).T) for to, pairs in chosen.items()),
     )
 
 

@@ -1,4 +1,4 @@
-"""The thing that the claw holds."""
+"""What the claw can take, and what it holds."""
 
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -8,7 +8,29 @@ from mindrun.kinds.things.thing import WorldFacts
 from mindrun.numbers.quantity import THING
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
-    from mindrun.numbers.arithmetic import ONE, ZERO
+    from mindrun.numbers.arithmetic import ONE, ZERO, in_claw
+
+
+@kind("sensor", "contact")
+class Contact(Physical):
+    """1 while the thing, or one of its name, is in the claw's reach, else 0."""
+
+    of: Annotated[str, THING]
+
+    near = 1
+    # What a claw can take, push or catch.
+    is_about = staticmethod(lambda kind: kind.can_be_held or kind.is_loose or kind.walks)
+
+    @staticmethod
+    def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
+        """1 where the claw could take the thing."""
+        world, out = t.world[0], s.readings[sensor.start]
+        for p in range(n):
+            out[p] = ZERO
+        for i in range(sensor.thing, sensor.thing + sensor.things):
+            for p in range(n):
+                there = in_claw(s.body, s.heading, s.things, world.front, world.claw, i, p)
+                out[p] = ONE if there else out[p]
 
 
 @kind("sensor", "held")

@@ -1,4 +1,4 @@
-"""A sine wave in time."""
+"""Sensors that go by time alone."""
 
 from __future__ import annotations
 
@@ -16,6 +16,40 @@ if TYPE_CHECKING:  # a lane is given these when it is compiled
 
     from mindrun.numbers.arithmetic import F, sine_cosine
     from mindrun.numbers.arrays import Reader, Readings
+
+
+@kind("sensor", "clock")
+class Clock(SensorKind):
+    """A saw tooth: from 0 to 1 in every period, then 0 again; t/period without its whole part."""
+
+    period: Annotated[float, SECONDS]
+
+    still = 0.0
+    remedy = "Give it a period of more than a tick"
+
+    def constant(self, world: WorldFacts) -> float | None:
+        """0 where each tick begins a period, else None."""
+        return 0.0 if self.period == world.tick else None
+
+    def reader(self, scene: Scene) -> Reader:
+        """t/period without its whole part, t in seconds since the first tick."""
+        import numpy as np
+
+        period = self.period / scene.tick
+
+        def read(number: int, now: Readings, before: Readings | None) -> np.float32:
+            turned = number / period
+            return np.float32(turned - floor(turned))
+
+        return read
+
+    @staticmethod
+    def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
+        """t/T − ⌊t/T⌋."""
+        out = s.readings[sensor.start]
+        for p in range(n):
+            turned = s.tick[p] / sensor.period
+            out[p] = F(turned - np.floor(turned))
 
 
 @kind("sensor", "sine")

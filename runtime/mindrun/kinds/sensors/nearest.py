@@ -1,29 +1,124 @@
-"""The light of a thing where the robot is."""
+"""Sensors of a thing, of several the nearest: where it is, how far away, and how bright."""
 
+from math import inf
 from typing import TYPE_CHECKING, Annotated, Any
 
 from mindrun.kinds.registry import kind
-from mindrun.kinds.sensors.sensor import Physical
-from mindrun.numbers.quantity import POSITIVE, THING
+from mindrun.kinds.sensors.sensor import Physical, Row, Scene
+from mindrun.numbers.quantity import LENGTH, POSITIVE, RATIO, THING
 
 if TYPE_CHECKING:  # a lane is given these when it is compiled
     import numpy as np
 
     from mindrun.numbers.arithmetic import (
         BOX_COLUMNS,
+        COSINE,
         DISTANCE,
+        HALF,
         LOOSE_ROWS,
+        ONE,
+        SINE,
+        SIZE,
         TURN,
         ZERO,
         F,
         X,
         Y,
+        bearing,
         box_of,
+        clamp,
         nearest,
         place_of,
         sine_cosine,
         size_of,
     )
+
+
+@kind("sensor", "bearing")
+class Bearing(Physical):
+    """Direction of a thing: 0.5 straight ahead, less on the left, more on the right; 0.5 without it.
+
+    It goes round: noise leads from 0 to 1, which are both behind.
+    0.5 − atan2(y, x)/2π in the body's frame, of several the nearest's; of an obstacle, a wall or a map its nearest
+    point's. Within `dead_zone` of straight ahead it reads 0.5; with a `range`, a thing farther away than that, too.
+    """
+
+    of: Annotated[str, THING]
+    range: Annotated[float, LENGTH] = 0.0
+    dead_zone: Annotated[float, RATIO] = 0.0
+
+    circular = True
+    scaled = True
+    blank = rest = 0.5
+    is_about = staticmethod(lambda kind: True)  # whatever there is
+
+    def row(self, scene: Scene) -> Row:
+        """The inherited columns, with an infinite range where none is given."""
+        return {**Physical.row(self, scene), "range": self.range or inf}
+
+    @staticmethod
+    def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
+        """0.5 − atan2/2π in the body's frame."""
+        out = s.readings[sensor.start]
+        if sensor.things == 0 and sensor.boxes == 0:
+            for p in range(n):
+                out[p] = HALF
+            return
+        thing = nearest(s, sensor, n)
+        x, y, away = thing[X], thing[Y], thing[DISTANCE]
+        for p in range(n):
+            dx, dy = F(x[p] - s.body[X, p]), F(y[p] - s.body[Y, p])
+            cosine, sine = F(s.heading[COSINE, p]), F(s.heading[SINE, p])
+            v = bearing(cosine * dx + sine * dy, cosine * dy - sine * dx)
+            v = HALF if abs(v - HALF) < sensor.dead_zone else v
+            out[p] = v if away[p] <= sensor.range else HALF
+
+
+@kind("sensor", "distance")
+class Distance(Physical):
+    """Distance from the body's rim to that of a thing, of several the nearest: 0 touching, 1 from `range` on or none.
+
+    (distance of the middles − where the body ends in that direction − size / 2) / range: a square is taken for the disc
+    in it. Of an obstacle, a wall or a map it is to the nearest point, which has no size.
+    """
+
+    of: Annotated[str, THING]
+    range: Annotated[float, POSITIVE] = 40.0
+
+    scaled = True
+    near = 0
+    unit = "m"
+    blank = 1.0
+    remedy = "Let a task contain what it is about"
+    is_about = staticmethod(lambda kind: True)  # whatever there is
+
+    @staticmethod
+    def lane(t: Any, s: Any, n: int, clock: int, sensor: Any) -> None:
+        """The distance of the middles less what lies within the two rims, as a share of `range`."""
+        out = s.readings[sensor.start]
+        if sensor.things == 0 and sensor.boxes == 0:
+            for p in range(n):
+                out[p] = ONE
+            return
+        thing, body = nearest(s, sensor, n), t.world[0]
+        away, size, radius = thing[DISTANCE], thing[SIZE], body.radius
+        if body.is_round:
+            for p in range(n):
+                share = (away[p] - radius - size[p] / 2) / sensor.range
+                out[p] = ONE if np.isnan(share) else clamp(F(share))
+        else:
+            for p in range(n):
+                share = (away[p] - rim_towards(body, s, thing, p) - size[p] / 2) / sensor.range
+                out[p] = ONE if np.isnan(share) else clamp(F(share))
+
+
+def rim_towards(body: Any, s: Any, thing: Any, p: Any) -> Any:
+    """The distance from a rectangular body's middle to its rim towards a thing, at most to the thing's middle."""
+    dx, dy = thing[X, p] - s.body[X, p], thing[Y, p] - s.body[Y, p]
+    cosine, sine = s.heading[COSINE, p], s.heading[SINE, p]
+    ahead, aside = abs(cosine * dx + sine * dy) / body.front, abs(cosine * dy - sine * dx) / body.side
+    most = ahead if ahead > aside else aside
+    return thing[DISTANCE, p] / (most if most > 1.0 else 1.0)
 
 
 @kind("sensor", "light")
