@@ -8,7 +8,8 @@ from itertools import product
 from pathlib import Path
 
 import pytest
-from mindrun.robot.ownership import IdentityError, adopt, identity_file
+from mindrun.errors import MindError
+from mindrun.robot.ownership import adopt, identity_file
 from mindrun.sim import cache
 from mindrun.terminal import standard_streams
 
@@ -26,7 +27,7 @@ def _homeless(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_a_robot_without_a_home_says_what_it_needs(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv("MIND_ROBOT", raising=False)
     _homeless(monkeypatch)
-    with pytest.raises(IdentityError, match="no home folder") as refused:
+    with pytest.raises(MindError, match="no home folder") as refused:
         identity_file()
     assert "MIND_ROBOT" in refused.value.hint
 

@@ -26,7 +26,7 @@ from mindrun.robot.guardian.client import Guardian
 from mindrun.robot.guardian.plan import plan_of
 from mindrun.robot.live_view import breakpoint_mistakes, live_view
 from mindrun.robot.loop import Loop, Rate, TickResult
-from mindrun.robot.ownership import IdentityError, hold_devices, is_adopted
+from mindrun.robot.ownership import hold_devices, is_adopted
 from mindrun.robot.processes import StopSignals, refuse_success, stopping
 from mindrun.robot.recording import About, Recorder, TemporaryRecorder, temporary_recording
 from mindrun.robot.sensing import ReadingFilter, Sampler
@@ -37,10 +37,6 @@ from mindrun.terminal.standard_streams import StatusLine
 FIRST_READING_SECONDS = 10.0  # for every sensor to have been measured once
 STOP_SECONDS = 2.0  # or ticks where these are longer, in which a tick has to end once a signal has come
 CLOSE_SECONDS = 1.0  # for all sensors to be closed
-
-
-class DriveError(MindError):
-    """A robot that cannot be driven with this bundle."""
 
 
 def run(options: argparse.Namespace) -> int:
@@ -73,7 +69,7 @@ def _wired(options: argparse.Namespace, bundle: Bundle, line: StatusLine) -> Loo
     if not is_adopted(wiring, bundle.graph):
         remedy = f"if it is wired as this bundle has it: {command_line('mindrun', 'adopt', options.bundle)}"
         if options.arm:
-            raise IdentityError("nothing may move yet: this robot has not said how it is wired", remedy)
+            raise MindError("nothing may move yet: this robot has not said how it is wired", remedy)
         line.tell("this robot has not said how it is wired: no actuator is opened")
         wiring = replace(wiring, actuators=tuple(replace(wire, driver=MockActuator()) for wire in wiring.actuators))
     if not options.arm:
@@ -143,7 +139,7 @@ def drive(
     graph, master = bundle.graph, options.master or bundle.graph.master
     engine = Engine(bundle.policy, bundle.procedures, options.master)
     if missing := read_by(graph, master) - {wire.sensor for wire in wiring.sensors}:
-        raise DriveError(f"{master} reads {', '.join(sorted(missing))}, which is not wired", "add it to robot.yaml")
+        raise MindError(f"{master} reads {', '.join(sorted(missing))}, which is not wired", "add it to robot.yaml")
     neutrals = {actuator.name: actuator.kind.neutral for actuator in graph.actuators}
     with ExitStack() as stack:
         stop = stack.enter_context(stopping(STOP_SECONDS * max(1.0, graph.tick)))
@@ -183,7 +179,7 @@ def _recording(
 def _recorder(path: Path, about: About, world: SeenWorld | None, tell: Callable[[str], None] | None) -> Recorder:
     """The recorder that is wished for, or a temporary one, which tells where it cannot write any more.
 
-    DriveError where it would write over something, or cannot write.
+    MindError where it would write over something, or cannot write.
     """
     latest = None
     if world is not None:
@@ -191,9 +187,9 @@ def _recorder(path: Path, about: About, world: SeenWorld | None, tell: Callable[
     try:
         return TemporaryRecorder(path, about, tell, world=latest) if tell else Recorder(path, about, world=latest)
     except FileExistsError:
-        raise DriveError(f"{path} exists already", "record to another file, or delete it") from None
+        raise MindError(f"{path} exists already", "record to another file, or delete it") from None
     except OSError as error:
-        raise DriveError(f"{path} cannot be written: {error.strerror}") from error
+        raise MindError(f"{path} cannot be written: {error.strerror}") from error
 
 
 def _goes_on(tick: TickResult, ticks: int, stop: StopSignals) -> bool:

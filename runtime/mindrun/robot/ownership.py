@@ -30,10 +30,6 @@ FIRST_FREE_DESCRIPTOR = 3  # descriptors below this are standard input, output a
 PEER = struct.Struct("3i")  # process, user, group
 
 
-class IdentityError(MindError):
-    """A bundle for another robot, or a robot that has not said which it is."""
-
-
 def identity_file() -> Path:
     """The file that says which wiring this robot has: `MIND_ROBOT`, or one in the user's configuration."""
     if given := os.environ.get("MIND_ROBOT"):
@@ -42,7 +38,7 @@ def identity_file() -> Path:
         return Path.home() / ".config" / "mind" / "robot"
     except RuntimeError as error:
         hint = "say in MIND_ROBOT in which file this robot says which it is"
-        raise IdentityError("you have no home folder", hint) from error
+        raise MindError("you have no home folder", hint) from error
 
 
 def adopt(wiring: Wiring, graph: Graph) -> Path:
@@ -60,16 +56,16 @@ def identity(wiring: Wiring, graph: Graph) -> str:
 
 
 def is_adopted(wiring: Wiring, graph: Graph) -> bool:
-    """True if this robot has adopted just this wiring; False if it has adopted none, IdentityError for another."""
+    """True if this robot has adopted just this wiring; False if it has adopted none, MindError for another."""
     path = identity_file()
     try:
         name, _, known = read_regular(path, MAX_IDENTITY_BYTES).decode().strip().rpartition(" ")
     except FileNotFoundError:
         return False
     except (OSError, UnicodeDecodeError) as error:
-        raise IdentityError(f"{path} cannot be read: {reason(error)}") from error
+        raise MindError(f"{path} cannot be read: {reason(error)}") from error
     if known != identity(wiring, graph):
-        raise IdentityError(
+        raise MindError(
             f"this bundle is for {wiring.robot}, whose wiring or neutral commands are others than those of "
             f"{name or 'this robot'}",
             "build it for this robot; or, where this robot has been wired anew, adopt it: mindrun adopt --help",

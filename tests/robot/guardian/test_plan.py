@@ -19,7 +19,7 @@ from mindrun.robot.drivers.own import KIND as OWN_KIND
 from mindrun.robot.drivers.pca9685 import Pca9685
 from mindrun.robot.drivers.simulated import SimulatedActuator
 from mindrun.robot.guardian.client import PROGRAM
-from mindrun.robot.guardian.plan import Channel, Plan, PlanError, checked, from_json, plan_of, read_plan, to_json
+from mindrun.robot.guardian.plan import Channel, Plan, checked, from_json, plan_of, read_plan, to_json
 
 from tests.minds import always, mind, rule
 
@@ -49,7 +49,7 @@ def test_a_plan_comes_back(tmp_path: Path) -> None:
 @pytest.mark.parametrize("trim", [-1.0, 1.0])
 def test_a_trim_is_a_share_of_the_travel_either_way(trim: float) -> None:
     assert from_json(changed(("channels", 0, "trim"), trim)).channels[0].trim == trim
-    with pytest.raises(PlanError, match="trim"):
+    with pytest.raises(MindError, match="trim"):
         from_json(changed(("channels", 0, "trim"), 1.5 * trim))
 
 
@@ -67,7 +67,7 @@ def test_a_bundle_with_a_wiring_holds_a_plan(tmp_path: Path) -> None:
     assert [each.reversed for each in plan.channels] == [False, True]
     assert subprocess.run([*PROGRAM, "--neutral", tmp_path / "a.bundle"]).returncode == 0
     write_bundle(tmp_path / "b.bundle", Bundle(Policy(graph, {}), {}))
-    with pytest.raises(PlanError, match="for no robot"):
+    with pytest.raises(MindError, match="for no robot"):
         read_plan(tmp_path / "b.bundle")
 
 
@@ -104,7 +104,7 @@ def test_every_actuator_driver_can_be_in_a_plan(name: str) -> None:
     ],
 )
 def test_what_no_robot_has_is_refused(path: tuple[str | int, ...], value: Any) -> None:
-    with pytest.raises(PlanError):
+    with pytest.raises(MindError):
         from_json(changed(path, value))
 
 
@@ -125,12 +125,12 @@ def test_what_is_of_another_type_or_has_another_name_is_refused_anywhere() -> No
         for value in ANYTHING:
             holder[key] = value
             if type(value) is not type(was) and not (type(was) is float and type(value) is int):
-                with pytest.raises(PlanError):
+                with pytest.raises(MindError):
                     from_json(json.dumps(tree))
         holder[key] = was
         if isinstance(holder, dict):
             holder[f"{key}_"] = holder.pop(key)
-            with pytest.raises(PlanError):
+            with pytest.raises(MindError):
                 from_json(json.dumps(tree))
             holder[key] = holder.pop(f"{key}_")
     assert from_json(json.dumps(tree)) == WIDE
@@ -145,7 +145,7 @@ def test_numbers_keep_to_their_bounds(name: str) -> None:
         assert getattr(from_json(changed(("channels", 0, name), bound)).channels[0], name) == bound
         assert type(getattr(from_json(changed(("channels", 0, name), bound)).channels[0], name)) is float
         if abs(bound) < 1e300:
-            with pytest.raises(PlanError):
+            with pytest.raises(MindError):
                 from_json(changed(("channels", 0, name), nextafter(bound, direction)))
 
 
@@ -154,35 +154,35 @@ def test_a_tick_lasts_for_some_time(tick: float, fine: bool) -> None:
     if fine:
         assert from_json(changed(("tick",), tick)).tick == tick
     else:
-        with pytest.raises(PlanError, match=r"plan\.tick cannot be"):
+        with pytest.raises(MindError, match=r"plan\.tick cannot be"):
             from_json(changed(("tick",), tick))
 
 
 def test_a_whole_number_that_no_float_holds_is_none() -> None:
     assert from_json(changed(("channels", 0, "slew"), 2**53 - 1)).channels[0].slew == 2**53 - 1
-    with pytest.raises(PlanError, match="slew is no number that can be"):
+    with pytest.raises(MindError, match="slew is no number that can be"):
         from_json(changed(("channels", 0, "slew"), 2**53))
 
 
 def test_as_many_actuators_as_a_frame_has_room_for() -> None:
-    with pytest.raises(PlanError) as caught:
+    with pytest.raises(MindError) as caught:
         checked(Plan(0.05, PLAN.channels[:1] * 1001))
     assert str(caught.value) == "a robot has 1 to 1000 actuators, not 1001"
     assert len(checked(Plan(0.05, PLAN.channels[:1] * 1000)).channels) == 1000
-    with pytest.raises(PlanError, match="not 0"):
+    with pytest.raises(MindError, match="not 0"):
         plan_of(0.05, {}, Wiring("r", (), ()))
 
 
 def test_limits_may_meet_but_not_cross() -> None:
     assert checked(Plan(0.05, (Channel("wheel", 0.5, MockActuator(), low=0.5, high=0.5),)))
-    with pytest.raises(PlanError) as caught:
+    with pytest.raises(MindError) as caught:
         checked(Plan(0.05, (*PLAN.channels, Channel("claw", 0.5, MockActuator(), low=0.75, high=0.25))))
     assert str(caught.value) == "claw: `low` 0.75 is above `high` 0.25"
 
 
 @pytest.mark.parametrize("text", ["", "{", "[]", "null", "[" * 100_000, '{"tick": Infinity}', b"\xff\xfe\x00"])
 def test_what_is_no_plan_is_refused(text: str | bytes) -> None:
-    with pytest.raises(PlanError):
+    with pytest.raises(MindError):
         from_json(text)
 
 

@@ -25,10 +25,6 @@ RATIO_EITHER_WAY = Quantity("a share of the travel", {}, low=-1.0, high=1.0)
 NOT_NEGATIVE = Quantity("a number", {}, low=0.0)
 
 
-class PlanError(MindError):
-    """A plan that cannot be read, or that no robot can have."""
-
-
 @dataclass(frozen=True, slots=True)
 class Channel:
     """An actuator: the command of its mind at which nothing happens, its driver, and what its wire says."""
@@ -61,12 +57,12 @@ def plan_of(tick: float, neutrals: Mapping[str, float], wiring: "Wiring") -> Pla
 
 
 def checked(plan: Plan) -> Plan:
-    """The plan itself; PlanError where it has too few or too many actuators, or limits that no command meets."""
+    """The plan itself; MindError where it has too few or too many actuators, or limits that no command meets."""
     if not 1 <= len(plan.channels) <= MAX_COMMANDS:
-        raise PlanError(f"a robot has 1 to {MAX_COMMANDS} actuators, not {len(plan.channels)}")
+        raise MindError(f"a robot has 1 to {MAX_COMMANDS} actuators, not {len(plan.channels)}")
     for channel in plan.channels:
         if channel.low > channel.high:
-            raise PlanError(f"{channel.actuator}: `low` {channel.low:g} is above `high` {channel.high:g}")
+            raise MindError(f"{channel.actuator}: `low` {channel.low:g} is above `high` {channel.high:g}")
     return plan
 
 
@@ -76,11 +72,11 @@ def to_json(plan: Plan) -> str:
 
 
 def from_json(text: str | bytes) -> Plan:
-    """The plan in this text; PlanError unless it is one."""
+    """The plan in this text; MindError unless it is one."""
     try:
         plan: Plan = decode(Plan, parsed(text, MAX_PLAN_BYTES), "plan")
     except ValueError as error:
-        raise PlanError(f"this is no plan of a robot: {error}") from error
+        raise MindError(f"this is no plan of a robot: {error}") from error
     return checked(plan)
 
 
@@ -89,12 +85,12 @@ def read_plan(path: Path) -> Plan:
     try:
         data = read_regular(path, MAX_PLAN_BYTES)
     except OSError as error:
-        raise PlanError(f"cannot read {path}: {error.strerror}") from error
+        raise MindError(f"cannot read {path}: {error.strerror}") from error
     if not data.startswith(b"PK"):
         return from_json(data)
     from mindrun.graph.bundle import read_bundle  # which needs numpy
 
     bundle = read_bundle(path)
     if bundle.wiring is None:
-        raise PlanError(f"{path} is for no robot", "build it with its wiring")
+        raise MindError(f"{path} is for no robot", "build it with its wiring")
     return plan_of(bundle.graph.tick, {each.name: each.kind.neutral for each in bundle.graph.actuators}, bundle.wiring)
