@@ -12,6 +12,7 @@ import importlib.abc
 import importlib.machinery
 import sys
 from collections.abc import Callable, Sequence
+from copy import copy
 from types import ModuleType
 from typing import Any
 
@@ -102,6 +103,15 @@ class Rows(list[Row]):
         found = super().__getitem__(key)
         return Rows(found) if isinstance(key, slice) else found
 
+    def __setitem__(self, key: Any, value: Any) -> None:
+        if not isinstance(key, str):
+            return super().__setitem__(key, value)
+        for row in self:
+            setattr(row, key, value)
+
+    def copy(self) -> "Rows":
+        return Rows(copy(row) for row in self)
+
 
 def call(address: Any, *arguments: Any) -> int:
     """A C function called with whole numbers, pointers and doubles, as `chipmunk.call` does."""
@@ -131,7 +141,7 @@ def _install() -> None:
     from mindrun.sim import compiling
 
     compiling.keep_code = lambda dispatcher, code: None
-    from mindrun.sim import changed_ticks, procedures, rollout
+    from mindrun.sim import changed_ticks, commanded_lanes, procedures, rollout
     from mindrun.sim.lanes import advance, chipmunk, runs, stages
 
     chipmunk.call = procedures.call = call
@@ -143,11 +153,14 @@ def _install() -> None:
 
     rollout.build = build_rows
     for module in (advance, runs, stages):
-        for name in ("advance", "fill", "before", "after", "run_skills", "wake", "send"):
-            for place in (module, rollout, changed_ticks):
-                found = vars(place).get(name) if place else None
-                if callable(found) and getattr(found, "__name__", "") == name and found.__module__ == module.__name__:
-                    setattr(place, name, _quiet(found))
+        for name in ("advance", "fill", "before", "after", "run_skills", "wake", "send", "begin_again"):
+            found = vars(module).get(name)
+            if getattr(found, "__module__", "") != module.__name__:
+                continue
+            quiet = _quiet(found)
+            for place in (module, rollout, changed_ticks, commanded_lanes):
+                if vars(place).get(name) is found:
+                    setattr(place, name, quiet)
 
 
 _install()

@@ -66,14 +66,7 @@ BREAKPOINTS = "format", "messages", "report", "watch", "recorded", "check_comman
 GUARDIAN = ("frames", "urgent", "main", "decisions", "guard", "plan", "output", "serving", "client", "process")
 ROOMS = {
     "engine": Room(
-        tuple(
-            f"{R}{name}.py"
-            for name in (
-                "engine/engine",
-                "numbers/expression",
-                "numbers/arithmetic",
-            )
-        ),
+        tuple(f"{R}{name}.py" for name in ("engine/engine", "numbers/expression", "numbers/evaluation")),
         tuple(f"tests/engine/test_{name}.py" for name in ("influence", "sound", "procedure", "bits")),
     ),
     "functions": Room(
@@ -84,11 +77,12 @@ ROOMS = {
             *(f"tests/functions/test_{name}.py" for name in ("recurrent_mind", "recurrent")),
             "tests/engine/test_bits.py",
             "tests/edits/test_weights.py",
+            "tests/sim/test_lanes.py",
         ),
         interpreted=True,
     ),
     "sensors": Room(
-        (f"{R}kinds/sensors/*.py",),
+        (f"{R}kinds/sensors/*.py", f"{R}numbers/arithmetic.py"),
         (
             "tests/sensors/test_compass.py",
             "tests/sensors/test_nearest.py",

@@ -26,6 +26,8 @@ OPTIONS = (
     "no:cacheprovider",
     "-p",
     "no:xdist",
+    "-o",
+    "addopts=-m 'not slow'",
     "--hypothesis-seed=0",
     "-W",
     "ignore::pytest.PytestAssertRewriteWarning",
@@ -87,9 +89,9 @@ def _become_pytest(folder: Path, tests: tuple[str, ...], interpreted: bool) -> N
         for stream, other in ((0, os.open(os.devnull, os.O_RDONLY)), (1, output), (2, output)):
             os.dup2(other, stream)
         os.chdir(folder)
-        ours = [str(folder), str(folder / "runtime")]
+        ours = [str(folder), str(folder / "runtime"), str(Path(__file__).parent)]  # the last has the plugins
         sys.path[:0] = ours
-        os.environ["PYTHONPATH"] = os.pathsep.join([*ours, str(Path(__file__).parent)])
+        os.environ["PYTHONPATH"] = os.pathsep.join(ours)
         sys.dont_write_bytecode = True  # a stale one could stand for a mutant
         os.environ["PYTHONDONTWRITEBYTECODE"] = "1"
         plugins = ["-p", "hasty", *(["-p", "interpreted"] if interpreted else [])]
