@@ -66,7 +66,7 @@ BREAKPOINTS = "format", "messages", "report", "watch", "recorded", "check_comman
 GUARDIAN = ("frames", "urgent", "main", "decisions", "guard", "plan", "output", "serving", "client", "process")
 ROOMS = {
     "engine": Room(
-        tuple(f"{R}{name}.py" for name in ("engine/engine", "numbers/expression", "numbers/evaluation")),
+        tuple(f"{R}{name}.py" for name in ("engine/engine", "numbers/expression", "numbers/arrays")),
         tuple(f"tests/engine/test_{name}.py" for name in ("influence", "sound", "procedure", "bits")),
     ),
     "functions": Room(
