@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindlang.number_format import score
+from mindlang.pictures import scene
 from mindlang.pictures.canvas import Canvas, Image, Viewport, blank, flow_layout, paste, rectangle_corners, reduced
 from mindlang.pictures.path import (
     MIN_CONTROL_SHARE,
@@ -23,15 +24,6 @@ from mindlang.pictures.path import (
     end_label,
 )
 from mindlang.pictures.robot import draw_robot
-from mindlang.pictures.scene import (
-    WALL_UNITS,
-    draw_items,
-    draw_names,
-    draw_zones,
-    empty_world,
-    half_sides,
-    thing_colours,
-)
 from mindlang.pictures.theme import PAPER, Colour, mixed
 from mindlang.run.recorded_run import RecordedRun
 
@@ -51,14 +43,14 @@ def picture(run: RecordedRun, found: dict[str, Any]) -> Image:
     """The picture of a run with the outcome `found`."""
     world, path = world_of(run), Path.of(run, PAPER)
     draw_former(world, run)
-    draw_zones(world, run, PAPER, run.ticks)
+    scene.draw_zones(world, run, PAPER, run.ticks)
     path.draw(world, 0, run.ticks, 2.0)
     draw_start(world, run)
     draw_end_mark(world, run, found, PAPER)
-    draw_items(world, run, PAPER, run.ticks)
+    scene.draw_items(world, run, PAPER, run.ticks)
     draw_robot(world, run, PAPER, run.ticks)
     draw_collisions(world, run)
-    draw_names(world, run, PAPER, run.ticks, end_label(world, run, found))
+    scene.draw_names(world, run, PAPER, run.ticks, end_label(world, run, found))
     height, right = height_of(run), PICTURE_PIXELS - SIDE_PIXELS
     page = page_around(world, height)
     draw_title(page, run, found, SIDE_PIXELS, 34, right)
@@ -70,21 +62,21 @@ def world_of(run: RecordedRun, *others: RecordedRun) -> Canvas:
     """A floor to draw on: the arena, or in a plain scene all that happened, in other runs of the task as well."""
     width = SCALE_FACTOR * (PICTURE_PIXELS - 2 * SIDE_PIXELS)
     height = SCALE_FACTOR * (height_of(run) - TOP_PIXELS - BOTTOM_PIXELS)
-    return empty_world(run, PAPER, view_of(run, width, height, *others), width, height, SCALE_FACTOR)
+    return scene.empty_world(run, PAPER, view_of(run, width, height, *others), width, height, SCALE_FACTOR)
 
 
 def height_of(run: RecordedRun) -> int:
     """How many pixels high the picture is: square, or lower where the arena is long."""
     if not run.task.scene.is_bounded:
         return PICTURE_PIXELS
-    x, y = np.add(half_sides(run.task.scene), WALL_UNITS)
+    x, y = np.add(scene.half_sides(run.task.scene), scene.WALL_UNITS)
     return min(PICTURE_PIXELS, TOP_PIXELS + BOTTOM_PIXELS + round((PICTURE_PIXELS - 2 * SIDE_PIXELS) * float(y / x)))
 
 
 def view_of(run: RecordedRun, width: int, height: int, *others: RecordedRun) -> Viewport:
     """The viewport of a picture of so many pixels: a bounded scene, or all places of the runs."""
     if run.task.scene.is_bounded:
-        half = np.add(half_sides(run.task.scene), WALL_UNITS)
+        half = np.add(scene.half_sides(run.task.scene), scene.WALL_UNITS)
         return Viewport.around(-half, half, width, height)
     seen = np.concatenate([places for each in (run, *others) for places in _places(each)])
     return Viewport.around(seen.min(axis=0) - PLAIN_MARGIN_UNITS, seen.max(axis=0) + PLAIN_MARGIN_UNITS, width, height)
@@ -185,7 +177,7 @@ def _entries(canvas: Canvas, run: RecordedRun, found: dict[str, Any], path: Path
     entries.append((lambda x, y: canvas.disc(x + 9, y, 4.5, PAPER.ink, width=1.6), "start"))
     entries.append((lambda x, y: draw_rings(canvas, x + 9, y, 3.0, found, PAPER), "end"))
     things = {thing.name: thing for thing in run.contents}
-    colours = dict(zip((thing.name for thing in run.contents), thing_colours(run.contents, PAPER), strict=True))
+    colours = dict(zip((thing.name for thing in run.contents), scene.thing_colours(run.contents, PAPER), strict=True))
     for name, thing in things.items():
         entries.append((partial(dot if thing.kind.is_round else box, colours[name]), name))
     if len(run.boxes):

@@ -9,13 +9,13 @@ import os
 import subprocess
 import sys
 from collections.abc import Callable, Mapping
-from dataclasses import MISSING, asdict, dataclass
+from dataclasses import MISSING, asdict, dataclass, replace
 from functools import cache, partial
 from math import inf
 from pathlib import Path
 from typing import Any
 
-from mindrun.errors import MindError, nearest, reason
+from mindrun.errors import MindError, reason
 from mindrun.files.regular_files import read_regular
 from mindrun.numbers.quantity import Quantity, Reference
 from mindrun.robot.drivers.own import ENTRY_POINTS, DriverCode, OwnActuator, OwnSensor, encoded, of_file, of_package
@@ -26,7 +26,7 @@ from mindlang.robot import driver_inspection
 from mindlang.robot.driver_inspection import Timing, timing_of
 from mindlang.robot.options import DRIVER, ENDS, OWN_NAME, DriverOption, driver_options, drivers, own_options
 from mindlang.robot.read import Items, Scalar, Table, TableEntry, first_line, shortened
-from mindlang.robot.values import by_option, is_empty, missing_key, unknown_key
+from mindlang.robot.values import by_option, check_keys, is_empty, missing_key
 
 COUNTERPARTS = {"sensor": "actuator", "actuator": "sensor"}
 ANSWER_SECONDS = 10.0  # that a driver may take to be imported
@@ -83,11 +83,14 @@ def wired(noun: str, name: Scalar, table: Table, findings: Findings) -> Wired | 
     assert isinstance(driver, Scalar)
     own = {option.key: option for option in own_options(noun)}
     its = {option.key: option for option in cls.options}
-    _check_keys(driver, table, its, own, findings)
-    values = by_option(table.entries.values(), its, findings)
-    others = [entry for key, entry in table.entries.items() if key not in {DRIVER, *its, *ENDS.values()}]
-    own_values = by_option(others, own, findings)
-    said = table.entries.keys() - {DRIVER, *ENDS.values()}
+    others = {key: entry for key, entry in table.entries.items() if key != DRIVER}
+    needed = {option.key: _example(option) for option in cls.options if option.required}
+    what = f"The driver {driver.text}"
+    check_keys(replace(table, entries=others), driver.span, what, [*its, *own], needed, findings)
+    values = by_option(others.values(), its, findings)
+    rest = [entry for key, entry in others.items() if key not in {*its, *ENDS.values()}]
+    own_values = by_option(rest, own, findings)
+    said = others.keys() - ENDS.values()
     if len(errors(findings.diagnostics)) > before or len(said) > len(values) + len(own_values) or not table.whole:
         return None
     try:
@@ -101,24 +104,6 @@ def wired(noun: str, name: Scalar, table: Table, findings: Findings) -> Wired | 
         return None
     every = {option.field: values.get(option.field, option.default) for option in cls.options}
     return Wired(name, table, noun, made, timing, own_values, cls.options, every)
-
-
-def _check_keys(
-    driver: Scalar,
-    table: Table,
-    its: Mapping[str, DriverOption],
-    own: Mapping[str, DriverOption],
-    findings: Findings,
-) -> None:
-    """Keys that the driver does not have, and those that it needs."""
-    what, known = f"The driver {driver.text}", [*its, *own]
-    strange = [entry.key for key, entry in table.entries.items() if key not in {DRIVER, *known}]
-    for key in strange:
-        unknown_key(key, what, known, findings)
-    said = table.entries.keys() | {nearest(key.text, known) for key in strange}
-    for option in its.values():
-        if option.required and option.key not in said and table.whole:
-            missing_key(driver.span, what, option.key, _example(option), findings)
 
 
 def _class(noun: str, name: Scalar, table: Table, findings: Findings) -> DriverClass | None:

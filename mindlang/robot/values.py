@@ -1,9 +1,10 @@
 """Nodes → values: numbers with the units of `.mind` files, words, switches, texts."""
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from typing import Any
 
+from mindrun.errors import nearest
 from mindrun.numbers.quantity import Quantity, Reference
 
 from mindlang.compiler.diagnostic import Findings, listed
@@ -150,11 +151,18 @@ def by_option(entries: Iterable[TableEntry], options: Mapping[str, DriverOption]
     return {field: each for field, each in found.items() if each is not None}
 
 
-def unknown_key(key: Scalar, what: str, known: Iterable[str], findings: Findings) -> None:
-    """Report a key that means nothing here."""
-    known = list(known)
-    hint = findings.suggest(key.text, known) or f"{what} takes {listed(known, 'and')}."
-    findings.error("unknown-key", key.span, f"{what} has no key {shortened(key.text)}.", hint)
+def check_keys(
+    table: Table, place: Span, what: str, known: Collection[str], needed: Mapping[str, str], findings: Findings
+) -> None:
+    """Report keys that mean nothing here, and those of `needed`, each with an example, that are missing."""
+    strange = [entry.key for key, entry in table.entries.items() if key not in known]
+    for key in strange:
+        hint = findings.suggest(key.text, known) or f"{what} takes {listed(known, 'and')}."
+        findings.error("unknown-key", key.span, f"{what} has no key {shortened(key.text)}.", hint)
+    said = table.entries.keys() | {nearest(key.text, known) for key in strange}
+    for word, example in needed.items():
+        if word not in said and table.whole:
+            missing_key(place, what, word, example, findings)
 
 
 def missing_key(span: Span, what: str, key: str, example: str, findings: Findings) -> None:

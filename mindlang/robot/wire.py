@@ -26,7 +26,7 @@ from mindlang.robot.driver import Wired, wired
 from mindlang.robot.driver_inspection import near_value, timing_of
 from mindlang.robot.options import driver_options
 from mindlang.robot.read import Node, Scalar, Table, TableEntry, first_line, read, shortened
-from mindlang.robot.values import is_empty, missing_key, number, table, text, unknown_key
+from mindlang.robot.values import check_keys, is_empty, number, table, text
 
 MAX_WIRING_BYTES = 256 << 10
 KEYS = {
@@ -91,13 +91,7 @@ def _wiring(node: Node, graph: Graph, unit_metres: float | None, findings: Findi
     if top is None:
         return None
     said = top.entries
-    strange = [entry.key for word, entry in said.items() if word not in KEYS]
-    for key in strange:
-        unknown_key(key, "The file", KEYS, findings)
-    meant = {nearest(key.text, KEYS) for key in strange}
-    for word, example in KEYS.items():
-        if word not in said and word not in meant and top.whole:
-            missing_key(top.span, "The file", word, example, findings)
+    check_keys(top, top.span, "The file", KEYS, KEYS, findings)
     own, needed = physical(graph), read_by(graph, graph.master)
     moved = {actuator.name: actuator for actuator in graph.actuators}  # all of them, since each has a neutral
     wire_of = partial(sensor_wire, unit_metres=unit_metres, findings=findings)

@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import Annotated, Any, ClassVar, Literal
 
 import msgspec
+from mindrun.engine.changes import What
 from mindrun.errors import MindError
 from mindrun.files.printable import visible
 from msgspec import Meta, Struct, field
@@ -81,7 +82,7 @@ class AskChange(_RunMessage, tag="change", frozen=True):
     """Asks for a fork of the run in which a value is replaced from `tick` on, for `lasts` ticks."""
 
     tick: Counted
-    what: Literal["reading", "influence", "memory"]
+    what: What
     column: Column
     value: Annotated[float, Meta(ge=0, le=1)]
     lasts: Counted = 1

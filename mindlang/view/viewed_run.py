@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import get_args
 
 import numpy as np
 from mindrun.engine.changes import Change, What
@@ -90,8 +89,7 @@ def _rows(run: Trace, of: About, events: int) -> Iterator[Filled]:
 
 def _replacement(graph: Graph, task: Task, columns: Columns, asked: messages.AskChange) -> Change:
     """The change that was asked for; RefusedError where there is no such value, or no such tick."""
-    what = next(each for each in get_args(What) if each == asked.what)
-    block, index = asked.column
+    what, (block, index) = asked.what, asked.column
     group = columns[GROUPS[what]]
     row = index - group.first
     sensed = sum(sensor.width for sensor in graph.sensors)
