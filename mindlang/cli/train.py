@@ -48,7 +48,7 @@ A cluster with SLURM (what tls.pem is, and other ways: docs/cluster.md):
 @options.WORKERS
 @options.ON(
     help="Who does the attempts: processes:N, ssh:HOST,HOST, slurm:N, dask:SCHEDULER … (default: threads; processes in"
-    " environments of Gymnasium).",
+    " environments of Gymnasium)."
 )
 @click.option("--runs", type=options.PATH, default="runs", show_default=True, help="Where runs are kept.")
 @click.option("--resume", type=options.PATH, metavar="RUN", help="Go on with a run that was stopped.")

@@ -31,12 +31,7 @@ class UpdatedLocks:
 
 
 def update_locks(
-    locks: Locks,
-    before: Graph,
-    after: Graph,
-    change: MindChange,
-    keep_weights: bool,
-    neighbours: Sequence[Graph] = (),
+    locks: Locks, before: Graph, after: Graph, change: MindChange, keep_weights: bool, neighbours: Sequence[Graph] = ()
 ) -> UpdatedLocks:
     """The locks after an edit; with `keep_weights`, a skill that reads or influences more goes on as before.
 

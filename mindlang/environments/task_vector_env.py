@@ -64,12 +64,7 @@ class TaskVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]], EzPickle):
         self._streams: list[np.random.Generator] = []
         self._over = np.zeros(num_envs, np.bool_)
 
-    def reset(
-        self,
-        *,
-        seed: Seeds = None,
-        options: dict[str, Any] | None = None,
-    ) -> tuple[Floats, dict[str, Any]]:
+    def reset(self, *, seed: Seeds = None, options: dict[str, Any] | None = None) -> tuple[Floats, dict[str, Any]]:
         """Begin another episode everywhere; `info["layout"]` has the seeds by which `mindc run` repeats them."""
         if options and "reset_mask" in options:
             raise MindError("episodes cannot be begun one by one", "reset() without reset_mask begins all")

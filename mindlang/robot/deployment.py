@@ -38,11 +38,7 @@ LAST_YEAR = 9999  # after which no release could be named
 RELEASE_LINE = re.compile(r"(?P<name>\S+) (?P<state>\S+) (?P<made_of>.*)")
 SYSTEMD = "systemctl --user"
 MADE_OF = "bundle", "sha256", "master"
-MANNERS = {
-    "none": "without a service",
-    ARMED: "with an armed service",
-    SERVICE: "with a service that is not armed",
-}
+MANNERS = {"none": "without a service", ARMED: "with an armed service", SERVICE: "with a service that is not armed"}
 
 
 @dataclass(frozen=True, slots=True)

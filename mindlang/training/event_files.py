@@ -25,12 +25,7 @@ if TYPE_CHECKING:
 
 FOLDER, FILE = "tensorboard", "events.out.tfevents.mind"  # TensorBoard takes what has "tfevents" in its name
 FILE_VERSION = "brain.Event:2"
-SCORES = {
-    "score/best": "best",
-    "score/mean": "mean",
-    "score/re-evaluated": "reevaluated",
-    "score/verdict": "verdict",
-}
+SCORES = {"score/best": "best", "score/mean": "mean", "score/re-evaluated": "reevaluated", "score/verdict": "verdict"}
 SPEED = "speed/ticks per second"
 FLUSH_SECONDS = 2.0  # between two times that what was written is brought to the disk
 

@@ -86,11 +86,7 @@ def _settings(files: Iterable[File], form: type[S]) -> list[S]:
 
 
 def _agreed(
-    files: Sequence[File],
-    form: type[Tick | Unit],
-    quantity: Quantity,
-    values: Mapping[str, Amount],
-    findings: Findings,
+    files: Sequence[File], form: type[Tick | Unit], quantity: Quantity, values: Mapping[str, Amount], findings: Findings
 ) -> float | None:
     """The value of a setting, on which all files agree; None where nothing says it."""
     word = form.__name__.lower()

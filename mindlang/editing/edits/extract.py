@@ -5,13 +5,7 @@ from typing import Annotated
 from mindlang.compiler.diagnostic import did_you_mean
 from mindlang.compiler.syntax import Influences, Reads, of_form
 from mindlang.editing.insertion import declare_below, indentation, line_of, replace_line, without_fact
-from mindlang.editing.project import (
-    EditError,
-    MindChange,
-    Project,
-    influence,
-    kind_of,
-)
+from mindlang.editing.project import EditError, MindChange, Project, influence, kind_of
 
 
 def extract(

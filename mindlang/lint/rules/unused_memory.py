@@ -28,11 +28,7 @@ task Run in arena
   ends when tired > 0.5
 """,
 )
-BAD = (
-    MOOD.replace("  reads mood\n", "").replace("at mood", "at 1"),
-    UNDRIVEN,
-    MOOD.replace("decay 0.9", "decay 1"),
-)
+BAD = (MOOD.replace("  reads mood\n", "").replace("at mood", "at 1"), UNDRIVEN, MOOD.replace("decay 0.9", "decay 1"))
 
 
 def check(study: Study) -> Found:

@@ -78,10 +78,7 @@ class Rollout:
         self.tables, self.sizes = build(graph, policy.weights, self.task, master, learners, addresses, library)
 
     def score(
-        self,
-        genomes: NDArray[np.float32],
-        seeds: Sequence[int],
-        ran: Callable[[float], None] = lambda runs: None,
+        self, genomes: NDArray[np.float32], seeds: Sequence[int], ran: Callable[[float], None] = lambda runs: None
     ) -> Scores:
         """Score every genome [genomes, genome_length] on every seed; ValueError where a weight is not finite.
 
