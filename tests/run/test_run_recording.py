@@ -97,7 +97,7 @@ def test_it_is_seen_as_the_run_is(taken: tuple[Path, Path], rules: Path) -> None
         assert (seen.known, seen.ended_by) == (run.known, run.ended_by)
         assert seen.ended_by == "collision"
         ticks = np.arange(run.known + 1)
-        for name in run.columns.groups:
+        for name in run.columns:
             if name != "flow":
                 assert np.array_equal(seen.group(name, ticks), run.group(name, ticks), equal_nan=True), name
         for name in ("task", "seed", "rewards", "ends"):
