@@ -14,6 +14,7 @@ from mindrun.sim.rollout import Rollout
 from mindlang.compiler.compile import load
 from tests.language.examples import COLLECT
 
+MOST_INSTRUCTIONS = 10_000  # of one function: LLVM's time grows faster than its length (it had 62,000 once)
 WRAPPER = "_ZN7cpython"  # what Python calls: it holds the arrays while the lanes run
 
 
@@ -23,6 +24,11 @@ def counted(module: Any) -> Iterator[str]:
         for block in function.blocks:
             if any(i.opcode == "call" and "NRT_" in str(i) for i in block.instructions):
                 yield function.name
+
+
+def instruction_count(function: Any) -> int:
+    """The instructions of a function as LLVM has optimised it; 0 where it is elsewhere."""
+    return sum(1 for block in function.blocks for _ in block.instructions)
 
 
 @pytest.mark.parametrize("function", [advance, fill])
@@ -36,6 +42,7 @@ def test_no_reference_is_counted(function: Any) -> None:
         module = each.library._get_module_for_linking()
         assert any(not f.is_declaration for f in module.functions)
         assert [name for name in counted(module) if not name.startswith(WRAPPER)] == []
+        assert max(map(instruction_count, module.functions)) < MOST_INSTRUCTIONS
 
 
 def test_garbage_is_looked_for_as_before_once_it_is_compiled() -> None:

@@ -20,7 +20,7 @@ Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
 # call: half of the time of a tick.
 OPTIONS = {"nogil": True, "error_model": "numpy", "_nrt": False}
 compiled: Decorator = numba.njit(
-    pipeline_class=InnerCompiler, no_cpython_wrapper=True, no_cfunc_wrapper=True, **OPTIONS
+    pipeline_class=InnerCompiler, no_cpython_wrapper=True, no_cfunc_wrapper=True, forceinline=False, **OPTIONS
 )
 inlined: Decorator = numba.njit(inline="always", **OPTIONS)
 # A part of a tick becomes a part of its caller: a call would hand over a hundred arrays, which takes as long as a lane.

@@ -9,8 +9,9 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
-from llvmlite.binding import Linkage, ModulePassManager, create_new_module_pass_manager
+from llvmlite.binding import Linkage, ModulePassManager, ValueRef, create_new_module_pass_manager
 from numba import _dynfunc
+from numba.core.analysis import compute_cfg_from_blocks
 from numba.core.ccallback import CFunc
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import CompilerBase, CompileResult, DefaultPassBuilder
@@ -21,6 +22,7 @@ from numba.core.sigutils import normalize_signature
 from numba.core.typed_passes import NativeLowering
 
 COLLECTION_OBJECTS = 100_000  # made between two looks for garbage, while numba compiles; Python 3.11 looks after 700
+LONG_INSTRUCTIONS = 60  # of LLVM, as a function is lowered; from 30 to 150 it takes as long
 
 
 class LoweredCode(JITCodeLibrary):  # type: ignore[misc]
@@ -66,6 +68,15 @@ def without_variables_in_memory(module: Any, codegen: Any, passes: ModulePassMan
     passes.run(module, codegen._pass_builder(opt=0, loop_vectorize=False))
 
 
+def keep_apart(function: ValueRef) -> None:
+    """Forbid LLVM to inline a long function: called once, it would be inlined however long its caller gets.
+
+    Meant for functions that loop: a call of these costs nothing that can be measured.
+    """
+    if sum(1 for block in function.blocks for _ in block.instructions) >= LONG_INSTRUCTIONS:
+        function.add_function_attribute("noinline")
+
+
 @register_pass(mutates_CFG=True, analysis_only=False)
 class LowerAll(NativeLowering):  # type: ignore[misc]
     """Lower a function, and make machine code of it and of all that it calls."""
@@ -91,6 +102,8 @@ class LowerOnly(NativeLowering):  # type: ignore[misc]
         state.flags.no_compile = True
         super().run_pass(state)
         lowered, module = state["cr"], state.func_id.module
+        if not state.flags.forceinline and compute_cfg_from_blocks(state.func_ir.blocks).loops():
+            keep_apart(state.library._final_module.get_function(lowered.fndesc.llvm_func_name))
         # By this object others know the function: nobody can call it.
         nowhere = _dynfunc.make_function(module, state.func_id.func_name, "", 0, lowered.env, (state.library,))
         state.targetctx.insert_user_function(nowhere, lowered.fndesc, [state.library])
