@@ -4,8 +4,6 @@ They are made of the run's log and nothing else: whoever goes on with a run begi
 generation is there twice, whatever had been written when the process was killed.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import asdict
@@ -101,7 +99,7 @@ def _folder(record: Logged) -> str:
     return f"attempt {record['attempt']}"
 
 
-def _summary(record: Logged) -> Summary:
+def _summary(record: Logged) -> "Summary":
     """The figures of a generation that are finite, with their names."""
     from tensorboardX.proto.summary_pb2 import Summary
 

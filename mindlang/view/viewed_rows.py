@@ -1,7 +1,5 @@
 """Rows of a recording as a page sees them, whoever makes them: a simulator now, a robot, or one who wrote them down."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from pathlib import Path

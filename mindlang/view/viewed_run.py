@@ -1,7 +1,5 @@
 """A simulated run that is seen while it is made, and the changes with which a viewer forks it."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
