@@ -45,7 +45,10 @@ class HierarchyPanel:
         flow = self._flows.flow_at(range(tick - 1, tick))
         links = zip(self._stops, flow.value[0].tolist(), flow.transmitted[0].tolist(), strict=True)
         for stops, command, transmitted in sorted(links, key=itemgetter(2)):  # what is bright lies on top
-            self._link(canvas, stops, command, transmitted)
+            line = _curve(stops)
+            canvas.line(line, mixed(NIGHT.dark, NIGHT.glow, transmitted), RIM_PIXELS)
+            canvas.line(line, NIGHT.page, CORE_PIXELS + 2)
+            canvas.line(line, mixed(NIGHT.dark, NIGHT.glow, command), CORE_PIXELS)
         for sink, place in self._boxes.items():
             match sink:
                 case "skill", index:
@@ -56,12 +59,6 @@ class HierarchyPanel:
                 case "memory", index:
                     cell = self._run.graph.memories[index]
                     self._gauge(canvas, cell.name, place, float(self._run.readings[tick - 1, cell.start]), 0.0)
-
-    def _link(self, canvas: Canvas, stops: Sequence[Place], command: float, transmitted: float) -> None:
-        line = _curve(stops)
-        canvas.line(line, mixed(NIGHT.dark, NIGHT.glow, transmitted), RIM_PIXELS)
-        canvas.line(line, NIGHT.page, CORE_PIXELS + 2)
-        canvas.line(line, mixed(NIGHT.dark, NIGHT.glow, command), CORE_PIXELS)
 
     def _skill(self, canvas: Canvas, lines: Sequence[str], place: Place, influence: float) -> None:
         """Draw a box with the lines of a name, and below them the influence."""

@@ -1,7 +1,7 @@
 """A skill that learns as other programs know it: a network of matrices without biases, in a file of safetensors."""
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -103,7 +103,11 @@ def to_genome(network: SkillNetwork, tensors: Tensors) -> Weights:
     that of the skill. A file that says nothing is taken as it is.
     """
     names = matrix_names(network)
-    _refuse_other_names(network, names, tensors)
+    hint = f"the tensors of {network.skill.name} are {', '.join(names)}; mindlang.torch.Skill saves them"
+    if missing := [name for name in names if name not in tensors.by_name]:
+        raise WeightsError(f"it has no {missing[0]}", hint)
+    if extra := [name for name in tensors.by_name if name not in names]:
+        raise WeightsError(f"it has {visible(f'{extra[0]:.60}')}, which is no weight of {network.skill.name}", hint)
     for name, (into, out) in zip(names, network.shapes, strict=True):
         found = tensors.by_name[name]
         if found.shape != (out, into):
@@ -114,14 +118,6 @@ def to_genome(network: SkillNetwork, tensors: Tensors) -> Weights:
             raise WeightsError(f"{name} has numbers that are not finite")
     genome = np.concatenate([tensors.by_name[name].ravel() for name in names])
     return _in_order(network, tensors, genome)
-
-
-def _refuse_other_names(network: SkillNetwork, names: Sequence[str], tensors: Tensors) -> None:
-    hint = f"the tensors of {network.skill.name} are {', '.join(names)}; mindlang.torch.Skill saves them"
-    if missing := [name for name in names if name not in tensors.by_name]:
-        raise WeightsError(f"it has no {missing[0]}", hint)
-    if extra := [name for name in tensors.by_name if name not in names]:
-        raise WeightsError(f"it has {visible(f'{extra[0]:.60}')}, which is no weight of {network.skill.name}", hint)
 
 
 def _in_order(network: SkillNetwork, tensors: Tensors, genome: Weights) -> Weights:

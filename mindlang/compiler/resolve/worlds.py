@@ -12,7 +12,7 @@ from mindrun.kinds.registry import arguments
 from mindrun.kinds.registry import names as kind_names
 from mindrun.kinds.scenes.scene import SceneKind
 from mindrun.kinds.things.thing import MAX_OBSTACLES, MAX_THINGS, ThingKind
-from mindrun.numbers.quantity import ANGLE, COORDINATE, RATE, Place
+from mindrun.numbers.quantity import ANGLE, COORDINATE, RATE
 
 from mindlang.compiler.beginning import Beginning, task_beginning
 from mindlang.compiler.diagnostic import Findings, Label, did_you_mean, listed
@@ -154,7 +154,8 @@ def _start(
     start, said = Start(), of_form(declaration.facts, Starts)
     for fact in said:
         facing = convert(fact.facing, ANGLE, findings) if fact.facing else None
-        start = Start(_place(fact, findings), facing)
+        x, y = (convert(amount, COORDINATE, findings) for amount in fact.place) if fact.place else (None, None)
+        start = Start(None if x is None or y is None else (x, y), facing)
     message = f"The {declaration.header.noun.text} already says where the robot starts."
     said_once(said, lambda _: message, findings, "Write both on one line: starts at 0 0 facing 90 deg.")
     is_left_open = declaration.header.noun.text == "scene" and not said  # to the tasks in it
@@ -162,12 +163,6 @@ def _start(
         begun = task_beginning(scene, things, start, body, 0.0)
         _check_start(declaration.header.name.span, said[-1].span if start.at else None, begun, findings)
     return start
-
-
-def _place(fact: Starts, findings: Findings) -> Place | None:
-    """The place that a line names, None where it names none or after reporting what is wrong with it."""
-    x, y = (convert(amount, COORDINATE, findings) for amount in fact.place) if fact.place else (None, None)
-    return None if x is None or y is None else (x, y)
 
 
 def _check_start(here: Span, said: Span | None, begun: Beginning, findings: Findings) -> None:
