@@ -73,6 +73,7 @@ def load_curves(paths: Iterable[Path]) -> list[Curve]:
     curves = [_from_table(log) if log.is_file() else _from_run(log) for log in logs]
     if empty := next((curve for curve in curves if not curve.records), None):
         raise RunError(f"{empty.path} has no generations yet")
+    # Curves that share a name get the part of their path that they do not share as a note.
     alike = {curve.name: [other.path.resolve() for other in curves if other.name == curve.name] for curve in curves}
     notes = [os.path.relpath(curve.path.resolve(), os.path.commonpath(alike[curve.name])) for curve in curves]
     return [replace(curve, note=note) if note != "." else curve for curve, note in zip(curves, notes, strict=True)]

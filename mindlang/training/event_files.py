@@ -74,25 +74,19 @@ class EventFiles:
             self._write(record)
 
     def _write(self, record: Logged) -> None:
+        from tensorboardX import RecordWriter
         from tensorboardX.proto.event_pb2 import Event
 
         if record["attempt"] != self._attempt:
-            self._begin(record)
+            self.close()
+            folder = self.folder / _folder(record)
+            folder.mkdir(parents=True, exist_ok=True)
+            self._attempt, self._writer = record["attempt"], RecordWriter(str(folder / FILE))
+            self._writer.write(Event(wall_time=self._time, file_version=FILE_VERSION).SerializeToString())
         assert self._writer
         self._time += record["seconds"] or 0.0
         event = Event(wall_time=self._time, step=int(record["generation"] or 0), summary=_summary(record))
         self._writer.write(event.SerializeToString())
-
-    def _begin(self, record: Logged) -> None:
-        """Begin the file of an attempt, with its version."""
-        from tensorboardX import RecordWriter
-        from tensorboardX.proto.event_pb2 import Event
-
-        self.close()
-        folder = self.folder / _folder(record)
-        folder.mkdir(parents=True, exist_ok=True)
-        self._attempt, self._writer = record["attempt"], RecordWriter(str(folder / FILE))
-        self._writer.write(Event(wall_time=self._time, file_version=FILE_VERSION).SerializeToString())
 
 
 def _folder(record: Logged) -> str:

@@ -129,16 +129,14 @@ def _in_order(network: SkillNetwork, tensors: Tensors, genome: Weights) -> Weigh
     function, reads, sends = (tensors.metadata[key] for key in KEYS)
     its, own = Signature(function, tuple(reads.split()), tuple(sends.split())), network.signature
     if found := differences(its, own, network.skill.function.derived):
-        raise WeightsError(f"these are weights of another declaration: {_shortened('; '.join(found))}")
+        what = "; ".join(found)
+        shortened = visible(what if len(what) <= MAX_SHOWN else f"{what[:MAX_SHOWN]}…")
+        raise WeightsError(f"these are weights of another declaration: {shortened}")
     if sorted(its.reads) != sorted(own.reads) or sorted(its.sends) != sorted(own.sends):
         said = f"{' '.join(own.reads)} and {' '.join(own.sends)}, in any order"
         raise WeightsError("its __metadata__ says twice or otherwise what it reads or sends", f"they are {said}")
     inputs, outputs = places(own.reads, its.reads, {}), places(own.sends, its.sends, {})
     return network.skill.function.reordered(genome, inputs, outputs)
-
-
-def _shortened(text: str) -> str:
-    return visible(text if len(text) <= MAX_SHOWN else f"{text[:MAX_SHOWN]}…")
 
 
 def trained_network(subject: Subject, skill: str) -> tuple[SkillNetwork, Weights]:

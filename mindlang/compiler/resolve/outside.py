@@ -78,7 +78,6 @@ def _foreign(
     for actuator in (each for each in actuators if each.kind.moves_body or each.kind.can_hold):
         hint = f"Write what it takes: actuator {actuator.name} is action 0 neutral 0.5, or choice 0."
         yield actuator.span, f"{_kind(actuator)} does nothing in {ENVIRONMENT}.", hint
-
     for task in tasks:
         for thing in task.things:
             yield thing.span, f"Nothing can be put into {ENVIRONMENT}.", "Leave the line out."
