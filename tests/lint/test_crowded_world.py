@@ -36,6 +36,12 @@ def test_it_says_what_the_lanes_do(text: str, tmp_path: Path) -> None:
     assert bool(lint(compiled, ["crowded-world"])) == bool(covering), covering
 
 
+@pytest.mark.parametrize(("rocks", "worlds"), [(60, 100), (1000, 1)])
+def test_as_many_worlds_are_drawn_as_are_cheap(rocks: int, worlds: int, tmp_path: Path) -> None:
+    [found] = lint(load(whole(BINS.format(40, rocks), tmp_path)), ["crowded-world"])
+    assert f" of {worlds} worlds of Sort " in found.message
+
+
 def is_covered(things: np.ndarray, boxes: np.ndarray) -> bool:
     """Whether a thing covers another, or part of an obstacle."""
     squares = [(x, y, size / 2, size / 2) for x, y, size in things]
