@@ -144,7 +144,7 @@ def test_a_rename_of_anything_in_any_mind(cases: int) -> None:
 
 def test_what_no_mind_says_any_more_is_read_with_the_new_names() -> None:
     facts = {"sends": ["Search at 1 - eye", "o.Search at eye", "wheel at eye"]}
-    world = TrainingWorld({"skill Go": facts, "lesson": {"task": "Seek", "master": "Go"}})
+    world = TrainingWorld({"skill Go": facts, "lesson": {"task": "Seek", "master": "Go", "with_subskills": False}})
     names = {"skill": {"Search": "Find", "o.Search": "o.Find"}, "sensor": {"eye": "ear"}}
     now = Renaming(names, ()).relabelled(world).facts["skill Go"]
     assert now == {"sends": ["Find at 1 - ear", "o.Find at ear", "wheel at ear"]}

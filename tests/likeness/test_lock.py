@@ -147,7 +147,7 @@ def test_a_lesson_whose_master_has_another_name_is_known_by_its_task() -> None:
     renamed = replace(
         mind,
         master="Boss",
-        skills=tuple(replace(each, name="Boss", owner="Boss") if each.name == "Top" else each for each in mind.skills),
+        skills=tuple(replace(each, name="Boss") if each.name == "Top" else each for each in mind.skills),
     )
     assert lessons_of(renamed, taught, entry, [replace(lesson, master="Boss")], None)
     assert not lessons_of(renamed, taught, entry, [replace(lesson, master="Boss", task="Other")], None)
