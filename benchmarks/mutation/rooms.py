@@ -40,6 +40,7 @@ MISPLACED = (
     *("no-room-for-the-robot", "place-in-grid", "place-in-obstacle", "place-in-wall", "place-outside", "starts-twice"),
     *("start-half-in-the-border", "start-in-box", "start-in-middle-of-plain", "start-in-wall", "start-on-item"),
     *("start-outside", "starts-on-goal", "too-many-copies", "two-of-one-name-in-one-place", "walker-way-in-wall"),
+    "crowded-together",
 )
 QUICK_VIEWS = (
     "test_a_step_is_a_row_and_an_episode_a_run",
@@ -141,9 +142,13 @@ ROOMS = {
     ),
     "lock": Room(
         ("mindlang/lock/*.py",),
-        tuple(
-            f"tests/lock/test_{name}.py"
-            for name in ("signature", "wording", "lock", "worlds", "trained", "accept", "garbage", "status_command")
+        (
+            *(
+                f"tests/lock/test_{name}.py"
+                for name in ("signature", "wording", "lock", "worlds", "trained", "accept", "garbage", "status_command")
+            ),
+            "tests/likeness/test_lock.py",
+            "tests/language/test_starts.py::test_another_start_is_another_world",
         ),
     ),
     "bundle": Room(
@@ -169,7 +174,10 @@ ROOMS = {
     ),
     "why": Room(
         ("mindlang/attribution/*.py",),
-        tuple(f"tests/why/test_{name}.py" for name in ("report", "why_command", "why_recording")),
+        (
+            *(f"tests/why/test_{name}.py" for name in ("report", "why_command", "why_recording")),
+            *(f"tests/run/test_{name}.py" for name in ("edge_flow", "shares")),
+        ),
     ),
     "whatif": Room(
         ("mindlang/whatif/*.py",),
@@ -209,6 +217,7 @@ ROOMS = {
             *(f"tests/language/test_messages.py::test_one_message_for_one_mistake[{name}]" for name in MISPLACED),
             "tests/lint/test_world_rules.py",
             "tests/lint/test_paid_at_once.py",
+            "tests/lint/test_crowded_world.py::test_the_cheaper_a_world_is_the_more_are_drawn",
             "tests/sim/test_drawn_world.py",
             "tests/language/test_starts.py",
             "tests/lint/test_rules.py",
@@ -227,6 +236,7 @@ ROOMS = {
             *(f"tests/lock/test_worlds.py::{name}" for name in QUICK_WORLDS),
             *(f"tests/edits/test_{name}.py" for name in ("weights", "neighbours")),
             *(f"tests/lock/test_{name}.py" for name in ("accept", "merging", "status_command")),
+            "tests/edits/test_renames.py::test_what_no_mind_says_any_more_is_read_with_the_new_names",
             "tests/edits/test_renames.py::test_a_rename_of_anything_in_any_mind",
         ),
     ),
@@ -253,6 +263,7 @@ ROOMS = {
             "tests/robot/test_given_numbers.py",
             "tests/run/test_used_sensors.py",
             "tests/wiring/test_speed.py",
+            "tests/wiring/test_messages.py",
             "tests/lint/test_number_rules.py",
             "tests/run/test_one_world.py",
             "tests/lint/test_rules.py",

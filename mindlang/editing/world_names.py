@@ -140,8 +140,8 @@ class Renaming:
     def _read_again(self, role: Role, text: str) -> str:
         """A text that no mind says now, read as the fact that it was once, with other names."""
         if role not in _AROUND_SENTENCE:
-            is_name = role[-1] != "is" and role[0] != "lesson"
-            return self.name(text, "skill", "actuator", *READABLE_NOUNS, "thing") if is_name else text
+            nouns = "skill", "actuator", *READABLE_NOUNS, "thing"
+            return text if role[-1] == "is" else self.name(text, *nouns)
         before, after = _AROUND_SENTENCE[role](text)
         source = Source("a fact", f"{before}{text}{after}")
         try:

@@ -18,10 +18,11 @@ from mindlang.editing.apply import apply_edit
 from mindlang.editing.edits import edit
 from mindlang.editing.lock_update import new_names, update_locks
 from mindlang.editing.project import EditError, Project, open_project
-from mindlang.editing.world_names import now_called, renamed
+from mindlang.editing.world_names import Renaming, now_called, renamed
 from mindlang.lock import Entry, Lock, Taught, lock_sources, lock_text, read_locks
 from mindlang.lock.signature import signature
 from mindlang.lock.status import Status, Trained, status
+from mindlang.lock.training_world import TrainingWorld
 from mindlang.lock.world_facts import Worlds
 from tests.edits.sources import MAIN, Texts, minds
 from tests.language.examples import ROOT
@@ -139,6 +140,14 @@ def test_a_rename_of_anything_in_any_mind(cases: int) -> None:
             event(said)
 
     every()
+
+
+def test_what_no_mind_says_any_more_is_read_with_the_new_names() -> None:
+    facts = {"sends": ["Search at 1 - eye", "o.Search at eye", "wheel at eye"]}
+    world = TrainingWorld({"skill Go": facts, "lesson": {"task": "Seek", "master": "Go", "with_subskills": False}})
+    names = {"skill": {"Search": "Find", "o.Search": "o.Find"}, "sensor": {"eye": "ear"}}
+    now = Renaming(names, ()).relabelled(world).facts["skill Go"]
+    assert now == {"sends": ["Find at 1 - ear", "o.Find at ear", "wheel at ear"]}
 
 
 @pytest.mark.parametrize("name", SHIPPED)

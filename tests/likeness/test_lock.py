@@ -10,11 +10,11 @@ from mindrun.graph.graph import Graph
 from mindrun.graph.policy import Policy
 from mindrun.graph.weights import genes
 
-from mindlang.lock import Taught, lock_text, read_lock, write_lock
+from mindlang.lock import Entry, Taught, lock_text, read_lock, write_lock
 from mindlang.lock.blobs import digest, record
 from mindlang.lock.report import rows, survival
 from mindlang.lock.signature import arrange
-from mindlang.lock.status import Stale, Trained, Untaught, needed_skills, status, trained_weights
+from mindlang.lock.status import Stale, Trained, Untaught, lessons_of, needed_skills, status, trained_weights
 from mindlang.lock.world_changes import changes
 from mindlang.lock.world_facts import Worlds
 from tests.likeness.test_meaning import ALIKE, GO, SCHOOL, TOP, graph, named
@@ -122,6 +122,35 @@ def test_a_line_says_with_whose_weights_a_skill_began(tmp_path: Path) -> None:
     state = status(mind, {"Far": entries["Far"]})["Far"]
     assert isinstance(state, Trained)
     assert state.changes == (f"began with Go ({began[:4]}…), which has no weights now",)
+
+
+def test_an_origin_taught_on_together_with_who_began_as_it_is_the_same(tmp_path: Path) -> None:
+    lock = tmp_path / "mind.lock"
+    own = GO.replace("Go", "Far")
+    mind = graph(GO, own, ALIKE, f"{TOP}  influences Far at 1\n")
+    began = digest(teach(lock, mind, "Go"))
+    teach(lock, mind, "Far", 2, origins={"Far": ("Go", began)})
+    teach(lock, mind, "Go", 3)
+    entries = read_lock(lock)
+    for master, is_elsewhere in ("Go", True), ("Top", False):
+        last = replace(entries["Go"].taught, master=master)
+        state = status(mind, {**entries, "Go": replace(entries["Go"], taught=last)})["Far"]
+        assert isinstance(state, Trained)
+        assert state.is_elsewhere == is_elsewhere
+
+
+def test_a_lesson_whose_master_has_another_name_is_known_by_its_task() -> None:
+    mind = graph(GO, ALIKE, TOP, SCHOOL, "  teaches Go on Roam under Top for 10 generations\n")
+    [lesson] = mind.lessons
+    taught = world(GO, ALIKE, TOP, SCHOOL, "  teaches Go on Roam under Top for 10 generations\n")
+    entry = Entry("Go", "", "", TAUGHT, (), (taught,))
+    renamed = replace(
+        mind,
+        master="Boss",
+        skills=tuple(replace(each, name="Boss") if each.name == "Top" else each for each in mind.skills),
+    )
+    assert lessons_of(renamed, taught, entry, [replace(lesson, master="Boss")], None)
+    assert not lessons_of(renamed, taught, entry, [replace(lesson, master="Boss", task="Other")], None)
 
 
 @pytest.mark.parametrize("version", [1, 2, 3])

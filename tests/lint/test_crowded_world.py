@@ -36,6 +36,12 @@ def test_it_says_what_the_lanes_do(text: str, tmp_path: Path) -> None:
     assert bool(lint(compiled, ["crowded-world"])) == bool(covering), covering
 
 
+def test_the_cheaper_a_world_is_the_more_are_drawn(tmp_path: Path) -> None:
+    said = [lint(load(whole(text, tmp_path)), ["crowded-world"])[0].message for text in BAD]
+    few, many = (int(message.split(" worlds")[0].split()[-1]) for message in (said[1], said[0]))
+    assert 1 < few < many
+
+
 def is_covered(things: np.ndarray, boxes: np.ndarray) -> bool:
     """Whether a thing covers another, or part of an obstacle."""
     squares = [(x, y, size / 2, size / 2) for x, y, size in things]

@@ -231,9 +231,9 @@ class _Variable:
                 message = f"{kind_names()[type(kind)]} has no argument called {key.text}."
                 self.findings.error("unknown-argument", key.span, message, did_you_mean(key.text, varying) or can)
             return None
-        high = convert(fact.high, quantity, self.findings)
-        low = None if high is None else convert(fact.low, quantity, self.findings, fact.high.unit)
-        if low is None or high is None:
+        if (high := convert(fact.high, quantity, self.findings)) is None:
+            return None
+        if (low := convert(fact.low, quantity, self.findings, fact.high.unit)) is None:
             return None
         if low > high:
             where = Span(fact.span.source, fact.low.span.start, fact.high.span.end)
