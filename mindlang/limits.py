@@ -1,7 +1,5 @@
 """Limits of what a user may ask for: whole numbers within their bounds, and memory and time that are there."""
 
-from __future__ import annotations
-
 import resource
 from contextlib import suppress
 from operator import index
@@ -46,7 +44,7 @@ def bounded_int(what: str, bounds: Bounds, value: Any) -> int:
     return number
 
 
-def refuse_too_many(task: Task, runs: int) -> None:
+def refuse_too_many(task: "Task", runs: int) -> None:
     """Raise MindError where the results of so many runs of a task cannot be kept."""
     needed, there = runs * bytes_for(task), available()
     if there is not None and needed > there:
@@ -54,12 +52,12 @@ def refuse_too_many(task: Task, runs: int) -> None:
         raise MindError(message, f"--runs {there // (2 * bytes_for(task))} would do")
 
 
-def bytes_for(task: Task) -> int:
+def bytes_for(task: "Task") -> int:
     """The bytes of one run's results while many are gathered."""
     return RUN_BYTES + ENTRY_BYTES * (len(task.rewards) + len(task.events))
 
 
-def refuse_too_large(rollout: Rollout, genomes: int, layouts: int, attempts: int = 1) -> None:
+def refuse_too_large(rollout: "Rollout", genomes: int, layouts: int, attempts: int = 1) -> None:
     """Raise MindError where so many genomes on so many layouts do not fit into memory, in each of so many attempts."""
     needed, there = attempts * bytes_of(rollout, genomes, layouts), available()
     if there is not None and needed > there:
@@ -68,7 +66,7 @@ def refuse_too_large(rollout: Rollout, genomes: int, layouts: int, attempts: int
         raise MindError(message, f"Most of it is for {max(parts, key=parts.__getitem__)}.")
 
 
-def refuse_too_long(rollout: Rollout, runs: int) -> None:
+def refuse_too_long(rollout: "Rollout", runs: int) -> None:
     """Raise MindError where so many runs of a task could take over a year, however fast the machine is."""
     years = runs * rollout.task.ticks // (MAX_TICKS_PER_SECOND * rollout.workers) // YEAR_SECONDS
     if years:
@@ -76,7 +74,7 @@ def refuse_too_long(rollout: Rollout, runs: int) -> None:
         raise MindError(message, f"A run lasts up to {rollout.task.ticks:,} ticks.")
 
 
-def bytes_of(rollout: Rollout, genomes: int, layouts: int) -> int:
+def bytes_of(rollout: "Rollout", genomes: int, layouts: int) -> int:
     """The bytes of a rollout: its lanes, and the genomes with their parents and copies of both."""
     lanes = min(genomes * layouts, rollout.workers * rollout.lanes)
     rays, things = len(rollout.tables.ray_row), len(rollout.tables.things)
@@ -84,7 +82,7 @@ def bytes_of(rollout: Rollout, genomes: int, layouts: int) -> int:
     return lanes * each + GENOME_COPIES * genomes * 4 * rollout.genome_length
 
 
-def _parts(sizes: Sizes) -> dict[str, int]:
+def _parts(sizes: "Sizes") -> dict[str, int]:
     """The bytes of a lane by what they are for."""
     return {
         "the weights": 4 * sizes["genome"],

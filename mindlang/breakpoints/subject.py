@@ -1,7 +1,5 @@
 """The subject of breakpoints: a run of the simulator, or a robot's recording."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -46,14 +44,14 @@ class BreakpointSubject:
     is_recorded: bool = False
 
     @classmethod
-    def of_run(cls, names: Names, setup: RunSetup) -> BreakpointSubject:
+    def of_run(cls, names: Names, setup: "RunSetup") -> "BreakpointSubject":
         """A run that is set up: its skills and readings stand where its lock has them, not where they are declared."""
         return cls(names, setup.ready.policy.graph, setup.master, setup.task)
 
     @classmethod
     def of_recording(
         cls, graph: Graph, master: str, sensors: tuple[str, ...], task: Task | None = None
-    ) -> BreakpointSubject:
+    ) -> "BreakpointSubject":
         """The recording of a robot with these wired sensors and the graph of a bundle, in a world if any."""
         return cls(names_in(graph), graph, master, task, sensors, is_recorded=True)
 
@@ -124,7 +122,7 @@ def subject_of_mind(compiled: Compiled, task: str | None = None, master: str | N
     return BreakpointSubject(compiled.mind.names, graph, master_of(graph, chosen, master), chosen, sensors)
 
 
-def subject_of_bundle(bundle: Bundle, task: str | None = None, master: str | None = None) -> BreakpointSubject:
+def subject_of_bundle(bundle: "Bundle", task: str | None = None, master: str | None = None) -> BreakpointSubject:
     """The subject of a robot's recording with this bundle, or of a task's dry run; SetupError for an unknown name."""
     graph = bundle.graph
     wired = [wire.sensor for wire in bundle.wiring.sensors] if bundle.wiring and not task else physical(graph)

@@ -1,7 +1,5 @@
 """Diagnostics for people and for programs: an excerpt with a caret on a terminal, plain data for JSON."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -18,7 +16,7 @@ EXCERPT_COLUMNS = 100
 Segment = tuple[str, str]  # text and style
 
 
-def print_report(diagnostics: Sequence[Diagnostic], console: Console) -> None:
+def print_report(diagnostics: Sequence[Diagnostic], console: "Console") -> None:
     """Print diagnostics; after the first hundred only their number."""
     if not diagnostics:
         return

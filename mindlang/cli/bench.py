@@ -1,7 +1,5 @@
 """`mindc bench`: many runs of a task for a figure that can be trusted, of one mind or of two on the same layouts."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -101,12 +99,12 @@ def contenders(files: Sequence[str], masters: Sequence[str]) -> list[Contender]:
 class Bench:
     """The runs to make, the workers that make them, so many of this machine or those of --on, and the output."""
 
-    session: RunSession
+    session: "RunSession"
     workers: int
     task: str | None
     runs: int
     seed: int
-    where: Where | None
+    where: "Where | None"
     interrupt: bool
     table: Path | None
     as_json: bool
@@ -153,11 +151,11 @@ class Bench:
             self._write(self.table, rows, f"2 × {len(seeds):,} runs")
         print_result(self.as_json, found, lambda: comparison_summary(found, compared))
 
-    def _prepared(self, who: Contender, task: str | None) -> Prepared:
+    def _prepared(self, who: Contender, task: str | None) -> "Prepared":
         chosen = options.RunChoice(task, self.seed, who.master, self.interrupt)
         return self.session.prepare(who.file, chosen, self.workers, self.runs)
 
-    def _score(self, prepared: Prepared, seeds: Sequence[int], whose: str = "") -> tuple[Scores, dict[str, Any]]:
+    def _score(self, prepared: "Prepared", seeds: Sequence[int], whose: str = "") -> "tuple[Scores, dict[str, Any]]":
         """The score of each run, and the data of all of them; notes on stderr say `whose` they are."""
         from mindlang.executors import scorer_on
         from mindlang.executors.jobs import assignment_of
@@ -175,7 +173,7 @@ class Bench:
         """The workers that make the runs, as data."""
         return {"workers": self.workers} if self.where is None else {"on": f"{self.where}"}
 
-    def _write(self, path: Path, table: Table, runs: str) -> None:
+    def _write(self, path: Path, table: "Table", runs: str) -> None:
         from mindlang.run.tables import csv_parts
 
         write_file(path, csv_parts(table))

@@ -1,7 +1,5 @@
 """`mindc check`: is everything in these files right?"""
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -82,7 +80,7 @@ def command(files: tuple[str, ...], task: str | None, master: str | None, as_jso
     sys.exit(MISUSE if not all(each.is_readable for each in checked) else FINDINGS if found else OK)
 
 
-def _note_speeds(compiled: Mapping[str, Compiled]) -> None:
+def _note_speeds(compiled: "Mapping[str, Compiled]") -> None:
     """Say which robots are so fast that a tick of theirs cannot be simulated whole."""
     from mindlang.lint.top_speed import farthest_step, simulated_step
 
@@ -94,7 +92,7 @@ def _note_speeds(compiled: Mapping[str, Compiled]) -> None:
 
 
 def _breakpoints(
-    files: Sequence[str], bundles: Sequence[str], given: Mapping[str, Compiled], task: str | None, master: str | None
+    files: Sequence[str], bundles: Sequence[str], given: "Mapping[str, Compiled]", task: str | None, master: str | None
 ) -> Iterator[_Checked]:
     """The files of breakpoints, each against every bundle, or else a mind; it is said where there is neither."""
     if not files:
@@ -115,7 +113,7 @@ def _breakpoints(
             yield _Checked(file, found, all(each.span for each in found))
 
 
-def _bundle(path: str) -> Bundle:
+def _bundle(path: str) -> "Bundle":
     from mindrun.graph.bundle import read_bundle  # which needs numpy
 
     return read_bundle(Path(path))

@@ -1,7 +1,5 @@
 """`mindc deploy`: a bundle brought to a robot, and back to the one before."""
 
-from __future__ import annotations
-
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -85,7 +83,7 @@ def command(
         report(f"{host} has {done.release}")
 
 
-def _result(host: str, done: DeployResult, settings: Settings, dry_run: bool) -> dict[str, object]:
+def _result(host: str, done: "DeployResult", settings: "Settings", dry_run: bool) -> dict[str, object]:
     """The outcome of a deployment as one JSON document."""
     service = {"unit": "mind.service", "armed": settings.armed} if settings.service else None
     said = {"host": host, "dry_run": dry_run, "release": done.release or None, "before": done.before or None}
@@ -101,7 +99,7 @@ def _path_and_host(words: tuple[str, ...], without: bool) -> tuple[Path | None, 
     raise click.UsageError("Write mindc deploy BUNDLE HOST, or mindc deploy HOST with --rollback or --list.")
 
 
-def _checked(path: Path, settings: Settings) -> Bundle:
+def _checked(path: Path, settings: "Settings") -> "Bundle":
     """The bundle; one that cannot be read ends the program."""
     from mindrun.graph.bundle import read_bundle
 
@@ -115,7 +113,7 @@ def _checked(path: Path, settings: Settings) -> Bundle:
     return bundle
 
 
-def _list(robot: RemoteRobot, as_json: bool) -> None:
+def _list(robot: "RemoteRobot", as_json: bool) -> None:
     from mindlang.robot.deployment import read_state
 
     state = read_state(robot)
@@ -130,6 +128,6 @@ def _list(robot: RemoteRobot, as_json: bool) -> None:
         click.echo("nothing has been deployed there", err=True)
 
 
-def _listed(state: ReleaseState) -> dict[str, object]:
+def _listed(state: "ReleaseState") -> dict[str, object]:
     releases = [{"release": each.name, "state": each.state, **each.made_of} for each in state.releases]
     return {"current": state.current or None, "releases": releases}

@@ -1,7 +1,5 @@
 """`mindc lint`: what is wrong in these files, and what is hardly meant."""
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Sequence
 from os.path import realpath
@@ -70,7 +68,7 @@ def command(files: tuple[str, ...], fix: bool, select: tuple[str, ...], ignore: 
     sys.exit(MISUSE if not all(each.readable for each in done) else FINDINGS if found else OK)
 
 
-def _settings(file: str) -> LintSettings:
+def _settings(file: str) -> "LintSettings":
     """The settings that count for a file; what is wrong in them ends the program."""
     from mindlang.lint.settings import settings_of
 

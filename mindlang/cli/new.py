@@ -49,7 +49,9 @@ def command(name: str | None, robot: str | None, task: str | None, as_list: bool
             check_free(Path(name))
         chosen_robot, chosen_task = _chosen(robot, task)
         if name is None:
-            name = _asked_name()
+            if not _asks():
+                fail("The project has no name.", "mindc new rover", MISUSE)
+            name = str(click.prompt("What is it called?", default="rover", err=True))
             check_name(name)
         make_folder(Path(name), project(name, chosen_robot, chosen_task))
     click.echo(f"{name}: a {chosen_robot.name} robot, and how it learns to {chosen_task.name}", err=True)
@@ -89,13 +91,6 @@ def _asked(question: str, choices: dict[str, str]) -> str:
         "", type=click.Choice([*numbers, *names]), default="1", show_choices=False, prompt_suffix="> ", err=True
     )
     return names[int(answer) - 1] if answer in numbers else str(answer)
-
-
-def _asked_name() -> str:
-    """A name for the project, where somebody can be asked for it."""
-    if not _asks():
-        fail("The project has no name.", "mindc new rover", MISUSE)
-    return str(click.prompt("What is it called?", default="rover", err=True))
 
 
 def _print_list(as_json: bool) -> None:

@@ -1,7 +1,5 @@
 """`mindc status`: which skills are trained, and with what their weights were made."""
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
@@ -72,7 +70,7 @@ def command(file: str, skills: tuple[str, ...], accept: bool, as_json: bool) -> 
     sys.exit(terminal.OK if all(row.is_fine for row in found if row.is_needed) else terminal.FINDINGS)
 
 
-def report(found: Sequence[Row], console: Console) -> Text:
+def report(found: "Sequence[Row]", console: "Console") -> "Text":
     """The rows as lines that a console has room for."""
     from rich.text import Text
 

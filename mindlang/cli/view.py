@@ -1,7 +1,5 @@
 """`mindc view`: a run, a recording or a training, seen in a browser, or written to a page."""
 
-from __future__ import annotations
-
 import secrets
 import sys
 from contextlib import ExitStack
@@ -82,7 +80,7 @@ def command(file: str, bundle: str | None, chosen: RunChoice, breaks: Path | Non
         output.show(run_view(file, chosen, breaks, output.quiet))
 
 
-def run_view(file: str, chosen: RunChoice, breaks: Path | None, quiet: bool) -> Viewed:
+def run_view(file: str, chosen: RunChoice, breaks: Path | None, quiet: bool) -> "Viewed":
     """A run at its beginning, of a drawn seed where none is said; `breaks` is a file of breakpoints."""
     from mindlang.cli._session import RunSession
     from mindlang.compiler.drawing import text_after_name
@@ -97,7 +95,7 @@ def run_view(file: str, chosen: RunChoice, breaks: Path | None, quiet: bool) -> 
 
 
 @terminal.procedures_talk()
-def training_view(folder: Path, seed: int | None, quiet: bool) -> tuple[Viewed, Learning]:
+def training_view(folder: Path, seed: int | None, quiet: bool) -> "tuple[Viewed, Learning]":
     """The champion of a training's folder that was found last, at its beginning, and all others."""
     from mindrun.train import NotFoundError
 
@@ -115,7 +113,7 @@ def training_view(folder: Path, seed: int | None, quiet: bool) -> tuple[Viewed, 
             terminal.fail(str(error))
 
 
-def _show_recording(file: str, bundle: Path, follow: bool, breaks: Path | None, output: ViewOutput) -> None:
+def _show_recording(file: str, bundle: Path, follow: bool, breaks: Path | None, output: "ViewOutput") -> None:
     """Show a recording: read once, or followed while it is written, of this machine or as HOST:FILE."""
     from mindlang.cli._session import refusing_recordings
     from mindlang.view.viewed_recording import followed_recording, viewed_recording
@@ -130,7 +128,7 @@ def _show_recording(file: str, bundle: Path, follow: bool, breaks: Path | None, 
         output.show(viewed)
 
 
-def _watching(breaks: Path) -> Watching:
+def _watching(breaks: Path) -> "Watching":
     """A function that makes the watcher of a recording, for the breakpoints of a file."""
     from mindlang.breakpoints.watch import RecordingWatcher, recording_subject
     from mindlang.cli._session import read_breakpoints
@@ -147,7 +145,7 @@ class ViewOutput:
     export: Path | None
     quiet: bool
 
-    def show(self, viewed: Viewed, learning: Learning | None = None) -> None:
+    def show(self, viewed: "Viewed", learning: "Learning | None" = None) -> None:
         """Write the file, or serve until Ctrl-C."""
         import asyncio
 
@@ -169,7 +167,7 @@ class ViewOutput:
         with terminal.refusing(terminal.MISUSE, of=PortError), terminal.procedures_talk():
             asyncio.run(ViewServer(ViewSession(viewed, learning), self.port or 0).serve(ready))
 
-    def _write(self, viewed: Viewed, path: Path) -> None:
+    def _write(self, viewed: "Viewed", path: Path) -> None:
         from mindrun.terminal.tick_count import ticks as in_words
 
         from mindlang.cli._session import RunSession

@@ -1,7 +1,5 @@
 """`mindc weights`: weights of a skill from other programs, and for them."""
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -85,7 +83,7 @@ def import_weights(
     sys.exit(terminal.OK if found.is_kept else terminal.FINDINGS)
 
 
-def _lines(found: Imported, lock: str, recording: str | None) -> Iterator[str]:
+def _lines(found: "Imported", lock: str, recording: str | None) -> Iterator[str]:
     from mindrun.terminal.tick_count import ticks as in_words
 
     from mindlang.training.lock_update import COMPARED_LAYOUTS
@@ -132,7 +130,7 @@ def export_weights(file: str, skill: str, weights: Path) -> None:
     terminal.tell(f"{weights}: {len(genome):,} weights of {skill}")
 
 
-def _subject(file: str) -> Subject:
+def _subject(file: str) -> "Subject":
     """The mind of a file with its lock; a damaged lock ends the program."""
     from mindlang.training.subject import open_subject
 

@@ -1,7 +1,5 @@
 """`mindc whatif`: a run with something changed, beside the run as it was."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -76,7 +74,7 @@ def command(
 
 
 def _compare_runs(
-    file: str, chosen: RunChoice, request: Request, picture: Path | None, as_json: bool, quiet: bool
+    file: str, chosen: RunChoice, request: "Request", picture: Path | None, as_json: bool, quiet: bool
 ) -> None:
     """Run as it is and with changes, and print what differs."""
     from dataclasses import replace
@@ -112,7 +110,7 @@ def _compare_runs(
         session.say(f"{picture}: {_draw(compared, request, picture)}")
 
 
-def _draw(compared: Compared, request: Request, path: Path) -> str:
+def _draw(compared: "Compared", request: "Request", path: Path) -> str:
     """Draw both runs, and say what the picture shows."""
     from mindlang.pictures.picture import png
 
@@ -131,7 +129,7 @@ def _draw(compared: Compared, request: Request, path: Path) -> str:
     return shown
 
 
-def _compare_recorded(path: Path, bundle: Path, request: Request, as_json: bool) -> None:
+def _compare_recorded(path: Path, bundle: Path, request: "Request", as_json: bool) -> None:
     """Compute a recording as it was and with changes, and print what differs."""
     from mindrun.graph.bundle import read_bundle
 

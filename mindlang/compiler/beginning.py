@@ -47,12 +47,6 @@ def rectangle_outline(of: Rectangle) -> Outline:
     return Outline(((left, low), (right, low), (right, high), (left, high)))
 
 
-def turned_outline(place: Place, angle: float, corners: Sequence[Place]) -> Outline:
-    """The polygon of a body at a place, turned counterclockwise by an angle in radians; `corners` are in its frame."""
-    c, s = cos(angle), sin(angle)
-    return Outline(tuple((place[0] + c * x - s * y, place[1] + s * x + c * y) for x, y in corners))
-
-
 def overlap(one: Outline, other: Outline) -> bool:
     """True if two convex outlines overlap: no axis separates them (separating axis theorem)."""
     return all(_cover(one.span(axis), other.span(axis)) for axis in _axes(one, other))
@@ -125,7 +119,9 @@ class Beginning:
         if self.body is None:
             return Outline((self.at,))
         if self.body.outline and self.facing is not None:
-            return turned_outline(self.at, self.facing, self.body.outline)
+            (x, y), c, s = self.at, cos(self.facing), sin(self.facing)
+            turned = ((x + c * ahead - s * aside, y + s * ahead + c * aside) for ahead, aside in self.body.outline)
+            return Outline(tuple(turned))
         return Outline((self.at,), self.body.radius if self.may else min(self.body.side, self.body.front))
 
     @property

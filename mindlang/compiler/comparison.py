@@ -82,7 +82,10 @@ def _drawn(mind: Mind) -> dict[str, list[_Line]]:
 
 def _difference(what: str, old: Sequence[_Line], new: Sequence[_Line], ordered: bool) -> Iterator[MindDifference]:
     before, after = _numbered(old, new)
-    kept = _in_order(before, after) if ordered else set(before) & set(after)
+    kept = set(before) & set(after)
+    if ordered:  # only what stands in the same order in both
+        blocks = SequenceMatcher(None, before, after, autojunk=False).get_matching_blocks()
+        kept = {number for block in blocks for number in before[block.a : block.a + block.size]}
     gone = tuple(line.text for line, number in zip(old, before, strict=True) if number not in kept)
     come = tuple(line.text for line, number in zip(new, after, strict=True) if number not in kept)
     if gone or come:
@@ -101,12 +104,6 @@ def _numbered(old: Sequence[_Line], new: Sequence[_Line]) -> tuple[list[int], li
                 after[place] = pair
                 del left[pair]
     return list(range(len(old))), [after.get(place, len(old) + place) for place in range(len(new))]
-
-
-def _in_order(before: Sequence[int], after: Sequence[int]) -> set[int]:
-    """The numbers that stand in the same order in both."""
-    blocks = SequenceMatcher(None, before, after, autojunk=False).get_matching_blocks()
-    return {number for block in blocks for number in before[block.a : block.a + block.size]}
 
 
 def _declared(mind: Mind) -> dict[str, dict[str, list[_Line]]]:

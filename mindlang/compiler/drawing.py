@@ -1,7 +1,5 @@
 """A hierarchy as text: a tree from the master down, and Graphviz."""
 
-from __future__ import annotations
-
 from typing import TYPE_CHECKING, Any
 
 from mindrun.kinds.registry import arguments, names
@@ -13,7 +11,7 @@ if TYPE_CHECKING:
     from rich.tree import Tree
 
 
-def tree(mind: Mind) -> Tree:
+def tree(mind: Mind) -> "Tree":
     """The hierarchy below the master; a skill with several parents is shown in full once, then only named.
 
     Skills that the master does not reach follow as trees of their own, below the same root.

@@ -7,7 +7,7 @@ same event or of the same readings and measures under the same condition.
 """
 
 import re
-from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import replace as with_fields
 from typing import Any
 
@@ -19,7 +19,7 @@ from mindlang.compiler.diagnostic import Findings, a
 from mindlang.compiler.hierarchy import refuse_circles, reverse_topological_order
 from mindlang.compiler.names import Names
 from mindlang.compiler.references import mentions_in
-from mindlang.compiler.syntax import Amount, Declaration, Expression, Fact, Name, Numbers, Phrase, rebuilt
+from mindlang.compiler.syntax import Amount, Declaration, Fact, Name, Numbers, Phrase, rebuilt
 
 UNLIKE_NOUNS = ("body", "curriculum")  # whose declarations are like nothing
 _WORD = re.compile(r"[a-z]\w*")
@@ -162,7 +162,8 @@ def _subject(fact: Fact) -> Hashable:
         case syntax.Counts(event):
             about = (_text(event),)
         case syntax.Rewards(amount, None, each, when):
-            about = frozenset(_read(amount)), each and each.sensor.text, _text(when)
+            read = frozenset(_text(term) for term in amount.terms if isinstance(term, Phrase))
+            about = read, each and each.sensor.text, _text(when)
         case syntax.Rewards(_, on, _, when):
             about = _text(on), _text(when)
         case syntax.Lasts() | syntax.Starts():  # is said once
@@ -170,11 +171,6 @@ def _subject(fact: Fact) -> Hashable:
         case _:  # that does not belong here: all are reported
             about = (fact,)
     return type(fact), *about
-
-
-def _read(amount: Expression) -> Iterator[str]:
-    """The readings and measures in an expression."""
-    return (_text(term) for term in amount.terms if isinstance(term, Phrase))
 
 
 def _text(node: Phrase | syntax.When | None) -> str:

@@ -81,7 +81,8 @@ class Names:
             if "sensor" in nouns and name.text in self._all_things:
                 what = f"{name.text} is a thing of a task; what the robot knows of it is a sensor"
                 hint = f"{what}, such as bearing of {name.text}."
-            hint += _foreign_letter(name.text)
+            if odd := next((letter for letter in name.text if not letter.isascii()), None):
+                hint += f" Its letter {odd} is {unicodedata.name(odd, 'an odd one').lower()}."
         findings.error(f"unknown-{nouns[0]}", name.span, f"There is no {wanted} called {name.text}.", hint)
         return None
 
@@ -108,12 +109,6 @@ def declared_things(*tasks: Declaration) -> dict[str, set[str]]:
     for fact in of_form((fact for task in tasks for fact in task.facts), Contains):
         found.setdefault(fact.name.text, set()).add(fact.phrase.kind.text)
     return found
-
-
-def _foreign_letter(name: str) -> str:
-    """A sentence about the first letter of a name that is not ASCII; empty where there is none."""
-    odd = next((letter for letter in name if not letter.isascii()), None)
-    return f" Its letter {odd} is {unicodedata.name(odd, 'an odd one').lower()}." if odd else ""
 
 
 def _words(span: Span) -> list[str]:

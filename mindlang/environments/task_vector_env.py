@@ -87,7 +87,8 @@ class TaskVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]], EzPickle):
         if self._at_once:
             begins = terminated | truncated
             if begins.any():
-                self._tell_last(begins, infos)
+                for lane, seen in zip(np.flatnonzero(begins).tolist(), self._episodes.last_seen(begins), strict=True):
+                    self._add_info(infos, {"final_obs": seen, "final_info": self._outcome(lane)}, lane)
         else:
             begins = self._over
             rewards[begins], terminated[begins], truncated[begins] = 0.0, False, False
@@ -105,11 +106,6 @@ class TaskVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]], EzPickle):
         if self.render_mode != "rgb_array":
             return None
         return tuple(image_of(self._episodes, lane) for lane in range(self.num_envs))
-
-    def _tell_last(self, ended: Mask, infos: dict[str, Any]) -> None:
-        """Add the last observations and the outcomes of the episodes that have ended to `infos`."""
-        for lane, seen in zip(np.flatnonzero(ended).tolist(), self._episodes.last_seen(ended), strict=True):
-            self._add_info(infos, {"final_obs": seen, "final_info": self._outcome(lane)}, lane)
 
     def _outcome(self, lane: int) -> dict[str, Any]:
         """The outcome of a lane's episode, with its layout as an int, which may be too large for numpy's."""

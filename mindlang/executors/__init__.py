@@ -1,7 +1,5 @@
 """Executors of jobs by what --on says: one file a kind, `begin(argument, assignment, say)` opens it."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -45,11 +43,11 @@ class Where:
 @contextmanager
 def scorer_on(
     where: Where | None,
-    rollout: Rollout,
+    rollout: "Rollout",
     assignment: Callable[[], Assignment],
     workers: int,
     say: Callable[[str], object] = lambda line: None,
-) -> Iterator[Rollout | JobScorer]:
+) -> "Iterator[Rollout | JobScorer]":
     """A scorer that does as a rollout does, where --on says; its workers are sent away in the end, whatever they do.
 
     Where --on says nothing the rollout does it in threads; in environments so many processes do, unless 0, since a step

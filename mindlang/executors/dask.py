@@ -3,8 +3,6 @@
 What goes there is encrypted, unless the way to it is this machine or a network that is trusted.
 """
 
-from __future__ import annotations
-
 import json
 import re
 import shlex
@@ -98,7 +96,7 @@ def begin(argument: str, assignment: Assignment, say: Callable[[str], object]) -
     return ClusterJobs(connect(destination(argument)), assignment, say)
 
 
-def connect(there: Destination) -> Client:
+def connect(there: Destination) -> "Client":
     """A client of the scheduler there. WorkError where nobody answers, or others could listen."""
     from mindlang.executors.cluster_jobs import client_of
 
@@ -112,7 +110,7 @@ def connect(there: Destination) -> Client:
     return client
 
 
-def _security_of(there: Destination, address: str) -> Security:
+def _security_of(there: Destination, address: str) -> "Security":
     """The encryption of a connection; WorkError where it has to be encrypted, and there is no certificate."""
     from distributed.security import Security
 

@@ -4,8 +4,6 @@ A job is a stretch of an attempt, or genomes to be scored on seeds. Its result i
 words, why it was not done. Genomes × seeds become jobs, whose results are the arrays that one machine would make.
 """
 
-from __future__ import annotations
-
 import tempfile
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -120,7 +118,7 @@ def tally_of(scorer: Any) -> Tally:
     return scorer.tally() if hasattr(scorer, "tally") else np.zeros(0, np.int64)
 
 
-def rollout_of(assignment: Assignment, threads: int) -> Rollout:
+def rollout_of(assignment: Assignment, threads: int) -> "Rollout":
     """A rollout of an assignment on so many cores, compiled; the text of its procedures' modules is run."""
     rollout_for = import_module("mindrun.sim.rollouts").rollout_for
     bundle = unpack(assignment.bundle)

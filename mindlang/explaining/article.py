@@ -117,13 +117,11 @@ def sections(name: str | Path) -> Iterator[Section]:
         if heading[1] == "#":
             chapter = heading[2]
         else:
-            yield _section(chapter, heading[2], text[heading.end() : end])
-
-
-def _section(chapter: str, name: str, body: str) -> Section:
-    examples = tuple((label, text) for label, text in _EXAMPLE.findall(body))
-    words = _EXAMPLE.sub("", body)
-    return Section(chapter, name, *titled(_MARK.sub("", words)), dict(_MARK.findall(words)), examples)
+            body = text[heading.end() : end]
+            examples = tuple((label, example) for label, example in _EXAMPLE.findall(body))
+            words = _EXAMPLE.sub("", body)
+            marks = dict(_MARK.findall(words))
+            yield Section(chapter, heading[2], *titled(_MARK.sub("", words)), marks, examples)
 
 
 def titled(text: str) -> tuple[str, str]:

@@ -18,11 +18,6 @@ def parameter_line(parameter: Parameter) -> str:
     return f"`{parameter.key}` {parameter.words}{parameter.otherwise}"
 
 
-def parameter_card(parameter: Parameter, of: Article) -> str:
-    """The Markdown that an editor shows of an argument."""
-    return "\n\n".join([parameter_line(parameter), f"of **{of.name}**: {of.summary}", *of.paragraphs])
-
-
 def fenced(text: str, language: str) -> str:
     """A text as a block of code."""
     return f"```{language}\n{text.rstrip()}\n```"

@@ -40,13 +40,9 @@ def meaning(asked: Asked) -> str:
         case Reference(noun):
             return shape.format(f"the name of {a(noun)}" if noun in DECLARED else a(noun))
         case Quantity() as quantity:
-            return shape.format(quantity.name) + _also(quantity) + _bounds(quantity)
-
-
-def _also(quantity: Quantity) -> str:
-    """Other ways to write the number than the one that stands first."""
-    share = ", or in %" if {"%", ""} <= quantity.units.keys() else ""
-    return share + (", or so much per s" if quantity.rate else "")
+            share = ", or in %" if {"%", ""} <= quantity.units.keys() else ""
+            rate = ", or so much per s" if quantity.rate else ""
+            return shape.format(quantity.name) + share + rate + _bounds(quantity)
 
 
 def _bounds(quantity: Quantity) -> str:

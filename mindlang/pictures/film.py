@@ -4,8 +4,6 @@ They are mp4 by OpenCV, and GIF by Pillow, which a README shows without a player
 palette for all images: 150 images took it 7.0 s and 8.4 MB, Pillow 0.6 s and 6.7 MB.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
@@ -46,7 +44,7 @@ class VideoFormat:
 
     fps: int
     seconds: float
-    encode: Callable[[Path, Film, Callable[[], None]], None]
+    encode: "Callable[[Path, Film, Callable[[], None]], None]"
     most: int | None = None
 
 

@@ -96,7 +96,11 @@ class FilmImages:
         hierarchy, readings = self.layout.divided(len(sensors_read(run)), lower)
         self._panel = HierarchyPanel(run, hierarchy)
         self._readings = ReadingsPanel(run, readings)
-        self._empty_image = self._drawn_once()
+        page = Canvas.of_page(blank(self.layout.width, self.layout.height, NIGHT.page))
+        left, low = self.layout.left + TITLE_INDENT_PIXELS, self.layout.top + NAME_LINE_PIXELS
+        page.text(left, low, run.task.name, NAME_TEXT_PIXELS, NIGHT.ink, bold=True)
+        self._readings.draw_names(page)
+        self._empty_image = page.image
         self._empty_world = self._floor(1).image if run.task.scene.is_bounded else None
 
     def image(self, tick: int) -> Image:
@@ -128,14 +132,6 @@ class FilmImages:
     def view(self, tick: int) -> Viewport:
         """The part of the world that is shown in a tick."""
         return window(self._run, tick, *self.layout.world)
-
-    def _drawn_once(self) -> Image:
-        """The static part of every image: the page, the name of the task and those of the sensors."""
-        page = Canvas.of_page(blank(self.layout.width, self.layout.height, NIGHT.page))
-        left, low = self.layout.left + TITLE_INDENT_PIXELS, self.layout.top + NAME_LINE_PIXELS
-        page.text(left, low, self._run.task.name, NAME_TEXT_PIXELS, NIGHT.ink, bold=True)
-        self._readings.draw_names(page)
-        return page.image
 
     def _drawn(self, tick: int, world: Image) -> Canvas:
         page = Canvas.of_page(self._empty_image.copy())

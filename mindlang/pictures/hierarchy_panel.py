@@ -1,7 +1,5 @@
 """The hierarchy in one tick, after the paper's Figure 15: a link's middle is the command, its rim the influence."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -45,7 +43,10 @@ class HierarchyPanel:
         flow = self._flows.flow_at(range(tick - 1, tick))
         links = zip(self._stops, flow.value[0].tolist(), flow.transmitted[0].tolist(), strict=True)
         for stops, command, transmitted in sorted(links, key=itemgetter(2)):  # what is bright lies on top
-            self._link(canvas, stops, command, transmitted)
+            line = _curve(stops)
+            canvas.line(line, mixed(NIGHT.dark, NIGHT.glow, transmitted), RIM_PIXELS)
+            canvas.line(line, NIGHT.page, CORE_PIXELS + 2)
+            canvas.line(line, mixed(NIGHT.dark, NIGHT.glow, command), CORE_PIXELS)
         for sink, place in self._boxes.items():
             match sink:
                 case "skill", index:
@@ -57,13 +58,7 @@ class HierarchyPanel:
                     cell = self._run.graph.memories[index]
                     self._gauge(canvas, cell.name, place, float(self._run.readings[tick - 1, cell.start]), 0.0)
 
-    def _link(self, canvas: Canvas, stops: Sequence[Place], command: float, transmitted: float) -> None:
-        line = _curve(stops)
-        canvas.line(line, mixed(NIGHT.dark, NIGHT.glow, transmitted), RIM_PIXELS)
-        canvas.line(line, NIGHT.page, CORE_PIXELS + 2)
-        canvas.line(line, mixed(NIGHT.dark, NIGHT.glow, command), CORE_PIXELS)
-
-    def _skill(self, canvas: Canvas, lines: Sequence[str], place: Place, influence: float) -> None:
+    def _skill(self, canvas: Canvas, lines: Sequence[str], place: "Place", influence: float) -> None:
         """Draw a box with the lines of a name, and below them the influence."""
         line_pixels = self._size + LINE_GAP_PIXELS
         rim = mixed(NIGHT.dark, NIGHT.glow, influence)
@@ -75,7 +70,7 @@ class HierarchyPanel:
             canvas.text(place.x, low, text, self._size, colour, align="centre")
             low += line_pixels
 
-    def _gauge(self, canvas: Canvas, name: str, place: Place, value: float, middle: float) -> None:
+    def _gauge(self, canvas: Canvas, name: str, place: "Place", value: float, middle: float) -> None:
         """Draw a bar from `middle` to the value."""
         self._box(canvas, place, NIGHT.floor, NIGHT.rock)
         left, width = place.x - 0.42 * place.width, 0.84 * place.width
@@ -86,12 +81,18 @@ class HierarchyPanel:
         canvas.line([(left + middle * width, below), (left + value * width, below)], NIGHT.late, 6.0)
         canvas.line([(left + middle * width, below - 6), (left + middle * width, below + 6)], NIGHT.faint)
 
-    def _box(self, canvas: Canvas, place: Place, fill: Colour, rim: Colour) -> None:
-        outline = _rounded(place, 8.0)
+    def _box(self, canvas: Canvas, place: "Place", fill: Colour, rim: Colour) -> None:
+        """Draw a box with round corners."""
+        radius = min(8.0, place.width / 3, place.height / 3)
+        sides = np.array([(1, 1), (-1, 1), (-1, -1), (1, -1)])
+        middles = [place.x, place.y] + sides * [place.width / 2 - radius, place.height / 2 - radius]
+        angles = np.linspace(0.0, np.pi / 2, 6) + np.arange(4)[:, None] * np.pi / 2
+        around = middles[:, None] + radius * np.stack([np.cos(angles), np.sin(angles)], axis=2)
+        outline = np.reshape(around, (-1, 2))
         canvas.polygon(outline, fill)
         canvas.line(outline, rim, 2.0, closed=True)
 
-    def _lines_of(self, sink: Sink, place: Place) -> list[str]:
+    def _lines_of(self, sink: Sink, place: "Place") -> list[str]:
         """The lines of text in a box: a skill's number stands below its name, any other's behind it."""
         name = self._run.graph.named(*sink)
         return broken(name, 0.84 * place.width) if sink[0] == "skill" else [f"{name}  0.00"]
@@ -110,14 +111,14 @@ def broken(name: str, room: float) -> list[str]:
     return [name[:best], name[best:]]
 
 
-def box_text_size(lines: Sequence[str], place: Place) -> float:
+def box_text_size(lines: Sequence[str], place: "Place") -> float:
     """The size at which lines fit into a box, and below them one more."""
     widest = max(text_width(line, MAX_TEXT_PIXELS) for line in lines)
     high = (place.height - LINE_GAP_PIXELS * (len(lines) + 2)) / (len(lines) + 1)
     return max(MIN_TEXT_PIXELS, min(MAX_TEXT_PIXELS, MAX_TEXT_PIXELS * 0.84 * place.width / widest, high))
 
 
-def _curve(stops: Sequence[Place]) -> NDArray[np.float64]:
+def _curve(stops: "Sequence[Place]") -> NDArray[np.float64]:
     """Through boxes one below the other, from the lower side of each to the upper side of the next; upright at both."""
     sway = BEND * BEND * (3 - 2 * BEND)
     parts = []
@@ -125,16 +126,6 @@ def _curve(stops: Sequence[Place]) -> NDArray[np.float64]:
         y, end = source.y + source.height / 2, target.y - target.height / 2
         parts.append(np.column_stack([source.x + (target.x - source.x) * sway, y + (end - y) * BEND]))
     return np.concatenate(parts)
-
-
-def _rounded(place: Place, radius: float) -> NDArray[np.float64]:
-    """The outline of a box with round corners."""
-    radius = min(radius, place.width / 3, place.height / 3)
-    sides = np.array([(1, 1), (-1, 1), (-1, -1), (1, -1)])
-    middles = [place.x, place.y] + sides * [place.width / 2 - radius, place.height / 2 - radius]
-    angles = np.linspace(0.0, np.pi / 2, 6) + np.arange(4)[:, None] * np.pi / 2
-    around = middles[:, None] + radius * np.stack([np.cos(angles), np.sin(angles)], axis=2)
-    return np.reshape(around, (-1, 2))
 
 
 @dataclass(frozen=True, slots=True)

@@ -73,7 +73,10 @@ def load_curves(paths: Iterable[Path]) -> list[Curve]:
     curves = [_from_table(log) if log.is_file() else _from_run(log) for log in logs]
     if empty := next((curve for curve in curves if not curve.records), None):
         raise RunError(f"{empty.path} has no generations yet")
-    return _with_distinct_notes(curves)
+    # Curves that share a name get the part of their path that they do not share as a note.
+    alike = {curve.name: [other.path.resolve() for other in curves if other.name == curve.name] for curve in curves}
+    notes = [os.path.relpath(curve.path.resolve(), os.path.commonpath(alike[curve.name])) for curve in curves]
+    return [replace(curve, note=note) if note != "." else curve for curve, note in zip(curves, notes, strict=True)]
 
 
 def _logs(path: Path) -> list[Path]:
@@ -136,13 +139,6 @@ def _records(path: Path, header: list[str], rows: list[list[str]]) -> Iterator[d
             yield counts | scores
         except ValueError as error:
             raise RunError(f"{path}, line {line}: not a generation of a log") from error
-
-
-def _with_distinct_notes(curves: list[Curve]) -> list[Curve]:
-    """Curves that share a name get the part of their path that they do not share as a note."""
-    alike = {curve.name: [other.path.resolve() for other in curves if other.name == curve.name] for curve in curves}
-    notes = [os.path.relpath(curve.path.resolve(), os.path.commonpath(alike[curve.name])) for curve in curves]
-    return [replace(curve, note=note) if note != "." else curve for curve, note in zip(curves, notes, strict=True)]
 
 
 @dataclass(frozen=True, slots=True)

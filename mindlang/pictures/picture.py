@@ -98,7 +98,13 @@ def page_around(world: Canvas, height: int) -> Canvas:
     """A page with this world on it, and its scale."""
     page = empty_page(height)
     paste(page.image, world.image, SCALE_FACTOR * SIDE_PIXELS, SCALE_FACTOR * TOP_PIXELS)
-    draw_scale(page, world.pixel, PICTURE_PIXELS - SIDE_PIXELS, height - 44)
+    right, y = PICTURE_PIXELS - SIDE_PIXELS, height - 44
+    units = next(n for n in (1000, 500, 200, 100, 50, 20, 10, 5, 2, 1, 0.5, 0) if n / world.pixel <= 130)
+    long = units / world.pixel
+    page.line([(right - long, y), (right, y)], PAPER.ink, 1.6)
+    for end in (right - long, right):
+        page.line([(end, y - 4), (end, y + 4)], PAPER.ink, 1.6)
+    page.text(right - long / 2, y - 9, f"{units:g} units", SMALL_PIXELS, PAPER.ink, align="centre")
     return page
 
 
@@ -112,7 +118,12 @@ def png(image: Image) -> bytes:
 def draw_title(canvas: Canvas, run: RecordedRun, found: dict[str, Any], x: float, y: float, right: float) -> None:
     """Draw the task, and the facts of the run side by side up to `right`, each below its name."""
     canvas.text(x, y, run.task.name, 24, PAPER.ink, bold=True)
-    facts = _facts(run, found)
+    facts = [
+        *(("in charge", found["master"]), ("seed", str(found["seed"])), ("score", score(found["score"]))),
+        *((event, str(times)) for event, times in found["by_event"].items()),
+        ("ticks", f"{found['ticks']:,} of {found['of_ticks']:,} ({found['ticks'] * run.graph.tick:,.1f} s)"),
+        ("success" if found.get("succeeded") else "ended by", found["ended_by"] or "time"),
+    ]
     gap = 1.6 * ENTRY_GAP_PIXELS
     wide = [max(canvas.width(name, SMALL_PIXELS), canvas.width(value, LARGE_PIXELS)) + gap for name, value in facts]
     fit = min(1.0, (right - x) / (sum(wide) - gap))  # smaller, where much is counted
@@ -120,16 +131,6 @@ def draw_title(canvas: Canvas, run: RecordedRun, found: dict[str, Any], x: float
         canvas.text(x, y + 25, name, fit * SMALL_PIXELS, PAPER.faint)
         canvas.text(x, y + 46, value, fit * LARGE_PIXELS, PAPER.ink)
         x += fit * width
-
-
-def _facts(run: RecordedRun, found: dict[str, Any]) -> list[tuple[str, str]]:
-    seconds = found["ticks"] * run.graph.tick
-    return [
-        *(("in charge", found["master"]), ("seed", str(found["seed"])), ("score", score(found["score"]))),
-        *((event, str(times)) for event, times in found["by_event"].items()),
-        ("ticks", f"{found['ticks']:,} of {found['of_ticks']:,} ({seconds:,.1f} s)"),
-        ("success" if found.get("succeeded") else "ended by", found["ended_by"] or "time"),
-    ]
 
 
 def draw_legend(
@@ -186,13 +187,3 @@ def _entries(canvas: Canvas, run: RecordedRun, found: dict[str, Any], path: Path
     if hits := len(run.collisions):
         entries.append((lambda x, y: draw_cross(canvas, x + 9, y, 5, PAPER), f"collision ({hits})"))
     return entries
-
-
-def draw_scale(canvas: Canvas, units_per_pixel: float, right: float, y: float) -> None:
-    """Draw a bar of a round number of units that ends at `right`."""
-    units = next(n for n in (1000, 500, 200, 100, 50, 20, 10, 5, 2, 1, 0.5, 0) if n / units_per_pixel <= 130)
-    long = units / units_per_pixel
-    canvas.line([(right - long, y), (right, y)], PAPER.ink, 1.6)
-    for end in (right - long, right):
-        canvas.line([(end, y - 4), (end, y + 4)], PAPER.ink, 1.6)
-    canvas.text(right - long / 2, y - 9, f"{units:g} units", SMALL_PIXELS, PAPER.ink, align="centre")

@@ -1,7 +1,5 @@
 """How skills were learnt, as a figure for a notebook or a program."""
 
-from __future__ import annotations
-
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -14,7 +12,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-def plot_training(*runs: Path | str, mean: bool = False) -> Figure:
+def plot_training(*runs: Path | str, mean: bool = False) -> "Figure":
     """How the skills of these runs were learnt, as `mindc plot` draws it: a matplotlib figure.
 
     Each is the folder of a run (a result of `train` has its own as `run`), a folder with runs beneath it, or a table of

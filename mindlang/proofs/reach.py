@@ -141,7 +141,9 @@ def tighten(
 
 def _least(graph: Graph, weights: Mapping[str, Weights], found: ProvedReach, actuator: int, most: int) -> float:
     """The least Σ influence of an actuator over boxes that cover all readings; 0 where that would take too many."""
-    sway = _sway(graph, weights)
+    sway = np.zeros(graph.width, np.float32)  # how much each reading moves what all skills send, roughly
+    for skill in reachable(graph, graph.master):
+        sway[list(skill.inputs)] += sway_of(by_itself(skill), weights.get(skill.owner))
     waiting = whole_box(graph.width)
     least, made = np.inf, 1
     while len(waiting.low):
@@ -170,11 +172,3 @@ def _flow(graph: Graph, weights: Mapping[str, Weights], found: ProvedReach, boxe
         return SentBounds(low, high, here.sure | anywhere.sure)
 
     return influence_bounds(graph, len(boxes.low), sends)
-
-
-def _sway(graph: Graph, weights: Mapping[str, Weights]) -> Singles:
-    """How much each reading moves what all skills send, roughly."""
-    sway = np.zeros(graph.width, np.float32)
-    for skill in reachable(graph, graph.master):
-        sway[list(skill.inputs)] += sway_of(by_itself(skill), weights.get(skill.owner))
-    return sway

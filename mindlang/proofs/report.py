@@ -3,8 +3,6 @@
 Every claim says what it rests on: the declaration, weights, a run.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
@@ -38,7 +36,7 @@ def _rests_on(skills: Iterable[str], hashes: Hashes) -> list[str]:
     return [f"the weights {hashes[skill][:4]}… of {skill}" for skill in skills] or [DECLARATION]
 
 
-def proof_data(proof: Proof, hashes: Hashes, run: Recorded | None) -> Data:
+def proof_data(proof: Proof, hashes: Hashes, run: "Recorded | None") -> Data:
     """A whole proof as plain data."""
     return {
         "master": proof.graph.master,
@@ -54,7 +52,7 @@ def proof_data(proof: Proof, hashes: Hashes, run: Recorded | None) -> Data:
     }
 
 
-def _actuator(found: ActuatorClaims, place: int, proof: Proof, hashes: Hashes, run: Recorded | None) -> Data:
+def _actuator(found: ActuatorClaims, place: int, proof: Proof, hashes: Hashes, run: "Recorded | None") -> Data:
     tried, total = found.tried, found.driven.total
     low, high = found.command
     data: Data = {

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from operator import neg
 
 import numpy as np
-from mindrun.graph.graph import Gate, Graph, Program, Skill
+from mindrun.graph.graph import Graph, Program, Skill
 from mindrun.graph.weights import Weights, genes, reachable
 from mindrun.numbers.arrays import OPERATORS
 from mindrun.numbers.expression import fold
@@ -57,15 +57,11 @@ def sent_values(skill: Skill, weights: Weights | None, readings: Singles) -> Sin
     with np.errstate(all="ignore"):
         for number, edge in enumerate(skill.edges):
             found[:, number] = _evaluate(edge.value, readings) if edge.output is None else outputs[:, edge.output]
-            if edge.gate:
-                found[:, number] = _gated(edge.gate, found[:, number], readings)
-    return found
-
-
-def _gated(gate: Gate, value: Singles, readings: Singles) -> Singles:
-    holds = _evaluate(gate.when, readings)
-    otherwise = np.float32(np.nan) if gate.otherwise is None else _evaluate(gate.otherwise, readings)
-    found: Singles = np.where(holds > 0, value, np.where(holds == 0, otherwise, np.float32(np.nan)))
+            if gate := edge.gate:
+                holds = _evaluate(gate.when, readings)
+                otherwise = np.float32(np.nan) if gate.otherwise is None else _evaluate(gate.otherwise, readings)
+                closed = np.where(holds == 0, otherwise, np.float32(np.nan))
+                found[:, number] = np.where(holds > 0, found[:, number], closed)
     return found
 
 

@@ -4,8 +4,6 @@ What is brought is a release: a folder with the bundle, the mindrun that reads i
 every byte.
 """
 
-from __future__ import annotations
-
 import json
 import re
 import tempfile

@@ -104,8 +104,9 @@ def read(source: Source, findings: Findings) -> Node | None:
     """The tree of a text, or None after reporting why there is none."""
     loader = None
     try:
-        if tabs := check_tabs(source):
-            raise UnreadableError(*tabs)
+        if tab := FIRST_TABS.search(source.text):  # YAML takes tabs in some places and not in others
+            hint = "Write spaces: YAML counts how far in a line is."
+            raise UnreadableError("yaml-tab", Span(source, *tab.span(1)), "A tab stands here.", hint)
         loader = yaml.SafeLoader(source.text)
         return _Reader(source, findings, loader).document()
     except UnreadableError as why:
@@ -234,15 +235,6 @@ def first_line(span: Span) -> Span:
 def shortened(text: str) -> str:
     """A text, cut off where it is too long for a message."""
     return text if len(text) <= MAX_SHOWN_CHARACTERS else f"{text[: MAX_SHOWN_CHARACTERS - 1]}…"
-
-
-def check_tabs(source: Source) -> Answer | None:
-    """The finding of the first tab of a text, None without one: YAML takes tabs in some places and not in others."""
-    found = FIRST_TABS.search(source.text)
-    if found is None:
-        return None
-    hint = "Write spaces: YAML counts how far in a line is."
-    return "yaml-tab", Span(source, *found.span(1)), "A tab stands here.", hint
 
 
 def misread(error: Exception, source: Source, at: int) -> Answer:

@@ -1,7 +1,5 @@
 """A robot as ssh and rsync reach it: verbs of robot.sh asked of it, folders copied to it."""
 
-from __future__ import annotations
-
 import os
 import re
 import shlex

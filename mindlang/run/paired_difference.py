@@ -92,7 +92,9 @@ def difference(first: NDArray[np.float64], second: NDArray[np.float64]) -> Paire
     error = std / sqrt(runs)
     if counts[1] + counts[2] == 0:
         return PairedDifference(*counts, mean, std, error)
-    farthest = _farthest(first, second)
+    means = float(first.mean()), float(second.mean())
+    most, least = max(first.max(), second.max()), min(first.min(), second.min())
+    farthest = float(max(most - min(means), max(means) - least))  # any run of both minds from the mean of either
     unseen = unseen_share(runs) * farthest
     below, above = _sides(each, mean, std)
     low, high = mean - max(below, unseen), mean + max(above, unseen)
@@ -114,13 +116,6 @@ def _sides(each: NDArray[np.float64], mean: float, std: float) -> tuple[float, f
         return half * error, half * error
     ends = [float(np.cbrt(1 + 3 * bend * (end - bend / 2)) - 1) / bend for end in (half, -half)]
     return max(half, ends[0]) * error, max(half, -ends[1]) * error
-
-
-def _farthest(first: NDArray[np.float64], second: NDArray[np.float64]) -> float:
-    """The largest distance of any run of both minds from the mean of either."""
-    means = float(first.mean()), float(second.mean())
-    most, least = max(first.max(), second.max()), min(first.min(), second.min())
-    return float(max(most - min(means), max(means) - least))
 
 
 def unseen_share(runs: int) -> float:

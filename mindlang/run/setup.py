@@ -1,7 +1,5 @@
 """A run of a task set up: who is in charge, with which weights; and many such runs made, a slice after the other."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -54,11 +52,11 @@ class RunSetup:
         """The seeds of so many runs, the first alone where there is one world; MindError where these are none."""
         return layouts(seed, runs)[: 1 if self.is_one_world else None]
 
-    def notes(self, rollout: Rollout, *more: str) -> list[str]:
+    def notes(self, rollout: "Rollout", *more: str) -> list[str]:
         """Notes for the user on runs that have been made."""
         return [*self.ready.notes, *self.world_notes, *rollout.notes, *more]
 
-    def rollout(self, interrupt: bool = True, workers: int = 1) -> Rollout:
+    def rollout(self, interrupt: bool = True, workers: int = 1) -> "Rollout":
         """The task under the master, in the simulator. Runs the text of the procedures' modules."""
         from mindrun.sim.rollouts import rollout_for
 
@@ -101,7 +99,7 @@ def layouts(seed: int, runs: int) -> list[int]:
 
 
 def run_all(
-    scorer: Rollout | JobScorer, seeds: Sequence[int], ran: Callable[[float], None] = lambda runs: None
+    scorer: "Rollout | JobScorer", seeds: Sequence[int], ran: Callable[[float], None] = lambda runs: None
 ) -> Scores:
     """A run of each seed; `ran` is told how many more have been made, parts of them too."""
     if isinstance(scorer, JobScorer):
@@ -114,7 +112,7 @@ def run_all(
 
 
 def run_timed(
-    scorer: Rollout | JobScorer, seeds: Sequence[int], ran: Callable[[float], None] = lambda runs: None
+    scorer: "Rollout | JobScorer", seeds: Sequence[int], ran: Callable[[float], None] = lambda runs: None
 ) -> tuple[Scores, float, float]:
     """A run of each seed, the seconds that all of them took, and those of the processors of this machine.
 

@@ -1,7 +1,5 @@
 """Runs as tables for spreadsheets and notebooks: one run with a row a tick, many with a row each; CSV, or Parquet."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from io import BytesIO
@@ -25,7 +23,7 @@ Table = Mapping[str, Column]
 SLICE_ROWS = 10_000  # rows whose texts are in memory at a time
 
 
-def trace_table(run: RecordedRun) -> dict[str, Column]:
+def trace_table(run: "RecordedRun") -> dict[str, Column]:
     """The columns of a run by name, each with a row for each tick.
 
     `tick` from 1 and `time` in seconds; where the robot is (`x`, `y` in units, `angle` in radians), each thing
@@ -53,7 +51,7 @@ def trace_table(run: RecordedRun) -> dict[str, Column]:
     )
 
 
-def _world(run: RecordedRun) -> Iterator[tuple[str, Column]]:
+def _world(run: "RecordedRun") -> Iterator[tuple[str, Column]]:
     yield from zip(("x", "y", "angle"), run.body[1:].T, strict=False)
     for i, thing in enumerate(run.contents):
         for k, name in enumerate(("x", "y", "size")):
@@ -109,7 +107,7 @@ def _numbered(named: Iterable[tuple[str, Column]]) -> dict[str, Column]:
     return table
 
 
-def trace_bytes(run: RecordedRun, suffix: str) -> bytes:
+def trace_bytes(run: "RecordedRun", suffix: str) -> bytes:
     """The trace of a run as a file of that suffix; MindError where pyarrow is needed and not there."""
     table = trace_table(run)
     if suffix == ".csv":

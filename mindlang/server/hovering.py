@@ -36,7 +36,7 @@ from mindlang.lock import lock_sources
 from mindlang.lock.report import made_by, rows
 from mindlang.lock.status import Trained
 from mindlang.server.offers import varied
-from mindlang.server.places import SaidArgument, declaration_at, noun_of_kind, path_to, said_argument
+from mindlang.server.places import declaration_at, noun_of_kind, path_to, said_argument
 from mindlang.server.workspace import MindView
 
 F = TypeVar("F", bound=Fact)
@@ -79,19 +79,16 @@ def _kind(view: MindView, file: File, offset: int) -> Hover | None:
     value = said.argument.value
     if isinstance(value, Name) and said.argument.key.text == USING and value.span.start <= offset:
         return _kind_itself("curriculum", value)
-    return _argument(said)
-
-
-def _kind_itself(noun: str, kind: Name) -> Hover | None:
-    return Hover(markdown.article_card(kind_article(noun, kind.text)), kind.span) if kind.text in kinds(noun) else None
-
-
-def _argument(said: SaidArgument) -> Hover | None:
     if said.meaning is None:
         return None
     article = kind_article(said.noun, said.kind)
     known = next(each for each in article.parameters if each.key == said.meaning.key)
-    return Hover(markdown.parameter_card(known, article), said.argument.span)
+    parts = [markdown.parameter_line(known), f"of **{article.name}**: {article.summary}", *article.paragraphs]
+    return Hover("\n\n".join(parts), said.argument.span)
+
+
+def _kind_itself(noun: str, kind: Name) -> Hover | None:
+    return Hover(markdown.article_card(kind_article(noun, kind.text)), kind.span) if kind.text in kinds(noun) else None
 
 
 def _word(view: MindView, file: File, offset: int) -> Hover | None:
@@ -117,7 +114,9 @@ def _word(view: MindView, file: File, offset: int) -> Hover | None:
 def card(view: MindView, noun: str, name: str) -> str:
     """The card of a name, with everything about it; "" where no declaration of the noun has it."""
     if noun == "thing":
-        return _thing(view, name)
+        said = _saying(view, Contains, "scene", "task")
+        lines = [f"- in {world}: `{fact.phrase.span.text}`" for world, fact in said if fact.name.text == name]
+        return "\n".join([f"**{name}**, a thing", "", *lines])
     if noun == "number" and name in view.names.numbers:
         number = view.names.numbers[name]
         return f"```mind\n{number.span.text.strip()}\n```\n\n{comment_of(number.span)}".strip()
@@ -149,7 +148,11 @@ def _skill(view: MindView, name: str, declaration: Declaration) -> str:
         lines.append(f"- influenced by {', '.join(by)}")
     if view.compiled.mind and view.compiled.mind.master == name:
         lines.append("- the master")
-    return "\n".join([*lines, *(f"- place: {path}" for path in _paths_to(view, name))])
+    influences = DiGraph((above, fact.name.text) for above, fact in _saying(view, Influences, "skill"))
+    influences.add_node(name)
+    ways = single_target_shortest_path(influences, name).items()  # the shortest one from each skill above
+    paths = [" → ".join(way) for top, way in ways if top != name and not influences.pred[top]]
+    return "\n".join([*lines, *(f"- place: {path}" for path in paths)])
 
 
 def _edge(view: MindView, fact: Any) -> str:
@@ -162,14 +165,6 @@ def _edge(view: MindView, fact: Any) -> str:
 def _width(view: MindView, sensor: str) -> int:
     graph = view.compiled.graph
     return next((known.width for known in graph.sensors if known.name == sensor), 1) if graph else 1
-
-
-def _paths_to(view: MindView, skill: str) -> list[str]:
-    """The ways on which influence comes down to a skill, the shortest one from each top."""
-    influences = DiGraph((name, fact.name.text) for name, fact in _saying(view, Influences, "skill"))
-    influences.add_node(skill)
-    ways = single_target_shortest_path(influences, skill).items()
-    return [" → ".join(way) for top, way in ways if top != skill and not influences.pred[top]]
 
 
 def _weights(view: MindView, skill: str) -> str:
@@ -221,10 +216,3 @@ def _lessons(view: MindView, part: str, name: str) -> str:
     said = _saying(view, Teaches, "curriculum")
     its = ((of, fact.span.text.strip()) for of, fact in said if getattr(fact, part).text == name)
     return "\n".join(f"- `{curriculum}: {line}`" for curriculum, line in its)
-
-
-def _thing(view: MindView, name: str) -> str:
-    """The lines of scenes and tasks that contain a thing."""
-    said = _saying(view, Contains, "scene", "task")
-    lines = [f"- in {world}: `{fact.phrase.span.text}`" for world, fact in said if fact.name.text == name]
-    return "\n".join([f"**{name}**, a thing", "", *lines])

@@ -4,8 +4,6 @@ They are made of the run's log and nothing else: whoever goes on with a run begi
 generation is there twice, whatever had been written when the process was killed.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import asdict
@@ -76,32 +74,26 @@ class EventFiles:
             self._write(record)
 
     def _write(self, record: Logged) -> None:
+        from tensorboardX import RecordWriter
         from tensorboardX.proto.event_pb2 import Event
 
         if record["attempt"] != self._attempt:
-            self._begin(record)
+            self.close()
+            folder = self.folder / _folder(record)
+            folder.mkdir(parents=True, exist_ok=True)
+            self._attempt, self._writer = record["attempt"], RecordWriter(str(folder / FILE))
+            self._writer.write(Event(wall_time=self._time, file_version=FILE_VERSION).SerializeToString())
         assert self._writer
         self._time += record["seconds"] or 0.0
         event = Event(wall_time=self._time, step=int(record["generation"] or 0), summary=_summary(record))
         self._writer.write(event.SerializeToString())
-
-    def _begin(self, record: Logged) -> None:
-        """Begin the file of an attempt, with its version."""
-        from tensorboardX import RecordWriter
-        from tensorboardX.proto.event_pb2 import Event
-
-        self.close()
-        folder = self.folder / _folder(record)
-        folder.mkdir(parents=True, exist_ok=True)
-        self._attempt, self._writer = record["attempt"], RecordWriter(str(folder / FILE))
-        self._writer.write(Event(wall_time=self._time, file_version=FILE_VERSION).SerializeToString())
 
 
 def _folder(record: Logged) -> str:
     return f"attempt {record['attempt']}"
 
 
-def _summary(record: Logged) -> Summary:
+def _summary(record: Logged) -> "Summary":
     """The figures of a generation that are finite, with their names."""
     from tensorboardX.proto.summary_pb2 import Summary
 

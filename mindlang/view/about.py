@@ -1,7 +1,5 @@
 """Plain data of a run for a page: its hierarchy and its world, which do not change, and the events that can happen."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 

@@ -5,8 +5,6 @@ by their place in the number, and all of it deflated: what does not change costs
 environment are made smaller, and fewer, until they fit.
 """
 
-from __future__ import annotations
-
 import base64
 import hashlib
 import json

@@ -1,7 +1,5 @@
 """Trainings while they are seen: logs of run folders, read again whenever they have grown, and champions that play."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path

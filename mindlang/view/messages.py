@@ -4,8 +4,6 @@ Messages are JSON objects told apart by `say`, decoded by msgspec: bounds and un
 Numbers of rows go into the header of a frame, which has 32 bits for each.
 """
 
-from __future__ import annotations
-
 from typing import Annotated, Any, ClassVar, Literal
 
 import msgspec

@@ -3,8 +3,6 @@
 A row has two blocks, doubles and singles, each of groups side by side.
 """
 
-from __future__ import annotations
-
 import struct
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -48,7 +46,7 @@ class Columns(dict[str, Group]):
     """The groups of a row by their names."""
 
     @classmethod
-    def of(cls, doubles: Mapping[str, int], singles: Mapping[str, int]) -> Columns:
+    def of(cls, doubles: Mapping[str, int], singles: Mapping[str, int]) -> "Columns":
         """Groups of so many columns each, in this order; `flow` is the last of the singles."""
         found = cls()
         for block, counts in ((DOUBLE_BLOCK, doubles), (SINGLE_BLOCK, singles)):

@@ -1,7 +1,5 @@
 """The server of a view: a page and its websocket from one port of this machine, for whoever has the token."""
 
-from __future__ import annotations
-
 import asyncio
 import hmac
 import json

@@ -1,7 +1,5 @@
 """A session of several viewers: a run and its forks, who may change them, and answers to what is asked."""
 
-from __future__ import annotations
-
 import asyncio
 import sys
 from collections.abc import Callable
@@ -26,7 +24,7 @@ MAX_HAPPENED = 10_000  # events, and stops, that are told at once
 class ViewSession:
     """A session in one event loop. Runs grow in a thread of their own, and answers are computed in another."""
 
-    def __init__(self, viewed: Viewed, learning: Learning | None = None) -> None:
+    def __init__(self, viewed: Viewed, learning: "Learning | None" = None) -> None:
         self.changed: Callable[[], None] = lambda: None  # told whenever something has come
         self.learning = learning
         self.number = 0  # how many runs have been seen before this one

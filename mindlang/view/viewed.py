@@ -1,7 +1,5 @@
 """A run or a recording while it is seen: rows that come chunk by chunk, and answers about those that are there."""
 
-from __future__ import annotations
-
 import base64
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any
@@ -57,7 +55,7 @@ class Viewed:
         self,
         about: Mapping[str, Any],
         columns: Columns,
-        growth: Callable[[Viewed], Iterator[bool]],
+        growth: "Callable[[Viewed], Iterator[bool]]",
         graph: Graph,
         mind: Hierarchy,
         drawing: Drawing | None = None,

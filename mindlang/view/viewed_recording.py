@@ -3,8 +3,6 @@
 One to which somebody still writes is followed, on this machine or on another one through ssh.
 """
 
-from __future__ import annotations
-
 import os
 import re
 import shlex

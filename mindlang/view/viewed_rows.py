@@ -1,7 +1,5 @@
 """Rows of a recording as a page sees them, whoever makes them: a simulator now, a robot, or one who wrote them down."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from pathlib import Path
@@ -98,7 +96,9 @@ def _growth(
             yield True
             continue
         viewed.begins |= {number + 1 + int(row) for row in np.flatnonzero(rows["tick"] == 0)}
-        levels = _levels(rows, is_run, task)[:, :events]
+        robot = [] if is_run else [rows["stopped"] != 0, rows["tick"] == 0, rows["faults"] != 0]
+        world = [rows["world"]["events"], rows["world"]["touching"] != 0] if task else []
+        levels = np.column_stack([*robot, *world]).astype(np.uint64)[:, :events]  # whose rising edges are events
         if not is_run:
             start = start if number else float(rows["time"][0])
             levels[0, BEGIN_COLUMN] *= number > 0  # the first beginning is no event
@@ -114,13 +114,6 @@ def _growth(
         viewed.ended_by, viewed.over = by and shown(by), is_run and ended != GOES_ON
         yield True
         number, before = number + len(rows), levels[-1:]
-
-
-def _levels(rows: Rows, is_run: bool, task: Task | None) -> NDArray[np.uint64]:
-    """The levels whose rising edges are events [ticks, events]: robot states, counts of the world, and touching."""
-    robot = [] if is_run else [rows["stopped"] != 0, rows["tick"] == 0, rows["faults"] != 0]
-    world = [rows["world"]["events"], rows["world"]["touching"] != 0] if task else []
-    return np.column_stack([*robot, *world]).astype(np.uint64)
 
 
 def _beginning(columns: Columns, of: About) -> tuple[Doubles, Singles]:

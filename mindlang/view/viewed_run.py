@@ -1,7 +1,5 @@
 """A simulated run that is seen while it is made, and the changes with which a viewer forks it."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
@@ -72,7 +70,11 @@ class ViewedRun:
         beside = replace(self, changes=(*self.changes, change), breakpoints=())  # the page pauses where the run does
         viewed = beside.begun()
         viewed.grow()
-        return viewed, _replacement_text(graph, change)
+        is_influence = change.what == "influence"
+        name = graph.skills[change.row].name if is_influence else reading_names(graph)[change.row]
+        what = f"the influence of {name} is" if is_influence else f"{name} is"
+        ticks = f"tick {change.first}" if change.first == change.last else f"ticks {change.first} to {change.last}"
+        return viewed, shown(f"{what} {change.values[0]:g} in {ticks}")
 
 
 def _rows(run: Trace, of: About, events: int) -> Iterator[Filled]:
@@ -99,12 +101,3 @@ def _replacement(graph: Graph, task: Task, columns: Columns, asked: messages.Ask
     if asked.tick > task.ticks:
         raise RefusedError(f"tick is a whole number from 1 to {task.ticks}")
     return Change(what, row, (asked.value,), asked.tick, asked.tick + asked.lasts - 1)
-
-
-def _replacement_text(graph: Graph, change: Change) -> str:
-    """The change in words."""
-    of_skill = change.what == "influence"
-    name = graph.skills[change.row].name if of_skill else reading_names(graph)[change.row]
-    what = f"the influence of {name} is" if of_skill else f"{name} is"
-    ticks = f"tick {change.first}" if change.first == change.last else f"ticks {change.first} to {change.last}"
-    return shown(f"{what} {change.values[0]:g} in {ticks}")

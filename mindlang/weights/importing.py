@@ -58,17 +58,12 @@ def engine_deviation(network: SkillNetwork, genome: Weights, inputs: Rows) -> De
     sound = inputs[np.isfinite(inputs).all(axis=1)]
     name, compute = _reference(network, genome)
     with np.errstate(all="ignore"):
-        theirs, ours = compute(sound), _engine(network, genome, sound)
+        theirs = compute(sound)
+        sends = network.skill.function.ready(network.inputs, network.outputs, genome, {})  # tick by tick, as on a robot
+        ours = _clamped(np.array([sends(row) for row in sound], np.float32).reshape(len(sound), network.outputs))
     finite = np.isfinite(theirs) & np.isfinite(ours)
     difference = np.abs(theirs.astype(np.float64) - ours, where=finite, out=np.zeros(ours.shape))
     return Deviation(name, len(sound), float(difference.max(initial=0.0)), int((~finite).sum()))
-
-
-def _engine(network: SkillNetwork, genome: Weights, inputs: Rows) -> Rows:
-    """Tick by tick, as on a robot."""
-    compute = network.skill.function.ready(network.inputs, network.outputs, genome, {})
-    values = np.array([compute(row) for row in inputs], np.float32).reshape(len(inputs), network.outputs)
-    return _clamped(values)
 
 
 def _clamped(values: NDArray[np.floating]) -> Rows:

@@ -1,7 +1,7 @@
 """A skill that learns as other programs know it: a network of matrices without biases, in a file of safetensors."""
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -103,7 +103,11 @@ def to_genome(network: SkillNetwork, tensors: Tensors) -> Weights:
     that of the skill. A file that says nothing is taken as it is.
     """
     names = matrix_names(network)
-    _refuse_other_names(network, names, tensors)
+    hint = f"the tensors of {network.skill.name} are {', '.join(names)}; mindlang.torch.Skill saves them"
+    if missing := [name for name in names if name not in tensors.by_name]:
+        raise WeightsError(f"it has no {missing[0]}", hint)
+    if extra := [name for name in tensors.by_name if name not in names]:
+        raise WeightsError(f"it has {visible(f'{extra[0]:.60}')}, which is no weight of {network.skill.name}", hint)
     for name, (into, out) in zip(names, network.shapes, strict=True):
         found = tensors.by_name[name]
         if found.shape != (out, into):
@@ -116,14 +120,6 @@ def to_genome(network: SkillNetwork, tensors: Tensors) -> Weights:
     return _in_order(network, tensors, genome)
 
 
-def _refuse_other_names(network: SkillNetwork, names: Sequence[str], tensors: Tensors) -> None:
-    hint = f"the tensors of {network.skill.name} are {', '.join(names)}; mindlang.torch.Skill saves them"
-    if missing := [name for name in names if name not in tensors.by_name]:
-        raise WeightsError(f"it has no {missing[0]}", hint)
-    if extra := [name for name in tensors.by_name if name not in names]:
-        raise WeightsError(f"it has {visible(f'{extra[0]:.60}')}, which is no weight of {network.skill.name}", hint)
-
-
 def _in_order(network: SkillNetwork, tensors: Tensors, genome: Weights) -> Weights:
     """The genome of a file that says what it reads and sends in the order in which the skill does."""
     if not any(key in tensors.metadata for key in KEYS):
@@ -133,16 +129,14 @@ def _in_order(network: SkillNetwork, tensors: Tensors, genome: Weights) -> Weigh
     function, reads, sends = (tensors.metadata[key] for key in KEYS)
     its, own = Signature(function, tuple(reads.split()), tuple(sends.split())), network.signature
     if found := differences(its, own, network.skill.function.derived):
-        raise WeightsError(f"these are weights of another declaration: {_shortened('; '.join(found))}")
+        what = "; ".join(found)
+        shortened = visible(what if len(what) <= MAX_SHOWN else f"{what[:MAX_SHOWN]}…")
+        raise WeightsError(f"these are weights of another declaration: {shortened}")
     if sorted(its.reads) != sorted(own.reads) or sorted(its.sends) != sorted(own.sends):
         said = f"{' '.join(own.reads)} and {' '.join(own.sends)}, in any order"
         raise WeightsError("its __metadata__ says twice or otherwise what it reads or sends", f"they are {said}")
     inputs, outputs = places(own.reads, its.reads, {}), places(own.sends, its.sends, {})
     return network.skill.function.reordered(genome, inputs, outputs)
-
-
-def _shortened(text: str) -> str:
-    return visible(text if len(text) <= MAX_SHOWN else f"{text[:MAX_SHOWN]}…")
 
 
 def trained_network(subject: Subject, skill: str) -> tuple[SkillNetwork, Weights]:

@@ -4,8 +4,6 @@ Forward every sum is taken in the engine's order, and nothing is fused. Backward
 of matrices is fast.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -183,7 +181,7 @@ class Skill(NetworkModule):
     MindError where the file has errors, and where the skill learns nothing or is like another one.
     """
 
-    def __init__(self, mind: Mind, name: str, from_scratch: bool = False) -> None:
+    def __init__(self, mind: "Mind", name: str, from_scratch: bool = False) -> None:
         lock = read_locks(lock_sources(mind.compiled.sources))
         graph = arrange(mind.graph, lock)
         network = network_of(graph, name)

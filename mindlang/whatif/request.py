@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 from mindrun.engine.changes import Change, ChangeError, What, change_of, silenced
 from mindrun.graph.bundle import Bundle
-from mindrun.graph.graph import Graph, Sensor
+from mindrun.graph.graph import Graph
 from mindrun.graph.named_readings import physical
 from mindrun.graph.recording_header import About, RecordingError
 from mindrun.graph.weights import reachable
@@ -139,7 +139,10 @@ def recorded_readings(
     [begin, *_] = change_of(graph, "reading", name, [[0.0]], first, last)  # or it says what is wrong
     about, parts = read(path)
     mind = _bundle(path, about, Path(bundle) if bundle else own, name, bool(bundle))
-    sensor = _sensor(path, about, mind, name)
+    sensor = next((sensor for sensor in mind.graph.sensors if sensor.name == name), None)
+    is_there = sensor is not None and measured_in(about, mind)[sensor.start]
+    if sensor is None or not is_there or (about.lacks_readings and name not in physical(mind.graph)):
+        raise ChangeError(f"{path} has no readings of {name}", f"it has those of {', '.join(about.sensors)}")
     ours = next(each for each in graph.sensors if each.name == name)
     if sensor.width != ours.width:
         many = "1 reading" if sensor.width == 1 else f"{sensor.width} readings"
@@ -170,12 +173,3 @@ def _bundle(path: Path, about: About, running: Path | None, name: str, is_said: 
         if is_said:
             raise
         raise ChangeError(f"{path}: {error}", hint) from error
-
-
-def _sensor(path: Path, about: About, mind: Bundle, name: str) -> Sensor:
-    """A sensor whose readings are in a recording."""
-    found = next((sensor for sensor in mind.graph.sensors if sensor.name == name), None)
-    is_there = found is not None and measured_in(about, mind)[found.start]
-    if found is None or not is_there or (about.lacks_readings and name not in physical(mind.graph)):
-        raise ChangeError(f"{path} has no readings of {name}", f"it has those of {', '.join(about.sensors)}")
-    return found

@@ -75,7 +75,12 @@ def _command() -> int:
 
 def run(options: argparse.Namespace) -> int:
     """Drive, describe or run the bundle; the exit code."""
-    _refuse_view_of_nothing(options)
+    if options.view and (options.readings or options.describe or options.json):
+        raise MindError("--view shows a robot that drives: with --readings, --describe or --json none does")
+    if options.view_port and not options.view:
+        raise MindError("--view-port is the port of --view, which was not asked for")
+    if options.breaks and not options.view:
+        raise MindError("--break pauses the page of --view, which was not asked for; nothing pauses the robot")
     bundle = read_bundle(options.bundle)
     if options.readings:
         with redirect_stdout(sys.stderr):  # what a procedure prints is no command
@@ -90,16 +95,6 @@ def run(options: argparse.Namespace) -> int:
     else:
         print(describe(bundle))
     return OK
-
-
-def _refuse_view_of_nothing(options: argparse.Namespace) -> None:
-    """MindError where a view is asked for that would show no robot."""
-    if options.view and (options.readings or options.describe or options.json):
-        raise MindError("--view shows a robot that drives: with --readings, --describe or --json none does")
-    if options.view_port and not options.view:
-        raise MindError("--view-port is the port of --view, which was not asked for")
-    if options.breaks and not options.view:
-        raise MindError("--break pauses the page of --view, which was not asked for; nothing pauses the robot")
 
 
 def drive(options: argparse.Namespace) -> int:

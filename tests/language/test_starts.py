@@ -1,18 +1,23 @@
 """Where a task or a scene says that the robot starts."""
 
-from math import pi
+from math import cos, pi, sin
 from pathlib import Path
 
+import pymunk
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from mindrun.graph.graph import Graph, Start
 from mindrun.graph.policy import Policy
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 
+from mindlang.compiler.beginning import Outline, overlap
 from mindlang.compiler.compile import compile_source
 from mindlang.compiler.source import Source
 from mindlang.lock.world_changes import changes
 from mindlang.lock.world_facts import Worlds
+from tests.draws import cases
 
 MIND = """\
 tick 1/60 s
@@ -130,3 +135,39 @@ def test_a_world_takes_a_hundred_things(count: int, code: list[str]) -> None:
 def test_a_place_in_seconds_is_one_mistake(place: str) -> None:
     found = compile_source(Source("a.mind", MIND.replace("START", f"  starts at {place}\n"), Path())).diagnostics
     assert [each.message for each in found] == ["The unit s does not fit here."]
+
+
+NUMBERS = st.floats(-4, 4).map(lambda value: round(value, 2))
+SIDES = st.floats(0.1, 4).map(lambda value: round(value, 2))
+
+
+@st.composite
+def outlines(draw: st.DrawFn) -> Outline:
+    """A disc, or a rectangle in any direction whose corners are round or not."""
+    x, y, half_x, half_y, angle = (draw(of) for of in (NUMBERS, NUMBERS, SIDES, SIDES, NUMBERS))
+    if draw(st.booleans()):
+        return Outline(((x, y),), half_x)
+    sides = ((half_x, half_y), (half_x, -half_y), (-half_x, -half_y), (-half_x, half_y))
+    turned = tuple((x + cos(angle) * a - sin(angle) * b, y + sin(angle) * a + cos(angle) * b) for a, b in sides)
+    return Outline(turned, draw(st.sampled_from([0.0, 0.5])))
+
+
+def do_shapes_meet(one: Outline, other: Outline) -> bool:
+    """True if they overlap as Chipmunk has it."""
+    space = pymunk.Space()
+    first, second = (
+        pymunk.Poly(space.static_body, of.corners, radius=of.rim)
+        if len(of.corners) > 1
+        else pymunk.Circle(space.static_body, of.rim, of.corners[0])
+        for of in (one, other)
+    )
+    space.add(first)
+    return bool(space.shape_query(second))
+
+
+@settings(max_examples=cases(1000))
+@given(outlines(), outlines())
+def test_outlines_overlap_as_shapes_of_chipmunk_do(one: Outline, other: Outline) -> None:
+    nearly = {overlap(one._replace(rim=max(0.0, one.rim + more)), other) for more in (-0.01, 0.01)}
+    if len(nearly) == 1:  # they do not just touch
+        assert overlap(one, other) == do_shapes_meet(one, other)

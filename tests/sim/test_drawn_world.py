@@ -134,7 +134,7 @@ def test_the_robot_is_where_the_lanes_have_it_unless_they_have_found_more_room(c
             solid = [(each.x, each.y, each.half_x, each.half_y) for each in world.solid]
             solid += [(*place, kind.largest / 2, kind.largest / 2) for kind in kinds for place in kind.places]
             nearest = min(max(abs(x - a) - half_x, abs(y - b) - half_y) for a, b, half_x, half_y in solid)
-            assert world.radius - 1e-9 <= nearest < 3 * world.radius
+            assert world.body.radius - 1e-9 <= nearest < 3 * world.body.radius
     assert same > 10
 
 

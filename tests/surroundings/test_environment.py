@@ -77,20 +77,20 @@ def test_compiled_code_is_kept_somewhere(tmp_path: Path, monkeypatch: pytest.Mon
         place = tmp_path / f"{variable} {kind}"
         monkeypatch.setenv("HOME", str(tmp_path / "home"))
         monkeypatch.setenv(variable, make(place))
-        folder = cache.writable("compiled-x")
+        folder = cache.folder.__wrapped__()
         assert folder.is_dir()
         assert folder.is_absolute()
         (folder / "kept").write_text("")
         if kind in ("there", "missing", "deep"):
             assert folder.is_relative_to(place)
-            assert cache.writable("compiled-x") == folder
+            assert cache.folder.__wrapped__() == folder
 
 
 def test_without_a_home_compiled_code_is_kept_for_this_process(monkeypatch: pytest.MonkeyPatch) -> None:
     for name in ("NUMBA_CACHE_DIR", "XDG_CACHE_HOME"):
         monkeypatch.delenv(name, raising=False)
     _homeless(monkeypatch)
-    assert cache.writable("compiled-x").is_dir()
+    assert cache.folder.__wrapped__().is_dir()
 
 
 LACKS = (

@@ -14,7 +14,7 @@ from mindlang.run.edge_flow import edge_flows
 from mindlang.run.recorded_run import record_run
 from mindlang.view.messages import AskChange, AskShares, RefusedError
 from mindlang.view.session import command_shares
-from mindlang.view.viewed import Fork, Viewed
+from mindlang.view.viewed import Viewed
 from tests.calling import write_rules
 from tests.view.browser import Opened, chromium
 from tests.view.serving import prepared, served, simulated
@@ -169,7 +169,7 @@ def test_what_a_change_waits_for_stands_there_until_it_has_come(browser: Any, mi
     viewed, compiled = simulated(mind), Event()
     forked = viewed.forked
 
-    def slow(change: AskChange) -> Fork:
+    def slow(change: AskChange) -> tuple[Viewed, str]:
         assert forked
         assert compiled.wait(60)
         return forked(change)

@@ -1,7 +1,5 @@
 """Curricula: who is taught what, under which master, for how long, and with whose weights a lesson begins."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, cast
@@ -239,7 +237,7 @@ def _holds(learner: model.Skill, other: model.Skill, widths: Mapping[str, int]) 
     return type(own) is type(its) and 0 < len(large) == len(small) and holds
 
 
-def _sized(skill: model.Skill, widths: Mapping[str, int]) -> tuple[Function, Layers]:
+def _sized(skill: model.Skill, widths: Mapping[str, int]) -> "tuple[Function, Layers]":
     """A skill's function with every argument said, and the shapes of its weight matrices."""
     size = sum(widths.get(name, 1) for name in skill.reads), len(_sends(skill))
     return skill.function.explicit(*size), skill.function.matrix_shapes(*size)

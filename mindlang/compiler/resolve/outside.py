@@ -57,7 +57,7 @@ def check_outside(
             message = f"{task.name} is in no environment, as {outside[0].name} is."
             hint = "The tasks of a mind are all in gymnasium, or none is: write this one in a file of its own."
             findings.error("mixed-scenes", task.declaration.header.span, message, hint)
-        for span, message, hint in (*_foreign_parts(sensors, actuators), *_foreign_lines(outside)):
+        for span, message, hint in _foreign(outside, sensors, actuators):
             findings.error("foreign-part", span, message, hint)
         several = {task.scene.environment: task for task in reversed(outside)}
         for name, task in several.items():
@@ -68,18 +68,16 @@ def _kind(part: Part[Any]) -> str:
     return a(kind_names()[type(part.kind)]).capitalize()
 
 
-def _foreign_parts(sensors: Sequence[Part[Any]], actuators: Sequence[Part[Any]]) -> Iterator[Refused]:
-    """The sensors and actuators that need a body or a world of ours, which an environment does not have."""
+def _foreign(
+    tasks: Sequence[model.Task], sensors: Sequence[Part[Any]], actuators: Sequence[Part[Any]]
+) -> Iterator[Refused]:
+    """The parts that need a body or a world of ours, and the lines of tasks that do: things, and where it starts."""
     for sensor in (each for each in sensors if isinstance(each.kind, Physical) and not each.kind.is_outside):
         hint = f"Write which of its numbers it is: sensor {sensor.name} is observation 0 range -1 to 1."
         yield sensor.span, f"{_kind(sensor)} measures nothing in {ENVIRONMENT}.", hint
     for actuator in (each for each in actuators if each.kind.moves_body or each.kind.can_hold):
         hint = f"Write what it takes: actuator {actuator.name} is action 0 neutral 0.5, or choice 0."
         yield actuator.span, f"{_kind(actuator)} does nothing in {ENVIRONMENT}.", hint
-
-
-def _foreign_lines(tasks: Sequence[model.Task]) -> Iterator[Refused]:
-    """The lines of tasks that an environment refuses: things, and where the robot starts."""
     for task in tasks:
         for thing in task.things:
             yield thing.span, f"Nothing can be put into {ENVIRONMENT}.", "Leave the line out."

@@ -12,7 +12,7 @@ from mindrun.kinds.registry import arguments
 from mindrun.kinds.registry import names as kind_names
 from mindrun.kinds.scenes.scene import SceneKind
 from mindrun.kinds.things.thing import MAX_OBSTACLES, MAX_THINGS, ThingKind
-from mindrun.numbers.quantity import ANGLE, COORDINATE, RATE, Place
+from mindrun.numbers.quantity import ANGLE, COORDINATE, RATE
 
 from mindlang.compiler.beginning import Beginning, task_beginning
 from mindlang.compiler.diagnostic import Findings, Label, did_you_mean, listed
@@ -23,7 +23,7 @@ from mindlang.compiler.resolve.maps import with_places
 from mindlang.compiler.resolve.parts import said_once
 from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.source import Span
-from mindlang.compiler.syntax import Contains, Declaration, Fails, Name, Phrase, Starts, Succeeds, Varies, of_form
+from mindlang.compiler.syntax import Contains, Declaration, Fails, Name, Starts, Succeeds, Varies, of_form
 
 NAMES = "Name the body, an actuator, a sensor or a thing of the task."
 
@@ -104,22 +104,18 @@ def _things(declaration: Declaration, scene: Any, scope: Scope, findings: Findin
             message = f"The {declaration.header.noun.text} already contains something called {name}."
             findings.refuse_again("duplicate-thing", places, message, hint)
         if kind:
-            _check_obstacles(kind, scene, obstacles, fact.phrase, findings)
+            if mistake := kind.mistake(scene):
+                findings.error(mistake.code, fact.phrase.span, mistake.message, mistake.hint)
+            elif obstacles <= MAX_OBSTACLES < (made := obstacles + kind.obstacles(scene)):
+                message = f"With those above, that makes {made} obstacles."
+                hint = f"A world takes {MAX_OBSTACLES} in all."
+                findings.error("too-many-obstacles", fact.phrase.span, message, hint)
             obstacles += min(kind.obstacles(scene), MAX_OBSTACLES)  # as if there were few where there are too many
         found.setdefault(name, Part(name, kind, fact.name.span))
     is_task = declaration.header.noun.text == "task"  # which has all that a scene lacks
     things = with_places(tuple(found.values()), scene, is_task, findings)
     _check_places(things, scene, findings)
     return things
-
-
-def _check_obstacles(kind: ThingKind, scene: SceneKind | None, before: int, phrase: Phrase, findings: Findings) -> None:
-    """Report a thing that its scene cannot have, or that exceeds MAX_OBSTACLES with the obstacles `before` it."""
-    if found := kind.mistake(scene):
-        findings.error(found.code, phrase.span, found.message, found.hint)
-    elif before <= MAX_OBSTACLES < (made := before + kind.obstacles(scene)):
-        message = f"With those above, that makes {made} obstacles."
-        findings.error("too-many-obstacles", phrase.span, message, f"A world takes {MAX_OBSTACLES} in all.")
 
 
 def _check_places(things: Sequence[Part[Any]], scene: SceneKind | None, findings: Findings) -> None:
@@ -154,7 +150,8 @@ def _start(
     start, said = Start(), of_form(declaration.facts, Starts)
     for fact in said:
         facing = convert(fact.facing, ANGLE, findings) if fact.facing else None
-        start = Start(_place(fact, findings), facing)
+        x, y = (convert(amount, COORDINATE, findings) for amount in fact.place) if fact.place else (None, None)
+        start = Start(None if x is None or y is None else (x, y), facing)
     message = f"The {declaration.header.noun.text} already says where the robot starts."
     said_once(said, lambda _: message, findings, "Write both on one line: starts at 0 0 facing 90 deg.")
     is_left_open = declaration.header.noun.text == "scene" and not said  # to the tasks in it
@@ -162,12 +159,6 @@ def _start(
         begun = task_beginning(scene, things, start, body, 0.0)
         _check_start(declaration.header.name.span, said[-1].span if start.at else None, begun, findings)
     return start
-
-
-def _place(fact: Starts, findings: Findings) -> Place | None:
-    """The place that a line names, None where it names none or after reporting what is wrong with it."""
-    x, y = (convert(amount, COORDINATE, findings) for amount in fact.place) if fact.place else (None, None)
-    return None if x is None or y is None else (x, y)
 
 
 def _check_start(here: Span, said: Span | None, begun: Beginning, findings: Findings) -> None:

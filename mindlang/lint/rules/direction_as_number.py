@@ -7,13 +7,13 @@ directions neither is less, and a memory that decays mixes what it is sent as nu
 """
 
 from collections import Counter
-from collections.abc import Iterator, Sequence, Set
+from collections.abc import Iterator, Set
 from typing import Any
 
 from mindrun.kinds.sensors.sensor import directions
 from mindrun.numbers.expression import fold
 
-from mindlang.compiler.syntax import Comparison, Expression, Term, When
+from mindlang.compiler.syntax import Comparison, Term, When
 from mindlang.lint.intervals import OPPOSITES, STRICT, TURNED, UPPER
 from mindlang.lint.study import Finding, Found, Study
 
@@ -53,19 +53,15 @@ def check(study: Study) -> Found:
             yield Finding(sensor.span, message, hint)
     decaying = {memory.name for memory in study.mind.memories if memory.kind.decay > 0}
     for edge in (edge for _, edge in study.edges if edge.to == "memory" and edge.target in decaying):
-        yield from _mixed(edge.values, edge.target, known)
+        memory = edge.target
+        for reading in (term for value in edge.values for term in value.found("reading")):
+            if (name := reading.operand) in known:
+                message = f"{name} is a direction, which {memory} mixes as a number: left and right behind it, 0.5."
+                hint = f"Let it hold one, cell decay 0, or read average of {name} over some ticks."
+                yield Finding(reading.span, message, hint)
     for when, *_ in study.conditions:
         yield from _one_sided(when, known)
         yield from _of_two(when, known)
-
-
-def _mixed(values: Sequence[Expression], memory: str, known: Set[str]) -> Iterator[Finding]:
-    """Directions that a memory is sent which decays."""
-    for reading in (term for value in values for term in value.found("reading")):
-        if (name := reading.operand) in known:
-            message = f"{name} is a direction, which {memory} mixes as a number: left and right behind it, 0.5."
-            hint = f"Let it hold one, cell decay 0, or read average of {name} over some ticks."
-            yield Finding(reading.span, message, hint)
 
 
 def _of_two(when: When, known: Set[str]) -> Iterator[Finding]:

@@ -35,7 +35,13 @@ BAD = f"{HIERARCHY}  influences Grab\n"
 
 
 def check(study: Study) -> Found:
-    alone = _alone(study)
+    sent = (edge for name in study.active for edge in study.skills[name].edges)
+    drivers = Counter(edge.target for edge in sent if edge.to != "skill")
+    alone: dict[str, str] = {}  # what moves nothing that other active skills move too, with something that it moves
+    for skill in study.children_first:
+        moved = [alone.get(edge.target, "") if edge.to == "skill" else edge.target for edge in skill.edges]
+        if all(drivers[name] == 1 for name in moved):
+            alone[skill.name] = moved[0]
     for skill, edge in study.edges:
         if skill.name not in study.active or edge.to != "skill" or edge.at is not None or edge.target not in alone:
             continue
@@ -47,15 +53,3 @@ def check(study: Study) -> Found:
             fix = Fix("Write at 1", (replace_span(edge.fact.span, f"{edge.fact.span.text} at 1"),), is_safe=False)
         hint = f"Nobody else drives {alone[edge.target]}, so its command is the same (Eq. 3): {mend}, {unless}."
         yield Finding(edge.fact.span, message, hint, fix=fix)
-
-
-def _alone(study: Study) -> dict[str, str]:
-    """The skills that move nothing that other active skills move too, each with something that it moves."""
-    sent = (edge for name in study.active for edge in study.skills[name].edges)
-    drivers = Counter(edge.target for edge in sent if edge.to != "skill")
-    found: dict[str, str] = {}
-    for skill in study.children_first:
-        moved = [found.get(edge.target, "") if edge.to == "skill" else edge.target for edge in skill.edges]
-        if all(drivers[name] == 1 for name in moved):
-            found[skill.name] = moved[0]
-    return found

@@ -6,7 +6,6 @@ such a file along.
 """
 
 from mindlang.compiler.diagnostic import Fix
-from mindlang.compiler.model import Task
 from mindlang.compiler.splice import Splice
 from mindlang.compiler.syntax import Contains, of_form
 from mindlang.lint.study import Finding, Found, Study, once_a_line
@@ -26,17 +25,12 @@ BAD = DOCK.format("", "")
 @once_a_line
 def check(study: Study) -> Found:
     for task in study.mind.tasks:
-        reached = _reached(task)
+        events = [*task.counts, *(reward.on for reward in task.rewards if reward.on)]
+        ending = {end.event for end in task.ends if end.times == 1}
+        reached = {event.thing for event in events if event.outcome == REACHED and event not in ending}
         for name, phrase in ((fact.name, fact.phrase) for fact in of_form(task.facts, Contains)):
             if name.text in reached and all(argument.key.text != REACHED for argument in phrase.arguments):
                 end = phrase.span.end
                 fix = Fix("Say reached moves", (Splice(phrase.span.source, end, end, " reached moves"),), is_safe=False)
                 hint = "Write reached stays, or reached moves to have it appear elsewhere as it once did."
                 yield Finding(name.span, f"{name.text} stays where it is when it is reached.", hint, fix=fix)
-
-
-def _reached(task: Task) -> set[str]:
-    """The things whose reach is rewarded or counted and does not end the run."""
-    events = [*task.counts, *(reward.on for reward in task.rewards if reward.on)]
-    ending = {end.event for end in task.ends if end.times == 1}
-    return {event.thing for event in events if event.outcome == REACHED and event not in ending}

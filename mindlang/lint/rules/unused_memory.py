@@ -32,7 +32,14 @@ BAD = (MOOD.replace("  reads mood\n", "").replace("at mood", "at 1"), UNDRIVEN, 
 
 
 def check(study: Study) -> Found:
-    read = _read(study)
+    rewards = [reward for task in study.mind.tasks for reward in task.rewards]
+    ends = [end.when for task in study.mind.tasks for end in task.ends]
+    read = {
+        *(name for skill in study.mind.skills for name in skill.reads),
+        *(name for kind in study.sensors.values() for name in kind.sources),
+        *(reward.each for reward in rewards if reward.each),
+        *readings(*((reward.amount, reward.when) for reward in rewards), *ends),
+    }
     driven = {edge.target for skill in study.mind.skills for edge in skill.edges if edge.to == "memory"}
     for part in study.mind.memories:
         name, cell = part.name, part.kind
@@ -46,15 +53,3 @@ def check(study: Study) -> Found:
         elif cell.decay == 1:
             hint = "Write decay 0 to take each command as it comes; drives … when … otherwise its own value holds it."
             yield Finding(part.span, f"With decay 1 no command changes {name}, so it is always {cell.start:g}.", hint)
-
-
-def _read(study: Study) -> set[str]:
-    """The readings that skills, sensors, rewards and ends look at."""
-    rewards = [reward for task in study.mind.tasks for reward in task.rewards]
-    ends = [end.when for task in study.mind.tasks for end in task.ends]
-    return {
-        *(name for skill in study.mind.skills for name in skill.reads),
-        *(name for kind in study.sensors.values() for name in kind.sources),
-        *(reward.each for reward in rewards if reward.each),
-        *readings(*((reward.amount, reward.when) for reward in rewards), *ends),
-    }

@@ -4,8 +4,6 @@ No sensor tells the robot of it, and no reward, event or count depends on it, so
 Obstacles are of use by standing in the way, a power by charging the battery, and a zone by taking the task's items.
 """
 
-from mindrun.kinds.things.thing import ThingKind
-
 from mindlang.compiler.source import Source, Span
 from mindlang.compiler.syntax import Contains, of_form
 from mindlang.lint.study import Finding, Found, Study, removal
@@ -33,7 +31,9 @@ def check(study: Study) -> Found:
         about = {name for fact in task.facts for name in named.get(_place(fact.span), ())} | sensed
         facts = {fact.name.text: fact for fact in of_form(task.facts, Contains)}
         for thing in task.things:
-            if thing.name in about or _is_of_use(thing.kind, charges, delivers):
+            kind = thing.kind
+            is_of_use = kind.is_solid or (kind.charges and charges) or (kind.takes_items and delivers)
+            if thing.name in about or is_of_use:
                 used.add(thing.span)
             else:
                 idle[thing.span] = facts[thing.name]
@@ -57,8 +57,3 @@ def _named(study: Study) -> dict[tuple[Source, int], list[str]]:
 
 def _place(span: Span) -> tuple[Source, int]:
     return span.source, span.line
-
-
-def _is_of_use(kind: ThingKind, charges: bool, delivers: bool) -> bool:
-    """True if a thing matters although no line is about it: it is solid, charges, or takes items."""
-    return kind.is_solid or (kind.charges and charges) or (kind.takes_items and delivers)

@@ -82,7 +82,11 @@ def _opposite(when: When) -> Alternatives:
 
 def _divides_by_zero(value: Expression, all_: Sequence[Comparison], of: Conditional, world: AnalysedWorld) -> bool:
     """True if a divisor in the expression can be 0 while these comparisons hold."""
-    ranges = _narrowed(world, all_)
+    ranges: dict[str, Interval] = {}  # while the comparisons hold; where they never do, one ends before it begins
+    for side, compare, number in bounds(all_):
+        match side.terms:
+            case (Term("reading", name),):
+                ranges[name] = _within(ranges.get(name, world.reading(name)), compare, number)
 
     def reading(name: str) -> Interval:
         return ranges.get(name, world.reading(name))
@@ -93,19 +97,6 @@ def _divides_by_zero(value: Expression, all_: Sequence[Comparison], of: Conditio
 
 def _has_zero(found: Sequence[Interval]) -> bool:
     return any(low <= 0 <= high for low, high in found)
-
-
-def _narrowed(world: AnalysedWorld, all_: Sequence[Comparison]) -> dict[str, Interval]:
-    """The ranges of readings of which these comparisons say something by a number, while all of them hold.
-
-    Where they never do, one ends before it begins.
-    """
-    found: dict[str, Interval] = {}
-    for side, compare, number in bounds(all_):
-        match side.terms:
-            case (Term("reading", name),):
-                found[name] = _within(found.get(name, world.reading(name)), compare, number)
-    return found
 
 
 def _within(of: Interval, compare: str, number: float) -> Interval:

@@ -39,7 +39,14 @@ def options(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Measure and print; the exit code, 0 where something was measured, else 1."""
-    wire, kind = _wire(options.bundle, options.sensor)
+    bundle = read_bundle(options.bundle)
+    if bundle.wiring is None:
+        raise MindError("this bundle is wired to no robot", "mindc build … --robot robot.yaml")
+    wires = {wire.sensor: wire for wire in bundle.wiring.sensors}
+    if options.sensor not in wires:
+        raise MindError(f"no sensor {options.sensor} is wired", f"there are {', '.join(wires)}")
+    wire = still(wires[options.sensor])
+    kind = next(known.kind for known in bundle.graph.sensors if known.name == wire.sensor)
     with refuse_success():
         samples = _watched(wire, kind, options.seconds)
     good = [sample for sample in samples if not sample.fault]
@@ -50,19 +57,6 @@ def run(options: argparse.Namespace) -> int:
         return 1
     print("\n".join(lines(wire, good, kind)))
     return 0
-
-
-def _wire(path: Path, sensor: str) -> tuple[SensorWire, SensorKind]:
-    """How a sensor is wired, and what it is in the mind."""
-    bundle = read_bundle(path)
-    wiring = bundle.wiring
-    if wiring is None:
-        raise MindError("this bundle is wired to no robot", "mindc build … --robot robot.yaml")
-    names = [wire.sensor for wire in wiring.sensors]
-    if sensor not in names:
-        raise MindError(f"no sensor {sensor} is wired", f"there are {', '.join(names)}")
-    kind = next(known.kind for known in bundle.graph.sensors if known.name == sensor)
-    return still(wiring.sensors[names.index(sensor)]), kind
 
 
 def _watched(wire: SensorWire, kind: SensorKind, seconds: float) -> list[Sample]:

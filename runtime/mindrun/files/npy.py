@@ -4,8 +4,6 @@ The header of such a file is a Python literal. It is never read: a file is taken
 for byte.
 """
 
-from __future__ import annotations
-
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -16,7 +14,7 @@ MAGIC = b"\x93NUMPY\x01\x00v\x00"  # with the version, and the header's length, 
 HEADER_BYTES = 128  # of both
 
 
-def to_npy(vector: NDArray[np.float32]) -> bytes:
+def to_npy(vector: "NDArray[np.float32]") -> bytes:
     """A vector as a .npy file; the same bytes with any version of numpy."""
     import numpy as np
 
@@ -25,7 +23,7 @@ def to_npy(vector: NDArray[np.float32]) -> bytes:
     return MAGIC + filled + np.ascontiguousarray(vector, "<f4").tobytes()
 
 
-def from_npy(data: bytes) -> NDArray[np.float32]:
+def from_npy(data: bytes) -> "NDArray[np.float32]":
     """The vector in a .npy file; ValueError unless it is one of finite float32, as it is written here."""
     import numpy as np
 

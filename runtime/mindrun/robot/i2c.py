@@ -164,7 +164,9 @@ class MeasuringChip:
     def measure(self) -> tuple[int, ...]:
         """The next value that was not read before, in counts."""
         try:
-            self.identify()
+            register, expected = self.model.identity
+            if (found := self.wire.byte(register)) != expected:  # any counts could be a measurement
+                raise self.wire.error(f"is no {self.model.name} (it says 0x{found:02x}, not 0x{expected:02x})")
             if not self.ready:
                 self.prepare()
                 self.ready = True
@@ -176,12 +178,6 @@ class MeasuringChip:
         if max(map(abs, counts)) >= self.model.limit:
             raise self.wire.error("measures more than it can")
         return counts
-
-    def identify(self) -> None:
-        """DeviceError where something else answers, or a line is stuck: any counts could be a measurement."""
-        register, expected = self.model.identity
-        if (found := self.wire.byte(register)) != expected:
-            raise self.wire.error(f"is no {self.model.name} (it says 0x{found:02x}, not 0x{expected:02x})")
 
     def prepare(self) -> None:
         """Write the registers that make it measure."""

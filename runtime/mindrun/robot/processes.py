@@ -53,7 +53,7 @@ os.register_at_fork(after_in_child=_in_child)
 
 @contextmanager
 def refuse_success(then: str = "") -> Iterator[None]:
-    """Meanwhile `os._exit(0)` in any thread is a failure; `then` says what comes of it. What C ends is not seen."""
+    """A context in which `os._exit(0)` is a failure, in any thread. C may end the process unseen; `then` is told."""
     leave, process = os._exit, os.getpid()
 
     def _exit(status: int) -> NoReturn:

@@ -185,19 +185,14 @@ def _assess(state: _State, time: float) -> tuple[int, float, str]:
         return FAILED, age, sample.fault
     if not state.window or state.window[-1] is not sample:
         state.window.append(sample)
-        good = _filtered(state)
+        wire, circular = state.source.wire, state.sensor.kind.circular
+        rows = ([reading(wire, value, circular) for value in each.values] for each in state.window)
+        middle = median_direction if circular else median
+        good = tuple(float(middle(column)) for column in zip(*rows, strict=True))
         if not all(map(isfinite, good)):
             return FAILED, age, "has readings that are no numbers"
         state.good, state.good_at = good, sample.at
     return FINE, age, ""
-
-
-def _filtered(state: _State) -> tuple[float, ...]:
-    """The readings of the median of each value over the window; nothing there counts as `blank`."""
-    wire, circular = state.source.wire, state.sensor.kind.circular
-    rows = ([reading(wire, value, circular) for value in sample.values] for sample in state.window)
-    middle = median_direction if circular else median
-    return tuple(float(middle(column)) for column in zip(*rows, strict=True))
 
 
 def median_direction(directions: Sequence[float]) -> float:

@@ -95,7 +95,10 @@ class SimulatedScene:
         if what == STATUS:
             return json.dumps(self.status()).encode()
         if what == WORLD:
-            return self._row()
+            row = np.zeros(1, world_row_of(self.world.task))
+            for name, value in self.world.columns().items():
+                row[name][0] = value
+            return row.tobytes()
         if what == BOXES:
             return bytes(self.world.boxes.astype("<f8").tobytes())
         if what == READ:
@@ -108,12 +111,6 @@ class SimulatedScene:
             raise LookupError(f"a command of {value} is not between 0 and 1")
         self.commands[name] = value
         return b""
-
-    def _row(self) -> bytes:
-        row = np.zeros(1, world_row_of(self.world.task))
-        for name, value in self.world.columns().items():
-            row[name][0] = value
-        return row.tobytes()
 
 
 class WorldServer:

@@ -22,7 +22,7 @@ from numba.core.sigutils import normalize_signature
 from numba.core.typed_passes import NativeLowering
 
 COLLECTION_OBJECTS = 100_000  # made between two looks for garbage, while numba compiles; Python 3.11 looks after 700
-LONG_INSTRUCTIONS = 60  # of LLVM, as a function is lowered; from 30 to 150 it takes as long
+LONG_INSTRUCTIONS = 300  # of LLVM, as a function is lowered; from 60 on small batches take longer
 
 
 class LoweredCode(JITCodeLibrary):  # type: ignore[misc]

@@ -53,7 +53,7 @@ class EventKind(AboutThing):
         return None
 
     def row(self, scene: SceneKind) -> Row:
-        """Its columns of the lanes' table beside its thing: `columns` and `rows` of patches, and `patch`, a side."""
+        """The kind's columns of the lanes' table but for its thing: `columns` and `rows` of patches, `patch` a side."""
         return {}
 
 

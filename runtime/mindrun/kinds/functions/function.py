@@ -76,7 +76,7 @@ class Function:
         return 0
 
     def row(self, inputs: int, outputs: int) -> Mapping[str, int]:
-        """Its own columns of the lanes' table of skills: `hidden` and `width`."""
+        """The kind's own columns of the lanes' table of skills: `hidden` and `width`."""
         return {}
 
     def scratch(self, inputs: int, outputs: int) -> int:

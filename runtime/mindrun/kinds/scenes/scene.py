@@ -67,7 +67,7 @@ class Arena(SceneKind):
 
     @property
     def sides(self) -> tuple[float, float]:
-        """Its lengths along x and y; a size of one number is both."""
+        """The lengths of the world along x and y; a size of one number is both."""
         return self.size if isinstance(self.size, tuple) else (self.size, self.size)
 
 

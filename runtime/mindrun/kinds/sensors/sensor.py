@@ -164,7 +164,7 @@ class SensorKind(AboutThing):
         return ()
 
     def row(self, scene: Scene) -> Row:
-        """Its own columns of the lanes' table: its source, and its arguments that are TOLD, a period in ticks."""
+        """The kind's own columns of the lanes' table: its source, and arguments that are TOLD, a period in ticks."""
         plain = (each.field for each in arguments(type(self)) if each.shape == "one" and each.field in TOLD)
         told = {name: getattr(self, name) for name in plain}
         told |= {"period": told["period"] / scene.tick} if "period" in told else {}

@@ -166,8 +166,9 @@ class ThingKind:
         return replace(self, at=places) if is_free else None  # type: ignore[type-var]
 
     def rows(self, scene: SceneKind) -> Iterable[Row]:
-        """Its rows of the lanes' table of obstacles: a `grid`'s spacing, its `columns` and `rows` around `x` and `y`,
-        the `jitter`, and the `count`.
+        """The thing's rows of the lanes' table of obstacles.
+
+        Each has the spacing of a `grid`, its `columns` and `rows` around `x` and `y`, the `jitter`, and the `count`.
         """
         return ()
 

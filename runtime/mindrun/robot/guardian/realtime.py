@@ -56,10 +56,10 @@ def wake_on_signals(descriptor: int) -> None:
 
 @contextmanager
 def printing_never_waits() -> Iterator[None]:
-    """Meanwhile a thread of this process passes on to standard error what it and those it forks print, or drops it.
+    """A context in which what is printed here, and in forks, is passed on to standard error by a thread, or dropped.
 
-    So a `print` of a driver never fails, and keeps no motor running, whoever reads it. They hold the reading end as
-    well: where this process is gone, a pipe takes what they print.
+    So a `print` of a driver never fails, and keeps no motor running, whoever reads it. Forks hold the
+    reading end as well: where this process is gone, a pipe takes what they print.
     """
     errors = os.dup(ERROR_DESCRIPTOR)
     reading, writing = os.pipe()
