@@ -78,6 +78,7 @@ ROOMS = {
             *(f"tests/functions/test_{name}.py" for name in ("recurrent_mind", "recurrent")),
             "tests/engine/test_bits.py",
             "tests/edits/test_weights.py",
+            "tests/weights/test_network.py",
             "tests/sim/test_lanes.py",
         ),
         interpreted=True,
@@ -138,6 +139,8 @@ ROOMS = {
             "tests/train/test_progress.py",
             "tests/train/test_strange_run.py",
             "tests/train/test_run_folder.py",
+            "tests/train/test_evolution_strategy.py",
+            "tests/train/test_attempts.py",
         ),
     ),
     "lock": Room(
@@ -153,12 +156,16 @@ ROOMS = {
     ),
     "bundle": Room(
         tuple(f"{R}graph/{name}.py" for name in ("bundle", "codec", "policy", "validate", "weights")),
-        tuple(
-            f"tests/engine/test_{name}.py"
-            for name in ("sound", "npy", "older", "resealed_bundle", "weights", "bundle", "encoding", "influence")
+        (
+            *(f"tests/engine/test_{name}.py" for name in ("sound", "npy", "older", "resealed_bundle", "weights")),
+            *(f"tests/engine/test_{name}.py" for name in ("bundle", "encoding", "influence")),
+            "tests/api/test_python.py::test_weights_never_meet_a_graph_in_another_order",
         ),
     ),
-    "recording": Room((f"{R}robot/recording.py", f"{R}robot/replay.py"), ("tests/robot/test_recording.py",)),
+    "recording": Room(
+        (f"{R}robot/recording.py", f"{R}robot/replay.py"),
+        tuple(f"tests/robot/test_{name}.py" for name in ("recording", "background_file", "recorded_world")),
+    ),
     "guardian": Room(
         (f"{R}robot/guardian/*.py",),
         tuple(f"tests/robot/guardian/test_{name}.py" for name in GUARDIAN),

@@ -37,7 +37,7 @@ class TaskEnv(Env[Floats, Floats], EzPickle):
     where.
     """
 
-    metadata: dict[str, Any] = {"render_modes": ["rgb_array", "human"], "render_fps": 60}  # noqa: RUF012  # as gymnasium has it
+    metadata: dict[str, Any] = {"render_modes": ["rgb_array", "human"]}  # noqa: RUF012  # as gymnasium has it
 
     def __init__(
         self,

@@ -30,7 +30,7 @@ class TaskVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]], EzPickle):
     last step does, and `info["final_obs"]` has what was seen.
     """
 
-    metadata: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 60}  # noqa: RUF012  # as gymnasium has it
+    metadata: dict[str, Any] = {"render_modes": ["rgb_array"]}  # noqa: RUF012  # as gymnasium has it
 
     def __init__(
         self,

@@ -53,6 +53,13 @@ def test_neutral_where_nothing_influences() -> None:
     assert engine.faults == 0
 
 
+def test_a_reset_engine_is_as_it_was_before_its_first_tick() -> None:
+    engine = Engine(Policy(mind(rule("Go", always("actuator", 0, 1.0))), {}))
+    engine.tick([1.0])
+    engine.reset()
+    assert (engine.readings.tolist(), engine.influence.tolist(), engine.faults) == ([0.0], [0.0], 0)
+
+
 def test_the_papers_weight_counts() -> None:
     assert sum(Mlp(2).genome_length(inputs, 2) for inputs in (1, 1, 12, 13, 13, 7)) == 1510
     assert Mlp(3).genome_length(21, 3) == 1610

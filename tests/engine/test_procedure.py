@@ -40,6 +40,11 @@ def test_what_a_module_remembers_is_of_one_run(tmp_path: Path) -> None:
         running.reset()
 
 
+def test_an_engine_that_is_given_no_modules_says_which_it_lacks() -> None:
+    with pytest.raises(ProcedureError, match="claw"):
+        Engine(Policy(mind(skill("Go", Procedure("claw.grip"), (0,), ("actuator", 0))), {}))
+
+
 def test_modules_stand_in_folders(tmp_path: Path) -> None:
     (tmp_path / "parts").mkdir()
     (tmp_path / "parts" / "arm.py").write_text("def up(a, b): return [a, b]")

@@ -2,8 +2,10 @@
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
-from math import inf, nextafter
+from itertools import product
+from math import inf, nan, nextafter
 
+import numpy as np
 import pytest
 from mindrun.engine.engine import virtual_sensors
 from mindrun.graph.graph import Edge, End, Gate, Graph, Lesson, Memory, Reward, Sensor, Task, Thing
@@ -21,7 +23,8 @@ from mindrun.kinds.sensors.rays import RangeFinder
 from mindrun.kinds.sensors.waves import Sine
 from mindrun.kinds.things.obstacle import Obstacle
 from mindrun.kinds.things.thing import Item, ThingKind, Zone
-from mindrun.numbers.expression import is_valid_program
+from mindrun.numbers import arrays
+from mindrun.numbers.expression import OPERATORS, evaluate, is_valid_program
 from mindrun.numbers.quantity import UNSAID, Span
 
 from tests.minds import always, mind, rule, skill
@@ -92,6 +95,11 @@ def sends(*edges: Edge) -> Callable[[Graph], Graph]:
     return with_skill(0, edges=edges)
 
 
+def twin(**changes: object) -> Callable[[Graph], Graph]:
+    """A third skill, which is like Go but for the changes."""
+    return lambda g: replace(g, skills=(*g.skills, replace(g.skills[1], **({"name": "Twin", "like": "Go"} | changes))))
+
+
 FLAWED: list[tuple[Callable[[Graph], Graph], str]] = [
     (lambda g: replace(g, tick=0.0), "its tick cannot be 0 s"),
     (lambda g: replace(g, tick=nextafter(1e-9, 0)), "its tick cannot be 1e-09 s"),
@@ -137,6 +145,11 @@ FLAWED: list[tuple[Callable[[Graph], Graph], str]] = [
     (sends(Edge("actuator", 0, None, ONE, Gate(ONE))), "skill Top has a condition that cannot be computed"),
     (sends(Edge("actuator", 0, None, ONE, cuts=0.1)), "skill Top cuts what cannot be cut"),
     (sends(Edge("skill", 1, None, ONE, cuts=1.5)), "skill Top cuts what cannot be cut"),
+    (twin(function=Mlp(2)), "skill Twin has not the shape of Go, which it is like"),
+    (twin(inputs=(0,)), "skill Twin has not the shape of Go, which it is like"),
+    (twin(edges=()), "skill Twin has not the shape of Go, which it is like"),
+    (twin(frozen=True), "skill Twin has not the shape of Go, which it is like"),
+    (twin(like="Top"), "skill Twin is like 'Top', which owns no weights"),
     (sends(Edge("actuator", 0, None, (("reading", 0.0),))), "skill Top has an expression that cannot be computed"),
     (with_task(name="Go there"), "there cannot be a part called 'Go there'"),
     (with_task(ticks=0), "task Go does not last"),
@@ -199,6 +212,7 @@ def test_a_broken_one_is_told(broken: Callable[[Graph], Graph], what: str) -> No
 FINE: list[Callable[[Graph], Graph]] = [
     lambda g: replace(g, tick=1e-9),
     lambda g: replace(g, tick=1e9),
+    twin(inputs=(3, 0)),
     with_task(ticks=1),
     with_task(things=(BALL, *many(99, Zone()), *many(25, Obstacle(count=100), "stone"))),
     with_task(things=(BALL, ROCKS), scene=Arena(510.0)),
@@ -253,3 +267,12 @@ def test_sources_are_computed_before_what_derives_from_them() -> None:
 )
 def test_a_program_leaves_one_value(words: str, sound: bool) -> None:
     assert is_valid_program(tuple((word, 0) for word in words.split())) is sound
+
+
+@pytest.mark.parametrize("operator", sorted(OPERATORS))
+def test_a_program_has_the_value_that_it_has_on_arrays(operator: str) -> None:
+    for left, right in product((-inf, -2.0, -0.0, 0.0, 3.0, inf, nan), repeat=2):
+        with np.errstate(all="ignore"):
+            expected = arrays.OPERATORS[operator](np.float64(left), np.float64(right))
+        said = evaluate((("number", left), ("number", right), (operator, 0)))
+        assert repr(float(said)) == repr(float(expected)), (left, right)

@@ -169,3 +169,9 @@ def test_nothing_is_proved_of_what_remembers() -> None:
     proof = prove(graph, {"Roam": drawn(graph, 1)[0]}, 0.01)
     assert genes(roam) == 55
     assert proof.unknown == {"Roam": "remembers what it computed"}
+
+
+@pytest.mark.parametrize(("now", "inputs"), [(Elman(3), 2), (Elman(1), 4)])
+def test_nothing_is_widened_by_what_has_fewer_inputs_or_remembers_less(now: Elman, inputs: int) -> None:
+    old = Elman(2)
+    assert old.widened(np.ones(old.genome_length(3, 2), np.float32), (3, 2), now, (inputs, 2)) is None

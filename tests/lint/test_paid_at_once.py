@@ -72,6 +72,7 @@ def at_once(line: str, why: str) -> list[Told]:
             at_once("ends when mood < 0.5", "mood is always 0.3, always below 0.5"),
         ),
         ("memory mood is cell decay 0.9 start 0.6\n" + ending("ends when mood < 0.5"), []),
+        (ending("ends when left_wheel < 0.7"), []),
         (
             DRAWN,  # 12 · 12 of 34 · 34
             [(PAYS, EVERY.replace("every run", "about 12% of the runs"), GOAL)],

@@ -51,6 +51,16 @@ def test_what_a_first_line_cannot_say_of_a_world(world: dict[str, object]) -> No
         about_of_line(resealed(line, **world), REC)
 
 
+def test_the_world_is_written_with_each_row(tmp_path: Path) -> None:
+    about, parts = read(REC)
+    rows = np.concatenate([*parts])
+    worlds = iter(rows["world"])
+    with Recorder(tmp_path / "copy.rec", about, world=lambda: next(worlds)) as recorder:
+        for row in rows:
+            recorder.write(**{name: row[name] for name in rows.dtype.names or () if name not in ("world", "check")})
+    assert np.concatenate([*read(tmp_path / "copy.rec")[1]])["world"].tobytes() == rows["world"].tobytes()
+
+
 @pytest.mark.parametrize("world", [None, 1, [], "Roam", {}])
 def test_a_world_is_an_object(tmp_path: Path, world: object) -> None:
     said = json.loads(REC.read_bytes().partition(b"\n")[0])
