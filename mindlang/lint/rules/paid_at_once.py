@@ -113,8 +113,8 @@ class _FirstTick:
                 low, high = interval(kind.formula, self.first)
                 return max(0.0, min(low, 1.0)), max(0.0, min(high, 1.0))
             return kind.first(self) or UNIT_INTERVAL
-        start = next((each.kind.start for each in self.study.mind.memories if each.name == name), None)
-        return UNIT_INTERVAL if start is None else (start, start)
+        start = next(each.kind.start for each in self.study.mind.memories if each.name == name)
+        return start, start
 
     def is_within(self, thing: str) -> bool | None:
         """True if the robot begins inside a thing; None where that is drawn at random."""
