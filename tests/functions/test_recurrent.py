@@ -1,4 +1,4 @@
-"""Recurrent networks: the same bits in the engine and in the lanes, whoever learns and whenever they wake."""
+"""Recurrent networks, and perceptrons: the same bits in the engine and in the lanes, whoever learns and whenever they wake."""
 
 from dataclasses import replace
 from math import exp
@@ -81,6 +81,13 @@ def test_the_lanes_remember_as_the_engine_does(text: str, seed: int) -> None:
     assert follow(Rollout(Policy(graph, weights), "World", "Top"), Engine(Policy(graph, weights)), seed) > 20
     learning = Rollout(Policy(graph, {}), "World", "Top", ["Roam"])
     assert follow(learning, Engine(Policy(graph, weights)), seed, weights["Roam"]) > 20
+
+
+@pytest.mark.parametrize("hidden", [0, 1, 2])
+def test_the_lanes_compute_every_hidden_layer_of_a_perceptron(hidden: int) -> None:
+    graph = mind(MIND.replace("is elman width 5", f"is mlp hidden {hidden}"))
+    weights = {"Roam": drawn(graph, 1)[0]}
+    assert follow(Rollout(Policy(graph, weights), "World", "Top"), Engine(Policy(graph, weights)), 1) > 20
 
 
 @both
