@@ -1,4 +1,4 @@
-"""Recurrent networks, and perceptrons: the same bits in the engine and in the lanes, whoever learns and whenever they wake."""
+"""Recurrent networks: the same bits in the engine and in the lanes, whoever learns and whenever they wake."""
 
 from dataclasses import replace
 from math import exp
