@@ -78,7 +78,6 @@ ROOMS = {
             *(f"tests/functions/test_{name}.py" for name in ("recurrent_mind", "recurrent")),
             "tests/engine/test_bits.py",
             "tests/edits/test_weights.py",
-            "tests/weights/test_network.py",
             "tests/sim/test_lanes.py",
         ),
         interpreted=True,

@@ -83,6 +83,13 @@ def test_the_lanes_remember_as_the_engine_does(text: str, seed: int) -> None:
     assert follow(learning, Engine(Policy(graph, weights)), seed, weights["Roam"]) > 20
 
 
+@pytest.mark.parametrize("hidden", [0, 1, 2])
+def test_the_lanes_compute_every_hidden_layer_of_a_perceptron(hidden: int) -> None:
+    graph = mind(MIND.replace("is elman width 5", f"is mlp hidden {hidden}"))
+    weights = {"Roam": drawn(graph, 1)[0]}
+    assert follow(Rollout(Policy(graph, weights), "World", "Top"), Engine(Policy(graph, weights)), 1) > 20
+
+
 @both
 def test_one_that_reads_nothing_sends_nothing(text: str) -> None:
     """In the lanes, too, whatever the skill before it has left in the rows of its outputs."""
