@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
-from threading import Event
+from threading import Event, Thread
 from time import perf_counter
 from types import FrameType
 
@@ -136,16 +136,16 @@ class Trainer:
         event_files = EventFiles(run) if self.event_files else None
         asked = Event()
 
+        # A thread, for the signal may come in the middle of a print.
+        saying = Thread(target=self._say_stopping, args=(run, display, executor is not None), daemon=True)
+
         def stop(number: int, frame: FrameType | None) -> None:
             """Stop after this generation; at the next Ctrl-C at once, even where compiled code runs no handler."""
             signal.signal(signal.SIGINT, signal.SIG_DFL)
             asked.set()
-            if display:
-                display.close()
             if isinstance(scorer, JobScorer) and not scorer.jobs.has_begun:
                 raise StoppedWhileIdleError
-            what = "saving; what workers are at is done again then" if executor else "finishing this generation"
-            self._say(f"{what}; Ctrl-C again stops at once, to go on then: {self._command(run)}")
+            saying.start()
 
         def report(state: LessonState, record: Record) -> None:
             has_ended = record.verdict is not None
@@ -162,9 +162,17 @@ class Trainer:
                 watch = Watch(report, self._say, asked.is_set, perf_counter, pace.count_ahead)
                 return train(run, scorer, watch, executor)
         finally:
+            if saying.is_alive():
+                saying.join()
             for each in (display, event_files):
                 if each:
                     each.close()
+
+    def _say_stopping(self, run: RunFolder, display: LessonDisplay | None, is_elsewhere: bool) -> None:
+        if display:
+            display.close()
+        what = "saving; what workers are at is done again then" if is_elsewhere else "finishing this generation"
+        self._say(f"{what}; Ctrl-C again stops at once, to go on then: {self._command(run)}")
 
     def _command(self, run: RunFolder) -> str:
         """The command that goes on with a run."""
