@@ -170,7 +170,7 @@ class Reads(Struct, frozen=True):
 
 
 class Sends(Struct, frozen=True):
-    """`sends`: a value to an edge, and when."""
+    """The common part of `drives` and `influences`: to whom something is sent, which value, and when."""
 
     name: Name
     at: Expression | None

@@ -3,10 +3,10 @@
 from collections.abc import Callable, Iterator, Sequence
 from itertools import product
 from math import inf, isnan
-from operator import add, ge, gt, le, lt, sub, truediv
+from operator import add, sub, truediv
 from typing import Any, NamedTuple
 
-from mindrun.numbers.expression import OPERATORS, Formula, fold
+from mindrun.numbers.expression import OPERATIONS, OPERATORS, Formula, fold
 
 from mindlang.compiler.syntax import Comparison, Expression, When
 
@@ -17,7 +17,6 @@ UNBOUNDED: Interval = (-inf, inf)
 UNIT_INTERVAL: Interval = (0.0, 1.0)
 
 COMPARISON_WORDS = {"<": "below", "<=": "at or below", ">": "above", ">=": "at or above"}
-COMPARISONS: dict[str, Callable[[float, float], bool]] = {"<": lt, "<=": le, ">": gt, ">=": ge}
 OPPOSITES = {"<": ">=", "<=": ">", ">": "<=", ">=": "<"}
 TURNED = {"<": ">", "<=": ">=", ">": "<", ">=": "<="}  # the same with its sides the other way round
 UPPER = ("<", "<=")
@@ -71,7 +70,7 @@ def _product(left: float, right: float) -> float:
     return left * right if left and right else 0.0  # an infinite bound is no value: 0 times whatever is read is 0
 
 
-OPERATIONS: dict[str, Callable[[float, float], float]] = {
+CORNERS: dict[str, Callable[[float, float], float]] = {
     "+": add, "-": sub, "*": _product, "/": truediv, "least": min, "greatest": max,
 }  # fmt: skip
 
@@ -80,7 +79,7 @@ def _combined(symbol: str, left: Interval, right: Interval) -> Interval:
     """All operations have their least and greatest value in corners, unless the divisor can be 0."""
     if symbol == "/" and right[0] <= 0 <= right[1]:
         return UNBOUNDED
-    corners = [OPERATIONS[symbol](a, b) for a, b in product(left, right)]
+    corners = [CORNERS[symbol](a, b) for a, b in product(left, right)]
     return UNBOUNDED if any(map(isnan, corners)) else (min(corners), max(corners))
 
 
@@ -122,7 +121,8 @@ def _why_never(all_: Sequence[Comparison], value: Range) -> str | None:
 def _can_be(each: Comparison, compare: str, value: Range) -> bool:
     """True if the sides of a comparison can be so that `left compare right` holds."""
     (low, high), (least, most) = value(each.left), value(each.right)
-    return COMPARISONS[compare](low, most) if compare in UPPER else COMPARISONS[compare](high, least)
+    left, right = (low, most) if compare in UPPER else (high, least)
+    return OPERATIONS[compare](left, right) == 1
 
 
 def _in_words(each: Comparison, how_often: str, value: Range) -> str:
