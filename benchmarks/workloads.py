@@ -106,7 +106,7 @@ class Lanes:
         self.parts: list[tuple[Tile, Jobs]] = []
         for worker in range(workers):
             seeds = (1 + worker * lanes + each).astype(np.uint64)
-            jobs = self.rollout.jobs(genomes.astype(np.float32), seeds[:1])._replace(seeds=seeds, seed=each)
+            jobs = replace(self.rollout.jobs(genomes.astype(np.float32), seeds[:1]), seeds=seeds, seed=each)
             tile = self.rollout.tile(lanes)
             self.rollout.fill(tile, jobs)
             self.parts.append((tile, jobs))

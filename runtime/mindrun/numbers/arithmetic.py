@@ -242,6 +242,21 @@ def store(array: Any, row: Any, lane: Any, value: Any) -> None:
     array[row, lane : lane + LANES] = value
 
 
+def lowest(a: Any, b: Any) -> Any:
+    """The lower of two numbers in each of sixteen lanes, the second where one is NaN."""
+    return np.where(a < b, a, b)
+
+
+def highest(a: Any, b: Any) -> Any:
+    """The higher of two numbers in each of sixteen lanes, the second where one is NaN."""
+    return np.where(a > b, a, b)
+
+
+def where_ordered(low: Any, high: Any, yes: Any, no: Any) -> Any:
+    """`yes` in the lanes where low <= high, `no` in the others and where either is NaN."""
+    return np.where(low <= high, yes, no)
+
+
 def sigmoid(values: NDArray[np.float32]) -> NDArray[np.float32]:
     """The sigmoid of each value, float32 in and out; NaN gives what −∞ gives."""
     x: NDArray[np.float32] = np.fmin(np.fmax(values * HALF, _LOW), _HIGH)

@@ -6,24 +6,24 @@ types), so one that stands there fits, and begins with a hash, so one that is da
 
 import atexit
 import fcntl
-import pickle
+import os
 import shutil
-import sys
 import tempfile
 import time
-from collections.abc import Iterator
-from contextlib import AbstractContextManager, ExitStack, contextmanager, nullcontext, suppress
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import ExitStack, contextmanager, suppress
 from functools import cache
 from hashlib import sha256
 from pathlib import Path
-from typing import IO, Any
+from threading import RLock
+from typing import IO
 
-import llvmlite
-import numba
-from llvmlite.binding import get_host_cpu_features, get_host_cpu_name
+from llvmlite.binding import get_host_cpu_features
 
 from mindrun.files.user_cache import user_cache
-from mindrun.sim.numba_internals import made_for, packed, unpacked
+from mindrun.sim.dependencies import DIGITS, called, fingerprint, functions
+from mindrun.sim.machine_code import load, target
+from mindrun.sim.units import Unit
 
 SIM_FOLDER = Path(__file__).parent
 SHIPPED = SIM_FOLDER / "compiled"  # in the wheel
@@ -34,25 +34,14 @@ HASH_BYTES = 32
 # itself: the other may be stopped, or its machine be gone while a shared disk keeps its lock.
 WAIT_SECONDS = 600.0
 ASK_AGAIN_SECONDS = 0.05
-KINDS = "../kinds/sensors/*.py", "../kinds/functions/*.py"
-
-
-@cache
-def stamp() -> str:
-    """A hash of all that machine code depends on but the processor: numba misses changes of callees in other files."""
-    versions = f"{sys.implementation.cache_tag} {numba.__version__} {llvmlite.__version__}"
-    digest = sha256(versions.encode())
-    compiled = ("*.py", "lanes/*.py", "../numbers/*.py", "../graph/beginning.py", *KINDS)
-    for path in sorted(path.resolve() for pattern in compiled for path in SIM_FOLDER.glob(pattern)):
-        digest.update(path.read_bytes())
-    return digest.hexdigest()[:16]
+LOCK = RLock()  # of the threads of this process: numba has one of its own, and LLVM none
 
 
 @cache
 def folder() -> Path:
     """The folder of machine code: in the user's cache; where that cannot be written, one of this process alone."""
     try:
-        found = user_cache() / f"compiled-{stamp()}"
+        found = user_cache() / "compiled"
         found.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=found):
             return found
@@ -62,61 +51,70 @@ def folder() -> Path:
         return found
 
 
-class MachineCode:
-    """The machine code of one function, for each signature: numba asks for it before it compiles."""
-
-    cache_path = ""  # which numba's statistics name
-
-    def __init__(self, function: str) -> None:
-        self.function = function
-
-    def load_overload(self, sig: Any, target_context: Any) -> Any:
-        """The compiled function, or None."""
-        for path in self.places(sig, target_context):
-            if (data := _read(path)) is not None:
-                return unpacked(pickle.loads(data), target_context)
-        return None
-
-    def places(self, sig: Any, target_context: Any) -> list[Path]:
-        """The files that may have it: what is kept, then what was shipped."""
-        triple, *processor = made_for(target_context.codegen())
-        kept = folder() / self.file(sig, triple, *processor)
-        return [kept, *(SHIPPED / self.file(sig, triple, kind, PROCESSORS[kind]) for kind in fitting())]
-
-    def exclusive(self, sig: Any, target_context: Any) -> AbstractContextManager[None]:
-        """A context to compile in: where no file is found, of one process at a time: the next finds what it made."""
-        kept, *shipped = self.places(sig, target_context)
-        is_found = any(path.is_file() for path in (kept, *shipped))
-        return nullcontext() if is_found else exclusive(kept.with_suffix(".lock"))
-
-    def save_overload(self, sig: Any, data: Any) -> None:
-        """Keep a compiled function; where that fails, it is compiled again another time."""
-        with suppress(OSError):
-            _write(folder() / self.file(sig, *made_for(data.codegen)), packed(data))
-
-    def file(self, sig: Any, triple: str, processor: str, features: str) -> str:
-        """The name of the file for a signature and a target."""
-        digest = sha256(f"{stamp()} {triple} {features} {sig}".encode()).hexdigest()[:16]
-        return f"{self.function}-{processor}-{digest}.code"
-
-    def is_native(self) -> bool:
-        """True if some is kept that was made for this very processor."""
-        return any(folder().glob(f"{self.function}-{processor()}-*.code"))
-
-    def is_there(self) -> bool:
-        """True if there is some for this processor, as far as one can see without the types."""
-        shipped = (path for kind in fitting() for path in SHIPPED.glob(f"{self.function}-{kind}-*.code"))
-        return self.is_native() or any(shipped)
+def address_of(unit: Unit) -> int:
+    """The address of a unit's machine code, loaded now; it is made, and kept, where there is none."""
+    with LOCK:
+        if (code := find(unit)) is None:
+            with exclusive(_kept(unit).with_suffix(".lock"), WAIT_SECONDS):
+                code = find(unit) or _make(unit)
+        return load(code, unit.name, {each.slot_name: each.place for each in called(unit)})
 
 
-def processor() -> str:
-    """The name of this processor, as LLVM has it."""
-    return str(get_host_cpu_name())
+def make_missing(units: Iterable[Unit], told: Callable[[], None] = lambda: None) -> None:
+    """Compile those of some units of which there is no machine code, the largest first; `told` is called after each.
+
+    Beside other processes that do the same: nobody compiles what another one is at, and all end when all is there.
+    """
+    missing = sorted((each for each in units if find(each) is None), key=_length, reverse=True)
+    for patience in (0.0, WAIT_SECONDS):
+        for unit in [*missing]:
+            with exclusive(_kept(unit).with_suffix(".lock"), patience) as is_alone:
+                if is_alone:
+                    if find(unit) is None:
+                        _make(unit)
+                    missing.remove(unit)
+                    told()
+
+
+def find(unit: Unit) -> bytes | None:
+    """The machine code of a unit, kept or shipped; None where there is none."""
+    paths = [_kept(unit), *(SHIPPED / _file(unit, kind, PROCESSORS[kind]) for kind in fitting())]
+    return next((code for path in paths if (code := _read(path)) is not None), None)
+
+
+def is_native(unit: Unit) -> bool:
+    """True if it is kept, made for this very processor."""
+    return _kept(unit).is_file()
+
+
+def _kept(unit: Unit) -> Path:
+    return folder() / _file(unit, target().processor, target().features)
+
+
+def _file(unit: Unit, processor: str, features: str) -> str:
+    """The name of a unit's file for a kind of processors."""
+    digest = sha256(f"{fingerprint(unit)} {target().triple} {features}".encode()).hexdigest()[:DIGITS]
+    return f"{unit.name.removeprefix('mindrun.')}-{processor}-{digest}.code"
+
+
+def _make(unit: Unit) -> bytes:
+    """Compile a unit and keep it; where that fails, it is compiled again another time."""
+    from mindrun.sim.compiling import compile_unit
+
+    code = compile_unit(unit)
+    with suppress(OSError):
+        _write(_kept(unit), code)
+    return code
+
+
+def _length(unit: Unit) -> int:
+    """A number that is larger for what takes longer to compile."""
+    return sum(len(each.__code__.co_code) for each in functions(unit.function))
 
 
 def fitting() -> list[str]:
     """The kinds of PROCESSORS whose code this one can run; none where a user wants another's code."""
-    if numba.config.CPU_NAME:
+    if os.environ.get("NUMBA_CPU_NAME"):
         return []
     has = {f"+{name}" for name, is_there in get_host_cpu_features().items() if is_there}
     return [kind for kind, needs in PROCESSORS.items() if {*needs.split(",")} <= has]
@@ -139,25 +137,27 @@ def _write(path: Path, data: bytes) -> None:
 
 
 @contextmanager
-def exclusive(path: Path) -> Iterator[None]:
-    """A context that one process at a time is in for a `path`; where locking fails, or takes too long, any number are.
+def exclusive(path: Path, patience: float) -> Iterator[bool]:
+    """A context that one process at a time is in for a `path`: True; False where others are in it for so many seconds.
 
-    A POSIX lock: it ends with its process, and processes forked meanwhile do not have it. Of threads it knows nothing.
+    Where it cannot be locked, or after WAIT_SECONDS, any number are: True. A POSIX lock: it ends with its process, and
+    processes forked meanwhile do not have it. Of threads it knows nothing.
     """
     with ExitStack() as held:
+        is_alone = True
         with suppress(OSError):
-            _lock(held.enter_context(path.open("ab")))
-        yield
+            is_alone = _lock(held.enter_context(path.open("ab")), patience)
+        yield is_alone or patience == WAIT_SECONDS
 
 
-def _lock(file: IO[bytes]) -> None:
-    """Wait for the lock of a file; OSError after WAIT_SECONDS."""
-    patience = time.monotonic() + WAIT_SECONDS
+def _lock(file: IO[bytes], seconds: float) -> bool:
+    """Wait for the lock of a file for so many seconds; True when this process has it."""
+    until = time.monotonic() + seconds
     while True:
         try:
             fcntl.lockf(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            return
+            return True
         except (BlockingIOError, PermissionError):  # both mean that another process has it
-            if time.monotonic() > patience:
-                raise
+            if time.monotonic() >= until:
+                return False
         time.sleep(ASK_AGAIN_SECONDS)

@@ -5,16 +5,16 @@ sensor said. Influence is replaced after all above a skill have sent theirs and 
 """
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from itertools import pairwise
 
 from mindrun.engine.changes import Change, Changed, calm_ticks, in_tick
-from mindrun.sim.lanes.stages import after, before, run_skills
+from mindrun.sim.lanes.advance import before
 from mindrun.sim.rollout import Rollout, Tile
 from mindrun.sim.state import Jobs, State
 from mindrun.sim.tables import Tables
 
 Advance = Callable[[Tile, Jobs, int], int]
-STAGES = before, run_skills, after  # what such ticks call, but for procedures that run in Python
 
 
 def changed(rollout: Rollout, changes: Sequence[Change]) -> Advance:
@@ -50,7 +50,7 @@ def _sense(tables: Tables, state: State, jobs: Jobs, replaced: Mapping[int, floa
     starts, widths = tables.sensors["start"], tables.sensors["width"]
     ends = {int(i) + 1 for row in replaced for i in ((starts <= row) & (row < starts + widths)).nonzero()[0]}
     for begin, end in pairwise([0, *sorted({*ends, len(tables.sensors)})]):
-        before(tables._replace(sensors=tables.sensors[begin:end]), state, jobs)
+        before(replace(tables, sensors=tables.sensors[begin:end]), state, jobs)
         for start, width in zip(starts[end - 1 : end], widths[end - 1 : end], strict=True):
             for row in {*range(start, start + width)} & replaced.keys():
                 state.mind.readings[row, 0] = replaced[row]

@@ -8,12 +8,11 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from numba import types
 from pymunk import _chipmunk
 
 from mindrun.errors import MindError
 from mindrun.kinds.bodies.body import FRICTION_COEFFICIENT, BodyKind
-from mindrun.sim.compiling import call, callback
+from mindrun.sim.units import AddressOf, Pointer, call, unit
 from mindrun.sim.versions import remedy
 
 ffi, lib = _chipmunk.ffi, _chipmunk.lib
@@ -39,8 +38,8 @@ FUNCTIONS = (
     SPACE_NEW, SPACE_FREE, SPACE_ITERATIONS, SPACE_HASH, SPACE_STATIC, SPACE_ADD_BODY, SPACE_ADD_SHAPE,
     SPACE_REMOVE_BODY, SPACE_REMOVE_SHAPE, SPACE_STEP, BODY_NEW, BODY_FREE, POLY_NEW, SHAPE_FREE, SHAPE_BODY,
     SHAPE_FRICTION, SHAPE_SENSOR, CIRCLE_RADIUS, BODY_GET, BODY_SET, EACH_ARBITER,
-    ARBITER_BODIES, CIRCLE_NEW, POLY_CORNERS, BODY_MASS, BODY_MOMENT, SPACE_SLOP, COUNT,
-) = range(len(FUNCTIONS) + 1)  # fmt: skip
+    ARBITER_BODIES, CIRCLE_NEW, POLY_CORNERS, BODY_MASS, BODY_MOMENT, SPACE_SLOP,
+) = range(len(FUNCTIONS))  # fmt: skip
 
 # Columns of `handles`; after the shapes that can be held come the boxes, then the walls.
 SPACE, BODY, ROBOT, FIRST_HELD = range(4)
@@ -78,17 +77,20 @@ def _layout(structure: str) -> tuple[int, Mapping[str, int]] | None:
 
 
 def library() -> Any:
-    """The addresses of FUNCTIONS and, last, of a function that counts what a body has run into: uint64."""
+    """The addresses of FUNCTIONS: uint64."""
     refuse_another()
-    addresses = [int(ffi.cast("uintptr_t", ffi.addressof(lib, name))) for name in FUNCTIONS]
-    return np.array([*addresses, _count.address], np.uint64)
+    return np.array([int(ffi.cast("uintptr_t", ffi.addressof(lib, name))) for name in FUNCTIONS], np.uint64)
 
 
-@callback(types.void(types.uint64, types.uint64, types.CPointer(types.int64)))
-def _count(_body: Any, arbiter: Any, tally: Any) -> None:
+@unit
+def count(_body: int, arbiter: int, tally: Pointer) -> None:
+    """Count a contact of a body with what never moves, for Chipmunk, which calls it for each."""
     call(tally[BODIES_OF], arbiter, tally[FIRST_PLACE], tally[SECOND_PLACE])
     if tally[FIRST_BODY] == tally[FIXED_BODY] or tally[SECOND_BODY] == tally[FIXED_BODY]:
         tally[TALLIED] += 1
+
+
+count_address = AddressOf(count)
 
 
 def prepare(handles: Any, floats: Any, batch: Any, tally: Any, body: BodyKind, holds: list[float | None]) -> list[Any]:

@@ -6,8 +6,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.kinds.registry import kinds
-
 PUSH, STEERING, GRIPPER, IDLE = range(4)
 ITEM, ZONE, POWER, BOX, BALL, WALKER = range(6)
 STAYS, MOVES, VANISHES = range(3)
@@ -37,11 +35,6 @@ EVENT_CODES = {
 }  # fmt: skip
 
 
-def codes_of(noun: str) -> dict[str, int]:
-    """The number of every kind of that noun, by its name; for those that say themselves what a lane does."""
-    return {name: code for code, name in enumerate(sorted(kinds(noun)))}
-
-
 Row = Mapping[str, float]  # of a table, by the names of its columns
 
 
@@ -59,12 +52,13 @@ def _columns(**names: str) -> np.dtype[Any]:
 
 # Where a column says what differs between runs, it is a row of `world.numbers`: that of every PARAMETER.
 SENSOR = _columns(
-    i8="kind start width thing things box boxes source ray number part before turns code length over "
+    i8="start width thing things box boxes source ray number part before turns code length over "
     "is_rough is_aside noise lost every delay wait held ring",
+    u8="lane",
     f8="range period",
     f4="low high dead_zone gain blank",
 )
-SKILL = _columns(i8="kind index input inputs outputs hidden width weights own edge edges state", u8="address")
+SKILL = _columns(i8="index input inputs outputs hidden width weights own edge edges state", u8="lane address")
 EDGE = _columns(i8="to_skill target output code length when whens other others", f4="cuts")
 CODE = _columns(i8="op arg", f8="value")
 ACTUATOR = _columns(

@@ -23,7 +23,9 @@ from mindrun.kinds.functions.function import Rule
 from mindrun.kinds.registry import names
 from mindrun.numbers.arithmetic import ANGLE, BOX_COLUMNS
 from mindrun.sim.codes import GOING_ON, LOST
-from mindrun.sim.lanes.stages import after, before, begin_again, send, wake
+from mindrun.sim.lanes.advance import after, before
+from mindrun.sim.lanes.runs import begin_again
+from mindrun.sim.lanes.think import send, wake
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.state import Jobs, State, whole_vectors
 from mindrun.sim.trace import things_in, turned_in
@@ -45,7 +47,7 @@ class CommandedLanes:
         self.jobs: Jobs = rollout.jobs(genome, np.zeros(lanes, np.uint64))
         world = rollout.tables.world.copy()
         world["ticks"] = ENDLESS_TICKS  # a run that has lasted its time stays, and what it reads then can be asked
-        self._endless = rollout.tables._replace(world=world)
+        self._endless = replace(rollout.tables, world=world)
         rollout.compile(before, after, begin_again, wake, send)  # now, not in the first ticks
         rollout.fill(self.tile, self.jobs)
         self._lost = np.zeros(lanes, np.bool_)
@@ -54,7 +56,8 @@ class CommandedLanes:
         """Begin the runs of these seeds in the marked lanes [lanes], one for each; `sense` takes their readings."""
         self.jobs.seeds[lanes] = np.asarray(seeds, np.uint64)
         self.jobs.lanes[0] = self.count
-        begin_again(self.rollout.tables, self.state, self.jobs, lanes)
+        for lane in np.flatnonzero(lanes):
+            begin_again(self.rollout.tables, self.state, self.jobs, lane)
         self._lost[lanes] = False
         self.tile.memories.forget({*np.flatnonzero(~lanes).tolist()})
 
@@ -90,10 +93,10 @@ class CommandedLanes:
         """Another state whose first lanes have what the marked lanes [lanes] would read now; nothing here changes."""
         chosen = np.flatnonzero(lanes)
         places = np.resize(chosen, whole_vectors(len(chosen)))
-        aside = self.state._replace(**{
+        aside = replace(self.state, **{
             name: _of_lanes(getattr(self.state, name), places, self.count) for name in ("world", "sight", "mind")
         })  # fmt: skip
-        before(self.rollout.tables, aside, self.jobs._replace(lanes=np.array([len(chosen)], np.int64)))
+        before(self.rollout.tables, aside, replace(self.jobs, lanes=np.array([len(chosen)], np.int64)))
         return aside
 
     @property
@@ -269,7 +272,7 @@ def _of_lanes(part: Any, lanes: NDArray[np.int64], count: int) -> Any:
             return rows.take(lanes) if len(rows) == count else rows.copy()
         return rows.take(lanes, axis=0 if name in BY_LANE_FIRST else 1)
 
-    return part._make(taken(name, rows) for name, rows in zip(part._fields, part, strict=True))
+    return type(part)(**{name: taken(name, getattr(part, name)) for name in part.layout()})
 
 
 def _written(event: EventKind) -> str:

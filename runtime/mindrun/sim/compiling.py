@@ -1,61 +1,239 @@
-"""Decorators that compile the lanes, into one piece of machine code for each way in from Python.
+"""The compiler of units: a function of the lanes with all that it calls, as one piece of machine code.
 
-Numba would optimise every function and make machine code of it, link it into each caller, and do all that again there,
-five levels deep. Here what only compiled code calls stays as it was lowered until it is part of a way in.
+The lanes are plain Python. Here every function that one of them calls becomes a function of numba's, a unit a call
+through its slot, and what stands for sixteen lanes a vector; numba lowers them, LLVM makes machine code of the whole.
 """
 
 from collections.abc import Callable
+from functools import cache
+from types import FunctionType
 from typing import Any
 
 import numba
 from llvmlite import ir
 from numba import types
-from numba.extending import intrinsic
+from numba.core import cgutils
+from numba.core.typing.templates import AttributeTemplate
+from numba.extending import infer_getattr, intrinsic, lower_getattr_generic, models, register_model
+from numba.np.numpy_support import from_dtype
 
-from mindrun.sim.cache import MachineCode
-from mindrun.sim.numba_internals import EntryCompiler, InnerCompiler, callback_of, keep_code
+from mindrun.numbers import arithmetic
+from mindrun.sim import units, vector
+from mindrun.sim.arrays import WORD_BYTES, Block, Room
+from mindrun.sim.dependencies import used
+from mindrun.sim.machine_code import machine_code
+from mindrun.sim.numba_internals import InnerCompiler, lowered, rare_collections
+from mindrun.sim.units import AddressOf, Form, Kind, Pointer, Unit
 
-Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
 # They own no array and make none. With `_nrt` numba would count the references of all that they are handed, at every
 # call: half of the time of a tick.
 OPTIONS = {"nogil": True, "error_model": "numpy", "_nrt": False}
-compiled: Decorator = numba.njit(
-    pipeline_class=InnerCompiler, no_cpython_wrapper=True, no_cfunc_wrapper=True, forceinline=False, **OPTIONS
-)
-inlined: Decorator = numba.njit(inline="always", **OPTIONS)
-# A part of a tick becomes a part of its caller: a call would hand over a hundred arrays, which takes as long as a lane.
-part_of_tick: Decorator = numba.njit(
-    pipeline_class=InnerCompiler, no_cpython_wrapper=True, no_cfunc_wrapper=True, forceinline=True, **OPTIONS
-)
+PIPELINE = {"pipeline_class": InnerCompiler, "no_cpython_wrapper": True, "no_cfunc_wrapper": True, "forceinline": False}
+INLINED = {
+    arithmetic.bearing, arithmetic.clamp, arithmetic.finite, arithmetic.nearest, arithmetic.sine_cosine,
+    arithmetic.short_way, arithmetic.wrapped,
+}  # fmt: skip
+WORD, BYTES = ir.IntType(64), ir.IntType(8).as_pointer()
 
 
-def entry(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Compile a function, even one that is a part of others, so that Python can call it; its machine code is kept."""
-    function = getattr(function, "py_func", function)
-    dispatcher: Any = numba.njit(pipeline_class=EntryCompiler, **OPTIONS)(function)
-    keep_code(dispatcher, _code_of(function))
-    return dispatcher  # type: ignore[no-any-return]
+def compile_unit(unit: Unit) -> bytes:
+    """The machine code of a unit, an object file with a function of the unit's name."""
+    with rare_collections():
+        signature = _numba_type(unit.form.gives)(*map(_numba_type, unit.form.takes))
+        module = lowered(_compiled(unit.function), signature, lambda *given: _for_c(unit, *given))
+        return machine_code(module, unit.name)
 
 
-def callback(signature: Any) -> Callable[[Callable[..., Any]], Any]:
-    """A function for C, which calls its `address`; its machine code is kept."""
-    return lambda function: callback_of(function, signature, _code_of(function))
+def _for_c(unit: Unit, context: Any, module: Any, description: Any) -> None:
+    """Add a function of C to a module, which calls a function of numba's."""
+    kinds = [context.get_value_type(kind) for kind in description.argtypes]
+    gives = ir.VoidType() if unit.form.gives is None else context.get_value_type(description.restype)
+    convention = context.call_conv.get_function_type(description.restype, description.argtypes)
+    callee = ir.Function(module, convention, description.llvm_func_name)
+    builder = ir.IRBuilder(ir.Function(module, ir.FunctionType(gives, kinds), unit.name).append_basic_block())
+    given = builder.function.args
+    _, result = context.call_conv.call_function(builder, callee, description.restype, description.argtypes, given)
+    builder.ret_void() if unit.form.gives is None else builder.ret(result)
 
 
-@intrinsic  # type: ignore[untyped-decorator]
-def call(typingctx: Any, address: Any, *arguments: Any) -> Any:
-    """Call the C function at an address with whole numbers, pointers and doubles; its result as a uint64."""
+@cache
+def _compiled(function: FunctionType) -> Any:
+    """A function of the lanes as numba's, with all that it calls."""
+    terms = {name: _term(value) for name, value in used(function) if value is not function}
+    plain = FunctionType(function.__code__, terms, function.__name__, function.__defaults__)
+    plain.__module__, plain.__qualname__ = function.__module__, function.__qualname__
+    if function in INLINED:
+        return numba.njit(inline="always", **OPTIONS)(plain)
+    return numba.njit(**PIPELINE, **OPTIONS)(plain)
+
+
+def _term(value: Any) -> Any:
+    """The value that compiled code has for a name of the lanes."""
+    match value:
+        case Unit():
+            return _through_slot(value)
+        case AddressOf():
+            return _address_of(value)
+        case Form():
+            return _through_place(value)
+        case FunctionType():
+            found = VECTORS.get(value, value)
+            return _compiled(found) if isinstance(found, FunctionType) else found
+    return value
+
+
+# Types
+
+
+class BlockType(types.Type):  # type: ignore[misc]
+    """The type of a pointer to a block; its name is a part of every name in the machine code, and short."""
+
+    def __init__(self, kind: type[Block]) -> None:
+        self.kind = kind
+        super().__init__(kind.__name__)
+
+
+@register_model(BlockType)
+class _BlockModel(models.PrimitiveModel):  # type: ignore[misc]
+    def __init__(self, manager: Any, kind: Any) -> None:
+        super().__init__(manager, kind, BYTES)
+
+
+@cache
+def _numba_type(kind: Kind) -> Any:
+    """Numba's type of a kind of argument."""
+    if kind is None:
+        return types.none
+    if kind is Pointer:
+        return types.CPointer(types.int64)
+    if isinstance(kind, Room):
+        return types.Array(from_dtype(kind.dtype), kind.dimensions, "C")
+    if isinstance(kind, type) and issubclass(kind, Block):
+        return BlockType(kind)
+    return {int: types.int64, float: types.float64}.get(kind) or from_dtype(kind)
+
+
+@infer_getattr
+class _BlockAttributes(AttributeTemplate):  # type: ignore[misc]
+    key = BlockType
+
+    def generic_resolve(self, kind: Any, name: str) -> Any:
+        found = kind.kind.layout().get(name)
+        return _numba_type(found[1]) if found else None
+
+
+@lower_getattr_generic(BlockType)
+def _get(context: Any, builder: Any, kind: Any, value: Any, name: str) -> Any:
+    """An array made of its words, or the place of an inner block."""
+    place, what = kind.kind.layout()[name]
+    start = builder.gep(value, [ir.Constant(WORD, place * WORD_BYTES)])
+    if not isinstance(what, Room):
+        return start
+    address, *shape = (_word(builder, start, number) for number in range(what.words))
+    made, size = _numba_type(what), ir.Constant(WORD, what.dtype.itemsize)
+    strides, step = list[Any](), size
+    for count in reversed(shape):
+        strides.insert(0, step)
+        step = builder.mul(step, count)
+    array = cgutils.create_struct_proxy(made)(context, builder)
+    array.data = builder.inttoptr(address, array.data.type)
+    array.shape, array.strides = (cgutils.pack_array(builder, each) for each in (shape, strides))
+    array.itemsize, array.nitems = size, builder.sdiv(step, size) if len(shape) > 1 else shape[0]
+    array.meminfo, array.parent = (ir.Constant(each.type, None) for each in (array.meminfo, array.parent))
+    return array._getvalue()
+
+
+def _word(builder: Any, start: Any, number: int) -> Any:
+    """A word of a block, which nothing changes."""
+    place = builder.gep(start, [ir.Constant(WORD, number * WORD_BYTES)])
+    word = builder.load(builder.bitcast(place, WORD.as_pointer()))
+    word.set_metadata("invariant.load", builder.module.add_metadata([]))
+    return word
+
+
+# Calls
+
+
+def _address_in_slot(builder: Any, unit: Unit) -> Any:
+    known = builder.module.globals
+    return builder.load(known.get(unit.slot_name) or ir.GlobalVariable(builder.module, WORD, unit.slot_name))
+
+
+@cache
+def _through_slot(unit: Unit) -> Any:
+    """A call of a unit."""
+
+    @intrinsic
+    def call_unit(typingctx, *given):
+        def generate(context, builder, signature, values):
+            address = _address_in_slot(builder, unit)
+            return _call(context, builder, address, unit.form, signature.args[0], values[0])
+
+        return _numba_type(unit.form.gives)(types.StarArgTuple(given)), generate
+
+    return call_unit
+
+
+@cache
+def _address_of(of: AddressOf) -> Any:
+    """The address of a unit."""
+
+    @intrinsic
+    def address(typingctx):
+        return types.uint64(), lambda context, builder, signature, values: _address_in_slot(builder, of.unit)
+
+    return address
+
+
+@cache
+def _through_place(form: Form) -> Any:
+    """A call of a unit by the address of its slot."""
+
+    @intrinsic
+    def call_unit(typingctx, slot, *given):
+        def generate(context, builder, signature, values):
+            address = builder.load(builder.inttoptr(values[0], WORD.as_pointer()))
+            return _call(context, builder, address, form, signature.args[1], values[1])
+
+        return _numba_type(form.gives)(types.uint64, types.StarArgTuple(given)), generate
+
+    return call_unit
+
+
+def _call(context: Any, builder: Any, address: Any, form: Form, given: Any, values: Any) -> Any:
+    """Call the function of C at an address with a tuple of values."""
+    kinds = [_numba_type(kind) for kind in form.takes]
+    each = [builder.extract_value(values, number) for number in range(len(given))]
+    cast = [context.cast(builder, *pair) for pair in zip(each, given, kinds, strict=True)]
+    gives = ir.VoidType() if form.gives is None else context.get_value_type(_numba_type(form.gives))
+    function = ir.FunctionType(gives, [value.type for value in cast]).as_pointer()
+    result = builder.call(builder.inttoptr(address, function), cast)
+    return context.get_dummy_value() if form.gives is None else result
+
+
+@intrinsic
+def _call_address(typingctx, address, *arguments):
+    """Compiled, `units.call`; its result is a uint64."""
     given = tuple(types.float64 if isinstance(a, types.Float) else types.uint64 for a in arguments)
     signature = types.uint64(types.uint64, types.StarArgTuple(given))
 
-    def generate(context: Any, builder: Any, _signature: Any, values: Any) -> Any:
-        double, whole = ir.DoubleType(), ir.IntType(64)
-        kinds = [double if kind is types.float64 else whole for kind in given]
-        function = builder.inttoptr(values[0], ir.FunctionType(whole, kinds).as_pointer())
+    def generate(context, builder, _signature, values):
+        double = ir.DoubleType()
+        kinds = [double if kind is types.float64 else WORD for kind in given]
+        function = builder.inttoptr(values[0], ir.FunctionType(WORD, kinds).as_pointer())
         return builder.call(function, [builder.extract_value(values[1], i) for i in range(len(given))])
 
     return signature, generate
 
 
-def _code_of(function: Callable[..., Any]) -> MachineCode:
-    return MachineCode(f"{function.__module__.rpartition('.')[2]}.{function.__name__}")
+VECTORS: dict[Callable[..., Any], Any] = {
+    units.call: _call_address,
+    arithmetic.sigmoids: vector.sigmoids,
+    arithmetic.splat: vector.splat,
+    arithmetic.broadcast: vector.broadcast,
+    arithmetic.load: vector.load,
+    arithmetic.store: vector.store,
+    arithmetic.highest: vector.highest,
+    arithmetic.lowest: vector.lowest,
+    arithmetic.where_ordered: vector.where_ordered,
+}

@@ -11,7 +11,8 @@ from mindrun.graph.graph import Edge, Graph, Program, Skill
 from mindrun.graph.weights import NO_WEIGHTS, genes, weights_of
 from mindrun.kinds.registry import names
 from mindrun.numbers.stack_machine import COMMAND, NEGATE, NUMBER, OPERATIONS
-from mindrun.sim.codes import ACTUATOR, ACTUATOR_CODES, EDGE, MEMORY, SKILL, Row, codes_of, records
+from mindrun.sim.codes import ACTUATOR, ACTUATOR_CODES, EDGE, MEMORY, SKILL, Row, records
+from mindrun.sim.kind_lanes import skill_unit
 from mindrun.sim.parameter_rows import SAME_IN_EVERY_RUN, Parameters
 
 Array = NDArray[Any]
@@ -53,7 +54,7 @@ def skill_rows(
     """
     lengths = {skill.owner: genes(skill) for skill in reached}
     starts = dict(zip(learners, np.cumsum([0, *(lengths.get(name, 0) for name in learners)]), strict=False))
-    kinds, numbers = codes_of("skill"), graph.skill_numbers
+    numbers = graph.skill_numbers
     rows, edges, inputs = list[Row](), list[Row](), list[int]()
     shared, places = _shared_weights([skill for skill in reached if skill.owner not in starts], weights)
     most_inputs = scratch = 1
@@ -62,7 +63,7 @@ def skill_rows(
         function, count, outputs = skill.function, len(skill.inputs), skill.outputs
         own, remembered = skill.owner in starts, function.state_length(count, outputs)
         row: Row = {
-            "kind": kinds[names()[type(function)]], "index": numbers[skill.name],
+            "lane": skill_unit(function).place, "index": numbers[skill.name],
             "input": len(inputs), "inputs": count, "outputs": outputs,
             "weights": int(starts[skill.owner]) if own else places[skill.owner], "own": own,
             "edge": len(edges), "edges": len(skill.edges), "address": addresses.get(skill.name, 0), "state": state,

@@ -1,7 +1,7 @@
 """The internals of numba, held against numba 0.63 and 0.68 (`versions`).
 
-With them a function is compiled into one piece of machine code with all that it calls, called from C, kept and taken
-back; what else is used of numba is in its documentation, above all `numba.extending`.
+With them a function is lowered with all that it calls, into one module for LLVM; what else is used of numba is in its
+documentation, above all `numba.extending`.
 """
 
 import gc
@@ -9,20 +9,19 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
-from llvmlite.binding import Linkage, ModulePassManager, ValueRef, create_new_module_pass_manager
+from llvmlite.binding import ValueRef, parse_assembly
 from numba import _dynfunc
 from numba.core.analysis import compute_cfg_from_blocks
-from numba.core.ccallback import CFunc
 from numba.core.codegen import JITCodeLibrary
-from numba.core.compiler import CompilerBase, CompileResult, DefaultPassBuilder
+from numba.core.compiler import CompilerBase, DefaultPassBuilder
 from numba.core.compiler_lock import global_compiler_lock
 from numba.core.compiler_machinery import PassManager, register_pass
-from numba.core.serialize import dumps
-from numba.core.sigutils import normalize_signature
 from numba.core.typed_passes import NativeLowering
 
+from mindrun.sim.machine_code import without_variables_in_memory
+
 COLLECTION_OBJECTS = 100_000  # made between two looks for garbage, while numba compiles; Python 3.11 looks after 700
-LONG_INSTRUCTIONS = 300  # of LLVM, as a function is lowered; from 60 on small batches take longer
+LONG_INSTRUCTIONS = 60  # of LLVM, as a function is lowered
 
 
 class LoweredCode(JITCodeLibrary):  # type: ignore[misc]
@@ -31,7 +30,9 @@ class LoweredCode(JITCodeLibrary):  # type: ignore[misc]
     def add_llvm_module(self, ll_module: Any) -> None:
         """Add the code of the function itself."""
         ll_module.data_layout = self._codegen._data_layout
-        without_variables_in_memory(ll_module, self._codegen, create_new_module_pass_manager())  # once, not per caller
+        without_variables_in_memory(
+            ll_module, self._codegen._pass_builder(opt=0, loop_vectorize=False)
+        )  # once, not per caller
         self._final_module.link_in(ll_module)
 
     def finalize(self) -> None:
@@ -44,30 +45,6 @@ class LoweredCode(JITCodeLibrary):  # type: ignore[misc]
         self._finalized = True
 
 
-class WholeCode(JITCodeLibrary):  # type: ignore[misc]
-    """The code of a way in, with that of all that it calls."""
-
-    def _optimize_final_module(self) -> None:
-        for function in self._final_module.functions:
-            if function.linkage == Linkage.linkonce_odr and not function.is_declaration:
-                function.linkage = "internal"  # nobody else calls it: what it is handed and does not need falls away
-        # Numba prunes reference counts between two passes, and turns loops round before; there are none here, and LLVM
-        # does better with variables out of memory (docs/decisions/whole-ticks-compiled.md).
-        inlining, _ = self._codegen._module_pass_manager(opt=0, loop_vectorize=False)
-        without_variables_in_memory(self._final_module, self._codegen, inlining)
-        builder = self._codegen._pass_builder()
-        builder._pto.loop_unrolling = False  # it takes long, and lanes gain nothing by it
-        builder.getModulePassManager().run(self._final_module, builder)
-
-
-def without_variables_in_memory(module: Any, codegen: Any, passes: ModulePassManager) -> None:
-    """Let `passes` go over a module, and then take variables out of memory: callers have less to optimise."""
-    passes.add_sroa_pass()
-    passes.add_instruction_combine_pass()
-    passes.add_simplify_cfg_pass()
-    passes.run(module, codegen._pass_builder(opt=0, loop_vectorize=False))
-
-
 def keep_apart(function: ValueRef) -> None:
     """Forbid LLVM to inline a long function: called once, it would be inlined however long its caller gets.
 
@@ -75,19 +52,6 @@ def keep_apart(function: ValueRef) -> None:
     """
     if sum(1 for block in function.blocks for _ in block.instructions) >= LONG_INSTRUCTIONS:
         function.add_function_attribute("noinline")
-
-
-@register_pass(mutates_CFG=True, analysis_only=False)
-class LowerAll(NativeLowering):  # type: ignore[misc]
-    """Lower a function, and make machine code of it and of all that it calls."""
-
-    _name = "lower_all"
-
-    def run_pass(self, state: Any) -> bool:
-        """Lower the function into WholeCode."""
-        state.library = WholeCode(state.targetctx.codegen(), state.func_id.func_qualname)
-        state.library.enable_object_caching()
-        return bool(super().run_pass(state))
 
 
 @register_pass(mutates_CFG=True, analysis_only=False)
@@ -112,24 +76,16 @@ class LowerOnly(NativeLowering):  # type: ignore[misc]
         return True
 
 
-class EntryCompiler(CompilerBase):  # type: ignore[misc]
-    """Numba's compiler of a way in from Python, whose last step is `lowering`."""
-
-    lowering: type[NativeLowering] = LowerAll
-
-    def define_pipelines(self) -> list[PassManager]:
-        """The passes of numba, with `lowering` in place of its last one."""
-        passes = PassManager(self.lowering._name)
-        for step, about in DefaultPassBuilder.define_nopython_pipeline(self.state).passes:
-            passes.add_pass(self.lowering if step is NativeLowering else step, about)
-        passes.finalize()
-        return [passes]
-
-
-class InnerCompiler(EntryCompiler):
+class InnerCompiler(CompilerBase):  # type: ignore[misc]
     """Numba's compiler of a function that only compiled code calls."""
 
-    lowering = LowerOnly
+    def define_pipelines(self) -> list[PassManager]:
+        """The passes of numba, with LowerOnly in place of its last one."""
+        passes = PassManager(LowerOnly._name)
+        for step, about in DefaultPassBuilder.define_nopython_pipeline(self.state).passes:
+            passes.add_pass(LowerOnly if step is NativeLowering else step, about)
+        passes.finalize()
+        return [passes]
 
 
 @contextmanager
@@ -143,44 +99,16 @@ def rare_collections() -> Iterator[None]:
         gc.set_threshold(*before)
 
 
-def keep_code(dispatcher: Any, code: Any) -> None:
-    """Let a compiled function take its machine code from `code`, and be compiled by one process at a time."""
-    dispatcher._cache = code
-    find_or_compile = dispatcher.compile
+def lowered(function: Any, signature: Any, add: Callable[[Any, Any, Any], None]) -> Any:
+    """The module of a function of numba's and of all that it calls, before any optimisation.
 
-    def compile_exclusively(signature: Any) -> Any:
-        # Numba's lock first: who compiles a caller has it already when the turn of another way in comes.
-        with global_compiler_lock, code.exclusive(signature, dispatcher.targetctx), rare_collections():
-            return find_or_compile(signature)
-
-    dispatcher.compile = compile_exclusively
-
-
-def code_of(dispatcher: Any) -> Any:
-    """The cache of a compiled function's machine code, as `keep_code` has set it."""
-    return dispatcher._cache
-
-
-def callback_of(function: Callable[..., Any], signature: Any, code: Any) -> Any:
-    """A function for C, which calls its `address`."""
-    made: Any = CFunc(function, normalize_signature(signature), locals={}, options={})
-    made._cache = code
-    with global_compiler_lock, code.exclusive(made._sig, made._targetdescr.target_context), rare_collections():
-        made.compile()
-    return made
-
-
-def made_for(codegen: Any) -> tuple[str, str, str]:
-    """The target of a code generator: its triple, the processor and its features."""
-    triple, processor, features = codegen.magic_tuple()
-    return triple, processor, features
-
-
-def packed(compiled: CompileResult) -> bytes:
-    """A compiled function's machine code as bytes."""
-    return bytes(dumps(compiled._reduce()))
-
-
-def unpacked(reduced: Any, target_context: Any) -> CompileResult:
-    """The machine code that `packed` has made bytes of, given those unpickled."""
-    return CompileResult._rebuild(target_context, *reduced)
+    `add` may add to it: it is given numba's context, a module of llvmlite.ir, and what numba knows of the function.
+    """
+    with global_compiler_lock:
+        function.compile(signature)
+        (compiled,) = (each for args, each in function.overloads.items() if args == signature.args)
+        context, library = function.targetctx, compiled.library
+        whole, more = library._get_module_for_linking().clone(), context.create_module("for C")
+        add(context, more, compiled.fndesc)
+        whole.link_in(parse_assembly(str(more)))
+        return whole

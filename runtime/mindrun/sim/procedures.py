@@ -23,15 +23,14 @@ from mindrun.kinds import procedure_call
 from mindrun.kinds.procedure_call import load
 from mindrun.kinds.procedure_text import module_of
 from mindrun.numbers.arithmetic import F
-from mindrun.sim.compiling import call, compiled
 from mindrun.sim.exact import exactly
 from mindrun.sim.formulas import NoFormulaError, formula
+from mindrun.sim.units import call
 
 # the lane in which it fails or −1; inputs, outputs, lanes, the distance between rows in floats
 SIGNATURE = types.intp(types.CPointer(types.float32), types.CPointer(types.float32), types.intp, types.intp)
 
 
-@compiled
 def call_procedure(address, gathered, hidden, n):
     """Run a compiled procedure over the gathered inputs into `hidden`; return the first lane where it fails, or −1."""
     return np.int64(call(address, gathered.ctypes.data, hidden.ctypes.data, n, gathered.shape[1]))

@@ -17,13 +17,16 @@ from mindrun.graph.policy import Policy
 from mindrun.graph.run_scores import Scores, score_of
 from mindrun.graph.tasks import is_one_world
 from mindrun.sim import chipmunk_internals as chipmunk
+from mindrun.sim.build import build, genome_length
 from mindrun.sim.codes import ITEM
-from mindrun.sim.lanes.advance import advance
+from mindrun.sim.compilation import make_missing
+from mindrun.sim.dependencies import needed_units
+from mindrun.sim.lanes.advance import advance, after, before
 from mindrun.sim.lanes.runs import fill
-from mindrun.sim.lanes.stages import act, after, before, begin_again, conclude, run_skills, send, wake
+from mindrun.sim.lanes.think import send, think, wake
 from mindrun.sim.procedures import Memories, Procedures
 from mindrun.sim.state import FAILED_COLUMN, FAILED_SKILL, Jobs, State, empty_state, unbegun, whole_vectors
-from mindrun.sim.tables import build, genome_length
+from mindrun.sim.units import Unit
 
 Array = NDArray[Any]
 T = TypeVar("T")
@@ -112,25 +115,19 @@ class Rollout:
         return unbegun(genomes, seeds, pairs[0], pairs[1], len(self.tables.rewards), len(self.tables.events))
 
     @property
-    def entries(self) -> tuple[Any, ...]:
-        """The compiled functions that its runs call."""
-        return (advance,)
+    def entries(self) -> tuple[Unit, ...]:
+        """The units that its runs call first."""
+        return (fill, before, think, wake, send, after) if self.procedures.slow else (fill, advance)
 
-    def compile(self, *entries: Any) -> None:
-        """Compile these functions, or what its runs call, where no cache has them: up to a minute, else under a second.
+    def compile(self, *entries: Unit, told: Callable[[int, int], None] = lambda done, count: None) -> None:
+        """Compile and load what these units need, or its runs, where that is not kept: seconds of every core.
 
-        What runs around procedures in Python is compiled in the first tick.
+        `told` is told how many of how many units have been compiled.
         """
-        jobs = self.jobs(np.zeros((0, self.genome_length), np.float32), np.zeros(0, np.uint64))
-        state, none = self.tile(1).state, np.int64(0)
-        arguments: dict[Any, tuple[Any, ...]] = {
-            advance: (jobs, 0, self.interrupt), fill: (jobs, 1), before: (jobs,), run_skills: (none, 0, 0),
-            after: (jobs, self.interrupt), act: (none,), conclude: (jobs, self.interrupt), wake: (0, 0),
-            send: (0, 0, 0, 0), begin_again: (jobs, np.zeros(0, np.bool_)),
-        }  # fmt: skip
-        own = () if self.simulates and self.procedures.slow else self.entries
-        for entry in entries or (fill, *own):
-            entry(self.tables, state, *arguments[entry])
+        needed = needed_units(entries or self.entries, self.tables)
+        make_missing(needed, told)
+        for unit in needed:
+            unit.load()
 
     def tile(self, lanes: int) -> Tile:
         """A tile with room for so many lanes."""
@@ -194,14 +191,14 @@ class Rollout:
 
     def think(self, tile: Tile, jobs: Jobs, first: int, last: int) -> None:
         """Run the skills first..last of the table, between both halves of a tick; ProcedureError where one fails."""
-        tables, state, lanes = self.tables, tile.state, np.int64(jobs.lanes[0])
+        tables, state, lanes = self.tables, tile.state, int(jobs.lanes[0])
         if not self.procedures.slow:
-            run_skills(tables, state, lanes, first, last)
+            think(tables, state, lanes, first, last)
             self._explain(tile)
             return
         for row in range(first, last):
             if (name := self._skill(row)) not in self.procedures.slow:
-                run_skills(tables, state, lanes, row, row + 1)
+                think(tables, state, lanes, row, row + 1)
                 self._explain(tile)
             elif count := wake(tables, state, lanes, row):
                 tile.memories.run(name, tables.skills[row], state, count)

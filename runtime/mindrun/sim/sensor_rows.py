@@ -7,10 +7,10 @@ from numpy.typing import NDArray
 
 from mindrun.engine.engine import scene_of
 from mindrun.graph.graph import Graph, Sensor, Task
-from mindrun.kinds.registry import names
 from mindrun.kinds.sensors.sensor import Physical
 from mindrun.numbers.expression import placed
-from mindrun.sim.codes import SENSOR, Row, codes_of, records
+from mindrun.sim.codes import SENSOR, Row, records
+from mindrun.sim.kind_lanes import sensor_unit
 from mindrun.sim.mind_rows import Programs
 from mindrun.sim.parameter_rows import Parameters
 from mindrun.sim.task_rows import NOWHERE, boxes_by_name, rows_by_name
@@ -23,7 +23,7 @@ def sensor_rows(
 
     What is measured `aside` draws its noise from a generator of its own: a reward changes nothing in the world.
     """
-    things, boxes, scene, codes = rows_by_name(task), boxes_by_name(task), scene_of(graph), codes_of("sensor")
+    things, boxes, scene = rows_by_name(task), boxes_by_name(task), scene_of(graph)
     rows, before, rough, rings = list[Row](), 0, 0, 0
     rays, ray_row, passes, numbers = list[float](), list[int](), list[tuple[int, int]](), list[float]()
     for is_aside, sensor in [(False, each) for each in used] + [(True, each) for each in aside]:
@@ -31,7 +31,7 @@ def sensor_rows(
         about, solid = things.get(kind.thing, NOWHERE), boxes.get(kind.thing, NOWHERE)
         (code, length), roughness = programs.add(placed(kind.formula, scene.starts)), _roughness(sensor, parameters)
         rows.append({
-            "kind": codes[names()[type(kind)]], "start": sensor.start, "width": sensor.width,
+            "lane": sensor_unit(kind).place, "start": sensor.start, "width": sensor.width,
             "thing": about.start, "things": len(about), "box": solid.start, "boxes": len(solid),
             "turns": not scene.directions.isdisjoint({sensor.name, kind.source}),
             "is_aside": is_aside, "every": 1, "code": code, "length": length,

@@ -4,23 +4,21 @@ Every array is declared with its room: `rows` [row, lane], `columns` [lane, colu
 itself says its `shape`. What stands under "for this tick" is computed anew in each.
 """
 
-from collections import namedtuple
-from collections.abc import Callable, Mapping
-from typing import Annotated, Any, NamedTuple, TypeVar
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields, make_dataclass
+from typing import Annotated, Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.kinds.sensors.motion import TRAIL_TICKS
-from mindrun.numbers.arithmetic import BOX_COLUMNS, LOOSE_ROWS, THING_ROWS, X, Y
+from mindrun.numbers.arithmetic import BOX_COLUMNS, LANES, LOOSE_ROWS, THING_ROWS, X, Y
 from mindrun.sim import chipmunk_internals as chipmunk
+from mindrun.sim.arrays import Block, Count, Room
 from mindrun.sim.codes import AWAY, PUSH_ROWS
-from mindrun.sim.tables import Sizes, Tables
-from mindrun.sim.vector import VECTOR_LANES
+from mindrun.sim.tables import Tables
 
 Array = NDArray[Any]
-Count = int | str  # of rows: a number, or what they are of, by the length of its table, among the Sizes or in `_counts`
-Room = Callable[[Mapping[str, int], int], Array]  # zeros for so many lanes
 Part = TypeVar("Part")
 PLACE_ROWS = 2  # x and y
 SIGHT_COSINE, SIGHT_SINE, SIGHT_X, SIGHT_Y, FIRST_RAY = range(5)  # rows of `sight`
@@ -33,34 +31,35 @@ F4, F8, I8, U1, U8 = np.float32, np.float64, np.int64, np.uint8, np.uint64
 
 def rows(count: Count, times: int = 1, kind: Any = F8) -> Room:
     """An array [row, lane] of at least one row, in whole vectors of lanes: networks compute sixteen at a time."""
-    return lambda n, lanes: np.zeros((max(1, times * _number(count, n)), whole_vectors(lanes)), kind)
+    return Room(np.dtype(kind), 2, lambda n, lanes: (max(1, times * _number(count, n)), whole_vectors(lanes)))
 
 
 def columns(count: Count, times: int = 1, kind: Any = F8) -> Room:
     """An array [lane, column]."""
-    return lambda n, lanes: np.zeros((lanes, times * _number(count, n)), kind)
+    return Room(np.dtype(kind), 2, lambda n, lanes: (lanes, times * _number(count, n)))
 
 
 def each(kind: Any = I8) -> Room:
     """An array [lane]."""
-    return lambda n, lanes: np.zeros(lanes, kind)
+    return Room(np.dtype(kind), 1, lambda n, lanes: (lanes,))
 
 
 def shape(*counts: Count, kind: Any = I8) -> Room:
     """An array that no lane has for itself."""
-    return lambda n, lanes: np.zeros([_number(count, n) for count in counts], kind)
+    return Room(np.dtype(kind), len(counts), lambda n, lanes: tuple(_number(count, n) for count in counts))
 
 
 def whole_vectors(lanes: int) -> int:
     """A number of lanes, rounded up to whole vectors."""
-    return -(-lanes // VECTOR_LANES) * VECTOR_LANES
+    return -(-lanes // LANES) * LANES
 
 
 def _number(count: Count, n: Mapping[str, int]) -> int:
     return n[count] if isinstance(count, str) else count
 
 
-class WorldState(NamedTuple):
+@dataclass(frozen=True)
+class WorldState(Block):
     """Places and motions of everything."""
 
     body: Annotated[Array, rows(6)]  # x, y, angle, their velocities
@@ -88,7 +87,8 @@ class WorldState(NamedTuple):
     begun_at: Annotated[Array, rows(PLACE_ROWS)]  # where the robot was when the tick began
 
 
-class SightState(NamedTuple):
+@dataclass(frozen=True)
+class SightState(Block):
     """The boxes that each robot can see or touch, and the distances along its rays."""
 
     nearby: Annotated[Array, rows("boxes", BOX_COLUMNS)]  # what its rays or robot can meet; others are AWAY
@@ -103,7 +103,8 @@ class SightState(NamedTuple):
     sight: Annotated[Array, rows("sight", kind=F4)]  # heading and place, then how far each ray goes
 
 
-class MindState(NamedTuple):
+@dataclass(frozen=True)
+class MindState(Block):
     """Readings, memories, influence and commands."""
 
     readings: Annotated[Array, rows("readings", kind=F4)]
@@ -130,7 +131,8 @@ class MindState(NamedTuple):
     sent: Annotated[Array, each(F4)]  # the values of an edge, −1 where nothing is sent
 
 
-class ContactState(NamedTuple):
+@dataclass(frozen=True)
+class ContactState(Block):
     """The Space of each lane, and the motion in the tick that Chipmunk makes."""
 
     near: Annotated[Array, each()]  # ticks for which it still steps this lane
@@ -149,7 +151,8 @@ class ContactState(NamedTuple):
     tally: Annotated[Array, columns(chipmunk.TALLY_WORDS, kind=I8)]  # of contacts in the last step
 
 
-class JudgeState(NamedTuple):
+@dataclass(frozen=True)
+class JudgeState(Block):
     """Measures, events and rewards of a task."""
 
     last_commands: Annotated[Array, rows("actuators", kind=F4)]  # of the tick before
@@ -166,7 +169,8 @@ class JudgeState(NamedTuple):
     paid: Annotated[Array, each(F8)]  # whether a line pays, or an end has come; before that, room for a measure
 
 
-class RunState(NamedTuple):
+@dataclass(frozen=True)
+class RunState(Block):
     """The job of each lane, and its end."""
 
     job: Annotated[Array, each()]  # the number of its job, −1 for none
@@ -176,7 +180,28 @@ class RunState(NamedTuple):
     failed: Annotated[Array, shape(2)]  # the skill whose procedure failed, or −1, and the column of `gathered`
 
 
-class State(NamedTuple):
+SENSED = (
+    "readings", "before", "body", "heading", "things", "held", "battery", "tick", "trail", "loose", "nearest",
+    "nearest_of", "frame", "sight", "boxes", "nearby", "nearby_count", "stack", "active",
+)  # fmt: skip
+SENSED_PARTS = {"mind": MindState, "world": WorldState, "sight": SightState}
+
+
+def _part_with(name: str) -> str:
+    return next(part for part, kind in SENSED_PARTS.items() if name in kind.__annotations__)
+
+
+# What the lane function of a sensor's kind sees of the state, and where it writes: arrays of its parts.
+Senses = make_dataclass(
+    "Senses",
+    [(name, SENSED_PARTS[_part_with(name)].__annotations__[name]) for name in SENSED],
+    bases=(Block,),
+    frozen=True,
+)
+
+
+@dataclass(frozen=True)
+class State(Block):
     """Everything that changes; a lane is one world with one robot in it."""
 
     world: WorldState
@@ -185,23 +210,21 @@ class State(NamedTuple):
     contact: ContactState
     judge: JudgeState
     run: RunState
+    senses: Senses = field(init=False)
+
+    def __post_init__(self) -> None:
+        of = {name: getattr(getattr(self, _part_with(name)), name) for name in SENSED}
+        object.__setattr__(self, "senses", Senses(**of))
 
 
-# What the lane function of a sensor's kind sees of the state, and where it writes.
-Senses = namedtuple(
-    "Senses",
-    "readings before body heading things held battery tick trail loose nearest nearest_of frame sight boxes nearby "
-    "nearby_count stack active",
-)
-
-
-class Jobs(NamedTuple):
+@dataclass(frozen=True)
+class Jobs(Block):
     """The jobs to run, genome by layout, and their results."""
 
-    genomes: Array  # [genomes, weights] float32
-    seeds: Array  # uint64
-    genome: Array  # [jobs] index
-    seed: Array  # [jobs] index
+    genomes: Annotated[Array, shape(0, 0, kind=F4)]  # [genomes, weights]
+    seeds: Annotated[Array, shape(0, kind=U8)]
+    genome: Annotated[Array, shape("jobs")]  # index
+    seed: Annotated[Array, shape("jobs")]  # index
     next: Annotated[Array, shape(1)]  # the next job to start
     lanes: Annotated[Array, shape(1)]  # how many lanes are at work
     clock: Annotated[Array, shape(1)]  # ticks since the beginning, for the rings
@@ -216,10 +239,10 @@ class Jobs(NamedTuple):
     recorded: Annotated[Array, shape(1)]  # how many ticks have been written down
 
 
-def empty_state(tables: Tables, sizes: Sizes, lanes: int) -> State:
+def empty_state(tables: Tables, sizes: Mapping[str, int], lanes: int) -> State:
     """A state with room for so many lanes, all idle."""
     n = _counts(tables, sizes)
-    state = State(*(_empty(part, n, lanes) for part in State.__annotations__.values()))
+    state = State(*(_empty(part.type, n, lanes) for part in fields(State) if part.init))
     nearby = state.sight.nearby
     nearby[X::BOX_COLUMNS] = nearby[Y::BOX_COLUMNS] = AWAY
     state.mind.readings[: len(tables.measured)][~tables.measured] = np.nan  # the lanes write none of these
@@ -246,14 +269,14 @@ def recorded(state: State) -> tuple[tuple[Array, ...], tuple[Array, ...]]:
 def _empty(part: type[Part], n: Mapping[str, int], lanes: int, **known: Array) -> Part:
     """A part of the state, or jobs: zeros in all that is not known."""
     return part(**{
-        name: known[name] if name in known else kind.__metadata__[0](n, lanes)
+        name: known[name] if name in known else kind.__metadata__[0].empty(n, lanes)
         for name, kind in part.__annotations__.items()
     })  # fmt: skip
 
 
-def _counts(tables: Tables, sizes: Sizes) -> dict[str, int]:
+def _counts(tables: Tables, sizes: Mapping[str, int]) -> dict[str, int]:
     """The numbers that arrays say their rows or columns by: lengths of tables, Sizes, and sums of these."""
-    n = {name: len(table) for name, table in tables._asdict().items()} | dict(sizes)
+    n = {name: len(table) for name, table in vars(tables).items() if isinstance(table, np.ndarray)} | dict(sizes)
     shapes = n["things"] + n["boxes"] + chipmunk.WALL_COUNT
     return n | {
         "sinks": n["actuators"] + n["memories"],

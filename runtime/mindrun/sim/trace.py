@@ -1,7 +1,7 @@
 """One run, tick by tick, as the lanes record it: for pictures, videos and tests."""
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -113,7 +113,7 @@ def take_over(rollout: Rollout, seed: int, tick: int, other: Rollout, changes: S
     ours, theirs = tile.state.mind, empty_state(other.tables, other.sizes, 1).mind
     for name in (*REMEMBERED, *(("recurrent",) if rollout.graph.skills == other.graph.skills else ())):
         getattr(theirs, name)[:] = getattr(ours, name)
-    taken = Tile(tile.state._replace(mind=theirs), Memories(other.procedures), tile.kept)
+    taken = Tile(replace(tile.state, mind=theirs), Memories(other.procedures), tile.kept)
     return _traced(other, taken, jobs, changes)
 
 
@@ -150,7 +150,7 @@ def _traced(rollout: Rollout, tile: Tile, jobs: Jobs, changes: Sequence[Change])
     wide, narrow = (sum(map(len, arrays)) for arrays in recorded(tile.state))
     wide += SCALAR_COLUMNS
     ticks = max(1, min(CHUNK_TICKS, CHUNK_BYTES // (8 * wide + 4 * narrow)))
-    jobs = jobs._replace(doubles=np.zeros((ticks, wide)), singles=np.zeros((ticks, narrow), np.float32))
+    jobs = replace(jobs, doubles=np.zeros((ticks, wide)), singles=np.zeros((ticks, narrow), np.float32))
     chunks = _chunks(rollout, changed(rollout, changes) if changes else rollout.advance, tile, jobs)
     return Trace(
         boxes=world.boxes[0].reshape(-1, BOX_COLUMNS).copy(),

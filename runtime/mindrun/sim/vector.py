@@ -13,12 +13,10 @@ from numba import types
 from numba.core import cgutils
 from numba.extending import intrinsic, models, overload, register_model
 
-from mindrun.numbers.arithmetic import A1, A3, A5, A7, A9, A11, A13, B0, B2, B4, B6, HALF, SIGMOID_LIMIT
-from mindrun.sim.compiling import compiled
+from mindrun.numbers.arithmetic import A1, A3, A5, A7, A9, A11, A13, B0, B2, B4, B6, HALF, LANES, SIGMOID_LIMIT
 
-VECTOR_LANES = 16
 _FLOAT = ir.FloatType()
-_VECTOR = ir.VectorType(_FLOAT, VECTOR_LANES)
+_VECTOR = ir.VectorType(_FLOAT, LANES)
 
 
 class Vector(types.Type):
@@ -39,7 +37,7 @@ class _VectorModel(models.PrimitiveModel):
 
 def _splat(builder: Any, value: Any) -> Any:
     first = builder.insert_element(ir.Constant(_VECTOR, ir.Undefined), value, ir.Constant(ir.IntType(32), 0))
-    zeros = ir.Constant(ir.VectorType(ir.IntType(32), VECTOR_LANES), [0] * VECTOR_LANES)
+    zeros = ir.Constant(ir.VectorType(ir.IntType(32), LANES), [0] * LANES)
     return builder.shuffle_vector(first, ir.Constant(_VECTOR, ir.Undefined), zeros)
 
 
@@ -111,8 +109,8 @@ _operation(lambda builder, a, b: builder.fadd(a, b), operator.add)
 _operation(lambda builder, a, b: builder.fmul(a, b), operator.mul)
 _operation(lambda builder, a, b: builder.fdiv(a, b), operator.truediv)
 _operation(lambda builder, a, b: builder.fsub(a, b), operator.sub)
-LOWEST = _operation(lambda builder, a, b: builder.select(builder.fcmp_ordered("<", a, b), a, b))
-HIGHEST = _operation(lambda builder, a, b: builder.select(builder.fcmp_ordered(">", a, b), a, b))
+lowest = _operation(lambda builder, a, b: builder.select(builder.fcmp_ordered("<", a, b), a, b))
+highest = _operation(lambda builder, a, b: builder.select(builder.fcmp_ordered(">", a, b), a, b))
 
 
 @intrinsic
@@ -125,13 +123,12 @@ def where_ordered(typingctx, low, high, yes, no):
     return vector(vector, vector, vector, vector), generate
 
 
-@compiled
 def sigmoids(x):
     """1 / (1 + e^−x) in sixteen lanes, a rational function of x/2: the arithmetic of `numbers.arithmetic.sigmoid`."""
     half = splat(HALF)
     x = x * half
-    x = HIGHEST(x, splat(-SIGMOID_LIMIT))
-    x = LOWEST(x, splat(SIGMOID_LIMIT))
+    x = highest(x, splat(-SIGMOID_LIMIT))
+    x = lowest(x, splat(SIGMOID_LIMIT))
     y = x * x
     p = splat(A13)
     p = p * y + splat(A11)

@@ -1,73 +1,55 @@
-"""Machine code of the simulator, made ahead of its use: `python -m mindrun.sim.warmup [behind]`."""
+"""Machine code of the simulator, made ahead of its use: `python -m mindrun.sim.warmup [behind] [UNIT…]`."""
 
 import fcntl
-import os
-import subprocess
+import signal
 import sys
 from collections.abc import Iterable, Sequence
-from typing import Any
 
-from mindrun.graph.graph import Actuator, Graph, Reward, Skill, Task
-from mindrun.graph.policy import Policy
-from mindrun.kinds.actuators.actuator import Wheel
-from mindrun.kinds.bodies.body import Disc
-from mindrun.kinds.functions.function import Rule
-from mindrun.kinds.scenes.scene import Plain
+from mindrun.kinds.registry import kinds
 from mindrun.processors import give_way
 from mindrun.sim import cache
-from mindrun.sim.lanes.advance import advance
-from mindrun.sim.lanes.runs import fill
-from mindrun.sim.lanes.stages import act, after, before, begin_again, conclude, run_skills, send, wake
-from mindrun.sim.numba_internals import code_of
-from mindrun.sim.rollout import Rollout
+from mindrun.sim.compilation import IN_BACKGROUND
+from mindrun.sim.kind_lanes import sensor_unit, skill_unit
+from mindrun.sim.lanes import advance  # noqa: F401  whose units these are
+from mindrun.sim.units import UNITS, Unit
 
-IN_BACKGROUND = "behind"
 LOWEST_NICENESS = 19  # how little a process matters that works while others wait for nothing
 
 
-def is_there(entries: Iterable[Any]) -> bool:
-    """True if there is machine code that numba would take of all of these functions."""
-    return all(code_of(entry).is_there() for entry in entries)
+def is_there(units: Iterable[Unit]) -> bool:
+    """True if there is machine code of all of these units, kept or shipped."""
+    return all(cache.find(each) is not None for each in units)
 
 
-def is_native(entries: Iterable[Any] = (advance,)) -> bool:
-    """True if all of these functions are compiled for this very processor."""
-    return all(code_of(entry).is_native() for entry in entries)
+def is_native(units: Iterable[Unit]) -> bool:
+    """True if all of these units are compiled for this very processor."""
+    return all(map(cache.is_native, units))
 
 
-def start(*words: str) -> "subprocess.Popen[bytes]":
-    """A process that compiles it for this very processor, whatever was shipped, and goes on when this one ends."""
-    environment = os.environ | {"NUMBA_CPU_NAME": cache.processor()}
-    command, nowhere = [sys.executable, "-m", "mindrun.sim.warmup", *words], subprocess.DEVNULL
-    return subprocess.Popen(
-        command, env=environment, stdin=nowhere, stdout=nowhere, stderr=nowhere, start_new_session=True
-    )
-
-
-def warm_up() -> None:
-    """Compile every way in that is not kept yet."""
-    rollout = Rollout(Policy(_smallest(), {}), "Nothing", "Rest")
-    rollout.compile(fill, advance, before, run_skills, after, wake, send, begin_again, act, conclude)
+def every_unit() -> list[Unit]:
+    """All units that there are, with those of every kind."""
+    for noun, unit_of in (("sensor", sensor_unit), ("skill", skill_unit)):
+        for kind in kinds(noun).values():
+            unit_of(kind)
+    return [*UNITS.values()]
 
 
 def main(words: Sequence[str]) -> None:
     """Compile, after any other process that does; with `behind`, at low priority, and not at all beside another one."""
-    behind = IN_BACKGROUND in words
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # numba may swallow an exception
+    names = [word for word in words if word != IN_BACKGROUND]
+    units = [each for each in every_unit() if each.name in names or not names]
+    if names:
+        cache.make_missing(units)
+        return
     with (cache.folder() / "warming").open("w") as file:
         try:
-            fcntl.flock(file, fcntl.LOCK_EX | (fcntl.LOCK_NB if behind else 0))
+            fcntl.flock(file, fcntl.LOCK_EX | (fcntl.LOCK_NB if IN_BACKGROUND in words else 0))
         except OSError:
             return
-        if behind:
+        if IN_BACKGROUND in words:
             give_way(LOWEST_NICENESS)
-        warm_up()
-
-
-def _smallest() -> Graph:
-    """A mind that does nothing."""
-    wheel = Actuator("wheel", Wheel("left", 0.5))
-    task = Task("Nothing", Plain(), (), 1, (), (), (), (Reward("", (("number", 0.0),), None),), ())
-    return Graph(1 / 60, Disc(), "Rest", (), (), (wheel,), (Skill("Rest", Rule(), (), ()),), (task,), ())
+        cache.make_missing(units)
 
 
 if __name__ == "__main__":

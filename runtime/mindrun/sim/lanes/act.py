@@ -1,17 +1,33 @@
 """Act: the commands that the influence makes (Eq. 3), their delays, and the claw; the memory cells when all is done."""
 
-from mindrun.numbers.arithmetic import COSINE, HALF, ONE, SINE, ZERO, F, X, Y
-from mindrun.sim.arithmetic import clamp, finite, in_claw, place_of, put_thing, size_of
+from mindrun.numbers.arithmetic import (
+    COSINE,
+    HALF,
+    ONE,
+    SINE,
+    ZERO,
+    F,
+    X,
+    Y,
+    clamp,
+    finite,
+    in_claw,
+    place_of,
+    put_thing,
+    size_of,
+)
 from mindrun.sim.codes import GRIPPER, ITEM
-from mindrun.sim.compiling import compiled, part_of_tick
 from mindrun.sim.lanes.placement import uniform
 from mindrun.sim.lanes.solid import CLOSED_UNITS, is_barred, is_blocked, is_walled
+from mindrun.sim.state import State
+from mindrun.sim.tables import Tables
+from mindrun.sim.units import unit
 
 UNDRIVEN = F(-1)
 
 
-@part_of_tick
-def act(tables, state, lanes):
+@unit
+def act(tables: Tables, state: State, lanes: int) -> None:
     """Compute the commands as they act in this tick, and close or open the claw."""
     mind, world, faults = state.mind, state.world, state.run.faults
     for i in range(len(tables.actuators)):
@@ -30,7 +46,6 @@ def act(tables, state, lanes):
             grip(acting, tables, world, actuator.reach, lanes)
 
 
-@compiled
 def recall(tables, mind, run, lanes):
     """Update the memory cells for the next tick; rewards of this one have read them as its skills did.
 
@@ -45,7 +60,6 @@ def recall(tables, mind, run, lanes):
             cell[lane] = kept + rest * mind.sent[lane] if mind.sent[lane] >= ZERO else kept
 
 
-@compiled
 def means(total, weight, neutral, out, faults, lanes):
     """Write the influence-weighted mean of the commands (Eq. 3) to `out`; `neutral` where there are none.
 
@@ -59,7 +73,6 @@ def means(total, weight, neutral, out, faults, lanes):
         faults[lane] += 1 if driven & (not sound) else 0
 
 
-@compiled
 def wait(commands, late, ring, delays, tick, lanes):
     """Exchange each command with one that has waited in the ring, as long as the delay of its own lane says."""
     for lane in range(lanes):
@@ -69,7 +82,6 @@ def wait(commands, late, ring, delays, tick, lanes):
             commands[lane], late[slot, lane] = late[slot, lane], commands[lane]
 
 
-@compiled
 def disturb(world, actuator, commands, acting, lanes):
     """Write each command as it acts into `acting`: with up to `noise` more or less, or stuck at neutral."""
     noise, stuck = world.numbers[actuator.noise], world.numbers[max(actuator.fails, 0)]
@@ -81,7 +93,6 @@ def disturb(world, actuator, commands, acting, lanes):
             acting[lane] = actuator.neutral
 
 
-@compiled
 def grip(commands, tables, world, reach, lanes):
     """Close above 0.5 on the first item in reach that can come into the claw; open and the item stays where it is."""
     held, body, heading, things, front = world.held, world.body, world.heading, world.things, tables.world[0].front
@@ -96,7 +107,6 @@ def grip(commands, tables, world, reach, lanes):
                     held[lane] = i if has_room(tables, world, i, lane) else -1
 
 
-@compiled
 def has_room(tables, world, i, lane):
     """True if nothing solid is between the robot and the rim of item i in its claw, or in the item's way there."""
     hold, cosine, sine = tables.things[i].hold, world.heading[COSINE, lane], world.heading[SINE, lane]
@@ -115,7 +125,6 @@ def has_room(tables, world, i, lane):
     return True
 
 
-@compiled
 def carry(world, kinds, lanes):
     """Move a held item with the claw."""
     body, heading = world.body, world.heading

@@ -2,7 +2,6 @@
 
 from mindrun.numbers.arithmetic import X, Y
 from mindrun.sim.codes import GOING_ON
-from mindrun.sim.compiling import compiled, entry, inlined, part_of_tick
 from mindrun.sim.lanes.act import act, recall
 from mindrun.sim.lanes.judge import judge
 from mindrun.sim.lanes.runs import end
@@ -10,13 +9,13 @@ from mindrun.sim.lanes.sense import sense
 from mindrun.sim.lanes.solid import is_lost
 from mindrun.sim.lanes.step import step
 from mindrun.sim.lanes.think import begin, think
-from mindrun.sim.state import FAILED_SKILL, recorded
+from mindrun.sim.state import FAILED_SKILL, Jobs, State, recorded
+from mindrun.sim.tables import Tables
+from mindrun.sim.units import unit
 
-recorded_arrays = inlined(recorded)
 
-
-@entry
-def advance(tables, state, jobs, ticks, interrupt):
+@unit
+def advance(tables: Tables, state: State, jobs: Jobs, ticks: int, interrupt: int) -> None:
     """Run all lanes for so many ticks, until every job is done, or until a procedure fails."""
     for _ in range(ticks):
         if jobs.lanes[0] == 0:
@@ -28,15 +27,15 @@ def advance(tables, state, jobs, ticks, interrupt):
         after(tables, state, jobs, interrupt)
 
 
-@part_of_tick
-def before(tables, state, jobs):
+@unit
+def before(tables: Tables, state: State, jobs: Jobs) -> None:
     """Make the first half of a tick: sense, and the master's influence."""
     sense(tables, state, jobs.lanes[0], jobs.clock[0])
     begin(tables, state.mind, jobs.lanes[0])
 
 
-@part_of_tick
-def after(tables, state, jobs, interrupt):
+@unit
+def after(tables: Tables, state: State, jobs: Jobs, interrupt: int) -> None:
     """Make the second half of a tick: act, step, judge, recall."""
     lanes, world = jobs.lanes[0], state.world
     act(tables, state, lanes)
@@ -46,8 +45,8 @@ def after(tables, state, jobs, interrupt):
     conclude(tables, state, jobs, interrupt)
 
 
-@part_of_tick
-def conclude(tables, state, jobs, interrupt):
+@unit
+def conclude(tables: Tables, state: State, jobs: Jobs, interrupt: int) -> None:
     """Judge a step, record it where there is room, and recall; then end the runs that are over.
 
     Their lanes write their result and begin the next job.
@@ -67,15 +66,15 @@ def conclude(tables, state, jobs, interrupt):
         end(tables, state, jobs, lanes - 1 - k)
 
 
-@compiled
-def record(state, jobs):
+@unit
+def record(state: State, jobs: Jobs) -> None:
     """Write a row of what the first lane's world and mind are after a tick, where there is room for one.
 
     Before the memory cells recall: a row has them as the skills read them.
     """
     if jobs.recorded[0] == len(jobs.singles):
         return
-    wide, narrow = recorded_arrays(state)
+    wide, narrow = recorded(state)
     row = jobs.doubles[jobs.recorded[0]]
     at = 0
     for rows in wide:
@@ -87,7 +86,6 @@ def record(state, jobs):
     jobs.recorded[0] += 1
 
 
-@compiled
 def copy(rows, target, at):
     """Copy the first lane of all rows into `target` from `at` on; return where the next ones begin."""
     for row in range(len(rows)):

@@ -22,14 +22,20 @@ from mindrun.numbers.arithmetic import (
     TURN,
     X,
     Y,
+    box_of,
+    place_of,
+    put_thing,
+    size_of,
 )
 from mindrun.sim import chipmunk_internals as cp
-from mindrun.sim.arithmetic import box_of, place_of, put_thing, size_of
+from mindrun.sim.chipmunk_internals import count_address
 from mindrun.sim.codes import FORCE_X, FORCE_Y, TORQUE
-from mindrun.sim.compiling import call, compiled
 from mindrun.sim.lanes.loose import SETTLED_TICKS, is_at_rest, put_motion
 from mindrun.sim.lanes.placement import ENDLESS_UNITS
 from mindrun.sim.lanes.solid import MOST_STRIDES, hold_back, note_before, note_begin, stride, within
+from mindrun.sim.state import ContactState, WorldState
+from mindrun.sim.tables import Tables
+from mindrun.sim.units import call, unit
 
 SOLVER_ITERATIONS = 8
 HALF_WALL_UNITS = 1.0  # half the thickness of a wall, outside the arena
@@ -37,8 +43,8 @@ HASH_COUNT = 20
 GONE_UNITS, APART_UNITS = 1e8, 1e4  # where a Space keeps what is gone, each far from the others
 
 
-@compiled
-def make_tick(tables, world, contact, lane):
+@unit
+def make_tick(tables: Tables, world: WorldState, contact: ContactState, lane: int) -> int:
     """Make one tick of a lane in its Space; return how often its robot has run into what never moves."""
     dt, is_swift, touching = tables.world[0].dt, contact.swift[lane] > 0, 0
     contact.swift[lane] = 0
@@ -68,7 +74,6 @@ def make_tick(tables, world, contact, lane):
     return touching
 
 
-@compiled
 def glides(body, seconds, lane):
     """True if a robot stays where worlds are; else it is moved on without Chipmunk, and its run ends."""
     x, y = body[X, lane] + body[SPEED_X, lane] * seconds, body[Y, lane] + body[SPEED_Y, lane] * seconds
@@ -79,7 +84,6 @@ def glides(body, seconds, lane):
     return False
 
 
-@compiled
 def open_space(tables, world, contact, lane):
     """Open a Space with a lane's obstacles, walls, robot with the circles that it can hold, and loose things."""
     library, constants, handles = tables.library, tables.world[0], contact.handles[lane]
@@ -102,7 +106,6 @@ def open_space(tables, world, contact, lane):
     add_loose(tables, world, space, contact, lane)
 
 
-@compiled
 def add_boxes(tables, space, boxes, handles, corners, lane):
     """Add the obstacles of a lane and the walls of an arena; their shapes go to `handles`, after the things'."""
     library, constants = tables.library, tables.world[0]
@@ -121,7 +124,6 @@ def add_boxes(tables, space, boxes, handles, corners, lane):
         handles[shape + 3] = add_box(library, space, static, corners, -far_x, y, far_x, far_y)
 
 
-@compiled
 def add_box(library, space, static, corners, left, low, right, high):
     """Add a solid rectangle that never moves; return its shape. `corners` is room for eight floats."""
     put_corners(corners, left, low, right, high)
@@ -131,8 +133,8 @@ def add_box(library, space, static, corners, left, low, right, high):
     return shape
 
 
-@compiled
-def close_space(tables, contact, lane):
+@unit
+def close_space(tables: Tables, contact: ContactState, lane: int) -> None:
     """Free a lane's Space; its circles, the robot's and those of the things, stay for the next."""
     library, handles, things = tables.library, contact.handles[lane], len(tables.things)
     space, body = handles[cp.SPACE], handles[cp.BODY]
@@ -158,7 +160,6 @@ def close_space(tables, contact, lane):
     handles[cp.SPACE], handles[cp.BODY] = 0, 0
 
 
-@compiled
 def push_body(tables, world, contact, share, lane):
     """Write a lane's state, and a share of its force and torque, into its body; what the claw holds becomes solid, what
     it dropped does not.
@@ -180,7 +181,6 @@ def push_body(tables, world, contact, share, lane):
     push_loose(tables, world, contact, lane)
 
 
-@compiled
 def step_space(tables, world, contact, seconds, lane):
     """Step a lane's Space by some seconds, take the state of its bodies back, and count what its robot runs into."""
     library, batch, handles = tables.library, contact.batch[lane], contact.handles[lane]
@@ -192,11 +192,10 @@ def step_space(tables, world, contact, seconds, lane):
     take_loose(tables, world, contact, lane)
     tally = contact.tally[lane]
     tally[cp.TALLIED] = 0
-    call(library[cp.EACH_ARBITER], handles[cp.BODY], library[cp.COUNT], tally.ctypes.data)
+    call(library[cp.EACH_ARBITER], handles[cp.BODY], count_address(), tally.ctypes.data)
     return tally[cp.TALLIED]
 
 
-@compiled
 def add_loose(tables, world, space, contact, lane):
     """Add the loose things to a new Space, after its robot; `push_loose` gives them their sizes."""
     library, handles, corners = tables.library, contact.loose[lane], contact.floats[lane]
@@ -214,14 +213,12 @@ def add_loose(tables, world, space, contact, lane):
         contact.sizes[lane, i], contact.placed[lane, i] = 0.0, 0
 
 
-@compiled
 def put_corners(corners, left, low, right, high):
     """Write the corners of a rectangle into room for eight floats."""
     corners[0], corners[1], corners[2], corners[3] = left, low, right, low
     corners[4], corners[5], corners[6], corners[7] = right, high, left, high
 
 
-@compiled
 def push_loose(tables, world, contact, lane):
     """Write the place and the motion of each loose thing of a lane into its body."""
     library, floats, batch, handles = tables.library, contact.floats[lane], contact.batch[lane], contact.loose[lane]
@@ -243,7 +240,6 @@ def push_loose(tables, world, contact, lane):
         call(library[cp.BODY_SET], handles[cp.LOOSE_HANDLES * i + cp.LOOSE_BODY], batch[cp.SET_BATCH :].ctypes.data)
 
 
-@compiled
 def resize(tables, world, contact, i, size, lane):
     """Give loose thing i another size, and with it another mass and moment of inertia."""
     library, handles, half = tables.library, contact.loose[lane], size / 2
@@ -263,7 +259,6 @@ def resize(tables, world, contact, i, size, lane):
     contact.sizes[lane, i] = size
 
 
-@compiled
 def take_loose(tables, world, contact, lane):
     """Read the places and motions of the loose things after a step; what has moved has not settled."""
     library, floats, batch, handles = tables.library, contact.floats[lane], contact.batch[lane], contact.loose[lane]

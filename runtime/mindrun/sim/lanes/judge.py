@@ -6,20 +6,21 @@ Which things are reached does not depend on whether a line of the task names the
 import numpy as np
 
 from mindrun.kinds.sensors.motion import TRAIL_TICKS
-from mindrun.numbers.arithmetic import COSINE, SINE, X, Y
+from mindrun.numbers.arithmetic import COSINE, SINE, X, Y, distance_of, in_claw, inside, place_of
+from mindrun.numbers.stack_machine import evaluate
 from mindrun.sim import codes
-from mindrun.sim.arithmetic import distance_of, evaluate, in_claw, inside, place_of
 from mindrun.sim.codes import DELIVERY, GOING_ON, MOVES, STAYS, VANISHES, ZONE
-from mindrun.sim.compiling import compiled, part_of_tick
 from mindrun.sim.lanes.loose import SETTLED_TICKS
 from mindrun.sim.lanes.placement import succeed, vanish
-from mindrun.sim.state import PLACE_ROWS
+from mindrun.sim.state import PLACE_ROWS, State
+from mindrun.sim.tables import Tables
+from mindrun.sim.units import unit
 
 REACH_BEGUN = 1  # in this tick and not in the one before
 
 
-@part_of_tick
-def judge(tables, state, lanes, clock, interrupt):
+@unit
+def judge(tables: Tables, state: State, lanes: int, clock: int, interrupt: int) -> None:
     """Do everything that a task does with a tick once the robot has moved."""
     world, judged = state.world, state.judge
     take_measures(tables, world, state.mind.commands, judged, lanes, clock)
@@ -44,7 +45,6 @@ def judge(tables, state, lanes, clock, interrupt):
         world.trail[oldest + X, lane], world.trail[oldest + Y, lane] = world.begun_at[X, lane], world.begun_at[Y, lane]
 
 
-@compiled
 def drain(tables, world, lanes):
     """Charge the battery inside a power zone, and drain it elsewhere."""
     charge, drained = tables.world[0].charge, tables.world[0].drain
@@ -57,7 +57,6 @@ def drain(tables, world, lanes):
         world.battery[lane] = min(1.0, max(0.0, left))
 
 
-@compiled
 def notice(tables, world, contact, judged, event, out, lanes):
     """Write how often the event happened in this tick to `out` [lane]; return the number of lanes in which it did."""
     if event.kind == codes.REACH:
@@ -86,7 +85,6 @@ def notice(tables, world, contact, judged, event, out, lanes):
     return count
 
 
-@compiled
 def patch_of(body, constants, event, lane):
     """The number of the patch that the robot's centre is in."""
     x = min(event.columns - 1, max(0, int((body[X, lane] + constants.half_x) / event.patch)))
@@ -94,7 +92,6 @@ def patch_of(body, constants, event, lane):
     return y * event.columns + x
 
 
-@compiled
 def reward(tables, mind, judged, line, total, lanes):
     """Add what a reward line pays in this tick to its sums."""
     if line.on >= 0 and judged.happened[line.on] == 0:
@@ -113,7 +110,6 @@ def reward(tables, mind, judged, line, total, lanes):
                 total[lane] += amount[lane] * paid[lane] if paid[lane] > 0.0 else 0.0
 
 
-@compiled
 def find_paid(tables, mind, judged, line, paid, each, lanes):
     """Set how often a line is paid in this tick: once, or as often as its event happens, where its condition holds."""
     for lane in range(lanes):
@@ -124,14 +120,12 @@ def find_paid(tables, mind, judged, line, paid, each, lanes):
             paid[lane] = paid[lane] if mind.stack[0, lane] > 0.0 else 0.0
 
 
-@compiled
 def value(tables, mind, measures, first, length, each, lanes):
     """Evaluate a program into stack[0], in every lane."""
     codes = tables.codes[first : first + length]
     evaluate(codes, mind.readings, measures, mind.commands, each, mind.stack, mind.active, lanes, True)
 
 
-@compiled
 def meet_end(tables, state, end, i, lanes, interrupt):
     """End the runs to which end number i has come before any other."""
     judged, run = state.judge, state.run
@@ -157,7 +151,6 @@ def meet_end(tables, state, end, i, lanes, interrupt):
         mark_success(tables, judged, lanes)
 
 
-@compiled
 def mark_success(tables, judged, lanes):
     """Let the event of a success happen where a run has succeeded in this tick."""
     for i in range(len(tables.events)):
@@ -169,7 +162,6 @@ def mark_success(tables, judged, lanes):
                     judged.happened[i] += 1
 
 
-@compiled
 def take_measures(tables, world, commands, judged, lanes, clock):
     """Compute the measures of the tick."""
     for i in range(len(tables.measures)):
@@ -182,7 +174,6 @@ def take_measures(tables, world, commands, judged, lanes, clock):
             progress(out, judged.paid, world.body, world.things, measure, lanes)
 
 
-@compiled
 def progress(out, now, body, things, measure, lanes):
     """Write the distance to the nearest of the things that this tick closed, or its positive or negative part.
 
@@ -207,7 +198,6 @@ def progress(out, now, body, things, measure, lanes):
         out[lane] = 0.0 if np.isnan(closed) else closed
 
 
-@compiled
 def forward(out, body, heading, begun_at, lanes):
     """Set `out` to 1 where the robot moved forward in this tick, else to 0."""
     for lane in range(lanes):
@@ -216,7 +206,6 @@ def forward(out, body, heading, begun_at, lanes):
         out[lane] = 1.0 if along > 1e-6 else 0.0
 
 
-@compiled
 def change(tables, commands, judged, measure, out, lanes, clock):
     """Sum the changes of each side's commands over the last ticks, beyond a share: ΣΔ of the paper's Table 5."""
     now = measure.ring + clock % measure.over
@@ -241,7 +230,6 @@ def change(tables, commands, judged, measure, out, lanes, clock):
             out[lane] += max(0.0, varied[lane] - measure.beyond)
 
 
-@compiled
 def meet(tables, world, lanes):
     """Set the bits of `reached` and `delivered` where anything asks for them; return how many begin, in all lanes."""
     body, things, begun = world.body, world.things, 0
@@ -264,14 +252,12 @@ def meet(tables, world, lanes):
     return begun
 
 
-@compiled
 def note(rows, i, lane, now):
     """Shift `now` into the bits of thing i, one for each of two ticks; return 1 where it begins, else 0."""
     rows[i, lane] = (rows[i, lane] & 1) << 1 | (1 if now else 0)
     return 1 if rows[i, lane] == REACH_BEGUN else 0
 
 
-@compiled
 def in_zone(tables, things, i, lane):
     """True if the middle of thing i is inside any zone."""
     x, y = place_of(things, i, lane)
@@ -281,7 +267,6 @@ def in_zone(tables, things, i, lane):
     return found
 
 
-@compiled
 def begun_of(out, rows, event, lanes):
     """Count the things that an event is about and that begin to be reached, or delivered, into `out` [lane]."""
     out[:lanes] = 0
@@ -290,7 +275,6 @@ def begun_of(out, rows, event, lanes):
             out[lane] += 1 if rows[i, lane] == REACH_BEGUN else 0
 
 
-@compiled
 def begins(row, lanes):
     """The number of lanes in which a thing begins to be reached, or delivered."""
     count = 0
@@ -299,7 +283,6 @@ def begins(row, lanes):
     return count
 
 
-@compiled
 def arrivals(world, arrived, event, lane):
     """The number of things that an event is about and that begin to be delivered into one of its zones."""
     things, begun = world.things, 0
@@ -312,7 +295,6 @@ def arrivals(world, arrived, event, lane):
     return begun
 
 
-@compiled
 def become(tables, world, lanes):
     """Move or remove what has been reached or delivered, as its arguments say; once, where it was both."""
     for i in range(len(tables.things)):

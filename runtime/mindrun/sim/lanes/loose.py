@@ -7,10 +7,21 @@ more by then: what Chipmunk remembers of them has become too small to move anyth
 
 import numpy as np
 
-from mindrun.numbers.arithmetic import LOOSE_ROWS, PUSHED_SPIN, PUSHED_X, PUSHED_Y, SPEED_X, SPEED_Y, TURN, X, Y
-from mindrun.sim.arithmetic import place_of, put_thing, size_of
+from mindrun.numbers.arithmetic import (
+    LOOSE_ROWS,
+    PUSHED_SPIN,
+    PUSHED_X,
+    PUSHED_Y,
+    SPEED_X,
+    SPEED_Y,
+    TURN,
+    X,
+    Y,
+    place_of,
+    put_thing,
+    size_of,
+)
 from mindrun.sim.codes import HALF_DIAGONAL
-from mindrun.sim.compiling import compiled
 from mindrun.sim.lanes.solid import extent_of, is_free, within
 
 REST_SPEED = 1e-3  # units and radians per second: what is slower stands still
@@ -18,7 +29,6 @@ SETTLED_TICKS = 32
 LOOSE_MARGIN_UNITS = 0.01  # beyond the rounding of any distance here
 
 
-@compiled
 def slow_down(tables, world, placed, lane):
     """Damp what has not settled, v / (1 + dt·c), and let it rest where it is slow enough.
 
@@ -43,13 +53,11 @@ def slow_down(tables, world, placed, lane):
     world.restless[lane] = restless
 
 
-@compiled
 def is_at_rest(vx, vy, spin):
     """True if something moves and turns so slowly that it rests."""
     return abs(vx) < REST_SPEED and abs(vy) < REST_SPEED and abs(spin) < REST_SPEED
 
 
-@compiled
 def put_motion(loose, row, vx, vy, spin, rests, lane):
     """Set the velocity and the spin of the loose thing whose rows begin at `row`; 0 if it rests."""
     loose[row + PUSHED_X, lane] = 0.0 if rests else vx
@@ -57,7 +65,6 @@ def put_motion(loose, row, vx, vy, spin, rests, lane):
     loose[row + PUSHED_SPIN, lane] = 0.0 if rests else spin
 
 
-@compiled
 def next_place_of(tables, world, i, lane):
     """The x and y of loose thing i after this tick, if it touches nothing."""
     row, dt = LOOSE_ROWS * i, tables.world[0].dt
@@ -65,7 +72,6 @@ def next_place_of(tables, world, i, lane):
     return x + world.loose[row + PUSHED_X, lane] * dt, y + world.loose[row + PUSHED_Y, lane] * dt
 
 
-@compiled
 def could_touch(tables, world, lane):
     """True if something that has not settled could touch anything but the robot after this tick."""
     for i in range(len(tables.loose)):
@@ -77,7 +83,6 @@ def could_touch(tables, world, lane):
     return False
 
 
-@compiled
 def meets_loose(tables, world, i, x, y, extent, lane):
     """True if a loose thing other than number i could come within `extent` of a point in this tick."""
     for j in range(len(tables.loose)):
@@ -89,7 +94,6 @@ def meets_loose(tables, world, i, x, y, extent, lane):
     return False
 
 
-@compiled
 def approach_loose(tables, world, gap, lanes):
     """Lower `gap` to the distance between the robot's next centre and each loose thing, where that is less."""
     body, dt = world.body, tables.world[0].dt
@@ -103,7 +107,6 @@ def approach_loose(tables, world, gap, lanes):
             gap[lane] = far if far < gap[lane] else gap[lane]
 
 
-@compiled
 def slide(tables, world, lane):
     """Make Chipmunk's step of loose things that touch nothing."""
     for i in range(len(tables.loose)):

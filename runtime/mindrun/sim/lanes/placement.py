@@ -7,14 +7,28 @@ the same world. Everything is placed clear of everything else, with room for the
 import numpy as np
 
 from mindrun.graph.beginning import meets_robot
-from mindrun.numbers.arithmetic import ANGLE, BOX_COLUMNS, HALF_X, HALF_Y, LOOSE_ROWS, THING_ROWS, X, Y
-from mindrun.sim import parameter_rows
-from mindrun.sim.arithmetic import place_of, put_thing, resize_thing, sine_cosine, size_of
+from mindrun.numbers.arithmetic import (
+    ANGLE,
+    BOX_COLUMNS,
+    HALF_X,
+    HALF_Y,
+    LOOSE_ROWS,
+    THING_ROWS,
+    X,
+    Y,
+    place_of,
+    put_thing,
+    resize_thing,
+    sine_cosine,
+    size_of,
+)
 from mindrun.sim.codes import CONSTANT, DRAWN, DRAWN_WHOLE, FAILING, FAR
-from mindrun.sim.compiling import compiled
 from mindrun.sim.lanes.solid import is_clear, put_box
+from mindrun.sim.parameter_rows import computed
+from mindrun.sim.state import WorldState
+from mindrun.sim.tables import Tables
+from mindrun.sim.units import unit
 
-meets, computed = compiled(meets_robot), compiled(parameter_rows.computed)
 GOLDEN, MIX_1, MIX_2 = np.uint64(0x9E3779B97F4A7C15), np.uint64(0xBF58476D1CE4E5B9), np.uint64(0x94D049BB133111EB)
 S30, S27, S31, S11 = np.uint64(30), np.uint64(27), np.uint64(31), np.uint64(11)
 UNIFORM_STEP = 2.0**-53
@@ -22,7 +36,6 @@ MAX_TRIES = 1000
 ENDLESS_UNITS = 1e300  # half the side of what is no arena is infinite, above this
 
 
-@compiled
 def uniform(random, lane, low, high):
     """The next number of a lane's generator, between low and high."""
     random[lane] += GOLDEN
@@ -33,8 +46,8 @@ def uniform(random, lane, low, high):
     return low + (high - low) * (np.float64(z >> S11) * UNIFORM_STEP)
 
 
-@compiled
-def draw(tables, world, lane):
+@unit
+def draw(tables: Tables, world: WorldState, lane: int) -> None:
     """Draw a world into a lane: obstacles with a place, the robot, things with a place, other obstacles, other things.
 
     Of each the first in the source come first.
@@ -64,7 +77,6 @@ def draw(tables, world, lane):
             appear(tables, world, i, lane)
 
 
-@compiled
 def appear(tables, world, i, lane):
     """Put thing i, in the size that it begins with, in its place or somewhere."""
     thing = tables.things[i]
@@ -76,7 +88,6 @@ def appear(tables, world, i, lane):
         put(tables, world, i, lane)
 
 
-@compiled
 def draw_grid(world, obstacle, box, lane):
     """Put an obstacle at each crossing of the grid, a little off it; return the number of the next box."""
     random, jitter = world.random, obstacle.jitter
@@ -91,7 +102,6 @@ def draw_grid(world, obstacle, box, lane):
     return box
 
 
-@compiled
 def start(tables, world, lane):
     """Put the robot at rest where its task says, in the origin of a plain scene, or anywhere clear in an arena.
 
@@ -119,13 +129,11 @@ def start(tables, world, lane):
     body[ANGLE, lane] = constants.facing if constants.is_faced else uniform(random, lane, 0.0, 2 * np.pi)
 
 
-@compiled
 def start_room(half, radius):
     """The distance from an arena's middle at which the robot may begin: its width from the border, if there is room."""
     return half - 3 * radius if half > 3 * radius else max(half - radius, 0.0)
 
 
-@compiled
 def find(tables, world, low, high, room, extent, but, lane):
     """A place for something of that half size: low..high from the robot, clear of obstacles, walls and other things.
 
@@ -161,15 +169,14 @@ def find(tables, world, low, high, room, extent, but, lane):
     return best_x, best_y
 
 
-@compiled
-def put(tables, world, i, lane):
+@unit
+def put(tables: Tables, world: WorldState, i: int, lane: int) -> None:
     """Put thing i somewhere else."""
     thing = tables.things[i]
     x, y = find(tables, world, thing.low, thing.high, 0.0, size_of(world.things, i, lane) / 2, i, lane)
     put_at(tables, world, i, x, y, lane)
 
 
-@compiled
 def put_at(tables, world, i, x, y, lane):
     """Put thing i at a place. What is loose stands straight and still there, unsettled: something may touch it."""
     put_thing(world.things, i, x, y, lane)
@@ -181,7 +188,6 @@ def put_at(tables, world, i, x, y, lane):
         world.direction[tables.things[i].walker, lane] = uniform(world.random, lane, 0.0, 2 * np.pi)
 
 
-@compiled
 def succeed(tables, world, i, lane):
     """Move thing i elsewhere with the next size of its schedule, let go and not yet reached."""
     thing = tables.things[i]
@@ -197,21 +203,18 @@ def succeed(tables, world, i, lane):
     put(tables, world, i, lane)
 
 
-@compiled
 def vanish(tables, world, i, lane):
     """Remove thing i for the rest of the run: a place that is NaN is in nobody's reach or way."""
     forget(world, i, lane)
     put_at(tables, world, i, np.nan, np.nan, lane)
 
 
-@compiled
 def forget(world, i, lane):
     """Let thing i go, and clear the bits of its being reached and delivered."""
     world.held[lane] = -1 if world.held[lane] == i else world.held[lane]
     world.reached[i, lane], world.delivered[i, lane] = 0, 0
 
 
-@compiled
 def clear_of_all(tables, world, x, y, margin, lane):
     """True if no obstacle, and no box or ball with a place of its own, comes within `margin` of a point."""
     if not is_clear(world.boxes, x, y, margin, lane):
@@ -224,7 +227,6 @@ def clear_of_all(tables, world, x, y, margin, lane):
     return True
 
 
-@compiled
 def clear_of_things(things, x, y, extent, but, lane):
     """True if something of half size `extent` at a place would cover no thing, thing number `but` aside."""
     for i in range(things.shape[0] // THING_ROWS):
@@ -235,7 +237,6 @@ def clear_of_things(things, x, y, extent, but, lane):
     return True
 
 
-@compiled
 def is_open(tables, x, y):
     """True if nothing with a place of its own keeps a robot from beginning at a point."""
     for i in range(len(tables.things)):
@@ -246,15 +247,13 @@ def is_open(tables, x, y):
     return True
 
 
-@compiled
 def stands_on(tables, i, size, dx, dy):
     """True if the robot, (dx, dy) from the middle of thing i, would be in it, or would have reached it as a goal."""
     thing, constants = tables.things[i], tables.world[0]
     is_area, is_round, is_goal = thing.is_area == 1, thing.is_round == 1, thing.is_goal == 1
-    return meets(is_area, is_round, is_goal, size, dx, dy, constants.radius, constants.front + constants.claw)
+    return meets_robot(is_area, is_round, is_goal, size, dx, dy, constants.radius, constants.front + constants.claw)
 
 
-@compiled
 def set_numbers(tables, world, lane):
     """Draw the numbers of a lane that vary, after its world: it is the same world whatever varies in it."""
     numbers, random = world.numbers, world.random
@@ -272,7 +271,6 @@ def set_numbers(tables, world, lane):
             numbers[i, lane] = computed(row.form, numbers[row.of, lane], row.low)
 
 
-@compiled
 def fails_at(chance, keep, ticks):
     """The tick in which something fails that lasts through each with a probability of `keep`; `chance` is in 0..1."""
     tick, left = 0, keep

@@ -3,22 +3,22 @@
 import numpy as np
 
 from mindrun.kinds.sensors.motion import TRAIL_TICKS
-from mindrun.numbers.arithmetic import ANGLE, COSINE, SINE, X, Y
-from mindrun.sim.arithmetic import sine_cosine
+from mindrun.numbers.arithmetic import ANGLE, COSINE, SINE, X, Y, sine_cosine
 from mindrun.sim.chipmunk_internals import FIXED_BODY
 from mindrun.sim.codes import GOING_ON, LOST, VISIT
-from mindrun.sim.compiling import compiled, entry
 from mindrun.sim.lanes.chipmunk import close_space
 from mindrun.sim.lanes.judge import patch_of
 from mindrun.sim.lanes.placement import draw, set_numbers
 from mindrun.sim.lanes.solid import is_lost
-from mindrun.sim.state import PLACE_ROWS
+from mindrun.sim.state import PLACE_ROWS, Jobs, State
+from mindrun.sim.tables import Tables
+from mindrun.sim.units import unit
 
 MEASURED_ASIDE = np.uint64(0xD1B54A32D192ED03)  # what no skill reads draws from a generator of its own
 
 
-@entry
-def fill(tables, state, jobs, lanes):
+@unit
+def fill(tables: Tables, state: State, jobs: Jobs, lanes: int) -> None:
     """Begin as many jobs as there are lanes."""
     for lane in range(lanes):
         if not begin_job(tables, state, jobs, lane):
@@ -26,8 +26,8 @@ def fill(tables, state, jobs, lanes):
         jobs.lanes[0] = lane + 1
 
 
-@compiled
-def end(tables, state, jobs, lane):
+@unit
+def end(tables: Tables, state: State, jobs: Jobs, lane: int) -> None:
     """Write a lane's run down where it is over, and begin the next one, or move the last lane to its place."""
     run = state.run
     if is_lost(state.world.body, lane):
@@ -42,8 +42,8 @@ def end(tables, state, jobs, lane):
             jobs.lanes[0] = last
 
 
-@compiled
-def begin_job(tables, state, jobs, lane):
+@unit
+def begin_job(tables: Tables, state: State, jobs: Jobs, lane: int) -> int:
     """Begin the next job in a lane; False where there is none."""
     job, world, mind = jobs.next[0], state.world, state.mind
     if job >= len(jobs.genome):
@@ -61,7 +61,6 @@ def begin_job(tables, state, jobs, lane):
     return True
 
 
-@compiled
 def reset(tables, state, lane):
     """Set all of a lane but its world, its genome and its generator to the beginning of a run."""
     world, mind, judge, run = state.world, state.mind, state.judge, state.run
@@ -91,7 +90,6 @@ def reset(tables, state, lane):
     run.ended[lane], run.met[lane], run.faults[lane] = GOING_ON, GOING_ON, 0
 
 
-@compiled
 def finish(tables, state, jobs, lane):
     """Write down what came of a lane's job, and free its Space."""
     judge, run = state.judge, state.run
@@ -106,7 +104,6 @@ def finish(tables, state, jobs, lane):
     run.job[lane] = -1
 
 
-@compiled
 def move(state, source, target):
     """Move a lane to the place of one whose run is over, but for what is of this tick; circles go with their Space."""
     world, mind, sight, judge = state.world, state.mind, state.sight, state.judge
@@ -139,15 +136,21 @@ def move(state, source, target):
     contact.tally[target, FIXED_BODY] = contact.tally[source, FIXED_BODY]
 
 
-@compiled
 def copy_lane(rows, source, target):
     """Copy one lane of rows [row, lane] to another."""
     for i in range(rows.shape[0]):
         rows[i, target] = rows[i, source]
 
 
-@compiled
 def copy_row(columns, source, target):
     """Copy one lane of columns [lane, column] to another."""
     for i in range(columns.shape[1]):
         columns[target, i] = columns[source, i]
+
+
+@unit
+def begin_again(tables: Tables, state: State, jobs: Jobs, lane: int) -> None:
+    """End the run of a lane, and begin there the job with the number of the lane."""
+    finish(tables, state, jobs, lane)
+    jobs.next[0] = lane
+    begin_job(tables, state, jobs, lane)

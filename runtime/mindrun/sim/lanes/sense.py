@@ -1,17 +1,14 @@
 """Sense: every reading of every lane, from the places of the robots and the things."""
 
-from collections.abc import Callable, Sequence
-from typing import Any
-
 import numpy as np
 
-from mindrun.kinds.registry import kinds
 from mindrun.numbers.arithmetic import (
     BOX_COLUMNS,
     COSINE,
     DISTANCE,
     HALF_X,
     HALF_Y,
+    LANES,
     LOOSE_ROWS,
     MAX_FLOAT32,
     ONE,
@@ -22,45 +19,45 @@ from mindrun.numbers.arithmetic import (
     F,
     X,
     Y,
+    box_of,
+    clamp,
+    highest,
+    load,
+    lowest,
+    place_of,
+    sine_cosine,
+    size_of,
+    splat,
+    store,
+    where_ordered,
+    wrapped,
 )
 from mindrun.sim import state as parts
-from mindrun.sim.arithmetic import box_of, clamp, compiled_lane, place_of, sine_cosine, size_of, wrapped
-from mindrun.sim.codes import AWAY, codes_of
-from mindrun.sim.compiling import compiled, part_of_tick
+from mindrun.sim.codes import AWAY
+from mindrun.sim.kind_lanes import read
 from mindrun.sim.lanes.placement import uniform
 from mindrun.sim.lanes.solid import put_box
-from mindrun.sim.state import FIRST_RAY, HIGH, LEFT, LOW, RIGHT, SIDES, SIGHT_COSINE, SIGHT_SINE, SIGHT_X, SIGHT_Y
-from mindrun.sim.vector import HIGHEST, LOWEST, VECTOR_LANES, load, splat, store, where_ordered
+from mindrun.sim.state import (
+    FIRST_RAY,
+    HIGH,
+    LEFT,
+    LOW,
+    RIGHT,
+    SIDES,
+    SIGHT_COSINE,
+    SIGHT_SINE,
+    SIGHT_X,
+    SIGHT_Y,
+    State,
+)
+from mindrun.sim.tables import Tables
+from mindrun.sim.units import unit
 
 CULLING_SLACK_UNITS = 2.0  # how far a robot may move before the boxes near it are chosen anew
 
 
-def _reader(lanes_of_kinds: Sequence[Any], first: int = 0) -> Callable[..., None]:
-    """A function that calls the lane function of a sensor's kind: one compilation, whatever the mind is.
-
-    By halves: every call hands on all that a sensor may look at, and takes as long as a simple sensor.
-    """
-    if len(lanes_of_kinds) == 1:
-        return compiled_lane(lanes_of_kinds[0])
-    half = len(lanes_of_kinds) // 2
-    middle = first + half
-    low, high = _reader(lanes_of_kinds[:half], first), _reader(lanes_of_kinds[half:], middle)
-
-    @compiled
-    def read(tables, senses, lanes, clock, sensor):
-        if sensor.kind < middle:
-            low(tables, senses, lanes, clock, sensor)
-        else:
-            high(tables, senses, lanes, clock, sensor)
-
-    return read
-
-
-read = _reader([kinds("sensor")[name].lane for name in codes_of("sensor")])
-
-
-@part_of_tick
-def sense(tables, state, lanes, clock):
+@unit
+def sense(tables: Tables, state: State, lanes: int, clock: int) -> None:
     """Fill the rows of the sensors that somebody reads, in the order of the table (sources before derivatives)."""
     world, sight, mind = state.world, state.sight, state.mind
     measure_distances(world.body, world.things, len(tables.things), lanes)
@@ -69,21 +66,14 @@ def sense(tables, state, lanes, clock):
         look(tables, world, sight, lanes)
         look_at_loose(tables, world, sight, lanes)
     sight.nearest_of[0] = -1
-    senses = parts.Senses(
-        readings=mind.readings, before=mind.before, body=world.body, heading=world.heading, things=world.things,
-        held=world.held, battery=world.battery, tick=world.tick, trail=world.trail, loose=world.loose,
-        nearest=sight.nearest, nearest_of=sight.nearest_of, frame=sight.frame, sight=sight.sight, boxes=world.boxes,
-        nearby=sight.nearby, nearby_count=sight.nearby_count, stack=mind.stack, active=mind.active,
-    )  # fmt: skip
     for i in range(len(tables.sensors)):
         sensor = tables.sensors[i]
-        read(tables, senses, lanes, clock, sensor)
+        read(sensor.lane, tables, state.senses, lanes, clock, sensor)
         if sensor.is_rough:
             for k in range(sensor.width):
                 roughen(world, mind, sensor, k, lanes)
 
 
-@compiled
 def roughen(world, mind, sensor, k, lanes):
     """Make reading k of a sensor imperfect: taken now and then, with noise, sometimes lost, and seen later."""
     out, measured, tick = mind.readings[sensor.start + k], mind.measured[sensor.held + k], world.tick
@@ -105,7 +95,6 @@ def roughen(world, mind, sensor, k, lanes):
         out[lane] = seen
 
 
-@compiled
 def measure(random, numbers, sensor, true, before, lane):
     """The measured value of a true one: with noise, or where it is lost, `blank` or the one before."""
     lost, noise = F(numbers[sensor.lost, lane]), F(numbers[sensor.noise, lane])
@@ -117,7 +106,6 @@ def measure(random, numbers, sensor, true, before, lane):
     return true
 
 
-@compiled
 def measure_distances(body, things, count, lanes):
     """Compute the distance between the robot and every thing as the tick begins."""
     for i in range(count):
@@ -127,7 +115,6 @@ def measure_distances(body, things, count, lanes):
             things[THING_ROWS * i + DISTANCE, lane] = np.sqrt(dx * dx + dy * dy)
 
 
-@compiled
 def look(tables, world, sight, lanes):
     """Compute the distance from each robot's centre along each ray into `sight`, after heading and place."""
     rows, count, constants = sight.sight, sight.nearby_most[0], tables.world[0]
@@ -138,34 +125,32 @@ def look(tables, world, sight, lanes):
     for lane in range(lanes):
         rows[SIGHT_COSINE, lane], rows[SIGHT_SINE, lane] = F(world.heading[COSINE, lane]), F(world.heading[SINE, lane])
         rows[SIGHT_X, lane], rows[SIGHT_Y, lane] = F(world.body[X, lane]), F(world.body[Y, lane])
-    for lane in range(0, lanes, VECTOR_LANES):
+    for lane in range(0, lanes, LANES):
         for ray in range(len(tables.ray_row)):
             cosine, sine = tables.rays[COSINE, ray], tables.rays[SINE, ray]
             store(rows, FIRST_RAY + ray, lane, along(rows, cosine, sine, half_x, half_y, sight.sides, count, lane))
 
 
-@compiled
 def along(sight, cosine, sine, half_x, half_y, sides, count, lane):
     """The distance to what a ray meets first in sixteen lanes: a wall, or one of the boxes (the slab method)."""
     c, s = load(sight, SIGHT_COSINE, lane), load(sight, SIGHT_SINE, lane)
     ix = splat(ONE) / (c * splat(cosine) - s * splat(sine))
     iy = splat(ONE) / (s * splat(cosine) + c * splat(sine))
     x, y = load(sight, SIGHT_X, lane), load(sight, SIGHT_Y, lane)
-    to_x = HIGHEST((splat(half_x) - x) * ix, (splat(-half_x) - x) * ix)
-    to_y = HIGHEST((splat(half_y) - y) * iy, (splat(-half_y) - y) * iy)
-    nearest = LOWEST(to_x, to_y)
+    to_x = highest((splat(half_x) - x) * ix, (splat(-half_x) - x) * ix)
+    to_y = highest((splat(half_y) - y) * iy, (splat(-half_y) - y) * iy)
+    nearest = lowest(to_x, to_y)
     for k in range(count):
         box = SIDES * k
         left, right = load(sides, box + LEFT, lane) * ix, load(sides, box + RIGHT, lane) * ix
         low, high = load(sides, box + LOW, lane) * iy, load(sides, box + HIGH, lane) * iy
-        enter = HIGHEST(LOWEST(left, right), LOWEST(low, high))
-        leave = LOWEST(HIGHEST(left, right), HIGHEST(low, high))
+        enter = highest(lowest(left, right), lowest(low, high))
+        leave = lowest(highest(left, right), highest(low, high))
         hit = where_ordered(enter, leave, enter, splat(MAX_FLOAT32))
-        nearest = LOWEST(where_ordered(splat(ZERO), hit, hit, splat(MAX_FLOAT32)), nearest)
+        nearest = lowest(where_ordered(splat(ZERO), hit, hit, splat(MAX_FLOAT32)), nearest)
     return nearest
 
 
-@compiled
 def choose(world, sight, reach, lanes):
     """Copy the boxes that each lane's rays or robot can meet, anew for a lane that has moved; count them.
 
@@ -182,7 +167,6 @@ def choose(world, sight, reach, lanes):
     sight.nearby_most[0] = most
 
 
-@compiled
 def choose_in(boxes, sight, reach, lane):
     """Copy the boxes around the anchor of a lane, and count them."""
     nearby, x, y = sight.nearby[:, lane], sight.anchor[X, lane], sight.anchor[Y, lane]
@@ -197,7 +181,6 @@ def choose_in(boxes, sight, reach, lane):
     sight.nearby_count[lane] = found
 
 
-@compiled
 def place(body, box, sides, lanes):
     """Write the sides of a box of each lane relative to the robot; no ray meets one that is AWAY before a wall."""
     for lane in range(lanes):
@@ -207,7 +190,6 @@ def place(body, box, sides, lanes):
         sides[LOW, lane], sides[HIGH, lane] = dy - half_y, dy + half_y
 
 
-@compiled
 def look_at_loose(tables, world, sight, lanes):
     """Shorten every ray that meets a loose thing, but for one of those that its own sensor looks for."""
     rows, frame = sight.sight, sight.frame
@@ -224,7 +206,6 @@ def look_at_loose(tables, world, sight, lanes):
                 meet_box(rows, frame, cosine, sine, out, lanes)
 
 
-@compiled
 def enter_frame(tables, world, frame, i, lanes):
     """Write the frame of loose thing i: how it is turned, its middle from the robot's in axes that turn with it."""
     body, thing = world.body, tables.loose[i].thing
@@ -238,7 +219,6 @@ def enter_frame(tables, world, frame, i, lanes):
         frame[parts.LOOSE_HALF, lane] = F(size_of(world.things, thing, lane) / 2)
 
 
-@compiled
 def meet_ball(rows, frame, cosine, sine, out, lanes):
     """Shorten a ray of each lane to the disc of its frame, where it meets that before."""
     for lane in range(lanes):
@@ -251,7 +231,6 @@ def meet_ball(rows, frame, cosine, sine, out, lanes):
         out[lane] = enter if hit else out[lane]
 
 
-@compiled
 def meet_box(rows, frame, cosine, sine, out, lanes):
     """Shorten a ray of each lane to the square of its frame, where it meets that before (the slab method)."""
     for lane in range(lanes):
@@ -267,7 +246,6 @@ def meet_box(rows, frame, cosine, sine, out, lanes):
         out[lane] = enter if hit else out[lane]
 
 
-@compiled
 def direction(rows, frame, cosine, sine, lane):
     """Cosine and sine of a ray's direction in a lane's frame."""
     ahead, aside = rows[SIGHT_COSINE, lane], rows[SIGHT_SINE, lane]

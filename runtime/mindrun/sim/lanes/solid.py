@@ -26,10 +26,13 @@ from mindrun.numbers.arithmetic import (
     TURN,
     X,
     Y,
+    box_of,
+    place_of,
+    put_thing,
+    sine_cosine,
+    size_of,
 )
-from mindrun.sim.arithmetic import box_of, place_of, put_thing, sine_cosine, size_of
 from mindrun.sim.codes import FAR, HALF_DIAGONAL
-from mindrun.sim.compiling import compiled, part_of_tick
 from mindrun.sim.state import BEGIN_X, BEGIN_Y, FROM_ANGLE, FROM_X, FROM_Y, HALF, TO_X, TO_Y, WAY
 
 CLOSED_UNITS = 1e-6  # so much larger is everything here: what stands corner to corner leaves no way between
@@ -39,26 +42,22 @@ HELD, FIRST_LOOSE = WAY, 2 * WAY  # where they stand in `ways`; the robot comes 
 DEEPEST_SHARE = 0.5  # of the smaller's half side: so deep in one another come two that move
 
 
-@compiled
 def within(x, y, angle):
     """True if a place is one at which Chipmunk can compute: none of its numbers is NaN or beyond FAR."""
     return (abs(x) <= FAR) & (abs(y) <= FAR) & (abs(angle) <= FAR)
 
 
-@compiled
 def is_lost(body, lane):
     """True if a lane's robot is beyond all places."""
     return not within(body[X, lane], body[Y, lane], body[ANGLE, lane])
 
 
-@compiled
 def put_box(boxes, b, x, y, wide, high):
     """Write box b of a lane: its middle, and half of its sides."""
     box = BOX_COLUMNS * b
     boxes[box + X], boxes[box + Y], boxes[box + HALF_X], boxes[box + HALF_Y] = x, y, wide, high
 
 
-@compiled
 def is_clear(boxes, x, y, margin, lane):
     """True if no obstacle comes within `margin` of a point, along the axes."""
     for b in range(boxes.shape[1] // BOX_COLUMNS):
@@ -68,21 +67,18 @@ def is_clear(boxes, x, y, margin, lane):
     return True
 
 
-@compiled
 def is_free(tables, world, x, y, half, lane):
     """True if a square of half side `half` around a point meets no wall and no obstacle."""
     half_x, half_y = tables.world[0].half_x, tables.world[0].half_y
     return half_x - abs(x) >= half and half_y - abs(y) >= half and is_clear(world.boxes, x, y, half, lane)
 
 
-@compiled
 def extent_of(tables, world, i, lane):
     """The radius of a circle around loose thing i, however it is turned."""
     body = tables.loose[i]
     return size_of(world.things, body.thing, lane) * (0.5 if body.is_round else HALF_DIAGONAL)
 
 
-@compiled
 def is_barred(boxes, constants, x, y, to_x, to_y, half, lane):
     """True if something of half size `half` meets an obstacle or the border on its way between two places.
 
@@ -99,7 +95,6 @@ def is_barred(boxes, constants, x, y, to_x, to_y, half, lane):
     return False
 
 
-@compiled
 def is_walled(boxes, x, y, to_x, to_y, lane):
     """True if the way between two places leads through an obstacle that neither of them is in."""
     dx, dy = to_x - x, to_y - y
@@ -111,7 +106,6 @@ def is_walled(boxes, x, y, to_x, to_y, lane):
     return False
 
 
-@compiled
 def is_blocked(tables, world, x, y, to_x, to_y, lane):
     """True if the way between two places leads through the square around a loose thing, which does not turn with it."""
     for i in range(len(tables.loose)):
@@ -122,7 +116,6 @@ def is_blocked(tables, world, x, y, to_x, to_y, lane):
     return False
 
 
-@compiled
 def meets(x, y, dx, dy, wide, high):
     """True if a way by (dx, dy) that begins outside meets a rectangle around (x, y): no axis keeps them apart."""
     if abs(x) < wide and abs(y) < high:
@@ -131,7 +124,6 @@ def meets(x, y, dx, dy, wide, high):
     return beside and abs(x * dy - y * dx) < wide * abs(dy) + high * abs(dx)
 
 
-@compiled
 def find_swift(tables, world, swift, lanes):
     """Set `swift` [lane] to 1 where a lane has to make strides, if anything may be swift; return how many may be."""
     body, held, constants, count = world.body, world.held, tables.world[0], 0
@@ -150,7 +142,6 @@ def find_swift(tables, world, swift, lanes):
     return count
 
 
-@compiled
 def speed_of_loose(tables, world, i, lane):
     """An upper bound of the speed of any point of loose thing i, in units per second."""
     row, arm = LOOSE_ROWS * i, 0.0 if tables.loose[i].is_round else extent_of(tables, world, i, lane)
@@ -158,7 +149,6 @@ def speed_of_loose(tables, world, i, lane):
     return speed + abs(world.loose[row + PUSHED_SPIN, lane]) * arm
 
 
-@compiled
 def stride(tables, world, lane):
     """The seconds for which a lane may go on at once; infinite where nothing in it is swift."""
     body, constants, held = world.body, tables.world[0], world.held[lane]
@@ -176,7 +166,6 @@ def stride(tables, world, lane):
     return longest
 
 
-@compiled
 def stride_of(tables, world, i, x, y, reach, lane):
     """The seconds for which loose thing i may go on at once beside a robot at (x, y) of radius `reach`."""
     thing, speed = tables.loose[i].thing, speed_of_loose(tables, world, i, lane)
@@ -189,7 +178,6 @@ def stride_of(tables, world, i, x, y, reach, lane):
     return max(STRIDE_SHARE * half, room) / speed
 
 
-@compiled
 def room_around(tables, world, x, y, extent, but, lane):
     """The distance that something of radius `extent` at a point may move in any direction before it meets something.
 
@@ -208,7 +196,6 @@ def room_around(tables, world, x, y, extent, but, lane):
     return room
 
 
-@part_of_tick
 def note_begin(tables, world, ways, lane):
     """Write the places of everything that moves as a tick begins, and half of its least side, into `ways`."""
     constants, held = tables.world[0], world.held[lane]
@@ -224,7 +211,6 @@ def note_begin(tables, world, ways, lane):
         ways[way + HALF] = size_of(world.things, thing, lane) / 2
 
 
-@part_of_tick
 def note_places(tables, world, ways, x, y, lane):
     """Write the places of everything that moves into columns `x` and `y` of its way; NaN where nothing is held."""
     ways[x], ways[y] = world.body[X, lane], world.body[Y, lane]
@@ -238,7 +224,6 @@ def note_places(tables, world, ways, x, y, lane):
         ways[way + x], ways[way + y] = place_of(world.things, tables.loose[i].thing, lane)
 
 
-@part_of_tick
 def note_before(tables, world, ways, lane):
     """Write the places of everything that moves before a step, and how it is turned, into `ways`."""
     note_places(tables, world, ways, FROM_X, FROM_Y, lane)
@@ -247,7 +232,6 @@ def note_before(tables, world, ways, lane):
         ways[FIRST_LOOSE + WAY * i + FROM_ANGLE] = world.loose[LOOSE_ROWS * i + TURN, lane]
 
 
-@compiled
 def hold_back(tables, world, ways, lane):
     """Put back what has passed something since the tick began, and then what passes that."""
     note_places(tables, world, ways, TO_X, TO_Y, lane)
@@ -260,7 +244,6 @@ def hold_back(tables, world, ways, lane):
             way += WAY
 
 
-@compiled
 def passes(tables, world, ways, way, last, lane):
     """True if what this step has moved has passed an obstacle, the border or another mover since the tick began."""
     x, y, to_x, to_y = ways[way + BEGIN_X], ways[way + BEGIN_Y], ways[way + TO_X], ways[way + TO_Y]
@@ -278,7 +261,6 @@ def passes(tables, world, ways, way, last, lane):
     return False
 
 
-@compiled
 def comes_nearer(x, y, dx, dy, near):
     """True if a way by (dx, dy) comes nearer than `near` to the place (x, y), and nearer than it begins."""
     along, length = x * dx + y * dy, dx * dx + dy * dy
@@ -289,7 +271,6 @@ def comes_nearer(x, y, dx, dy, near):
     return aside_x * aside_x + aside_y * aside_y < near * near
 
 
-@compiled
 def put_back(tables, world, ways, way, lane):
     """Put a mover, the robot with what it holds, back to its place before the step, without any speed."""
     if way < FIRST_LOOSE:

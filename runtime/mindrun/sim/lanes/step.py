@@ -5,24 +5,41 @@ Walkers touch nothing: they are plain arithmetic, too.
 
 import numpy as np
 
-from mindrun.numbers.arithmetic import ANGLE, BOX_COLUMNS, COSINE, HALF_X, HALF_Y, SINE, SPEED_X, SPEED_Y, SPIN, X, Y
-from mindrun.sim.arithmetic import place_of, put_thing, sine_cosine, size_of
+from mindrun.numbers.arithmetic import (
+    ANGLE,
+    BOX_COLUMNS,
+    COSINE,
+    HALF_X,
+    HALF_Y,
+    SINE,
+    SPEED_X,
+    SPEED_Y,
+    SPIN,
+    X,
+    Y,
+    place_of,
+    put_thing,
+    sine_cosine,
+    size_of,
+)
 from mindrun.sim.chipmunk_internals import PERSISTENCE_TICKS
 from mindrun.sim.codes import FORCE, FORCE_ASIDE, FORCE_X, FORCE_Y, PUSH, STEERING, TORQUE
-from mindrun.sim.compiling import compiled, part_of_tick
 from mindrun.sim.lanes.act import carry
 from mindrun.sim.lanes.chipmunk import make_tick
 from mindrun.sim.lanes.loose import approach_loose, could_touch, slide, slow_down
 from mindrun.sim.lanes.placement import uniform
 from mindrun.sim.lanes.sense import CULLING_SLACK_UNITS
 from mindrun.sim.lanes.solid import CLOSED_UNITS, find_swift, is_barred, is_free, within
+from mindrun.sim.state import State
+from mindrun.sim.tables import Tables
+from mindrun.sim.units import unit
 
 CONTACT_MARGIN_UNITS = 0.01  # beyond the rounding of any distance here
 CONTACT_TICKS = PERSISTENCE_TICKS + 2  # for which Chipmunk goes on with a lane in which something could have touched
 
 
-@part_of_tick
-def step(tables, state, lanes):
+@unit
+def step(tables: Tables, state: State, lanes: int) -> None:
     """Damp, push and move the robots and the loose things; then headings, held items and walkers follow."""
     world, contact, constants = state.world, state.contact, tables.world[0]
     thrust(tables, world, state.mind.commands, lanes)
@@ -46,7 +63,6 @@ def step(tables, state, lanes):
     walk(tables, world, lanes)
 
 
-@compiled
 def thrust(tables, world, commands, lanes):
     """Damp the body's velocities, a car's as its axles let it move, and sum force and torque in `push`."""
     body, heading, push, constants, is_aside = world.body, world.heading, world.push, tables.world[0], False
@@ -74,7 +90,6 @@ def thrust(tables, world, commands, lanes):
         roll(tables, world, commands, lanes)
 
 
-@compiled
 def drive(commands, actuator, strength, kept, push, lanes):
     """Add an actuator's force (2v − 1)·thrust, less what slips, and its torque to `push`."""
     ahead, aside, arm, slips = actuator.ahead, actuator.aside, actuator.arm, actuator.is_slipping
@@ -86,7 +101,6 @@ def drive(commands, actuator, strength, kept, push, lanes):
         push[TORQUE, lane] += arm * pushed
 
 
-@compiled
 def roll(tables, world, commands, lanes):
     """Replace a car's velocity by the one nearest to it, in kinetic energy, that its axles allow: v ahead,
     v·tan δ / 2 to the left and a turn of v·tan δ / distance of the axles.
@@ -108,7 +122,6 @@ def roll(tables, world, commands, lanes):
         body[SPIN, lane] = speed * turn
 
 
-@compiled
 def steered(tables, world, commands, lane):
     """The angle by which a car's front wheels are turned to the left."""
     angle = 0.0
@@ -120,7 +133,6 @@ def steered(tables, world, commands, lane):
     return angle
 
 
-@compiled
 def fly(world, near, constants, lanes):
     """Make Chipmunk's step of a body that touches nothing: move with the old velocity, then add force and torque.
 
@@ -140,7 +152,6 @@ def fly(world, near, constants, lanes):
         body[SPIN, lane] = spin + push[TORQUE, lane] * moment_inv[lane] * dt if free else spin
 
 
-@compiled
 def find_near(tables, world, sight, contact, lanes):
     """Count down `near`, and begin anew where the robot or what it holds could touch something after this tick.
 
@@ -178,7 +189,6 @@ def find_near(tables, world, sight, contact, lanes):
             near[lane] = CONTACT_TICKS if contact.swift[lane] > 0 else near[lane]
 
 
-@compiled
 def approach(box, body, dt, gap, lanes):
     """Lower `gap` to the distance along the axes between the robot's next centre and a box of each lane."""
     for lane in range(lanes):
@@ -188,7 +198,6 @@ def approach(box, body, dt, gap, lanes):
         gap[lane] = far if far < gap[lane] else gap[lane]
 
 
-@compiled
 def walk(tables, world, lanes):
     """Let every walker that has not vanished take its step."""
     for i in range(len(tables.walkers)):
@@ -202,7 +211,6 @@ def walk(tables, world, lanes):
                 wander(tables, world, i, x, y, lane)
 
 
-@compiled
 def wander(tables, world, i, x, y, lane):
     """Step ahead, and let the direction drift; where that is not free, stand and face anywhere."""
     sine, cosine = sine_cosine(world.direction[i, lane])
@@ -216,7 +224,6 @@ def wander(tables, world, i, x, y, lane):
         world.direction[i, lane] = uniform(world.random, lane, 0.0, 2 * np.pi)
 
 
-@compiled
 def may_step(tables, world, step, x, y, to_x, to_y, half, lane):
     """True if a square of half side `half` is free to step; its middle alone, where it has no room already.
 
@@ -230,7 +237,6 @@ def may_step(tables, world, step, x, y, to_x, to_y, half, lane):
     return step <= half / 2 or not is_barred(boxes, constants, x, y, to_x, to_y, half, lane)
 
 
-@compiled
 def go_along(tables, world, i, x, y, lane):
     """Step towards the next place of its way; where it would come past that, stop there for this tick."""
     walker = tables.walkers[i]

@@ -1,39 +1,16 @@
 """Think: influence flows down the hierarchy (Eq. 2) and the skills that have some compute what they send (Eq. 1)."""
 
-from collections.abc import Callable, Sequence
-from typing import Any
-
-from mindrun.kinds.registry import kinds
-from mindrun.numbers.arithmetic import NAN, ONE, ZERO, F
-from mindrun.sim.arithmetic import clamp, compiled_lane, evaluate, finite
-from mindrun.sim.codes import codes_of
-from mindrun.sim.compiling import compiled, part_of_tick
+from mindrun.numbers.arithmetic import NAN, ONE, ZERO, F, clamp, finite
+from mindrun.numbers.stack_machine import evaluate
+from mindrun.sim.kind_lanes import compute
 from mindrun.sim.procedures import call_procedure
-from mindrun.sim.state import FAILED_COLUMN, FAILED_SKILL
+from mindrun.sim.state import FAILED_COLUMN, FAILED_SKILL, State
+from mindrun.sim.tables import Tables
+from mindrun.sim.units import unit
 
 NOT_SENT = F(-1)
 
 
-def _chain(functions: Sequence[Any], code: int = 0) -> Callable[..., int]:
-    """A function that calls the lane function of a skill's kind: one compilation, whatever the mind is."""
-    own = compiled_lane(functions[0])
-    if len(functions) == 1:
-        return own
-    other = _chain(functions[1:], code + 1)
-
-    @compiled
-    def compute(tables, mind, skill, count):
-        if skill.kind == code:
-            return own(tables, mind, skill, count)
-        return other(tables, mind, skill, count)
-
-    return compute
-
-
-compute = _chain([kinds("skill")[name].lane for name in codes_of("skill")])
-
-
-@compiled
 def begin(tables, mind, lanes):
     """Set all influence to 0 but the master's, which is 1."""
     mind.influence[:, :lanes] = ZERO
@@ -42,8 +19,8 @@ def begin(tables, mind, lanes):
     mind.influence[tables.world[0].master, :lanes] = ONE
 
 
-@part_of_tick
-def think(tables, state, lanes, first, last):
+@unit
+def think(tables: Tables, state: State, lanes: int, first: int, last: int) -> None:
     """Run the skills first..last of the table: each only in the lanes where it has influence.
 
     It ends where a procedure fails: `failed` then says which, and for whose inputs.
@@ -54,7 +31,7 @@ def think(tables, state, lanes, first, last):
         if count > 0:
             skill, out = tables.skills[row], 0
             if skill.address == 0:
-                out = compute(tables, mind, skill, count)
+                out = compute(skill.lane, tables, mind, skill, count)
             else:
                 failed[FAILED_COLUMN] = call_procedure(skill.address, mind.gathered, mind.hidden, count)
                 if failed[FAILED_COLUMN] >= 0:
@@ -63,8 +40,8 @@ def think(tables, state, lanes, first, last):
             send(tables, state, row, out, count, lanes)
 
 
-@compiled
-def wake(tables, state, lanes, row):
+@unit
+def wake(tables: Tables, state: State, lanes: int, row: int) -> int:
     """Gather the inputs of a skill in the lanes where it has influence; return their number."""
     skill, mind = tables.skills[row], state.mind
     count = awake(mind.influence[skill.index], mind.active, lanes, skill.own)
@@ -74,7 +51,6 @@ def wake(tables, state, lanes, row):
     return count
 
 
-@compiled
 def awake(influence, active, lanes, own):
     """List the lanes in which a skill has influence; all, if any, where each has its own weights. Return the count."""
     count = 0
@@ -88,7 +64,6 @@ def awake(influence, active, lanes, own):
     return count
 
 
-@compiled
 def gather(rows, readings, gathered, active, sound, count, everywhere):
     """Copy the inputs of a skill side by side; `sound` becomes 0 where all of them are finite, else NaN."""
     sound[:count] = ZERO
@@ -105,8 +80,8 @@ def gather(rows, readings, gathered, active, sound, count, everywhere):
                 sound[k] += target[k] - target[k]
 
 
-@compiled
-def send(tables, state, row, out, count, lanes):
+@unit
+def send(tables: Tables, state: State, row: int, out: int, count: int, lanes: int) -> None:
     """Send every edge's value, times the skill's influence, to its target; a value that is not finite is not sent."""
     skill, mind, everywhere = tables.skills[row], state.mind, count == lanes
     influence, sent = mind.influence[skill.index], mind.sent
@@ -137,7 +112,6 @@ def send(tables, state, row, out, count, lanes):
             spread(sent, influence, mind.influence_sums[edge.target], mind.active, count, everywhere)
 
 
-@compiled
 def value(codes, mind, measures, out, count, everywhere):
     """Evaluate a program over the readings into `out`, in float32."""
     evaluate(codes, mind.readings, measures, mind.commands, 0, mind.stack, mind.active, count, everywhere)
@@ -145,7 +119,6 @@ def value(codes, mind, measures, out, count, everywhere):
         out[k] = F(mind.stack[0, k])
 
 
-@compiled
 def gate(tables, mind, measures, edge, values, count, everywhere):
     """Write the values of an edge where its condition holds, those of `otherwise` where not, NaN where nobody knows."""
     value(tables.codes[edge.when : edge.when + edge.whens], mind, measures, mind.opened, count, everywhere)
@@ -159,7 +132,6 @@ def gate(tables, mind, measures, edge, values, count, everywhere):
         mind.gated[k] = values[k] if is_open else other[k] if is_closed else NAN
 
 
-@compiled
 def check(values, sound, sent, active, faults, influence, count):
     """Write the values clamped to 0..1 to `sent`; −1, and a fault, where one or an input of its skill is not finite."""
     broken = 0
@@ -172,7 +144,6 @@ def check(values, sound, sent, active, faults, influence, count):
             faults[active[k]] += 1 if sent[k] < ZERO and influence[active[k]] != ZERO else 0
 
 
-@compiled
 def spread(sent, influence, target, active, count, everywhere):
     """Add value times influence (Eq. 2) where a value is sent."""
     if everywhere:

@@ -13,7 +13,10 @@ from numpy.typing import NDArray
 from mindrun.errors import MindError
 from mindrun.graph.policy import Policy
 from mindrun.sim.codes import BROKEN_OFF
-from mindrun.sim.lanes.stages import act, before, conclude, run_skills
+from mindrun.sim.lanes.act import act
+from mindrun.sim.lanes.advance import before, conclude
+from mindrun.sim.lanes.runs import fill
+from mindrun.sim.lanes.think import send, think, wake
 from mindrun.sim.outside.making import GAVE_NO_NUMBER
 from mindrun.sim.outside.repeating import CHECKED_TICKS, RecordingStepper, SlowError
 from mindrun.sim.outside.stepper import REWARD_COLUMN, TERMINATED_COLUMN, EnvironmentRun
@@ -123,7 +126,7 @@ class EnvironmentRollout(Rollout):
     @property
     def entries(self) -> tuple[Any, ...]:
         """The compiled stages of a tick that its runs call."""
-        return before, run_skills, act, conclude
+        return fill, before, think, wake, send, act, conclude
 
     def tile(self, lanes: int) -> Tile:
         """Room for so many lanes, and for their environments."""
@@ -152,7 +155,7 @@ class EnvironmentRollout(Rollout):
     def conclude(self, tile: Tile, jobs: Jobs) -> None:
         """Make the second half of a tick: commands, a step of every environment, and its reward."""
         state, lanes = tile.state, int(jobs.lanes[0])
-        act(self.tables, state, np.int64(lanes))
+        act(self.tables, state, lanes)
         episodes = self._episodes(tile, jobs)
         judge, ended, count = state.judge, state.run.ended, len(self.tables.actuators)
         commands = state.mind.commands[:count, :lanes].copy()

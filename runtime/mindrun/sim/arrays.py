@@ -1,0 +1,81 @@
+"""Named arrays that compiled code sees through one pointer: to a block of words, an address and a shape for each."""
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, fields
+from functools import cache, cached_property
+from typing import Any, get_args
+
+import numpy as np
+from numpy.typing import NDArray
+
+WORD_BYTES = 8
+Count = int | str  # of rows or columns: a number, or what they are of, by its name
+
+
+@dataclass(frozen=True, slots=True)
+class Room:
+    """What an array holds, how many dimensions it has, and its shape: of counts by name, and the number of lanes."""
+
+    dtype: np.dtype[Any]
+    dimensions: int
+    shape: Callable[[Mapping[str, int], int], tuple[int, ...]]
+
+    def empty(self, counts: Mapping[str, int], lanes: int) -> NDArray[Any]:
+        """Zeros for so many lanes."""
+        return np.zeros(self.shape(counts, lanes), self.dtype)
+
+    @property
+    def words(self) -> int:
+        """The number of words in a block: an address and a shape."""
+        return 1 + self.dimensions
+
+
+@dataclass(frozen=True)
+class Block:
+    """Arrays, and blocks of such, by name.
+
+    A kind of block is a frozen dataclass whose fields are `Annotated[Array, Room]` or other kinds of blocks. No array
+    of one may be exchanged: `dataclasses.replace` makes another.
+    """
+
+    @classmethod
+    @cache
+    def layout(cls) -> Mapping[str, "tuple[int, Room | type[Block]]"]:
+        """The word at which each field begins, and what it is."""
+        found: dict[str, tuple[int, Room | type[Block]]] = {}
+        place = 0
+        for field in fields(cls):
+            kind: Any = field.type if isinstance(field.type, type) else get_args(field.type)[1]
+            found[field.name] = place, kind
+            place += kind.words if isinstance(kind, Room) else kind.length()
+        return found
+
+    @classmethod
+    @cache
+    def length(cls) -> int:
+        """The number of its words."""
+        return sum(kind.words if isinstance(kind, Room) else kind.length() for _, kind in cls.layout().values())
+
+    @cached_property
+    def block(self) -> NDArray[np.uint64]:
+        """The words. TypeError where an array is not what its field says: compiled code would write elsewhere."""
+        return np.array([*self._words()], np.uint64)
+
+    @cached_property
+    def address(self) -> int:
+        """The place of the words, which compiled code is handed; valid as long as this object."""
+        return int(self.block.ctypes.data)
+
+    def _words(self) -> Iterator[int]:
+        for name, (_, kind) in self.layout().items():
+            value = getattr(self, name)
+            if isinstance(kind, Room):
+                if value.dtype != kind.dtype or value.ndim != kind.dimensions or not value.flags.c_contiguous:
+                    said = (
+                        f"{value.dtype} in {value.ndim} dimensions where {kind.dtype} in {kind.dimensions} is declared"
+                    )
+                    raise TypeError(f"{type(self).__name__}.{name} is {said}")
+                yield value.ctypes.data
+                yield from value.shape
+            else:
+                yield from value._words()

@@ -1,0 +1,25 @@
+"""The units of kinds: the lane function of each sensor and each skill, compiled when a mind first uses it."""
+
+from typing import Any
+
+from mindrun.sim.codes import SENSOR, SKILL
+from mindrun.sim.state import MindState, Senses
+from mindrun.sim.tables import Tables
+from mindrun.sim.units import UNITS, Form, Unit
+
+read = Form((Tables, Senses, int, int, SENSOR), None)
+compute = Form((Tables, MindState, SKILL, int), int)
+
+
+def sensor_unit(kind: Any) -> Unit:
+    """The unit of a sensor's kind."""
+    return _unit(kind.lane, read)
+
+
+def skill_unit(function: Any) -> Unit:
+    """The unit of a skill's function."""
+    return _unit(function.lane, compute)
+
+
+def _unit(lane: Any, form: Form) -> Unit:
+    return UNITS.get(f"{lane.__module__}.{lane.__qualname__}") or Unit(lane, form, lambda tables: True)

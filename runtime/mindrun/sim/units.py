@@ -1,0 +1,116 @@
+"""Units of machine code: functions of the lanes that are each compiled by themselves, and called by their addresses.
+
+A unit is a function of C of blocks and numbers. Python calls it as any function; another unit calls it through its
+**slot**, where its address stands. Where nobody has compiled it before, its first call does.
+"""
+
+import ctypes
+import inspect
+import os
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from mindrun.sim.arrays import Block
+
+FAILED_CODE = 70  # EX_SOFTWARE of sysexits.h
+Kind = Any  # of an argument: int, float, Pointer, a class of blocks, or the dtype of a table for one of its rows
+Needed = Callable[[Any], bool]  # of tables
+C_TYPES = {int: ctypes.c_int64, float: ctypes.c_double, None: None}
+
+
+class Pointer:
+    """The kind of an argument that is the address of whole numbers."""
+
+
+@dataclass(frozen=True)
+class Form:
+    """How a unit is called: the kinds of its arguments and of its result. Calls one by the address of its slot."""
+
+    takes: tuple[Kind, ...]
+    gives: Kind
+
+    def __call__(self, place: Any, *given: Any) -> Any:
+        return next(each for each in UNITS.values() if each.place == int(place)).function(*given)
+
+
+class Unit:
+    """A function that is compiled by itself. It is called with blocks and numbers; no row can be handed to it."""
+
+    def __init__(self, function: Any, form: Form, needed: Needed) -> None:
+        self.function, self.form, self.needed = function, form, needed
+        self.name = f"{function.__module__}.{function.__qualname__}"
+        self.slot_name = f"slot of {self.name}"  # in the machine code of others
+        self._prototype = ctypes.CFUNCTYPE(C_TYPES[form.gives], *(C_TYPES.get(k, ctypes.c_void_p) for k in form.takes))
+        self._slot = np.zeros(1, np.uint64)
+        self._loaded: Any = None
+        self._loads: Any = None
+        UNITS[self.name] = self
+
+    def __call__(self, *given: Any) -> Any:
+        function = self._loaded or self.load()
+        return function(*[each.address if isinstance(each, Block) else int(each) for each in given])
+
+    @property
+    def place(self) -> int:
+        """The address of its slot, where that of the machine code stands, or of a function that loads and calls it."""
+        if self._slot[0] == 0:
+            self._loads = self._prototype(self._load_and_call)
+            self._slot[0] = ctypes.cast(self._loads, ctypes.c_void_p).value or 0
+        return int(self._slot.ctypes.data)
+
+    def load(self) -> Any:
+        """The machine code as a function of C; it is made where it is not kept."""
+        if self._loaded is None:
+            from mindrun.sim.cache import address_of
+
+            self._slot[0] = address = address_of(self)
+            self._loaded = self._prototype(address)
+        return self._loaded
+
+    def _load_and_call(self, *given: Any) -> Any:
+        try:
+            return self.load()(*given)
+        except BaseException as error:  # C knows no exceptions, and to go on would be wrong
+            print(f"{self.name} cannot be compiled: {error}", file=sys.stderr, flush=True)
+            os._exit(FAILED_CODE)
+
+
+@dataclass(frozen=True)
+class AddressOf:
+    """The address of a unit, to be handed to a library that calls it."""
+
+    unit: Unit
+
+    def __call__(self) -> int:
+        return ctypes.c_uint64.from_address(self.unit.place).value
+
+
+UNITS: dict[str, Unit] = {}
+
+
+def unit(function: Any) -> Any:
+    """A unit of a function, whose annotations say how it is called."""
+    return unit_where(lambda tables: True)(function)
+
+
+def unit_where(needed: Needed) -> Callable[[Any], Any]:
+    """A unit that only some tables need: it is not compiled ahead for others."""
+
+    def make(function: Any) -> Unit:
+        said = inspect.get_annotations(function)
+        gives = said.pop("return", None)
+        return Unit(function, Form(tuple(said.values()), gives), needed)
+
+    return make
+
+
+def call(address: Any, *arguments: Any) -> int:
+    """Call the C function at an address with whole numbers, pointers and doubles; its result as a whole number."""
+    kinds = [ctypes.c_double if isinstance(a, float) else ctypes.c_uint64 for a in arguments]
+    function = ctypes.CFUNCTYPE(ctypes.c_int64, *kinds)(int(address))
+    given = [float(a) if kind is ctypes.c_double else int(a) for a, kind in zip(arguments, kinds, strict=True)]
+    return int(function(*given))
