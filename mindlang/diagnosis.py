@@ -22,7 +22,6 @@ import mindlang
 from mindlang import limits
 
 SMALL_MEMORY_BYTES = 512 << 20  # below which compiling the simulator may fail
-SEVERAL_BYTES = 200 << 20  # of older versions' machine code, from which on they are told
 LISTED_PACKAGES = 3  # of an extra; of more only their number is told
 
 
@@ -126,29 +125,25 @@ def _is_met(package: Requirement) -> bool:
 
 
 def machine_code() -> Iterator[DoctorFinding]:
-    """The simulator's machine code: its folder, whether any is there, and what older versions left."""
+    """The simulator's machine code: its folder, and whether it is there."""
+    from mindrun.files.user_cache import user_cache
     from mindrun.sim import cache, warmup
-    from mindrun.sim.lanes.advance import advance
+    from mindrun.sim.machine_code import target
 
-    folder = cache.folder()
-    is_kept = folder.name == f"compiled-{cache.stamp()}"
-    if is_kept:
+    folder, units = cache.folder(), warmup.every_unit()
+    if folder.parent == user_cache():
         yield DoctorFinding("compiler cache", "ok", f"{_mebibytes(folder)} MiB in {folder}")
     else:
         mend = "let XDG_CACHE_HOME name a folder that can be written"
         yield DoctorFinding("compiler cache", "wrong", "no folder can be written: every start compiles anew", mend)
-    if warmup.is_native():
-        yield DoctorFinding("simulator", "ok", f"compiled for {cache.processor()}")
-    elif warmup.is_there((advance,)):
+    if warmup.is_native(units):
+        yield DoctorFinding("simulator", "ok", f"compiled for {target().processor}")
+    elif warmup.is_there(units):
         seen = "shipped for any processor of this kind; made for this one while the first lesson runs"
         yield DoctorFinding("simulator", "ok", seen)
     else:
-        seen = "not compiled yet: the first lesson, run or bench does it, in about a minute"
+        seen = "not all compiled yet: a lesson, run or bench does it when it needs more, in some ten seconds"
         yield DoctorFinding("simulator", "absent", seen, "mindc warmup")
-    older = sum(_mebibytes(each) for each in folder.parent.glob("compiled-*") if each != folder) if is_kept else 0
-    if older << 20 > SEVERAL_BYTES:
-        mend = f"if you use no older version any more: rm -r {folder.parent}/compiled-*, then mindc warmup"
-        yield DoctorFinding("older caches", "absent", f"{older} MiB of other versions in {folder.parent}", mend)
 
 
 def _mebibytes(folder: Path) -> int:

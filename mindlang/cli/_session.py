@@ -1,6 +1,5 @@
 """Shared by the commands that simulate: a run set up, the simulator compiled, progress shown, recordings refused."""
 
-import os
 import signal
 import sys
 from collections.abc import Callable, Iterator, Sequence
@@ -13,8 +12,8 @@ from typing import NamedTuple
 from mindrun.errors import MindError, ProcedureError
 from mindrun.graph.run_scores import Scores
 from mindrun.robot.replay import DifferenceError
-from mindrun.sim import warmup
-from mindrun.sim.changed_ticks import STAGES
+from mindrun.sim import cache
+from mindrun.sim.compilation import compile_in_background
 from mindrun.sim.rollout import Rollout
 from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
 
@@ -32,32 +31,21 @@ from mindlang.run.chosen_task import SetupError
 from mindlang.run.recorded_run import RunResult, run_result
 from mindlang.run.setup import NO_GENOME, RunSetup, run_timed, set_up
 
-COMPILING_STAGES = "compiling the stages of a tick once (about a minute)…"
-COMPILING = "compiling the simulator once (about half a minute)…"
+COMPILING_ALL = "compiling all of the simulator (half a minute)…"
+COMPILING = "compiling the simulator once (some ten seconds)…"
 
 
 def ensure_compiled(rollout: Rollout, say: Callable[[str], None] = terminal.complain) -> None:
-    """Compile the simulator if need be, and say so."""
-    had = warmup.is_there(rollout.entries)  # compiled of these very files, kept or shipped
-    if not had:
+    """Compile what a rollout needs of the simulator if need be, and say so, and how far it is."""
+    units = rollout.units()
+    missing = [each for each in units if cache.find(each) is None]
+    if missing:
         say(COMPILING)
-    with on_ctrl_c(_end_at_once):
-        rollout.compile()
-    if had and not warmup.is_native(rollout.entries):  # it was shipped, for any processor of its kind
-        warmup.start(warmup.IN_BACKGROUND)
-
-
-def ensure_stages_compiled(rollout: Rollout, say: Callable[[str], None]) -> None:
-    """Compile the stages of a tick one by one if need be, which runs with changes take, and say so."""
-    if not warmup.is_there(STAGES):
-        say(COMPILING_STAGES)
-    with on_ctrl_c(_end_at_once):
-        rollout.compile(*STAGES)
-
-
-def _end_at_once(number: int, frame: FrameType | None) -> None:
-    """End the program without an exception, which numba may swallow while it compiles."""
-    os._exit(terminal.INTERRUPTED)
+    with progress(hidden=not missing) as bar:
+        part = bar.add_task("compiling", total=len(missing))
+        rollout.compile(told=lambda: bar.advance(part))
+    if not missing and not all(map(cache.is_native, units)):  # it was shipped, for any processor of its kind
+        compile_in_background()
 
 
 @contextmanager
@@ -141,10 +129,15 @@ class RunSession:
 
     def progress(self) -> Progress:
         """A progress bar on stderr, hidden where that is no terminal."""
-        columns = (TextColumn("{task.description}", markup=False), BarColumn(30), TaskProgressColumn())
-        talk = terminal.console(stderr=True)
-        hidden = self.quiet or not talk.is_terminal
-        return Progress(*columns, TimeRemainingColumn(), console=talk, transient=True, disable=hidden)
+        return progress(hidden=self.quiet)
+
+
+def progress(hidden: bool) -> Progress:
+    """A progress bar on stderr, hidden where that is no terminal."""
+    columns = (TextColumn("{task.description}", markup=False), BarColumn(30), TaskProgressColumn())
+    talk = terminal.console(stderr=True)
+    shown = talk.is_terminal and not hidden
+    return Progress(*columns, TimeRemainingColumn(), console=talk, transient=True, disable=not shown)
 
 
 @contextmanager

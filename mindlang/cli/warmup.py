@@ -20,16 +20,21 @@ def command(as_json: bool) -> None:
     (NUMBA_CACHE_DIR, XDG_CACHE_HOME or ~/.cache), for this processor and these versions of mindc and Python.
     """
     from mindrun.sim import cache, warmup
+    from mindrun.sim.compilation import compile_natively
+    from mindrun.sim.machine_code import target
     from rich.text import Text
 
-    from mindlang.cli._session import COMPILING
+    from mindlang.cli._session import COMPILING_ALL, progress
 
-    had = warmup.is_native()
-    if not had:
-        tell(COMPILING)
-        warmup.start().wait()
-        if not warmup.is_native():
+    missing = [each for each in warmup.every_unit() if not cache.is_native(each)]
+    if missing:
+        tell(COMPILING_ALL)
+        with progress(hidden=False) as bar:
+            part = bar.add_task("compiling", total=len(missing))
+            compile_natively(missing, lambda: bar.advance(part))
+        if not all(map(cache.is_native, missing)):
             fail("The simulator could not be compiled.", "python -m mindrun.sim.warmup says why")
-    data = {"processor": cache.processor(), "folder": str(cache.folder()), "compiled": not had}
+    had, processor = not missing, target().processor
+    data = {"processor": processor, "folder": str(cache.folder()), "compiled": not had}
     done = "had been compiled" if had else "is compiled"
-    print_result(as_json, data, lambda: Text(f"the simulator {done} for {cache.processor()}: {cache.folder()}"))
+    print_result(as_json, data, lambda: Text(f"the simulator {done} for {processor}: {cache.folder()}"))

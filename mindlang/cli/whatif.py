@@ -81,7 +81,7 @@ def _compare_runs(
 
     from mindrun.engine.changes import ChangeError
 
-    from mindlang.cli._session import RunSession, ensure_stages_compiled, refusing_recordings
+    from mindlang.cli._session import RunSession, refusing_recordings
     from mindlang.whatif.comparison import compare_runs
     from mindlang.whatif.report import comparison_data, comparison_summary
     from mindlang.whatif.request import changes_of
@@ -93,7 +93,6 @@ def _compare_runs(
         if theirs.setup.task != ours.setup.task:
             where = f"task {ours.setup.task.name} is another in {request.other}"
             session.say(f"note: {where}; one seed need not give one world")
-    ensure_stages_compiled(ours.rollout, session.say)
     setup = (theirs or ours).setup
     with refusing_recordings():
         changes = changes_of(request, setup.ready.policy.graph, setup.master, Path(file))

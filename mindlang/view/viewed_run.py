@@ -11,10 +11,8 @@ from mindrun.graph.bundle import Bundle
 from mindrun.graph.graph import Graph, Task
 from mindrun.graph.named_readings import reading_names
 from mindrun.graph.recording_header import About
-from mindrun.sim.changed_ticks import STAGES
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import Trace, trace
-from mindrun.sim.warmup import is_there
 
 from mindlang.breakpoints.breakpoint import Breakpoint
 from mindlang.breakpoints.watch import RowBlock, watcher
@@ -28,7 +26,6 @@ from mindlang.view.viewed import Viewed
 from mindlang.view.viewed_rows import RUN, Filled, Watch, viewed_rows
 
 GROUPS: dict[What, str] = {"reading": "readings", "influence": "influence", "memory": "readings"}
-COMPILING = "compiling what a changed run takes, once: about a minute…"
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,7 +50,6 @@ class ViewedRun:
         rows, watch = _rows(run, of, len(task.events)), self._watch()
         viewed = viewed_rows(title, RUN, of, mind, task, setup.folder, rows, task.ticks, watch, self.texts)
         viewed.forked = partial(self._forked, viewed.columns)
-        viewed.delay = lambda: None if is_there(STAGES) else COMPILING
         return viewed
 
     def _watch(self) -> Watch | None:

@@ -10,7 +10,7 @@ import os
 import shutil
 import tempfile
 import time
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from functools import cache
 from hashlib import sha256
@@ -30,6 +30,7 @@ SHIPPED = SIM_FOLDER / "compiled"  # in the wheel
 # The kinds of processors for which wheels have machine code, and what one must have to run it, as LLVM writes it.
 PROCESSORS = {"x86-64-v3": "+avx,+avx2,+bmi,+bmi2,+f16c,+fma,+lzcnt,+movbe,+popcnt,+sse4.2", "generic": "+neon"}
 HASH_BYTES = 32
+FOLDER = "compiled"  # in the user's cache
 # Of several processes that lack the same code one compiles it, and the others wait so long. Then each compiles for
 # itself: the other may be stopped, or its machine be gone while a shared disk keeps its lock.
 WAIT_SECONDS = 600.0
@@ -41,13 +42,15 @@ LOCK = RLock()  # of the threads of this process: numba has one of its own, and 
 def folder() -> Path:
     """The folder of machine code: in the user's cache; where that cannot be written, one of this process alone."""
     try:
-        found = user_cache() / "compiled"
+        found = user_cache() / FOLDER
         found.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=found):
             return found
     except (OSError, RuntimeError):  # RuntimeError: there is no home
-        found = Path(tempfile.mkdtemp(prefix="mind-"))  # never a known name: whoever can write it can run code here
-        atexit.register(shutil.rmtree, found, ignore_errors=True)
+        own = Path(tempfile.mkdtemp(prefix="mind-"))  # never a known name: whoever can write it can run code here
+        atexit.register(shutil.rmtree, own, ignore_errors=True)
+        found = own / FOLDER
+        found.mkdir()
         return found
 
 
@@ -60,8 +63,8 @@ def address_of(unit: Unit) -> int:
         return load(code, unit.name, {each.slot_name: each.place for each in called(unit)})
 
 
-def make_missing(units: Iterable[Unit], told: Callable[[], None] = lambda: None) -> None:
-    """Compile those of some units of which there is no machine code, the largest first; `told` is called after each.
+def make_missing(units: Iterable[Unit]) -> None:
+    """Compile those of some units of which there is no machine code, the largest first.
 
     Beside other processes that do the same: nobody compiles what another one is at, and all end when all is there.
     """
@@ -73,7 +76,6 @@ def make_missing(units: Iterable[Unit], told: Callable[[], None] = lambda: None)
                     if find(unit) is None:
                         _make(unit)
                     missing.remove(unit)
-                    told()
 
 
 def find(unit: Unit) -> bytes | None:

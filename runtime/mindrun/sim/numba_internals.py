@@ -9,9 +9,8 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
-from llvmlite.binding import ValueRef, parse_assembly
+from llvmlite.binding import parse_assembly
 from numba import _dynfunc
-from numba.core.analysis import compute_cfg_from_blocks
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import CompilerBase, DefaultPassBuilder
 from numba.core.compiler_lock import global_compiler_lock
@@ -21,7 +20,6 @@ from numba.core.typed_passes import NativeLowering
 from mindrun.sim.machine_code import without_variables_in_memory
 
 COLLECTION_OBJECTS = 100_000  # made between two looks for garbage, while numba compiles; Python 3.11 looks after 700
-LONG_INSTRUCTIONS = 60  # of LLVM, as a function is lowered
 
 
 class LoweredCode(JITCodeLibrary):  # type: ignore[misc]
@@ -45,15 +43,6 @@ class LoweredCode(JITCodeLibrary):  # type: ignore[misc]
         self._finalized = True
 
 
-def keep_apart(function: ValueRef) -> None:
-    """Forbid LLVM to inline a long function: called once, it would be inlined however long its caller gets.
-
-    Meant for functions that loop: a call of these costs nothing that can be measured.
-    """
-    if sum(1 for block in function.blocks for _ in block.instructions) >= LONG_INSTRUCTIONS:
-        function.add_function_attribute("noinline")
-
-
 @register_pass(mutates_CFG=True, analysis_only=False)
 class LowerOnly(NativeLowering):  # type: ignore[misc]
     """Lower a function and make no machine code of it."""
@@ -66,8 +55,6 @@ class LowerOnly(NativeLowering):  # type: ignore[misc]
         state.flags.no_compile = True
         super().run_pass(state)
         lowered, module = state["cr"], state.func_id.module
-        if not state.flags.forceinline and compute_cfg_from_blocks(state.func_ir.blocks).loops():
-            keep_apart(state.library._final_module.get_function(lowered.fndesc.llvm_func_name))
         # By this object others know the function: nobody can call it.
         nowhere = _dynfunc.make_function(module, state.func_id.func_name, "", 0, lowered.env, (state.library,))
         state.targetctx.insert_user_function(nowhere, lowered.fndesc, [state.library])

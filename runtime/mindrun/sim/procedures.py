@@ -9,10 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-import numba
 import numpy as np
-from numba import types
-from numba.np.unsafe.ndarray import to_fixed_tuple
 from numpy.typing import NDArray
 
 from mindrun.engine.engine import procedure_sources
@@ -22,47 +19,12 @@ from mindrun.graph.weights import reachable
 from mindrun.kinds import procedure_call
 from mindrun.kinds.procedure_call import load
 from mindrun.kinds.procedure_text import module_of
-from mindrun.numbers.arithmetic import F
-from mindrun.sim.exact import exactly
-from mindrun.sim.formulas import NoFormulaError, formula
 from mindrun.sim.units import call
-
-# the lane in which it fails or −1; inputs, outputs, lanes, the distance between rows in floats
-SIGNATURE = types.intp(types.CPointer(types.float32), types.CPointer(types.float32), types.intp, types.intp)
 
 
 def call_procedure(address, gathered, hidden, n):
     """Run a compiled procedure over the gathered inputs into `hidden`; return the first lane where it fails, or −1."""
     return np.int64(call(address, gathered.ctypes.data, hidden.ctypes.data, n, gathered.shape[1]))
-
-
-def compile_formula(function: Callable[..., Any], inputs: int, outputs: int) -> Any:
-    """A C function (keep it alive; `.address`) that runs a formula in every lane. NoFormulaError where numba cannot."""
-    try:
-        return numba.cfunc(SIGNATURE)(_looped(exactly(function), inputs, outputs))
-    except Exception as error:  # numba fails in many ways, and whatever it cannot compile runs in Python
-        raise NoFormulaError(str(error).split("\n")[0]) from error
-
-
-def _looped(one: Any, inputs: int, outputs: int) -> Callable[..., int]:
-    def loop(source, target, lanes, stride):
-        values = numba.carray(source, (inputs, stride))
-        results = numba.carray(target, (outputs, stride))
-        given, wrong = np.empty(inputs), np.zeros(1, np.int64)
-        for k in range(lanes):
-            sound = True
-            for j in range(inputs):
-                given[j] = values[j, k]
-                sound = sound and given[j] - given[j] == 0.0
-            if sound:  # nobody is asked for what is not sent
-                result = one(wrong, *to_fixed_tuple(given, inputs))
-                if wrong[0]:
-                    return k
-                for q, value in enumerate(result):
-                    results[q, k] = F(value)
-        return -1
-
-    return loop
 
 
 class Procedures:
@@ -101,6 +63,8 @@ class Procedures:
         function = self.function(skill.name)
         if skill.outputs == 0:  # it is never called
             return
+        from mindrun.sim.compiled_formulas import NoFormulaError, compile_formula, formula  # with numba, seldom needed
+
         try:
             source = self._sources[module_of(self.calls[skill.name])]
             plain = formula(function, source, len(skill.inputs), skill.outputs)

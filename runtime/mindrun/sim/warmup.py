@@ -37,10 +37,9 @@ def every_unit() -> list[Unit]:
 def main(words: Sequence[str]) -> None:
     """Compile, after any other process that does; with `behind`, at low priority, and not at all beside another one."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)  # numba may swallow an exception
-    names = [word for word in words if word != IN_BACKGROUND]
-    units = [each for each in every_unit() if each.name in names or not names]
-    if names:
-        cache.make_missing(units)
+    units = every_unit()
+    if names := {*words} - {IN_BACKGROUND}:
+        cache.make_missing(each for each in units if each.name in names)
         return
     with (cache.folder() / "warming").open("w") as file:
         try:

@@ -21,7 +21,7 @@ from mindrun.sim.lanes.placement import uniform
 from mindrun.sim.lanes.solid import CLOSED_UNITS, is_barred, is_blocked, is_walled
 from mindrun.sim.state import State
 from mindrun.sim.tables import Tables
-from mindrun.sim.units import unit
+from mindrun.sim.units import unit, unit_where
 
 UNDRIVEN = F(-1)
 
@@ -34,16 +34,15 @@ def act(tables: Tables, state: State, lanes: int) -> None:
         actuator, commands = tables.actuators[i], mind.commands[i]
         means(mind.command_sums[i], mind.influence_sums[i], actuator.neutral, commands, faults, lanes)
         if actuator.delay > 0:
-            wait(commands, mind.late, actuator.ring, world.numbers[actuator.wait], world.tick, lanes)
+            wait(tables, state, i, lanes)
         if actuator.is_rough:
-            disturb(world, actuator, commands, world.acting[i], lanes)
+            disturb(tables, state, i, lanes)
         if actuator.is_slipping:
             for lane in range(lanes):
                 slip = world.numbers[actuator.slip, lane]
                 world.grip[i, lane] = 1.0 - slip * uniform(world.random, lane, 0.0, 1.0)
         if actuator.kind == GRIPPER:
-            acting = world.acting[i] if actuator.is_rough else commands
-            grip(acting, tables, world, actuator.reach, lanes)
+            grip(tables, state, i, lanes)
 
 
 def recall(tables, mind, run, lanes):
@@ -73,18 +72,22 @@ def means(total, weight, neutral, out, faults, lanes):
         faults[lane] += 1 if driven & (not sound) else 0
 
 
-def wait(commands, late, ring, delays, tick, lanes):
-    """Exchange each command with one that has waited in the ring, as long as the delay of its own lane says."""
+@unit_where(lambda tables: (tables.actuators["delay"] > 0).any())
+def wait(tables: Tables, state: State, i: int, lanes: int) -> None:
+    """Exchange each command of actuator i with one that has waited in the ring, as its own lane's delay says."""
+    actuator, commands, late = tables.actuators[i], state.mind.commands[i], state.mind.late
     for lane in range(lanes):
-        delay = int(delays[lane])
+        delay = int(state.world.numbers[actuator.wait, lane])
         if delay > 0:
-            slot = ring + tick[lane] % delay
+            slot = actuator.ring + state.world.tick[lane] % delay
             commands[lane], late[slot, lane] = late[slot, lane], commands[lane]
 
 
-def disturb(world, actuator, commands, acting, lanes):
-    """Write each command as it acts into `acting`: with up to `noise` more or less, or stuck at neutral."""
-    noise, stuck = world.numbers[actuator.noise], world.numbers[max(actuator.fails, 0)]
+@unit_where(lambda tables: tables.actuators["is_rough"].any())
+def disturb(tables: Tables, state: State, i: int, lanes: int) -> None:
+    """Write each command of actuator i as it acts into `acting`: with some noise, or stuck at neutral."""
+    world, actuator, commands = state.world, tables.actuators[i], state.mind.commands[i]
+    acting, noise, stuck = world.acting[i], world.numbers[actuator.noise], world.numbers[max(actuator.fails, 0)]
     for lane in range(lanes):
         acting[lane] = commands[lane]
         if actuator.is_noisy:
@@ -93,18 +96,20 @@ def disturb(world, actuator, commands, acting, lanes):
             acting[lane] = actuator.neutral
 
 
-def grip(commands, tables, world, reach, lanes):
+@unit_where(lambda tables: (tables.actuators["kind"] == GRIPPER).any())
+def grip(tables: Tables, state: State, i: int, lanes: int) -> None:
     """Close above 0.5 on the first item in reach that can come into the claw; open and the item stays where it is."""
+    world, actuator, kinds = state.world, tables.actuators[i], tables.things
+    commands = world.acting[i] if actuator.is_rough else state.mind.commands[i]
     held, body, heading, things, front = world.held, world.body, world.heading, world.things, tables.world[0].front
-    kinds = tables.things
     for lane in range(lanes):
         held[lane] = -1 if commands[lane] <= HALF else held[lane]
     for lane in range(lanes):
         if commands[lane] > HALF and held[lane] < 0:
-            for i in range(len(kinds)):
-                is_free = kinds[i].kind == ITEM and held[lane] < 0
-                if is_free and in_claw(body, heading, things, front, reach, i, lane):
-                    held[lane] = i if has_room(tables, world, i, lane) else -1
+            for k in range(len(kinds)):
+                is_free = kinds[k].kind == ITEM and held[lane] < 0
+                if is_free and in_claw(body, heading, things, front, actuator.reach, k, lane):
+                    held[lane] = k if has_room(tables, world, k, lane) else -1
 
 
 def has_room(tables, world, i, lane):

@@ -30,7 +30,7 @@ from mindrun.numbers.arithmetic import (
 from mindrun.sim import chipmunk_internals as cp
 from mindrun.sim.chipmunk_internals import count_address
 from mindrun.sim.codes import FORCE_X, FORCE_Y, TORQUE
-from mindrun.sim.lanes.loose import SETTLED_TICKS, is_at_rest, put_motion
+from mindrun.sim.lanes.loose import OF_LOOSE, SETTLED_TICKS, is_at_rest, put_motion
 from mindrun.sim.lanes.placement import ENDLESS_UNITS
 from mindrun.sim.lanes.solid import MOST_STRIDES, hold_back, note_before, note_begin, stride, within
 from mindrun.sim.state import ContactState, WorldState
@@ -103,7 +103,8 @@ def open_space(tables, world, contact, lane):
     handles[cp.SPACE], handles[cp.BODY] = space, body
     contact.tally[lane, cp.FIXED_BODY] = call(library[cp.SPACE_STATIC], space)
     contact.last[lane] = np.inf
-    add_loose(tables, world, space, contact, lane)
+    if len(tables.loose) > 0:
+        add_loose(tables, world, space, contact, lane)
 
 
 def add_boxes(tables, space, boxes, handles, corners, lane):
@@ -178,7 +179,8 @@ def push_body(tables, world, contact, share, lane):
             call(library[cp.SHAPE_SENSOR], circle, 0 if is_held else 1)
             if is_held:
                 call(library[cp.CIRCLE_RADIUS], circle, size_of(world.things, i, lane) / 2)
-    push_loose(tables, world, contact, lane)
+    if len(tables.loose) > 0:
+        push_loose(tables, world, contact, lane)
 
 
 def step_space(tables, world, contact, seconds, lane):
@@ -189,14 +191,16 @@ def step_space(tables, world, contact, seconds, lane):
     call(library[cp.BODY_GET], handles[cp.BODY], batch[cp.GET_BATCH :].ctypes.data)
     for i in range(cp.MOTION_FLOATS):
         world.body[i, lane] = contact.floats[lane, i]
-    take_loose(tables, world, contact, lane)
+    if len(tables.loose) > 0:
+        take_loose(tables, world, contact, lane)
     tally = contact.tally[lane]
     tally[cp.TALLIED] = 0
     call(library[cp.EACH_ARBITER], handles[cp.BODY], count_address(), tally.ctypes.data)
     return tally[cp.TALLIED]
 
 
-def add_loose(tables, world, space, contact, lane):
+@OF_LOOSE
+def add_loose(tables: Tables, world: WorldState, space: int, contact: ContactState, lane: int) -> None:
     """Add the loose things to a new Space, after its robot; `push_loose` gives them their sizes."""
     library, handles, corners = tables.library, contact.loose[lane], contact.floats[lane]
     for i in range(len(tables.loose)):
@@ -219,7 +223,8 @@ def put_corners(corners, left, low, right, high):
     corners[4], corners[5], corners[6], corners[7] = right, high, left, high
 
 
-def push_loose(tables, world, contact, lane):
+@OF_LOOSE
+def push_loose(tables: Tables, world: WorldState, contact: ContactState, lane: int) -> None:
     """Write the place and the motion of each loose thing of a lane into its body."""
     library, floats, batch, handles = tables.library, contact.floats[lane], contact.batch[lane], contact.loose[lane]
     for i in range(len(tables.loose)):
@@ -259,7 +264,8 @@ def resize(tables, world, contact, i, size, lane):
     contact.sizes[lane, i] = size
 
 
-def take_loose(tables, world, contact, lane):
+@OF_LOOSE
+def take_loose(tables: Tables, world: WorldState, contact: ContactState, lane: int) -> None:
     """Read the places and motions of the loose things after a step; what has moved has not settled."""
     library, floats, batch, handles = tables.library, contact.floats[lane], contact.batch[lane], contact.loose[lane]
     for i in range(len(tables.loose)):

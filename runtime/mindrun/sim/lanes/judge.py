@@ -7,11 +7,11 @@ import numpy as np
 
 from mindrun.kinds.sensors.motion import TRAIL_TICKS
 from mindrun.numbers.arithmetic import COSINE, SINE, X, Y, distance_of, in_claw, inside, place_of
-from mindrun.numbers.stack_machine import evaluate
 from mindrun.sim import codes
 from mindrun.sim.codes import DELIVERY, GOING_ON, MOVES, STAYS, VANISHES, ZONE
 from mindrun.sim.lanes.loose import SETTLED_TICKS
 from mindrun.sim.lanes.placement import succeed, vanish
+from mindrun.sim.lanes.think import run_program
 from mindrun.sim.state import PLACE_ROWS, State
 from mindrun.sim.tables import Tables
 from mindrun.sim.units import unit
@@ -36,7 +36,7 @@ def judge(tables: Tables, state: State, lanes: int, clock: int, interrupt: int) 
     for i in range(len(tables.ends)):
         meet_end(tables, state, tables.ends[i], i, lanes, interrupt)
     for i in range(len(tables.rewards)):
-        reward(tables, state.mind, judged, tables.rewards[i], judged.lines[i], lanes)
+        reward(tables, state, tables.rewards[i], judged.lines[i], lanes)
     if begun > 0:
         become(tables, world, lanes)
     oldest = PLACE_ROWS * (clock % TRAIL_TICKS)
@@ -92,16 +92,17 @@ def patch_of(body, constants, event, lane):
     return y * event.columns + x
 
 
-def reward(tables, mind, judged, line, total, lanes):
+def reward(tables, state, line, total, lanes):
     """Add what a reward line pays in this tick to its sums."""
+    mind, judged = state.mind, state.judge
     if line.on >= 0 and judged.happened[line.on] == 0:
         return
     paid, amount, is_always = judged.paid, mind.stack[0], line.on < 0 and line.whens == 0
     for k in range(max(1, line.eachs)):
         each = line.each + k
         if not is_always:
-            find_paid(tables, mind, judged, line, paid, each, lanes)
-        value(tables, mind, judged.measures, line.code, line.length, each, lanes)
+            find_paid(tables, state, line, paid, each, lanes)
+        run_program(tables, state, line.code, line.length, each, lanes, True)
         if is_always:
             for lane in range(lanes):
                 total[lane] += amount[lane]
@@ -110,20 +111,14 @@ def reward(tables, mind, judged, line, total, lanes):
                 total[lane] += amount[lane] * paid[lane] if paid[lane] > 0.0 else 0.0
 
 
-def find_paid(tables, mind, judged, line, paid, each, lanes):
+def find_paid(tables, state, line, paid, each, lanes):
     """Set how often a line is paid in this tick: once, or as often as its event happens, where its condition holds."""
     for lane in range(lanes):
-        paid[lane] = judged.events[line.on, lane] if line.on >= 0 else 1.0
+        paid[lane] = state.judge.events[line.on, lane] if line.on >= 0 else 1.0
     if line.whens > 0:
-        value(tables, mind, judged.measures, line.when, line.whens, each, lanes)
+        run_program(tables, state, line.when, line.whens, each, lanes, True)
         for lane in range(lanes):
-            paid[lane] = paid[lane] if mind.stack[0, lane] > 0.0 else 0.0
-
-
-def value(tables, mind, measures, first, length, each, lanes):
-    """Evaluate a program into stack[0], in every lane."""
-    codes = tables.codes[first : first + length]
-    evaluate(codes, mind.readings, measures, mind.commands, each, mind.stack, mind.active, lanes, True)
+            paid[lane] = paid[lane] if state.mind.stack[0, lane] > 0.0 else 0.0
 
 
 def meet_end(tables, state, end, i, lanes, interrupt):
@@ -136,7 +131,7 @@ def meet_end(tables, state, end, i, lanes, interrupt):
             is_last = judged.counts[end.event, lane] >= end.times
             judged.paid[lane] = 1.0 if is_last and judged.events[end.event, lane] > 0.0 else 0.0
     else:
-        value(tables, state.mind, judged.measures, end.when, end.whens, 0, lanes)
+        run_program(tables, state, end.when, end.whens, 0, lanes, True)
         for lane in range(lanes):
             judged.paid[lane] = 1.0 if state.mind.stack[0, lane] > 0.0 else 0.0
     met = 0

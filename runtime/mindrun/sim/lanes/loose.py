@@ -23,13 +23,18 @@ from mindrun.numbers.arithmetic import (
 )
 from mindrun.sim.codes import HALF_DIAGONAL
 from mindrun.sim.lanes.solid import extent_of, is_free, within
+from mindrun.sim.state import ContactState, WorldState
+from mindrun.sim.tables import Tables
+from mindrun.sim.units import unit_where
 
 REST_SPEED = 1e-3  # units and radians per second: what is slower stands still
 SETTLED_TICKS = 32
 LOOSE_MARGIN_UNITS = 0.01  # beyond the rounding of any distance here
+OF_LOOSE = unit_where(lambda tables: len(tables.loose) > 0)
 
 
-def slow_down(tables, world, placed, lane):
+@OF_LOOSE
+def slow_down(tables: Tables, world: WorldState, contact: ContactState, lane: int) -> None:
     """Damp what has not settled, v / (1 + dt·c), and let it rest where it is slow enough.
 
     Its body in the Space has to be `placed` again: it may have appeared elsewhere, and settles there without a contact.
@@ -37,7 +42,7 @@ def slow_down(tables, world, placed, lane):
     loose, dt, restless = world.loose, tables.world[0].dt, 0
     for i in range(len(tables.loose)):
         if world.still[i, lane] < SETTLED_TICKS:
-            placed[lane, i] = 0
+            contact.placed[lane, i] = 0
             row, thing = LOOSE_ROWS * i, tables.loose[i].thing
             slower = world.numbers[tables.loose[i].slower, lane]
             vx, vy = loose[row + PUSHED_X, lane] * slower, loose[row + PUSHED_Y, lane] * slower
@@ -72,7 +77,8 @@ def next_place_of(tables, world, i, lane):
     return x + world.loose[row + PUSHED_X, lane] * dt, y + world.loose[row + PUSHED_Y, lane] * dt
 
 
-def could_touch(tables, world, lane):
+@OF_LOOSE
+def could_touch(tables: Tables, world: WorldState, lane: int) -> int:
     """True if something that has not settled could touch anything but the robot after this tick."""
     for i in range(len(tables.loose)):
         if world.still[i, lane] < SETTLED_TICKS:
@@ -94,9 +100,10 @@ def meets_loose(tables, world, i, x, y, extent, lane):
     return False
 
 
-def approach_loose(tables, world, gap, lanes):
+@OF_LOOSE
+def approach_loose(tables: Tables, world: WorldState, contact: ContactState, lanes: int) -> None:
     """Lower `gap` to the distance between the robot's next centre and each loose thing, where that is less."""
-    body, dt = world.body, tables.world[0].dt
+    body, gap, dt = world.body, contact.gap, tables.world[0].dt
     for i in range(len(tables.loose)):
         of_size = 0.5 if tables.loose[i].is_round else HALF_DIAGONAL
         for lane in range(lanes):
@@ -107,7 +114,8 @@ def approach_loose(tables, world, gap, lanes):
             gap[lane] = far if far < gap[lane] else gap[lane]
 
 
-def slide(tables, world, lane):
+@OF_LOOSE
+def slide(tables: Tables, world: WorldState, lane: int) -> None:
     """Make Chipmunk's step of loose things that touch nothing."""
     for i in range(len(tables.loose)):
         if world.still[i, lane] == 0:

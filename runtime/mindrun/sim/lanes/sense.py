@@ -48,10 +48,13 @@ from mindrun.sim.state import (
     SIGHT_SINE,
     SIGHT_X,
     SIGHT_Y,
+    MindState,
+    SightState,
     State,
+    WorldState,
 )
 from mindrun.sim.tables import Tables
-from mindrun.sim.units import unit
+from mindrun.sim.units import unit, unit_where
 
 CULLING_SLACK_UNITS = 2.0  # how far a robot may move before the boxes near it are chosen anew
 
@@ -64,17 +67,24 @@ def sense(tables: Tables, state: State, lanes: int, clock: int) -> None:
     choose(world, sight, tables.world[0].near + CULLING_SLACK_UNITS, lanes)
     if tables.world[0].rays > 0:
         look(tables, world, sight, lanes)
-        look_at_loose(tables, world, sight, lanes)
+        if len(tables.loose) > 0:
+            look_at_loose(tables, world, sight, lanes)
     sight.nearest_of[0] = -1
     for i in range(len(tables.sensors)):
         sensor = tables.sensors[i]
         read(sensor.lane, tables, state.senses, lanes, clock, sensor)
         if sensor.is_rough:
-            for k in range(sensor.width):
-                roughen(world, mind, sensor, k, lanes)
+            roughen(tables, world, mind, i, lanes)
 
 
-def roughen(world, mind, sensor, k, lanes):
+@unit_where(lambda tables: tables.sensors["is_rough"].any())
+def roughen(tables: Tables, world: WorldState, mind: MindState, i: int, lanes: int) -> None:
+    """Make the readings of sensor i imperfect, one by one."""
+    for k in range(tables.sensors[i].width):
+        roughen_one(world, mind, tables.sensors[i], k, lanes)
+
+
+def roughen_one(world, mind, sensor, k, lanes):
     """Make reading k of a sensor imperfect: taken now and then, with noise, sometimes lost, and seen later."""
     out, measured, tick = mind.readings[sensor.start + k], mind.measured[sensor.held + k], world.tick
     random = world.random_aside if sensor.is_aside else world.random
@@ -190,7 +200,8 @@ def place(body, box, sides, lanes):
         sides[LOW, lane], sides[HIGH, lane] = dy - half_y, dy + half_y
 
 
-def look_at_loose(tables, world, sight, lanes):
+@unit_where(lambda tables: len(tables.loose) > 0 and tables.world[0]["rays"] > 0)
+def look_at_loose(tables: Tables, world: WorldState, sight: SightState, lanes: int) -> None:
     """Shorten every ray that meets a loose thing, but for one of those that its own sensor looks for."""
     rows, frame = sight.sight, sight.frame
     for i in range(len(tables.loose)):

@@ -30,9 +30,9 @@ from mindrun.sim.lanes.loose import approach_loose, could_touch, slide, slow_dow
 from mindrun.sim.lanes.placement import uniform
 from mindrun.sim.lanes.sense import CULLING_SLACK_UNITS
 from mindrun.sim.lanes.solid import CLOSED_UNITS, find_swift, is_barred, is_free, within
-from mindrun.sim.state import State
+from mindrun.sim.state import MindState, State, WorldState
 from mindrun.sim.tables import Tables
-from mindrun.sim.units import unit
+from mindrun.sim.units import unit, unit_where
 
 CONTACT_MARGIN_UNITS = 0.01  # beyond the rounding of any distance here
 CONTACT_TICKS = PERSISTENCE_TICKS + 2  # for which Chipmunk goes on with a lane in which something could have touched
@@ -42,10 +42,10 @@ CONTACT_TICKS = PERSISTENCE_TICKS + 2  # for which Chipmunk goes on with a lane 
 def step(tables: Tables, state: State, lanes: int) -> None:
     """Damp, push and move the robots and the loose things; then headings, held items and walkers follow."""
     world, contact, constants = state.world, state.contact, tables.world[0]
-    thrust(tables, world, state.mind.commands, lanes)
+    thrust(tables, world, state.mind, lanes)
     for lane in range(lanes if len(tables.loose) > 0 else 0):
         if world.restless[lane] > 0:
-            slow_down(tables, world, contact.placed, lane)
+            slow_down(tables, world, contact, lane)
     find_near(tables, world, state.sight, contact, lanes)
     fly(world, contact.near, constants, lanes)
     touching = contact.touching
@@ -60,10 +60,11 @@ def step(tables: Tables, state: State, lanes: int) -> None:
     for lane in range(lanes):
         world.heading[SINE, lane], world.heading[COSINE, lane] = sine_cosine(world.body[ANGLE, lane])
     carry(world, tables.things, lanes)
-    walk(tables, world, lanes)
+    if len(tables.walkers) > 0:
+        walk(tables, world, lanes)
 
 
-def thrust(tables, world, commands, lanes):
+def thrust(tables, world, mind, lanes):
     """Damp the body's velocities, a car's as its axles let it move, and sum force and torque in `push`."""
     body, heading, push, constants, is_aside = world.body, world.heading, world.push, tables.world[0], False
     push[FORCE, :lanes] = 0.0
@@ -72,7 +73,7 @@ def thrust(tables, world, commands, lanes):
     for i in range(len(tables.actuators)):
         actuator = tables.actuators[i]
         if actuator.kind == PUSH:
-            acting = world.acting[i] if actuator.is_rough else commands[i]
+            acting = world.acting[i] if actuator.is_rough else mind.commands[i]
             strength = world.numbers[actuator.thrust]
             drive(acting, actuator, strength, world.grip[i], push, lanes)
             is_aside |= actuator.aside != 0.0
@@ -87,7 +88,7 @@ def thrust(tables, world, commands, lanes):
         push[FORCE_X, lane] -= push[FORCE_ASIDE, lane] * heading[SINE, lane]
         push[FORCE_Y, lane] += push[FORCE_ASIDE, lane] * heading[COSINE, lane]
     if constants.axles > 0.0:
-        roll(tables, world, commands, lanes)
+        roll(tables, world, mind, lanes)
 
 
 def drive(commands, actuator, strength, kept, push, lanes):
@@ -101,7 +102,8 @@ def drive(commands, actuator, strength, kept, push, lanes):
         push[TORQUE, lane] += arm * pushed
 
 
-def roll(tables, world, commands, lanes):
+@unit_where(lambda tables: tables.world[0]["axles"] > 0)
+def roll(tables: Tables, world: WorldState, mind: MindState, lanes: int) -> None:
     """Replace a car's velocity by the one nearest to it, in kinetic energy, that its axles allow: v ahead,
     v·tan δ / 2 to the left and a turn of v·tan δ / distance of the axles.
     """
@@ -109,7 +111,7 @@ def roll(tables, world, commands, lanes):
     moment, mass_inv = world.numbers[constants.moment], world.numbers[constants.mass_inv]
     for lane in range(lanes):
         inertia = moment[lane] * mass_inv[lane]
-        sine, cosine = sine_cosine(steered(tables, world, commands, lane))
+        sine, cosine = sine_cosine(steered(tables, world, mind.commands, lane))
         aside = sine / cosine / 2.0
         turn = sine / cosine / constants.axles
         c, s = heading[COSINE, lane], heading[SINE, lane]
@@ -163,7 +165,8 @@ def find_near(tables, world, sight, contact, lanes):
         x = half_x - abs(body[X, lane] + body[SPEED_X, lane] * dt)
         y = half_y - abs(body[Y, lane] + body[SPEED_Y, lane] * dt)
         gap[lane] = x if x < y else y
-    approach_loose(tables, world, gap, lanes)
+    if len(tables.loose) > 0:
+        approach_loose(tables, world, contact, lanes)
     for k in range(sight.nearby_most[0]):
         approach(sight.nearby[BOX_COLUMNS * k : BOX_COLUMNS * (k + 1)], body, dt, gap, lanes)
     reach = tables.world[0].radius + CONTACT_MARGIN_UNITS
@@ -198,7 +201,8 @@ def approach(box, body, dt, gap, lanes):
         gap[lane] = far if far < gap[lane] else gap[lane]
 
 
-def walk(tables, world, lanes):
+@unit_where(lambda tables: len(tables.walkers) > 0)
+def walk(tables: Tables, world: WorldState, lanes: int) -> None:
     """Let every walker that has not vanished take its step."""
     for i in range(len(tables.walkers)):
         for lane in range(lanes):

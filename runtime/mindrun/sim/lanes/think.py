@@ -6,7 +6,7 @@ from mindrun.sim.kind_lanes import compute
 from mindrun.sim.procedures import call_procedure
 from mindrun.sim.state import FAILED_COLUMN, FAILED_SKILL, State
 from mindrun.sim.tables import Tables
-from mindrun.sim.units import unit
+from mindrun.sim.units import unit, unit_where
 
 NOT_SENT = F(-1)
 
@@ -91,10 +91,9 @@ def send(tables: Tables, state: State, row: int, out: int, count: int, lanes: in
             values = mind.hidden[out + edge.output]
         else:
             values = mind.values
-            codes = tables.codes[edge.code : edge.code + edge.length]
-            value(codes, mind, state.judge.measures, values, count, everywhere)
+            value(tables, state, edge.code, edge.length, values, count, everywhere)
         if edge.whens > 0:
-            gate(tables, mind, state.judge.measures, edge, values, count, everywhere)
+            gate(tables, state, out, e, count, everywhere)
             values = mind.gated
         check(values, mind.sound, sent, mind.active, state.run.faults, influence, count)
         if edge.whens > 0 and edge.others == 0:
@@ -112,21 +111,30 @@ def send(tables: Tables, state: State, row: int, out: int, count: int, lanes: in
             spread(sent, influence, mind.influence_sums[edge.target], mind.active, count, everywhere)
 
 
-def value(codes, mind, measures, out, count, everywhere):
+def value(tables, state, first, length, out, count, everywhere):
     """Evaluate a program over the readings into `out`, in float32."""
-    evaluate(codes, mind.readings, measures, mind.commands, 0, mind.stack, mind.active, count, everywhere)
+    run_program(tables, state, first, length, 0, count, everywhere)
     for k in range(count):
-        out[k] = F(mind.stack[0, k])
+        out[k] = F(state.mind.stack[0, k])
 
 
-def gate(tables, mind, measures, edge, values, count, everywhere):
-    """Write the values of an edge where its condition holds, those of `otherwise` where not, NaN where nobody knows."""
-    value(tables.codes[edge.when : edge.when + edge.whens], mind, measures, mind.opened, count, everywhere)
-    other = mind.other
+@unit
+def run_program(tables: Tables, state: State, first: int, length: int, each: int, count: int, everywhere: int) -> None:
+    """Leave the values of a program in stack[0], for the lanes active[0..count], or 0..count where `everywhere`."""
+    mind, measures, codes = state.mind, state.judge.measures, tables.codes[first : first + length]
+    evaluate(codes, mind.readings, measures, mind.commands, each, mind.stack, mind.active, count, everywhere)
+
+
+@unit_where(lambda tables: (tables.edges["whens"] > 0).any())
+def gate(tables: Tables, state: State, out: int, e: int, count: int, everywhere: int) -> None:
+    """Write the values of edge e where its condition holds, those of `otherwise` where not, NaN where nobody knows."""
+    edge, mind, other = tables.edges[e], state.mind, state.mind.other
+    values = mind.hidden[out + edge.output] if edge.output >= 0 else mind.values
+    value(tables, state, edge.when, edge.whens, mind.opened, count, everywhere)
     for k in range(count):
         other[k] = ZERO
     if edge.others > 0:
-        value(tables.codes[edge.other : edge.other + edge.others], mind, measures, other, count, everywhere)
+        value(tables, state, edge.other, edge.others, other, count, everywhere)
     for k in range(count):
         is_open, is_closed = mind.opened[k] > ZERO, mind.opened[k] == ZERO
         mind.gated[k] = values[k] if is_open else other[k] if is_closed else NAN
