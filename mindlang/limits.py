@@ -10,8 +10,8 @@ from mindrun.errors import MindError
 
 if TYPE_CHECKING:
     from mindrun.graph.graph import Task
+    from mindrun.sim.build import Sizes
     from mindrun.sim.rollout import Rollout
-    from mindrun.sim.tables import Sizes
 
 Bounds = tuple[int, int]  # both may be given
 

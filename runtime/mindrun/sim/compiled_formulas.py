@@ -1,4 +1,4 @@
-"""Formulas compiled by numba, to be called from the lanes."""
+"""Formulas compiled by numba, to be called from the lanes: imported only where a mind has procedures."""
 
 from collections.abc import Callable
 from typing import Any
@@ -16,16 +16,20 @@ from mindrun.sim.formulas import NoFormulaError
 SIGNATURE = types.intp(types.CPointer(types.float32), types.CPointer(types.float32), types.intp, types.intp)
 
 
-def compile_formula(function: Callable[..., Any], inputs: int, outputs: int) -> Any:
-    """A C function (keep it alive; `.address`) that runs a formula in every lane. NoFormulaError where numba cannot."""
+def compile_formula(function: Callable[..., Any], source: str, inputs: int, outputs: int) -> Any:
+    """A C function (keep it alive; `.address`) that runs a function of a module's text in every lane.
+
+    NoFormulaError where it is no formula, or numba cannot compile it.
+    """
+    plain = formula(function, source, inputs, outputs)
     try:
-        return numba.cfunc(SIGNATURE)(_looped(exactly(function), inputs, outputs))
+        return numba.cfunc(SIGNATURE)(_looped(exactly(plain), inputs, outputs))
     except Exception as error:  # numba fails in many ways, and whatever it cannot compile runs in Python
         raise NoFormulaError(str(error).split("\n")[0]) from error
 
 
 def _looped(one: Any, inputs: int, outputs: int) -> Callable[..., int]:
-    def loop(source, target, lanes, stride):
+    def loop(source: Any, target: Any, lanes: int, stride: int) -> int:
         values = numba.carray(source, (inputs, stride))
         results = numba.carray(target, (outputs, stride))
         given, wrong = np.empty(inputs), np.zeros(1, np.int64)

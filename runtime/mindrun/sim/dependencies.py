@@ -18,7 +18,7 @@ import numpy as np
 
 from mindrun.numbers import arithmetic
 from mindrun.sim.arrays import Block, Room
-from mindrun.sim.units import UNITS, AddressOf, Form, Kind, Unit
+from mindrun.sim.units import UNITS, AddressOf, Form, Unit
 
 VERSIONS = "numba", "llvmlite", "numpy"
 COMPILER = "arrays", "compiling", "machine_code", "numba_internals", "vector"  # files of this folder
@@ -121,7 +121,7 @@ def _form(form: Form) -> str:
 
 
 @cache
-def _kind(kind: Kind) -> str:
+def _kind(kind: Any) -> str:
     """An argument's kind, with where everything stands in it."""
     if isinstance(kind, Room):
         return f"{_kind(kind.dtype)} {kind.dimensions}"

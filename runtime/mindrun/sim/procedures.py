@@ -63,12 +63,12 @@ class Procedures:
         function = self.function(skill.name)
         if skill.outputs == 0:  # it is never called
             return
-        from mindrun.sim.compiled_formulas import NoFormulaError, compile_formula, formula  # with numba, seldom needed
+        from mindrun.sim.compiled_formulas import compile_formula  # with numba, which few minds need
+        from mindrun.sim.formulas import NoFormulaError
 
         try:
             source = self._sources[module_of(self.calls[skill.name])]
-            plain = formula(function, source, len(skill.inputs), skill.outputs)
-            found = compile_formula(plain, len(skill.inputs), skill.outputs)
+            found = compile_formula(function, source, len(skill.inputs), skill.outputs)
         except NoFormulaError as error:
             self.slow[skill.name] = str(error)
         else:

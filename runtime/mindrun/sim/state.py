@@ -5,7 +5,7 @@ itself says its `shape`. What stands under "for this tick" is computed anew in e
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields, make_dataclass
+from dataclasses import dataclass, field, make_dataclass
 from typing import Annotated, Any, TypeVar
 
 import numpy as np
@@ -210,7 +210,7 @@ class State(Block):
     contact: ContactState
     judge: JudgeState
     run: RunState
-    senses: Senses = field(init=False)
+    senses: Senses = field(init=False)  # type: ignore[valid-type]
 
     def __post_init__(self) -> None:
         of = {name: getattr(getattr(self, _part_with(name)), name) for name in SENSED}
@@ -242,7 +242,8 @@ class Jobs(Block):
 def empty_state(tables: Tables, sizes: Mapping[str, int], lanes: int) -> State:
     """A state with room for so many lanes, all idle."""
     n = _counts(tables, sizes)
-    state = State(*(_empty(part.type, n, lanes) for part in fields(State) if part.init))
+    parts: Any = State.__annotations__
+    state = State(**{name: _empty(part, n, lanes) for name, part in parts.items() if part is not Senses})
     nearby = state.sight.nearby
     nearby[X::BOX_COLUMNS] = nearby[Y::BOX_COLUMNS] = AWAY
     state.mind.readings[: len(tables.measured)][~tables.measured] = np.nan  # the lanes write none of these

@@ -10,7 +10,7 @@ import os
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -19,11 +19,14 @@ from mindrun.sim.arrays import Block
 FAILED_CODE = 70  # EX_SOFTWARE of sysexits.h
 Kind = Any  # of an argument: int, float, Pointer, a class of blocks, or the dtype of a table for one of its rows
 Needed = Callable[[Any], bool]  # of tables
-C_TYPES = {int: ctypes.c_int64, float: ctypes.c_double, None: None}
+C_TYPES: dict[Any, Any] = {int: ctypes.c_int64, float: ctypes.c_double, None: None}
 
 
-class Pointer:
+class Pointer(Protocol):
     """The kind of an argument that is the address of whole numbers."""
+
+    def __getitem__(self, place: int, /) -> int: ...
+    def __setitem__(self, place: int, number: int, /) -> None: ...
 
 
 @dataclass(frozen=True)
