@@ -7,7 +7,7 @@ import numpy as np
 from mindrun.graph.graph import Graph
 from mindrun.graph.policy import Policy
 from mindrun.kinds.functions.function import Rule
-from mindrun.sim.lanes.stages import after, before
+from mindrun.sim.lanes.advance import after, before
 from mindrun.sim.rollout import Rollout
 from numpy.typing import ArrayLike
 

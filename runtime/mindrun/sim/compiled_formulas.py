@@ -10,7 +10,7 @@ from numba.np.unsafe.ndarray import to_fixed_tuple
 
 from mindrun.numbers.arithmetic import F
 from mindrun.sim.exact import exactly
-from mindrun.sim.formulas import NoFormulaError
+from mindrun.sim.formulas import NoFormulaError, formula
 
 # the lane in which it fails or −1; inputs, outputs, lanes, the distance between rows in floats
 SIGNATURE = types.intp(types.CPointer(types.float32), types.CPointer(types.float32), types.intp, types.intp)

@@ -57,7 +57,7 @@ def _for_c(unit: Unit, context: Any, module: Any, description: Any) -> None:
 
 
 @cache
-def _compiled(function: FunctionType) -> Any:
+def _compiled(function: Any) -> Any:
     """A function of the lanes as numba's, with all that it calls."""
     terms = {name: _term(value) for name, value in used(function) if value is not function}
     plain = FunctionType(function.__code__, terms, function.__name__, function.__defaults__)
@@ -122,7 +122,7 @@ class _BlockAttributes(AttributeTemplate):  # type: ignore[misc]
         return _numba_type(found[1]) if found else None
 
 
-@lower_getattr_generic(BlockType)
+@lower_getattr_generic(BlockType)  # type: ignore[untyped-decorator]
 def _get(context: Any, builder: Any, kind: Any, value: Any, name: str) -> Any:
     """An array made of its words, or the place of an inner block."""
     place, what = kind.kind.layout()[name]
@@ -164,8 +164,8 @@ def _through_slot(unit: Unit) -> Any:
     """A call of a unit."""
 
     @intrinsic
-    def call_unit(typingctx, *given):
-        def generate(context, builder, signature, values):
+    def call_unit(typingctx: Any, *given: Any) -> Any:
+        def generate(context: Any, builder: Any, signature: Any, values: Any) -> Any:
             address = _address_in_slot(builder, unit)
             return _call(context, builder, address, unit.form, signature.args[0], values[0])
 
@@ -179,7 +179,7 @@ def _address_of(of: AddressOf) -> Any:
     """The address of a unit."""
 
     @intrinsic
-    def address(typingctx):
+    def address(typingctx: Any) -> Any:
         return types.uint64(), lambda context, builder, signature, values: _address_in_slot(builder, of.unit)
 
     return address
@@ -190,8 +190,8 @@ def _through_place(form: Form) -> Any:
     """A call of a unit by the address of its slot."""
 
     @intrinsic
-    def call_unit(typingctx, slot, *given):
-        def generate(context, builder, signature, values):
+    def call_unit(typingctx: Any, slot: Any, *given: Any) -> Any:
+        def generate(context: Any, builder: Any, signature: Any, values: Any) -> Any:
             address = builder.load(builder.inttoptr(values[0], WORD.as_pointer()))
             return _call(context, builder, address, form, signature.args[1], values[1])
 
@@ -212,12 +212,12 @@ def _call(context: Any, builder: Any, address: Any, form: Form, given: Any, valu
 
 
 @intrinsic
-def _call_address(typingctx, address, *arguments):
+def _call_address(typingctx: Any, address: Any, *arguments: Any) -> Any:
     """Compiled, `units.call`; its result is a uint64."""
     given = tuple(types.float64 if isinstance(a, types.Float) else types.uint64 for a in arguments)
     signature = types.uint64(types.uint64, types.StarArgTuple(given))
 
-    def generate(context, builder, _signature, values):
+    def generate(context: Any, builder: Any, _signature: Any, values: Any) -> Any:
         double = ir.DoubleType()
         kinds = [double if kind is types.float64 else WORD for kind in given]
         function = builder.inttoptr(values[0], ir.FunctionType(WORD, kinds).as_pointer())

@@ -5,7 +5,7 @@ machine code as it is.
 """
 
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dis import get_instructions
 from functools import cache
 from hashlib import sha256
@@ -128,5 +128,6 @@ def _kind(kind: Any) -> str:
     if isinstance(kind, np.dtype):
         return str(kind.fields or kind)
     if isinstance(kind, type) and issubclass(kind, Block):
-        return str({name: (place, _kind(each)) for name, (place, each) in kind.layout().items()})
+        fields: Mapping[str, tuple[int, Any]] = kind.layout()
+        return str({name: (place, _kind(each)) for name, (place, each) in fields.items()})
     return str(kind)
