@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from mindrun.graph.policy import Policy
 from mindrun.graph.run_scores import Scores
-from mindrun.sim.lanes.advance import after, before
+from mindrun.sim.lanes import advance
 from mindrun.sim.lanes.think import think
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import Moment, trace
@@ -229,10 +229,10 @@ task Test in plain
     jobs = world.jobs(np.zeros((1, 0), np.float32), np.array([1, 2, 3], np.uint64))
     tile = world.tile(3)
     world.fill(tile, jobs)
-    before(world.tables, tile.state, jobs)
+    advance.before(world.tables, tile.state, jobs)
     tile.state.mind.readings[0, 1] = np.nan
     think(world.tables, tile.state, 3, 0, len(world.tables.skills))
-    after(world.tables, tile.state, jobs, True)
+    advance.after(world.tables, tile.state, jobs, True)
     assert tile.state.mind.commands[:, 1].tolist() == [0.5, 0.5, 0.0]
     assert tile.state.mind.commands[0, 0] != 0.5
     assert tile.state.run.faults[:3].tolist() == [0, 3, 0]

@@ -163,7 +163,7 @@ def _address_in_slot(builder: Any, unit: Unit) -> Any:
 def _through_slot(unit: Unit) -> Any:
     """A call of a unit."""
 
-    @intrinsic
+    @intrinsic  # type: ignore[untyped-decorator]
     def call_unit(typingctx: Any, *given: Any) -> Any:
         def generate(context: Any, builder: Any, signature: Any, values: Any) -> Any:
             address = _address_in_slot(builder, unit)
@@ -178,7 +178,7 @@ def _through_slot(unit: Unit) -> Any:
 def _address_of(of: AddressOf) -> Any:
     """The address of a unit."""
 
-    @intrinsic
+    @intrinsic  # type: ignore[untyped-decorator]
     def address(typingctx: Any) -> Any:
         return types.uint64(), lambda context, builder, signature, values: _address_in_slot(builder, of.unit)
 
@@ -189,7 +189,7 @@ def _address_of(of: AddressOf) -> Any:
 def _through_place(form: Form) -> Any:
     """A call of a unit by the address of its slot."""
 
-    @intrinsic
+    @intrinsic  # type: ignore[untyped-decorator]
     def call_unit(typingctx: Any, slot: Any, *given: Any) -> Any:
         def generate(context: Any, builder: Any, signature: Any, values: Any) -> Any:
             address = builder.load(builder.inttoptr(values[0], WORD.as_pointer()))
@@ -211,7 +211,7 @@ def _call(context: Any, builder: Any, address: Any, form: Form, given: Any, valu
     return context.get_dummy_value() if form.gives is None else result
 
 
-@intrinsic
+@intrinsic  # type: ignore[untyped-decorator]
 def _call_address(typingctx: Any, address: Any, *arguments: Any) -> Any:
     """Compiled, `units.call`; its result is a uint64."""
     given = tuple(types.float64 if isinstance(a, types.Float) else types.uint64 for a in arguments)

@@ -44,7 +44,7 @@ def think(tables: Tables, state: State, lanes: int, first: int, last: int) -> No
 def wake(tables: Tables, state: State, lanes: int, row: int) -> int:
     """Gather the inputs of a skill in the lanes where it has influence; return their number."""
     skill, mind = tables.skills[row], state.mind
-    count = awake(mind.influence[skill.index], mind.active, lanes, skill.own)
+    count: int = awake(mind.influence[skill.index], mind.active, lanes, skill.own)
     if count > 0:
         rows = tables.inputs[skill.input : skill.input + skill.inputs]
         gather(rows, mind.readings, mind.gathered, mind.active, mind.sound, count, count == lanes)
