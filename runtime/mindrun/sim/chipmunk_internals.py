@@ -4,6 +4,7 @@ Compiled code calls its functions by their addresses, and pymunk's batches carry
 pointers, whole numbers and doubles cross. `tests/sim` holds it against a loop of plain pymunk, bit for bit.
 """
 
+import ctypes
 from collections.abc import Mapping
 from typing import Any
 
@@ -34,12 +35,13 @@ FUNCTIONS = (
     "cpBodyEachArbiter", "cpArbiterGetBodies", "cpCircleShapeNew", "cpPolyShapeSetVertsRaw", "cpBodySetMass",
     "cpBodySetMoment", "cpSpaceSetCollisionSlop",
 )  # fmt: skip
+C_FUNCTIONS = ("pow", "sincos")  # which Chipmunk calls
 (
     SPACE_NEW, SPACE_FREE, SPACE_ITERATIONS, SPACE_HASH, SPACE_STATIC, SPACE_ADD_BODY, SPACE_ADD_SHAPE,
     SPACE_REMOVE_BODY, SPACE_REMOVE_SHAPE, SPACE_STEP, BODY_NEW, BODY_FREE, POLY_NEW, SHAPE_FREE, SHAPE_BODY,
     SHAPE_FRICTION, SHAPE_SENSOR, CIRCLE_RADIUS, BODY_GET, BODY_SET, EACH_ARBITER,
-    ARBITER_BODIES, CIRCLE_NEW, POLY_CORNERS, BODY_MASS, BODY_MOMENT, SPACE_SLOP,
-) = range(len(FUNCTIONS))  # fmt: skip
+    ARBITER_BODIES, CIRCLE_NEW, POLY_CORNERS, BODY_MASS, BODY_MOMENT, SPACE_SLOP, POWER, SINE_COSINE,
+) = range(len(FUNCTIONS) + 2)  # fmt: skip
 
 # Columns of `handles`; after the shapes that can be held come the boxes, then the walls.
 SPACE, BODY, ROBOT, FIRST_HELD = range(4)
@@ -77,9 +79,17 @@ def _layout(structure: str) -> tuple[int, Mapping[str, int]] | None:
 
 
 def library() -> Any:
-    """The addresses of FUNCTIONS: uint64."""
+    """The addresses of FUNCTIONS, and of those of the C library, 0 where it has none: uint64."""
     refuse_another()
-    return np.array([int(ffi.cast("uintptr_t", ffi.addressof(lib, name))) for name in FUNCTIONS], np.uint64)
+    addresses = [int(ffi.cast("uintptr_t", ffi.addressof(lib, name))) for name in FUNCTIONS]
+    return np.array([*addresses, *map(_address_in_c, C_FUNCTIONS)], np.uint64)
+
+
+def _address_in_c(name: str) -> int:
+    try:
+        return ctypes.cast(getattr(ctypes.CDLL(None), name), ctypes.c_void_p).value or 0
+    except (AttributeError, OSError, TypeError):
+        return 0
 
 
 @unit

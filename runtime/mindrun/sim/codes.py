@@ -69,7 +69,7 @@ ACTUATOR = _columns(
 PARAMETER = _columns(i8="form of", f8="low high")
 MEMORY = _columns(i8="row", f4="decay rest start")
 THING = _columns(
-    i8="kind drawn is_round is_fixed reached delivered is_reached is_delivered is_area loose settles walker is_goal",
+    i8="kind drawn is_round is_fixed reached delivered is_reached is_delivered is_area loose settles walker is_goal turn",
     f8="first last by low high hold x y",
 )
 LOOSE = _columns(i8="thing is_round density friction slower")
@@ -80,7 +80,8 @@ EVENT = _columns(i8="kind thing things to tos arrival columns rows board", f8="p
 END = _columns(i8="event times when whens succeeds")
 REWARD = _columns(i8="code length on each eachs when whens")
 WORLD = _columns(
-    i8="linear angular friction mass moment mass_inv moment_inv is_round is_placed is_faced ticks rays master battery",
+    i8="linear angular friction mass moment mass_inv moment_inv is_round is_placed is_faced ticks rays master battery "
+    "is_alone turn",
     f8="dt radius front side arm least slop cell axles half_x half_y start_x start_y facing start drain charge near "
     "claw",
 )

@@ -211,23 +211,27 @@ def _call(context: Any, builder: Any, address: Any, form: Form, given: Any, valu
     return context.get_dummy_value() if form.gives is None else result
 
 
-@intrinsic  # type: ignore[untyped-decorator]
-def _call_address(typingctx: Any, address: Any, *arguments: Any) -> Any:
-    """Compiled, `units.call`; its result is a uint64."""
-    given = tuple(types.float64 if isinstance(a, types.Float) else types.uint64 for a in arguments)
-    signature = types.uint64(types.uint64, types.StarArgTuple(given))
+def _c_function(gives: Any, of_result: Any) -> Any:
+    """A call of the C function at an address with whole numbers, pointers and doubles."""
 
-    def generate(context: Any, builder: Any, _signature: Any, values: Any) -> Any:
-        double = ir.DoubleType()
-        kinds = [double if kind is types.float64 else WORD for kind in given]
-        function = builder.inttoptr(values[0], ir.FunctionType(WORD, kinds).as_pointer())
-        return builder.call(function, [builder.extract_value(values[1], i) for i in range(len(given))])
+    @intrinsic  # type: ignore[untyped-decorator]
+    def call_address(typingctx: Any, address: Any, *arguments: Any) -> Any:
+        given = tuple(types.float64 if isinstance(a, types.Float) else types.uint64 for a in arguments)
 
-    return signature, generate
+        def generate(context: Any, builder: Any, _signature: Any, values: Any) -> Any:
+            double = ir.DoubleType()
+            kinds = [double if kind is types.float64 else WORD for kind in given]
+            function = builder.inttoptr(values[0], ir.FunctionType(of_result, kinds).as_pointer())
+            return builder.call(function, [builder.extract_value(values[1], i) for i in range(len(given))])
+
+        return gives(types.uint64, types.StarArgTuple(given)), generate
+
+    return call_address
 
 
 VECTORS: dict[Callable[..., Any], Any] = {
-    units.call: _call_address,
+    units.call: _c_function(types.uint64, WORD),
+    units.call_double: _c_function(types.float64, ir.DoubleType()),
     arithmetic.sigmoids: vector.sigmoids,
     arithmetic.splat: vector.splat,
     arithmetic.broadcast: vector.broadcast,

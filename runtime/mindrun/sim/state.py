@@ -26,6 +26,15 @@ LEFT, RIGHT, LOW, HIGH, SIDES = range(5)  # rows of a box in `sides`, and how ma
 LOOSE_COSINE, LOOSE_SINE, LOOSE_X, LOOSE_Y, LOOSE_HALF, FRAME_ROWS = range(6)  # of the frame of a loose thing
 FAILED_SKILL, FAILED_COLUMN = range(2)  # of `failed`
 BEGIN_X, BEGIN_Y, FROM_X, FROM_Y, FROM_ANGLE, TO_X, TO_Y, HALF, WAY = range(9)  # columns of each way in `ways`
+# Columns of `disc`: velocities that part what overlaps, seconds of the last step or 0, steps, pairs, those that touch.
+BIAS_X, BIAS_Y, BIAS_SPIN, SECONDS, STEPS, PAIRS, TOUCHING, DISC_COLUMNS = range(8)
+# Columns of a pair: 2·box, and 1 more of the held item; the step that it touched in last, and whether for the first
+# time; its impulses along and across the normal, the normal, the place of the contact from the middle of the body.
+KEY, USED, FIRST, ALONG, ACROSS, NORMAL_X, NORMAL_Y, AT_X, AT_Y, MASS_ALONG, MASS_ACROSS, PARTING, PARTED, FRICTION = (
+    range(14)
+)
+RANK, PAIR_COLUMNS = 14, 15  # the place in which Chipmunk finds it
+MOST_PAIRS = 64
 F4, F8, I8, U1, U8 = np.float32, np.float64, np.int64, np.uint8, np.uint64
 
 
@@ -141,6 +150,8 @@ class ContactState(Block):
     loose: Annotated[Array, columns("loose", chipmunk.LOOSE_HANDLES, kind=U8)]  # body and shape of each loose thing
     sizes: Annotated[Array, columns("loose")]  # for which these shapes are made
     placed: Annotated[Array, columns("loose", kind=U1)]  # 1 where a body stands still just where its settled thing does
+    disc: Annotated[Array, columns(DISC_COLUMNS)]  # a disc's, where that is alone (lanes/disc)
+    pairs: Annotated[Array, columns("pairs")]  # what it touches, or did a few steps ago
     last: Annotated[Array, each(F8)]  # seconds of its last step, infinitely many where nothing can have touched
     # for this tick
     gap: Annotated[Array, each(F8)]  # from the robot's next centre to what is nearest
@@ -286,4 +297,5 @@ def _counts(tables: Tables, sizes: Mapping[str, int]) -> dict[str, int]:
         "movers": 2 + n["loose"],
         "board": max(1, n["patches"]),
         "happened": max(1, n["events"]),
+        "pairs": MOST_PAIRS * PAIR_COLUMNS * int(tables.world[0]["is_alone"]),
     }

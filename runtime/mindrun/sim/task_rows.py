@@ -1,7 +1,7 @@
 """The task's rows of the tables: its world, what it contains, its measures, events and rewards."""
 
 from collections.abc import Sequence
-from itertools import count
+from itertools import accumulate, count
 from typing import Any
 
 import numpy as np
@@ -21,6 +21,7 @@ from mindrun.sim.parameter_rows import Parameters, Step
 Array = NDArray[Any]
 MIN_CELL_UNITS = 20.0  # the side of a cell of Chipmunk's hash, in which what is large takes only so many
 CELLS_PER_SHAPE, CELLS_PER_WALL = 4, 64
+HASH_SIZES = 5, 13, 23, 47, 97, 193, 389, 769, 1543, 3079, 6151, 12289  # of the hashes of Chipmunk
 SLOP_UNITS = float(np.float32(0.1))  # how deep Chipmunk lets things stand in each other, if nobody says anything else
 SLOP_SHARE = 0.25  # of their least half side is the most
 LEAST_SOLID_UNITS = 1e-3  # half a side that is smaller counts as this
@@ -55,6 +56,18 @@ def boxes_by_name(task: Task) -> dict[str, range]:
     return found
 
 
+def chipmunk_turns(task: Task) -> tuple[int, list[int]]:
+    """The places in which Chipmunk's hash has the shapes of the robot and of each thing in its claw, lowest first.
+
+    Shapes are numbered as they are added: boxes, walls, the robot, then what can be held.
+    """
+    things = things_of(task)
+    number = sum(each.kind.obstacles(task.scene) for each in task.things) + 4 * task.scene.is_bounded
+    counts = [*accumulate((thing.kind.can_be_held for thing in things), initial=0)]
+    size = next(prime for prime in HASH_SIZES if prime > 1 + counts[-1])
+    return number % size, [(number + count) % size for count in counts[1:]]
+
+
 def thing_rows(graph: Graph, task: Task) -> Array:
     """Rows of THING: all things of the task but obstacles, as in `things_of`."""
     rows: list[Row] = []
@@ -63,6 +76,7 @@ def thing_rows(graph: Graph, task: Task) -> Array:
     loose, walkers, zones = count(), count(), [thing.kind for thing in task.things if thing.kind.takes_items]
     zones_stay = all(outcome == STAYS for zone in zones for outcome in zone.outcomes.values())
     first = {name: found.start for name, found in rows_by_name(task).items()}
+    _, turns = chipmunk_turns(task)
     for number, thing in enumerate(things_of(task)):
         kind, size, copy = thing.kind, thing.kind.size, number - first[thing.name]
         low, high = kind.distances(task.scene)
@@ -75,7 +89,7 @@ def thing_rows(graph: Graph, task: Task) -> Array:
             "hold": graph.body.front + kind.largest / 2, "is_fixed": bool(kind.places), "x": x, "y": y,
             "is_round": kind.is_round, "is_area": kind.is_area, "is_goal": thing.name in never,
             "loose": next(loose) if kind.is_loose else -1, "settles": kind.is_loose and zones_stay,
-            "walker": next(walkers) if kind.walks else -1,
+            "walker": next(walkers) if kind.walks else -1, "turn": turns[number],
         }  # fmt: skip
         for what in ("reached", "delivered"):
             outcome = kind.outcomes.get(what, STAYS)
@@ -211,6 +225,8 @@ def world_row(
         "is_faced": begin.facing is not None, "facing": begin.facing or 0.0, "ticks": task.ticks,
         "start": battery.start if powered else np.nan, "drain": battery.drain, "charge": battery.charge, "rays": rays,
         "near": near, "master": graph.skill_numbers[master], "claw": graph.claw_reach, "battery": powered,
+        "is_alone": not body.outline and not any(thing.kind.is_loose for thing in task.things),
+        "turn": chipmunk_turns(task)[0],
     }  # fmt: skip
     return records([row], codes.WORLD)
 

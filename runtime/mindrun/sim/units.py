@@ -117,3 +117,9 @@ def call(address: Any, *arguments: Any) -> int:
     function = ctypes.CFUNCTYPE(ctypes.c_int64, *kinds)(int(address))
     given = [float(a) if kind is ctypes.c_double else int(a) for a, kind in zip(arguments, kinds, strict=True)]
     return int(function(*given))
+
+
+def call_double(address: Any, *arguments: Any) -> float:
+    """Call the C function of doubles at an address; its result."""
+    function = ctypes.CFUNCTYPE(ctypes.c_double, *[ctypes.c_double] * len(arguments))(int(address))
+    return float(function(*map(float, arguments)))

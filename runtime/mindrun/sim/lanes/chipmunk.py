@@ -30,12 +30,13 @@ from mindrun.numbers.arithmetic import (
 from mindrun.sim import chipmunk_internals as cp
 from mindrun.sim.chipmunk_internals import count_address
 from mindrun.sim.codes import FORCE_X, FORCE_Y, TORQUE
+from mindrun.sim.lanes.disc import step_disc
 from mindrun.sim.lanes.loose import OF_LOOSE, SETTLED_TICKS, is_at_rest, put_motion
 from mindrun.sim.lanes.placement import ENDLESS_UNITS
 from mindrun.sim.lanes.solid import MOST_STRIDES, hold_back, note_before, note_begin, stride, within
-from mindrun.sim.state import ContactState, WorldState
+from mindrun.sim.state import SECONDS, ContactState, WorldState
 from mindrun.sim.tables import Tables
-from mindrun.sim.units import call, unit
+from mindrun.sim.units import call, unit, unit_where
 
 SOLVER_ITERATIONS = 8
 HALF_WALL_UNITS = 1.0  # half the thickness of a wall, outside the arena
@@ -56,13 +57,14 @@ def make_tick(tables: Tables, world: WorldState, contact: ContactState, lane: in
         seconds = min(most, left) if is_last else min(most, left / 2)
         if is_swift and not glides(world.body, seconds, lane):
             break
-        if contact.handles[lane, cp.SPACE] != 0 and seconds > contact.last[lane]:
-            close_space(tables, contact, lane)  # which remembers impulses, and would give more than these
-        if contact.handles[lane, cp.SPACE] == 0:
-            open_space(tables, world, contact, lane)
         note_before(tables, world, contact.ways[lane], lane)
-        push_body(tables, world, contact, dt / seconds if is_last else 0.0, lane)
-        touched = step_space(tables, world, contact, seconds, lane)
+        share = dt / seconds if is_last else 0.0
+        if tables.world[0].is_alone:
+            if contact.disc[lane, SECONDS] == 0.0 or seconds > contact.last[lane]:
+                contact.disc[lane] = 0.0  # it would remember impulses, and give more than these
+            touched = step_disc(tables, world, contact, seconds, share, lane)
+        else:
+            touched = step_in_space(tables, world, contact, seconds, share, lane)
         touching += touched
         could_pass = touching > 0 or len(tables.loose) > 0
         if could_pass:
@@ -72,6 +74,19 @@ def make_tick(tables: Tables, world: WorldState, contact: ContactState, lane: in
         if is_last:
             break
     return touching
+
+
+@unit_where(lambda tables: not tables.world[0]["is_alone"])
+def step_in_space(
+    tables: Tables, world: WorldState, contact: ContactState, seconds: float, share: float, lane: int
+) -> int:
+    """Make a step of a lane in its Space, which is opened; return how often its robot has run into what never moves."""
+    if contact.handles[lane, cp.SPACE] != 0 and seconds > contact.last[lane]:
+        close_space(tables, contact, lane)  # which remembers impulses, and would give more than these
+    if contact.handles[lane, cp.SPACE] == 0:
+        open_space(tables, world, contact, lane)
+    push_body(tables, world, contact, share, lane)
+    return step_space(tables, world, contact, seconds, lane)
 
 
 def glides(body, seconds, lane):

@@ -87,6 +87,7 @@ def reset(tables, state, lane):
             judge.visited[lane, tables.events[i].board + patch] = 1
     state.sight.anchor[:, lane] = np.nan
     state.contact.near[lane], state.contact.touching[lane] = 0, 0
+    state.contact.disc[lane] = 0.0
     run.ended[lane], run.met[lane], run.faults[lane] = GOING_ON, GOING_ON, 0
 
 
@@ -120,7 +121,7 @@ def move(state, source, target):
         copy_lane(rows, source, target)
     for rows in (sight.nearby, sight.anchor, judge.left_changes, judge.right_changes, judge.lines):
         copy_lane(rows, source, target)
-    for columns in (world.boxes, contact.sizes):
+    for columns in (world.boxes, contact.sizes, contact.disc, contact.pairs):
         copy_row(columns, source, target)
     for columns in (judge.visited, contact.placed):
         copy_row(columns, source, target)
