@@ -34,10 +34,10 @@ def compile_text(text: str) -> Graph:
     return compiled.graph
 
 
-def drifter(scene: str, ticks: int, crowded: bool = False) -> Graph:
-    """A robot that wanders about, drawn to an object, and closes its claw now and then."""
+def drifter(scene: str, ticks: int, rocks: str = "") -> Graph:
+    """A robot that wanders about among `rocks`, drawn to an object, and closes its claw now and then."""
     place = "arena size 40" if scene == "arena" else "plain"
     lines = [f"task Drift in {place}", "  contains object is item size 1"]
-    lines += ["  contains rock is obstacle grid 10 size 2 to 4 jitter 1"] if crowded else []
+    lines += [f"  contains rock is obstacle {rocks}"] if rocks else []
     lines += [f"  lasts {ticks} ticks", "  rewards progress toward object per tick", "  rewards 1 on collision"]
     return compile_text(DRIFTER + "\n".join(lines) + "\n")

@@ -69,7 +69,8 @@ ACTUATOR = _columns(
 PARAMETER = _columns(i8="form of", f8="low high")
 MEMORY = _columns(i8="row", f4="decay rest start")
 THING = _columns(
-    i8="kind drawn is_round is_fixed reached delivered is_reached is_delivered is_area loose settles walker is_goal turn",
+    i8="kind drawn is_round is_fixed reached delivered is_reached is_delivered is_area loose settles walker is_goal "
+    "turn",
     f8="first last by low high hold x y",
 )
 LOOSE = _columns(i8="thing is_round density friction slower")

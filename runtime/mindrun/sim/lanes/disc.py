@@ -250,7 +250,7 @@ def solve(tables, world, disc, pairs, seconds, share, lane):
     vx = body[SPEED_X, lane] + world.push[FORCE_X, lane] * share * mass * seconds
     vy = body[SPEED_Y, lane] + world.push[FORCE_Y, lane] * share * mass * seconds
     spin = body[SPIN, lane] + world.push[TORQUE, lane] * share * moment * seconds
-    before = 0.0 if disc[SECONDS] == 0.0 else seconds / disc[SECONDS]
+    before = seconds / disc[SECONDS]  # in the first step all pairs are new, and nobody asks
     for i in range(count):
         pair = PAIR_COLUMNS * i
         if pairs[pair + FIRST] == 0.0:
