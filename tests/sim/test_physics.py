@@ -30,7 +30,7 @@ def test_free_flight_equals_space_step(seed: int) -> None:
 
 
 ROCKS, THICKET = "grid 10 size 2 to 4 jitter 1", "grid 2.6 size 0.5 to 2 jitter 0.3"
-SCATTERED = "size 2 to 4 count 15"  # with the walls so many that Chipmunk asks what is held before the robot
+SCATTERED = "grid 7 size 2 to 3 jitter 1"  # 25: with the walls so many that Chipmunk asks what is held before the robot
 
 
 @pytest.mark.parametrize(("rocks", "seed"), [(rocks, seed) for rocks in (ROCKS, THICKET, SCATTERED) for seed in range(8)])
