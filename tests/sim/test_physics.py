@@ -33,7 +33,9 @@ ROCKS, THICKET = "grid 10 size 2 to 4 jitter 1", "grid 2.6 size 0.5 to 2 jitter 
 SCATTERED = "grid 7 size 2 to 3 jitter 1"  # 25: with the walls so many that Chipmunk asks what is held before the robot
 
 
-@pytest.mark.parametrize(("rocks", "seed"), [(rocks, seed) for rocks in (ROCKS, THICKET, SCATTERED) for seed in range(8)])
+@pytest.mark.parametrize(
+    ("rocks", "seed"), [(rocks, seed) for rocks in (ROCKS, THICKET, SCATTERED) for seed in range(8)]
+)
 def test_contacts_equal_plain_pymunk(rocks: str, seed: int) -> None:
     """A robot that drives into obstacles, walls and corners, with and without an item in its claw; several at once."""
     rollout = Rollout(Policy(drifter("arena", 5_000, rocks), {}), "Drift", "Drift", interrupt=False)

@@ -32,6 +32,9 @@ class Programs:
         first, depth = len(self.rows), 0
         for name, value in program:
             op = OPERATIONS[name]
+            if op == NEGATE and len(self.rows) > first and self.rows[-1][0] == NUMBER:
+                self.rows[-1] = NUMBER, 0, -self.rows[-1][2]
+                continue
             depth += 1 if op <= COMMAND else 0 if op == NEGATE else -1
             self.depth = max(self.depth, depth)
             number = float(value) if op == NUMBER else 0.0

@@ -100,8 +100,8 @@ def reward(tables, state, line, total, lanes):
     paid, amount, is_always = judged.paid, mind.stack[0], line.on < 0 and line.whens == 0
     for k in range(max(1, line.eachs)):
         each = line.each + k
-        if not is_always:
-            find_paid(tables, state, line, paid, each, lanes)
+        if not is_always and find_paid(tables, state, line, paid, each, lanes) == 0:
+            continue
         run_program(tables, state, line.code, line.length, each, lanes, True)
         if is_always:
             for lane in range(lanes):
@@ -112,13 +112,23 @@ def reward(tables, state, line, total, lanes):
 
 
 def find_paid(tables, state, line, paid, each, lanes):
-    """Set how often a line is paid in this tick: once, or as often as its event happens, where its condition holds."""
-    for lane in range(lanes):
-        paid[lane] = state.judge.events[line.on, lane] if line.on >= 0 else 1.0
+    """Set how often a line is paid in this tick: once, or as often as its event happens, where its condition holds.
+
+    Return the number of lanes in which it is paid.
+    """
+    holds, count = state.mind.stack[0], 0
+    if line.on >= 0:
+        for lane in range(lanes):
+            paid[lane] = state.judge.events[line.on, lane]
+    else:
+        paid[:lanes] = 1.0
     if line.whens > 0:
         run_program(tables, state, line.when, line.whens, each, lanes, True)
         for lane in range(lanes):
-            paid[lane] = paid[lane] if state.mind.stack[0, lane] > 0.0 else 0.0
+            paid[lane] = paid[lane] if holds[lane] > 0.0 else 0.0
+    for lane in range(lanes):
+        count += 1 if paid[lane] > 0.0 else 0
+    return count
 
 
 def meet_end(tables, state, end, i, lanes, interrupt):
