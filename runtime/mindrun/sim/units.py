@@ -10,7 +10,7 @@ import os
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any, ClassVar, Protocol
 
 import numpy as np
 
@@ -47,6 +47,8 @@ class Form:
 class Unit:
     """A function that is compiled by itself. It is called with blocks and numbers; no row can be handed to it."""
 
+    address_of: "ClassVar[Callable[[Unit], int]]"  # of machine code, loaded now: `cache`, which imports this, says how
+
     def __init__(self, function: Any, form: Form, needed: Needed) -> None:
         self.function, self.form, self.needed = function, form, needed
         self.name = f"{function.__module__}.{function.__qualname__}"
@@ -66,9 +68,7 @@ class Unit:
     def load(self) -> Any:
         """The machine code as a function of C; it is made where it is not kept."""
         if self._loaded is None:
-            from mindrun.sim.cache import address_of
-
-            self._slot[0] = address = address_of(self)
+            self._slot[0] = address = Unit.address_of(self)
             self._loaded = self._prototype(address)
         return self._loaded
 
