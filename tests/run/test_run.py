@@ -13,6 +13,7 @@ from statistics import mean, stdev
 import pytest
 from mindrun.sim import cache, warmup
 from mindrun.sim.lanes.advance import advance
+from mindrun.sim.units import Unit
 
 from mindlang.run.setup import layouts
 from tests.calling import RULES, Call
@@ -123,8 +124,18 @@ def test_workers_change_nothing(mindc: Call, rules: Path) -> None:
 
 
 def test_a_first_run_says_why_it_takes_so_long(mindc: Call, rules: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("mindrun.sim.warmup.is_there", lambda entries: False)
-    assert mindc("run", rules, "--seed", 3).err == "compiling the simulator once (about half a minute)…\n"
+    kept, asked = cache.find, set[Unit]()
+
+    def find(unit: Unit) -> bytes | None:
+        """What is kept of a unit, but where it is asked for the first time."""
+        if unit in asked:
+            return kept(unit)
+        asked.add(unit)
+        return None
+
+    monkeypatch.setattr(cache, "find", find)
+    assert mindc("run", rules, "--seed", 3).err == "compiling the simulator once (some ten seconds)…\n"
+    asked.clear()
     assert mindc("run", rules, "--seed", 3, "--quiet").err == ""
 
 

@@ -21,7 +21,7 @@ from typing import IO
 from llvmlite.binding import get_host_cpu_features
 
 from mindrun.files.user_cache import user_cache
-from mindrun.sim.dependencies import DIGITS, called, fingerprint, functions
+from mindrun.sim.dependencies import HASH_DIGITS, called, fingerprint, functions
 from mindrun.sim.machine_code import load, target
 from mindrun.sim.units import Unit
 
@@ -63,6 +63,9 @@ def address_of(unit: Unit) -> int:
         return load(code, unit.name, {each.slot_name: each.place for each in called(unit)})
 
 
+Unit.address_of = address_of
+
+
 def make_missing(units: Iterable[Unit]) -> None:
     """Compile those of some units of which there is no machine code, the largest first.
 
@@ -95,7 +98,7 @@ def _kept(unit: Unit) -> Path:
 
 def _file(unit: Unit, processor: str, features: str) -> str:
     """The name of a unit's file for a kind of processors."""
-    digest = sha256(f"{fingerprint(unit)} {target().triple} {features}".encode()).hexdigest()[:DIGITS]
+    digest = sha256(f"{fingerprint(unit)} {target().triple} {features}".encode()).hexdigest()[:HASH_DIGITS]
     return f"{unit.name.removeprefix('mindrun.')}-{processor}-{digest}.code"
 
 

@@ -22,7 +22,7 @@ from mindrun.sim.units import UNITS, AddressOf, Form, Unit
 
 VERSIONS = "numba", "llvmlite", "numpy"
 COMPILER = "arrays", "compiling", "machine_code", "numba_internals", "vector"  # files of this folder
-DIGITS = 16  # hexadecimal
+HASH_DIGITS = 16  # hexadecimal
 
 
 def needed_units(entries: Iterable[Unit], tables: Any) -> list[Unit]:
@@ -74,7 +74,7 @@ def _names(code: CodeType) -> set[str]:
 def fingerprint(unit: Unit) -> str:
     """A hash of all that its machine code depends on but the processor."""
     said = [_compiler(), unit.name, _form(unit.form), *map(_of_function, functions(unit.function))]
-    return sha256("\n".join(said).encode()).hexdigest()[:DIGITS]
+    return sha256("\n".join(said).encode()).hexdigest()[:HASH_DIGITS]
 
 
 @cache
