@@ -1,30 +1,22 @@
 """The lanes in plain Python, as a plugin for pytest: the same bits, and nothing is compiled.
 
-To compile a mutant takes minutes, to interpret it none. Numba's types differ from Python's in one way that matters: a
-number with a point is a float64 there, whatever stands beside it, so each becomes one here. Rows of tables become
-objects, intrinsics a line of numpy or of ctypes.
+To compile a mutant takes long, to interpret it no time. Compiled numbers differ from Python's in one way that matters:
+one with a point is a float64, whatever stands beside it, so each becomes one here. Rows of tables become objects.
 """
 
 import ast
-import ctypes
-import importlib
 import importlib.abc
 import importlib.machinery
 import sys
 from collections.abc import Sequence
 from copy import copy
+from dataclasses import replace
 from types import ModuleType
 from typing import Any
 
-import numba
-import numba.extending
 import numpy as np
 
-ROOM = "mindrun.sim."
-VECTOR = f"{ROOM}vector"
-CHIPMUNK = f"{ROOM}lanes.chipmunk"  # calls into a library: as it is
-VECTOR_LANES = 16
-F = np.float32
+LANES = "mindrun.sim.lanes."
 
 
 class Doubles(ast.NodeTransformer):
@@ -42,7 +34,7 @@ class Doubles(ast.NodeTransformer):
 
 
 class Loader(importlib.machinery.SourceFileLoader):
-    """Loads a module of the lanes with its numbers as numba has them."""
+    """Loads a module of the lanes with its numbers as compiled code has them."""
 
     def exec_module(self, module: ModuleType) -> None:
         doubles = Doubles()
@@ -52,34 +44,13 @@ class Loader(importlib.machinery.SourceFileLoader):
 
 
 class Finder(importlib.abc.MetaPathFinder):
-    """Finds what is compiled elsewhere: the lanes and their arithmetic; for vectors what stands for them below."""
+    """Finds the modules of the lanes."""
 
     def find_spec(self, name: str, path: Sequence[str] | None, target: ModuleType | None = None) -> Any:
-        if name == CHIPMUNK or not name.startswith((f"{ROOM}lanes.", f"{ROOM}arithmetic", VECTOR)):
-            return None
-        spec = importlib.machinery.PathFinder.find_spec(name, path)
+        spec = importlib.machinery.PathFinder.find_spec(name, path) if name.startswith(LANES) else None
         if spec and spec.origin:
-            spec.loader = Vectors() if name == VECTOR else Loader(name, spec.origin)
+            spec.loader = Loader(name, spec.origin)
         return spec
-
-
-class Vectors(importlib.abc.Loader):
-    """In place of `sim.vector`: sixteen lanes are an array of sixteen."""
-
-    def create_module(self, spec: Any) -> ModuleType | None:
-        return None
-
-    def exec_module(self, module: ModuleType) -> None:
-        from mindrun.numbers import arithmetic
-
-        plain = {name: getattr(arithmetic, name) for name in ("splat", "broadcast", "load", "store", "sigmoids")}
-        vars(module).update(
-            plain,
-            VECTOR_LANES=arithmetic.LANES,
-            HIGHEST=lambda a, b: np.where(a > b, a, b),
-            LOWEST=lambda a, b: np.where(a < b, a, b),
-            where_ordered=lambda low, high, yes, no: np.where(low <= high, yes, no),
-        )
 
 
 class Row:
@@ -114,35 +85,26 @@ class Rows(list[Row]):
         return Rows(copy(row) for row in self)
 
 
-def call(address: Any, *arguments: Any) -> int:
-    """A C function called with whole numbers, pointers and doubles, as `chipmunk.call` does."""
-    kinds = [ctypes.c_double if isinstance(a, float) else ctypes.c_uint64 for a in arguments]
-    function = ctypes.CFUNCTYPE(ctypes.c_int64, *kinds)(int(address))
-    given = [float(a) if kind is ctypes.c_double else int(a) for a, kind in zip(arguments, kinds, strict=True)]
-    return int(function(*given))
-
-
-def _plain(*given: Any, **options: Any) -> Any:
-    """In place of numba's decorator: the function as it stands."""
-    return given[0] if given else _plain
-
-
 def _install() -> None:
-    importlib.import_module("mindrun.sim.exact")  # what formulas call stays compiled, as they are
-    numba.njit = _plain
     sys.meta_path.insert(0, Finder())
-    from mindrun.sim import compiling
+    from mindrun.kinds.registry import kinds
+    from mindrun.numbers import arithmetic
+    from mindrun.sim import cache, rollout
+    from mindrun.sim.units import Unit
 
-    compiling.keep_code = lambda dispatcher, code: None
-    from mindrun.sim import procedures, rollout
-    from mindrun.sim.lanes import chipmunk
-
-    chipmunk.call = procedures.call = call
+    for noun in ("sensor", "skill"):
+        for kind in kinds(noun).values():  # their files import what they name for checkers of types alone
+            named = kind.lane.__globals__
+            named.update(vars(arithmetic) | named)
+    Unit.__call__ = lambda unit, *given: unit.function(*given)
+    Unit.load = lambda unit: unit.function
+    cache.find, cache.is_native = lambda unit: b"", lambda unit: True  # nothing has to be compiled
     build = rollout.build
 
     def build_rows(*given: Any) -> Any:
-        found, sizes = build(*given)
-        return type(found)(*(Rows(Row(row) for row in part) if part.dtype.names else part for part in found)), sizes
+        tables, sizes = build(*given)
+        records = {name: table for name, table in vars(tables).items() if table.dtype.names}
+        return replace(tables, **{name: Rows(map(Row, table)) for name, table in records.items()}), sizes
 
     rollout.build = build_rows
 

@@ -1,11 +1,11 @@
-"""Lanes of kinds in plain Python: with their terms, and not compiled."""
+"""Lanes of kinds in plain Python: with what they name, and not compiled."""
 
 from collections.abc import Callable
 from functools import cache
 from types import FunctionType
 from typing import Any
 
-from mindrun.numbers.arithmetic import terms
+from mindrun.sim.dependencies import used
 
 
 @cache
@@ -15,6 +15,6 @@ def plain_lane(function: Any) -> Callable[..., Any]:
         return function  # type: ignore[no-any-return]
     found: dict[str, Any] = {"__builtins__": __builtins__}
     made = FunctionType(function.__code__, found, function.__name__)
-    for name, value in terms(function).items():
+    for name, value in used(function):
         found[name] = plain_lane(value) if isinstance(value, FunctionType) and value is not function else value
     return made

@@ -235,8 +235,9 @@ def test_compiled_lanes_read_the_bits_of_plain_python(
     rollout.fill(tile, jobs)
     state, tables = tile.state, rollout.tables
     constants = [(each, value) for each in graph.sensors if (value := each.kind.constant(known(graph))) is not None]
-    structured = {name for name, part in tables._asdict().items() if isinstance(part, np.ndarray) and part.dtype.names}
-    rows = {name: part.view(np.recarray) if name in structured else part for name, part in tables._asdict().items()}
+    parts = {name: getattr(tables, name) for name in tables.layout()}
+    structured = {name for name, part in parts.items() if isinstance(part, np.ndarray) and part.dtype.names}
+    rows = {name: part.view(np.recarray) if name in structured else part for name, part in parts.items()}
     working = 1
     while working:
         before = {

@@ -1,10 +1,8 @@
 """Arithmetic of the lanes: + − × ÷ only, in a fixed order, nothing fused, so that every processor gives the same bits.
 
-Plain functions, which `mindrun.sim.arithmetic` compiles: the kinds of sensors say in their terms what they read.
+Plain functions, which `mindrun.sim` compiles: the kinds of sensors say in their terms what they read.
 """
 
-from dis import get_instructions
-from types import FunctionType
 from typing import Any
 
 import numpy as np
@@ -281,10 +279,3 @@ def sigmoid(values: NDArray[np.float32]) -> NDArray[np.float32]:
 def sigmoids(values: Any) -> Any:
     """The sigmoid in sixteen lanes."""
     return sigmoid(values)
-
-
-def terms(function: FunctionType) -> dict[str, Any]:
-    """The global names that a function of a kind's file uses, with their values: that file's, else this one's."""
-    known = globals() | function.__globals__
-    names = {each.argval for each in get_instructions(function) if each.opname == "LOAD_GLOBAL"}
-    return {name: known[name] for name in names & known.keys()}

@@ -277,7 +277,7 @@ def _empty(part: type[Part], n: Mapping[str, int], lanes: int, **known: Array) -
 
 def _counts(tables: Tables, sizes: Mapping[str, int]) -> dict[str, int]:
     """The numbers that arrays say their rows or columns by: lengths of tables, Sizes, and sums of these."""
-    n = {name: len(table) for name, table in vars(tables).items() if isinstance(table, np.ndarray)} | dict(sizes)
+    n = {name: len(getattr(tables, name)) for name in tables.layout()} | dict(sizes)
     shapes = n["things"] + n["boxes"] + chipmunk.WALL_COUNT
     return n | {
         "sinks": n["actuators"] + n["memories"],

@@ -19,7 +19,6 @@ from mindrun.sim.arrays import Block
 FAILED_CODE = 70  # EX_SOFTWARE of sysexits.h
 Kind = Any  # of an argument: int, float, Pointer, a class of blocks, or the dtype of a table for one of its rows
 Needed = Callable[[Any], bool]  # of tables
-C_TYPES: dict[Any, Any] = {int: ctypes.c_int64, float: ctypes.c_double, None: None}
 
 
 class Pointer(Protocol):
@@ -27,6 +26,11 @@ class Pointer(Protocol):
 
     def __getitem__(self, place: int, /) -> int: ...
     def __setitem__(self, place: int, number: int, /) -> None: ...
+
+
+C_TYPES: dict[Any, Any] = {
+    int: ctypes.c_int64, float: ctypes.c_double, None: None, Pointer: ctypes.POINTER(ctypes.c_int64),
+}  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -48,22 +52,16 @@ class Unit:
         self.name = f"{function.__module__}.{function.__qualname__}"
         self.slot_name = f"slot of {self.name}"  # in the machine code of others
         self._prototype = ctypes.CFUNCTYPE(C_TYPES[form.gives], *(C_TYPES.get(k, ctypes.c_void_p) for k in form.takes))
-        self._slot = np.zeros(1, np.uint64)
         self._loaded: Any = None
-        self._loads: Any = None
+        self._loads = self._prototype(self._load_and_call)
+        # Here stands the address of its machine code, and before that is loaded of a function that loads and calls it.
+        self._slot = np.array([ctypes.cast(self._loads, ctypes.c_void_p).value], np.uint64)
+        self.place = int(self._slot.ctypes.data)
         UNITS[self.name] = self
 
     def __call__(self, *given: Any) -> Any:
         function = self._loaded or self.load()
         return function(*[each.address if isinstance(each, Block) else int(each) for each in given])
-
-    @property
-    def place(self) -> int:
-        """The address of its slot, where that of the machine code stands, or of a function that loads and calls it."""
-        if self._slot[0] == 0:
-            self._loads = self._prototype(self._load_and_call)
-            self._slot[0] = ctypes.cast(self._loads, ctypes.c_void_p).value or 0
-        return int(self._slot.ctypes.data)
 
     def load(self) -> Any:
         """The machine code as a function of C; it is made where it is not kept."""

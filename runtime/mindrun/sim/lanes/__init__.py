@@ -20,8 +20,8 @@ A stage is handed the whole `state`, what it calls the parts that it reads and w
 which it has influence: `active[0..count]` are these, and what is gathered for it stands side by side in the columns
 0 to count − 1.
 
-`@compiled` is what only compiled code calls, `@entry` can be called from Python. Compiled code owns nothing
-(`_nrt=False`), so in it
+All are plain functions. A `@unit` is compiled by itself, with what it calls, and can be called from Python; a row of a
+table can be handed to any other function. Compiled code owns nothing (`_nrt=False`), so in it
 
 - no array is made, and none is assigned to a slice: a loop instead (a number may be assigned to a slice);
 - nothing is raised, and no index is looked at: tables and state are made to fit each other;
