@@ -15,15 +15,14 @@ from contextlib import ExitStack, contextmanager, suppress
 from functools import cache
 from hashlib import sha256
 from pathlib import Path
-from threading import RLock
 from typing import IO
 
 from llvmlite.binding import get_host_cpu_features
 
 from mindrun.files.user_cache import user_cache
-from mindrun.sim.dependencies import DIGITS, called, fingerprint, functions
+from mindrun.sim.dependencies import HASH_DIGITS, called, fingerprint, functions
 from mindrun.sim.machine_code import load, target
-from mindrun.sim.units import Unit
+from mindrun.sim.units import FINDERS, Unit
 
 SIM_FOLDER = Path(__file__).parent
 SHIPPED = SIM_FOLDER / "compiled"  # in the wheel
@@ -35,32 +34,44 @@ FOLDER = "compiled"  # in the user's cache
 # itself: the other may be stopped, or its machine be gone while a shared disk keeps its lock.
 WAIT_SECONDS = 600.0
 ASK_AGAIN_SECONDS = 0.05
-LOCK = RLock()  # of the threads of this process: numba has one of its own, and LLVM none
 
 
 @cache
 def folder() -> Path:
-    """The folder of machine code: in the user's cache; where that cannot be written, one of this process alone."""
-    try:
+    """The folder of machine code: in the user's cache; where that cannot be written, one of this process alone.
+
+    It is not there where nothing can be written at all.
+    """
+    with suppress(OSError, RuntimeError):  # RuntimeError: there is no home
         found = user_cache() / FOLDER
         found.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=found):
             return found
-    except (OSError, RuntimeError):  # RuntimeError: there is no home
+    with suppress(OSError):
         own = Path(tempfile.mkdtemp(prefix="mind-"))  # never a known name: whoever can write it can run code here
         atexit.register(shutil.rmtree, own, ignore_errors=True)
         found = own / FOLDER
         found.mkdir()
         return found
+    return Path(os.devnull) / FOLDER
+
+
+def lasts() -> bool:
+    """True where what is kept is there at the next start."""
+    with suppress(RuntimeError):
+        return folder().parent == user_cache()
+    return False
 
 
 def address_of(unit: Unit) -> int:
     """The address of a unit's machine code, loaded now; it is made, and kept, where there is none."""
-    with LOCK:
-        if (code := find(unit)) is None:
-            with exclusive(_kept(unit).with_suffix(".lock"), WAIT_SECONDS):
-                code = find(unit) or _make(unit)
-        return load(code, unit.name, {each.slot_name: each.place for each in called(unit)})
+    if (code := find(unit)) is None:
+        with exclusive(_kept(unit).with_suffix(".lock"), WAIT_SECONDS):
+            code = find(unit) or _make(unit)
+    return load(code, unit.name, {each.slot_name: each.place for each in called(unit)})
+
+
+FINDERS[:] = [address_of]
 
 
 def make_missing(units: Iterable[Unit]) -> None:
@@ -86,7 +97,7 @@ def find(unit: Unit) -> bytes | None:
 
 def is_native(unit: Unit) -> bool:
     """True if it is kept, made for this very processor."""
-    return _kept(unit).is_file()
+    return _read(_kept(unit)) is not None
 
 
 def _kept(unit: Unit) -> Path:
@@ -95,7 +106,7 @@ def _kept(unit: Unit) -> Path:
 
 def _file(unit: Unit, processor: str, features: str) -> str:
     """The name of a unit's file for a kind of processors."""
-    digest = sha256(f"{fingerprint(unit)} {target().triple} {features}".encode()).hexdigest()[:DIGITS]
+    digest = sha256(f"{fingerprint(unit)} {target().triple} {features}".encode()).hexdigest()[:HASH_DIGITS]
     return f"{unit.name.removeprefix('mindrun.')}-{processor}-{digest}.code"
 
 
@@ -116,7 +127,7 @@ def _length(unit: Unit) -> int:
 
 def fitting() -> list[str]:
     """The kinds of PROCESSORS whose code this one can run; none where a user wants another's code."""
-    if os.environ.get("NUMBA_CPU_NAME"):
+    if os.environ.get("NUMBA_CPU_NAME") or os.environ.get("NUMBA_CPU_FEATURES"):
         return []
     has = {f"+{name}" for name, is_there in get_host_cpu_features().items() if is_there}
     return [kind for kind, needs in PROCESSORS.items() if {*needs.split(",")} <= has]
@@ -134,8 +145,13 @@ def _read(path: Path) -> bytes | None:
 def _write(path: Path, data: bytes) -> None:
     """Write a file beside, then rename it: another process may be reading."""
     with tempfile.NamedTemporaryFile(dir=path.parent, delete=False) as file:
-        file.write(sha256(data).digest() + data)
-    Path(file.name).replace(path)
+        beside = Path(file.name)
+        try:
+            file.write(sha256(data).digest() + data)
+            file.flush()
+            beside.replace(path)
+        finally:
+            beside.unlink(missing_ok=True)
 
 
 @contextmanager

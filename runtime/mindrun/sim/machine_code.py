@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 from llvmlite import binding as llvm
 
-SPEED = 3  # as -O3
+SPEED_LEVEL = 3  # as -O3
 
 
 class Target(NamedTuple):
@@ -37,7 +37,7 @@ def machine_code(module: Any, name: str) -> bytes:
         if not each.is_declaration and each.name != name:
             each.linkage = "internal"  # what it is handed and does not need falls away
     without_variables_in_memory(module, _passes(machine, 0))
-    passes = _passes(machine, SPEED)
+    passes = _passes(machine, SPEED_LEVEL)
     passes.getModulePassManager().run(module, passes)
     return bytes(machine.emit_object(module))
 
@@ -69,7 +69,7 @@ def _engine() -> Any:
 def _machine() -> Any:
     triple, processor, features = target()
     return llvm.Target.from_triple(triple).create_target_machine(
-        cpu=processor, features=features, opt=SPEED, codemodel="jitdefault", jit=True,
+        cpu=processor, features=features, opt=SPEED_LEVEL, codemodel="jitdefault", jit=True,
         reloc="static" if triple.startswith(("x86", "i")) else "default",  # as numba has it
     )  # fmt: skip
 
