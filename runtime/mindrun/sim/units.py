@@ -20,7 +20,6 @@ from mindrun.sim.arrays import Block
 FAILED_CODE = 70  # EX_SOFTWARE of sysexits.h
 WORD_BITS = 64
 LOCK = RLock()  # of the threads of this process: one at a time finds or makes machine code
-os.register_at_fork(before=LOCK.acquire, after_in_parent=LOCK.release, after_in_child=LOCK.release)
 Kind = Any  # of an argument: int, float, Pointer, a class of blocks, or the dtype of a table for one of its rows
 Needed = Callable[[Any], bool]  # of tables
 
