@@ -101,7 +101,6 @@ def test_weights_are_put_beside_a_graph_in_few_places() -> None:
         "mindlang/training/teaching.py": "a run has those of its subject, which is arranged",
         "mindlang/view/learning.py": "a run has those of its mind, which is arranged",
         "runtime/mindrun/graph/bundle.py": "a bundle has both, sealed",
-        "runtime/mindrun/sim/warmup.py": "none",
         "runtime/mindrun/sim/commanded_lanes.py": "none",
         "mindlang/environments/episodes.py": "none",
         "mindlang/environments/live_view.py": "those of an agent, but for the skill that a program plays",

@@ -24,6 +24,7 @@ COMMANDS = {  # of the runtime, and why each may speak
     "robot/world_server.py": "the simulated world, a program of its own",
     "sim/outside/__main__.py": "python -m mindrun.sim.outside: the process that steps environments",
     "sim/outside/making.py": "what an environment's package says when it is imported is no answer of a command",
+    "sim/units.py": "C calls what cannot be compiled, and can be told of no exception",
     "sim/warmup.py": "python -m mindrun.sim.warmup: the process that compiles",
     "cli/adopt.py": "mindrun adopt",
     "cli/calibrate.py": "mindrun calibrate",

@@ -9,11 +9,11 @@ import sys
 import time
 from pathlib import Path
 from statistics import mean, stdev
+from types import SimpleNamespace
 
 import pytest
-from mindrun.sim import cache, warmup
-from mindrun.sim.lanes.advance import advance
 
+from mindlang.cli import _session
 from mindlang.run.setup import layouts
 from tests.calling import RULES, Call
 
@@ -123,18 +123,9 @@ def test_workers_change_nothing(mindc: Call, rules: Path) -> None:
 
 
 def test_a_first_run_says_why_it_takes_so_long(mindc: Call, rules: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("mindrun.sim.warmup.is_there", lambda entries: False)
-    assert mindc("run", rules, "--seed", 3).err == "compiling the simulator once (about half a minute)…\n"
+    monkeypatch.setattr(_session, "cache", SimpleNamespace(find=lambda unit: None))
+    assert mindc("run", rules, "--seed", 3).err == f"{_session.COMPILING}\n"
     assert mindc("run", rules, "--seed", 3, "--quiet").err == ""
-
-
-def test_what_was_compiled_of_other_files_does_not_count(
-    mindc: Call, rules: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    assert mindc("run", rules, "--seed", 3, "--quiet").code == 0
-    assert warmup.is_there((advance,))
-    monkeypatch.setattr(cache, "folder", lambda: tmp_path)
-    assert not warmup.is_there((advance,))
 
 
 def test_bench_for_people(mindc: Call, rules: Path) -> None:

@@ -282,7 +282,7 @@ def test_vectors_of_any_width_have_the_same_bits(tmp_path: Path) -> None:
         )
         found[kind] = ended.stdout
         processor = settings.get("NUMBA_CPU_NAME", target().processor)
-        assert [*(tmp_path / kind).glob(f"*/lanes.advance.advance-{processor}-*.code")]
+        assert [*(tmp_path / kind).glob(f"*/sim.lanes.advance.advance-{processor}-*.code")]
     assert len(found["native"]) == 1 + 2 * hashlib.sha256().digest_size
     assert len(set(found.values())) == 1, found
     assert len(found) > 1
