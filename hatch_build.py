@@ -1,6 +1,7 @@
 """Wheels with the simulator's machine code, where MIND_COMPILED is set: `make wheel`.
 
-It is for the kind of processors of which this one is (`mindrun.sim.cache`), this Python and the installed numba.
+It has every unit, for the kind of processors of which this one is (`mindrun.sim.cache`), this Python and the installed
+numba.
 """
 
 import os
@@ -33,5 +34,5 @@ def _compiled(root: Path, place: str) -> list[Path]:
     kind = cache.fitting()[0]
     settings = {"NUMBA_CPU_NAME": kind, "NUMBA_CPU_FEATURES": cache.PROCESSORS[kind], "NUMBA_CACHE_DIR": place}
     environment = os.environ | settings | {"PYTHONPATH": str(root / "runtime")}
-    subprocess.run([sys.executable, "-m", "mindrun.sim.warmup"], env=environment, check=True)
+    subprocess.run([sys.executable, "-P", "-m", "mindrun.sim.warmup"], env=environment, check=True)
     return sorted(Path(place).glob("*/*.code"))

@@ -126,12 +126,11 @@ def _is_met(package: Requirement) -> bool:
 
 def machine_code() -> Iterator[DoctorFinding]:
     """The simulator's machine code: its folder, and whether it is there."""
-    from mindrun.files.user_cache import user_cache
     from mindrun.sim import cache, warmup
     from mindrun.sim.machine_code import target
 
     folder, units = cache.folder(), warmup.every_unit()
-    if folder.parent == user_cache():
+    if cache.lasts():
         yield DoctorFinding("compiler cache", "ok", f"{_mebibytes(folder)} MiB in {folder}")
     else:
         mend = "let XDG_CACHE_HOME name a folder that can be written"

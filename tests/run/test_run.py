@@ -9,12 +9,11 @@ import sys
 import time
 from pathlib import Path
 from statistics import mean, stdev
+from types import SimpleNamespace
 
 import pytest
-from mindrun.sim import cache, warmup
-from mindrun.sim.lanes.advance import advance
-from mindrun.sim.units import Unit
 
+from mindlang.cli import _session
 from mindlang.run.setup import layouts
 from tests.calling import RULES, Call
 
@@ -124,28 +123,9 @@ def test_workers_change_nothing(mindc: Call, rules: Path) -> None:
 
 
 def test_a_first_run_says_why_it_takes_so_long(mindc: Call, rules: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    kept, asked = cache.find, set[Unit]()
-
-    def find(unit: Unit) -> bytes | None:
-        """What is kept of a unit, but where it is asked for the first time."""
-        if unit in asked:
-            return kept(unit)
-        asked.add(unit)
-        return None
-
-    monkeypatch.setattr(cache, "find", find)
-    assert mindc("run", rules, "--seed", 3).err == "compiling the simulator once (some ten seconds)…\n"
-    asked.clear()
+    monkeypatch.setattr(_session, "cache", SimpleNamespace(find=lambda unit: None))
+    assert mindc("run", rules, "--seed", 3).err == f"{_session.COMPILING}\n"
     assert mindc("run", rules, "--seed", 3, "--quiet").err == ""
-
-
-def test_what_was_compiled_of_other_files_does_not_count(
-    mindc: Call, rules: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    assert mindc("run", rules, "--seed", 3, "--quiet").code == 0
-    assert warmup.is_there((advance,))
-    monkeypatch.setattr(cache, "folder", lambda: tmp_path)
-    assert not warmup.is_there((advance,))
 
 
 def test_bench_for_people(mindc: Call, rules: Path) -> None:

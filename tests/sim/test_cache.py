@@ -1,4 +1,4 @@
-"""Machine code between starts: whole and of these sources, versions and processor, or made anew."""
+"""Machine code between starts: whole, of these sources, versions and processor, or made anew."""
 
 import hashlib
 import os
@@ -6,95 +6,195 @@ import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from shutil import copy
+from types import SimpleNamespace
 from typing import Any
 
-import numba
 import pytest
-from mindrun.sim import cache, warmup
-from mindrun.sim.compiling import compiled, entry
-from numba.core.registry import cpu_target
+from mindrun.sim import cache, compilation, dependencies
+from mindrun.sim.machine_code import Target, target
+from mindrun.sim.warmup import every_unit
 
 import mindlang.cli._session as simulator
 from tests.calling import Call
 from tests.language.examples import ROOT
+from tests.sim.conftest import Write
+
+TWICE = """
+@unit
+def twice(x: float) -> float:
+    return x * 2
+"""
 
 
-@compiled
-def half(x):
-    return x / 2
+def starts(write: Write) -> bool:
+    """True if a unit does what it should, as at the start of a process."""
+    return bool(write(TWICE).twice(10.5) == 21)
 
 
-def twice_halved(x: float) -> float:
-    return half(half(x))
-
-
-@pytest.fixture
-def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.setattr(cache, "folder", lambda: tmp_path)
-    monkeypatch.setattr(cache, "SHIPPED", tmp_path / "shipped")
-    (tmp_path / "shipped").mkdir()
-    return tmp_path
-
-
-def loads(function: Callable[..., Any] = twice_halved, given: float = 10.0) -> bool:
-    """Whether a function's machine code is found; it does what it should, either way."""
-    dispatcher: Any = entry(function)
-    assert dispatcher(given) == given / 4
-    return sum(dispatcher.stats.cache_hits.values()) == 1
-
-
-def test_what_was_compiled_is_found_at_the_next_start(place: Path) -> None:
-    assert [loads(), loads()] == [False, True]
+def test_what_was_compiled_is_found_at_the_next_start(place: Path, write: Write, made: list[str]) -> None:
+    assert starts(write)
+    assert starts(write)
+    assert made == ["written.twice"]
     (kept,) = place.glob("*.code")
-    assert kept.name.startswith(f"test_cache.twice_halved-{cache.processor()}-")
-    assert not loads(given=12), "of whole numbers it is another function"
-    assert len([*place.glob("*.code")]) == 2
+    assert kept.name.startswith(f"written.twice-{target().processor}-")
 
 
 @pytest.mark.parametrize(
     "damage", [lambda data: data[:-1], lambda data: b"", lambda data: data[:50] + b"?" + data[51:]]
 )
-def test_what_is_damaged_is_made_anew(place: Path, damage: Callable[[bytes], bytes]) -> None:
-    assert not loads()
+def test_what_is_damaged_is_made_anew(
+    place: Path, write: Write, made: list[str], damage: Callable[[bytes], bytes]
+) -> None:
+    assert starts(write)
     (kept,) = place.glob("*.code")
     kept.write_bytes(damage(kept.read_bytes()))
-    assert [loads(), loads()] == [False, True]
+    unit = write(TWICE).twice
+    assert not cache.is_native(unit)
+    cache.make_missing([unit])
+    assert cache.is_native(unit)
+    assert starts(write)
+    assert made == ["written.twice"] * 2
 
 
-def test_other_sources_have_other_machine_code(place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    assert not loads()
-    monkeypatch.setattr(cache, "stamp", lambda: "another")
-    assert not loads()
-    monkeypatch.undo()
+LANES = '''
+"""Lanes."""
+
+FACTOR = 3
+WEIGHTS = np.arange(3000) // 7
+named = ModuleType("named")
+named.SIZE, named.KIND = np.float32(0.5), np.float64
+
+@dataclass(frozen=True)
+class Part(Block):
+    numbers: Annotated[Any, Room(np.dtype(np.int64), 1, lambda counts, lanes: (lanes,))]
+
+def scaled(x):
+    """A number of times."""
+    return FACTOR * x
+
+@unit
+def other(x: int) -> int:
+    """Another one."""
+    return x - 1
+
+@unit
+def whole(part: Part, x: int) -> float:
+    """The whole."""
+    return scaled(x) + other(part.numbers[0]) + WEIGHTS[x] + named.KIND(named.SIZE)
+'''
+FOUND_ELSEWHERE = [  # what is changed, and how, where the machine code of `whole` is another
+    ("FACTOR * x", "x * FACTOR"),
+    ("FACTOR = 3", "FACTOR = 4"),
+    ("FACTOR = 3", "FACTOR = 3.0"),
+    ("// 7", "// 7 + (np.arange(3000) == 1500)"),
+    ("np.float32(0.5)", "np.float32(0.25)"),
+    ("np.float32(0.5)", "np.float64(0.5)"),
+    ("np.float64\n", "np.float32\n"),
+    ("np.dtype(np.int64)", "np.dtype(np.int32)"),
+    ("    numbers", "    first: Annotated[Any, Room(np.dtype(bool), 2, None)]\n    numbers"),
+    ("def other(x: int)", "def other(x: float)"),
+    ("other(part.numbers[0])", "scaled(part.numbers[0])"),
+]
+LEFT = [('"""The whole."""', '"""All."""'), ("A number", "Some"), ("\n\n", "\n# why\n\n\n"), ("x - 1", "x - 2")]
 
 
-def test_where_nothing_can_be_written_it_is_compiled_each_time(place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(cache, "folder", lambda: place / "gone")
-    assert [loads(), loads()] == [False, False]
+@pytest.mark.parametrize(("was", "now", "is_left"), [(*c, False) for c in FOUND_ELSEWHERE] + [(*c, True) for c in LEFT])
+def test_only_what_machine_code_depends_on_gives_it_another_name(
+    write: Write, was: str, now: str, is_left: bool
+) -> None:
+    assert was in LANES
+    before = dependencies.fingerprint(write(LANES).whole)
+    after = dependencies.fingerprint(write(LANES.replace(was, now), file="elsewhere.py").whole)
+    assert (before == after) == is_left
+
+
+def test_another_compiler_gives_it_another_name(write: Write, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(dependencies, "_compiler", dependencies._compiler.__wrapped__)
+
+    def name() -> str:
+        return dependencies.fingerprint(write(LANES).whole)
+
+    before = name()
+    for source in dependencies.COMPILER:
+        copy(cache.SIM_FOLDER / f"{source}.py", tmp_path)
+    monkeypatch.setattr(dependencies, "__file__", tmp_path / "dependencies.py")
+    found = [before, name()]
+    for source in dependencies.COMPILER:
+        with (tmp_path / f"{source}.py").open("a") as file:
+            file.write("#")
+        found.append(name())
+    monkeypatch.setattr(dependencies, "version", lambda package: "0.63")
+    found.append(name())
+    assert found[0] == found[1]
+    assert len({*found}) == len(found) - 1
+
+
+NAMES = """
+from mindrun.sim.dependencies import fingerprint
+from mindrun.sim.warmup import every_unit
+print(*sorted(map(fingerprint, every_unit())))
+"""
+
+
+def test_every_process_gives_it_the_same_name() -> None:
+    found = [
+        subprocess.check_output([sys.executable, "-c", NAMES], env=os.environ | {"PYTHONHASHSEED": seed}, text=True)
+        for seed in ("1", "2")
+    ]
+    names = found[0].split()
+    assert found[0] == found[1]
+    assert len({*names}) == len(names) == len(every_unit())
+
+
+def test_where_nothing_can_be_written_it_is_compiled_each_time(
+    write: Write, made: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def mkdtemp(prefix: str) -> str:
+        raise FileNotFoundError(prefix)
+
+    monkeypatch.setenv("NUMBA_CACHE_DIR", os.devnull)
+    monkeypatch.setattr("tempfile.mkdtemp", mkdtemp)
+    nowhere = cache.folder.__wrapped__()
+    monkeypatch.setattr(cache, "folder", lambda: nowhere)
+    monkeypatch.setattr(compilation, "_begin", None)  # nobody could hand us anything
+    compilation.compile_missing([write(TWICE).twice])
+    assert starts(write)
+    assert starts(write)
+    assert made == ["written.twice"] * 2
 
 
 @pytest.fixture
-def shipped(place: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def shipped(place: Path, write: Write, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Machine code as in a wheel, for a kind of processors of which this one is."""
-    monkeypatch.setattr(cache, "PROCESSORS", {"any": cpu_target.target_context.codegen().magic_tuple()[2]})
+    monkeypatch.setattr(cache, "PROCESSORS", {"any": target().features})
+    monkeypatch.setattr(cache, "target", lambda: Target(target().triple, "any", target().features))
+    assert starts(write)
+    monkeypatch.setattr(cache, "target", target)
     monkeypatch.setattr(cache, "fitting", lambda: ["any"])
-    monkeypatch.setattr(numba.config, "CPU_NAME", "any")
-    assert not loads()
-    monkeypatch.setattr(numba.config, "CPU_NAME", None)
     (kept,) = place.glob("*.code")
-    return kept.rename(place / "shipped" / kept.name)
+    cache.SHIPPED.mkdir()
+    return kept.rename(cache.SHIPPED / kept.name)
 
 
-def test_what_was_shipped_is_found_where_nothing_is_kept(place: Path, shipped: Path) -> None:
+def test_what_was_shipped_is_found_where_nothing_is_kept(
+    place: Path, shipped: Path, write: Write, made: list[str]
+) -> None:
     assert "-any-" in shipped.name
-    assert loads()
-    assert not [*place.glob("*.code")]
+    assert starts(write)
+    assert made == []
+    assert [*place.glob("*.code")] == []
+    assert not cache.is_native(write(TWICE).twice)
 
 
-def test_what_was_shipped_for_others_is_not_found(place: Path, shipped: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.usefixtures("shipped")
+def test_what_was_shipped_for_others_is_not_found(
+    write: Write, made: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr(cache, "fitting", lambda: ["other"])
     monkeypatch.setattr(cache, "PROCESSORS", {"other": ""})
-    assert not loads()
+    assert starts(write)
+    assert made == ["written.twice"]
 
 
 def test_which_kinds_a_processor_is_of(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -103,35 +203,46 @@ def test_which_kinds_a_processor_is_of(monkeypatch: pytest.MonkeyPatch) -> None:
     kinds = {"all": f"+{has[0]},+{has[1]}", "one": f"+{has[0]},+{(lacks or ['x'])[0]}", "none": "+what-is-this"}
     monkeypatch.setattr(cache, "PROCESSORS", kinds)
     assert cache.fitting() == ["all"]
-    monkeypatch.setattr(numba.config, "CPU_NAME", cache.processor())
-    assert cache.fitting() == [], "who names a processor gets what is made for it"
+    for variable in ("NUMBA_CPU_NAME", "NUMBA_CPU_FEATURES"):
+        with monkeypatch.context() as patch:
+            patch.setenv(variable, "said")
+            assert cache.fitting() == [], "who names a processor gets what is made for it"
 
 
-@pytest.mark.parametrize(("is_there", "native"), [(True, True), (True, False), (False, False)])
+@pytest.mark.parametrize("found", [True, False])
+@pytest.mark.parametrize("native", [True, False])
+@pytest.mark.parametrize("lasts", [True, False])
 def test_native_code_is_made_behind_what_was_shipped(
-    monkeypatch: pytest.MonkeyPatch, is_there: bool, native: bool
+    monkeypatch: pytest.MonkeyPatch, found: bool, native: bool, lasts: bool
 ) -> None:
     """And only then: where nothing can be kept it would be made again and again."""
 
     class Compiled:
-        entries = ()
+        def units(self) -> list[None]:
+            return [None]
 
-        def compile(self) -> None:
+        def compile(self, told: Callable[[], None]) -> None:
             pass
 
-    started: list[str] = []
-    monkeypatch.setattr(warmup, "is_there", lambda entries: is_there)
-    monkeypatch.setattr(warmup, "is_native", lambda entries: native)
-    monkeypatch.setattr(warmup, "start", lambda *words: started.extend(words))
+    begun: list[Any] = []
+    known = SimpleNamespace(find=lambda unit: b"" if found else None, is_native=lambda unit: native)
+    monkeypatch.setattr(simulator, "cache", known)
+    monkeypatch.setattr(cache, "lasts", lambda: lasts)
+    monkeypatch.setattr(subprocess, "Popen", lambda words, env, **more: begun.append((words[-1], env, more)))
     simulator.ensure_compiled(Compiled(), lambda words: None)  # type: ignore[arg-type]
-    assert started == ([warmup.IN_BACKGROUND] if is_there and not native else [])
+    assert len(begun) == (found and lasts and not native)
+    for word, environment, more in begun:
+        assert word == compilation.IN_BACKGROUND
+        assert environment["NUMBA_CPU_NAME"] == target().processor, "else it would take what was shipped"
+        assert more["start_new_session"], "it goes on when this process ends"
 
 
 def test_a_warm_simulator_says_where_it_lies(mindc: Call) -> None:
-    warmup.warm_up()
+    mindc("warmup")
+    assert all(map(cache.is_native, every_unit()))
     said = mindc("warmup")
     assert (said.code, said.err) == (0, "")
-    assert said.out == f"the simulator had been compiled for {cache.processor()}: {cache.folder()}\n"
+    assert said.out == f"the simulator had been compiled for {target().processor}: {cache.folder()}\n"
 
 
 DIGEST = """
@@ -145,6 +256,7 @@ ready = make_ready(found.graph, found.sources)
 digest = sha256()
 for skill in ("GoToObject", "Avoid", "Collect"):
     rollout = Rollout(ready.policy, skill, skill, [skill], lanes=48)
+    rollout.compile()
     genomes = np.random.default_rng(1).normal(0, 1, (24, rollout.genome_length)).astype(np.float32)
     scores = rollout.score(genomes, [1, 2])
     for part in (scores.total, scores.by_line, scores.ticks, scores.ended_by, scores.faults):
@@ -169,6 +281,8 @@ def test_vectors_of_any_width_have_the_same_bits(tmp_path: Path) -> None:
             [sys.executable, "-c", DIGEST], env=environment, cwd=ROOT, capture_output=True, text=True, check=True
         )
         found[kind] = ended.stdout
+        processor = settings.get("NUMBA_CPU_NAME", target().processor)
+        assert [*(tmp_path / kind).glob(f"*/sim.lanes.advance.advance-{processor}-*.code")]
     assert len(found["native"]) == 1 + 2 * hashlib.sha256().digest_size
     assert len(set(found.values())) == 1, found
     assert len(found) > 1

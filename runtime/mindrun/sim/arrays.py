@@ -24,6 +24,11 @@ class Room:
         """Zeros for so many lanes."""
         return np.zeros(self.shape(counts, lanes), self.dtype)
 
+    def holds(self, value: Any) -> bool:
+        """True for an array as this one says."""
+        is_known = isinstance(value, np.ndarray) and value.dtype == self.dtype and value.ndim == self.dimensions
+        return is_known and value.flags.c_contiguous and value.flags.aligned
+
     @property
     def words(self) -> int:
         """The number of words in a block: an address and a shape."""
@@ -66,16 +71,17 @@ class Block:
         """The place of the words, which compiled code is handed; valid as long as this object."""
         return int(self.block.ctypes.data)
 
+    def __getstate__(self) -> dict[str, Any]:
+        return {field.name: getattr(self, field.name) for field in fields(self)}  # a copy has words of its own
+
     def _words(self) -> Iterator[int]:
         for name, (_, kind) in self.layout().items():
             value = getattr(self, name)
-            if isinstance(kind, Room):
-                if value.dtype != kind.dtype or value.ndim != kind.dimensions or not value.flags.c_contiguous:
-                    said = (
-                        f"{value.dtype} in {value.ndim} dimensions where {kind.dtype} in {kind.dimensions} is declared"
-                    )
-                    raise TypeError(f"{type(self).__name__}.{name} is {said}")
+            if not isinstance(kind, Room) and isinstance(value, kind):
+                yield from value._words()
+            elif isinstance(kind, Room) and kind.holds(value):
                 yield value.ctypes.data
                 yield from value.shape
             else:
-                yield from value._words()
+                said = f"{kind.dtype} in {kind.dimensions} dimensions" if isinstance(kind, Room) else kind.__name__
+                raise TypeError(f"{type(self).__name__}.{name} is not {said}, side by side in the order of C")

@@ -15,7 +15,6 @@ from contextlib import ExitStack, contextmanager, suppress
 from functools import cache
 from hashlib import sha256
 from pathlib import Path
-from threading import RLock
 from typing import IO
 
 from llvmlite.binding import get_host_cpu_features
@@ -35,32 +34,41 @@ FOLDER = "compiled"  # in the user's cache
 # itself: the other may be stopped, or its machine be gone while a shared disk keeps its lock.
 WAIT_SECONDS = 600.0
 ASK_AGAIN_SECONDS = 0.05
-LOCK = RLock()  # of the threads of this process: numba has one of its own, and LLVM none
 
 
 @cache
 def folder() -> Path:
-    """The folder of machine code: in the user's cache; where that cannot be written, one of this process alone."""
-    try:
+    """The folder of machine code: in the user's cache; where that cannot be written, one of this process alone.
+
+    It is not there where nothing can be written at all.
+    """
+    with suppress(OSError, RuntimeError):  # RuntimeError: there is no home
         found = user_cache() / FOLDER
         found.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=found):
             return found
-    except (OSError, RuntimeError):  # RuntimeError: there is no home
+    with suppress(OSError):
         own = Path(tempfile.mkdtemp(prefix="mind-"))  # never a known name: whoever can write it can run code here
         atexit.register(shutil.rmtree, own, ignore_errors=True)
         found = own / FOLDER
         found.mkdir()
         return found
+    return Path(os.devnull) / FOLDER
+
+
+def lasts() -> bool:
+    """True where what is kept is there at the next start."""
+    with suppress(RuntimeError):
+        return folder().parent == user_cache()
+    return False
 
 
 def address_of(unit: Unit) -> int:
     """The address of a unit's machine code, loaded now; it is made, and kept, where there is none."""
-    with LOCK:
-        if (code := find(unit)) is None:
-            with exclusive(_kept(unit).with_suffix(".lock"), WAIT_SECONDS):
-                code = find(unit) or _make(unit)
-        return load(code, unit.name, {each.slot_name: each.place for each in called(unit)})
+    if (code := find(unit)) is None:
+        with exclusive(_kept(unit).with_suffix(".lock"), WAIT_SECONDS):
+            code = find(unit) or _make(unit)
+    return load(code, unit.name, {each.slot_name: each.place for each in called(unit)})
 
 
 Unit.address_of = address_of
@@ -89,7 +97,7 @@ def find(unit: Unit) -> bytes | None:
 
 def is_native(unit: Unit) -> bool:
     """True if it is kept, made for this very processor."""
-    return _kept(unit).is_file()
+    return _read(_kept(unit)) is not None
 
 
 def _kept(unit: Unit) -> Path:
@@ -119,7 +127,7 @@ def _length(unit: Unit) -> int:
 
 def fitting() -> list[str]:
     """The kinds of PROCESSORS whose code this one can run; none where a user wants another's code."""
-    if os.environ.get("NUMBA_CPU_NAME"):
+    if os.environ.get("NUMBA_CPU_NAME") or os.environ.get("NUMBA_CPU_FEATURES"):
         return []
     has = {f"+{name}" for name, is_there in get_host_cpu_features().items() if is_there}
     return [kind for kind, needs in PROCESSORS.items() if {*needs.split(",")} <= has]
@@ -137,8 +145,13 @@ def _read(path: Path) -> bytes | None:
 def _write(path: Path, data: bytes) -> None:
     """Write a file beside, then rename it: another process may be reading."""
     with tempfile.NamedTemporaryFile(dir=path.parent, delete=False) as file:
-        file.write(sha256(data).digest() + data)
-    Path(file.name).replace(path)
+        beside = Path(file.name)
+        try:
+            file.write(sha256(data).digest() + data)
+            file.flush()
+            beside.replace(path)
+        finally:
+            beside.unlink(missing_ok=True)
 
 
 @contextmanager

@@ -5,6 +5,8 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterable, Sequence
+from contextlib import suppress
+from pathlib import Path
 
 from mindrun.processors import cores
 from mindrun.sim import cache
@@ -27,15 +29,19 @@ def compile_natively(units: Iterable[Unit], told: Callable[[], None] = lambda: N
 
 def compile_in_background() -> None:
     """Begin to compile all units for this very processor, and go on when this process ends."""
-    _process(IN_BACKGROUND, own_session=True)
+    if cache.lasts():
+        _begin(IN_BACKGROUND, own_session=True)
 
 
 def _compile(missing: Sequence[Unit], is_made: Callable[[Unit], bool], told: Callable[[], None]) -> None:
-    names, waiting = [each.name for each in missing], [*missing]
-    processes = [_process(*names) for _ in range(min(cores(), MOST_PROCESSES, len(missing)))]
+    names, waiting, processes = [each.name for each in missing], [*missing], list[subprocess.Popen[bytes]]()
     try:
-        while any(each.poll() is None for each in processes):
+        for _ in range(min(cores(), MOST_PROCESSES, len(missing)) if cache.folder().is_dir() else 0):
+            processes += _begin(*names)
+        are_at_work = bool(processes)
+        while are_at_work:
             time.sleep(cache.ASK_AGAIN_SECONDS)
+            are_at_work = any(each.poll() is None for each in processes)
             for unit in [each for each in waiting if is_made(each)]:
                 waiting.remove(unit)
                 told()
@@ -45,12 +51,18 @@ def _compile(missing: Sequence[Unit], is_made: Callable[[Unit], bool], told: Cal
             each.wait()
 
 
-def _process(*words: str, own_session: bool = False) -> "subprocess.Popen[bytes]":
-    """A process of `warmup`, in a session of its own where it goes on by itself."""
+def _begin(*words: str, own_session: bool = False) -> "list[subprocess.Popen[bytes]]":
+    """A process of `warmup`, in a session of its own where it goes on by itself; none where none can begin.
+
+    What is imported here is found there, and nothing else: -P.
+    """
     kind = {"NUMBA_CPU_NAME": target().processor, "NUMBA_CPU_FEATURES": target().features}
     place = {"NUMBA_CACHE_DIR": str(cache.folder().parent)}
+    path = {"PYTHONPATH": os.pathsep.join(each or f"{Path.cwd()}" for each in sys.path)}
     nowhere = subprocess.DEVNULL
-    return subprocess.Popen(
-        [sys.executable, "-m", "mindrun.sim.warmup", *words],
-        env=os.environ | kind | place, stdin=nowhere, stdout=nowhere, stderr=nowhere, start_new_session=own_session,
-    )  # fmt: skip
+    with suppress(OSError):
+        return [subprocess.Popen(
+            [sys.executable, "-P", "-m", "mindrun.sim.warmup", *words], env=os.environ | kind | place | path,
+            stdin=nowhere, stdout=nowhere, stderr=nowhere, start_new_session=own_session,
+        )]  # fmt: skip
+    return []

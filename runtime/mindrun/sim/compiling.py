@@ -45,14 +45,16 @@ def compile_unit(unit: Unit) -> bytes:
 
 
 def _for_c(unit: Unit, context: Any, module: Any, description: Any) -> None:
-    """Add a function of C to a module, which calls a function of numba's."""
+    """Add a function of C to a module, which calls a function of numba's; where that raises, the process ends."""
     kinds = [context.get_value_type(kind) for kind in description.argtypes]
     gives = ir.VoidType() if unit.form.gives is None else context.get_value_type(description.restype)
     convention = context.call_conv.get_function_type(description.restype, description.argtypes)
     callee = ir.Function(module, convention, description.llvm_func_name)
     builder = ir.IRBuilder(ir.Function(module, ir.FunctionType(gives, kinds), unit.name).append_basic_block())
     given = builder.function.args
-    _, result = context.call_conv.call_function(builder, callee, description.restype, description.argtypes, given)
+    status, result = context.call_conv.call_function(builder, callee, description.restype, description.argtypes, given)
+    with builder.if_then(status.is_error, likely=False):  # it has raised, which nobody would notice
+        builder.call(builder.module.declare_intrinsic("llvm.trap", (), ir.FunctionType(ir.VoidType(), [])), [])
     builder.ret_void() if unit.form.gives is None else builder.ret(result)
 
 
@@ -91,6 +93,11 @@ class BlockType(types.Type):  # type: ignore[misc]
     def __init__(self, kind: type[Block]) -> None:
         self.kind = kind
         super().__init__(kind.__name__)
+
+    @property
+    def key(self) -> Any:
+        """By this numba tells types apart: two kinds may have one name."""
+        return self.kind
 
 
 @register_model(BlockType)

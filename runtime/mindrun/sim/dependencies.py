@@ -22,6 +22,7 @@ from mindrun.sim.units import UNITS, AddressOf, Form, Unit
 
 VERSIONS = "numba", "llvmlite", "numpy"
 COMPILER = "arrays", "compiling", "machine_code", "numba_internals", "vector"  # files of this folder
+CONSTANTS = (int, float, np.generic, np.ndarray, tuple, list, type)  # of a module
 HASH_DIGITS = 16  # hexadecimal
 
 
@@ -29,7 +30,7 @@ def needed_units(entries: Iterable[Unit], tables: Any) -> list[Unit]:
     """These units and all that they call under some tables, those of kinds among them."""
     rows = np.concatenate([tables.sensors["lane"], tables.skills["lane"][tables.skills["address"] == 0]])
     places, found, waiting = {*rows.tolist()}, dict[Unit, None](), [*entries]
-    waiting += [each for each in UNITS.values() if each.place in places]
+    waiting += [each for each in [*UNITS.values()] if each.place in places]
     while waiting:
         each = waiting.pop()
         if each not in found and each.needed(tables):
@@ -87,13 +88,14 @@ def _compiler() -> str:
 def _of_function(function: FunctionType) -> str:
     """Its code, and what it names, but for functions: these speak for themselves."""
     values = [f"{name} {_value(value, function)}" for name, value in used(function)]
-    return f"{function.__module__}.{function.__qualname__} {function.__defaults__} {_code(function.__code__)} {values}"
+    code = _code(function.__code__, function.__doc__)
+    return f"{function.__module__}.{function.__qualname__} {function.__defaults__} {code} {values}"
 
 
-def _code(code: CodeType) -> str:
+def _code(code: CodeType, docstring: str | None = None) -> str:
     """Some code without its docstring, its lines and its file."""
     constants = [_code(each) if isinstance(each, CodeType) else repr(each) for each in code.co_consts]
-    if constants and isinstance(code.co_consts[0], str):
+    if docstring is not None and code.co_consts[0] == docstring:
         constants[0] = ""
     return f"{code.co_code.hex()} {constants} {code.co_names} {code.co_varnames}"
 
@@ -108,11 +110,15 @@ def _value(value: Any, function: FunctionType) -> str:
             return value.unit.name
         case Form():
             return _form(value)
-        case ModuleType():  # its numbers
+        case ModuleType():  # its numbers and types
             named = {name: getattr(value, name, None) for name in sorted({*function.__code__.co_names})}
-            return str({name: found for name, found in named.items() if isinstance(found, int | float)})
+            return str({name: _value(found, function) for name, found in named.items() if isinstance(found, CONSTANTS)})
         case np.generic():
             return f"{value.dtype} {value}"
+        case np.ndarray():
+            return f"{value.dtype} {value.shape} {sha256(value.tobytes()).hexdigest()}"
+        case tuple() | list():
+            return str([_value(each, function) for each in value])
     return repr(value)
 
 
@@ -126,7 +132,7 @@ def _kind(kind: Any) -> str:
     if isinstance(kind, Room):
         return f"{_kind(kind.dtype)} {kind.dimensions}"
     if isinstance(kind, np.dtype):
-        return str(kind.fields or kind)
+        return str(kind)
     if isinstance(kind, type) and issubclass(kind, Block):
         fields: Mapping[str, tuple[int, Any]] = kind.layout()
         return str({name: (place, _kind(each)) for name, (place, each) in fields.items()})

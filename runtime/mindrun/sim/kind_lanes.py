@@ -1,5 +1,6 @@
 """The units of kinds: the lane function of each sensor and each skill, compiled when a mind first uses it."""
 
+from threading import Lock
 from typing import Any
 
 from mindrun.sim.codes import SENSOR, SKILL
@@ -9,6 +10,8 @@ from mindrun.sim.units import UNITS, Form, Unit
 
 read = Form((Tables, Senses, int, int, SENSOR), None)
 compute = Form((Tables, MindState, SKILL, int), int)
+
+_MAKING = Lock()
 
 
 def sensor_unit(kind: Any) -> Unit:
@@ -22,4 +25,5 @@ def skill_unit(function: Any) -> Unit:
 
 
 def _unit(lane: Any, form: Form) -> Unit:
-    return UNITS.get(f"{lane.__module__}.{lane.__qualname__}") or Unit(lane, form, lambda tables: True)
+    with _MAKING:  # there is never another one: tables have the place of its slot
+        return UNITS.get(f"{lane.__module__}.{lane.__qualname__}") or Unit(lane, form, lambda tables: True)

@@ -10,6 +10,7 @@ import os
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass
+from threading import RLock
 from typing import Any, ClassVar, Protocol
 
 import numpy as np
@@ -17,6 +18,8 @@ import numpy as np
 from mindrun.sim.arrays import Block
 
 FAILED_CODE = 70  # EX_SOFTWARE of sysexits.h
+WORD_BITS = 64
+LOCK = RLock()  # of the threads of this process: one at a time finds or makes machine code
 Kind = Any  # of an argument: int, float, Pointer, a class of blocks, or the dtype of a table for one of its rows
 Needed = Callable[[Any], bool]  # of tables
 
@@ -63,21 +66,24 @@ class Unit:
 
     def __call__(self, *given: Any) -> Any:
         function = self._loaded or self.load()
-        return function(*[each.address if isinstance(each, Block) else int(each) for each in given])
+        return function(*[_handed(*pair) for pair in zip(given, self.form.takes, strict=True)])
 
     def load(self) -> Any:
         """The machine code as a function of C; it is made where it is not kept."""
-        if self._loaded is None:
-            self._slot[0] = address = Unit.address_of(self)
-            self._loaded = self._prototype(address)
+        with LOCK:
+            if self._loaded is None:
+                self._slot[0] = address = Unit.address_of(self)
+                self._loaded = self._prototype(address)
         return self._loaded
 
     def _load_and_call(self, *given: Any) -> Any:
         try:
             return self.load()(*given)
         except BaseException as error:  # C knows no exceptions, and to go on would be wrong
-            print(f"{self.name} cannot be compiled: {error}", file=sys.stderr, flush=True)
-            os._exit(FAILED_CODE)
+            try:
+                print(f"{self.name} cannot be compiled: {error!r}", file=sys.stderr, flush=True)
+            finally:  # though nobody may hear it
+                os._exit(FAILED_CODE)
 
 
 @dataclass(frozen=True)
@@ -91,6 +97,21 @@ class AddressOf:
 
 
 UNITS: dict[str, Unit] = {}
+
+
+def _handed(given: Any, kind: Kind) -> Any:
+    """An argument as C takes it. TypeError where it is of another kind, or would be cut off."""
+    if kind is float:
+        return float(given)
+    if kind is int:
+        if (number := int(given)) != given or number.bit_length() >= WORD_BITS:
+            raise TypeError(f"{given} is no whole number of {WORD_BITS} bits")
+        return number
+    if isinstance(kind, type) and issubclass(kind, Block):
+        if not isinstance(given, kind):
+            raise TypeError(f"{type(given).__name__} where {kind.__name__} is declared")
+        return given.address
+    return given
 
 
 def unit(function: Any) -> Any:

@@ -86,7 +86,8 @@ def step_in_space(
     if contact.handles[lane, cp.SPACE] == 0:
         open_space(tables, world, contact, lane)
     push_body(tables, world, contact, share, lane)
-    return step_space(tables, world, contact, seconds, lane)
+    touched: int = step_space(tables, world, contact, seconds, lane)
+    return touched
 
 
 def glides(body, seconds, lane):
