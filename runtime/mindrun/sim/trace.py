@@ -20,7 +20,7 @@ CHUNK_TICKS, CHUNK_BYTES = 256, 1 << 22  # of a run at once, or fewer where a ti
 SCALAR_COLUMNS = 3  # held, battery and touching, after the doubles
 REMEMBERED = ("readings", "before", "measured", "rings", "late", "commands")  # by sensors, memories and actuators
 PARTS = ("tick", "body", "sensors", "memories", "actuators")  # of a graph
-SENSED = ("kind", "start", "width", "before", "held", "ring", "ray", "number", "is_aside")  # what says where it stands
+SENSED = ("lane", "start", "width", "before", "held", "ring", "ray", "number", "is_aside")  # what says where it stands
 
 
 @dataclass(frozen=True, slots=True, repr=False)
