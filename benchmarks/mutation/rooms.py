@@ -72,6 +72,7 @@ QUICK_STEPPERS = (
     "test_what_it_does_to_its_process_it_does_to_no_other",
     "test_an_environment_that_does_not_come_back_is_killed_and_told",
 )
+KINDS_PAGE = "tests/explain/test_pages.py::test_what_is_published_is_what_the_program_says[kinds.md]"
 BREAKPOINTS = "format", "messages", "report", "watch", "recorded", "check_command", "run_command"
 GUARDIAN = ("frames", "urgent", "main", "decisions", "guard", "plan", "output", "serving", "client", "process")
 ROOMS = {
@@ -95,7 +96,9 @@ ROOMS = {
         (f"{R}kinds/sensors/*.py", f"{R}numbers/arithmetic.py"),
         (
             "tests/sensors/test_compass.py",
+            KINDS_PAGE,
             "tests/sensors/test_nearest.py",
+            "tests/sensors/test_constants.py",
             "tests/sensors/test_readings.py",
             *(f"tests/sim/test_rough_sensors.py::{name}" for name in QUICK_SENSORS),
             "tests/sim/test_tasks.py",
