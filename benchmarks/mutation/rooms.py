@@ -63,6 +63,16 @@ QUICK_ENVIRONMENTS = (
     "test_what_is_not_there_is_said",
     "test_actions_of_another_shape_are_refused",
 )
+QUICK_STEPPERS = (
+    "test_an_environment_that_ends_its_process_is_told_with_step_and_seed",
+    "test_a_program_goes_on_with_other_environments_and_with_the_same",
+    "test_its_process_ends_with_it_whatever_thread_an_environment_has_left",
+    "test_it_comes_to_the_same_bits_there_as_here",
+    "test_an_image_that_ends_the_process_is_a_sentence",
+    "test_what_it_does_to_its_process_it_does_to_no_other",
+    "test_an_environment_that_does_not_come_back_is_killed_and_told",
+)
+KINDS_PAGE = "tests/explain/test_pages.py::test_what_is_published_is_what_the_program_says[kinds.md]"
 BREAKPOINTS = "format", "messages", "report", "watch", "recorded", "check_command", "run_command"
 GUARDIAN = ("frames", "urgent", "main", "decisions", "guard", "plan", "output", "serving", "client", "process")
 ROOMS = {
@@ -86,7 +96,10 @@ ROOMS = {
         (f"{R}kinds/sensors/*.py", f"{R}numbers/arithmetic.py"),
         (
             "tests/sensors/test_compass.py",
+            KINDS_PAGE,
             "tests/sensors/test_nearest.py",
+            "tests/sensors/test_constants.py",
+            "tests/sim/test_directions.py",
             "tests/sensors/test_readings.py",
             *(f"tests/sim/test_rough_sensors.py::{name}" for name in QUICK_SENSORS),
             "tests/sim/test_tasks.py",
@@ -119,9 +132,11 @@ ROOMS = {
         (
             *(
                 f"tests/outside/test_{name}.py"
-                for name in ("misfits", "pictures", "outside_rollout", "drawn_minds", "commands")
+                for name in ("misfits", "pictures", "outside_rollout", "drawn_minds", "repeating", "commands")
             ),
             "tests/language/test_messages.py",
+            "tests/outside/test_hostile.py",
+            *(f"tests/outside/test_subprocess_stepper.py::{name}" for name in QUICK_STEPPERS),
         ),
     ),
     "train": Room(

@@ -53,6 +53,7 @@ WAYS: dict[str, Callable[[], object]] = {
     "Move": partial(os.chdir, "/"),
     "Signals": take_signals,
     "Thread": leave_thread,
+    "Read": partial(os.read, 0, 1),
     "Hold": hold_interpreter,
     "Stop": lambda: os.kill(os.getpid(), signal.SIGSTOP),
     "Sleep": partial(time.sleep, 1000),

@@ -47,12 +47,12 @@ def observed_tree(rng: Random) -> Tree:
 
 
 def acted_tree(rng: Random) -> Tree:
-    """What it takes."""
+    """What it takes; of several parts one has no numbers."""
     if rng.random() < 0.6:
         return _leaf(rng, small=True)
     if rng.random() < 0.4:
         return tuple(_leaf(rng, small=True) for _ in range(rng.randint(1, 2)))
-    return {"go": _leaf(rng, small=True), "arm": {"Grip": _leaf(rng, small=True)}}
+    return {"go": _leaf(rng, small=True), "arm": {"Grip": _leaf(rng, small=True), "none": Leaf((0,), ends=(-1.0, 1.0))}}
 
 
 def _leaf(rng: Random, small: bool = False) -> Leaf:

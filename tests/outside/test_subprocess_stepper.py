@@ -67,7 +67,7 @@ def test_a_program_goes_on_with_other_environments_and_with_the_same() -> None:
 def test_what_it_does_to_its_process_it_does_to_no_other(capfd: pytest.CaptureFixture[str]) -> None:
     folder, handlers = Path.cwd(), [signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)]
     undisturbed = scored("Exit", "render")
-    for way in ("Print", "Move", "Signals", "Thread"):
+    for way in ("Print", "Move", "Signals", "Thread", "Read"):
         np.testing.assert_array_equal(scored(way, "step"), undisturbed)
     assert Path.cwd() == folder
     assert [signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)] == handlers

@@ -10,7 +10,7 @@ from mindrun.graph.policy import Policy
 from mindrun.kinds.scenes.scene import Arena
 from mindrun.kinds.sensors.battery import Battery
 from mindrun.kinds.sensors.nearest import Bearing
-from mindrun.kinds.sensors.waves import Sine
+from mindrun.kinds.sensors.waves import Clock, Sine
 from mindrun.kinds.things.thing import Item, Power
 from mindrun.numbers.quantity import Span
 from mindrun.sim.rollout import Rollout
@@ -61,6 +61,8 @@ def seen(graph: Graph) -> Any:
         (Sine(3 * TICK), False, None),
         (Sine(4 * TICK), False, None),
         (Sine(2.0), False, None),
+        (Clock(TICK), False, 0.0),
+        (Clock(2 * TICK), False, None),
     ],
 )
 def test_it_is_so_in_the_lanes(kind: Any, charges: bool, always: float | None) -> None:

@@ -4,6 +4,7 @@ from dataclasses import dataclass, replace
 from types import SimpleNamespace
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from mindrun.graph.graph import Reward, Task, Thing
@@ -112,3 +113,11 @@ def test_a_bearing_points_to_the_nearest_within_range() -> None:
     sensor.range = 1.9
     plain_lane(Bearing.lane)(None, lanes, 1, 0, sensor)
     assert lanes.readings[0, 0] == 0.5
+
+
+@pytest.mark.parametrize("turns", [-0.45, -0.2, -0.09, 0.0, 0.09, 0.2, 0.45])
+def test_a_bearing_in_the_dead_zone_is_straight_ahead(turns: float) -> None:
+    lanes, sensor = state([2.0], 1)
+    lanes.things[:2, 0] = 2 * np.cos(2 * np.pi * turns), 2 * np.sin(2 * np.pi * turns)
+    plain_lane(Bearing.lane)(None, lanes, 1, 0, SimpleNamespace(**vars(sensor), range=3.0, dead_zone=np.float32(0.1)))
+    assert lanes.readings[0, 0] == pytest.approx(0.5 if abs(turns) < 0.1 else 0.5 - turns, abs=1e-6)

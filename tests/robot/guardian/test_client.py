@@ -263,12 +263,13 @@ def test_an_exit_code_says_nothing(start: Start, tmp_path: Path, code: int, send
     assert (tmp_path / "log-neutral").read_bytes() == guardian._processes.plan
 
 
-def test_what_its_own_watcher_says_is_enough(start: Start, tmp_path: Path) -> None:
-    guardian = start(says=f"ready\n|@{ALL}", then="stays")
+@pytest.mark.parametrize("says", [ALL, SOME, NONE])
+def test_what_its_own_watcher_says_is_enough(start: Start, tmp_path: Path, says: str) -> None:
+    guardian = start(says=f"ready\n|@{says}", then="stays")
     until(lambda: heard(guardian)._heard.is_over)
     with pytest.raises(GuardianError) as caught:
         guardian.send(MOVING, armed=True)
-    assert str(caught.value) == f"the guardian is gone: {BROUGHT[ALL]}"
+    assert str(caught.value) == f"the guardian is gone: {BROUGHT[says]}"
     assert not (tmp_path / "log-neutral").exists()
 
 

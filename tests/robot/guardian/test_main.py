@@ -1,13 +1,19 @@
 """In which order the guardian does what, and how it ends: the process below it only notes what it is asked for."""
 
-from collections.abc import Iterator
+import os
+from collections.abc import Callable, Iterator
+from contextlib import nullcontext, suppress
 from dataclasses import dataclass, field
 
 import pytest
 from mindrun.robot.guardian import __main__ as main
-from mindrun.robot.guardian import watch
+from mindrun.robot.guardian import realtime, watch
+from mindrun.robot.guardian.plan import Plan
+from mindrun.terminal.standard_streams import LineWriter
 
-from tests.robot.guardian.driven import PLAN
+from tests.robot.guardian.driven import PATIENCE, PLAN
+
+Say = Callable[[str], None]
 
 
 @dataclass
@@ -149,3 +155,93 @@ def test_what_is_not_at_neutral_in_time_is_told(time: Time) -> None:
     process = Asked(settles=False)
     assert brought(process, 2.0) == ["not everything was at neutral after 2 s"]
     assert process.asked == ["open", "settle", 2.0]
+
+
+def test_all_that_it_does_it_does_in_real_time_and_what_is_printed_meanwhile_is_no_status(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    asked: list[object] = []
+
+    def done(status: int, *given: object) -> int:
+        os.close(status)
+        asked.append(given)
+        return 3
+
+    monkeypatch.setattr(main, "set_realtime", lambda: asked.append("real time"))
+    monkeypatch.setattr(main, "printing_never_waits", lambda: nullcontext(asked.append("printing")))
+    monkeypatch.setattr(main, "_done", done)
+    monkeypatch.setattr("sys.argv", ["guardian", "--neutral", "plan.json", "--within", "2.5"])
+    monkeypatch.setattr("os._exit", asked.append)
+    main.main()
+    assert asked == ["real time", "printing", ("plan.json", 2.5), 3]
+
+
+class LateReader:
+    """A pipe that nobody reads: full until what writes to it from a thread is waited for."""
+
+    def __init__(self) -> None:
+        self.reading, self.writing = os.pipe()
+        self._pipe = os.fstat(self.writing).st_ino  # whatever descriptors become of it
+        for descriptor in (self.reading, self.writing):
+            os.set_blocking(descriptor, False)
+        with suppress(BlockingIOError):
+            while True:
+                os.write(self.writing, bytes(4096))
+
+    def writer(self, descriptor: int, prefix: str = "") -> LineWriter:
+        """What writes to a descriptor from a thread."""
+        writer = LineWriter(descriptor, prefix)
+        if os.fstat(descriptor).st_ino == self._pipe:
+            self._drain, writer.drain = writer.drain, self.drain  # type: ignore[method-assign]
+        return writer
+
+    def drain(self, seconds: float) -> bool:
+        """Read, at last."""
+        self.read()
+        return self._drain(PATIENCE)
+
+    def read(self) -> bytes:
+        """All that is there."""
+        return os.read(self.reading, 1 << 20)
+
+
+@pytest.fixture
+def late(monkeypatch: pytest.MonkeyPatch) -> Iterator[LateReader]:
+    """Who reads late what is said, or printed."""
+    reader = LateReader()
+    for module in (main, realtime):
+        monkeypatch.setattr(module, "LineWriter", reader.writer)
+    yield reader
+    for descriptor in (reader.reading, reader.writing):
+        os.close(descriptor)
+
+
+def test_the_last_word_comes_after_all_that_was_said_before_it(
+    monkeypatch: pytest.MonkeyPatch, late: LateReader
+) -> None:
+    (heard, word), asked = os.pipe(), []
+
+    def guard(_plan: Plan, frames: int, _report: Say, state: Say, rests: Callable[[], None]) -> int:
+        os.close(frames)
+        state("neutral no frame for two ticks")
+        rests()
+        return 7
+
+    monkeypatch.setattr(main, "INPUT_DESCRIPTOR", os.dup(heard))
+    monkeypatch.setattr(main, "set_realtime", lambda: asked.append("real time"))
+    monkeypatch.setattr(main, "guard", guard)
+    monkeypatch.setattr(main, "watch", lambda plan, frames, status, work: work(word))
+    assert (main._guarded(PLAN, late.writing), asked) == (7, ["real time"])
+    assert late.read() == b"neutral no frame for two ticks\nrest\n"
+    assert os.read(heard, 4096) == b"rest\n"
+
+
+def test_what_is_printed_last_is_passed_on_before_it_ends(monkeypatch: pytest.MonkeyPatch, late: LateReader) -> None:
+    printed = os.dup(late.writing)
+    monkeypatch.setattr(realtime, "ERROR_DESCRIPTOR", late.writing)
+    monkeypatch.setattr(realtime, "OUTPUT_DESCRIPTOR", printed)
+    monkeypatch.setattr(realtime, "LAST_SECONDS", PATIENCE)
+    with realtime.printing_never_waits():
+        os.write(printed, b"by a driver\n")
+        os.write(late.writing, b"of an error\n")
+    assert late.read() == b"by a driver\nof an error\n"

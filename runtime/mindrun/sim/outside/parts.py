@@ -45,7 +45,7 @@ class SpacePart:
 
     def values(self, numbers: Floats) -> list[Any]:
         """Turn numbers [runs, size] into an array of its shape and type for each run; a single choice is a number."""
-        values = numbers.astype(self.dtype).reshape(-1, *self.shape)
+        values = numbers.astype(self.dtype).reshape(len(numbers), *self.shape)
         return [*values] if self.shape or self.is_choice else [np.asarray(value) for value in values]
 
 
