@@ -163,6 +163,7 @@ def test_processes_compile_what_is_missing_and_import_nothing_of_the_working_fol
 ) -> None:
     (place.parent / "numba.py").write_text("raise SystemExit")  # a procedure of a user may have such a name
     monkeypatch.chdir(place.parent)
+    monkeypatch.setenv("NUMBA_DISABLE_JIT", "1")
     every_unit()
     units, told = [UNITS[f"mindrun.sim.lanes.{name}"] for name in ("advance.record", "runs.fill")], list[None]()
     compile_missing(units, lambda: told.append(None))

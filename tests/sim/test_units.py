@@ -158,6 +158,21 @@ def test_a_copy_of_a_block_has_words_of_its_own(place: Path, write: Write) -> No
     assert (lanes.total(part, 0, 1.0), lanes.total(other, 0, 1.0)) == (3, 40)
 
 
+def test_of_several_threads_all_hand_over_the_same_words(write: Write) -> None:
+    """Those of one that came too late would be gone while compiled code reads them."""
+    lanes, found = write(PARTS), list[int]()
+
+    class Part(lanes.Part):  # type: ignore[name-defined,misc]
+        def _words(self) -> Iterator[int]:
+            if not found:
+                found.append(0)
+                found[0] = self.address  # as another thread asks in the meantime
+            yield from super()._words()
+
+    part = Part(np.zeros((1, 1), np.int64), lanes.Inside(np.zeros(1)))
+    assert part.address == part.address == found[0]
+
+
 def test_kinds_of_blocks_may_have_one_name(place: Path, write: Write) -> None:
     for fields in ("table", "first", "last"):
         more = f"    {fields}: Annotated[Any, room(bool, 1)]\n    inside: Inside\n"

@@ -2,13 +2,14 @@
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, fields
-from functools import cache, cached_property
+from functools import cache
 from typing import Any, get_args
 
 import numpy as np
 from numpy.typing import NDArray
 
 WORD_BYTES = 8
+ADDRESS = "address and words"  # where a block keeps them
 Count = int | str  # of rows or columns: a number, or what they are of, by its name
 
 
@@ -61,15 +62,16 @@ class Block:
         """The number of its words."""
         return sum(kind.words if isinstance(kind, Room) else kind.length() for _, kind in cls.layout().values())
 
-    @cached_property
-    def block(self) -> NDArray[np.uint64]:
-        """The words. TypeError where an array is not what its field says: compiled code would write elsewhere."""
-        return np.array([*self._words()], np.uint64)
-
-    @cached_property
+    @property
     def address(self) -> int:
-        """The place of the words, which compiled code is handed; valid as long as this object."""
-        return int(self.block.ctypes.data)
+        """The place of its words, which compiled code is handed; valid as long as this object.
+
+        TypeError where an array is not what its field says: compiled code would write elsewhere.
+        """
+        if (found := vars(self).get(ADDRESS)) is None:
+            words = np.array([*self._words()], np.uint64)
+            found = vars(self).setdefault(ADDRESS, (int(words.ctypes.data), words))  # the first of several threads
+        return int(found[0])
 
     def __getstate__(self) -> dict[str, Any]:
         return {field.name: getattr(self, field.name) for field in fields(self)}  # a copy has words of its own

@@ -54,15 +54,16 @@ def _compile(missing: Sequence[Unit], is_made: Callable[[Unit], bool], told: Cal
 def _begin(*words: str, own_session: bool = False) -> "list[subprocess.Popen[bytes]]":
     """A process of `warmup`, in a session of its own where it goes on by itself; none where none can begin.
 
-    What is imported here is found there, and nothing else: -P.
+    What is imported here is found there, and nothing else: -P. Of what numba may be told only the target counts.
     """
+    known = {name: value for name, value in os.environ.items() if not name.startswith("NUMBA_")}
     kind = {"NUMBA_CPU_NAME": target().processor, "NUMBA_CPU_FEATURES": target().features}
     place = {"NUMBA_CACHE_DIR": str(cache.folder().parent)}
     path = {"PYTHONPATH": os.pathsep.join(each or f"{Path.cwd()}" for each in sys.path)}
     nowhere = subprocess.DEVNULL
     with suppress(OSError):
         return [subprocess.Popen(
-            [sys.executable, "-P", "-m", "mindrun.sim.warmup", *words], env=os.environ | kind | place | path,
+            [sys.executable, "-P", "-m", "mindrun.sim.warmup", *words], env=known | kind | place | path,
             stdin=nowhere, stdout=nowhere, stderr=nowhere, start_new_session=own_session,
         )]  # fmt: skip
     return []
