@@ -1,5 +1,6 @@
 """Of processes that lack the same machine code one compiles it; none waits for ever, whatever becomes of that one."""
 
+import fcntl
 import os
 import signal
 import subprocess
@@ -9,11 +10,10 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
-from mindrun.sim import cache
+from mindrun.sim import cache, warmup
 from mindrun.sim.cache import WAIT_SECONDS, exclusive
-from mindrun.sim.compilation import compile_missing
+from mindrun.sim.compilation import IN_BACKGROUND, compile_missing
 from mindrun.sim.units import UNITS
-from mindrun.sim.warmup import every_unit
 
 from tests.sim.conftest import Write
 
@@ -164,7 +164,7 @@ def test_processes_compile_what_is_missing_and_import_nothing_of_the_working_fol
     (place.parent / "numba.py").write_text("raise SystemExit")  # a procedure of a user may have such a name
     monkeypatch.chdir(place.parent)
     monkeypatch.setenv("NUMBA_DISABLE_JIT", "1")
-    every_unit()
+    warmup.every_unit()
     units, told = [UNITS[f"mindrun.sim.lanes.{name}"] for name in ("advance.record", "runs.fill")], list[None]()
     compile_missing(units, lambda: told.append(None))
     assert all(map(cache.is_native, units))
@@ -177,3 +177,16 @@ def test_what_processes_cannot_compile_is_compiled_here(place: Path, write: Writ
     assert (told, made) == ([], [])
     assert lanes.small(4) == 4
     assert made == ["written.small"]
+
+
+def test_behind_one_that_compiles_all_nothing_is_begun(place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    begun: list[object] = []
+    monkeypatch.setattr(cache, "make_missing", begun.append)
+    monkeypatch.setattr(warmup, "give_way", begun.append)
+    monkeypatch.setattr(signal, "signal", lambda number, handler: None)
+    with (place / "warming").open("w") as file:
+        fcntl.flock(file, fcntl.LOCK_EX)
+        warmup.main([IN_BACKGROUND])
+        assert begun == []
+    warmup.main([IN_BACKGROUND])
+    assert begun == [warmup.LOWEST_NICENESS, warmup.every_unit()]
