@@ -1,11 +1,12 @@
 """The units of kinds: the lane function of each sensor and each skill, compiled when a mind first uses it."""
 
+from functools import cache
 from typing import Any
 
 from mindrun.sim.codes import SENSOR, SKILL
 from mindrun.sim.state import MindState, Senses
 from mindrun.sim.tables import Tables
-from mindrun.sim.units import UNITS, Form, Unit
+from mindrun.sim.units import Form, Unit
 
 read = Form((Tables, Senses, int, int, SENSOR), None)
 compute = Form((Tables, MindState, SKILL, int), int)
@@ -21,5 +22,6 @@ def skill_unit(function: Any) -> Unit:
     return _unit(function.lane, compute)
 
 
+@cache
 def _unit(lane: Any, form: Form) -> Unit:
-    return UNITS.get(f"{lane.__module__}.{lane.__qualname__}") or Unit(lane, form, lambda tables: True)
+    return Unit(lane, form, lambda tables: True)
