@@ -22,6 +22,7 @@ class Commanded:
         self.jobs = rollout.jobs(np.zeros((1, 0), np.float32), np.asarray(seeds, np.uint64))
         self._tables, self._tile, self._interrupt = rollout.tables, rollout.tile(lanes), interrupt
         self.state = self._tile.state
+        rollout.compile()
         rollout.fill(self._tile, self.jobs)
         before(self._tables, self.state, self.jobs)
 

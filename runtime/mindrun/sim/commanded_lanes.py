@@ -48,7 +48,7 @@ class CommandedLanes:
         world = rollout.tables.world.copy()
         world["ticks"] = ENDLESS_TICKS  # a run that has lasted its time stays, and what it reads then can be asked
         self._endless = replace(rollout.tables, world=world)
-        rollout.compile(before, after, begin_again, wake, send)  # now, not in the first ticks
+        rollout.compile(*rollout.entries, begin_again)  # now, not in the first ticks
         rollout.fill(self.tile, self.jobs)
         self._lost = np.zeros(lanes, np.bool_)
 

@@ -44,16 +44,14 @@ class Tables(Block):
     rays: Annotated[Array, table(F4, 2)]  # [2, rays]: cosine and sine of each ray's angle
     rims: Annotated[Array, table(F4)]  # [rays]: how far from the robot's middle each ray leaves it
     ray_row: Annotated[Array, table(I8)]  # the row of readings that each ray writes
-    passes: Annotated[
-        Array, table(I8, 2)
-    ]  # [2, rays]: the first thing that each ray goes on through, and the one after the last
+    passes: Annotated[Array, table(I8, 2)]  # [2, rays]: the first thing that each goes on through, and the last + 1
     numbers: Annotated[Array, table(F8)]  # of the sensors whose kinds say `numbers`
     measured: Annotated[Array, table(bool)]  # [graph.width]: which readings anybody writes
     skills: Annotated[Array, table(SKILL)]
     inputs: Annotated[Array, table(I8)]  # rows of readings, skill after skill
     edges: Annotated[Array, table(EDGE)]
     codes: Annotated[Array, table(CODE)]
-    weights: Annotated[Array, table(F4)]  # , of the skills that do not learn
+    weights: Annotated[Array, table(F4)]  # of the skills that do not learn
     actuators: Annotated[Array, table(ACTUATOR)]
     memories: Annotated[Array, table(MEMORY)]
     parameters: Annotated[Array, table(PARAMETER)]

@@ -45,14 +45,15 @@ def act(tables: Tables, state: State, lanes: int) -> None:
             grip(tables, state, i, lanes)
 
 
-def recall(tables, mind, run, lanes):
+def recall(tables, state, lanes):
     """Update the memory cells for the next tick; rewards of this one have read them as its skills did.
 
     decay·cell + (1 − decay)·command where a skill drives a cell, else decay·cell.
     """
+    mind, faults = state.mind, state.run.faults
     for i in range(len(tables.memories)):
         memory, sink = tables.memories[i], len(tables.actuators) + i
-        means(mind.command_sums[sink], mind.influence_sums[sink], UNDRIVEN, mind.sent, run.faults, lanes)
+        means(mind.command_sums[sink], mind.influence_sums[sink], UNDRIVEN, mind.sent, faults, lanes)
         cell, decay, rest = mind.readings[memory.row], memory.decay, memory.rest
         for lane in range(lanes):
             kept = decay * cell[lane]

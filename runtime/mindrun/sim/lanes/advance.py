@@ -54,7 +54,7 @@ def conclude(tables: Tables, state: State, jobs: Jobs, interrupt: int) -> None:
     lanes, clock, world = jobs.lanes[0], jobs.clock[0], state.world
     judge(tables, state, lanes, clock, interrupt)
     record(state, jobs)
-    recall(tables, state.mind, state.run, lanes)
+    recall(tables, state, lanes)
     for row in range(len(tables.actuators)):
         for lane in range(lanes):
             state.judge.last_commands[row, lane] = state.mind.commands[row, lane]

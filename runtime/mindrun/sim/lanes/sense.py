@@ -32,7 +32,6 @@ from mindrun.numbers.arithmetic import (
     where_ordered,
     wrapped,
 )
-from mindrun.sim import state as parts
 from mindrun.sim.codes import AWAY
 from mindrun.sim.kind_lanes import read
 from mindrun.sim.lanes.placement import uniform
@@ -41,6 +40,11 @@ from mindrun.sim.state import (
     FIRST_RAY,
     HIGH,
     LEFT,
+    LOOSE_COSINE,
+    LOOSE_HALF,
+    LOOSE_SINE,
+    LOOSE_X,
+    LOOSE_Y,
     LOW,
     RIGHT,
     SIDES,
@@ -225,16 +229,16 @@ def enter_frame(tables, world, frame, i, lanes):
         dx, dy = F(x - body[X, lane]), F(y - body[Y, lane])
         sine, cosine = sine_cosine(world.loose[LOOSE_ROWS * i + TURN, lane])
         s, c = F(sine), F(cosine)
-        frame[parts.LOOSE_COSINE, lane], frame[parts.LOOSE_SINE, lane] = c, s
-        frame[parts.LOOSE_X, lane], frame[parts.LOOSE_Y, lane] = c * dx + s * dy, c * dy - s * dx
-        frame[parts.LOOSE_HALF, lane] = F(size_of(world.things, thing, lane) / 2)
+        frame[LOOSE_COSINE, lane], frame[LOOSE_SINE, lane] = c, s
+        frame[LOOSE_X, lane], frame[LOOSE_Y, lane] = c * dx + s * dy, c * dy - s * dx
+        frame[LOOSE_HALF, lane] = F(size_of(world.things, thing, lane) / 2)
 
 
 def meet_ball(rows, frame, cosine, sine, out, lanes):
     """Shorten a ray of each lane to the disc of its frame, where it meets that before."""
     for lane in range(lanes):
         c, s = direction(rows, frame, cosine, sine, lane)
-        x, y, radius = frame[parts.LOOSE_X, lane], frame[parts.LOOSE_Y, lane], frame[parts.LOOSE_HALF, lane]
+        x, y, radius = frame[LOOSE_X, lane], frame[LOOSE_Y, lane], frame[LOOSE_HALF, lane]
         aside = x * s - y * c
         room = radius * radius - aside * aside
         enter = x * c + y * s - np.sqrt(room if room > ZERO else ZERO)
@@ -246,7 +250,7 @@ def meet_box(rows, frame, cosine, sine, out, lanes):
     """Shorten a ray of each lane to the square of its frame, where it meets that before (the slab method)."""
     for lane in range(lanes):
         c, s = direction(rows, frame, cosine, sine, lane)
-        x, y, half = frame[parts.LOOSE_X, lane], frame[parts.LOOSE_Y, lane], frame[parts.LOOSE_HALF, lane]
+        x, y, half = frame[LOOSE_X, lane], frame[LOOSE_Y, lane], frame[LOOSE_HALF, lane]
         ix, iy = ONE / c, ONE / s
         left, right, low, high = (x - half) * ix, (x + half) * ix, (y - half) * iy, (y + half) * iy
         first_x, last_x = left if left < right else right, right if left < right else left
@@ -261,5 +265,5 @@ def direction(rows, frame, cosine, sine, lane):
     """Cosine and sine of a ray's direction in a lane's frame."""
     ahead, aside = rows[SIGHT_COSINE, lane], rows[SIGHT_SINE, lane]
     c, s = ahead * cosine - aside * sine, aside * cosine + ahead * sine
-    turned_c, turned_s = frame[parts.LOOSE_COSINE, lane], frame[parts.LOOSE_SINE, lane]
+    turned_c, turned_s = frame[LOOSE_COSINE, lane], frame[LOOSE_SINE, lane]
     return c * turned_c + s * turned_s, s * turned_c - c * turned_s

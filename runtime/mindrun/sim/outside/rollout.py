@@ -24,6 +24,7 @@ from mindrun.sim.outside.subprocess_stepper import SilentEnvironmentError, Stepp
 from mindrun.sim.outside.wiring import EnvironmentWiring, wiring_of
 from mindrun.sim.rollout import SLOW_SLICE_TICKS, Rollout, Tile
 from mindrun.sim.state import Jobs
+from mindrun.sim.units import Unit
 
 ENVIRONMENT_LANES = 64  # environments side by side: so many share one call of what is compiled
 LEAST_SHARE = 0.001  # of the ticks, that is said as a number
@@ -124,8 +125,8 @@ class EnvironmentRollout(Rollout):
         return f"{', '.join(said)} of the ticks" if said else ""
 
     @property
-    def entries(self) -> tuple[Any, ...]:
-        """The compiled stages of a tick that its runs call."""
+    def entries(self) -> tuple[Unit, ...]:
+        """The units that its runs call first."""
         return fill, before, think, wake, send, act, conclude
 
     def tile(self, lanes: int) -> Tile:
