@@ -132,11 +132,13 @@ ROOMS = {
         (
             *(
                 f"tests/outside/test_{name}.py"
-                for name in ("misfits", "pictures", "outside_rollout", "drawn_minds", "repeating", "commands")
+                for name in ("misfits", "pictures", "outside_rollout", "drawn_minds", "repeating")
             ),
+            KINDS_PAGE,
             "tests/language/test_messages.py",
             "tests/outside/test_hostile.py",
             *(f"tests/outside/test_subprocess_stepper.py::{name}" for name in QUICK_STEPPERS),
+            "tests/outside/test_commands.py",
         ),
     ),
     "train": Room(
