@@ -6,7 +6,7 @@ from typing import Any
 from mindrun.sim.codes import SENSOR, SKILL
 from mindrun.sim.state import MindState, Senses
 from mindrun.sim.tables import Tables
-from mindrun.sim.units import Form, Unit
+from mindrun.sim.units import UNITS, Form, Unit
 
 read = Form((Tables, Senses, int, int, SENSOR), None)
 compute = Form((Tables, MindState, SKILL, int), int)
