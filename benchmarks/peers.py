@@ -30,10 +30,17 @@ os.environ.update(ONE_THREAD)
 import numpy as np  # noqa: E402  after the number of threads
 
 ROOT = Path(__file__).resolve().parent.parent
-SIZES = 14, 32, 30, 2
+LAYER_SIZES = 14, 32, 30, 2
 ANGLES = np.radians([0, 22.5, 45, 90, 135, 180, 225, 270, 315, 337.5])
-TICK, THRUST, RANGE, HALF_SIDE, MASS, INERTIA = 1 / 60, 80.0, 12.0, 50.0, 2 * math.pi, math.pi
-LINEAR, ANGULAR = 1 / (1 + TICK * 5), 1 / (1 + TICK * 20)
+TICK_SECONDS, WHEEL_THRUST, RANGE_UNITS, HALF_SIDE_UNITS, ROBOT_MASS, ROBOT_INERTIA = (
+    1 / 60,
+    80.0,
+    12.0,
+    50.0,
+    2 * math.pi,
+    math.pi,
+)
+LINEAR_SHARE, ANGULAR_SHARE = 1 / (1 + TICK_SECONDS * 5), 1 / (1 + TICK_SECONDS * 20)
 CALL_TICKS = 32  # of all robots, in a call that is timed
 Step = Callable[[], object]
 
@@ -45,7 +52,7 @@ class Ready(NamedTuple):
     steps: int
 
 
-def layers(sizes: tuple[int, ...] = SIZES) -> list[Any]:
+def layers(sizes: tuple[int, ...] = LAYER_SIZES) -> list[Any]:
     """Random matrices [values in, values out] of a network."""
     rng = np.random.default_rng(0)
     return [(rng.normal(size=(a, b)) / math.sqrt(a)).astype(np.float32) for a, b in pairwise(sizes)]
@@ -97,7 +104,7 @@ def plain_pymunk() -> Ready:
         ]
         for shape in (*sides, *boxes):
             shape.filter = pymunk.ShapeFilter(categories=1)
-        body = pymunk.Body(MASS, INERTIA)
+        body = pymunk.Body(ROBOT_MASS, ROBOT_INERTIA)
         body.position, body.angle = (x, y), angle
         disc = pymunk.Circle(body, 1)
         disc.filter = own
@@ -107,14 +114,14 @@ def plain_pymunk() -> Ready:
             (x, y), angle = body.position, body.angle
             values = np.array([*[1.0] * 10, x / 50, y / 50, math.cos(angle), math.sin(angle)], np.float32)
             for ray, turn in enumerate(ANGLES + angle):
-                end = x + RANGE * math.cos(turn), y + RANGE * math.sin(turn)
+                end = x + RANGE_UNITS * math.cos(turn), y + RANGE_UNITS * math.sin(turn)
                 if hit := space.segment_query_first((x, y), end, 0, seen):
                     values[ray] = hit.alpha
             left, right = network(matrices, values).tolist()
-            body.apply_force_at_local_point((THRUST * (0.5 + left / 2), 0), (0, 1))
-            body.apply_force_at_local_point((THRUST * (0.5 + right / 2), 0), (0, -1))
-            space.step(TICK)
-            body.velocity, body.angular_velocity = body.velocity * LINEAR, body.angular_velocity * ANGULAR
+            body.apply_force_at_local_point((WHEEL_THRUST * (0.5 + left / 2), 0), (0, 1))
+            body.apply_force_at_local_point((WHEEL_THRUST * (0.5 + right / 2), 0), (0, -1))
+            space.step(TICK_SECONDS)
+            body.velocity, body.angular_velocity = body.velocity * LINEAR_SHARE, body.angular_velocity * ANGULAR_SHARE
 
         return tick
 
@@ -149,12 +156,12 @@ def box2d() -> Ready:
             values = np.array([*[1.0] * 10, x / 50, y / 50, math.cos(angle), math.sin(angle)], np.float32)
             for number, turn in enumerate(ANGLES + angle):
                 ray.share = 1.0
-                world.RayCast(ray, (x, y), (x + RANGE * math.cos(turn), y + RANGE * math.sin(turn)))
+                world.RayCast(ray, (x, y), (x + RANGE_UNITS * math.cos(turn), y + RANGE_UNITS * math.sin(turn)))
                 values[number] = ray.share
             for side, value in zip((1, -1), network(matrices, values).tolist(), strict=True):
-                force = body.GetWorldVector((THRUST * (0.5 + value / 2), 0))
+                force = body.GetWorldVector((WHEEL_THRUST * (0.5 + value / 2), 0))
                 body.ApplyForce(force, body.GetWorldPoint((0, side)), True)
-            world.Step(TICK, 8, 3)
+            world.Step(TICK_SECONDS, 8, 3)
 
         return tick
 
@@ -178,24 +185,24 @@ def cartpole() -> Ready:
     return Ready(call, carts * CALL_TICKS)
 
 
-def vmas() -> Ready:
-    """8,192 worlds of VMAS on torch; pushed by a force along x and y, not by wheels."""
+def vmas_world(worlds: int) -> Any:
+    """The bold world as a scenario of VMAS."""
     import torch
-    from vmas import make_env
     from vmas.simulator.core import Agent, Box, Landmark, Sphere, World
     from vmas.simulator.scenario import BaseScenario
     from vmas.simulator.sensors import Lidar
 
-    torch.set_num_threads(1)
-    worlds, at = 8192, rocks()
+    at = rocks()
 
     class Rocks(BaseScenario):  # type: ignore[misc]
         def make_world(self, batch_dim: int, device: Any, **_: Any) -> Any:
-            world = World(batch_dim, device, dt=TICK, drag=0.08, x_semidim=50, y_semidim=50, substeps=1)
-            rays = Lidar(world, angle_start=0.0, angle_end=1.8 * math.pi, n_rays=10, max_range=RANGE,
+            world = World(batch_dim, device, dt=TICK_SECONDS, drag=0.08, x_semidim=50, y_semidim=50, substeps=1)
+            rays = Lidar(world, angle_start=0.0, angle_end=1.8 * math.pi, n_rays=10, max_range=RANGE_UNITS,
                          entity_filter=lambda entity: entity.name.startswith("rock"))  # fmt: skip
             shape = Sphere(1.0)
-            world.add_agent(Agent("robot", shape=shape, mass=MASS, u_multiplier=THRUST, rotatable=True, sensors=[rays]))
+            world.add_agent(
+                Agent("robot", shape=shape, mass=ROBOT_MASS, u_multiplier=WHEEL_THRUST, rotatable=True, sensors=[rays])
+            )
             for number, (_, _, half) in enumerate(at.tolist()):
                 shape = Box(2 * half, 2 * half)
                 world.add_landmark(Landmark(f"rock{number}", shape=shape, collide=True, movable=False))
@@ -208,12 +215,23 @@ def vmas() -> Ready:
             self.world.agents[0].set_pos(places if env_index is None else places[env_index], batch_index=env_index)
 
         def observation(self, agent: Any) -> Any:
-            return torch.cat([agent.sensors[0].measure() / RANGE, agent.state.pos / 50, agent.state.vel / 10], -1)
+            return torch.cat([agent.sensors[0].measure() / RANGE_UNITS, agent.state.pos / 50, agent.state.vel / 10], -1)
 
         def reward(self, agent: Any) -> Any:
             return agent.state.vel.norm(dim=-1)
 
-    environment = make_env(Rocks(), num_envs=worlds, device="cpu", continuous_actions=True)
+    return Rocks()
+
+
+def vmas() -> Ready:
+    """8,192 worlds of VMAS on torch; pushed by a force along x and y, not by wheels."""
+    import torch
+    from vmas import make_env
+
+    torch.set_num_threads(1)
+    worlds = 8192
+
+    environment = make_env(vmas_world(worlds), num_envs=worlds, device="cpu", continuous_actions=True)
     matrices, values = [torch.tensor(matrix) for matrix in layers()], environment.reset()[0]
 
     def call() -> None:
@@ -225,12 +243,11 @@ def vmas() -> Ready:
     return Ready(call, 4 * worlds)
 
 
-def own_jax() -> Ready:
-    """1,024 worlds written out by hand, what one does where no engine fits; no friction, layouts or rewards."""
-    import jax  # type: ignore[import-not-found]
+def jax_tick() -> Any:
+    """A tick of the bold world in jax."""
     import jax.numpy as jnp  # type: ignore[import-not-found]
 
-    worlds, matrices, at, angles = 1024, [jnp.asarray(m) for m in layers()], jnp.asarray(rocks()), jnp.asarray(ANGLES)
+    matrices, at, angles = [jnp.asarray(m) for m in layers()], jnp.asarray(rocks()), jnp.asarray(ANGLES)
     halves = at[:, 2:]
 
     def look(place: Any, angle: Any) -> Any:
@@ -238,18 +255,18 @@ def own_jax() -> Ready:
         inverse = 1 / jnp.where(jnp.abs(way) < 1e-9, 1e-9, way)
         low, high = (((at[:, :2] + side * halves - place)[:, None] * inverse) for side in (-1, 1))
         near, far = jnp.minimum(low, high).max(-1), jnp.maximum(low, high).min(-1)
-        box = jnp.where((near <= far) & (near > 0), near, RANGE).min(0)
-        wall = jnp.where(way > 0, (HALF_SIDE - place) / way, (-HALF_SIDE - place) / way).min(-1)
-        return jnp.clip(jnp.minimum(box, wall), 0, RANGE) / RANGE
+        box = jnp.where((near <= far) & (near > 0), near, RANGE_UNITS).min(0)
+        wall = jnp.where(way > 0, (HALF_SIDE_UNITS - place) / way, (-HALF_SIDE_UNITS - place) / way).min(-1)
+        return jnp.clip(jnp.minimum(box, wall), 0, RANGE_UNITS) / RANGE_UNITS
 
     def tick(state: Any) -> Any:
         place, speed, angle, spin = state
         ahead = jnp.array([jnp.cos(angle), jnp.sin(angle)])
         values = jnp.concatenate([look(place, angle), place / 50, ahead])
-        left, right = THRUST * (0.5 + network(matrices, values, jnp.tanh) / 2)
-        speed = (speed + TICK * (left + right) / MASS * ahead) * LINEAR
-        spin = (spin + TICK * (right - left) / INERTIA) * ANGULAR
-        place, angle = place + TICK * speed, angle + TICK * spin
+        left, right = WHEEL_THRUST * (0.5 + network(matrices, values, jnp.tanh) / 2)
+        speed = (speed + TICK_SECONDS * (left + right) / ROBOT_MASS * ahead) * LINEAR_SHARE
+        spin = (spin + TICK_SECONDS * (right - left) / ROBOT_INERTIA) * ANGULAR_SHARE
+        place, angle = place + TICK_SECONDS * speed, angle + TICK_SECONDS * spin
         gap = place - at[:, :2]
         gap = gap - jnp.clip(gap, -halves, halves)
         far = jnp.sqrt((gap**2).sum(-1, keepdims=True) + 1e-9)
@@ -258,6 +275,15 @@ def own_jax() -> Ready:
         into = jnp.where(size > 1e-5, jnp.minimum(speed @ out / size, 0.0), 0.0)
         return jnp.clip(place + out, -49, 49), speed - into * out / size, angle, spin
 
+    return tick
+
+
+def own_jax() -> Ready:
+    """1,024 worlds written out by hand, what one does where no engine fits; no friction, layouts or rewards."""
+    import jax
+    import jax.numpy as jnp
+
+    worlds, tick = 1024, jax_tick()
     run = jax.jit(lambda all_: jax.lax.scan(lambda now, _: (jax.vmap(tick)(now), None), all_, None, CALL_TICKS)[0])
     begin = jnp.asarray(starts(worlds), jnp.float32)
     state = begin[:, :2], jnp.zeros((worlds, 2)), begin[:, 2], jnp.zeros(worlds)

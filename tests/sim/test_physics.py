@@ -7,7 +7,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 from mindrun.graph.policy import Policy
 from mindrun.numbers.trigonometry import cosine, sine
-from mindrun.sim.lanes.disc import nearest_points
+from mindrun.sim.lanes.nearest_points import nearest_points
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 

@@ -30,10 +30,10 @@ BEGIN_X, BEGIN_Y, FROM_X, FROM_Y, FROM_ANGLE, TO_X, TO_Y, HALF, WAY = range(9)  
 BIAS_X, BIAS_Y, BIAS_SPIN, SECONDS, STEPS, PAIRS, TOUCHING, DISC_COLUMNS = range(8)
 # Columns of a pair: 2·box, and 1 more of the held item; the step that it touched in last, and whether for the first
 # time; its impulses along and across the normal, the normal, the place of the contact from the middle of the body.
-KEY, USED, FIRST, ALONG, ACROSS, NORMAL_X, NORMAL_Y, AT_X, AT_Y, MASS_ALONG, MASS_ACROSS, PARTING, PARTED, FRICTION = (
-    range(14)
-)
-RANK, PAIR_COLUMNS = 14, 15  # the place in which Chipmunk finds it
+(
+    KEY, USED, FIRST, ALONG, ACROSS, NORMAL_X, NORMAL_Y, AT_X, AT_Y, MASS_ALONG, MASS_ACROSS, PARTING, PARTED, FRICTION,
+    RANK, PAIR_COLUMNS,
+) = range(16)  # fmt: skip
 MOST_PAIRS = 64
 F4, F8, I8, U1, U8 = np.float32, np.float64, np.int64, np.uint8, np.uint64
 
