@@ -99,6 +99,7 @@ ROOMS = {
             KINDS_PAGE,
             "tests/sensors/test_nearest.py",
             "tests/sensors/test_constants.py",
+            "tests/sensors/test_derived.py",
             "tests/sim/test_directions.py",
             "tests/sensors/test_readings.py",
             *(f"tests/sim/test_rough_sensors.py::{name}" for name in QUICK_SENSORS),
