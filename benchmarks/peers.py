@@ -359,7 +359,9 @@ def in_turns(names: list[str], rounds: int, seconds: float, environments: Path |
 
 def main() -> None:
     """Measure in turns, and print the medians and how many times as fast Collect is, within each turn."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, allow_abbrev=False, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("peers", nargs="*", metavar="PEER")
     parser.add_argument("--rounds", type=int, default=3)
     parser.add_argument("--seconds", type=float, default=2.0)

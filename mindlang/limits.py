@@ -25,7 +25,7 @@ ATTEMPT_BOUNDS: Bounds = (1, 10_000)
 RUNG_BOUNDS: Bounds = (0, 1000)
 
 RUN_BYTES, ENTRY_BYTES = 160, 12  # bytes that a run takes, and each of its rewards and events
-LANE_BYTES, GENOME_COPIES = 2048, 6
+LANE_BYTES, GENOME_COPIES = 6144, 6
 WAITING_BYTES = {"delays": 4, "changes": 16, "depth": 8, "skills": 12}
 MAX_TICKS_PER_SECOND = 20_000_000  # agent-ticks in a second and worker, which no lesson reaches
 YEAR_SECONDS = 366 * 24 * 3600  # nobody waits for longer
