@@ -28,12 +28,12 @@ FAILED_SKILL, FAILED_COLUMN = range(2)  # of `failed`
 BEGIN_X, BEGIN_Y, FROM_X, FROM_Y, FROM_ANGLE, TO_X, TO_Y, HALF, WAY = range(9)  # columns of each way in `ways`
 # Columns of `disc`: velocities that part what overlaps, seconds of the last step or 0, steps, pairs, those that touch.
 BIAS_X, BIAS_Y, BIAS_SPIN, SECONDS, STEPS, PAIRS, TOUCHING, DISC_COLUMNS = range(8)
-# Columns of a pair: 2·box, and 1 more of the held item; the step that it touched in last, and whether for the first
+# Columns of a pair: a number for its box and its disc; the step that it touched in last, and whether for the first
 # time; its impulses along and across the normal, the normal, the place of the contact from the middle of the body.
 (
     KEY, USED, FIRST, ALONG, ACROSS, NORMAL_X, NORMAL_Y, AT_X, AT_Y, MASS_ALONG, MASS_ACROSS, PARTING, PARTED, FRICTION,
-    RANK, PAIR_COLUMNS,
-) = range(16)  # fmt: skip
+    RANK, REACH, PAIR_COLUMNS,
+) = range(17)  # fmt: skip
 MOST_PAIRS = 32
 F4, F8, I8, U1, U8 = np.float32, np.float64, np.int64, np.uint8, np.uint64
 

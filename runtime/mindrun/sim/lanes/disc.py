@@ -39,6 +39,7 @@ from mindrun.sim.state import (
     PARTED,
     PARTING,
     RANK,
+    REACH,
     SECONDS,
     STEPS,
     TOUCHING,
@@ -50,6 +51,7 @@ from mindrun.sim.tables import Tables
 from mindrun.sim.units import call, call_double, unit
 
 SOLVER_ITERATIONS = 8
+ROBOT_DISC, WALL_COUNT = -1, 4  # in place of a thing; of an arena
 COLLISION_BIAS = math.pow(float(F(1) - F(0.1)), 60.0)  # what is left of an overlap after a second
 HALF_WALL_UNITS = 1.0  # half the thickness of a wall, outside the arena
 HASH_CELLS = 23  # of Chipmunk's table: the first of its primes from HASH_COUNT on
@@ -71,9 +73,10 @@ def step_disc(tables: Tables, world: WorldState, contact: ContactState, seconds:
     if is_held_first:
         touch_held(tables, world, contact, lane)
     x, y, friction = body[X, lane], body[Y, lane], world.numbers[constants.friction, lane]
-    touch(tables, world, disc, pairs, x, y, constants.radius, 0, friction, lane)
+    touch(tables, world, disc, pairs, x, y, constants.radius, ROBOT_DISC, friction, lane)
     if held >= 0 and not is_held_first:
         touch_held(tables, world, contact, lane)
+    let_go(tables, world, contact, lane)
     solve(tables, world, disc, pairs, seconds, share, lane)
     disc[SECONDS] = seconds
     return int(disc[TOUCHING])
@@ -92,44 +95,57 @@ def forget_old(disc, pairs):
 
 def touch_held(tables, world, contact, lane):
     """Note what the item in the claw touches."""
-    held, angle, turned = world.held[lane], world.body[ANGLE, lane], contact.floats[lane]
-    call(tables.library[SINE_COSINE], angle, turned[1:].ctypes.data, turned.ctypes.data)
-    hold = tables.things[held].hold
-    x, y = turned[0] * hold + world.body[X, lane], turned[1] * hold + world.body[Y, lane]
+    held = world.held[lane]
+    x, y = place_in_claw(tables, world, contact, held, lane)
     radius = size_of(world.things, held, lane) / 2
-    touch(tables, world, contact.disc[lane], contact.pairs[lane], x, y, radius, 1, FRICTION_COEFFICIENT, lane)
+    touch(tables, world, contact.disc[lane], contact.pairs[lane], x, y, radius, held, FRICTION_COEFFICIENT, lane)
 
 
-def touch(tables, world, disc, pairs, x, y, radius, is_held, friction, lane):
+def place_in_claw(tables, world, contact, thing, lane):
+    """The x and y of a thing's middle in the claw, turned with the C library's sine and cosine as Chipmunk does it."""
+    angle, turned = world.body[ANGLE, lane], contact.floats[lane]
+    call(tables.library[SINE_COSINE], angle, turned[1:].ctypes.data, turned.ctypes.data)
+    hold = tables.things[thing].hold
+    return turned[0] * hold + world.body[X, lane], turned[1] * hold + world.body[Y, lane]
+
+
+def let_go(tables, world, contact, lane):
+    """Forget the pairs of what the claw has let go where it would touch if it were still there.
+
+    For Chipmunk that is a contact without impulses, and what does not touch one that it remembers.
+    """
+    disc, pairs = contact.disc[lane], contact.pairs[lane]
+    for i in range(int(disc[TOUCHING]), int(disc[PAIRS])):
+        key, reach = int(pairs[PAIR_COLUMNS * i + KEY]), pairs[PAIR_COLUMNS * i + REACH]
+        thing = key % (len(tables.things) + 1) - 1
+        if thing != ROBOT_DISC and thing != world.held[lane]:
+            x, y = place_in_claw(tables, world, contact, thing, lane)
+            left, low, right, top = sides_of(tables, world, box_in(tables, key), lane)
+            apart = nearest_points(x, y, reach, left, low, right, top)[6]
+            if apart <= reach and overlaps(x, y, reach, left, low, right, top):
+                pairs[PAIR_COLUMNS * i + USED] = -PERSISTENCE_TICKS
+
+
+def touch(tables, world, disc, pairs, x, y, radius, thing, friction, lane):
     """Note what a disc at (x, y) touches, in the order in which Chipmunk's hash would find it."""
     boxes, begin = world.boxes.shape[1] // BOX_COLUMNS, int(disc[TOUCHING])
     for b in range(boxes):
         its_x, its_y, wide, high = box_of(world.boxes, b, lane)
-        left, low, right, top = its_x - wide, its_y - high, its_x + wide, its_y + high
-        if x - radius <= right and left <= x + radius and y - radius <= top and low <= y + radius:
-            meet(world, disc, pairs, x, y, radius, 2 * b + is_held, friction, left, low, right, top, lane)
+        if overlaps(x, y, radius, its_x - wide, its_y - high, its_x + wide, its_y + high):
+            meet(tables, world, disc, pairs, x, y, radius, thing, b, friction, lane)
     half_x, half_y = tables.world[0].half_x, tables.world[0].half_y
     if half_x < ENDLESS_UNITS and max(abs(x) + radius - half_x, abs(y) + radius - half_y) >= 0.0:
-        for wall in range(4):
+        for wall in range(WALL_COUNT):
             left, low, right, top = wall_of(half_x, half_y, wall)
-            if x - radius <= right and left <= x + radius and y - radius <= top and low <= y + radius:
-                meet(
-                    world,
-                    disc,
-                    pairs,
-                    x,
-                    y,
-                    radius,
-                    2 * (boxes + wall) + is_held,
-                    friction,
-                    left,
-                    low,
-                    right,
-                    top,
-                    lane,
-                )
+            if overlaps(x, y, radius, left, low, right, top):
+                meet(tables, world, disc, pairs, x, y, radius, thing, boxes + wall, friction, lane)
     if disc[TOUCHING] - begin > 1:
         rank(tables, world, disc, pairs, x, y, radius, begin, lane)
+
+
+def overlaps(x, y, radius, left, low, right, top):
+    """True if the square around a disc meets a box."""
+    return (x - radius <= right) & (left <= x + radius) & (y - radius <= top) & (low <= y + radius)
 
 
 def wall_of(x, y, wall):
@@ -144,13 +160,12 @@ def wall_of(x, y, wall):
     return -far_x, y, far_x, far_y
 
 
-def meet(world, disc, pairs, x, y, radius, key, friction, left, low, right, top, lane):
-    """Note the contact of a disc and a box, if they touch."""
+def meet(tables, world, disc, pairs, x, y, radius, thing, b, friction, lane):
+    """Note the contact of a disc and box b, if they touch."""
+    left, low, right, top = sides_of(tables, world, b, lane)
     at_x, at_y, its_x, its_y, nx, ny, apart = nearest_points(x, y, radius, left, low, right, top)
-    if not apart <= radius:
-        return
     i = int(disc[TOUCHING])
-    if not take_pair(disc, pairs, key, i):
+    if not (apart <= radius and take_pair(disc, pairs, b * (len(tables.things) + 1) + thing + 1, i)):
         return
     disc[TOUCHING] += 1.0
     pair = PAIR_COLUMNS * i
@@ -159,7 +174,7 @@ def meet(world, disc, pairs, x, y, radius, key, friction, left, low, right, top,
     pairs[pair + AT_X], pairs[pair + AT_Y] = (at_x + nx * radius) - own_x, (at_y + ny * radius) - own_y
     # How far apart they are along the normal, of which the solver takes what is more than `slop` back.
     dx, dy = (its_x - pairs[pair + AT_X]) + (0.0 - own_x), (its_y - pairs[pair + AT_Y]) + (0.0 - own_y)
-    pairs[pair + PARTING] = dx * nx + dy * ny
+    pairs[pair + PARTING], pairs[pair + REACH] = dx * nx + dy * ny, radius
 
 
 def take_pair(disc, pairs, key, i):
@@ -183,6 +198,11 @@ def take_pair(disc, pairs, key, i):
     return True
 
 
+def box_in(tables, key):
+    """The number of the box, or of the wall behind these, in the key of a pair."""
+    return int(key) // (len(tables.things) + 1)
+
+
 def rank(tables, world, disc, pairs, x, y, radius, begin, lane):
     """Sort the pairs from number `begin` on into the order in which Chipmunk's hash finds them.
 
@@ -199,9 +219,9 @@ def rank(tables, world, disc, pairs, x, y, radius, begin, lane):
             for i in range(begin, end):
                 pair = PAIR_COLUMNS * i
                 if pairs[pair + RANK] < 0.0:
-                    left, low, right, top = sides_of(tables, world, int(pairs[pair + KEY]) // 2, lane)
+                    left, low, right, top = sides_of(tables, world, box_in(tables, pairs[pair + KEY]), lane)
                     if lies_in(cell, left, low, right, top, slot):
-                        pairs[pair + RANK] = number + (count - pairs[pair + KEY] / 2)
+                        pairs[pair + RANK] = number + (count - box_in(tables, pairs[pair + KEY]))
             number += count + 1.0
     for i in range(begin + 1, end):
         for k in range(i, begin, -1):
