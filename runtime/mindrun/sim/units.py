@@ -119,6 +119,11 @@ def unit(function: Any) -> Any:
     return unit_where(lambda tables: True)(function)
 
 
+def seldom(tables: Any) -> bool:
+    """No tables need it: it is compiled where it is called."""
+    return False
+
+
 def unit_where(needed: Needed) -> Callable[[Any], Any]:
     """A unit that only some tables need: it is not compiled ahead for others."""
 

@@ -11,7 +11,7 @@ from mindrun.sim.lanes.step import step
 from mindrun.sim.lanes.think import begin, think
 from mindrun.sim.state import FAILED_SKILL, Jobs, State, recorded
 from mindrun.sim.tables import Tables
-from mindrun.sim.units import unit
+from mindrun.sim.units import seldom, unit, unit_where
 
 
 @unit
@@ -66,7 +66,7 @@ def conclude(tables: Tables, state: State, jobs: Jobs, interrupt: int) -> None:
         end(tables, state, jobs, lanes - 1 - k)
 
 
-@unit
+@unit_where(seldom)
 def record(state: State, jobs: Jobs) -> None:
     """Write a row of what the first lane's world and mind are after a tick, where there is room for one.
 

@@ -12,9 +12,9 @@ from mindrun.sim.codes import DELIVERY, GOING_ON, MOVES, STAYS, VANISHES, ZONE
 from mindrun.sim.lanes.loose import SETTLED_TICKS
 from mindrun.sim.lanes.placement import succeed, vanish
 from mindrun.sim.lanes.think import run_program
-from mindrun.sim.state import PLACE_ROWS, State
+from mindrun.sim.state import PLACE_ROWS, State, WorldState
 from mindrun.sim.tables import Tables
-from mindrun.sim.units import unit
+from mindrun.sim.units import unit, unit_where
 
 REACH_BEGUN = 1  # in this tick and not in the one before
 
@@ -23,7 +23,7 @@ REACH_BEGUN = 1  # in this tick and not in the one before
 def judge(tables: Tables, state: State, lanes: int, clock: int, interrupt: int) -> None:
     """Do everything that a task does with a tick once the robot has moved."""
     world, judged = state.world, state.judge
-    take_measures(tables, world, state.mind.commands, judged, lanes, clock)
+    take_measures(tables, state, lanes, clock)
     if tables.world[0].battery:
         drain(tables, world, lanes)
     begun = meet(tables, world, lanes)
@@ -45,7 +45,8 @@ def judge(tables: Tables, state: State, lanes: int, clock: int, interrupt: int) 
         world.trail[oldest + X, lane], world.trail[oldest + Y, lane] = world.begun_at[X, lane], world.begun_at[Y, lane]
 
 
-def drain(tables, world, lanes):
+@unit_where(lambda tables: tables.world[0]["battery"] > 0)
+def drain(tables: Tables, world: WorldState, lanes: int) -> None:
     """Charge the battery inside a power zone, and drain it elsewhere."""
     charge, drained = tables.world[0].charge, tables.world[0].drain
     for lane in range(lanes):
@@ -167,12 +168,13 @@ def mark_success(tables, judged, lanes):
                     judged.happened[i] += 1
 
 
-def take_measures(tables, world, commands, judged, lanes, clock):
+def take_measures(tables, state, lanes, clock):
     """Compute the measures of the tick."""
+    world, judged = state.world, state.judge
     for i in range(len(tables.measures)):
         measure, out = tables.measures[i], judged.measures[i]
         if measure.kind == codes.CHANGE:
-            change(tables, commands, judged, measure, out, lanes, clock)
+            change(tables, state, i, lanes, clock)
         elif measure.kind == codes.FORWARD:
             forward(out, world.body, world.heading, world.begun_at, lanes)
         elif measure.kind != codes.ITS_REWARD:  # which stands there already
@@ -211,19 +213,21 @@ def forward(out, body, heading, begun_at, lanes):
         out[lane] = 1.0 if along > 1e-6 else 0.0
 
 
-def change(tables, commands, judged, measure, out, lanes, clock):
-    """Sum the changes of each side's commands over the last ticks, beyond a share: ΣΔ of the paper's Table 5."""
-    now = measure.ring + clock % measure.over
+@unit_where(lambda tables: (tables.measures["kind"] == codes.CHANGE).any())
+def change(tables: Tables, state: State, i: int, lanes: int, clock: int) -> None:
+    """Sum the changes of each side's commands over the last ticks, beyond a share, for measure i: ΣΔ in Table 5 of the paper."""
+    commands, judged, measure = state.mind.commands, state.judge, tables.measures[i]
+    out, now = judged.measures[i], measure.ring + clock % measure.over
     for lane in range(lanes):
         judged.left_changes[now, lane] = 0.0
         judged.right_changes[now, lane] = 0.0
         out[lane] = 0.0
-    for i in range(len(tables.actuators)):
-        actuator = tables.actuators[i]
+    for k in range(len(tables.actuators)):
+        actuator = tables.actuators[k]
         if actuator.kind == codes.PUSH:
             changes = judged.right_changes[now] if actuator.is_right else judged.left_changes[now]
             for lane in range(lanes):
-                changes[lane] += abs(np.float64(commands[i, lane]) - np.float64(judged.last_commands[i, lane]))
+                changes[lane] += abs(np.float64(commands[k, lane]) - np.float64(judged.last_commands[k, lane]))
     varied = judged.paid  # which has nothing in it yet
     for changes in (judged.left_changes, judged.right_changes):
         for lane in range(lanes):

@@ -33,7 +33,9 @@ from mindrun.numbers.arithmetic import (
     size_of,
 )
 from mindrun.sim.codes import FAR, HALF_DIAGONAL
-from mindrun.sim.state import BEGIN_X, BEGIN_Y, FROM_ANGLE, FROM_X, FROM_Y, HALF, TO_X, TO_Y, WAY
+from mindrun.sim.state import BEGIN_X, BEGIN_Y, FROM_ANGLE, FROM_X, FROM_Y, HALF, TO_X, TO_Y, WAY, WorldState
+from mindrun.sim.tables import Tables
+from mindrun.sim.units import seldom, unit_where
 
 CLOSED_UNITS = 1e-6  # so much larger is everything here: what stands corner to corner leaves no way between
 SWIFT_SHARE, STRIDE_SHARE = 0.75, 0.5  # of a least half side: beyond which there are strides, and how far one may go
@@ -149,7 +151,8 @@ def speed_of_loose(tables, world, i, lane):
     return speed + abs(world.loose[row + PUSHED_SPIN, lane]) * arm
 
 
-def stride(tables, world, lane):
+@unit_where(seldom)
+def stride(tables: Tables, world: WorldState, lane: int) -> float:
     """The seconds for which a lane may go on at once; infinite where nothing in it is swift."""
     body, constants, held = world.body, tables.world[0], world.held[lane]
     half, reach = min(constants.front, constants.side), constants.radius
