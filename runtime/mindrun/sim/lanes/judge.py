@@ -215,7 +215,7 @@ def forward(out, body, heading, begun_at, lanes):
 
 @unit_where(lambda tables: (tables.measures["kind"] == codes.CHANGE).any())
 def change(tables: Tables, state: State, i: int, lanes: int, clock: int) -> None:
-    """Sum the changes of each side's commands over the last ticks, beyond a share, for measure i: ΣΔ in Table 5 of the paper."""
+    """Compute measure i, the changes of each side's commands over the last ticks, beyond a share: the paper's ΣΔ."""
     commands, judged, measure = state.mind.commands, state.judge, tables.measures[i]
     out, now = judged.measures[i], measure.ring + clock % measure.over
     for lane in range(lanes):
