@@ -38,7 +38,7 @@ COMPILING = "compiling the simulator once (some ten seconds)…"
 def ensure_compiled(rollout: Rollout, say: Callable[[str], None] = terminal.complain) -> None:
     """Compile what a rollout needs of the simulator if need be, and say so, and how far it is."""
     units = rollout.units()
-    missing = [each for each in units if cache.find(each) is None]
+    missing = cache.missing(units)
     if missing:
         say(COMPILING)
     with progress(hidden=not missing) as bar:

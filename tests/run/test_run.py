@@ -123,7 +123,7 @@ def test_workers_change_nothing(mindc: Call, rules: Path) -> None:
 
 
 def test_a_first_run_says_why_it_takes_so_long(mindc: Call, rules: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(_session, "cache", SimpleNamespace(find=lambda unit: None))
+    monkeypatch.setattr(_session, "cache", SimpleNamespace(missing=lambda units: [*units]))
     assert mindc("run", rules, "--seed", 3).err == f"{_session.COMPILING}\n"
     assert mindc("run", rules, "--seed", 3, "--quiet").err == ""
 

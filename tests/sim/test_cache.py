@@ -225,7 +225,7 @@ def test_native_code_is_made_behind_what_was_shipped(
             pass
 
     begun: list[Any] = []
-    known = SimpleNamespace(find=lambda unit: b"" if found else None, is_native=lambda unit: native)
+    known = SimpleNamespace(missing=lambda units: [] if found else [*units], is_native=lambda unit: native)
     monkeypatch.setattr(simulator, "cache", known)
     monkeypatch.setattr(cache, "lasts", lambda: lasts)
     monkeypatch.setattr(subprocess, "Popen", lambda words, env, **more: begun.append((words[-1], env, more)))

@@ -53,6 +53,22 @@ def test_contacts_equal_plain_pymunk(rocks: str, seed: int) -> None:
     assert touched > 20
 
 
+@pytest.mark.parametrize("seed", range(4))
+def test_a_space_makes_the_same_contacts(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It does where the C library has no `sincos`, with which Chipmunk turns what is held."""
+
+    def bodies() -> list[bytes]:
+        rollout = Rollout(Policy(drifter("arena", 3_000, ROCKS), {}), "Drift", "Drift", interrupt=False)
+        alone.append(bool(rollout.tables.world[0]["is_alone"]))
+        return [moment.body.tobytes() for moment in trace(rollout, seed).moments]
+
+    alone = list[bool]()
+    made = bodies()
+    monkeypatch.setattr("mindrun.sim.chipmunk_internals._address_in_c", lambda name: 0)
+    assert bodies() == made
+    assert alone == [True, False]
+
+
 PLACES = st.floats(-3, 3) | st.sampled_from([-1.0, -0.5, 0.0, 0.5, 1.0])  # on edges, corners and in the middle, too
 
 

@@ -79,14 +79,19 @@ def make_missing(units: Iterable[Unit]) -> None:
 
     Beside other processes that do the same: nobody compiles what another one is at, and all end when all is there.
     """
-    missing = sorted((each for each in units if find(each) is None), key=_length, reverse=True)
+    waiting = sorted(missing(units), key=_length, reverse=True)
     for patience in (0.0, WAIT_SECONDS):
-        for unit in [*missing]:
+        for unit in [*waiting]:
             with exclusive(_kept(unit).with_suffix(".lock"), patience) as is_alone:
                 if is_alone:
                     if find(unit) is None:
                         _make(unit)
-                    missing.remove(unit)
+                    waiting.remove(unit)
+
+
+def missing(units: Iterable[Unit]) -> list[Unit]:
+    """Those of some units of which there is no machine code."""
+    return [each for each in units if find(each) is None]
 
 
 def find(unit: Unit) -> bytes | None:

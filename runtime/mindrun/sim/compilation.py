@@ -19,7 +19,7 @@ MOST_PROCESSES = 4  # side by side: each has to begin
 
 def compile_missing(units: Iterable[Unit], told: Callable[[], None] = lambda: None) -> None:
     """Compile those of some units of which there is no machine code, on every core; `told` is called after each."""
-    _compile([each for each in units if cache.find(each) is None], lambda unit: cache.find(unit) is not None, told)
+    _compile(cache.missing(units), lambda unit: cache.find(unit) is not None, told)
 
 
 def compile_natively(units: Iterable[Unit], told: Callable[[], None] = lambda: None) -> None:

@@ -86,7 +86,7 @@ def _compiler() -> str:
 
 @cache
 def _of_function(function: FunctionType) -> str:
-    """Its code, and what it names, but for functions: these speak for themselves."""
+    """The code of a function, and what it names; of a function among these the name alone."""
     values = [f"{name} {_value(value, function)}" for name, value in used(function)]
     code = _code(function.__code__, function.__doc__)
     return f"{function.__module__}.{function.__qualname__} {function.__defaults__} {code} {values}"

@@ -28,9 +28,8 @@ class LoweredCode(JITCodeLibrary):  # type: ignore[misc]
     def add_llvm_module(self, ll_module: Any) -> None:
         """Add the code of the function itself."""
         ll_module.data_layout = self._codegen._data_layout
-        without_variables_in_memory(
-            ll_module, self._codegen._pass_builder(opt=0, loop_vectorize=False)
-        )  # once, not per caller
+        builder = self._codegen._pass_builder(opt=0, loop_vectorize=False)
+        without_variables_in_memory(ll_module, builder)  # once, not once for each caller
         self._final_module.link_in(ll_module)
 
     def finalize(self) -> None:

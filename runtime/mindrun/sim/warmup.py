@@ -18,7 +18,7 @@ LOWEST_NICENESS = 19  # how little a process matters that works while others wai
 
 def is_there(units: Iterable[Unit]) -> bool:
     """True if there is machine code of all of these units, kept or shipped."""
-    return all(cache.find(each) is not None for each in units)
+    return not cache.missing(units)
 
 
 def is_native(units: Iterable[Unit]) -> bool:

@@ -22,7 +22,6 @@ from mindrun.numbers.arithmetic import (
     TURN,
     X,
     Y,
-    box_of,
     place_of,
     put_thing,
     size_of,
@@ -30,7 +29,7 @@ from mindrun.numbers.arithmetic import (
 from mindrun.sim import chipmunk_internals as cp
 from mindrun.sim.chipmunk_internals import count_address
 from mindrun.sim.codes import FORCE_X, FORCE_Y, TORQUE
-from mindrun.sim.lanes.disc import step_disc
+from mindrun.sim.lanes.disc import SOLVER_ITERATIONS, sides_of, step_disc
 from mindrun.sim.lanes.loose import OF_LOOSE, SETTLED_TICKS, is_at_rest, put_motion
 from mindrun.sim.lanes.placement import ENDLESS_UNITS
 from mindrun.sim.lanes.solid import MOST_STRIDES, hold_back, note_before, note_begin, stride, within
@@ -38,8 +37,6 @@ from mindrun.sim.state import SECONDS, ContactState, WorldState
 from mindrun.sim.tables import Tables
 from mindrun.sim.units import call, unit, unit_where
 
-SOLVER_ITERATIONS = 8
-HALF_WALL_UNITS = 1.0  # half the thickness of a wall, outside the arena
 HASH_COUNT = 20
 GONE_UNITS, APART_UNITS = 1e8, 1e4  # where a Space keeps what is gone, each far from the others
 
@@ -107,7 +104,7 @@ def open_space(tables, world, contact, lane):
     call(library[cp.SPACE_ITERATIONS], space, SOLVER_ITERATIONS)
     call(library[cp.SPACE_SLOP], space, constants.slop)
     call(library[cp.SPACE_HASH], space, constants.cell, HASH_COUNT)
-    add_boxes(tables, space, world.boxes, handles, contact.floats[lane], lane)
+    add_boxes(tables, world, space, handles, contact.floats[lane], lane)
     mass, moment = world.numbers[constants.mass, lane], world.numbers[constants.moment, lane]
     body = call(library[cp.BODY_NEW], mass, moment)
     call(library[cp.SPACE_ADD_BODY], space, body)
@@ -123,22 +120,14 @@ def open_space(tables, world, contact, lane):
         add_loose(tables, world, space, contact, lane)
 
 
-def add_boxes(tables, space, boxes, handles, corners, lane):
+def add_boxes(tables, world, space, handles, corners, lane):
     """Add the obstacles of a lane and the walls of an arena; their shapes go to `handles`, after the things'."""
     library, constants = tables.library, tables.world[0]
     static = call(library[cp.SPACE_STATIC], space)
-    count, shape = boxes.shape[1] // BOX_COLUMNS, cp.FIRST_HELD + len(tables.things)
-    for b in range(count):
-        x, y, wide, high = box_of(boxes, b, lane)
-        handles[shape + b] = add_box(library, space, static, corners, x - wide, y - high, x + wide, y + high)
-    shape += count
-    x, y = constants.half_x, constants.half_y
-    if x < ENDLESS_UNITS:
-        far_x, far_y = x + 2 * HALF_WALL_UNITS, y + 2 * HALF_WALL_UNITS
-        handles[shape] = add_box(library, space, static, corners, -far_x, -far_y, -x, far_y)
-        handles[shape + 1] = add_box(library, space, static, corners, x, -far_y, far_x, far_y)
-        handles[shape + 2] = add_box(library, space, static, corners, -far_x, -far_y, far_x, -y)
-        handles[shape + 3] = add_box(library, space, static, corners, -far_x, y, far_x, far_y)
+    count, shape = world.boxes.shape[1] // BOX_COLUMNS, cp.FIRST_HELD + len(tables.things)
+    for b in range(count + (cp.WALL_COUNT if constants.half_x < ENDLESS_UNITS else 0)):
+        left, low, right, top = sides_of(tables, world, b, lane)
+        handles[shape + b] = add_box(library, space, static, corners, left, low, right, top)
 
 
 def add_box(library, space, static, corners, left, low, right, high):

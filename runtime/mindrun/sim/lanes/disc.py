@@ -14,7 +14,7 @@ import numpy as np
 
 from mindrun.kinds.bodies.body import FRICTION_COEFFICIENT
 from mindrun.numbers.arithmetic import ANGLE, BOX_COLUMNS, SPEED_X, SPEED_Y, SPIN, F, X, Y, box_of, size_of
-from mindrun.sim.chipmunk_internals import PERSISTENCE_TICKS, POWER, SINE_COSINE
+from mindrun.sim.chipmunk_internals import PERSISTENCE_TICKS, POWER, SINE_COSINE, WALL_COUNT
 from mindrun.sim.codes import FORCE_X, FORCE_Y, TORQUE
 from mindrun.sim.lanes.nearest_points import nearest_points
 from mindrun.sim.lanes.placement import ENDLESS_UNITS
@@ -51,7 +51,7 @@ from mindrun.sim.tables import Tables
 from mindrun.sim.units import call, call_double, unit
 
 SOLVER_ITERATIONS = 8
-ROBOT_DISC, WALL_COUNT = -1, 4  # in place of a thing; of an arena
+ROBOT_DISC = -1  # in place of a thing
 COLLISION_BIAS = math.pow(float(F(1) - F(0.1)), 60.0)  # what is left of an overlap after a second
 HALF_WALL_UNITS = 1.0  # half the thickness of a wall, outside the arena
 HASH_CELLS = 23  # of Chipmunk's table: the first of its primes from HASH_COUNT on
@@ -189,13 +189,18 @@ def take_pair(disc, pairs, key, i):
         disc[PAIRS] += 1.0
         pair = PAIR_COLUMNS * found
         pairs[pair + KEY], pairs[pair + USED], pairs[pair + ALONG], pairs[pair + ACROSS] = key, -1.0, 0.0, 0.0
-    for column in range(PAIR_COLUMNS):
-        here, there = PAIR_COLUMNS * i + column, PAIR_COLUMNS * found + column
-        pairs[here], pairs[there] = pairs[there], pairs[here]
+    exchange(pairs, i, found)
     pair = PAIR_COLUMNS * i
     pairs[pair + FIRST] = 0.0 if pairs[pair + USED] == disc[STEPS] - 1.0 else 1.0
     pairs[pair + USED] = disc[STEPS]
     return True
+
+
+def exchange(pairs, i, k):
+    """Exchange two pairs."""
+    for column in range(PAIR_COLUMNS):
+        here, there = PAIR_COLUMNS * i + column, PAIR_COLUMNS * k + column
+        pairs[here], pairs[there] = pairs[there], pairs[here]
 
 
 def box_in(tables, key):
@@ -212,7 +217,7 @@ def rank(tables, world, disc, pairs, x, y, radius, begin, lane):
     cell, end = tables.world[0].cell, int(disc[TOUCHING])
     for i in range(begin, end):
         pairs[PAIR_COLUMNS * i + RANK] = -1.0
-    number, count = 0.0, float(world.boxes.shape[1] // BOX_COLUMNS + 4)
+    number, count = 0.0, float(world.boxes.shape[1] // BOX_COLUMNS + WALL_COUNT)
     for column in range(floor((x - radius) / cell), floor((x + radius) / cell) + 1):
         for row in range(floor((y - radius) / cell), floor((y + radius) / cell) + 1):
             slot = slot_of(column, row)
@@ -226,9 +231,7 @@ def rank(tables, world, disc, pairs, x, y, radius, begin, lane):
     for i in range(begin + 1, end):
         for k in range(i, begin, -1):
             if pairs[PAIR_COLUMNS * k + RANK] < pairs[PAIR_COLUMNS * (k - 1) + RANK]:
-                for column in range(PAIR_COLUMNS):
-                    here, there = PAIR_COLUMNS * k + column, PAIR_COLUMNS * (k - 1) + column
-                    pairs[here], pairs[there] = pairs[there], pairs[here]
+                exchange(pairs, k, k - 1)
 
 
 def sides_of(tables, world, b, lane):
