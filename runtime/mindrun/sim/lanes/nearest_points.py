@@ -1,0 +1,175 @@
+"""The nearest points of two shapes, made without Chipmunk in its own order of operations: GJK, and EPA where they overlap.
+
+A shape is a circle, of which only its middle counts here, or a quadrangle: columns of `solids` from `a` and `b` on. A
+**vertex** is a corner of what is seen of one shape from the other, 4·corner of the first + corner of the second.
+"""
+
+import numpy as np
+
+from mindrun.sim.state import CORNER, CORNERS, HIGH, LEFT, LOW, RIGHT
+
+MOST_ROUNDS = 30  # of GJK and of EPA
+LEAST_NORMAL = 2.2250738585072014e-308  # DBL_MIN, which keeps Chipmunk from dividing by 0
+VERTEX_BITS, VERTEX = 4, 15
+
+
+def nearest_points(solids, a, b):
+    """The points of both shapes, the normal from one to the other, and how far apart they are."""
+    dx = middle_of(solids[a + LEFT], solids[a + RIGHT]) - middle_of(solids[b + LEFT], solids[b + RIGHT])
+    dy = middle_of(solids[a + LOW], solids[a + HIGH]) - middle_of(solids[b + LOW], solids[b + HIGH])
+    v, w = support(solids, a, b, -dy, dx), support(solids, a, b, dy, -dx)
+    for _ in range(MOST_ROUNDS):
+        vx, vy = seen(solids, a, b, v)
+        wx, wy = seen(solids, a, b, w)
+        if is_left(wx, wy, vx, vy, 0.0, 0.0):
+            v, w, vx, vy, wx, wy = w, v, wx, wy, vx, vy
+        t = nearest_share(vx, vy, wx, wy)
+        if t > -1.0 and t < 1.0:
+            nx, ny = -(wy - vy), wx - vx
+        else:
+            nx, ny = between(vx, vy, wx, wy, t)
+            nx, ny = -nx, -ny
+        c = support(solids, a, b, nx, ny)
+        cx, cy = seen(solids, a, b, c)
+        if is_left(cx, cy, vx, vy, 0.0, 0.0) and is_left(wx, wy, cx, cy, 0.0, 0.0):
+            v, w = expand(solids, a, b, v, c, w)
+            break
+        ahead_v, ahead_w = vx * nx + vy * ny, wx * nx + wy * ny
+        if cx * nx + cy * ny <= (ahead_v if ahead_v > ahead_w else ahead_w):
+            break
+        if distance(vx, vy, cx, cy) < distance(cx, cy, wx, wy):
+            w = c
+        else:
+            v = c
+    return points_on(solids, a, b, v, w)
+
+
+def middle_of(low, high):
+    """The middle between two sides."""
+    return low * 0.5 + high * 0.5
+
+
+def expand(solids, a, b, v, w, u):
+    """The edge that is nearest to where both shapes overlap, begun with three vertices (EPA).
+
+    The vertices of the hull so far are the digits of a number.
+    """
+    hull, count = v | w << VERTEX_BITS | u << 2 * VERTEX_BITS, 3
+    for round_ in range(1, MOST_ROUNDS + 1):
+        first, least = 0, np.inf
+        i = count - 1
+        for j in range(count):
+            ax, ay = seen(solids, a, b, digit(hull, i))
+            bx, by = seen(solids, a, b, digit(hull, j))
+            far = distance(ax, ay, bx, by)
+            if far < least:
+                least, first = far, i
+            i = j
+        v, w = digit(hull, first), digit(hull, (first + 1) % count)
+        ax, ay = seen(solids, a, b, v)
+        bx, by = seen(solids, a, b, w)
+        c = support(solids, a, b, -(by - ay), bx - ax)
+        cx, cy = seen(solids, a, b, c)
+        if c in (v, w) or not is_left(ax, ay, bx, by, cx, cy) or round_ == MOST_ROUNDS:
+            break
+        hull, count = larger_hull(solids, a, b, hull, count, first, c)
+    return v, w
+
+
+def larger_hull(solids, a, b, hull, count, first, c):
+    """The hull with vertex c behind the edge `first`, without what is not at its rim any more, and how many it has."""
+    larger, size, last = c, 1, c
+    for i in range(count):
+        place = (first + 1 + i) % count
+        vertex = digit(hull, place)
+        following = digit(hull, (place + 1) % count) if i + 1 < count else c
+        lx, ly = seen(solids, a, b, last)
+        hx, hy = seen(solids, a, b, vertex)
+        fx, fy = seen(solids, a, b, following)
+        if is_left(lx, ly, fx, fy, hx, hy):
+            larger |= vertex << VERTEX_BITS * size
+            size, last = size + 1, vertex
+    return larger, size
+
+
+def digit(hull, i):
+    """Vertex i of a hull."""
+    return hull >> VERTEX_BITS * i & VERTEX
+
+
+def points_on(solids, a, b, v, w):
+    """The nearest points on an edge, as `nearest_points`."""
+    vx, vy = seen(solids, a, b, v)
+    wx, wy = seen(solids, a, b, w)
+    t = nearest_share(vx, vy, wx, wy)
+    px, py = between(vx, vy, wx, wy, t)
+    one, other = corner(a, v >> 2), corner(a, w >> 2)
+    own_x, own_y = between(solids[one], solids[one + 1], solids[other], solids[other + 1], t)
+    one, other = corner(b, v & 3), corner(b, w & 3)
+    its_x, its_y = between(solids[one], solids[one + 1], solids[other], solids[other + 1], t)
+    dx, dy = wy - vy, -(wx - vx)
+    scale = 1.0 / (np.sqrt(dx * dx + dy * dy) + LEAST_NORMAL)
+    nx, ny = dx * scale, dy * scale
+    apart = nx * px + ny * py
+    if not (apart <= 0.0 or (t > -1.0 and t < 1.0)):  # of two corners
+        apart = np.sqrt(px * px + py * py)
+        scale = 1.0 / (apart + LEAST_NORMAL)
+        nx, ny = px * scale, py * scale
+    return own_x, own_y, its_x, its_y, nx, ny, apart
+
+
+def corner(a, i):
+    """The column of corner i of a shape."""
+    return a + CORNER + 2 * i
+
+
+def support(solids, a, b, nx, ny):
+    """The vertex that is farthest in a direction."""
+    return 4 * farthest(solids, a, -nx, -ny) + farthest(solids, b, nx, ny)
+
+
+def farthest(solids, a, nx, ny):
+    """The number of the corner of a shape that is farthest in a direction."""
+    if solids[a + CORNERS] == 1.0:
+        return 0
+    c = a + CORNER
+    most, found = solids[c] * nx + solids[c + 1] * ny, 0
+    far = solids[c + 2] * nx + solids[c + 3] * ny
+    most, found = (far, 1) if far > most else (most, found)
+    far = solids[c + 4] * nx + solids[c + 5] * ny
+    most, found = (far, 2) if far > most else (most, found)
+    return 3 if solids[c + 6] * nx + solids[c + 7] * ny > most else found
+
+
+def seen(solids, a, b, vertex):
+    """The x and y of a vertex."""
+    own, its = corner(a, vertex >> 2), corner(b, vertex & 3)
+    return solids[its] - solids[own], solids[its + 1] - solids[own + 1]
+
+
+def is_left(ax, ay, bx, by, cx, cy):
+    """True if c is to the left of the way from a to b."""
+    return (by - ay) * (ax + bx - 2.0 * cx) > (bx - ax) * (ay + by - 2.0 * cy)
+
+
+def nearest_share(ax, ay, bx, by):
+    """The place of the point of a way that is nearest to the origin: −1 at a, 1 at b."""
+    dx, dy = bx - ax, by - ay
+    square = dx * dx + dy * dy
+    if square == 0.0:
+        return 0.0
+    t = (dx * (ax + bx) + dy * (ay + by)) / square
+    t = t if t > -1.0 else -1.0
+    return -(t if t < 1.0 else 1.0)
+
+
+def between(ax, ay, bx, by, t):
+    """The point of a way at a place of −1 to 1."""
+    half = 0.5 * t
+    return ax * (0.5 - half) + bx * (0.5 + half), ay * (0.5 - half) + by * (0.5 + half)
+
+
+def distance(ax, ay, bx, by):
+    """The square of the distance of a way from the origin."""
+    x, y = between(ax, ay, bx, by, nearest_share(ax, ay, bx, by))
+    return x * x + y * y
