@@ -16,6 +16,7 @@ CONSTANT, DRAWN, DRAWN_WHOLE, FAILING, TIMES, OVER, INVERSE, DAMPING = range(8) 
 GOING_ON, LOST, BROKEN_OFF = -1, -2, -4  # no event has ended a run: out of time, beyond FAR, its environment has
 AWAY = 1e30  # units: where a box is that is none
 HALF_DIAGONAL = 0.7072  # of a square with side 1, and a little more
+WALL_COUNT = 4  # of an arena
 PERSISTENCE_TICKS = 3  # for which Chipmunk remembers a contact that is no more
 FAR = 1e9  # units from the origin, and radians: nothing is there, and a little further Chipmunk never comes back
 

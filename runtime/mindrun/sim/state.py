@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from mindrun.kinds.sensors.motion import TRAIL_TICKS
 from mindrun.numbers.arithmetic import BOX_COLUMNS, LANES, LOOSE_ROWS, THING_ROWS, X, Y
 from mindrun.sim.arrays import Block, Count, Room
-from mindrun.sim.codes import AWAY, PUSH_ROWS
+from mindrun.sim.codes import AWAY, PUSH_ROWS, WALL_COUNT
 from mindrun.sim.tables import Tables
 
 Array = NDArray[Any]
@@ -166,6 +166,7 @@ class ContactState(Block):
     swift: Annotated[Array, each()]  # 1 where something is so fast that it could pass something, until the tick is made
     ways: Annotated[Array, columns("movers", WAY)]  # where what moves was and is (lanes/solid)
     awake: Annotated[Array, columns("solids", kind=I8)]  # the solids that take part, as the hash has them
+    close: Annotated[Array, columns("close", kind=I8)]  # the boxes and walls that come close to one solid
     turned: Annotated[Array, columns(2)]  # sine and cosine of an angle, on their way from C
 
 
@@ -302,6 +303,7 @@ def _counts(tables: Tables, sizes: Mapping[str, int]) -> dict[str, int]:
         "movers": 2 + n["loose"],
         "board": max(1, n["patches"]),
         "happened": max(1, n["events"]),
+        "close": n["boxes"] + WALL_COUNT,
         "solids": FIRST_LOOSE + n["loose"],
         "pairs": MOST_PAIRS + MORE_PAIRS * n["loose"],
     }

@@ -14,14 +14,13 @@ from mindrun.kinds.sensors.battery import Battery
 from mindrun.kinds.things.thing import OUTCOMES, STAYS, ThingKind
 from mindrun.numbers.arithmetic import BOX_COLUMNS
 from mindrun.sim import codes
-from mindrun.sim.codes import DAMPING, HALF_DIAGONAL, INVERSE, OVER, TIMES, Row, records
+from mindrun.sim.codes import DAMPING, HALF_DIAGONAL, INVERSE, OVER, TIMES, WALL_COUNT, Row, records
 from mindrun.sim.mind_rows import Programs
 from mindrun.sim.parameter_rows import Parameters, Step
 
 Array = NDArray[Any]
 MIN_CELL_UNITS = 20.0  # the side of a cell of Chipmunk's hash, in which what is large takes only so many
 CELLS_PER_SHAPE, CELLS_PER_WALL = 4, 64
-WALL_COUNT = 4
 HASH_SIZES = 5, 13, 23, 47, 97, 193, 389, 769, 1543, 3079, 6151, 12289  # of the hashes of Chipmunk
 SLOP_UNITS = float(np.float32(0.1))  # how deep Chipmunk lets things stand in each other, if nobody says anything else
 SLOP_SHARE = 0.25  # of their least half side is the most

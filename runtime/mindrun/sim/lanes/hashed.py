@@ -21,7 +21,7 @@ from mindrun.sim.state import (
 )
 
 SLOTS, HASH_X, HASH_Y = np.uint64(23), np.uint64(1640531513), np.uint64(2654435789)
-HALF_WALL_UNITS, WALLS = 1.0, 4  # half the thickness of a wall, outside the arena
+HALF_WALL_UNITS = 1.0  # half the thickness of a wall, outside the arena
 
 
 def rank(tables, world, contact, a, begin, lane):

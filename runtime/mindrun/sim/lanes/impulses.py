@@ -18,6 +18,7 @@ from mindrun.sim.state import (
     CONTACT_COLUMNS,
     CONTACTS,
     FIRST,
+    FIXED,
     FRICTION,
     ITS_X,
     ITS_Y,
@@ -40,6 +41,7 @@ from mindrun.sim.state import (
 )
 
 SOLVER_ITERATIONS = 8
+NOTHING = FIXED  # the columns of what never moves
 COLLISION_BIAS = math.pow(float(F(1) - F(0.1)), 60.0)  # what is left of an overlap after a second
 
 
@@ -86,8 +88,18 @@ def push_again(solids, pairs, pair, before):
         push(solids, b, VX, pairs[c + ITS_X], pairs[c + ITS_Y], jx, jy)
 
 
+def velocity_at(solids, a, velocity, x, y):
+    """The velocity of a solid at a place, by the velocities that begin at a column."""
+    if a == NOTHING:
+        return 0.0, 0.0
+    spin = solids[a + velocity + 2]
+    return solids[a + velocity] + -y * spin, solids[a + velocity + 1] + x * spin
+
+
 def push(solids, a, velocity, x, y, jx, jy):
     """Change the velocities of a solid that begin at a column, by an impulse at a place."""
+    if a == NOTHING:
+        return
     light = solids[a + MASS_INV]
     solids[a + velocity] += jx * light
     solids[a + velocity + 1] += jy * light
@@ -100,12 +112,13 @@ def act(solids, pairs, pair):
     for k in range(int(pairs[pair + CONTACTS])):
         c = pair + CONTACT + CONTACT_COLUMNS * k
         ax, ay, bx, by = pairs[c + AT_X], pairs[c + AT_Y], pairs[c + ITS_X], pairs[c + ITS_Y]
-        away_x = (solids[b + AWAY_X] + -by * solids[b + AWAY_SPIN]) - (solids[a + AWAY_X] + -ay * solids[a + AWAY_SPIN])
-        away_y = (solids[b + AWAY_Y] + bx * solids[b + AWAY_SPIN]) - (solids[a + AWAY_Y] + ax * solids[a + AWAY_SPIN])
-        speed_x = ((solids[b + VX] + -by * solids[b + VSPIN]) - (solids[a + VX] + -ay * solids[a + VSPIN])) + 0.0
-        speed_y = ((solids[b + VY] + bx * solids[b + VSPIN]) - (solids[a + VY] + ax * solids[a + VSPIN])) + 0.0
-        more = part(pairs, c, away_x * nx + away_y * ny)
-        along, across = bounce(pairs, c, pairs[pair + FRICTION], speed_x * nx + speed_y * ny, speed_x * -ny + speed_y * nx)
+        x, y = velocity_at(solids, a, AWAY_X, ax, ay)
+        its_x, its_y = velocity_at(solids, b, AWAY_X, bx, by)
+        more = part(pairs, c, (its_x - x) * nx + (its_y - y) * ny)
+        x, y = velocity_at(solids, a, VX, ax, ay)
+        its_x, its_y = velocity_at(solids, b, VX, bx, by)
+        x, y = (its_x - x) + 0.0, (its_y - y) + 0.0
+        along, across = bounce(pairs, c, pairs[pair + FRICTION], x * nx + y * ny, x * -ny + y * nx)
         jx, jy = nx * more, ny * more
         push(solids, a, AWAY_X, ax, ay, -jx, -jy)
         push(solids, b, AWAY_X, bx, by, jx, jy)

@@ -7,8 +7,8 @@ order of the hash: for each solid that moves what else moves, then for each what
 import numpy as np
 
 from mindrun.numbers.arithmetic import BOX_COLUMNS, box_of
-from mindrun.sim.codes import PERSISTENCE_TICKS
-from mindrun.sim.lanes.hashed import WALLS, rank, swap, wall_of
+from mindrun.sim.codes import PERSISTENCE_TICKS, WALL_COUNT
+from mindrun.sim.lanes.hashed import rank, sides_of, swap, wall_of
 from mindrun.sim.lanes.loose import OF_LOOSE
 from mindrun.sim.lanes.nearest_points import LEAST_NORMAL, corner, farthest, nearest_points
 from mindrun.sim.lanes.placement import ENDLESS_UNITS
@@ -108,37 +108,39 @@ def overlap(solids, a, b):
 
 
 def touch_fixed(tables, world, contact, lane):
-    """Note what touches what never moves."""
-    space, solids, awake = contact.space[lane], contact.solids[lane], contact.awake[lane]
-    boxes, half_x, half_y = world.boxes.shape[1] // BOX_COLUMNS, tables.world[0].half_x, tables.world[0].half_y
-    number = FIRST_LOOSE + len(tables.loose)  # of the first box
+    """Note what touches what never moves, and how often the robot does, with what it holds."""
+    space, solids, awake, near = contact.space[lane], contact.solids[lane], contact.awake[lane], contact.close[lane]
+    number, p = FIRST_LOOSE + len(tables.loose), SOLID_COLUMNS * FIXED  # of the first box
     for i in range(int(space[AWAKE])):
         a, begin = awake[i], int(space[TOUCHING])
-        p = SOLID_COLUMNS * a
-        left, right, low, high = solids[p + LEFT], solids[p + RIGHT], solids[p + LOW], solids[p + HIGH]
-        if half_x < ENDLESS_UNITS and (left <= -half_x or right >= half_x or low <= -half_y or high >= half_y):
-            for wall in range(WALLS - 1, -1, -1):
-                its_left, its_low, its_right, its_top = wall_of(half_x, half_y, wall)
-                if left <= its_right and its_left <= right and low <= its_top and its_low <= high:
-                    put_fixed(solids, boxes + wall, its_left, its_low, its_right, its_top)
-                    meet(contact, a, FIXED, number + boxes + wall, lane)
-        for b in range(boxes - 1, -1, -1):
-            x, y, wide, tall = box_of(world.boxes, b, lane)
-            if left <= x + wide and x - wide <= right and low <= y + tall and y - tall <= high:
-                put_fixed(solids, b, x - wide, y - tall, x + wide, y + tall)
-                meet(contact, a, FIXED, number + b, lane)
+        for k in range(find_close(tables, world, contact, a, lane) - 1, -1, -1):
+            left, low, right, top = sides_of(tables, world, solids, number + near[k], lane)
+            solids[p + LEFT], solids[p + LOW], solids[p + RIGHT], solids[p + HIGH] = left, low, right, top
+            put_corners(solids, p + CORNER, left, low, right, top)
+            solids[p + NUMBER] = near[k]
+            meet(contact, a, FIXED, number + near[k], lane)
         count = space[TOUCHING] - begin
         if count > 1.0:
             rank(tables, world, contact, a, begin, lane)
         space[RUN_INTO] += count if a == ROBOT or a == HELD else 0.0
 
 
-def put_fixed(solids, number, left, low, right, top):
-    """Write a box or wall with a number to where the one stands that never moves."""
-    p = SOLID_COLUMNS * FIXED
-    solids[p + LEFT], solids[p + LOW], solids[p + RIGHT], solids[p + HIGH] = left, low, right, top
-    put_corners(solids, p + CORNER, left, low, right, top)
-    solids[p + NUMBER] = number
+def find_close(tables, world, contact, a, lane):
+    """Write down the boxes and walls that meet the rectangle around a solid; return how many do."""
+    close, solids, p = contact.close[lane], contact.solids[lane], SOLID_COLUMNS * a
+    left, right, low, high = solids[p + LEFT], solids[p + RIGHT], solids[p + LOW], solids[p + HIGH]
+    boxes, half_x, half_y = world.boxes.shape[1] // BOX_COLUMNS, tables.world[0].half_x, tables.world[0].half_y
+    count = 0
+    for b in range(boxes):
+        x, y, wide, tall = box_of(world.boxes, b, lane)
+        if x - wide <= right and left <= x + wide and y - tall <= high and low <= y + tall:
+            close[count], count = b, count + 1
+    if half_x < ENDLESS_UNITS and (left <= -half_x or right >= half_x or low <= -half_y or high >= half_y):
+        for wall in range(WALL_COUNT):
+            its_left, its_low, its_right, its_top = wall_of(half_x, half_y, wall)
+            if left <= its_right and its_left <= right and low <= its_top and its_low <= high:
+                close[count], count = boxes + wall, count + 1
+    return count
 
 
 def put_corners(solids, at, left, low, right, top):
