@@ -26,7 +26,12 @@ HALF_WALL_UNITS = 1.0  # half the thickness of a wall, outside the arena
 
 def rank(tables, world, contact, a, begin, lane):
     """Sort the pairs of solid `a` from number `begin` on, what was added last first, into the order of the hash."""
-    solids, pairs, cell, end = contact.solids[lane], contact.pairs[lane], tables.world[0].cell, contact.space[lane, TOUCHING]
+    solids, pairs, cell, end = (
+        contact.solids[lane],
+        contact.pairs[lane],
+        tables.world[0].cell,
+        contact.space[lane, TOUCHING],
+    )
     p = SOLID_COLUMNS * a
     left, right = floor(solids[p + LEFT] / cell), floor(solids[p + RIGHT] / cell)
     low, high = floor(solids[p + LOW] / cell), floor(solids[p + HIGH] / cell)

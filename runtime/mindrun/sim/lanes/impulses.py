@@ -11,9 +11,7 @@ from mindrun.sim.state import (
     ALONG,
     AT_X,
     AT_Y,
-    AWAY_SPIN,
     AWAY_X,
-    AWAY_Y,
     CONTACT,
     CONTACT_COLUMNS,
     CONTACTS,
@@ -35,9 +33,7 @@ from mindrun.sim.state import (
     PAIR_COLUMNS,
     PARTED,
     PARTING,
-    VSPIN,
     VX,
-    VY,
 )
 
 SOLVER_ITERATIONS = 8

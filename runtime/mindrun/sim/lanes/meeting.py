@@ -70,7 +70,7 @@ OF_QUADRANGLES = unit_where(lambda tables: not tables.world[0]["is_round"] or no
 
 
 def forget_old(space, pairs, held):
-    """Forget the pairs that have not touched for so long that Chipmunk would have, and those of what the claw let go."""
+    """Forget the pairs that have not touched for so long that Chipmunk would have, and those of what was let go."""
     kept, lets_go = 0, space[LAST_HELD] != held
     for i in range(int(space[PAIRS])):
         pair = PAIR_COLUMNS * i
@@ -122,7 +122,7 @@ def touch_fixed(tables, world, contact, lane):
         count = space[TOUCHING] - begin
         if count > 1.0:
             rank(tables, world, contact, a, begin, lane)
-        space[RUN_INTO] += count if a == ROBOT or a == HELD else 0.0
+        space[RUN_INTO] += count if a in (ROBOT, HELD) else 0.0
 
 
 def find_close(tables, world, contact, a, lane):
@@ -235,7 +235,12 @@ def meet_quadrangles(contact: ContactState, a: int, b: int, key: int, found: int
     at_c, at_d, at_e, at_f = cx * ny - cy * nx, dx * ny - dy * nx, ex * ny - ey * nx, fx * ny - fy * nx
     scale, its_scale = 1.0 / (at_d - at_c + LEAST_NORMAL), 1.0 / (at_f - at_e + LEAST_NORMAL)
     t, u = clamped((at_f - at_c) * scale), clamped((at_c - at_e) * its_scale)
-    x, y, its_x, its_y = cx * (1.0 - t) + dx * t, cy * (1.0 - t) + dy * t, ex * (1.0 - u) + fx * u, ey * (1.0 - u) + fy * u
+    x, y, its_x, its_y = (
+        cx * (1.0 - t) + dx * t,
+        cy * (1.0 - t) + dy * t,
+        ex * (1.0 - u) + fx * u,
+        ey * (1.0 - u) + fy * u,
+    )
     is_one = (its_x - x) * nx + (its_y - y) * ny <= 0.0
     t, u = clamped((at_e - at_c) * scale), clamped((at_d - at_e) * its_scale)
     cx, cy, ex, ey = cx * (1.0 - t) + dx * t, cy * (1.0 - t) + dy * t, ex * (1.0 - u) + fx * u, ey * (1.0 - u) + fy * u
@@ -280,7 +285,7 @@ def ends(solids, one, other):
 def clamped(t):
     """A number clamped to 0..1; 1 for NaN."""
     t = t if t < 1.0 else 1.0
-    return 0.0 if 0.0 > t else t
+    return 0.0 if t < 0.0 else t
 
 
 def contact_hash(number, i, its_number, k):

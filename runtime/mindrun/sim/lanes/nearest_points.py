@@ -1,4 +1,4 @@
-"""The nearest points of two shapes, made without Chipmunk in its own order of operations: GJK, and EPA where they overlap.
+"""The nearest points of two shapes in Chipmunk's own order of operations: GJK, and EPA where they overlap.
 
 A shape is a circle, of which only its middle counts here, or a quadrangle: columns of `solids` from `a` and `b` on. A
 **vertex** is a corner of what is seen of one shape from the other, 4·corner of the first + corner of the second.

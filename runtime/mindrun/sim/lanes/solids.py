@@ -61,7 +61,6 @@ from mindrun.sim.state import (
     RIGHT,
     ROBOT,
     ROUGHNESS,
-    RUN_INTO,
     SINE_OF,
     SOLID_COLUMNS,
     TOUCHING,
@@ -87,7 +86,10 @@ def open_space(tables, world, contact, lane):
     p = SOLID_COLUMNS * HELD
     solids[p + CORNERS], solids[p + ROUGHNESS] = 1.0, FRICTION_COEFFICIENT
     p = SOLID_COLUMNS * ROBOT
-    solids[p + CORNERS], solids[p + ROUGHNESS] = (1.0 if constants.is_round else 4.0), world.numbers[constants.friction, lane]
+    solids[p + CORNERS], solids[p + ROUGHNESS] = (
+        (1.0 if constants.is_round else 4.0),
+        world.numbers[constants.friction, lane],
+    )
     solids[p + RADIUS], solids[p + NUMBER] = constants.radius, constants.number
     solids[p + MASS_INV] = world.numbers[constants.mass_inv, lane]
     solids[p + MOMENT_INV] = world.numbers[constants.moment_inv, lane]
@@ -137,7 +139,12 @@ def put_shape(solids, p, x, y):
     if solids[p + CORNERS] == 1.0:
         radius = solids[p + RADIUS]
         solids[p + CORNER], solids[p + CORNER + 1] = x, y
-        solids[p + LEFT], solids[p + RIGHT], solids[p + LOW], solids[p + HIGH] = x - radius, x + radius, y - radius, y + radius
+        solids[p + LEFT], solids[p + RIGHT], solids[p + LOW], solids[p + HIGH] = (
+            x - radius,
+            x + radius,
+            y - radius,
+            y + radius,
+        )
         return
     cosine, sine, left, right, low, high = solids[p + COSINE_OF], solids[p + SINE_OF], np.inf, -np.inf, np.inf, -np.inf
     for column in range(0, 8, 2):
@@ -267,7 +274,7 @@ def keep_awake(pairs, asleep, count):
 
 def is_motionless(solids, p):
     """True if nothing moves a solid on or turns it in the next step."""
+    moved = 0
     for column in range(p + VX, p + AWAY_SPIN + 1):
-        if solids[column] != 0.0:
-            return False
-    return True
+        moved += solids[column] != 0.0
+    return moved == 0
