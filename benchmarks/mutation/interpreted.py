@@ -22,7 +22,6 @@ import numpy as np
 
 ROOM = "mindrun.sim."
 VECTOR = f"{ROOM}vector"
-CHIPMUNK = f"{ROOM}lanes.chipmunk"  # calls into a library: as it is
 VECTOR_LANES = 16
 F = np.float32
 
@@ -55,7 +54,7 @@ class Finder(importlib.abc.MetaPathFinder):
     """Finds what is compiled elsewhere: the lanes and their arithmetic; for vectors what stands for them below."""
 
     def find_spec(self, name: str, path: Sequence[str] | None, target: ModuleType | None = None) -> Any:
-        if name == CHIPMUNK or not name.startswith((f"{ROOM}lanes.", f"{ROOM}arithmetic", VECTOR)):
+        if not name.startswith((f"{ROOM}lanes.", f"{ROOM}arithmetic", VECTOR)):
             return None
         spec = importlib.machinery.PathFinder.find_spec(name, path)
         if spec and spec.origin:
@@ -115,7 +114,7 @@ class Rows(list[Row]):
 
 
 def call(address: Any, *arguments: Any) -> int:
-    """A C function called with whole numbers, pointers and doubles, as `chipmunk.call` does."""
+    """A C function called with whole numbers, pointers and doubles, as `units.call` does."""
     kinds = [ctypes.c_double if isinstance(a, float) else ctypes.c_uint64 for a in arguments]
     function = ctypes.CFUNCTYPE(ctypes.c_int64, *kinds)(int(address))
     given = [float(a) if kind is ctypes.c_double else int(a) for a, kind in zip(arguments, kinds, strict=True)]
@@ -135,9 +134,8 @@ def _install() -> None:
 
     compiling.keep_code = lambda dispatcher, code: None
     from mindrun.sim import procedures, rollout
-    from mindrun.sim.lanes import chipmunk
 
-    chipmunk.call = procedures.call = call
+    procedures.call = call
     build = rollout.build
 
     def build_rows(*given: Any) -> Any:
