@@ -8,8 +8,8 @@ import pymunk
 import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
-from mindrun.sim.lanes.meeting import meet, put_corners
-from mindrun.sim.lanes.solids import put_shape, turn
+from mindrun.sim.lanes.meeting import meet
+from mindrun.sim.lanes.shapes import put_corners, put_shape, turn
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.state import (
     AT_X,

@@ -26,8 +26,8 @@ LOOSE_COSINE, LOOSE_SINE, LOOSE_X, LOOSE_Y, LOOSE_HALF, FRAME_ROWS = range(6)  #
 FAILED_SKILL, FAILED_COLUMN = range(2)  # of `failed`
 BEGIN_X, BEGIN_Y, FROM_X, FROM_Y, FROM_ANGLE, TO_X, TO_Y, HALF, WAY = range(9)  # columns of each way in `ways`
 # Columns of `space`: seconds of the last step or 0, steps, pairs, those that touch, those with what never moves, the
-# thing that was held, how many solids are awake.
-SECONDS, STEPS, PAIRS, TOUCHING, RUN_INTO, LAST_HELD, AWAKE, SPACE_COLUMNS = range(8)
+# thing in the claw or −1, how many solids are awake.
+SECONDS, STEPS, PAIRS, TOUCHING, RUN_INTO, IN_CLAW, AWAKE, SPACE_COLUMNS = range(8)
 # What is solid: a box or wall that never moves, the robot, what it holds, then what is loose.
 FIXED, ROBOT, HELD, FIRST_LOOSE = range(4)
 # Columns of a solid: its sides (LEFT …), its corners or 1 if it is round, where they are or its middle is, those of a
@@ -38,8 +38,9 @@ FIXED, ROBOT, HELD, FIRST_LOOSE = range(4)
 )  # fmt: skip
 VX, VY, VSPIN, AWAY_X, AWAY_Y, AWAY_SPIN, MASS_INV, MOMENT_INV, MADE, NUMBER, SOLID_COLUMNS = range(28, 39)
 # Columns of a pair: what it is of, the step that it touched in last, whether for the first time, the solids whose
-# motion counts, the normal, the friction, what the hash found and where, how many contacts; then those of each.
-KEY, USED, FIRST, OWN, OTHER, NORMAL_X, NORMAL_Y, FRICTION, FOUND, RANK, CONTACTS, CONTACT = range(12)
+# motion counts, the normal, the friction, what the hash found and where, the
+# thing in the claw that it is of, or −1, and its radius, how many contacts; then those of each.
+(KEY, USED, FIRST, OWN, OTHER, NORMAL_X, NORMAL_Y, FRICTION, FOUND, RANK, THING, REACH, CONTACTS, CONTACT) = range(14)
 # Columns of a contact: its hash, its impulses along and across the normal, its places from the middles of both, how
 # heavy these are there, how fast to part them, the impulse that does.
 (HASH, ALONG, ACROSS, AT_X, AT_Y, ITS_X, ITS_Y, MASS_ALONG, MASS_ACROSS, PARTING, PARTED, CONTACT_COLUMNS) = range(12)

@@ -12,6 +12,7 @@ from mindrun.sim.lanes.hashed import rank, sides_of, swap, wall_of
 from mindrun.sim.lanes.loose import OF_LOOSE
 from mindrun.sim.lanes.nearest_points import LEAST_NORMAL, corner, farthest, nearest_points
 from mindrun.sim.lanes.placement import ENDLESS_UNITS
+from mindrun.sim.lanes.shapes import overlap, put_corners, put_held
 from mindrun.sim.state import (
     ACROSS,
     ALONG,
@@ -32,10 +33,10 @@ from mindrun.sim.state import (
     HASH,
     HELD,
     HIGH,
+    IN_CLAW,
     ITS_X,
     ITS_Y,
     KEY,
-    LAST_HELD,
     LEFT,
     LOW,
     MIDDLE_X,
@@ -49,6 +50,7 @@ from mindrun.sim.state import (
     PAIR_COLUMNS,
     PAIRS,
     RADIUS,
+    REACH,
     RIGHT,
     ROBOT,
     ROUGHNESS,
@@ -56,6 +58,7 @@ from mindrun.sim.state import (
     SINE_OF,
     SOLID_COLUMNS,
     STEPS,
+    THING,
     TOUCHING,
     USED,
     ContactState,
@@ -69,17 +72,15 @@ CORNER_HASH, HASH_BITS = np.uint64(3344921057), np.uint64((1 << 52) - 1)  # as m
 OF_QUADRANGLES = unit_where(lambda tables: not tables.world[0]["is_round"] or not tables.loose["is_round"].all())
 
 
-def forget_old(space, pairs, held):
-    """Forget the pairs that have not touched for so long that Chipmunk would have, and those of what was let go."""
-    kept, lets_go = 0, space[LAST_HELD] != held
+def forget_old(space, pairs):
+    """Forget the pairs that have not touched for so long that Chipmunk would have."""
+    kept = 0
     for i in range(int(space[PAIRS])):
-        pair = PAIR_COLUMNS * i
-        is_of_held = pairs[pair + FOUND] == HELD or pairs[pair + KEY] // KEYS == HELD
-        if pairs[pair + USED] >= space[STEPS] - PERSISTENCE_TICKS and not (lets_go and is_of_held):
+        if pairs[PAIR_COLUMNS * i + USED] >= space[STEPS] - PERSISTENCE_TICKS:
             if kept < i:
                 swap(pairs, kept, i)
             kept += 1
-    space[PAIRS], space[TOUCHING], space[LAST_HELD] = kept, 0.0, held
+    space[PAIRS], space[TOUCHING] = kept, 0.0
 
 
 @OF_LOOSE
@@ -96,33 +97,47 @@ def touch_movers(tables: Tables, world: WorldState, contact: ContactState, lane:
             rank(tables, world, contact, a, begin, lane)
 
 
-def overlap(solids, a, b):
-    """True if the rectangles along the axes around two solids meet."""
-    a, b = SOLID_COLUMNS * a, SOLID_COLUMNS * b
-    return (
-        solids[a + LEFT] <= solids[b + RIGHT]
-        and solids[b + LEFT] <= solids[a + RIGHT]
-        and solids[a + LOW] <= solids[b + HIGH]
-        and solids[b + LOW] <= solids[a + HIGH]
-    )
-
-
 def touch_fixed(tables, world, contact, lane):
     """Note what touches what never moves, and how often the robot does, with what it holds."""
-    space, solids, awake, near = contact.space[lane], contact.solids[lane], contact.awake[lane], contact.close[lane]
-    number, p = FIRST_LOOSE + len(tables.loose), SOLID_COLUMNS * FIXED  # of the first box
+    space, awake, near = contact.space[lane], contact.awake[lane], contact.close[lane]
+    number = FIRST_LOOSE + len(tables.loose)  # of the first box
     for i in range(int(space[AWAKE])):
         a, begin = awake[i], int(space[TOUCHING])
         for k in range(find_close(tables, world, contact, a, lane) - 1, -1, -1):
-            left, low, right, top = sides_of(tables, world, solids, number + near[k], lane)
-            solids[p + LEFT], solids[p + LOW], solids[p + RIGHT], solids[p + HIGH] = left, low, right, top
-            put_corners(solids, p + CORNER, left, low, right, top)
-            solids[p + NUMBER] = near[k]
+            put_fixed(tables, world, contact, number + near[k], lane)
             meet(contact, a, FIXED, number + near[k], lane)
         count = space[TOUCHING] - begin
         if count > 1.0:
             rank(tables, world, contact, a, begin, lane)
         space[RUN_INTO] += count if a in (ROBOT, HELD) else 0.0
+
+
+def let_go(tables, world, contact, lane):
+    """Forget the pairs of what the claw has let go where it would touch if it were still there.
+
+    For Chipmunk that is a contact without impulses, and what does not touch one that it remembers.
+    """
+    solids, pairs, space = contact.solids[lane], contact.pairs[lane], contact.space[lane]
+    for i in range(int(space[TOUCHING]), int(space[PAIRS])):
+        pair = PAIR_COLUMNS * i
+        thing, number = int(pairs[pair + THING]), int(pairs[pair + FOUND])
+        if thing >= 0 and thing != space[IN_CLAW]:
+            put_held(tables, world, contact, thing, pairs[pair + REACH], lane)
+            own, other = int(pairs[pair + OWN]) // SOLID_COLUMNS, int(pairs[pair + OTHER]) // SOLID_COLUMNS
+            b = own if other == ROBOT else other
+            if b == FIXED:
+                put_fixed(tables, world, contact, number, lane)
+            if overlap(solids, HELD, b) and touch_circle(solids, SOLID_COLUMNS * HELD, SOLID_COLUMNS * b)[0]:
+                pairs[pair + USED] = -PERSISTENCE_TICKS
+
+
+def put_fixed(tables, world, contact, number, lane):
+    """Write a box or a wall to where the solid stands that never moves."""
+    solids, p = contact.solids[lane], SOLID_COLUMNS * FIXED
+    left, low, right, top = sides_of(tables, world, solids, number, lane)
+    solids[p + LEFT], solids[p + LOW], solids[p + RIGHT], solids[p + HIGH] = left, low, right, top
+    put_corners(solids, p + CORNER, left, low, right, top)
+    solids[p + NUMBER] = number - FIRST_LOOSE - len(tables.loose)
 
 
 def find_close(tables, world, contact, a, lane):
@@ -143,42 +158,43 @@ def find_close(tables, world, contact, a, lane):
     return count
 
 
-def put_corners(solids, at, left, low, right, top):
-    """Write the corners of a rectangle into eight columns."""
-    solids[at], solids[at + 1], solids[at + 2], solids[at + 3] = left, low, right, low
-    solids[at + 4], solids[at + 5], solids[at + 6], solids[at + 7] = right, top, left, top
-
-
 def meet(contact, a, b, found, lane):
     """Note the contacts of two solids, if they touch; `found` is the number of the other, and of no other box."""
-    solids, pairs, key = contact.solids[lane], contact.pairs[lane], KEYS * a + found
+    solids, pairs = contact.solids[lane], contact.pairs[lane]
+    key = KEYS * named(contact, a, lane) + named(contact, found, lane)
     own, other = SOLID_COLUMNS * a, SOLID_COLUMNS * b
     if solids[own + CORNERS] > solids[other + CORNERS]:
         a, b, own, other = b, a, other, own
     if solids[own + CORNERS] > 1.0:
         meet_quadrangles(contact, a, b, key, found, lane)
         return
-    radius = solids[own + RADIUS]
-    x, y = solids[own + CORNER], solids[own + CORNER + 1]
-    if solids[other + CORNERS] > 1.0:
-        x, y, its_x, its_y, nx, ny, apart = nearest_points(solids, own, other)
-        if not apart <= radius:
-            return
-    else:
-        its_radius, its_x, its_y = solids[other + RADIUS], solids[other + CORNER], solids[other + CORNER + 1]
-        dx, dy, near = its_x - x, its_y - y, radius + its_radius
-        square = dx * dx + dy * dy
-        if not square < near * near:
-            return
-        apart = np.sqrt(square)
-        nx, ny = (dx * (1.0 / apart), dy * (1.0 / apart)) if apart != 0.0 else (1.0, 0.0)
-        its_x, its_y = its_x + nx * -its_radius, its_y + ny * -its_radius
-    pair = take_pair(contact, a, b, key, found, nx, ny, lane)
+    touches, x, y, its_x, its_y, nx, ny = touch_circle(solids, own, other)
+    pair = take_pair(contact, a, b, key, found, nx, ny, lane) if touches else -1
     if pair >= 0:
         if pairs[pair + CONTACTS] == 0.0:
             pairs[pair + CONTACT + ALONG], pairs[pair + CONTACT + ACROSS] = 0.0, 0.0
         pairs[pair + CONTACTS] = 1.0
-        put_contact(solids, pairs, pair, pair + CONTACT, x + nx * radius, y + ny * radius, its_x, its_y)
+        put_contact(solids, pairs, pair, pair + CONTACT, x, y, its_x, its_y)
+
+
+def named(contact, a, lane):
+    """The number of a solid that no other has; every thing has its own in the claw."""
+    return -1 - int(contact.space[lane, IN_CLAW]) if a == HELD else a
+
+
+def touch_circle(solids, own, other):
+    """True if a circle and another solid touch; the points of both, and the normal."""
+    radius, x, y = solids[own + RADIUS], solids[own + CORNER], solids[own + CORNER + 1]
+    if solids[other + CORNERS] > 1.0:
+        x, y, its_x, its_y, nx, ny, apart = nearest_points(solids, own, other)
+        return apart <= radius, x + nx * radius, y + ny * radius, its_x, its_y, nx, ny
+    its_radius, its_x, its_y = solids[other + RADIUS], solids[other + CORNER], solids[other + CORNER + 1]
+    dx, dy, near = its_x - x, its_y - y, radius + its_radius
+    square = dx * dx + dy * dy
+    apart = np.sqrt(square)
+    nx, ny = (dx * (1.0 / apart), dy * (1.0 / apart)) if apart != 0.0 else (1.0, 0.0)
+    its_x, its_y = its_x + nx * -its_radius, its_y + ny * -its_radius
+    return square < near * near, x + nx * radius, y + ny * radius, its_x, its_y, nx, ny
 
 
 def take_pair(contact, a, b, key, found, nx, ny, lane):
@@ -194,6 +210,7 @@ def take_pair(contact, a, b, key, found, nx, ny, lane):
             return -1
         space[PAIRS] += 1.0
         pairs[pair + KEY], pairs[pair + USED], pairs[pair + CONTACTS] = key, -1.0, 0.0
+        pairs[pair + THING] = space[IN_CLAW] if HELD in (a, b) else -1.0
     if k > place:
         swap(pairs, place, k)
     pair = PAIR_COLUMNS * place
@@ -201,7 +218,7 @@ def take_pair(contact, a, b, key, found, nx, ny, lane):
     pairs[pair + FIRST] = 0.0 if pairs[pair + USED] == space[STEPS] - 1.0 else 1.0
     pairs[pair + USED], pairs[pair + FOUND] = space[STEPS], found
     pairs[pair + OWN], pairs[pair + OTHER] = SOLID_COLUMNS * body_of(a), SOLID_COLUMNS * body_of(b)
-    pairs[pair + NORMAL_X], pairs[pair + NORMAL_Y] = nx, ny
+    pairs[pair + NORMAL_X], pairs[pair + NORMAL_Y], pairs[pair + REACH] = nx, ny, solids[SOLID_COLUMNS * HELD + RADIUS]
     pairs[pair + FRICTION] = solids[SOLID_COLUMNS * a + ROUGHNESS] * solids[SOLID_COLUMNS * b + ROUGHNESS]
     return pair
 

@@ -23,10 +23,9 @@ from mindrun.numbers.arithmetic import (
     put_thing,
     size_of,
 )
-from mindrun.sim.c_library import SINE_COSINE
 from mindrun.sim.codes import FORCE_X, FORCE_Y, TORQUE
 from mindrun.sim.lanes.loose import OF_LOOSE, SETTLED_TICKS, is_at_rest, put_motion
-from mindrun.sim.lanes.meeting import overlap, put_corners
+from mindrun.sim.lanes.shapes import overlap, put_corners, put_held, put_shape, turn
 from mindrun.sim.state import (
     ACROSS,
     ALONG,
@@ -37,15 +36,12 @@ from mindrun.sim.state import (
     CONTACT,
     CONTACT_COLUMNS,
     CONTACTS,
-    CORNER,
     CORNERS,
     COSINE_OF,
     FIRST_LOOSE,
     FIXED,
     HELD,
-    HIGH,
     LEFT,
-    LOW,
     MADE,
     MASS_INV,
     MIDDLE_X,
@@ -61,7 +57,6 @@ from mindrun.sim.state import (
     RIGHT,
     ROBOT,
     ROUGHNESS,
-    SINE_OF,
     SOLID_COLUMNS,
     TOUCHING,
     TURNED,
@@ -72,7 +67,6 @@ from mindrun.sim.state import (
     WorldState,
 )
 from mindrun.sim.tables import Tables
-from mindrun.sim.units import call
 
 
 def open_space(tables, world, contact, lane):
@@ -106,15 +100,11 @@ def move_robot(tables, world, contact, seconds, share, lane):
     solids[p + VX] += world.push[FORCE_X, lane] * share * solids[p + MASS_INV] * seconds
     solids[p + VY] += world.push[FORCE_Y, lane] * share * solids[p + MASS_INV] * seconds
     solids[p + VSPIN] += world.push[TORQUE, lane] * share * solids[p + MOMENT_INV] * seconds
-    if held >= 0 or solids[p + CORNERS] > 1.0:
+    if solids[p + CORNERS] > 1.0:
         turn(tables, contact, p, angle, lane)
     put_shape(solids, p, solids[p + MIDDLE_X], solids[p + MIDDLE_Y])
     if held >= 0:
-        hold, q = tables.things[held].hold, SOLID_COLUMNS * HELD
-        x, y = solids[p + COSINE_OF] * hold + solids[p + MIDDLE_X], solids[p + SINE_OF] * hold + solids[p + MIDDLE_Y]
-        solids[q + RADIUS] = size_of(world.things, held, lane) / 2
-        solids[q + MIDDLE_X], solids[q + MIDDLE_Y] = solids[p + MIDDLE_X], solids[p + MIDDLE_Y]
-        put_shape(solids, q, x, y)
+        put_held(tables, world, contact, held, size_of(world.things, held, lane) / 2, lane)
 
 
 def move(solids, p, x, y, angle, seconds):
@@ -124,36 +114,6 @@ def move(solids, p, x, y, angle, seconds):
     angle += (solids[p + VSPIN] + solids[p + AWAY_SPIN]) * seconds
     solids[p + AWAY_X], solids[p + AWAY_Y], solids[p + AWAY_SPIN] = 0.0, 0.0, 0.0
     return angle
-
-
-def turn(tables, contact, p, angle, lane):
-    """Note to which angle a solid is turned, with its sine and cosine by C."""
-    solids, turned = contact.solids[lane], contact.turned[lane]
-    if solids[p + TURNED] != angle:
-        call(tables.library[SINE_COSINE], angle, turned.ctypes.data, turned[1:].ctypes.data)
-        solids[p + SINE_OF], solids[p + COSINE_OF], solids[p + TURNED] = turned[0], turned[1], angle
-
-
-def put_shape(solids, p, x, y):
-    """Write where the corners of a solid are, or its middle, and its sides."""
-    if solids[p + CORNERS] == 1.0:
-        radius = solids[p + RADIUS]
-        solids[p + CORNER], solids[p + CORNER + 1] = x, y
-        solids[p + LEFT], solids[p + RIGHT], solids[p + LOW], solids[p + HIGH] = (
-            x - radius,
-            x + radius,
-            y - radius,
-            y + radius,
-        )
-        return
-    cosine, sine, left, right, low, high = solids[p + COSINE_OF], solids[p + SINE_OF], np.inf, -np.inf, np.inf, -np.inf
-    for column in range(0, 8, 2):
-        own_x, own_y = solids[p + OWN_CORNER + column], solids[p + OWN_CORNER + column + 1]
-        at_x, at_y = cosine * own_x + -sine * own_y + x, sine * own_x + cosine * own_y + y
-        solids[p + CORNER + column], solids[p + CORNER + column + 1] = at_x, at_y
-        left, right = left if left < at_x else at_x, right if right > at_x else at_x
-        low, high = low if low < at_y else at_y, high if high > at_y else at_y
-    solids[p + LEFT], solids[p + RIGHT], solids[p + LOW], solids[p + HIGH] = left, right, low, high
 
 
 @OF_LOOSE

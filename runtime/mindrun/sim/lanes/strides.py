@@ -10,10 +10,10 @@ import numpy as np
 from mindrun.numbers.arithmetic import ANGLE, SPEED_X, SPEED_Y, SPIN, X, Y
 from mindrun.sim.c_library import POWER
 from mindrun.sim.lanes.impulses import COLLISION_BIAS, solve
-from mindrun.sim.lanes.meeting import forget_old, touch_fixed, touch_movers
+from mindrun.sim.lanes.meeting import forget_old, let_go, touch_fixed, touch_movers
 from mindrun.sim.lanes.solid import MOST_STRIDES, hold_back, note_before, note_begin, stride, within
 from mindrun.sim.lanes.solids import gather, move_loose, move_robot, open_space, take_loose, take_robot
-from mindrun.sim.state import RUN_INTO, SECONDS, STEPS, TOUCHING, ContactState, WorldState
+from mindrun.sim.state import IN_CLAW, RUN_INTO, SECONDS, STEPS, TOUCHING, ContactState, WorldState
 from mindrun.sim.tables import Tables
 from mindrun.sim.units import call_double, unit
 
@@ -60,7 +60,8 @@ def make_step(tables, world, contact, seconds, share, lane):
         open_space(tables, world, contact, lane)  # what is remembered are impulses, of which more would act
     space[STEPS] += 1.0
     space[RUN_INTO] = 0.0
-    forget_old(space, contact.pairs[lane], world.held[lane])
+    space[IN_CLAW] = world.held[lane]
+    forget_old(space, contact.pairs[lane])
     move_robot(tables, world, contact, seconds, share, lane)
     if len(tables.loose) > 0:
         move_loose(tables, world, contact, seconds, lane)
@@ -68,6 +69,7 @@ def make_step(tables, world, contact, seconds, share, lane):
     if len(tables.loose) > 0:
         touch_movers(tables, world, contact, lane)
     touch_fixed(tables, world, contact, lane)
+    let_go(tables, world, contact, lane)
     if space[TOUCHING] > 0.0:
         take_back = 1.0 - call_double(tables.library[POWER], COLLISION_BIAS, seconds)
         before = seconds / space[SECONDS]  # in the first step all pairs are new, and nobody asks
