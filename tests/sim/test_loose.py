@@ -100,3 +100,40 @@ task World in arena size 16
     happened = follow(rollout, Engine(Policy(rollout.graph, {})), seed)
     assert happened["Reach"] > 2
     assert happened["Collision"] > 2
+
+
+def test_what_is_let_go_and_taken_again_is_pushed_as_plain_pymunk_says() -> None:
+    """In a few ticks, at walls: of what is let go Chipmunk forgets the impulses only if it still touches."""
+    text = """
+tick 1/60 s
+master Go
+body Robot is disc size 2
+actuator l is wheel side left neutral 0.5 thrust 160
+actuator r is wheel side right neutral 0.5 thrust 160
+actuator claw is gripper neutral 0 reach 3
+sensor a is sine period 0.11 s
+sensor b is sine period 7.3 s
+sensor c is sine period 0.05 s
+sensor way is bearing of coin
+skill Go is rule
+  reads a
+  reads b
+  reads c
+  reads way
+  drives l at 1.3 * b + way - 0.4
+  drives r at 1.3 * b + 0.6 - way
+  drives claw at 20 * a - 20 * c + 0.5
+task World in arena size 14
+  contains coin is item size 1 count 4
+  contains crate is box size 1.5 count 2
+  contains ball is ball size 1 count 2
+  contains rock is obstacle size 2 count 3
+  contains home is zone size 4
+  lasts 1000 ticks
+  rewards 1 per tick
+  counts delivery of coin
+  counts collision
+"""
+    rollout = Rollout(Policy(compile_text(text), {}), "World", "Go")
+    happened = follow(rollout, Engine(Policy(rollout.graph, {})), 59)
+    assert happened["Collision"] > 2
