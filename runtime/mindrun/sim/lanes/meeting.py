@@ -67,7 +67,7 @@ from mindrun.sim.state import (
 from mindrun.sim.tables import Tables
 from mindrun.sim.units import unit_where
 
-KEYS = 1 << 26
+KEY_RANGE = 1 << 26
 CORNER_HASH, HASH_BITS = np.uint64(3344921057), np.uint64((1 << 52) - 1)  # as many as a number has
 OF_QUADRANGLES = unit_where(lambda tables: not tables.world[0]["is_round"] or not tables.loose["is_round"].all())
 
@@ -161,7 +161,7 @@ def find_close(tables, world, contact, a, lane):
 def meet(contact, a, b, found, lane):
     """Note the contacts of two solids, if they touch; `found` is the number of the other, and of no other box."""
     solids, pairs = contact.solids[lane], contact.pairs[lane]
-    key = KEYS * named(contact, a, lane) + named(contact, found, lane)
+    key = KEY_RANGE * named(contact, a, lane) + named(contact, found, lane)
     own, other = SOLID_COLUMNS * a, SOLID_COLUMNS * b
     if solids[own + CORNERS] > solids[other + CORNERS]:
         a, b, own, other = b, a, other, own

@@ -10,7 +10,7 @@ from mindrun.sim.state import CORNER, CORNERS, HIGH, LEFT, LOW, RIGHT
 
 MOST_ROUNDS = 30  # of GJK and of EPA
 LEAST_NORMAL = 2.2250738585072014e-308  # DBL_MIN, which keeps Chipmunk from dividing by 0
-VERTEX_BITS, VERTEX = 4, 15
+VERTEX_BITS, VERTEX_MASK = 4, 15
 
 
 def nearest_points(solids, a, b):
@@ -94,7 +94,7 @@ def larger_hull(solids, a, b, hull, count, first, c):
 
 def digit(hull, i):
     """Vertex i of a hull."""
-    return hull >> VERTEX_BITS * i & VERTEX
+    return hull >> VERTEX_BITS * i & VERTEX_MASK
 
 
 def points_on(solids, a, b, v, w):
