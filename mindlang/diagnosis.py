@@ -145,6 +145,24 @@ def machine_code() -> Iterator[DoctorFinding]:
         yield DoctorFinding("simulator", "absent", seen, "mindc warmup")
 
 
+def physics() -> Iterator[DoctorFinding]:
+    """Contacts, which the simulator makes as Chipmunk would: held against pymunk, where they are compiled."""
+    from mindrun.sim import cache
+
+    from mindlang import physics_check as check
+
+    by = f"pymunk {_version('pymunk')}"
+    if cache.missing(check.world().units()):
+        yield DoctorFinding("physics", "absent", f"not held against {by}: not compiled yet", "mindc warmup")
+    elif tick := check.differing_tick(check.PUSHING_SEED):
+        seen = f"not as {by} has it from tick {tick} on: what is taught elsewhere may do something else here"
+        yield DoctorFinding("physics", "wrong", seen, "tell us, with what mindc doctor prints")
+    else:
+        yield DoctorFinding(
+            "physics", "ok", f"{check.RUN_TICKS} ticks of boxes that are pushed: as {by} has it, to the bit"
+        )
+
+
 def _mebibytes(folder: Path) -> int:
     return sum(path.stat().st_size for path in folder.glob("*") if path.is_file()) >> 20
 
@@ -190,4 +208,4 @@ def extras() -> list[str]:
     return metadata("mindlang").get_all("Provides-Extra") or []
 
 
-CHECKS = (programs, python, machine, packages, machine_code, viewer, browser, extra_packages)
+CHECKS = (programs, python, machine, packages, machine_code, physics, viewer, browser, extra_packages)

@@ -25,7 +25,7 @@ ATTEMPT_BOUNDS: Bounds = (1, 10_000)
 RUNG_BOUNDS: Bounds = (0, 1000)
 
 RUN_BYTES, ENTRY_BYTES = 160, 12  # bytes that a run takes, and each of its rewards and events
-LANE_BYTES, GENOME_COPIES = 6144, 6
+LANE_BYTES, LOOSE_BYTES, GENOME_COPIES = 20_000, 5200, 6
 WAITING_BYTES = {"delays": 4, "changes": 16, "depth": 8, "skills": 12}
 MAX_TICKS_PER_SECOND = 20_000_000  # agent-ticks in a second and worker, which no lesson reaches
 YEAR_SECONDS = 366 * 24 * 3600  # nobody waits for longer
@@ -77,8 +77,8 @@ def refuse_too_long(rollout: "Rollout", runs: int) -> None:
 def bytes_of(rollout: "Rollout", genomes: int, layouts: int) -> int:
     """The bytes of a rollout: its lanes, and the genomes with their parents and copies of both."""
     lanes = min(genomes * layouts, rollout.workers * rollout.lanes)
-    rays, things = len(rollout.tables.ray_row), len(rollout.tables.things)
-    each = LANE_BYTES + 4 * rays + 48 * things + sum(_parts(rollout.sizes).values())
+    rays, things, loose = len(rollout.tables.ray_row), len(rollout.tables.things), len(rollout.tables.loose)
+    each = LANE_BYTES + 4 * rays + 48 * things + LOOSE_BYTES * loose + sum(_parts(rollout.sizes).values())
     return lanes * each + GENOME_COPIES * genomes * 4 * rollout.genome_length
 
 

@@ -121,6 +121,8 @@ ROOMS = {
             *(f"tests/sim/test_tasks.py::{name}" for name in QUICK_TASKS),
             "tests/sim/test_order.py",
             "tests/sim/test_physics.py::test_contacts_equal_plain_pymunk",
+            "tests/sim/test_contacts.py",
+            "tests/sim/test_loose.py",
             "tests/sim/test_procedures.py::test_compiled_slow_and_rule_agree",
             "tests/sim/test_full_worlds.py",
             "tests/sim/test_random_worlds.py",

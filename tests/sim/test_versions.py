@@ -1,21 +1,19 @@
-"""What is known of numba's and pymunk's insides holds for the versions that are asked for; others are refused."""
+"""What is known of numba's insides holds for the versions that are asked for; others are refused."""
 
 import os
 import subprocess
 import sys
 import tomllib
-from collections.abc import Mapping
-from typing import Any
 
 import pytest
 from mindrun.errors import MindError
-from mindrun.sim import chipmunk_internals, versions
+from mindrun.sim import versions
 
 from tests.project.sources import ROOT
 
 SIMULATE = "from mindlang.cli import main; main()", "run", "examples/collect/collect.mind", "--task", "Avoid"
 
-FIRST = {"llvmlite": "0.46", "numba": "0.63", "pymunk": "7.2"}
+FIRST = {"llvmlite": "0.46", "numba": "0.63"}
 
 
 def test_what_is_asked_for_is_what_is_known() -> None:
@@ -25,7 +23,6 @@ def test_what_is_asked_for_is_what_is_known() -> None:
 
 def test_what_is_installed_here_is_known() -> None:
     versions.refuse_unknown()
-    chipmunk_internals.refuse_another()
 
 
 @pytest.mark.parametrize("found", ["0.61.2", "0.63.0rc2", "0.69.0", "0.69.0rc1", "1.0", "0.7"])
@@ -40,26 +37,6 @@ def test_another_version_is_refused(found: str, monkeypatch: pytest.MonkeyPatch)
 def test_a_known_version_is_taken(found: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(versions, "version", lambda name: found if name == "numba" else FIRST[name])
     versions.refuse_unknown()
-
-
-@pytest.mark.parametrize(
-    "changed",
-    [
-        {"LAYOUT": {"pmBatchedData": (32, {"intArray": 0, "floatArray": 8, "fields": 16})}},
-        {"LAYOUT": {"pmFloatArray": (16, {"num": 4, "max": 0, "arr": 8})}},
-        {"LAYOUT": {"pmNoArray": (16, {})}},
-        {"FUNCTIONS": ("cpSpaceNew", "cpSpaceNewer")},
-        {"PUSH_FIELDS": ("FORCE", "MOMENT")},
-        {"PERSISTENCE_TICKS": 4},
-    ],
-    ids=str,
-)
-def test_another_chipmunk_is_refused(changed: Mapping[str, Any], monkeypatch: pytest.MonkeyPatch) -> None:
-    for name, value in changed.items():
-        monkeypatch.setattr(chipmunk_internals, name, value)
-    with pytest.raises(MindError, match="is not the one that the simulator knows") as e:
-        chipmunk_internals.library()
-    assert e.value.hint == "pip install 'pymunk>=7.2,<8'"
 
 
 @pytest.mark.parametrize("optimised", ["", "2"])

@@ -8,7 +8,7 @@ import pytest
 from mindrun.cli import doctor, run_tool
 from mindrun.sim import cache, warmup
 
-from mindlang import diagnosis
+from mindlang import diagnosis, physics_check
 from mindlang.diagnosis import DoctorFinding
 from tests.calling import Call
 
@@ -79,6 +79,26 @@ def test_a_cold_cache_is_absent(mindc: Call, monkeypatch: pytest.MonkeyPatch) ->
     code, found = said(mindc)
     assert (code, found["simulator"]["state"]) == (0, "absent")
     assert found["simulator"]["mend"] == "mindc warmup"
+
+
+def test_the_physics_is_that_of_pymunk() -> None:
+    physics_check.world().compile()
+    assert [physics_check.differing_tick(seed) for seed in range(5)] == [0] * 5
+    assert [each.state for each in diagnosis.physics()] == ["ok"]
+
+
+def test_physics_that_another_machine_computes_otherwise(monkeypatch: pytest.MonkeyPatch) -> None:
+    physics_check.world().compile()
+    monkeypatch.setattr(physics_check, "REST_SPEED", 2e-3)  # so pymunk does
+    (found,) = diagnosis.physics()
+    assert found.state == "wrong"
+    assert "from tick 512 on" in found.seen
+
+
+def test_physics_that_is_not_compiled(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(cache, "missing", lambda units: units)
+    (found,) = diagnosis.physics()
+    assert (found.state, found.mend) == ("absent", "mindc warmup")
 
 
 def test_a_check_that_fails_hides_no_other(mindc: Call, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -43,6 +43,7 @@ LARGE = (
     {"hidden": "3 width 200"},
     {"count": 1000},
     {"patch": 0.1},
+    {"count": "10\n  contains crate is box count 20"},
 )
 
 

@@ -10,7 +10,6 @@ from mindrun.graph.graph import Graph, Task
 from mindrun.graph.measured import rows_of, used_sensors
 from mindrun.graph.weights import genes, reachable
 from mindrun.sim import task_rows
-from mindrun.sim.chipmunk_internals import SINE_COSINE
 from mindrun.sim.codes import CODE
 from mindrun.sim.mind_rows import Programs, actuator_rows, memory_rows, skill_rows
 from mindrun.sim.parameter_rows import Parameters
@@ -51,7 +50,6 @@ def build(
         measured=rows_of(graph, used + aside), library=library,
         parameters=parameters.table(),  # last: all others add to them
     )  # fmt: skip
-    tables.world["is_alone"] &= library[SINE_COSINE] > 0  # without it nobody turns an item as Chipmunk does
     return tables, {
         **remembered, **most, "readings": max(1, graph.width), "genome": genome_length(graph, learners),
         "skills": len(graph.skills), "depth": programs.depth, "delays": delays, "changes": changes,

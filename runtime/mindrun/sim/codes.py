@@ -16,6 +16,8 @@ CONSTANT, DRAWN, DRAWN_WHOLE, FAILING, TIMES, OVER, INVERSE, DAMPING = range(8) 
 GOING_ON, LOST, BROKEN_OFF = -1, -2, -4  # no event has ended a run: out of time, beyond FAR, its environment has
 AWAY = 1e30  # units: where a box is that is none
 HALF_DIAGONAL = 0.7072  # of a square with side 1, and a little more
+WALL_COUNT = 4  # of an arena
+PERSISTENCE_TICKS = 3  # for which Chipmunk remembers a contact that is no more
 FAR = 1e9  # units from the origin, and radians: nothing is there, and a little further Chipmunk never comes back
 
 FORCE, TORQUE, FORCE_X, FORCE_Y, FORCE_ASIDE, PUSH_ROWS = range(6)  # rows of what pushes a body, and how many
@@ -73,7 +75,7 @@ THING = _columns(
     "turn",
     f8="first last by low high hold x y",
 )
-LOOSE = _columns(i8="thing is_round density friction slower")
+LOOSE = _columns(i8="thing is_round density friction slower number turn")
 WALKING = _columns(i8="thing first places begins", f8="step turn")
 OBSTACLE = _columns(i8="columns rows count", f8="first last grid jitter x y low high")
 MEASURES = _columns(i8="kind thing things over ring", f8="beyond")
@@ -82,7 +84,7 @@ END = _columns(i8="event times when whens succeeds")
 REWARD = _columns(i8="code length on each eachs when whens")
 WORLD = _columns(
     i8="linear angular friction mass moment mass_inv moment_inv is_round is_placed is_faced ticks rays master battery "
-    "is_alone turn",
+    "number turn",
     f8="dt radius front side arm least slop cell axles half_x half_y start_x start_y facing start drain charge near "
     "claw",
 )

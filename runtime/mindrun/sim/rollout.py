@@ -16,9 +16,8 @@ from mindrun.graph.graph import Task
 from mindrun.graph.policy import Policy
 from mindrun.graph.run_scores import Scores, score_of
 from mindrun.graph.tasks import is_one_world
-from mindrun.sim import chipmunk_internals as chipmunk
 from mindrun.sim.build import build, genome_length
-from mindrun.sim.codes import ITEM
+from mindrun.sim.c_library import library
 from mindrun.sim.compilation import compile_missing
 from mindrun.sim.dependencies import needed_units
 from mindrun.sim.lanes.advance import advance, after, before
@@ -41,7 +40,7 @@ class Tile:
 
     state: State
     memories: Memories
-    kept: Any
+    kept: Any = None
 
 
 class Rollout:
@@ -77,8 +76,7 @@ class Rollout:
         self.genome_length = genome_length(graph, learners)
         self.slice_ticks = SLOW_SLICE_TICKS if self.procedures.slow else SLICE_TICKS
         addresses = self.procedures.addresses
-        library = chipmunk.library()
-        self.tables, self.sizes = build(graph, policy.weights, self.task, master, learners, addresses, library)
+        self.tables, self.sizes = build(graph, policy.weights, self.task, master, learners, addresses, library())
 
     def score(
         self, genomes: NDArray[np.float32], seeds: Sequence[int], ran: Callable[[float], None] = lambda runs: None
@@ -135,11 +133,7 @@ class Rollout:
 
     def tile(self, lanes: int) -> Tile:
         """A tile with room for so many lanes."""
-        state = empty_state(self.tables, self.sizes, lanes)
-        holds = [float(thing["hold"]) if thing["kind"] == ITEM else None for thing in self.tables.things]
-        contact = state.contact
-        kept = chipmunk.prepare(contact.handles, contact.floats, contact.batch, contact.tally, self.graph.body, holds)
-        return Tile(state, Memories(self.procedures), kept)
+        return Tile(empty_state(self.tables, self.sizes, lanes), Memories(self.procedures))
 
     def _run(self, jobs: Jobs, share: NDArray[np.int64], stop: Event, ran: Callable[[float], None]) -> Jobs:
         lines, events = jobs.lines.shape[1], jobs.counts.shape[1]

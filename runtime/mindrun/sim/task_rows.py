@@ -14,7 +14,7 @@ from mindrun.kinds.sensors.battery import Battery
 from mindrun.kinds.things.thing import OUTCOMES, STAYS, ThingKind
 from mindrun.numbers.arithmetic import BOX_COLUMNS
 from mindrun.sim import codes
-from mindrun.sim.codes import DAMPING, HALF_DIAGONAL, INVERSE, OVER, TIMES, Row, records
+from mindrun.sim.codes import DAMPING, HALF_DIAGONAL, INVERSE, OVER, TIMES, WALL_COUNT, Row, records
 from mindrun.sim.mind_rows import Programs
 from mindrun.sim.parameter_rows import Parameters, Step
 
@@ -56,16 +56,19 @@ def boxes_by_name(task: Task) -> dict[str, range]:
     return found
 
 
-def chipmunk_turns(task: Task) -> tuple[int, list[int]]:
-    """The places in which Chipmunk's hash has the shapes of the robot and of each thing in its claw, lowest first.
+def hash_numbers(task: Task) -> tuple[int, list[int], list[int]]:
+    """The numbers that Chipmunk would give to the shapes of the robot and of each thing, and their places in its hash.
 
-    Shapes are numbered as they are added: boxes, walls, the robot, then what can be held.
+    Shapes are numbered as they are added: boxes, walls, the robot, what can be held, what is loose. The hash has them
+    in the order of their places.
     """
-    things = things_of(task)
-    number = sum(each.kind.obstacles(task.scene) for each in task.things) + 4 * task.scene.is_bounded
-    counts = [*accumulate((thing.kind.can_be_held for thing in things), initial=0)]
-    size = next(prime for prime in HASH_SIZES if prime > 1 + counts[-1])
-    return number % size, [(number + count) % size for count in counts[1:]]
+    things = [thing.kind for thing in things_of(task)]
+    robot = sum(each.kind.obstacles(task.scene) for each in task.things) + WALL_COUNT * task.scene.is_bounded
+    held = [*accumulate((kind.can_be_held for kind in things), initial=robot)]
+    loose = [*accumulate((kind.is_loose for kind in things), initial=held[-1])]
+    numbers = [b if kind.is_loose else a for kind, a, b in zip(things, held[1:], loose[1:], strict=True)]
+    size = next(prime for prime in HASH_SIZES if prime > 1 + loose[-1] - robot)
+    return robot, numbers, [number % size for number in (robot, *numbers)]
 
 
 def thing_rows(graph: Graph, task: Task) -> Array:
@@ -76,7 +79,7 @@ def thing_rows(graph: Graph, task: Task) -> Array:
     loose, walkers, zones = count(), count(), [thing.kind for thing in task.things if thing.kind.takes_items]
     zones_stay = all(outcome == STAYS for zone in zones for outcome in zone.outcomes.values())
     first = {name: found.start for name, found in rows_by_name(task).items()}
-    _, turns = chipmunk_turns(task)
+    _, _, turns = hash_numbers(task)
     for number, thing in enumerate(things_of(task)):
         kind, size, copy = thing.kind, thing.kind.size, number - first[thing.name]
         low, high = kind.distances(task.scene)
@@ -89,7 +92,7 @@ def thing_rows(graph: Graph, task: Task) -> Array:
             "hold": graph.body.front + kind.largest / 2, "is_fixed": bool(kind.places), "x": x, "y": y,
             "is_round": kind.is_round, "is_area": kind.is_area, "is_goal": thing.name in never,
             "loose": next(loose) if kind.is_loose else -1, "settles": kind.is_loose and zones_stay,
-            "walker": next(walkers) if kind.walks else -1, "turn": turns[number],
+            "walker": next(walkers) if kind.walks else -1, "turn": turns[1 + number],
         }  # fmt: skip
         for what in ("reached", "delivered"):
             outcome = kind.outcomes.get(what, STAYS)
@@ -119,11 +122,12 @@ def wall_rows(task: Task) -> Array:
 def loose_rows(task: Task, dt: float, parameters: Parameters) -> Array:
     """Rows of LOOSE: what can be pushed, in the order of the things that they are rows of."""
     rows: list[Row] = []
+    _, numbers, turns = hash_numbers(task)
     for i, thing in enumerate(things_of(task)):
         kind: Any = thing.kind
         if kind.is_loose:
             rows.append({
-                "thing": i, "is_round": kind.is_round,
+                "thing": i, "is_round": kind.is_round, "number": numbers[i], "turn": turns[1 + i],
                 "density": parameters.row("thing", thing.name, "density", kind.density),
                 "friction": parameters.row("thing", thing.name, "friction", kind.friction),
                 "slower": parameters.row("thing", thing.name, "damping", kind.damping, (DAMPING, dt)),
@@ -211,6 +215,7 @@ def world_row(
 ) -> Array:
     """The numbers of the body, the battery and the scene."""
     body, scene, begin = graph.body, task.scene, task.start
+    number, _, turns = hash_numbers(task)
     start_x, start_y = begin.at or (0.0, 0.0)
     half_x, half_y = (side / 2 for side in scene.sides)
     battery = next((s.kind.battery for s in graph.sensors if s.kind.battery), Battery().battery)
@@ -225,8 +230,7 @@ def world_row(
         "is_faced": begin.facing is not None, "facing": begin.facing or 0.0, "ticks": task.ticks,
         "start": battery.start if powered else np.nan, "drain": battery.drain, "charge": battery.charge, "rays": rays,
         "near": near, "master": graph.skill_numbers[master], "claw": graph.claw_reach, "battery": powered,
-        "is_alone": not body.outline and not any(thing.kind.is_loose for thing in task.things),
-        "turn": chipmunk_turns(task)[0],
+        "number": number, "turn": turns[0],
     }  # fmt: skip
     return records([row], codes.WORLD)
 

@@ -1,4 +1,4 @@
-"""The versions whose insides the simulator knows: those of `numba_internals` and of `chipmunk_internals`."""
+"""The versions whose insides the simulator knows: those of `numba_internals`."""
 
 from collections.abc import Mapping
 from importlib.metadata import version
@@ -8,7 +8,7 @@ from packaging.specifiers import SpecifierSet
 from mindrun.errors import MindError
 
 # pyproject.toml asks for the same. Numba 0.62 has no `_reload_init` to link with.
-KNOWN: Mapping[str, str] = {"llvmlite": ">=0.46,<0.51", "numba": ">=0.63,<0.69", "pymunk": ">=7.2,<8"}
+KNOWN: Mapping[str, str] = {"llvmlite": ">=0.46,<0.51", "numba": ">=0.63,<0.69"}
 
 
 def refuse_unknown() -> None:

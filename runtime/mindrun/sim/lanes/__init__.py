@@ -12,7 +12,7 @@ is the same in all of them stands in `tables`: a row for each sensor, skill, edg
 | sense | readings, from where the robots and the things are | sight, mind |
 | think | influence down the hierarchy (Eq. 2), what the skills send (Eq. 1) | mind |
 | act | commands (Eq. 3), the claw | mind, world |
-| step | physics: free flight, and `chipmunk` where something could touch | world, contact |
+| step | physics: free flight, and `strides` where something could touch | world, contact |
 | judge | measures, what is reached, events, rewards; `placement` of what was reached | judge, world, run |
 | recall | memories, as they are read in the next tick | mind |
 

@@ -23,7 +23,7 @@ from mindrun.numbers.arithmetic import (
 )
 from mindrun.sim.codes import HALF_DIAGONAL
 from mindrun.sim.lanes.solid import extent_of, is_free, within
-from mindrun.sim.state import ContactState, WorldState
+from mindrun.sim.state import FIRST_LOOSE, ContactState, WorldState
 from mindrun.sim.tables import Tables
 from mindrun.sim.units import unit_where
 
@@ -37,12 +37,12 @@ OF_LOOSE = unit_where(lambda tables: len(tables.loose) > 0)
 def slow_down(tables: Tables, world: WorldState, contact: ContactState, lane: int) -> None:
     """Damp what has not settled, v / (1 + dt·c), and let it rest where it is slow enough.
 
-    Its body in the Space has to be `placed` again: it may have appeared elsewhere, and settles there without a contact.
+    Its solid is not `asleep`: it may have appeared elsewhere, and settles there without a contact.
     """
     loose, dt, restless = world.loose, tables.world[0].dt, 0
     for i in range(len(tables.loose)):
         if world.still[i, lane] < SETTLED_TICKS:
-            contact.placed[lane, i] = 0
+            contact.asleep[lane, FIRST_LOOSE + i] = 0
             row, thing = LOOSE_ROWS * i, tables.loose[i].thing
             slower = world.numbers[tables.loose[i].slower, lane]
             vx, vy = loose[row + PUSHED_X, lane] * slower, loose[row + PUSHED_Y, lane] * slower

@@ -1,94 +1,113 @@
-"""The nearest points of a disc's middle and a box, as Chipmunk finds them: GJK, and EPA where the middle is inside.
+"""The nearest points of two shapes in Chipmunk's own order of operations: GJK, and EPA where they overlap.
 
-Both look at the box as it is seen from the disc's middle, corner by corner, in Chipmunk's order of operations.
+A shape is a circle, of which only its middle counts here, or a quadrangle: columns of `solids` from `a` and `b` on. A
+**vertex** is a corner of what is seen of one shape from the other, 4·corner of the first + corner of the second.
 """
 
 import numpy as np
 
+from mindrun.sim.state import CORNER, CORNERS, HIGH, LEFT, LOW, RIGHT
+
 MOST_ROUNDS = 30  # of GJK and of EPA
 LEAST_NORMAL = 2.2250738585072014e-308  # DBL_MIN, which keeps Chipmunk from dividing by 0
+VERTEX_BITS, VERTEX_MASK = 4, 15
 
 
-def nearest_points(x, y, radius, left, low, right, top):
-    """The point of a disc's middle, that of the box, the normal from one to the other, and how far apart they are."""
-    dx = ((x - radius) * 0.5 + (x + radius) * 0.5) - (left * 0.5 + right * 0.5)
-    dy = ((y - radius) * 0.5 + (y + radius) * 0.5) - (low * 0.5 + top * 0.5)
-    a, b = support(-dy, dx, left, low, right, top), support(dy, -dx, left, low, right, top)
+def nearest_points(solids, a, b):
+    """The points of both shapes, the normal from one to the other, and how far apart they are."""
+    dx = middle_of(solids[a + LEFT], solids[a + RIGHT]) - middle_of(solids[b + LEFT], solids[b + RIGHT])
+    dy = middle_of(solids[a + LOW], solids[a + HIGH]) - middle_of(solids[b + LOW], solids[b + HIGH])
+    v, w = support(solids, a, b, -dy, dx), support(solids, a, b, dy, -dx)
     for _ in range(MOST_ROUNDS):
-        ax, ay = seen(a, x, y, left, low, right, top)
-        bx, by = seen(b, x, y, left, low, right, top)
-        if is_left(bx, by, ax, ay, 0.0, 0.0):
-            a, b, ax, ay, bx, by = b, a, bx, by, ax, ay
-        t = nearest_share(ax, ay, bx, by)
+        vx, vy = seen(solids, a, b, v)
+        wx, wy = seen(solids, a, b, w)
+        if is_left(wx, wy, vx, vy, 0.0, 0.0):
+            v, w, vx, vy, wx, wy = w, v, wx, wy, vx, vy
+        t = nearest_share(vx, vy, wx, wy)
         if t > -1.0 and t < 1.0:
-            nx, ny = -(by - ay), bx - ax
+            nx, ny = -(wy - vy), wx - vx
         else:
-            nx, ny = between(ax, ay, bx, by, t)
+            nx, ny = between(vx, vy, wx, wy, t)
             nx, ny = -nx, -ny
-        c = support(nx, ny, left, low, right, top)
-        cx, cy = seen(c, x, y, left, low, right, top)
-        if is_left(cx, cy, ax, ay, 0.0, 0.0) and is_left(bx, by, cx, cy, 0.0, 0.0):
-            a, b = expand(a, c, b, x, y, left, low, right, top)
+        c = support(solids, a, b, nx, ny)
+        cx, cy = seen(solids, a, b, c)
+        if is_left(cx, cy, vx, vy, 0.0, 0.0) and is_left(wx, wy, cx, cy, 0.0, 0.0):
+            v, w = expand(solids, a, b, v, c, w)
             break
-        ahead_a, ahead_b = ax * nx + ay * ny, bx * nx + by * ny
-        if cx * nx + cy * ny <= (ahead_a if ahead_a > ahead_b else ahead_b):
+        ahead_v, ahead_w = vx * nx + vy * ny, wx * nx + wy * ny
+        if cx * nx + cy * ny <= (ahead_v if ahead_v > ahead_w else ahead_w):
             break
-        if distance(ax, ay, cx, cy) < distance(cx, cy, bx, by):
-            b = c
+        if distance(vx, vy, cx, cy) < distance(cx, cy, wx, wy):
+            w = c
         else:
-            a = c
-    return points_on(a, b, x, y, left, low, right, top)
+            v = c
+    return points_on(solids, a, b, v, w)
 
 
-def expand(a, b, c, x, y, left, low, right, top):
-    """The edge of a box that is nearest to a point inside of it, begun with three of its corners (EPA).
+def middle_of(low, high):
+    """The middle between two sides."""
+    return low * 0.5 + high * 0.5
 
-    The corners of the hull so far are the digits of a number.
+
+def expand(solids, a, b, v, w, u):
+    """The edge that is nearest to where both shapes overlap, begun with three vertices (EPA).
+
+    The vertices of the hull so far are the digits of a number.
     """
-    hull, count = a | b << 3 | c << 6, 3
+    hull, count = v | w << VERTEX_BITS | u << 2 * VERTEX_BITS, 3
     for round_ in range(1, MOST_ROUNDS + 1):
         first, least = 0, np.inf
         i = count - 1
         for j in range(count):
-            ax, ay = seen(hull >> 3 * i & 7, x, y, left, low, right, top)
-            bx, by = seen(hull >> 3 * j & 7, x, y, left, low, right, top)
+            ax, ay = seen(solids, a, b, digit(hull, i))
+            bx, by = seen(solids, a, b, digit(hull, j))
             far = distance(ax, ay, bx, by)
             if far < least:
                 least, first = far, i
             i = j
-        a, b = hull >> 3 * first & 7, hull >> 3 * ((first + 1) % count) & 7
-        ax, ay = seen(a, x, y, left, low, right, top)
-        bx, by = seen(b, x, y, left, low, right, top)
-        c = support(-(by - ay), bx - ax, left, low, right, top)
-        cx, cy = seen(c, x, y, left, low, right, top)
-        if c in (a, b) or not is_left(ax, ay, bx, by, cx, cy) or round_ == MOST_ROUNDS:
+        v, w = digit(hull, first), digit(hull, (first + 1) % count)
+        ax, ay = seen(solids, a, b, v)
+        bx, by = seen(solids, a, b, w)
+        c = support(solids, a, b, -(by - ay), bx - ax)
+        cx, cy = seen(solids, a, b, c)
+        if c in (v, w) or not is_left(ax, ay, bx, by, cx, cy) or round_ == MOST_ROUNDS:
             break
-        larger, size, last = c, 1, c
-        for i in range(count):
-            place = (first + 1 + i) % count
-            corner = hull >> 3 * place & 7
-            following = hull >> 3 * ((place + 1) % count) & 7 if i + 1 < count else c
-            lx, ly = seen(last, x, y, left, low, right, top)
-            hx, hy = seen(corner, x, y, left, low, right, top)
-            fx, fy = seen(following, x, y, left, low, right, top)
-            if is_left(lx, ly, fx, fy, hx, hy):
-                larger |= corner << 3 * size
-                size, last = size + 1, corner
-        hull, count = larger, size
-    return a, b
+        hull, count = larger_hull(solids, a, b, hull, count, first, c)
+    return v, w
 
 
-def points_on(a, b, x, y, left, low, right, top):
-    """The nearest points on an edge of a box, as `nearest_points`."""
-    ax, ay = seen(a, x, y, left, low, right, top)
-    bx, by = seen(b, x, y, left, low, right, top)
-    t = nearest_share(ax, ay, bx, by)
-    px, py = between(ax, ay, bx, by, t)
-    own_x, own_y = between(x, y, x, y, t)
-    corner_x, corner_y = corner_of(a, left, low, right, top)
-    other_x, other_y = corner_of(b, left, low, right, top)
-    its_x, its_y = between(corner_x, corner_y, other_x, other_y, t)
-    dx, dy = by - ay, -(bx - ax)
+def larger_hull(solids, a, b, hull, count, first, c):
+    """The hull with vertex c behind the edge `first`, without what is not at its rim any more, and how many it has."""
+    larger, size, last = c, 1, c
+    for i in range(count):
+        place = (first + 1 + i) % count
+        vertex = digit(hull, place)
+        following = digit(hull, (place + 1) % count) if i + 1 < count else c
+        lx, ly = seen(solids, a, b, last)
+        hx, hy = seen(solids, a, b, vertex)
+        fx, fy = seen(solids, a, b, following)
+        if is_left(lx, ly, fx, fy, hx, hy):
+            larger |= vertex << VERTEX_BITS * size
+            size, last = size + 1, vertex
+    return larger, size
+
+
+def digit(hull, i):
+    """Vertex i of a hull."""
+    return hull >> VERTEX_BITS * i & VERTEX_MASK
+
+
+def points_on(solids, a, b, v, w):
+    """The nearest points on an edge, as `nearest_points`."""
+    vx, vy = seen(solids, a, b, v)
+    wx, wy = seen(solids, a, b, w)
+    t = nearest_share(vx, vy, wx, wy)
+    px, py = between(vx, vy, wx, wy, t)
+    one, other = corner(a, v >> 2), corner(a, w >> 2)
+    own_x, own_y = between(solids[one], solids[one + 1], solids[other], solids[other + 1], t)
+    one, other = corner(b, v & 3), corner(b, w & 3)
+    its_x, its_y = between(solids[one], solids[one + 1], solids[other], solids[other + 1], t)
+    dx, dy = wy - vy, -(wx - vx)
     scale = 1.0 / (np.sqrt(dx * dx + dy * dy) + LEAST_NORMAL)
     nx, ny = dx * scale, dy * scale
     apart = nx * px + ny * py
@@ -99,25 +118,33 @@ def points_on(a, b, x, y, left, low, right, top):
     return own_x, own_y, its_x, its_y, nx, ny, apart
 
 
-def support(nx, ny, left, low, right, top):
-    """The number of the corner of a box that is farthest in a direction."""
-    most, found = left * nx + low * ny, 0
-    far = right * nx + low * ny
+def corner(a, i):
+    """The column of corner i of a shape."""
+    return a + CORNER + 2 * i
+
+
+def support(solids, a, b, nx, ny):
+    """The vertex that is farthest in a direction."""
+    return 4 * farthest(solids, a, -nx, -ny) + farthest(solids, b, nx, ny)
+
+
+def farthest(solids, a, nx, ny):
+    """The number of the corner of a shape that is farthest in a direction."""
+    if solids[a + CORNERS] == 1.0:
+        return 0
+    c = a + CORNER
+    most, found = solids[c] * nx + solids[c + 1] * ny, 0
+    far = solids[c + 2] * nx + solids[c + 3] * ny
     most, found = (far, 1) if far > most else (most, found)
-    far = right * nx + top * ny
+    far = solids[c + 4] * nx + solids[c + 5] * ny
     most, found = (far, 2) if far > most else (most, found)
-    return 3 if left * nx + top * ny > most else found
+    return 3 if solids[c + 6] * nx + solids[c + 7] * ny > most else found
 
 
-def corner_of(i, left, low, right, top):
-    """The x and y of corner i."""
-    return right if i in (1, 2) else left, top if i >= 2 else low
-
-
-def seen(i, x, y, left, low, right, top):
-    """The x and y of corner i, from a point."""
-    corner_x, corner_y = corner_of(i, left, low, right, top)
-    return corner_x - x, corner_y - y
+def seen(solids, a, b, vertex):
+    """The x and y of a vertex."""
+    own, its = corner(a, vertex >> 2), corner(b, vertex & 3)
+    return solids[its] - solids[own], solids[its + 1] - solids[own + 1]
 
 
 def is_left(ax, ay, bx, by, cx, cy):

@@ -4,9 +4,7 @@ import numpy as np
 
 from mindrun.kinds.sensors.motion import TRAIL_TICKS
 from mindrun.numbers.arithmetic import ANGLE, COSINE, SINE, X, Y, sine_cosine
-from mindrun.sim.chipmunk_internals import FIXED_BODY
 from mindrun.sim.codes import GOING_ON, LOST, VISIT
-from mindrun.sim.lanes.chipmunk import close_space
 from mindrun.sim.lanes.judge import patch_of
 from mindrun.sim.lanes.placement import draw, set_numbers
 from mindrun.sim.lanes.solid import is_lost
@@ -87,12 +85,12 @@ def reset(tables, state, lane):
             judge.visited[lane, tables.events[i].board + patch] = 1
     state.sight.anchor[:, lane] = np.nan
     state.contact.near[lane], state.contact.touching[lane] = 0, 0
-    state.contact.disc[lane] = 0.0
+    state.contact.space[lane] = 0.0
     run.ended[lane], run.met[lane], run.faults[lane] = GOING_ON, GOING_ON, 0
 
 
 def finish(tables, state, jobs, lane):
-    """Write down what came of a lane's job, and free its Space."""
+    """Write down what came of a lane's job."""
     judge, run = state.judge, state.run
     job = run.job[lane]
     for i in range(len(tables.rewards)):
@@ -101,12 +99,11 @@ def finish(tables, state, jobs, lane):
         jobs.counts[job, i] = judge.counts[i, lane]
     jobs.ticks[job], jobs.ended[job], jobs.met[job] = state.world.tick[lane], run.ended[lane], run.met[lane]
     jobs.faults[job] = run.faults[lane]
-    close_space(tables, state.contact, lane)
     run.job[lane] = -1
 
 
 def move(state, source, target):
-    """Move a lane to the place of one whose run is over, but for what is of this tick; circles go with their Space."""
+    """Move a lane to the place of one whose run is over, but for what is of this tick."""
     world, mind, sight, judge = state.world, state.mind, state.sight, state.judge
     contact, run = state.contact, state.run
     for rows in (world.body, world.heading, world.things, world.trail, world.loose, world.numbers, world.direction):
@@ -121,9 +118,9 @@ def move(state, source, target):
         copy_lane(rows, source, target)
     for rows in (sight.nearby, sight.anchor, judge.left_changes, judge.right_changes, judge.lines):
         copy_lane(rows, source, target)
-    for columns in (world.boxes, contact.sizes, contact.disc, contact.pairs):
+    for columns in (world.boxes, contact.space, contact.solids, contact.pairs):
         copy_row(columns, source, target)
-    for columns in (judge.visited, contact.placed):
+    for columns in (judge.visited, contact.asleep):
         copy_row(columns, source, target)
     for numbers in (world.restless, world.held, world.tick, sight.nearby_count, contact.near, contact.touching):
         numbers[target] = numbers[source]
@@ -131,10 +128,6 @@ def move(state, source, target):
         numbers[target] = numbers[source]
     world.battery[target], contact.last[target] = world.battery[source], contact.last[source]
     world.random[target], world.random_aside[target] = world.random[source], world.random_aside[source]
-    for handles in (contact.handles, contact.loose):
-        for i in range(handles.shape[1]):
-            handles[source, i], handles[target, i] = handles[target, i], handles[source, i]
-    contact.tally[target, FIXED_BODY] = contact.tally[source, FIXED_BODY]
 
 
 def copy_lane(rows, source, target):
