@@ -16,10 +16,10 @@ def corners(half):
 
 
 class PlainLoose:
-    """The loose things of a world, by their place among its things; what has vanished is not there."""
+    """The loose things of a world, by their place among its things; what has vanished is not there, but far away."""
 
     def __init__(self, space, kinds, places, dt):
-        self.space, self.kinds, self.dt, self.there = space, kinds, dt, {}
+        self.space, self.kinds, self.dt, self.there, self.gone = space, kinds, dt, {}, []
         self.are_any = any(isinstance(kind, LooseBox | Ball) for kind in kinds)
         for i, kind in enumerate(kinds):
             if isinstance(kind, LooseBox | Ball):
@@ -100,6 +100,8 @@ class PlainLoose:
         """What has been moved elsewhere or has vanished."""
         for i in changed & self.there.keys():
             if math.isnan(places[i][0]):
-                self.space.remove(*self.there.pop(i))
+                body, _ = self.there.pop(i)
+                body.position, body.velocity, body.angular_velocity = (1e8 + 1e4 * i, 1e8), (0.0, 0.0), 0.0
+                self.gone.append(body)  # its shape keeps its number, by which a hash has the order of all
             else:
                 self.resize(i, places[i])

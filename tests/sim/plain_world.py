@@ -436,6 +436,7 @@ class PlainBody:
         shapes = [shape for shape in old.shapes if shape.body is not old.static_body]
         old.remove(*shapes, *old.bodies)
         self.loose.space = self.room()
+        self.space.add(*self.loose.gone)
         for mover in movers:
             before, mover.body = mover.body, pymunk.Body(mover.body.mass, mover.body.moment)
             mover.body.position, mover.body.angle = before.position, before.angle

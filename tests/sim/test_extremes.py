@@ -69,11 +69,13 @@ CALLED = """
 import sys, json, numpy as np
 from mindrun.graph.policy import Policy
 from mindrun.sim.rollout import Rollout
-from tests.sim.minds import compile_text
+from mindlang.compiler.compile import compile_source
+from mindlang.compiler.source import Source
 for line in sys.stdin:
-    rollout = Rollout(Policy(compile_text(json.loads(line)), {}), "Far", "Go", lanes=3)
-    scores = rollout.score(np.zeros((1, 0), np.float32), range(5))
-    print(int(scores.ticks.sum()), flush=True)
+    graph = compile_source(Source("test.mind", json.loads(line))).graph
+    if graph:  # else it is refused: the robot does not fit into its world
+        Rollout(Policy(graph, {}), "Far", "Go", lanes=3).score(np.zeros((1, 0), np.float32), range(5))
+    print("over", flush=True)
 """
 
 

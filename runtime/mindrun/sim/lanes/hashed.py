@@ -93,7 +93,7 @@ def lies_in(cell, left, low, right, top, slot):
 
 def slot_of(column, row):
     """The slot of a cell in Chipmunk's table."""
-    return (np.uint64(column) * HASH_X ^ np.uint64(row) * HASH_Y) % SLOTS
+    return (np.uint64(np.int64(column)) * HASH_X ^ np.uint64(np.int64(row)) * HASH_Y) % SLOTS
 
 
 def floor(number):
