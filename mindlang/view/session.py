@@ -29,7 +29,6 @@ class ViewSession:
         self.learning = learning
         self.number = 0  # how many runs have been seen before this one
         self._growing: dict[int, asyncio.Task[None]] = {}
-        self._waits: str | None = None  # what a change waits for
         self._show(viewed)
         self._grower = ThreadPoolExecutor(1, "growing")
         self._answerer = ThreadPoolExecutor(1, "answering")
@@ -86,7 +85,6 @@ class ViewSession:
             "known": viewed.known,
             "ended_by": viewed.ended_by,
             "failed": viewed.failed,
-            "waits": self._waits,
             "happened": viewed.happened[happened : happened + MAX_HAPPENED],
             "stops": viewed.stops[stops : stops + MAX_HAPPENED],
         }
@@ -126,12 +124,7 @@ class ViewSession:
             raise RefusedError("a recording is what it is: nothing in it can be changed")
         if len(self.forks) > messages.MAX_FORKS:
             raise RefusedError(f"there are {messages.MAX_FORKS} forks already: open the run anew")
-        loop = asyncio.get_running_loop()
-        self._wait(await loop.run_in_executor(self._answerer, of.delay))
-        try:
-            viewed, text = await loop.run_in_executor(self._grower, of.forked, change)
-        finally:
-            self._wait(None)
+        viewed, text = await asyncio.get_running_loop().run_in_executor(self._grower, of.forked, change)
         if of not in self.forks:
             raise RefusedError("another run is seen now")
         number = len(self.forks)
@@ -140,12 +133,6 @@ class ViewSession:
         self._wanted.append(0)
         self.forks.append(viewed)
         self._run(number, max(of.known, change.tick))
-
-    def _wait(self, what: str | None) -> None:
-        """Tell all viewers what is waited for, or that nothing is any more."""
-        if what != self._waits:
-            self._waits = what
-            self.changed()
 
     def _run(self, fork: int, to: int) -> None:
         self._wanted[fork] = max(self._wanted[fork], to)

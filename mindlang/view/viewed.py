@@ -47,8 +47,7 @@ class Viewed:
     `happened` has pairs of a tick and the number of an event, `stops` of a tick and the breakpoint that holds there; in
     the ticks of `begins` the mind was begun anew. `drawing` is of its environment. What `is_live` grows without being
     asked. `forked` makes the same run with a change, and says that in words; RefusedError where that cannot be, None
-    where nothing can be changed. `delay` says what has to be done first and takes a while, if anything. One thread lets
-    it `grow`; others may ask at the same time.
+    where nothing can be changed. One thread lets it `grow`; others may ask at the same time.
     """
 
     def __init__(
@@ -65,7 +64,6 @@ class Viewed:
         self.begins: set[int] = set()
         self.flows = EdgeFlows(graph, mind, self._thought, self.begins)
         self.forked: Callable[[AskChange], tuple[Viewed, str]] | None = None
-        self.delay: Callable[[], str | None] = lambda: None
         self.blocks = RowBlocks()
         self.happened: list[tuple[int, int]] = []
         self.stops: list[tuple[int, str]] = []

@@ -5,14 +5,13 @@ from collections.abc import Iterator
 from dataclasses import replace
 from itertools import cycle
 from pathlib import Path
-from threading import Event
 from typing import Any
 
 import pytest
 
 from mindlang.run.edge_flow import edge_flows
 from mindlang.run.recorded_run import record_run
-from mindlang.view.messages import AskChange, AskShares, RefusedError
+from mindlang.view.messages import AskShares, RefusedError
 from mindlang.view.session import command_shares
 from mindlang.view.viewed import Viewed
 from tests.calling import write_rules
@@ -163,30 +162,6 @@ def test_a_value_that_is_changed_makes_a_run_beside_this_one(opened: Opened, min
     opened.wait("document.querySelector('#forks').value === '1'")
     opened.jump(400)
     assert any(json.loads(said).get("fork") == 1 for said in opened.sent if '"rows"' in said)
-
-
-def test_what_a_change_waits_for_stands_there_until_it_has_come(browser: Any, mind: Path) -> None:
-    viewed, compiled = simulated(mind), Event()
-    forked = viewed.forked
-
-    def slow(change: AskChange) -> tuple[Viewed, str]:
-        assert forked
-        assert compiled.wait(60)
-        return forked(change)
-
-    viewed.forked, viewed.delay = slow, lambda: "compiling…"
-    with served(viewed) as view:
-        opened = Opened(browser, f"http://{view.host}/#{view.token}")
-        opened.jump(100)
-        opened.page.fill("#search", "Turn")
-        opened.page.press("#search", "Enter")
-        opened.page.fill("#edit input[aria-label=value]", "0")
-        opened.page.click("#edit button")
-        opened.wait("!document.querySelector('#notice').hidden")
-        assert opened.page.inner_text("#notice") == "compiling…"
-        compiled.set()
-        opened.wait("document.querySelector('#notice').hidden && !document.querySelector('#forks').hidden")
-        opened.close()
 
 
 def test_what_no_path_has_made_of_a_command_is_said(opened: Opened, monkeypatch: pytest.MonkeyPatch) -> None:

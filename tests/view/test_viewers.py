@@ -76,28 +76,6 @@ def test_a_fork_is_the_run_with_that_change(view: Served, path: Path) -> None:
     assert seen.tobytes() == np.array([moment.body[:3] for moment in moments]).tobytes()
 
 
-def test_what_a_change_waits_for_is_said_until_it_has_come(path: Path) -> None:
-    viewed, compiled = simulated(path), Event()
-    forked = viewed.forked
-
-    def slow(change: AskChange) -> tuple[Viewed, str]:
-        assert forked
-        assert compiled.wait(ANSWER_SECONDS)
-        return forked(change)
-
-    viewed.forked, viewed.delay = slow, lambda: "compiling…"
-    with served(viewed) as view, view.viewer() as viewer:
-        about = viewer.hear("about")
-        viewer.say(**CHANGE, column=about["nodes"][0]["columns"][0])
-        while (told := viewer.hear("ticks"))["waits"] is None:
-            pass
-        assert (told["fork"], told["waits"]) == (0, "compiling…")
-        compiled.set()
-        assert viewer.hear("fork")["fork"] == 1
-        while viewer.hear("ticks")["waits"]:
-            pass
-
-
 def test_a_change_that_cannot_be_made_is_refused_with_what_to_do(path: Path) -> None:
     viewed = simulated(path)
 

@@ -7,7 +7,6 @@ const REFUSAL_MILLISECONDS = 8000;
 const NOTICE_CHARACTERS = 240;
 let timer: ReturnType<typeof setTimeout> | undefined;
 let stays = false;
-let awaited: string | null = null;
 
 /** Says why something was not done. */
 export function refusal(why: string): void {
@@ -25,14 +24,6 @@ export function trouble(why: string): void {
 export function noTrouble(): void {
   if (stays) element("notice").hidden = true;
   stays = false;
-}
-
-/** Says what a change waits for, until it does no more. */
-export function waiting(what: string | null): void {
-  if (stays) return;
-  if (what) show(what);
-  else if (awaited && element("notice").textContent === shown(awaited, NOTICE_CHARACTERS)) element("notice").hidden = true;
-  awaited = what;
 }
 
 function show(text: string): void {

@@ -113,7 +113,6 @@ export interface Ticks {
   over: boolean;
   ended_by: string | null;
   failed: string | null;
-  waits: string | null; // what a change waits for
   happened: [tick: number, event: number][];
   stops: [tick: number, text: string][];
 }

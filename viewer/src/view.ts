@@ -13,7 +13,7 @@ import { helpRows, listen } from "./keys";
 import { keysOf } from "./key_table";
 import { Learning } from "./learning";
 import { shown } from "./names";
-import { refusal, waiting } from "./notice";
+import { refusal } from "./notice";
 import { Playback } from "./playback";
 import type { About, Frame, Refused, Said, Send, Ticks } from "./protocol";
 import { Rows } from "./rows";
@@ -165,7 +165,7 @@ export class View {
     this.forks.want(to);
   }
 
-  private grown({ known, over, ended_by, failed, waits, happened, stops }: Ticks): void {
+  private grown({ known, over, ended_by, failed, happened, stops }: Ticks): void {
     this.rows.known = known;
     this.happened.add(happened);
     this.collisions.add(happened.filter(([, event]) => this.about.events[event]?.kind === "collision"));
@@ -174,7 +174,6 @@ export class View {
     this.curves.refresh();
     this.end = over ? `${known} ticks${ended_by ? `, ended by ${shown(ended_by)}` : ""}` : "";
     this.failed = failed ? shown(failed, 200) : "";
-    waiting(waits);
     element("state").classList.toggle("alarm", !!failed);
   }
 

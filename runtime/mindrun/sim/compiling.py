@@ -28,7 +28,7 @@ from mindrun.sim.units import AddressOf, Form, Kind, Pointer, Unit
 # They own no array and make none. With `_nrt` numba would count the references of all that they are handed, at every
 # call: half of the time of a tick.
 OPTIONS = {"nogil": True, "error_model": "numpy", "_nrt": False}
-PIPELINE = {"pipeline_class": InnerCompiler, "no_cpython_wrapper": True, "no_cfunc_wrapper": True, "forceinline": False}
+PIPELINE = {"pipeline_class": InnerCompiler, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 INLINED = {
     arithmetic.bearing, arithmetic.clamp, arithmetic.finite, arithmetic.nearest, arithmetic.sine_cosine,
     arithmetic.short_way, arithmetic.wrapped,

@@ -36,7 +36,6 @@ class LoweredCode(JITCodeLibrary):  # type: ignore[misc]
         """Add the code of the functions that it calls."""
         self._raise_if_finalized()
         for library in dict.fromkeys(self._linking_libraries):
-            self._reload_init.update(library._reload_init)
             self._final_module.link_in(library._get_module_for_linking(), preserve=True)
         self._finalize_dynamic_globals()
         self._finalized = True
@@ -57,7 +56,6 @@ class LowerOnly(NativeLowering):  # type: ignore[misc]
         # By this object others know the function: nobody can call it.
         nowhere = _dynfunc.make_function(module, state.func_id.func_name, "", 0, lowered.env, (state.library,))
         state.targetctx.insert_user_function(nowhere, lowered.fndesc, [state.library])
-        state.reload_init.extend(state.library._reload_init)
         state["cr"] = lowered._replace(cfunc=nowhere)
         return True
 

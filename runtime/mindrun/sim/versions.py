@@ -7,7 +7,7 @@ from packaging.specifiers import SpecifierSet
 
 from mindrun.errors import MindError
 
-# pyproject.toml asks for the same. Numba 0.62 has no `_reload_init` to link with.
+# pyproject.toml asks for the same.
 KNOWN: Mapping[str, str] = {"llvmlite": ">=0.46,<0.51", "numba": ">=0.63,<0.69"}
 
 
