@@ -124,6 +124,7 @@ RIGHT: Mapping[str, Shape] = {
 WRONG: Mapping[str, Shape] = {
     "one sensor again": _body("sensor eye is battery", HEAD + GO),
     "one skill again": _spread("skill Go is rule\n  drives left at 1\n", HEAD, 2),
+    "things in one place": _body("  contains b{n} is item at 1 1", HEAD + GO + TASK),
     "one task again": _spread("task T in plain\n  lasts 9 s\n", HEAD + GO, 2),
     "one thing again": _body("  contains ball is item", HEAD + GO + TASK),
     "one reading again": _body("  reads eye", HEAD + GO),
