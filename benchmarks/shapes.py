@@ -103,7 +103,7 @@ RIGHT: Mapping[str, Shape] = {
     "rewards of one task": _body("  rewards {n} * eye per tick when eye > 0.5", HEAD + GO + TASK),
     "events of one task": _body("  ends on reach of ball over {n}", HEAD + GO + TASK),
     "counts of one task": _body("  counts collision", HEAD + GO + TASK),
-    "lessons of one curriculum": _body("  teaches Go on Go for {n} generations", HEAD + LEARNS + TASK
+    "lessons of one curriculum": _body("  teaches Go on Go for 1{n} generations", HEAD + LEARNS + TASK
                                        + "curriculum C is genetic\n  teaches Go on Go for 9 generations\n"),
     "lessons of many skills": lambda lines: HEAD + LEARNS + TASK + "".join(
         f"skill S{n} is mlp\n  reads eye\n  drives left\n" for n in range(lines // 4))
@@ -124,6 +124,7 @@ RIGHT: Mapping[str, Shape] = {
 WRONG: Mapping[str, Shape] = {
     "one sensor again": _body("sensor eye is battery", HEAD + GO),
     "one skill again": _spread("skill Go is rule\n  drives left at 1\n", HEAD, 2),
+    "things in one place": _body("  contains b{n} is item at 1 1", HEAD + GO + TASK),
     "one task again": _spread("task T in plain\n  lasts 9 s\n", HEAD + GO, 2),
     "one thing again": _body("  contains ball is item", HEAD + GO + TASK),
     "one reading again": _body("  reads eye", HEAD + GO),

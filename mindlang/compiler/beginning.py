@@ -135,13 +135,13 @@ class Beginning:
 
     def overlapping(self) -> Iterator[tuple[Part[Any], Part[Any]]]:
         """Pairs of things that overlap, a fixed one as the second; one that walks is tried at all places of its way."""
-        parts = sorted((each for each in self.things if each.kind), key=lambda each: not each.kind.is_obstacle)
-        found = [(each, role(each.kind), self.outlines(each.kind)) for each in parts]
-        for number, (thing, its, outlines) in enumerate(found):
+        parts = [(each, role(each.kind), self.outlines(each.kind)) for each in self.things if each.kind]
+        placed = sorted((part for part in parts if part[2]), key=lambda part: part[1] != "fixed")
+        for number, (thing, its, outlines) in enumerate(placed):
             if its == "body" and any(overlap(a, b) for i, a in enumerate(outlines) for b in outlines[:i]):
                 yield thing, thing
             spots = [*outlines, *(Outline((place,)) for place in thing.kind.places)]
-            for other, other_role, others in found[:number]:
+            for other, other_role, others in () if its == "fixed" else placed[:number]:
                 mine = spots if other_role == "fixed" else outlines
                 if {its, other_role} in APART and any(overlap(a, b) for a in mine for b in others):
                     yield thing, other

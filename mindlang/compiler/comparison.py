@@ -1,8 +1,10 @@
 """Differences in meaning between two minds; spacing, comments and order are none."""
 
+from collections import defaultdict, deque
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, is_dataclass
 from difflib import SequenceMatcher
+from operator import attrgetter
 from typing import Any
 
 from msgspec import Struct
@@ -94,15 +96,15 @@ def _difference(what: str, old: Sequence[_Line], new: Sequence[_Line], ordered: 
 
 def _numbered(old: Sequence[_Line], new: Sequence[_Line]) -> tuple[list[int], list[int]]:
     """Numbers of old and of new lines; an old and a new line that match, in text or else in meaning, share a number."""
-    left = dict(enumerate(old))
     after: dict[int, int] = {}
-    for sameness in ("text", "meaning"):
+    for sameness in (attrgetter("text"), attrgetter("meaning")):
+        paired, alike = {*after.values()}, defaultdict[Any, deque[int]](deque)
+        for number, line in enumerate(old):
+            if number not in paired:
+                alike[sameness(line)].append(number)
         for place, line in enumerate(new):
-            said = getattr(line, sameness)
-            pairs = (number for number, other in left.items() if getattr(other, sameness) == said)
-            if place not in after and (pair := next(pairs, None)) is not None:
-                after[place] = pair
-                del left[pair]
+            if place not in after and alike[sameness(line)]:
+                after[place] = alike[sameness(line)].popleft()
     return list(range(len(old))), [after.get(place, len(old) + place) for place in range(len(new))]
 
 

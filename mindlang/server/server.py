@@ -2,11 +2,12 @@
 
 import asyncio
 import re
-from bisect import bisect_right
-from collections.abc import Iterable, Iterator, Mapping
+from bisect import bisect_left, bisect_right
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 from importlib.metadata import version
+from itertools import accumulate
 from pathlib import Path
 from typing import Any
 from urllib.parse import quote
@@ -33,7 +34,7 @@ TYPING_PAUSE_SECONDS = 0.15  # seconds without typing, after which a text is che
 REQUEST_FAILED = -32803  # RequestFailed
 NOTHING_CREATED: Mapping[Path, str] = {}
 SEVERITIES = {"error": types.DiagnosticSeverity.Error, "warning": types.DiagnosticSeverity.Warning}
-CACHED_TEXTS = 16  # whose lines are remembered
+CACHED_TEXTS = 16  # whose lines and columns are remembered
 _LINE_END = re.compile(r"\r\n|\n|\r")
 
 
@@ -60,16 +61,14 @@ class LspConverter:
         if position.line >= len(starts):
             return len(text)
         start, end = [*starts, len(text)][position.line : position.line + 2]
-        line = text[start:end].rstrip("\r\n")
-        column = min(position.character, self.codec.client_num_units(line))
-        found = self.codec.position_from_client_units([line], types.Position(0, column))
-        return start + found.character
+        units, length = units_before(text, self.codec), len(text[start:end].rstrip("\r\n"))
+        return bisect_left(units, units[start] + position.character, start, start + length)
 
     def position(self, text: str, offset: int) -> types.Position:
         """The position of an offset."""
-        starts = line_starts(text)
+        starts, units = line_starts(text), units_before(text, self.codec)
         line = bisect_right(starts, offset) - 1
-        return types.Position(line, self.codec.client_num_units(text[starts[line] : offset]))
+        return types.Position(line, units[offset] - units[starts[line]])
 
     def range(self, span: Span) -> types.Range:
         """A span as a range."""
@@ -127,6 +126,15 @@ class LspConverter:
 def line_starts(text: str) -> list[int]:
     """The offset at which each line of a text begins, as the protocol counts them: a lone carriage return ends one."""
     return [0, *(end.end() for end in _LINE_END.finditer(text))]
+
+
+@lru_cache(CACHED_TEXTS)
+def units_before(text: str, codec: PositionCodec) -> Sequence[int]:
+    """The number of units of columns before each character of a text, and in all of it."""
+    if text.isascii():
+        return range(len(text) + 1)
+    units = {character: codec.client_num_units(character) for character in set(text)}
+    return [0, *accumulate(map(units.__getitem__, text))]
 
 
 @dataclass

@@ -10,7 +10,6 @@ FEW_CALLS = 1000
 FEW = ("skills that nobody reaches", "things not there")
 ALL = [pytest.param(shape, marks=() if shape in FEW else pytest.mark.slow) for shape in SHAPES]
 ALLOWED = {
-    ("actuators", "prove"),  # bounds are proved of each actuator through each skill
     ("layers", "show"),  # a tree is as wide as it is deep
 }
 

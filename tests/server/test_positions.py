@@ -6,6 +6,7 @@ from hypothesis import strategies as st
 from lsprotocol.types import Position
 from pygls.workspace import PositionCodec
 
+from benchmarks.call_count import CallCount
 from mindlang.server.server import LspConverter
 from tests.server.client import offset, position
 
@@ -43,3 +44,9 @@ def test_behind_the_end_of_a_line_is_its_end():
 
 def test_half_a_character_is_where_the_next_one_begins():
     assert UTF_16.offset("😀x", Position(0, 1)) == 1
+
+
+def test_a_long_line_is_walked_once_for_all_of_its_places():
+    text = "é" * 1000
+    with CallCount(most=20 * len(text)):
+        assert [UTF_16.offset(text, UTF_16.position(text, at)) for at in range(len(text))] == [*range(len(text))]

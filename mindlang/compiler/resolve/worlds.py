@@ -119,7 +119,7 @@ def _things(declaration: Declaration, scene: Any, scope: Scope, findings: Findin
 
 
 def _check_places(things: Sequence[Part[Any]], scene: SceneKind | None, findings: Findings) -> None:
-    """Report one thing too many, and what stands where something else stands in every run."""
+    """Report one thing too many, or else what stands where something else stands in every run."""
     apart = [
         thing.span
         for thing in things
@@ -129,6 +129,7 @@ def _check_places(things: Sequence[Part[Any]], scene: SceneKind | None, findings
     if len(apart) > MAX_THINGS:
         hint = f"A world takes {MAX_THINGS} beside its obstacles: leave some out."
         findings.error("too-many-things", apart[MAX_THINGS], f"That is thing number {MAX_THINGS + 1}.", hint)
+        return
     met: dict[str, tuple[Part[Any], Part[Any]]] = {}
     for thing, other in Beginning(scene, things, None, None, None, 0.0).overlapping():
         met.setdefault(thing.name, (thing, other))
