@@ -1,8 +1,9 @@
 """The progress of a lesson while it is taught: a bar on a terminal, a line now and then elsewhere."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from mindrun.kinds.learners import run_lengths
 from mindrun.train.attempts import NOTHING_AHEAD, Ahead
 from mindrun.train.lesson_state import Record
 from mindrun.train.population import founder_count
@@ -53,8 +54,9 @@ class ProgressText:
 class TimeLeft:
     """The pace of generations since this process took the lesson up at `began`; `generations` are of all attempts.
 
-    `first` says how many generations the first one of an attempt is worth, with all its founders; `reevaluated` is the
-    attempt, the generation and the score on fresh layouts of the last champion that has one. `ticks` were simulated.
+    `first` says how many generations the first one of an attempt is worth, with all its founders, and `lengths` until
+    when runs are how long, as `run_lengths` does. `reevaluated` is the attempt, the generation and the score on fresh
+    layouts of the last champion that has one. `ticks` were simulated.
     """
 
     generations: int
@@ -62,6 +64,7 @@ class TimeLeft:
     attempts: int = 1
     reevaluated: tuple[int, int, float] | None = None
     first: float = 1.0
+    lengths: Sequence[tuple[float, float]] = ((1.0, 1.0),)
     ticks: int = 0
     seen: float = 0.0
     ahead: Ahead = NOTHING_AHEAD
@@ -76,7 +79,8 @@ class TimeLeft:
                 known = int(row["attempt"] or 0), int(row["generation"] or 0), score
         learner = lesson.learner
         first = founder_count(learner) / learner.population if run.begins_with_nothing else 1.0
-        return cls(lesson.generations * learner.attempts, began, learner.attempts, known, first)
+        lengths = run_lengths(learner)
+        return cls(lesson.generations * learner.attempts, began, learner.attempts, known, first, lengths)
 
     def count_ahead(self, ahead: Ahead) -> None:
         """Take note of what attempts ahead of their turn have done by now."""
@@ -86,17 +90,31 @@ class TimeLeft:
         """The share of all generations that has been done, in its turn or ahead."""
         return (done + self.ahead.generations) / self.generations
 
+    def _worth(self, done: int) -> float:
+        """How many generations of whole runs so many generations of all attempts are worth."""
+        one, whole = self.generations // self.attempts, 0.0
+        attempts, rest = divmod(done, one)
+        begin = 0.0
+        for length, share in self.lengths:
+            end = share * one
+            whole += length * (attempts * (end - begin) + min(max(rest - begin, 0.0), end - begin))
+            begin = end
+        return whole
+
     def standing(self, record: Record, done: int, now: float) -> ProgressText:
         """The progress after a generation, when `done` of all attempts have been made."""
         self.ticks += record.ticks
-        self.seen += self.first if record.generation == 1 else 1.0
-        ahead = self.ahead.generations + self.ahead.attempts * (self.first - 1.0)
-        left = self.generations - done + (self.attempts - record.attempt) * (self.first - 1.0) - ahead
+        one, all_of_one = self.generations // self.attempts, self._worth(self.generations) / self.generations
+        more = (self.first - 1.0) * self.lengths[0][0]
+        self.seen += (
+            self._worth(record.generation) - self._worth(record.generation - 1) + more * (record.generation == 1)
+        )
+        ahead = self.ahead.generations * all_of_one + self.ahead.attempts * more
+        left = self._worth(self.generations) - self._worth(done) + (self.attempts - record.attempt) * more - ahead
         everywhere = (self.seen + ahead) / self.seen  # times what has been done in its turn
         if record.reevaluated is not None:
             self.reevaluated = record.attempt, record.generation, record.reevaluated
         seconds = max(now - self.began, 1e-9)
-        one = self.generations // self.attempts
         where, briefly = f"generation {record.generation} of {one}", f"{record.generation}/{one}"
         if self.attempts > 1:
             attempt = f"attempt {record.attempt}"

@@ -273,8 +273,12 @@ class JobScorer:
         genomes: NDArray[np.float32],
         seeds: Sequence[int] | NDArray[np.uint64],
         ran: Callable[[float], None] = lambda runs: None,
+        ticks: int | None = None,
     ) -> Scores:
-        """Every genome [genomes, genome_length] on every seed; `ran` is told how many more runs have been made."""
+        """Every genome [genomes, genome_length] on every seed; `ran` is told how many more runs have been made.
+
+        With `ticks` no run lasts longer than so many.
+        """
         if not np.isfinite(genomes).all():
             raise ValueError("a genome has weights that are not finite numbers")
         genomes, words = np.ascontiguousarray(genomes, np.float32), np.array(seeds, np.uint64)
@@ -284,7 +288,7 @@ class JobScorer:
             while blocks.left and self.jobs.has_room():
                 block = blocks.next(runs_in_a_job(genomes.shape[0] * len(words), self.jobs.workers, self._seconds))
                 self._asked += 1
-                self.jobs.submit(self._asked, partial(_score, genomes[block.genomes], words[block.seeds]))
+                self.jobs.submit(self._asked, partial(_score, genomes[block.genomes], words[block.seeds], ticks))
                 open_jobs[self._asked] = block
             if (taken := self.jobs.next_result()) is not None and (block_done := open_jobs.pop(taken[0], None)):
                 done = taken[1]
@@ -299,9 +303,9 @@ class JobScorer:
         return tally_of(self.rollout)
 
 
-def _score(genomes: NDArray[np.float32], seeds: NDArray[np.uint64], scorer: Any) -> Scores:
-    """Every genome [genomes, weights] on every seed."""
-    scores: Scores = scorer.score(genomes, seeds)
+def _score(genomes: NDArray[np.float32], seeds: NDArray[np.uint64], ticks: int | None, scorer: Any) -> Scores:
+    """Every genome [genomes, weights] on every seed, no longer than so many ticks."""
+    scores: Scores = scorer.score(genomes, seeds, ticks=ticks)
     return scores
 
 

@@ -36,7 +36,7 @@ class Counting:
     def add(self, tally: NDArray[np.int64]) -> None:
         self._tally += tally
 
-    def score(self, genomes: NDArray[np.float32], seeds: NDArray[np.uint64]) -> Scores:
+    def score(self, genomes: NDArray[np.float32], seeds: NDArray[np.uint64], ticks: int | None = None) -> Scores:
         first = np.multiply.outer(genomes.astype(np.float64).sum(axis=1), np.sin(np.asarray(seeds, np.float64)))
         lines = np.stack([first, first**2], axis=-1)
         total = lines[..., 0] + lines[..., 1]

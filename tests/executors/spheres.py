@@ -21,7 +21,7 @@ def made(kind: type[Sphere], assignment: Assignment, threads: int) -> Sphere:
 
 
 class Slow(Sphere):
-    def score(self, genomes: Any, seeds: Any) -> Results:
+    def score(self, genomes: Any, seeds: Any, ticks: int | None = None) -> Results:
         sleep(SLOW_SECONDS)
         return Sphere.score(self, genomes, seeds)
 
@@ -31,7 +31,7 @@ class Dying(Sphere):
 
     every = 200
 
-    def score(self, genomes: Any, seeds: Any) -> Results:
+    def score(self, genomes: Any, seeds: Any, ticks: int | None = None) -> Results:
         if next(_calls) % self.every == 0:
             os.kill(os.getpid(), 9)
         return Sphere.score(self, genomes, seeds)
@@ -42,7 +42,7 @@ class Deadly(Dying):
 
 
 class Exiting(Sphere):
-    def score(self, genomes: Any, seeds: Any) -> Results:
+    def score(self, genomes: Any, seeds: Any, ticks: int | None = None) -> Results:
         raise SystemExit("out of " + "luck " * 1000)
 
 

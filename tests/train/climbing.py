@@ -37,7 +37,7 @@ class Sphere:
     def draw(self, count: int, rng: np.random.Generator) -> NDArray[np.float32]:
         return 4 * rng.standard_normal((count, self.genome_length), np.float32)
 
-    def score(self, genomes: NDArray[np.float32], seeds: NDArray[np.uint64]) -> Results:
+    def score(self, genomes: NDArray[np.float32], seeds: NDArray[np.uint64], ticks: int | None = None) -> Results:
         distance = ((genomes.astype(np.float64) - 1.0) ** 2).sum(axis=1)
         luck = self.noise * np.sin(np.outer(distance, 1.0 + np.asarray(seeds) % 97))
         total = -distance[:, None] + luck
@@ -52,7 +52,7 @@ class Faulty(Sphere):
 
     above: float = 0.0
 
-    def score(self, genomes: NDArray[np.float32], seeds: NDArray[np.uint64]) -> Results:
+    def score(self, genomes: NDArray[np.float32], seeds: NDArray[np.uint64], ticks: int | None = None) -> Results:
         results = Sphere.score(self, genomes, seeds)
         bad = genomes[:, 0] > self.above
         total = np.where(bad[:, None], np.nan, results.total)
@@ -63,7 +63,7 @@ class Faulty(Sphere):
 class Flat(Sphere):
     """Every genome has the same score."""
 
-    def score(self, genomes: NDArray[np.float32], seeds: NDArray[np.uint64]) -> Results:
+    def score(self, genomes: NDArray[np.float32], seeds: NDArray[np.uint64], ticks: int | None = None) -> Results:
         results = Sphere.score(self, genomes, seeds)
         return Results(np.zeros_like(results.total), results.ticks, results.faults, results.met)
 

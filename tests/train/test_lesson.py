@@ -225,7 +225,7 @@ class Told(Sphere):
         super().__init__()
         object.__setattr__(self, "asked", [])
 
-    def score(self, genomes: np.ndarray, seeds: np.ndarray) -> Results:
+    def score(self, genomes: np.ndarray, seeds: np.ndarray, ticks: int | None = None) -> Results:
         self.asked.append((len(genomes), [int(seed) for seed in seeds]))
         return super().score(genomes, seeds)
 
@@ -277,7 +277,7 @@ class Listed(Sphere):
         super().__init__()
         object.__setattr__(self, "faulty_on", faulty_on)
 
-    def score(self, genomes: np.ndarray, seeds: np.ndarray) -> Results:
+    def score(self, genomes: np.ndarray, seeds: np.ndarray, ticks: int | None = None) -> Results:
         total = np.repeat(genomes[:, :1].astype(np.float64), len(seeds), axis=1)
         faults = (genomes[:, 1:2] > 0) & np.array([int(seed) in self.faulty_on for seed in seeds])
         return Results(total, np.ones(total.shape, np.int64), faults.astype(np.int64), faults - 1)

@@ -37,7 +37,9 @@ class Told:
         self.cores.append(cores)
         return self
 
-    def score(self, genomes: NDArray[np.float32], seeds: NDArray[np.uint64], ran: object) -> Results:
+    def score(
+        self, genomes: NDArray[np.float32], seeds: NDArray[np.uint64], ran: object, ticks: int | None = None
+    ) -> Results:
         for _ in genomes:
             ran(len(seeds))  # type: ignore[operator]
         return self.scorer.score(genomes, seeds)
@@ -46,7 +48,9 @@ class Told:
 class Endless(Told):
     """Its runs have no end."""
 
-    def score(self, genomes: NDArray[np.float32], seeds: NDArray[np.uint64], ran: object) -> Results:
+    def score(
+        self, genomes: NDArray[np.float32], seeds: NDArray[np.uint64], ran: object, ticks: int | None = None
+    ) -> Results:
         while True:
             sleep(0.001)
             ran(0.0)  # type: ignore[operator]
@@ -107,7 +111,7 @@ def test_closed_all_end_in_the_middle_of_their_runs() -> None:
 
 def test_what_fails_in_a_thread_fails_where_it_was_asked_for() -> None:
     class Failing(Told):
-        def score(self, genomes: object, seeds: object, ran: object) -> Results:
+        def score(self, genomes: object, seeds: object, ran: object, ticks: object) -> Results:
             raise ValueError("no score")
 
     course = Course(lesson(3, attempts=2), 1, np.empty((0, LENGTH), np.float32))

@@ -1,6 +1,8 @@
 """Kinds of curricula: learners and their parameters. `train/ask_and_tell.py` has the learner of each."""
 
 from dataclasses import replace
+from itertools import accumulate
+from math import sqrt
 from typing import Annotated
 
 from mindrun.kinds.registry import kind
@@ -10,6 +12,7 @@ OCTAVES = Quantity("a whole number up to 8", {"": 1.0}, low=0, high=8, whole=Tru
 SPREAD = Quantity("a number above zero", {"": 1.0}, low=1e-6, high=1000.0)
 PATIENCE_GENERATIONS = replace(GENERATIONS, low=0)
 RUNGS = Quantity("a whole number up to 16", {"": 1.0}, low=0, high=16, whole=True)
+SHARE = Quantity("a share above 0 up to 1", {"": 1.0}, low=0.001, high=1.0)
 FOUNDERS = Quantity("a whole number", {"": 1.0}, low=0, high=100_000, whole=True)
 FEW_CHILDREN = 0.1  # of a population that is bred anew
 NEAR_WEIGHT = 0.01  # so near to another a weight does as that does
@@ -26,7 +29,9 @@ class Genetic:
     early when its best has not become better beyond doubt for so many generations. From scratch, the first population
     is the best of `founders` random genomes, where these are more than it has. With `rungs` an attempt ends early at a
     half, a quarter, an eighth … of its generations, so many times, where it is not in the better half of the attempts
-    that have come there (successive halving, as it stops trials one by one). A lesson may say any of these for itself.
+    that have come there (successive halving, as it stops trials one by one). With `short` an attempt begins in runs of
+    that share of the task's ticks, and comes to whole ones over one length between: each of the three has a third of
+    the ticks, and whatever is compared in the end was tried in whole runs. A lesson may say any of these for itself.
     """
 
     population: Annotated[int, POPULATION] = 100
@@ -39,6 +44,7 @@ class Genetic:
     patience: Annotated[int, PATIENCE_GENERATIONS] = 0
     founders: Annotated[int, FOUNDERS] = 0
     rungs: Annotated[int, RUNGS] = 0
+    short: Annotated[float, SHARE] = 1.0
 
     def standstill(self, weights: int, generations: int) -> str:
         """A sentence on why so many generations find nothing beyond the first genomes; empty if they may.
@@ -79,7 +85,7 @@ class EvolutionStrategy:
     Every generation, `population` genomes are drawn around one, a normal step of spread `mutation` away in all their
     weights, and scored on the same `layouts` worlds. Then that one moves to the mean of the best quarter of them,
     weighted by rank, in which the luck of single runs cancels out. From scratch it begins with the best of `founders`
-    random genomes. `attempts`, `patience` and `rungs` are those of `genetic`.
+    random genomes. `attempts`, `patience`, `rungs` and `short` are those of `genetic`.
     """
 
     population: Annotated[int, POPULATION] = 50
@@ -89,6 +95,7 @@ class EvolutionStrategy:
     patience: Annotated[int, PATIENCE_GENERATIONS] = 0
     founders: Annotated[int, FOUNDERS] = 0
     rungs: Annotated[int, RUNGS] = 0
+    short: Annotated[float, SHARE] = 1.0
 
     def standstill(self, weights: int, generations: int) -> str:
         """A sentence on why so many generations come nowhere; empty if they may."""
@@ -103,3 +110,16 @@ def _no_steps(spread: float, generations: int) -> str:
 
 
 Learner = Genetic | Restarting | EvolutionStrategy
+
+
+def run_lengths(learner: Learner) -> list[tuple[float, float]]:
+    """The lengths of an attempt's runs as shares of the task's, each with the share of the generations it ends after.
+
+    There are three, with the geometric mean between the first and the whole, and each has a third of the ticks.
+
+    >>> run_lengths(Genetic(short=0.25))
+    [(0.25, 0.5714285714285714), (0.5, 0.8571428571428571), (1.0, 1.0)]
+    """
+    lengths = learner.short, sqrt(learner.short), 1.0
+    ends = [*accumulate(1 / length for length in lengths)]
+    return [(length, end / ends[-1]) for length, end in zip(lengths, ends, strict=True)]

@@ -79,16 +79,20 @@ class Rollout:
         self.tables, self.sizes = build(graph, policy.weights, self.task, master, learners, addresses, library())
 
     def score(
-        self, genomes: NDArray[np.float32], seeds: Sequence[int], ran: Callable[[float], None] = lambda runs: None
+        self,
+        genomes: NDArray[np.float32],
+        seeds: Sequence[int],
+        ran: Callable[[float], None] = lambda runs: None,
+        ticks: int | None = None,
     ) -> Scores:
         """Score every genome [genomes, genome_length] on every seed; ValueError where a weight is not finite.
 
-        `ran` is told now and then, from any thread, how many more runs have been made, parts of them too. Ctrl-C stops
-        all workers.
+        With `ticks` no run lasts longer than so many. `ran` is told now and then, from any thread, how many more runs
+        have been made, parts of them too. Ctrl-C stops all workers.
         """
         if not np.isfinite(genomes).all():
             raise ValueError("a genome has weights that are not finite numbers")
-        jobs = self.jobs(np.ascontiguousarray(genomes, np.float32), np.array(seeds, np.uint64))
+        jobs = self.jobs(np.ascontiguousarray(genomes, np.float32), np.array(seeds, np.uint64), ticks)
         workers = max(1, min(self.workers, len(jobs.genome)))
         shares = [np.arange(worker, len(jobs.genome), workers) for worker in range(workers)]
         stop = Event()
@@ -107,10 +111,11 @@ class Rollout:
         each = (skill.function.draw(len(skill.inputs), skill.outputs, count, rng) for skill in self.learners)
         return np.concatenate([none, *each], axis=1)
 
-    def jobs(self, genomes: NDArray[np.float32], seeds: NDArray[np.uint64]) -> Jobs:
-        """Every genome on every seed, as jobs that have not begun."""
+    def jobs(self, genomes: NDArray[np.float32], seeds: NDArray[np.uint64], ticks: int | None = None) -> Jobs:
+        """Every genome on every seed, as jobs that have not begun; with `ticks` none lasts longer than so many."""
         pairs = np.indices((len(genomes), len(seeds))).reshape(2, -1)
-        return unbegun(genomes, seeds, pairs[0], pairs[1], len(self.tables.rewards), len(self.tables.events))
+        most = np.array([min(ticks or self.task.ticks, self.task.ticks)])
+        return unbegun(genomes, seeds, most, pairs[0], pairs[1], len(self.tables.rewards), len(self.tables.events))
 
     @property
     def entries(self) -> tuple[Unit, ...]:
@@ -137,13 +142,13 @@ class Rollout:
 
     def _run(self, jobs: Jobs, share: NDArray[np.int64], stop: Event, ran: Callable[[float], None]) -> Jobs:
         lines, events = jobs.lines.shape[1], jobs.counts.shape[1]
-        mine = unbegun(jobs.genomes, jobs.seeds, jobs.genome[share], jobs.seed[share], lines, events)
+        mine = unbegun(jobs.genomes, jobs.seeds, jobs.most, jobs.genome[share], jobs.seed[share], lines, events)
         tile = self.tile(lanes_for(len(share), self.lanes))
         self.fill(tile, mine)
         told, working = 0.0, 1
         while working and not stop.is_set():
             working = self.advance(tile, mine, self.slice_ticks)
-            done = int(mine.next[0]) - working + float(tile.state.world.tick[:working].sum()) / self.task.ticks
+            done = int(mine.next[0]) - working + float(tile.state.world.tick[:working].sum()) / int(mine.most[0])
             ran(done - told)
             told = done
         return mine

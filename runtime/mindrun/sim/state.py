@@ -245,6 +245,7 @@ class Jobs(Block):
     seeds: Annotated[Array, shape(0, kind=U8)]
     genome: Annotated[Array, shape("jobs")]  # index
     seed: Annotated[Array, shape("jobs")]  # index
+    most: Annotated[Array, shape(1)]  # ticks that a run lasts
     next: Annotated[Array, shape(1)]  # the next job to start
     lanes: Annotated[Array, shape(1)]  # how many lanes are at work
     clock: Annotated[Array, shape(1)]  # ticks since the beginning, for the rings
@@ -271,11 +272,11 @@ def empty_state(tables: Tables, sizes: Mapping[str, int], lanes: int) -> State:
     return state
 
 
-def unbegun(genomes: Array, seeds: Array, genome: Array, seed: Array, lines: int, events: int) -> Jobs:
-    """Jobs that have not begun: a genome and a seed of each, by their numbers."""
+def unbegun(genomes: Array, seeds: Array, most: Array, genome: Array, seed: Array, lines: int, events: int) -> Jobs:
+    """Jobs that have not begun, of `most` [1] ticks: a genome and a seed of each, by their numbers."""
     n = {"jobs": len(genome), "lines": max(1, lines), "events": events}
     genome, seed = np.ascontiguousarray(genome, I8), np.ascontiguousarray(seed, I8)
-    return _empty(Jobs, n, 0, genomes=genomes, seeds=seeds, genome=genome, seed=seed)
+    return _empty(Jobs, n, 0, genomes=genomes, seeds=seeds, most=most, genome=genome, seed=seed)
 
 
 def recorded(state: State) -> tuple[tuple[Array, ...], tuple[Array, ...]]:

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.graph.graph import Lesson, Task
-from mindrun.kinds.learners import Learner
+from mindrun.kinds.learners import Learner, run_lengths
 from mindrun.train.ask_and_tell import ask, kept_count, tell
 from mindrun.train.lesson_state import AttemptState, Course, Record, Verdict, rung_at
 from mindrun.train.population import Genomes, Scores, order
@@ -106,7 +106,8 @@ def generation(course: Course, scorer: Scorer, number: int, state: AttemptState)
     lesson, learner = course.lesson, course.lesson.learner
     key = course.seed, number, state.population.generation
     genomes = ask(state.population, learner, course.start, scorer.draw, breeding_generator(*key))
-    marks = mark(scorer, genomes, layouts(*key, learner.layouts))
+    ticks = run_ticks(lesson, scorer.task, state.population.generation)
+    marks = mark(scorer, genomes, layouts(*key, learner.layouts), ticks)
     population = tell(state.population, learner, course.start, genomes, marks.scores)
     now = replace(state, population=population, told_apart=state.told_apart or are_different(marks.scores))
     done, reevaluated = [marks], None
@@ -123,6 +124,12 @@ def generation(course: Course, scorer: Scorer, number: int, state: AttemptState)
     finite = marks.scores[np.isfinite(marks.scores)]
     best, mean = float(marks.scores.max()), float(finite.mean()) if len(finite) else -inf
     return now, Record(number + 1, generations, best, mean, reevaluated, None, ticks, 0.0, faults)
+
+
+def run_ticks(lesson: Lesson, task: Task, generation: int) -> int:
+    """How long the runs of a generation last, counted from 0: `short` first, in the end as long as the task says."""
+    length = next((length for length, end in run_lengths(lesson.learner) if generation < end * lesson.generations), 1.0)
+    return max(1, round(length * task.ticks))
 
 
 def ends_by_itself(lesson: Lesson, state: AttemptState) -> bool:

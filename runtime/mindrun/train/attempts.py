@@ -162,9 +162,9 @@ class Stoppable:
         genomes: Genomes = self._scorer.draw(count, rng)
         return genomes
 
-    def score(self, genomes: Any, seeds: Any) -> Results:
+    def score(self, genomes: Any, seeds: Any, *, ticks: int | None = None) -> Results:
         """Every genome on every seed."""
-        results: Results = self._scorer.score(genomes, seeds, self._ran)
+        results: Results = self._scorer.score(genomes, seeds, self._ran, ticks=ticks)
         return results
 
     def _ran(self, runs: float) -> None:

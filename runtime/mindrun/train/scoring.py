@@ -66,8 +66,8 @@ class Scorer(Protocol):
     def draw(self, count: int, rng: np.random.Generator) -> Genomes:
         """Random genomes [count, genome_length] for learning to begin with."""
 
-    def score(self, genomes: Any, seeds: Any) -> Results:
-        """Every genome on every seed; a result depends on its genome and its seed alone."""
+    def score(self, genomes: Any, seeds: Any, *, ticks: int | None = None) -> Results:
+        """Every genome on every seed, with `ticks` no longer than so many; a result depends on nothing else."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,14 +85,14 @@ def is_one_world(scorer: Scorer) -> bool:
     return bool(getattr(scorer, "is_one_world", False))
 
 
-def mark(scorer: Scorer, genomes: Genomes, seeds: Seeds | Sequence[int]) -> Marks:
-    """Score every genome on every seed; a genome with a fault anywhere has -inf.
+def mark(scorer: Scorer, genomes: Genomes, seeds: Seeds | Sequence[int], ticks: int | None = None) -> Marks:
+    """Score every genome on every seed, in runs of so many ticks; a genome with a fault anywhere has -inf.
 
     Where all worlds are one a genome has one run, whose score stands for all of its seeds.
     """
     if not is_one_world(scorer):
-        return marks_of(scorer.score(genomes, seeds))
-    marks = marks_of(scorer.score(genomes, seeds[:1]))
+        return marks_of(scorer.score(genomes, seeds, ticks=ticks))
+    marks = marks_of(scorer.score(genomes, seeds[:1], ticks=ticks))
     return replace(marks, each=np.repeat(marks.each, len(seeds), axis=1))
 
 

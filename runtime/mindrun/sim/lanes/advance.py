@@ -59,7 +59,7 @@ def conclude(tables: Tables, state: State, jobs: Jobs, interrupt: int) -> None:
         for lane in range(lanes):
             state.judge.last_commands[row, lane] = state.mind.commands[row, lane]
     jobs.clock[0] = clock + 1
-    over, ticks, ended = 0, tables.world[0].ticks, state.run.ended
+    over, ticks, ended = 0, jobs.most[0], state.run.ended
     for lane in range(lanes):
         over += is_lost(world.body, lane) | (ended[lane] != GOING_ON) | (world.tick[lane] >= ticks)
     for k in range(lanes if over > 0 else 0):

@@ -31,7 +31,7 @@ def end(tables: Tables, state: State, jobs: Jobs, lane: int) -> None:
     if is_lost(state.world.body, lane):
         run.faults[lane] += 1
         run.ended[lane] = LOST
-    if run.ended[lane] != GOING_ON or state.world.tick[lane] >= tables.world[0].ticks:
+    if run.ended[lane] != GOING_ON or state.world.tick[lane] >= jobs.most[0]:
         finish(tables, state, jobs, lane)
         if not begin_job(tables, state, jobs, lane):
             last = jobs.lanes[0] - 1
