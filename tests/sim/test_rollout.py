@@ -9,6 +9,7 @@ from mindrun.graph.policy import Policy
 from mindrun.graph.run_scores import Scores
 from mindrun.graph.weights import genes
 from mindrun.sim.rollout import Rollout
+from mindrun.sim.trace import trace
 
 from mindlang.compiler.compile import load
 
@@ -38,6 +39,16 @@ def same(a: Scores, b: Scores) -> bool:
         np.array_equal(getattr(a, name), getattr(b, name), equal_nan=True)
         for name in ("total", "by_line", "counts", "by_event", "ticks", "ended_by", "met", "faults")
     )
+
+
+def test_a_run_that_is_cut_short_is_the_beginning_of_a_whole_one(collect: Graph) -> None:
+    rollout = Rollout(Policy(collect, some_weights(collect, 4)), "Collect", "Collect", lanes=3)
+    scores, none = rollout.score(np.zeros((1, 0), np.float32), range(8), ticks=200), np.zeros((1, 0), np.float32)
+    for seed in range(8):
+        moments = [*trace(rollout, seed).moments][:200]
+        assert scores.ticks[0, seed] == len(moments)
+        assert scores.by_line[0, seed].tolist() == moments[-1].lines.tolist()
+    assert same(rollout.score(none, range(8), ticks=10**9), rollout.score(none, range(8)))
 
 
 @pytest.mark.parametrize(("task", "learner"), [("Avoid", "Avoid"), ("Collect", "Collect"), ("Collect", "Avoid")])

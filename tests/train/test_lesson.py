@@ -53,6 +53,21 @@ def test_a_lesson_teaches() -> None:
     assert records[0].best < records[-1].best
 
 
+def test_runs_are_short_first_and_whole_in_the_end_with_a_third_of_the_ticks_for_each_length() -> None:
+    asked = list[int | None]()
+
+    class Timed(Sphere):
+        def score(self, genomes: np.ndarray, seeds: np.ndarray, ticks: int | None = None) -> Results:
+            if len(seeds) == 2:  # of a generation; all else is tried in whole runs
+                asked.append(ticks)
+            else:
+                assert ticks is None
+            return super().score(genomes, seeds)
+
+    taught(Course(lesson(70, short=0.25), 1, UNKNOWN), Timed())
+    assert asked == [25] * 40 + [50] * 20 + [100] * 10
+
+
 def test_the_same_seed_gives_the_same_bits_and_another_seed_others() -> None:
     first, again, other = (taught(Course(lesson(), seed, UNKNOWN), Sphere())[0] for seed in (1, 1, 2))
     assert first.kept.tobytes() == again.kept.tobytes()

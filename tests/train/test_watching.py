@@ -5,6 +5,7 @@ from io import StringIO
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from mindrun.kinds.learners import Genetic, run_lengths
 from mindrun.train.attempts import Ahead
 from mindrun.train.lesson_state import Record
 from rich.console import Console
@@ -86,6 +87,11 @@ def test_founders_are_as_many_generations_as_they_take() -> None:
     assert pace.standing(record(1, 2), 2, 11.0).left == "1 min 27 s left"
     assert pace.standing(record(2, 1), 41, 60.0).left.startswith("1 min 51 s")
     assert TimeLeft(80, 0.0, attempts=2, first=10.0).standing(record(2, 1), 41, 10.0).left == "39 s left"
+
+
+def test_short_generations_are_worth_as_much_as_their_runs_are_long() -> None:
+    pace = TimeLeft(70, 0.0, first=3.0, lengths=run_lengths(Genetic(short=0.25)))
+    assert pace.standing(record(1, 1), 1, 3.0).left == "1 min 59 s left", "3 quarters in 3 s; 39, 20 halves, 10 to come"
 
 
 def test_a_score_is_told_with_the_generation_that_it_is_of() -> None:
