@@ -35,7 +35,7 @@ from mindlang.compiler.parse.shape import parse_line
 from mindlang.compiler.references import READABLE_NOUNS, mentions_in
 from mindlang.compiler.source import Source
 from mindlang.compiler.splice import spliced
-from mindlang.compiler.syntax import Declaration, Fact
+from mindlang.compiler.syntax import Fact
 from mindlang.editing.insertion import replace_span
 from mindlang.lock.training_world import TrainingWorld
 from mindlang.lock.world_facts import Worlds, meaning_of
@@ -143,19 +143,27 @@ class Renaming:
     def _unmarked(self, text: str, which: int) -> str:
         return _MARK.sub(lambda found: self._pairs[int(found[1])][which], text)
 
+    @cached_property
+    def _declared(self) -> Names:
+        """All names of the minds and those that are renamed, so that a name stands for the noun that it does there."""
+        table: dict[str, dict[str, Any]] = {noun: {**named} for noun, named in self.names.items()}
+        for mind in self.minds:
+            parts: list[Any] = [*mind.sensors, *mind.memories, *mind.actuators, *mind.skills, *mind.tasks]
+            for part in parts:
+                table.setdefault(type(part).__name__.lower(), {})[part.name] = part
+        return Names(table)
+
     def _read_again(self, role: Role, text: str) -> str:
         """A text that no mind says now, read as the fact that it was once, with other names."""
         if role not in _AROUND_SENTENCE:
-            nouns = "skill", "actuator", *READABLE_NOUNS
-            return text if role[-1] == "is" else self.name(text, *nouns)
+            return self.name(text, "skill", "actuator", "memory") if role[0] == "skill" and role[-1] != "is" else text
         before, after = _AROUND_SENTENCE[role](text)
         source = Source("a fact", f"{before}{text}{after}")
         try:
             fact = cast(Fact, parse_line(source.text, source, 0))
         except UnexpectedInput:
             return text
-        known = Names({noun: cast(dict[str, Declaration], named) for noun, named in self.names.items()})
-        mentions = mentions_in(fact, known, None)
+        mentions = mentions_in(fact, self._declared, None)
         splices = (replace_span(each.name.span, self.name(each.name.text, each.noun)) for each in mentions)
         return spliced(source, splices).removeprefix(before).removesuffix(after)
 

@@ -161,6 +161,16 @@ def test_a_thing_and_a_sensor_of_one_name_are_told_apart() -> None:
         assert facts["sensor c"]["at"][0] == ["reading", "eye" if noun == "thing" else "ball"]
 
 
+def test_an_actuator_and_a_sensor_of_one_name_are_told_apart_where_no_mind_says_the_fact() -> None:
+    graph = load(ROOT / "examples" / "collect" / "collect.mind").graph
+    assert graph
+    lesson = {"task": "Seek", "master": "Go", "with_subskills": False}
+    facts = {"varying": ["fails left_wheel 0.5 per tick"], "skill Go": {"answers": ["left_wheel"]}, "lesson": lesson}
+    assert Renaming({"sensor": {"left_wheel": "ear"}}, (graph,)).relabelled(TrainingWorld(facts)).facts == facts
+    now = Renaming({"actuator": {"left_wheel": "wheel"}}, (graph,)).relabelled(TrainingWorld(facts)).facts
+    assert now == facts | {"varying": ["fails wheel 0.5 per tick"], "skill Go": {"answers": ["wheel"]}}
+
+
 @pytest.mark.parametrize("name", SHIPPED)
 def test_every_name_of_the_examples(name: str) -> None:
     """As they were taught, and where they were not, as if they had been."""
