@@ -13,7 +13,7 @@ from mindrun.sim.lanes.impulses import COLLISION_BIAS, solve
 from mindrun.sim.lanes.meeting import forget_old, let_go, touch_fixed, touch_movers
 from mindrun.sim.lanes.solid import MOST_STRIDES, hold_back, note_before, note_begin, stride, within
 from mindrun.sim.lanes.solids import gather, move_loose, move_robot, open_space, take_loose, take_robot
-from mindrun.sim.state import IN_CLAW, RUN_INTO, SECONDS, STEPS, TOUCHING, ContactState, WorldState
+from mindrun.sim.state import ROBOT, ContactState, WorldState
 from mindrun.sim.tables import Tables
 from mindrun.sim.units import call_double, unit
 
@@ -55,13 +55,12 @@ def glides(body, seconds, lane):
 
 def make_step(tables, world, contact, seconds, share, lane):
     """Move a lane on by some seconds with a share of its force; return how often its robot touches what never moves."""
-    space = contact.space[lane]
-    if space[SECONDS] == 0.0 or seconds > contact.last[lane]:
+    space, solids, pairs = contact.space[lane], contact.solids[lane], contact.pairs[lane]
+    if space.seconds == 0.0 or seconds > contact.last[lane]:
         open_space(tables, world, contact, lane)  # what is remembered are impulses, of which more would act
-    space[STEPS] += 1.0
-    space[RUN_INTO] = 0.0
-    space[IN_CLAW] = world.held[lane]
-    forget_old(space, contact.pairs[lane])
+    space.steps += 1
+    space.run_into, space.in_claw = 0, world.held[lane]
+    forget_old(space, pairs)
     move_robot(tables, world, contact, seconds, share, lane)
     if len(tables.loose) > 0:
         move_loose(tables, world, contact, seconds, lane)
@@ -70,13 +69,12 @@ def make_step(tables, world, contact, seconds, share, lane):
         touch_movers(tables, world, contact, lane)
     touch_fixed(tables, world, contact, lane)
     let_go(tables, world, contact, lane)
-    if space[TOUCHING] > 0.0:
+    if space.touching > 0:
         take_back = 1.0 - call_double(tables.library[POWER], COLLISION_BIAS, seconds)
-        before = seconds / space[SECONDS]  # in the first step all pairs are new, and nobody asks
-        solids, pairs, slop = contact.solids[lane], contact.pairs[lane], tables.world[0].slop
-        solve(solids, pairs, int(space[TOUCHING]), slop, take_back, seconds, before)
-    take_robot(world, contact.solids[lane], lane)
+        before = seconds / space.seconds  # in the first step all pairs are new, and nobody asks
+        solve(solids, pairs, space.touching, tables.world[0].slop, take_back, seconds, before)
+    take_robot(world, solids[ROBOT], lane)
     if len(tables.loose) > 0:
         take_loose(tables, world, contact, lane)
-    space[SECONDS] = seconds
-    return int(space[RUN_INTO])
+    space.seconds = seconds
+    return space.run_into
