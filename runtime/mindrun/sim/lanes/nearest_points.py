@@ -125,12 +125,13 @@ def farthest(a, nx, ny):
     """The number of the corner of a shape that is farthest in a direction."""
     if a.is_round:
         return 0
-    most, found = a.corners[0].x * nx + a.corners[0].y * ny, 0
-    for i in range(1, 4):
-        far = a.corners[i].x * nx + a.corners[i].y * ny
-        if far > most:
-            most, found = far, i
-    return found
+    c = a.corners
+    most, found = c[0].x * nx + c[0].y * ny, 0
+    far = c[1].x * nx + c[1].y * ny
+    most, found = (far, 1) if far > most else (most, found)
+    far = c[2].x * nx + c[2].y * ny
+    most, found = (far, 2) if far > most else (most, found)
+    return 3 if c[3].x * nx + c[3].y * ny > most else found
 
 
 def seen(a, b, vertex):
