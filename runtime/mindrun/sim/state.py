@@ -141,7 +141,8 @@ class ContactState(Block):
     touching: Annotated[Array, each()]  # bit 0 while something touches, bit 1 if something did in the tick before
     space: Annotated[Array, each(SPACE)]  # its steps
     solids: Annotated[Array, columns("solids", kind=SOLID)]  # all that moves, and room for one that does not
-    pairs: Annotated[Array, columns("pairs", kind=PAIR)]  # what touches, or did a few steps ago; the last is for swaps
+    pairs: Annotated[Array, columns("pairs", kind=PAIR)]  # what touches, or did a few steps ago
+    order: Annotated[Array, columns("pairs", kind=I8)]  # their numbers: first of those that touch, last of no pairs
     last: Annotated[Array, each(F8)]  # seconds of its last step, infinitely many where nothing can have touched
     # for this tick
     gap: Annotated[Array, each(F8)]  # from the robot's next centre to what is nearest
@@ -287,5 +288,5 @@ def _counts(tables: Tables, sizes: Mapping[str, int]) -> dict[str, int]:
         "happened": max(1, n["events"]),
         "close": fixed,
         "solids": FIRST_LOOSE + n["loose"],
-        "pairs": min(MOST_PAIRS + PAIRS_EACH * n["loose"], movers * (movers + fixed) + SPARE_PAIRS) + 1,
+        "pairs": min(MOST_PAIRS + PAIRS_EACH * n["loose"], movers * (movers + fixed) + SPARE_PAIRS),
     }

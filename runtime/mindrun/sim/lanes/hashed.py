@@ -15,7 +15,7 @@ HALF_WALL_UNITS = 1.0  # half the thickness of a wall, outside the arena
 
 def rank(tables, world, contact, a, begin, lane):
     """Sort the pairs of solid `a` from number `begin` on, what was added last first, into the order of the hash."""
-    solids, pairs, cell = contact.solids[lane], contact.pairs[lane], tables.world[0].cell
+    solids, pairs, order, cell = contact.solids[lane], contact.pairs[lane], contact.order[lane], tables.world[0].cell
     left, right = floor(solids[a].left / cell), floor(solids[a].right / cell)
     low, high = floor(solids[a].low / cell), floor(solids[a].high / cell)
     if left == right and low == high:
@@ -23,24 +23,21 @@ def rank(tables, world, contact, a, begin, lane):
     end = contact.space[lane].touching
     for i in range(begin, end):
         number, is_found = 0, False
-        its_left, its_low, its_right, its_top = sides_of(tables, world, solids, pairs[i].found, lane)
+        its_left, its_low, its_right, its_top = sides_of(tables, world, solids, pairs[order[i]].found, lane)
         for column in range(left, right + 1):
             for row in range(low, high + 1):
                 is_found = is_found or lies_in(cell, its_left, its_low, its_right, its_top, slot_of(column, row))
                 number += 0 if is_found else 1
-        pairs[i].rank = number
+        pairs[order[i]].rank = number
     for i in range(begin + 1, end):
         for k in range(i, begin, -1):
-            if pairs[k].rank < pairs[k - 1].rank:
-                swap(pairs, k - 1, k)
+            if pairs[order[k]].rank < pairs[order[k - 1]].rank:
+                swap(order, k - 1, k)
 
 
-def swap(pairs, i, k):
-    """Let two pairs change places, by the last one."""
-    spare = len(pairs) - 1
-    pairs[spare] = pairs[i]
-    pairs[i] = pairs[k]
-    pairs[k] = pairs[spare]
+def swap(order, i, k):
+    """Let two pairs change places."""
+    order[i], order[k] = order[k], order[i]
 
 
 def sides_of(tables, world, solids, number, lane):

@@ -11,16 +11,18 @@ SOLVER_ITERATIONS = 8
 COLLISION_BIAS = math.pow(float(F(1) - F(0.1)), 60.0)  # what is left of an overlap after a second
 
 
-def solve(solids, pairs, count, slop, take_back, seconds, before):
+def solve(contact, slop, take_back, seconds, before, lane):
     """Let the pairs that touch act on each other; `before` is how much of their last impulses they begin with."""
+    solids, pairs, order = contact.solids[lane], contact.pairs[lane], contact.order[lane]
+    count = contact.space[lane].touching
     for i in range(count):
-        prepare(solids, pairs[i], slop, take_back, seconds)
+        prepare(solids, pairs[order[i]], slop, take_back, seconds)
     for i in range(count):
-        if not pairs[i].is_first:
-            push_again(solids, pairs[i], before)
+        if not pairs[order[i]].is_first:
+            push_again(solids, pairs[order[i]], before)
     for _ in range(SOLVER_ITERATIONS):
         for i in range(count):
-            act(solids, pairs[i])
+            act(solids, pairs[order[i]])
 
 
 def prepare(solids, pair, slop, take_back, seconds):

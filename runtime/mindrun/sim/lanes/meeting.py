@@ -22,13 +22,12 @@ CORNER_HASH = np.uint64(3344921057)
 OF_QUADRANGLES = unit_where(lambda tables: not tables.world[0]["is_round"] or not tables.loose["is_round"].all())
 
 
-def forget_old(space, pairs):
+def forget_old(space, pairs, order):
     """Forget the pairs that have not touched for so long that Chipmunk would have."""
     kept = 0
     for i in range(space.pairs):
-        if pairs[i].used >= space.steps - PERSISTENCE_TICKS:
-            if kept < i:
-                pairs[kept] = pairs[i]
+        if pairs[order[i]].used >= space.steps - PERSISTENCE_TICKS:
+            swap(order, kept, i)
             kept += 1
     space.pairs, space.touching = kept, 0
 
@@ -69,7 +68,7 @@ def let_go(tables, world, contact, lane):
     """
     solids, pairs, space = contact.solids[lane], contact.pairs[lane], contact.space[lane]
     for i in range(space.touching, space.pairs):
-        pair = pairs[i]
+        pair = pairs[contact.order[lane, i]]
         if pair.thing >= 0 and pair.thing != space.in_claw:
             put_held(tables, world, contact, pair.thing, pair.reach, lane)
             b = pair.own if pair.other == ROBOT else pair.other
@@ -115,13 +114,13 @@ def meet(contact, a, b, found, lane):
         meet_quadrangles(contact, a, b, key, found, lane)
         return
     touches, x, y, its_x, its_y, nx, ny = touch_circle(solids[a], solids[b])
-    place = take_pair(contact, a, b, key, found, nx, ny, lane) if touches else -1
-    if place >= 0:
-        only = pairs[place].contacts[0]
-        if pairs[place].count == 0:
+    i = take_pair(contact, a, b, key, found, nx, ny, lane) if touches else -1
+    if i >= 0:
+        pair, only = pairs[i], pairs[i].contacts[0]
+        if pair.count == 0:
             only.along, only.across = 0.0, 0.0
-        pairs[place].count = 1
-        put_contact(solids, pairs[place], only, x, y, its_x, its_y)
+        pair.count = 1
+        put_contact(solids, pair, only, x, y, its_x, its_y)
 
 
 def named(contact, a, lane):
@@ -145,31 +144,31 @@ def touch_circle(circle, other):
 
 
 def take_pair(contact, a, b, key, found, nx, ny, lane):
-    """Move the pair with a key behind those that touch, new where there is none; its place.
+    """Move the pair with a key behind those that touch, new where there is none; its number.
 
     Without room for it that is −1, and the robot is nowhere: its run ends as a fault.
     """
-    space, solids, pairs = contact.space[lane], contact.solids[lane], contact.pairs[lane]
-    place, k = space.touching, space.touching
-    while k < space.pairs and pairs[k].key != key:
+    space, solids, pairs, order = contact.space[lane], contact.solids[lane], contact.pairs[lane], contact.order[lane]
+    k = space.touching
+    while k < space.pairs and pairs[order[k]].key != key:
         k += 1
+    if k == len(pairs):
+        solids[ROBOT].middle_x = np.nan
+        return -1
+    i = order[k]
+    pair = pairs[i]
     if k == space.pairs:
-        if k == len(pairs) - 1:
-            solids[ROBOT].middle_x = np.nan
-            return -1
         space.pairs += 1
-        pairs[k].key, pairs[k].used, pairs[k].count = key, -1, 0
-        pairs[k].thing = space.in_claw if HELD in (a, b) else -1
-    if k > place:
-        swap(pairs, place, k)
+        pair.key, pair.used, pair.count = key, -1, 0
+        pair.thing = space.in_claw if HELD in (a, b) else -1
+    swap(order, space.touching, k)
     space.touching += 1
-    pair = pairs[place]
     pair.is_first = 0 if pair.used == space.steps - 1 else 1
     pair.used, pair.found = space.steps, found
     pair.own, pair.other = body_of(a), body_of(b)
     pair.normal_x, pair.normal_y, pair.reach = nx, ny, solids[HELD].radius
     pair.friction = solids[a].friction * solids[b].friction
-    return place
+    return i
 
 
 def body_of(a):
@@ -204,10 +203,10 @@ def meet_quadrangles(contact: ContactState, a: int, b: int, key: int, found: int
     t, u = clamped((at_e - at_c) * scale), clamped((at_d - at_e) * its_scale)
     cx, cy, ex, ey = cx * (1.0 - t) + dx * t, cy * (1.0 - t) + dy * t, ex * (1.0 - u) + fx * u, ey * (1.0 - u) + fy * u
     is_other = (ex - cx) * nx + (ey - cy) * ny <= 0.0
-    place = take_pair(contact, a, b, key, found, nx, ny, lane) if is_one or is_other else -1
-    if place < 0:
+    i = take_pair(contact, a, b, key, found, nx, ny, lane) if is_one or is_other else -1
+    if i < 0:
         return
-    pair = contact.pairs[lane, place]
+    pair = contact.pairs[lane, i]
     one, another = contact_hash(own.number, c, other.number, f), contact_hash(own.number, d, other.number, e)
     remember(pair, is_one, is_other, one, another)
     if is_one:

@@ -122,6 +122,7 @@ def move(state, source, target):
     copy_row(judge.visited, source, target)
     copy_row(contact.solids, source, target)
     copy_row(contact.pairs, source, target)
+    copy_row(contact.order, source, target)
     contact.space[target] = contact.space[source]
     for numbers in (world.restless, world.held, world.tick, sight.nearby_count, contact.near, contact.touching):
         numbers[target] = numbers[source]

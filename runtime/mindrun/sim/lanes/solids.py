@@ -34,6 +34,8 @@ def open_space(tables, world, contact, lane):
     """Begin anew in a lane: nothing is remembered."""
     constants, space, solids = tables.world[0], contact.space[lane], contact.solids[lane]
     space.steps, space.pairs = 0, 0
+    for i in range(contact.order.shape[1]):
+        contact.order[lane, i] = i
     for a in range(len(solids)):
         solid = solids[a]
         solid.is_asleep, solid.size, solid.turned, solid.cosine, solid.sine = 0, 0.0, 0.0, 1.0, 0.0
@@ -175,16 +177,17 @@ def take_loose(tables: Tables, world: WorldState, contact: ContactState, lane: i
         put_thing(world.things, thing, x, y, lane)
         world.loose[row + TURN, lane] = angle
         put_motion(world.loose, row, speed.x, speed.y, speed.spin, rests, lane)
-    keep_awake(contact.solids[lane], contact.pairs[lane], contact.space[lane].touching)
+    keep_awake(contact.solids[lane], contact.pairs[lane], contact.order[lane], contact.space[lane].touching)
 
 
-def keep_awake(solids, pairs, count):
+def keep_awake(solids, pairs, order, count):
     """Let nothing fall asleep that is pushed, or is to be parted."""
     for i in range(count):
-        for k in range(pairs[i].count):
-            contact = pairs[i].contacts[k]
+        pair = pairs[order[i]]
+        for k in range(pair.count):
+            contact = pair.contacts[k]
             if not (contact.bias == 0.0 and contact.along == 0.0 and contact.across == 0.0):
-                solids[pairs[i].own].is_asleep, solids[pairs[i].other].is_asleep = 0, 0
+                solids[pair.own].is_asleep, solids[pair.other].is_asleep = 0, 0
 
 
 def is_motionless(motion):

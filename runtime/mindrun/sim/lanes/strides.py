@@ -55,12 +55,12 @@ def glides(body, seconds, lane):
 
 def make_step(tables, world, contact, seconds, share, lane):
     """Move a lane on by some seconds with a share of its force; return how often its robot touches what never moves."""
-    space, solids, pairs = contact.space[lane], contact.solids[lane], contact.pairs[lane]
+    space = contact.space[lane]
     if space.seconds == 0.0 or seconds > contact.last[lane]:
         open_space(tables, world, contact, lane)  # what is remembered are impulses, of which more would act
     space.steps += 1
     space.run_into, space.in_claw = 0, world.held[lane]
-    forget_old(space, pairs)
+    forget_old(space, contact.pairs[lane], contact.order[lane])
     move_robot(tables, world, contact, seconds, share, lane)
     if len(tables.loose) > 0:
         move_loose(tables, world, contact, seconds, lane)
@@ -72,8 +72,8 @@ def make_step(tables, world, contact, seconds, share, lane):
     if space.touching > 0:
         take_back = 1.0 - call_double(tables.library[POWER], COLLISION_BIAS, seconds)
         before = seconds / space.seconds  # in the first step all pairs are new, and nobody asks
-        solve(solids, pairs, space.touching, tables.world[0].slop, take_back, seconds, before)
-    take_robot(world, solids[ROBOT], lane)
+        solve(contact, tables.world[0].slop, take_back, seconds, before, lane)
+    take_robot(world, contact.solids[lane, ROBOT], lane)
     if len(tables.loose) > 0:
         take_loose(tables, world, contact, lane)
     space.seconds = seconds
