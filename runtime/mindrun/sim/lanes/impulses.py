@@ -21,8 +21,11 @@ def solve(contact, slop, take_back, seconds, before, lane):
         if not pairs[order[i]].is_first:
             push_again(solids, pairs[order[i]], before)
     for _ in range(SOLVER_ITERATIONS):
+        acting = 0
         for i in range(count):
-            act(solids, pairs[order[i]])
+            acting += act(solids, pairs[order[i]])
+        if acting == 0:  # so it would be in every further round
+            break
 
 
 def prepare(solids, pair, slop, take_back, seconds):
@@ -54,7 +57,8 @@ def push_again(solids, pair, before):
 
 
 def act(solids, pair):
-    """Give both solids of a pair the impulses that are still wanted at each contact."""
+    """Give both solids of a pair the impulses that are still wanted at each contact; return at how many there are any."""
+    acting = 0
     own, other, nx, ny = solids[pair.own], solids[pair.other], pair.normal_x, pair.normal_y
     for k in range(pair.count):
         c = pair.contacts[k]
@@ -65,12 +69,14 @@ def act(solids, pair):
         its_x, its_y = velocity_at(other.velocity, c.its_x, c.its_y)
         x, y = (its_x - x) + 0.0, (its_y - y) + 0.0
         along, across = bounce(c, pair.friction, x * nx + y * ny, x * -ny + y * nx)
+        acting += more != 0.0 or along != 0.0 or across != 0.0
         jx, jy = nx * more, ny * more
         push(own, own.bias, c.x, c.y, -jx, -jy)
         push(other, other.bias, c.its_x, c.its_y, jx, jy)
         jx, jy = nx * along - ny * across, nx * across + ny * along
         push(own, own.velocity, c.x, c.y, -jx, -jy)
         push(other, other.velocity, c.its_x, c.its_y, jx, jy)
+    return acting
 
 
 def velocity_at(motion, x, y):
