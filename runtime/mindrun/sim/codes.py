@@ -112,6 +112,7 @@ PAIR = _columns(
     i8="key used is_first own other found rank thing count",
     f8="normal_x normal_y friction reach",
 )
-# The steps of a lane: how long the last one was, or 0, and how many there were; the pairs, those that touch, and those
-# of the robot with what never moves; the thing in the claw, or −1; how many solids are awake.
-SPACE = _columns(i8="steps pairs touching run_into in_claw awake", f8="seconds")
+# The steps of a lane: how long the last one was, or 0, which share of an overlap one so long takes back, and how many
+# there were; the pairs, those that touch, and those of the robot with what never moves; the thing in the claw, or −1;
+# how many solids are awake.
+SPACE = _columns(i8="steps pairs touching run_into in_claw awake", f8="seconds take_back")

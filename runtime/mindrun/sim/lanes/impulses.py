@@ -11,12 +11,12 @@ SOLVER_ITERATIONS = 8
 COLLISION_BIAS = math.pow(float(F(1) - F(0.1)), 60.0)  # what is left of an overlap after a second
 
 
-def solve(contact, slop, take_back, seconds, before, lane):
-    """Let the pairs that touch act on each other; `before` is how much of their last impulses they begin with."""
-    solids, pairs, order = contact.solids[lane], contact.pairs[lane], contact.order[lane]
-    count = contact.space[lane].touching
+def solve(contact, slop, seconds, lane):
+    """Let the pairs that touch act on each other, as long as any does."""
+    space, solids, pairs, order = contact.space[lane], contact.solids[lane], contact.pairs[lane], contact.order[lane]
+    count, before = space.touching, seconds / space.seconds  # in the first step all pairs are new, and nobody asks
     for i in range(count):
-        prepare(solids, pairs[order[i]], slop, take_back, seconds)
+        prepare(solids, pairs[order[i]], slop, space.take_back, seconds)
     for i in range(count):
         if not pairs[order[i]].is_first:
             push_again(solids, pairs[order[i]], before)
@@ -24,7 +24,7 @@ def solve(contact, slop, take_back, seconds, before, lane):
         acting = 0
         for i in range(count):
             acting += act(solids, pairs[order[i]])
-        if acting == 0:  # so it would be in every further round
+        if acting == 0:  # nor is anything in any further round
             break
 
 
@@ -57,9 +57,8 @@ def push_again(solids, pair, before):
 
 
 def act(solids, pair):
-    """Give both solids of a pair the impulses that are still wanted at each contact; return at how many there are any."""
-    acting = 0
-    own, other, nx, ny = solids[pair.own], solids[pair.other], pair.normal_x, pair.normal_y
+    """Give both solids of a pair the impulses that are still wanted at each contact; return at how many any is."""
+    own, other, nx, ny, acting = solids[pair.own], solids[pair.other], pair.normal_x, pair.normal_y, 0
     for k in range(pair.count):
         c = pair.contacts[k]
         x, y = velocity_at(own.bias, c.x, c.y)

@@ -69,10 +69,10 @@ def make_step(tables, world, contact, seconds, share, lane):
         touch_movers(tables, world, contact, lane)
     touch_fixed(tables, world, contact, lane)
     let_go(tables, world, contact, lane)
+    if seconds != space.seconds:
+        space.take_back = 1.0 - call_double(tables.library[POWER], COLLISION_BIAS, seconds)
     if space.touching > 0:
-        take_back = 1.0 - call_double(tables.library[POWER], COLLISION_BIAS, seconds)
-        before = seconds / space.seconds  # in the first step all pairs are new, and nobody asks
-        solve(contact, tables.world[0].slop, take_back, seconds, before, lane)
+        solve(contact, tables.world[0].slop, seconds, lane)
     take_robot(world, contact.solids[lane, ROBOT], lane)
     if len(tables.loose) > 0:
         take_loose(tables, world, contact, lane)
