@@ -91,7 +91,7 @@ WORLD = _columns(
     "claw",
 )
 
-# What is solid: its sides, where it is and how it is turned, the size it has been made for, and how much it weighs. Of
+# What is solid: its sides, where it is, how it is turned, for which size it has been made, how much it weighs. Of
 # a circle the first corner is its middle. `bias` is the velocity that parts what overlaps, for one step.
 POINT, MOTION = _columns(f8="x y"), _columns(f8="x y spin")
 SOLID = _columns(
@@ -100,7 +100,7 @@ SOLID = _columns(
     ("corners", POINT, 4),
     ("own_corners", POINT, 4),  # where it is not turned
     i8="is_round is_asleep number",
-    f8="left right low high middle_x middle_y turned cosine sine radius size friction mass_inv moment_inv",
+    f8="left right low high middle_x middle_y turned cosine sine radius made friction mass_inv moment_inv",
 )
 # Where a pair touches, from the middles of both: the impulses along the normal and across it, how heavy both are there,
 # how fast to part them, and the impulse that does.

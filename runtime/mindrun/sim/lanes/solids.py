@@ -38,7 +38,7 @@ def open_space(tables, world, contact, lane):
         contact.order[lane, i] = i
     for a in range(len(solids)):
         solid = solids[a]
-        solid.is_asleep, solid.size, solid.turned, solid.cosine, solid.sine = 0, 0.0, 0.0, 1.0, 0.0
+        solid.is_asleep, solid.made, solid.turned, solid.cosine, solid.sine = 0, 0.0, 0.0, 1.0, 0.0
         solid.bias.x, solid.bias.y, solid.bias.spin = 0.0, 0.0, 0.0
     solids[FIXED].friction = 1.0
     solids[HELD].is_round, solids[HELD].friction = 1, FRICTION_COEFFICIENT
@@ -91,7 +91,7 @@ def move_loose(tables: Tables, world: WorldState, contact: ContactState, seconds
             solid.is_asleep, solid.left, solid.right = 1, np.inf, -np.inf
             continue
         size, speed = size_of(world.things, tables.loose[i].thing, lane), solid.velocity
-        if solid.size != size:
+        if solid.made != size:
             make(tables, world, solid, i, size, lane)
         speed.x, speed.y, speed.spin = (
             loose[row + PUSHED_X, lane],
@@ -117,7 +117,7 @@ def make(tables, world, solid, i, size, lane):
         put_corners(solid.own_corners, -half, -half, half, half)
         mass = density * (size * size)
         moment = mass * (size * size + size * size) / 12.0
-    solid.is_round, solid.radius, solid.size, solid.number = loose.is_round, half, size, loose.number
+    solid.is_round, solid.radius, solid.made, solid.number = loose.is_round, half, size, loose.number
     solid.mass_inv, solid.moment_inv = 1.0 / mass, 1.0 / moment
     solid.friction = world.numbers[loose.friction, lane]
 
