@@ -99,8 +99,12 @@ SOLID = _columns(
     ("bias", MOTION),
     ("corners", POINT, 4),
     ("own_corners", POINT, 4),  # where it is not turned
+    ("begin", POINT),  # where it was as the tick began
+    ("before", POINT),  # and before the step
+    ("after", POINT),
     i8="is_round is_asleep number",
-    f8="left right low high middle_x middle_y turned cosine sine radius made friction mass_inv moment_inv",
+    f8="left right low high middle_x middle_y turned cosine sine radius made friction mass_inv moment_inv half "
+    "before_angle",
 )
 # Where a pair touches, from the middles of both: the impulses along the normal and across it, how heavy both are there,
 # how fast to part them, and the impulse that does.

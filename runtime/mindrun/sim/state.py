@@ -24,7 +24,6 @@ SIGHT_COSINE, SIGHT_SINE, SIGHT_X, SIGHT_Y, FIRST_RAY = range(5)  # rows of `sig
 LEFT, RIGHT, LOW, HIGH, SIDES = range(5)  # rows of a box in `sides`, and how many
 LOOSE_COSINE, LOOSE_SINE, LOOSE_X, LOOSE_Y, LOOSE_HALF, FRAME_ROWS = range(6)  # of the frame of a loose thing
 FAILED_SKILL, FAILED_COLUMN = range(2)  # of `failed`
-BEGIN_X, BEGIN_Y, FROM_X, FROM_Y, FROM_ANGLE, TO_X, TO_Y, HALF, WAY = range(9)  # columns of each way in `ways`
 # What is solid: a box or wall that never moves, the robot, what it holds, then what is loose.
 FIXED, ROBOT, HELD, FIRST_LOOSE = range(4)
 MOST_PAIRS, PAIRS_EACH, SPARE_PAIRS = 64, 16, 16  # in a lane, more for each loose thing, and for what is let go
@@ -147,7 +146,6 @@ class ContactState(Block):
     # for this tick
     gap: Annotated[Array, each(F8)]  # from the robot's next centre to what is nearest
     swift: Annotated[Array, each()]  # 1 where something is so fast that it could pass something, until the tick is made
-    ways: Annotated[Array, columns("movers", WAY)]  # where what moves was and is (lanes/solid)
     awake: Annotated[Array, columns("solids", kind=I8)]  # the solids that take part, as the hash has them
     close: Annotated[Array, columns("close", kind=I8)]  # the boxes and walls that come close to one solid
 
@@ -283,7 +281,6 @@ def _counts(tables: Tables, sizes: Mapping[str, int]) -> dict[str, int]:
     return n | {
         "sinks": n["actuators"] + n["memories"],
         "sight": FIRST_RAY + n["ray_row"],
-        "movers": movers,
         "board": max(1, n["patches"]),
         "happened": max(1, n["events"]),
         "close": fixed,

@@ -24,18 +24,18 @@ def make_tick(tables: Tables, world: WorldState, contact: ContactState, lane: in
     dt, is_swift, touching = tables.world[0].dt, contact.swift[lane] > 0, 0
     contact.swift[lane] = 0
     left = dt
-    note_begin(tables, world, contact.ways[lane], lane)
+    note_begin(tables, world, contact.solids[lane], lane)
     for number in range(MOST_STRIDES):
         most = stride(tables, world, lane) if is_swift else dt
         is_last = most >= left or number == MOST_STRIDES - 1
         seconds = min(most, left) if is_last else min(most, left / 2)
         if is_swift and not glides(world.body, seconds, lane):
             break
-        note_before(tables, world, contact.ways[lane], lane)
+        note_before(tables, world, contact.solids[lane], lane)
         touching += make_step(tables, world, contact, seconds, dt / seconds if is_last else 0.0, lane)
         could_pass = touching > 0 or len(tables.loose) > 0
         if could_pass:
-            hold_back(tables, world, contact.ways[lane], lane)
+            hold_back(tables, world, contact.solids[lane], lane)
         contact.last[lane] = seconds if could_pass else np.inf
         left -= seconds
         if is_last:
