@@ -49,7 +49,10 @@ def records(rows: Sequence[Row], columns: Any) -> NDArray[Any]:
 
 
 def _columns(*inner: tuple[Any, ...], **names: str) -> np.dtype[Any]:
-    """The kind of a record: names by their kinds, then what is made of several. Python, too, has them as attributes."""
+    """The kind of a record: names by their kinds, then what is made of several.
+
+    Python, too, has them as attributes, so none may be called like one of `numpy.record`.
+    """
     flat = [(name, kind) for kind, these in names.items() for name in these.split()]
     return np.dtype((np.record, np.dtype([*flat, *inner], align=True)))
 
@@ -91,16 +94,16 @@ WORLD = _columns(
     "claw",
 )
 
-# What is solid: its sides, where it is, how it is turned, for which size it has been made, how much it weighs. Of
-# a circle the first corner is its middle. `bias` is the velocity that parts what overlaps, for one step.
+# What is solid: its sides, where it is, how it is turned, for which size it has been made, how much it weighs, half of
+# its least side. Of a circle the first corner is its middle. `bias` is the velocity that parts what overlaps.
 POINT, MOTION = _columns(f8="x y"), _columns(f8="x y spin")
 SOLID = _columns(
     ("velocity", MOTION),
     ("bias", MOTION),
     ("corners", POINT, 4),
     ("own_corners", POINT, 4),  # where it is not turned
-    ("begin", POINT),  # where it was as the tick began
-    ("before", POINT),  # and before the step
+    ("begin", POINT),  # where it was as the tick began, before this step and after it (lanes/solid)
+    ("before", POINT),
     ("after", POINT),
     i8="is_round is_asleep number",
     f8="left right low high middle_x middle_y turned cosine sine radius made friction mass_inv moment_inv half "

@@ -45,10 +45,8 @@ def open_space(tables, world, contact, lane):
     robot, x, y = solids[ROBOT], constants.front, constants.side
     robot.is_round, robot.radius, robot.number = constants.is_round, constants.radius, constants.number
     robot.friction = world.numbers[constants.friction, lane]
-    robot.mass_inv, robot.moment_inv = (
-        world.numbers[constants.mass_inv, lane],
-        world.numbers[constants.moment_inv, lane],
-    )
+    robot.mass_inv = world.numbers[constants.mass_inv, lane]
+    robot.moment_inv = world.numbers[constants.moment_inv, lane]
     put_corners(robot.own_corners, -x, -y, x, y)
 
 
@@ -93,11 +91,8 @@ def move_loose(tables: Tables, world: WorldState, contact: ContactState, seconds
         size, speed = size_of(world.things, tables.loose[i].thing, lane), solid.velocity
         if solid.made != size:
             make(tables, world, solid, i, size, lane)
-        speed.x, speed.y, speed.spin = (
-            loose[row + PUSHED_X, lane],
-            loose[row + PUSHED_Y, lane],
-            loose[row + PUSHED_SPIN, lane],
-        )
+        speed.x, speed.y = loose[row + PUSHED_X, lane], loose[row + PUSHED_Y, lane]
+        speed.spin = loose[row + PUSHED_SPIN, lane]
         angle = move(solid, x, y, loose[row + TURN, lane], seconds)
         if not solid.is_round:
             turn(tables, solid, angle)
