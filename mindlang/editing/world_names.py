@@ -1,8 +1,8 @@
 """A compiled mind with other names, and the facts of a training world after sensors, tasks or skills were renamed.
 
-A fact is renamed as the mind says it now, whatever its sentence looks like: the worlds of the mind are made once more
-with a mark for each renamed name, and say of every text what it was and what it becomes. Only what the mind does not
-say any more is read as a line of the language.
+A kind's arguments say what they name. Another fact is renamed as the mind says it now, whatever its sentence looks
+like: the worlds of the mind are made once more with a mark for each renamed name, and say of every text what it was
+and what it becomes. Only what the mind does not say any more is read as a line of the language.
 """
 
 import re
@@ -28,17 +28,17 @@ from mindrun.graph.graph import (
     Variation,
 )
 from mindrun.kinds.registry import arguments, names
-from mindrun.numbers.quantity import EXPRESSION, SENSOR, THING
+from mindrun.numbers.quantity import EXPRESSION, SENSOR, THING, Quantity, Reference
 
 from mindlang.compiler.names import Names
 from mindlang.compiler.parse.shape import parse_line
 from mindlang.compiler.references import READABLE_NOUNS, mentions_in
 from mindlang.compiler.source import Source
 from mindlang.compiler.splice import spliced
-from mindlang.compiler.syntax import Declaration, Fact
+from mindlang.compiler.syntax import Fact
 from mindlang.editing.insertion import replace_span
 from mindlang.lock.training_world import TrainingWorld
-from mindlang.lock.world_facts import Worlds
+from mindlang.lock.world_facts import Worlds, meaning_of
 
 T = TypeVar("T")
 Name = Callable[..., str]  # what a name is called that may be of these nouns
@@ -55,6 +55,8 @@ NAMED: Mapping[type, Mapping[str, str]] = {
     Failure: {"actuator": "actuator"},
     Lesson: {"curriculum": "curriculum", "skill": "skill", "task": "task", "master": "skill", "starts_from": "skill"},
 }  # the nouns of the fields that are names
+
+OF_KINDS = "sensor", "memory", "actuator", "thing"  # the nouns of facts that are kinds
 
 Role = tuple[str | int, ...]  # where a text stands: the noun of its fact, and the keys and numbers that lead to it
 _MARK = re.compile("\0([0-9]+)\0")  # no name has such a character
@@ -93,7 +95,11 @@ class Renaming:
         now = {}
         for subject, value in world.facts.items():
             noun, space, own = subject.partition(" ")
-            now[f"{noun}{space}{self.name(own, noun)}"] = _mapped(value, (noun,), text)
+            now[f"{noun}{space}{self.name(own, noun)}"] = (
+                {key: _argument(part, meaning_of(noun, value["is"], key), self.name) for key, part in value.items()}
+                if noun in OF_KINDS
+                else _mapped(value, (noun,), text)
+            )
         lesson = world.facts["lesson"]
         nouns = {"task": "task", "master": "skill", "starts_from": "skill"}
         named = {key: self.name(lesson[key], noun) for key, noun in nouns.items() if key in lesson}
@@ -137,19 +143,27 @@ class Renaming:
     def _unmarked(self, text: str, which: int) -> str:
         return _MARK.sub(lambda found: self._pairs[int(found[1])][which], text)
 
+    @cached_property
+    def _declared(self) -> Names:
+        """All names of the minds and those that are renamed, so that a name stands for the noun that it does there."""
+        table: dict[str, dict[str, Any]] = {noun: {**named} for noun, named in self.names.items()}
+        for mind in self.minds:
+            parts: list[Any] = [*mind.sensors, *mind.memories, *mind.actuators, *mind.skills, *mind.tasks]
+            for part in parts:
+                table.setdefault(type(part).__name__.lower(), {})[part.name] = part
+        return Names(table)
+
     def _read_again(self, role: Role, text: str) -> str:
         """A text that no mind says now, read as the fact that it was once, with other names."""
         if role not in _AROUND_SENTENCE:
-            nouns = "skill", "actuator", *READABLE_NOUNS, "thing"
-            return text if role[-1] == "is" else self.name(text, *nouns)
+            return self.name(text, "skill", "actuator", "memory") if role[0] == "skill" and role[-1] != "is" else text
         before, after = _AROUND_SENTENCE[role](text)
         source = Source("a fact", f"{before}{text}{after}")
         try:
             fact = cast(Fact, parse_line(source.text, source, 0))
         except UnexpectedInput:
             return text
-        known = Names({noun: cast(dict[str, Declaration], named) for noun, named in self.names.items()})
-        mentions = mentions_in(fact, known, None)
+        mentions = mentions_in(fact, self._declared, None)
         splices = (replace_span(each.name.span, self.name(each.name.text, each.noun)) for each in mentions)
         return spliced(source, splices).removeprefix(before).removesuffix(after)
 
@@ -194,11 +208,16 @@ def _value(node: Any, field: Field[Any], name: Name) -> Any:
     if noun := NAMED.get(type(node), {}).get(field.name):
         return name(value, noun)
     taken = arguments(type(node)) if type(node) in names() else ()
-    match next((each.type for each in taken if each.field == field.name), None):
-        case found if found == THING:
-            return name(value, "thing")
-        case found if found == SENSOR:
-            return name(value, *READABLE_NOUNS)
-        case found if found == EXPRESSION:
-            return tuple((word, name(x, *READABLE_NOUNS) if isinstance(x, str) else x) for word, x in value)
-    return renamed(value, name)
+    return renamed(_argument(value, next((each.type for each in taken if each.field == field.name), None), name), name)
+
+
+def _argument(value: Any, meaning: Quantity | Reference | None, name: Name) -> Any:
+    """An argument of a kind, of a graph or a fact, with other names."""
+    if meaning == THING:
+        return name(value, "thing")
+    if meaning == SENSOR:
+        return name(value, *READABLE_NOUNS)
+    if meaning == EXPRESSION:
+        new = ((word, name(x, *READABLE_NOUNS) if isinstance(x, str) else x) for word, x in value)
+        return type(value)(map(type(value), new))
+    return value

@@ -9,6 +9,7 @@ import sys
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 from mindlang.executors.jobs import Assignment, JobExecutor, WorkError, refuse_without
@@ -50,10 +51,11 @@ class Machine:
         command = f"umask 077 && cat > {name} && {self.python} -c 'import mindlang.executors.cluster_jobs'"
         try:
             done = await self.run(command, certificate)
+            if done.exit_status == 0:
+                return ""
+            await self.run(f"rm -f {name}")
         except (OSError, asyncssh.Error, TimeoutError) as error:
             return f"{error}" or type(error).__name__
-        if done.exit_status == 0:
-            return ""
         return (f"{done.stderr}".strip().splitlines() or [f"exit code {done.exit_status}"])[-1]
 
 
@@ -89,6 +91,7 @@ def begin(argument: str, assignment: Assignment, say: Callable[[str], object]) -
     security, name = Security.temporary(), f".mindc-{secrets.token_hex(8)}.pem"
     certificate = f"{security.tls_ca_file}{security.tls_client_key}"
     there = asyncio.run(_prepared(machines(argument), name, certificate, say))
+    forget = partial(_told, there, f"rm -f {name}")
     # Else a worker that is lost again within 15 s is given up for ever, nanny and all.
     dask.config.set({"distributed.deploy.lost-worker-timeout": "1h"})
     # Nobody there is talked to but with the certificate in that file of the home folder.
@@ -96,14 +99,17 @@ def begin(argument: str, assignment: Assignment, say: Callable[[str], object]) -
     try:
         with dask.config.set({**encrypted, "distributed.comm.require-encryption": True}):  # which goes there
             cluster = SSHCluster(**arguments(there), security=security)
-    except Exception as error:
+    except BaseException as error:
+        asyncio.run(forget())
+        if not isinstance(error, Exception):
+            raise
         said = f"no cluster begins at {there[0].host}: {error.__cause__ or error}"
         raise WorkError(said, "the machines have to reach each other") from error
 
     def end() -> None:
         with suppress(Exception):  # of machines that are gone, too
             cluster.close(timeout=CONNECT_SECONDS)
-        asyncio.run(_told(there, f"rm -f {name}"))
+        asyncio.run(forget())
 
     return jobs_of_cluster(cluster, security, assignment, say, end)
 

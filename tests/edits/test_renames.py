@@ -150,6 +150,27 @@ def test_what_no_mind_says_any_more_is_read_with_the_new_names() -> None:
     assert now == {"sends": ["Find at 1 - ear", "o.Find at ear", "wheel at ear"]}
 
 
+def test_a_thing_and_a_sensor_of_one_name_are_told_apart() -> None:
+    held, read = {"is": "held", "of": "eye"}, {"is": "reading", "reading": 1, "of": "eye"}
+    formula = {"is": "computed", "at": [["reading", "eye"], ["number", 1.0]]}
+    lesson = {"task": "Seek", "master": "Go", "with_subskills": False}
+    world = TrainingWorld({"sensor a": read, "sensor b": held, "sensor c": formula, "lesson": lesson})
+    for noun, found in (("thing", (read, held | {"of": "ball"})), ("sensor", (read | {"of": "ball"}, held))):
+        facts = Renaming({noun: {"eye": "ball"}}, ()).relabelled(world).facts
+        assert (facts["sensor a"], facts["sensor b"]) == found
+        assert facts["sensor c"]["at"][0] == ["reading", "eye" if noun == "thing" else "ball"]
+
+
+def test_an_actuator_and_a_sensor_of_one_name_are_told_apart_where_no_mind_says_the_fact() -> None:
+    graph = load(ROOT / "examples" / "collect" / "collect.mind").graph
+    assert graph
+    lesson = {"task": "Seek", "master": "Go", "with_subskills": False}
+    facts = {"varying": ["fails left_wheel 0.5 per tick"], "skill Go": {"answers": ["left_wheel"]}, "lesson": lesson}
+    assert Renaming({"sensor": {"left_wheel": "ear"}}, (graph,)).relabelled(TrainingWorld(facts)).facts == facts
+    now = Renaming({"actuator": {"left_wheel": "wheel"}}, (graph,)).relabelled(TrainingWorld(facts)).facts
+    assert now == facts | {"varying": ["fails wheel 0.5 per tick"], "skill Go": {"answers": ["wheel"]}}
+
+
 @pytest.mark.parametrize("name", SHIPPED)
 def test_every_name_of_the_examples(name: str) -> None:
     """As they were taught, and where they were not, as if they had been."""

@@ -29,7 +29,9 @@ async def handle(process):
         process.command, stdin=asyncio.subprocess.PIPE, stdout=asyncio.subprocess.PIPE, stderr=asyncio.subprocess.PIPE,
         start_new_session=True)
     await process.redirect(stdin=child.stdin, stdout=child.stdout, stderr=child.stderr)
-    process.exit(await child.wait())
+    ended = await child.wait()
+    await asyncio.gather(process.stdout.drain(), process.stderr.drain())  # what it has said goes first
+    process.exit(ended)
 
 async def main():
     server = await asyncssh.listen("127.0.0.1", 0, server_host_keys=["host"], authorized_client_keys="id.pub",
@@ -82,13 +84,17 @@ def test_it_teaches_the_weights_of_threads_and_leaves_nothing_there(tmp_path: Pa
 
 def test_where_no_machine_takes_part_it_is_one_sentence(tmp_path: Path, home: Path) -> None:
     (tmp_path / "drive.mind").write_text(MIND)
+    (home / "python").write_text(f'#!/bin/sh\ntest "$1" = -c && exec {sys.executable} "$@"\n')
+    (home / "python").chmod(0o755)
     for where, words in (
         ("ssh:gone", "no machine takes part; the last, gone: "),
         ("ssh:a:/nowhere/python", "no machine takes part; the last, a: /bin/sh: 1: /nowhere/python: not found"),
+        (f"ssh:a:{home / 'python'}", "no cluster begins at a: "),
     ):
         done = train_apart(tmp_path, *TAUGHT, "--on", where)
         said = " ".join(done.stderr.split())
         assert (done.returncode, words in said, "--resume" in said) == (1, True, True), done.stderr
+        assert [*home.glob(".mindc*")] == [], "nor does it leave its certificate there"
 
 
 def test_what_stands_in_a_list_of_machines() -> None:

@@ -34,6 +34,7 @@ class Reader:
         """With a copy of the examples and the two programs, in the folder of these that the page speaks of."""
         shutil.copytree(ROOT / "examples", home / "examples", ignore=shutil.ignore_patterns("runs"))
         (home / "bin").mkdir()
+        (home / ".config" / "fish" / "completions").mkdir(parents=True)  # as fish makes it when it first runs
         for name, code in PROGRAMS.items():
             program = home / "bin" / name
             program.write_text(
@@ -68,4 +69,6 @@ class Reader:
     def _environment(self) -> dict[str, str]:
         path = os.pathsep.join([str(self.home / "bin"), str(Path(sys.executable).parent), os.environ["PATH"]])
         ours = os.pathsep.join([str(ROOT), str(ROOT / "runtime")])
-        return {**os.environ, "PATH": path, "PYTHONPATH": ours, "COLUMNS": "80", "MPLBACKEND": "agg"}
+        cache = os.environ.get("XDG_CACHE_HOME") or f"{Path.home() / '.cache'}"  # else each page compiles
+        theirs = {"HOME": f"{self.home}", "XDG_CACHE_HOME": cache, "PATH": path, "PYTHONPATH": ours}
+        return {**os.environ, **theirs, "COLUMNS": "80", "MPLBACKEND": "agg"}

@@ -11,29 +11,7 @@ from hypothesis import strategies as st
 from mindrun.sim.lanes.meeting import meet
 from mindrun.sim.lanes.shapes import put_corners, put_shape, turn
 from mindrun.sim.rollout import Rollout
-from mindrun.sim.state import (
-    AT_X,
-    AT_Y,
-    CONTACT,
-    CONTACT_COLUMNS,
-    CONTACTS,
-    CORNERS,
-    COSINE_OF,
-    FIRST_LOOSE,
-    FIXED,
-    ITS_X,
-    ITS_Y,
-    MIDDLE_X,
-    MIDDLE_Y,
-    NORMAL_X,
-    NORMAL_Y,
-    NUMBER,
-    OWN_CORNER,
-    RADIUS,
-    SOLID_COLUMNS,
-    TOUCHING,
-    ContactState,
-)
+from mindrun.sim.state import FIRST_LOOSE, FIXED, ContactState
 
 from tests.sim.plain_loose import corners
 from tests.sim.test_loose import world
@@ -65,13 +43,12 @@ class Shape:
 
     def write(self, rollout: Rollout, contact: ContactState, a: int) -> None:
         """As solid `a` of the first lane."""
-        solids, p = contact.solids[0], SOLID_COLUMNS * a
-        solids[p + CORNERS], solids[p + RADIUS], solids[p + NUMBER] = 1 if self.is_round else 4, self.half, a
-        solids[p + COSINE_OF] = 1.0
-        put_corners(solids, p + OWN_CORNER, -self.half, -self.half, self.half, self.half)
-        turn(rollout.tables, solids, p, self.angle)
-        solids[p + MIDDLE_X], solids[p + MIDDLE_Y] = self.x, self.y
-        put_shape(solids, p, self.x, self.y)
+        solid = contact.solids[0, a]
+        solid.is_round, solid.radius, solid.number, solid.cosine = self.is_round, self.half, a, 1.0
+        put_corners(solid.own_corners, -self.half, -self.half, self.half, self.half)
+        turn(rollout.tables, solid, self.angle)
+        solid.middle_x, solid.middle_y = self.x, self.y
+        put_shape(solid, self.x, self.y)
 
 
 shapes = st.builds(Shape, st.booleans(), HALVES, PLACES, PLACES, ANGLES)
@@ -101,14 +78,13 @@ def test_two_shapes_meet_where_chipmunk_says(one: Shape, other: Shape) -> None:
     first, last = (other, one) if other.is_round and not one.is_round else (one, other)  # as Chipmunk sorts them
     space = pymunk.Space()
     shape, its_shape = first.plain(space), last.plain(space)
-    if contact.space[0, TOUCHING] == 0:
+    if contact.space[0].touching == 0:
         with pytest.raises(AssertionError):  # pymunk's own, where there is no contact
             shape.shapes_collide(its_shape)
         return
-    said, pair = shape.shapes_collide(its_shape), contact.pairs[0]
-    assert said.normal == (pair[NORMAL_X], pair[NORMAL_Y])
-    assert len(said.points) == pair[CONTACTS]
-    for k, point in enumerate(said.points):
-        c = CONTACT + CONTACT_COLUMNS * k
-        assert point.point_a - (first.x, first.y) == (pair[c + AT_X], pair[c + AT_Y])
-        assert point.point_b - (last.x, last.y) == (pair[c + ITS_X], pair[c + ITS_Y])
+    said, pair = shape.shapes_collide(its_shape), contact.pairs[0, 0]
+    assert said.normal == (pair.normal_x, pair.normal_y)
+    assert len(said.points) == pair.count
+    for point, found in zip(said.points, pair.contacts, strict=False):
+        assert point.point_a - (first.x, first.y) == (found.x, found.y)
+        assert point.point_b - (last.x, last.y) == (found.its_x, found.its_y)

@@ -3,12 +3,14 @@
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, fields
 from functools import cache
+from math import prod
 from typing import Any, get_args
 
 import numpy as np
 from numpy.typing import NDArray
 
 WORD_BYTES = 8
+LINE_BYTES = 64  # of a cache
 ADDRESS = "address and words"  # where a block keeps them
 Count = int | str  # of rows or columns: a number, or what they are of, by its name
 
@@ -22,8 +24,12 @@ class Room:
     shape: Callable[[Mapping[str, int], int], tuple[int, ...]]
 
     def empty(self, counts: Mapping[str, int], lanes: int) -> NDArray[Any]:
-        """Zeros for so many lanes."""
-        return np.zeros(self.shape(counts, lanes), self.dtype)
+        """Zeros for so many lanes, from the beginning of a cache line on: no vector of a row lies in two."""
+        shape = self.shape(counts, lanes)
+        size = prod(shape) * self.dtype.itemsize
+        room = np.zeros(size + LINE_BYTES, np.uint8)
+        begin = -room.ctypes.data % LINE_BYTES
+        return room[begin : begin + size].view(self.dtype).reshape(shape)
 
     def holds(self, value: Any) -> bool:
         """True for an array as this one says."""

@@ -1,4 +1,4 @@
-"""Kinds as numbers, and the columns of the tables: what compiled code sees of a program."""
+"""Kinds as numbers, and the columns of tables and of records: what compiled code sees of a program and of a world."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -48,8 +48,13 @@ def records(rows: Sequence[Row], columns: Any) -> NDArray[Any]:
     return table
 
 
-def _columns(**names: str) -> np.dtype[Any]:
-    return np.dtype([(name, kind) for kind, these in names.items() for name in these.split()], align=True)
+def _columns(*inner: tuple[Any, ...], **names: str) -> np.dtype[Any]:
+    """The kind of a record: names by their kinds, then what is made of several.
+
+    Python, too, has them as attributes, so none may be called like one of `numpy.record`.
+    """
+    flat = [(name, kind) for kind, these in names.items() for name in these.split()]
+    return np.dtype((np.record, np.dtype([*flat, *inner], align=True)))
 
 
 # Where a column says what differs between runs, it is a row of `world.numbers`: that of every PARAMETER.
@@ -88,3 +93,33 @@ WORLD = _columns(
     f8="dt radius front side arm least slop cell axles half_x half_y start_x start_y facing start drain charge near "
     "claw",
 )
+
+# What is solid: its sides, where it is, how it is turned, for which size it has been made, how much it weighs, half of
+# its least side. Of a circle the first corner is its middle. `bias` is the velocity that parts what overlaps.
+POINT, MOTION = _columns(f8="x y"), _columns(f8="x y spin")
+SOLID = _columns(
+    ("velocity", MOTION),
+    ("bias", MOTION),
+    ("corners", POINT, 4),
+    ("own_corners", POINT, 4),  # where it is not turned
+    ("begin", POINT),  # where it was as the tick began, before this step and after it (lanes/solid)
+    ("before", POINT),
+    ("after", POINT),
+    i8="is_round is_asleep number",
+    f8="left right low high middle_x middle_y turned cosine sine radius made friction mass_inv moment_inv half "
+    "before_angle",
+)
+# Where a pair touches, from the middles of both: the impulses along the normal and across it, how heavy both are there,
+# how fast to part them, and the impulse that does.
+CONTACT = _columns(u8="hash", f8="x y its_x its_y along across mass_along mass_across bias parting")
+# What touches, or did a few steps ago: what it is of, the step that it touched in last, the solids whose motion counts,
+# what the hash has found and where, the thing in the claw that it is of, or −1, and its radius.
+PAIR = _columns(
+    ("contacts", CONTACT, 2),
+    i8="key used is_first own other found rank thing count",
+    f8="normal_x normal_y friction reach",
+)
+# The steps of a lane: how long the last one was, or 0, which share of an overlap one so long takes back, and how many
+# there were; the pairs, those that touch, and those of the robot with what never moves; the thing in the claw, or −1;
+# how many solids are awake.
+SPACE = _columns(i8="steps pairs touching run_into in_claw awake", f8="seconds take_back")

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from mindrun.kinds.sensors.motion import TRAIL_TICKS
 from mindrun.numbers.arithmetic import BOX_COLUMNS, LANES, LOOSE_ROWS, THING_ROWS, X, Y
 from mindrun.sim.arrays import Block, Count, Room
-from mindrun.sim.codes import AWAY, PUSH_ROWS, WALL_COUNT
+from mindrun.sim.codes import AWAY, PAIR, PUSH_ROWS, SOLID, SPACE, WALL_COUNT
 from mindrun.sim.tables import Tables
 
 Array = NDArray[Any]
@@ -24,28 +24,8 @@ SIGHT_COSINE, SIGHT_SINE, SIGHT_X, SIGHT_Y, FIRST_RAY = range(5)  # rows of `sig
 LEFT, RIGHT, LOW, HIGH, SIDES = range(5)  # rows of a box in `sides`, and how many
 LOOSE_COSINE, LOOSE_SINE, LOOSE_X, LOOSE_Y, LOOSE_HALF, FRAME_ROWS = range(6)  # of the frame of a loose thing
 FAILED_SKILL, FAILED_COLUMN = range(2)  # of `failed`
-BEGIN_X, BEGIN_Y, FROM_X, FROM_Y, FROM_ANGLE, TO_X, TO_Y, HALF, WAY = range(9)  # columns of each way in `ways`
-# Columns of `space`: seconds of the last step or 0, steps, pairs, those that touch, those with what never moves, the
-# thing in the claw or −1, how many solids are awake.
-SECONDS, STEPS, PAIRS, TOUCHING, RUN_INTO, IN_CLAW, AWAKE, SPACE_COLUMNS = range(8)
 # What is solid: a box or wall that never moves, the robot, what it holds, then what is loose.
 FIXED, ROBOT, HELD, FIRST_LOOSE = range(4)
-# Columns of a solid: its sides (LEFT …), how many corners or 1 if it is round, cosine and sine of an angle, its middle,
-# its velocities and those that part what overlaps, one over its mass and its moment of inertia, where its corners are
-# or the middle of its circle, and those of a quadrangle that is not turned.
-(
-    CORNERS, COSINE_OF, SINE_OF, TURNED, RADIUS, ROUGHNESS, MIDDLE_X, MIDDLE_Y, VX, VY, VSPIN, AWAY_X, AWAY_Y,
-    AWAY_SPIN, MASS_INV, MOMENT_INV, MADE, NUMBER, CORNER,
-) = range(SIDES, SIDES + 19)  # fmt: skip
-OWN_CORNER, SOLID_COLUMNS = CORNER + 8, CORNER + 16
-# Columns of a pair: what it is of, the step that it touched in last, whether for the first time, the solids whose
-# motion counts, the normal, the friction, what the hash found and where, the thing in the claw that it is of, or −1,
-# and its radius, how many contacts; then those of each.
-(KEY, USED, FIRST, OWN, OTHER, NORMAL_X, NORMAL_Y, FRICTION, FOUND, RANK, THING, REACH, CONTACTS, CONTACT) = range(14)
-# Columns of a contact: its hash, its impulses along and across the normal, its places from the middles of both, how
-# heavy these are there, how fast to part them, the impulse that does.
-(HASH, ALONG, ACROSS, AT_X, AT_Y, ITS_X, ITS_Y, MASS_ALONG, MASS_ACROSS, PARTING, PARTED, CONTACT_COLUMNS) = range(12)
-PAIR_COLUMNS = CONTACT + 2 * CONTACT_COLUMNS
 MOST_PAIRS, PAIRS_EACH, SPARE_PAIRS = 64, 16, 16  # in a lane, more for each loose thing, and for what is let go
 F4, F8, I8, U1, U8 = np.float32, np.float64, np.int64, np.uint8, np.uint64
 
@@ -158,15 +138,14 @@ class ContactState(Block):
 
     near: Annotated[Array, each()]  # ticks for which a lane is still made like that
     touching: Annotated[Array, each()]  # bit 0 while something touches, bit 1 if something did in the tick before
-    space: Annotated[Array, columns(SPACE_COLUMNS)]  # of its steps
-    solids: Annotated[Array, columns("solids", SOLID_COLUMNS)]  # all that moves, and room for one that does not
-    asleep: Annotated[Array, columns("solids", kind=U1)]  # 1 where nothing changes while nothing comes near
-    pairs: Annotated[Array, columns("pairs", PAIR_COLUMNS)]  # what touches, or did a few steps ago
+    space: Annotated[Array, each(SPACE)]  # its steps
+    solids: Annotated[Array, columns("solids", kind=SOLID)]  # all that moves, and room for one that does not
+    pairs: Annotated[Array, columns("pairs", kind=PAIR)]  # what touches, or did a few steps ago
+    order: Annotated[Array, columns("pairs", kind=I8)]  # their numbers: first of those that touch, last of no pairs
     last: Annotated[Array, each(F8)]  # seconds of its last step, infinitely many where nothing can have touched
     # for this tick
     gap: Annotated[Array, each(F8)]  # from the robot's next centre to what is nearest
     swift: Annotated[Array, each()]  # 1 where something is so fast that it could pass something, until the tick is made
-    ways: Annotated[Array, columns("movers", WAY)]  # where what moves was and is (lanes/solid)
     awake: Annotated[Array, columns("solids", kind=I8)]  # the solids that take part, as the hash has them
     close: Annotated[Array, columns("close", kind=I8)]  # the boxes and walls that come close to one solid
 
@@ -303,7 +282,6 @@ def _counts(tables: Tables, sizes: Mapping[str, int]) -> dict[str, int]:
     return n | {
         "sinks": n["actuators"] + n["memories"],
         "sight": FIRST_RAY + n["ray_row"],
-        "movers": movers,
         "board": max(1, n["patches"]),
         "happened": max(1, n["events"]),
         "close": fixed,

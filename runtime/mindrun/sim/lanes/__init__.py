@@ -1,9 +1,10 @@
 """One tick of many worlds in lockstep.
 
 A **lane** is one world with one robot in it; `lanes` of them are at work, numbered 0 to lanes − 1. Every quantity is an
-array [row, lane] (a few are [lane, column]; `sim/state.py` says which), so that a loop over the lanes vectorises. What
-is the same in all of them stands in `tables`: a row for each sensor, skill, edge, reward … of a mind and its task
-(`sim/tables.py`; `sim/codes.py` has the columns). The compiled code is the same for every mind: it reads the tables.
+array [row, lane] (a few are [lane, column], some of records; `sim/state.py` says which), so that a loop over the lanes
+vectorises. What is the same in all of them stands in `tables`: a row for each sensor, skill, edge, reward … of a mind
+and its task (`sim/tables.py`; `sim/codes.py` has the columns). The compiled code is the same for every mind: it reads
+the tables.
 
 `advance` runs ticks, each in six stages:
 
@@ -20,8 +21,9 @@ A stage is handed the whole `state`, what it calls the parts that it reads and w
 which it has influence: `active[0..count]` are these, and what is gathered for it stands side by side in the columns
 0 to count − 1.
 
-All are plain functions. A `@unit` is compiled by itself, with what it calls, and can be called from Python; a row of a
-table can be handed to any other function. Compiled code owns nothing (`_nrt=False`), so in it
+All are plain functions. A `@unit` is compiled by itself, with what it calls, and can be called from Python; any other
+function can be handed a row of a table, or a record of the state, and write into it. Compiled code owns nothing
+(`_nrt=False`), so in it
 
 - no array is made, and none is assigned to a slice: a loop instead (a number may be assigned to a slice);
 - nothing is raised, and no index is looked at: tables and state are made to fit each other;

@@ -7,18 +7,7 @@ its table, what was added last first.
 import numpy as np
 
 from mindrun.numbers.arithmetic import BOX_COLUMNS, box_of
-from mindrun.sim.state import (
-    FIRST_LOOSE,
-    FOUND,
-    HIGH,
-    LEFT,
-    LOW,
-    PAIR_COLUMNS,
-    RANK,
-    RIGHT,
-    SOLID_COLUMNS,
-    TOUCHING,
-)
+from mindrun.sim.state import FIRST_LOOSE
 
 SLOTS, HASH_X, HASH_Y = np.uint64(23), np.uint64(1640531513), np.uint64(2654435789)
 HALF_WALL_UNITS = 1.0  # half the thickness of a wall, outside the arena
@@ -26,44 +15,36 @@ HALF_WALL_UNITS = 1.0  # half the thickness of a wall, outside the arena
 
 def rank(tables, world, contact, a, begin, lane):
     """Sort the pairs of solid `a` from number `begin` on, what was added last first, into the order of the hash."""
-    solids, pairs, cell, end = (
-        contact.solids[lane],
-        contact.pairs[lane],
-        tables.world[0].cell,
-        contact.space[lane, TOUCHING],
-    )
-    p = SOLID_COLUMNS * a
-    left, right = floor(solids[p + LEFT] / cell), floor(solids[p + RIGHT] / cell)
-    low, high = floor(solids[p + LOW] / cell), floor(solids[p + HIGH] / cell)
+    solids, pairs, order, cell = contact.solids[lane], contact.pairs[lane], contact.order[lane], tables.world[0].cell
+    left, right = floor(solids[a].left / cell), floor(solids[a].right / cell)
+    low, high = floor(solids[a].low / cell), floor(solids[a].high / cell)
     if left == right and low == high:
         return
-    for i in range(begin, int(end)):
-        pair, number, is_found = PAIR_COLUMNS * i, 0.0, False
-        its_left, its_low, its_right, its_top = sides_of(tables, world, solids, int(pairs[pair + FOUND]), lane)
+    end = contact.space[lane].touching
+    for i in range(begin, end):
+        number, is_found = 0, False
+        its_left, its_low, its_right, its_top = sides_of(tables, world, solids, pairs[order[i]].found, lane)
         for column in range(left, right + 1):
             for row in range(low, high + 1):
                 is_found = is_found or lies_in(cell, its_left, its_low, its_right, its_top, slot_of(column, row))
-                number += 0.0 if is_found else 1.0
-        pairs[pair + RANK] = number
-    for i in range(begin + 1, int(end)):
+                number += 0 if is_found else 1
+        pairs[order[i]].rank = number
+    for i in range(begin + 1, end):
         for k in range(i, begin, -1):
-            if pairs[PAIR_COLUMNS * k + RANK] < pairs[PAIR_COLUMNS * (k - 1) + RANK]:
-                swap(pairs, k - 1, k)
+            if pairs[order[k]].rank < pairs[order[k - 1]].rank:
+                swap(order, k - 1, k)
 
 
-def swap(pairs, i, k):
+def swap(order, i, k):
     """Let two pairs change places."""
-    for column in range(PAIR_COLUMNS):
-        here, there = PAIR_COLUMNS * i + column, PAIR_COLUMNS * k + column
-        pairs[here], pairs[there] = pairs[there], pairs[here]
+    order[i], order[k] = order[k], order[i]
 
 
 def sides_of(tables, world, solids, number, lane):
     """The sides of a solid or, behind these, of a box or, behind these, of a wall: left, low, right, top."""
     b, boxes = number - FIRST_LOOSE - len(tables.loose), world.boxes.shape[1] // BOX_COLUMNS
     if b < 0:
-        p = SOLID_COLUMNS * number
-        return solids[p + LEFT], solids[p + LOW], solids[p + RIGHT], solids[p + HIGH]
+        return solids[number].left, solids[number].low, solids[number].right, solids[number].high
     if b >= boxes:
         return wall_of(tables.world[0].half_x, tables.world[0].half_y, b - boxes)
     x, y, wide, high = box_of(world.boxes, b, lane)

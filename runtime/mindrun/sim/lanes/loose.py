@@ -37,12 +37,12 @@ OF_LOOSE = unit_where(lambda tables: len(tables.loose) > 0)
 def slow_down(tables: Tables, world: WorldState, contact: ContactState, lane: int) -> None:
     """Damp what has not settled, v / (1 + dt·c), and let it rest where it is slow enough.
 
-    Its solid is not `asleep`: it may have appeared elsewhere, and settles there without a contact.
+    Its solid is not asleep: it may have appeared elsewhere, and settles there without a contact.
     """
     loose, dt, restless = world.loose, tables.world[0].dt, 0
     for i in range(len(tables.loose)):
         if world.still[i, lane] < SETTLED_TICKS:
-            contact.asleep[lane, FIRST_LOOSE + i] = 0
+            contact.solids[lane, FIRST_LOOSE + i].is_asleep = 0
             row, thing = LOOSE_ROWS * i, tables.loose[i].thing
             slower = world.numbers[tables.loose[i].slower, lane]
             vx, vy = loose[row + PUSHED_X, lane] * slower, loose[row + PUSHED_Y, lane] * slower

@@ -1,26 +1,24 @@
 """The nearest points of two shapes in Chipmunk's own order of operations: GJK, and EPA where they overlap.
 
-A shape is a circle, of which only its middle counts here, or a quadrangle: columns of `solids` from `a` and `b` on. A
-**vertex** is a corner of what is seen of one shape from the other, 4·corner of the first + corner of the second.
+A shape is a solid: a circle, of which only its middle counts here, or a quadrangle. A **vertex** is a corner of what is
+seen of one shape from the other, 4·corner of the first + corner of the second.
 """
 
 import numpy as np
-
-from mindrun.sim.state import CORNER, CORNERS, HIGH, LEFT, LOW, RIGHT
 
 MOST_ROUNDS = 30  # of GJK and of EPA
 LEAST_NORMAL = 2.2250738585072014e-308  # DBL_MIN, which keeps Chipmunk from dividing by 0
 VERTEX_BITS, VERTEX_MASK = 4, 15
 
 
-def nearest_points(solids, a, b):
+def nearest_points(a, b):
     """The points of both shapes, the normal from one to the other, and how far apart they are."""
-    dx = middle_of(solids[a + LEFT], solids[a + RIGHT]) - middle_of(solids[b + LEFT], solids[b + RIGHT])
-    dy = middle_of(solids[a + LOW], solids[a + HIGH]) - middle_of(solids[b + LOW], solids[b + HIGH])
-    v, w = support(solids, a, b, -dy, dx), support(solids, a, b, dy, -dx)
+    dx = middle_of(a.left, a.right) - middle_of(b.left, b.right)
+    dy = middle_of(a.low, a.high) - middle_of(b.low, b.high)
+    v, w = support(a, b, -dy, dx), support(a, b, dy, -dx)
     for _ in range(MOST_ROUNDS):
-        vx, vy = seen(solids, a, b, v)
-        wx, wy = seen(solids, a, b, w)
+        vx, vy = seen(a, b, v)
+        wx, wy = seen(a, b, w)
         if is_left(wx, wy, vx, vy, 0.0, 0.0):
             v, w, vx, vy, wx, wy = w, v, wx, wy, vx, vy
         t = nearest_share(vx, vy, wx, wy)
@@ -29,10 +27,10 @@ def nearest_points(solids, a, b):
         else:
             nx, ny = between(vx, vy, wx, wy, t)
             nx, ny = -nx, -ny
-        c = support(solids, a, b, nx, ny)
-        cx, cy = seen(solids, a, b, c)
+        c = support(a, b, nx, ny)
+        cx, cy = seen(a, b, c)
         if is_left(cx, cy, vx, vy, 0.0, 0.0) and is_left(wx, wy, cx, cy, 0.0, 0.0):
-            v, w = expand(solids, a, b, v, c, w)
+            v, w = expand(a, b, v, c, w)
             break
         ahead_v, ahead_w = vx * nx + vy * ny, wx * nx + wy * ny
         if cx * nx + cy * ny <= (ahead_v if ahead_v > ahead_w else ahead_w):
@@ -41,7 +39,7 @@ def nearest_points(solids, a, b):
             w = c
         else:
             v = c
-    return points_on(solids, a, b, v, w)
+    return points_on(a, b, v, w)
 
 
 def middle_of(low, high):
@@ -49,7 +47,7 @@ def middle_of(low, high):
     return low * 0.5 + high * 0.5
 
 
-def expand(solids, a, b, v, w, u):
+def expand(a, b, v, w, u):
     """The edge that is nearest to where both shapes overlap, begun with three vertices (EPA).
 
     The vertices of the hull so far are the digits of a number.
@@ -59,33 +57,33 @@ def expand(solids, a, b, v, w, u):
         first, least = 0, np.inf
         i = count - 1
         for j in range(count):
-            ax, ay = seen(solids, a, b, digit(hull, i))
-            bx, by = seen(solids, a, b, digit(hull, j))
+            ax, ay = seen(a, b, digit(hull, i))
+            bx, by = seen(a, b, digit(hull, j))
             far = distance(ax, ay, bx, by)
             if far < least:
                 least, first = far, i
             i = j
         v, w = digit(hull, first), digit(hull, (first + 1) % count)
-        ax, ay = seen(solids, a, b, v)
-        bx, by = seen(solids, a, b, w)
-        c = support(solids, a, b, -(by - ay), bx - ax)
-        cx, cy = seen(solids, a, b, c)
+        ax, ay = seen(a, b, v)
+        bx, by = seen(a, b, w)
+        c = support(a, b, -(by - ay), bx - ax)
+        cx, cy = seen(a, b, c)
         if c in (v, w) or not is_left(ax, ay, bx, by, cx, cy) or round_ == MOST_ROUNDS:
             break
-        hull, count = larger_hull(solids, a, b, hull, count, first, c)
+        hull, count = larger_hull(a, b, hull, count, first, c)
     return v, w
 
 
-def larger_hull(solids, a, b, hull, count, first, c):
+def larger_hull(a, b, hull, count, first, c):
     """The hull with vertex c behind the edge `first`, without what is not at its rim any more, and how many it has."""
     larger, size, last = c, 1, c
     for i in range(count):
         place = (first + 1 + i) % count
         vertex = digit(hull, place)
         following = digit(hull, (place + 1) % count) if i + 1 < count else c
-        lx, ly = seen(solids, a, b, last)
-        hx, hy = seen(solids, a, b, vertex)
-        fx, fy = seen(solids, a, b, following)
+        lx, ly = seen(a, b, last)
+        hx, hy = seen(a, b, vertex)
+        fx, fy = seen(a, b, following)
         if is_left(lx, ly, fx, fy, hx, hy):
             larger |= vertex << VERTEX_BITS * size
             size, last = size + 1, vertex
@@ -97,16 +95,16 @@ def digit(hull, i):
     return hull >> VERTEX_BITS * i & VERTEX_MASK
 
 
-def points_on(solids, a, b, v, w):
+def points_on(a, b, v, w):
     """The nearest points on an edge, as `nearest_points`."""
-    vx, vy = seen(solids, a, b, v)
-    wx, wy = seen(solids, a, b, w)
+    vx, vy = seen(a, b, v)
+    wx, wy = seen(a, b, w)
     t = nearest_share(vx, vy, wx, wy)
     px, py = between(vx, vy, wx, wy, t)
-    one, other = corner(a, v >> 2), corner(a, w >> 2)
-    own_x, own_y = between(solids[one], solids[one + 1], solids[other], solids[other + 1], t)
-    one, other = corner(b, v & 3), corner(b, w & 3)
-    its_x, its_y = between(solids[one], solids[one + 1], solids[other], solids[other + 1], t)
+    one, other = a.corners[v >> 2], a.corners[w >> 2]
+    own_x, own_y = between(one.x, one.y, other.x, other.y, t)
+    one, other = b.corners[v & 3], b.corners[w & 3]
+    its_x, its_y = between(one.x, one.y, other.x, other.y, t)
     dx, dy = wy - vy, -(wx - vx)
     scale = 1.0 / (np.sqrt(dx * dx + dy * dy) + LEAST_NORMAL)
     nx, ny = dx * scale, dy * scale
@@ -118,33 +116,28 @@ def points_on(solids, a, b, v, w):
     return own_x, own_y, its_x, its_y, nx, ny, apart
 
 
-def corner(a, i):
-    """The column of corner i of a shape."""
-    return a + CORNER + 2 * i
-
-
-def support(solids, a, b, nx, ny):
+def support(a, b, nx, ny):
     """The vertex that is farthest in a direction."""
-    return 4 * farthest(solids, a, -nx, -ny) + farthest(solids, b, nx, ny)
+    return 4 * farthest(a, -nx, -ny) + farthest(b, nx, ny)
 
 
-def farthest(solids, a, nx, ny):
+def farthest(a, nx, ny):
     """The number of the corner of a shape that is farthest in a direction."""
-    if solids[a + CORNERS] == 1.0:
+    if a.is_round:
         return 0
-    c = a + CORNER
-    most, found = solids[c] * nx + solids[c + 1] * ny, 0
-    far = solids[c + 2] * nx + solids[c + 3] * ny
+    c = a.corners
+    most, found = c[0].x * nx + c[0].y * ny, 0
+    far = c[1].x * nx + c[1].y * ny
     most, found = (far, 1) if far > most else (most, found)
-    far = solids[c + 4] * nx + solids[c + 5] * ny
+    far = c[2].x * nx + c[2].y * ny
     most, found = (far, 2) if far > most else (most, found)
-    return 3 if solids[c + 6] * nx + solids[c + 7] * ny > most else found
+    return 3 if c[3].x * nx + c[3].y * ny > most else found
 
 
-def seen(solids, a, b, vertex):
+def seen(a, b, vertex):
     """The x and y of a vertex."""
-    own, its = corner(a, vertex >> 2), corner(b, vertex & 3)
-    return solids[its] - solids[own], solids[its + 1] - solids[own + 1]
+    own, its = a.corners[vertex >> 2], b.corners[vertex & 3]
+    return its.x - own.x, its.y - own.y
 
 
 def is_left(ax, ay, bx, by, cx, cy):

@@ -85,7 +85,7 @@ def reset(tables, state, lane):
             judge.visited[lane, tables.events[i].board + patch] = 1
     state.sight.anchor[:, lane] = np.nan
     state.contact.near[lane], state.contact.touching[lane] = 0, 0
-    state.contact.space[lane] = 0.0
+    state.contact.space[lane].seconds = 0.0
     run.ended[lane], run.met[lane], run.faults[lane] = GOING_ON, GOING_ON, 0
 
 
@@ -118,10 +118,12 @@ def move(state, source, target):
         copy_lane(rows, source, target)
     for rows in (sight.nearby, sight.anchor, judge.left_changes, judge.right_changes, judge.lines):
         copy_lane(rows, source, target)
-    for columns in (world.boxes, contact.space, contact.solids, contact.pairs):
-        copy_row(columns, source, target)
-    for columns in (judge.visited, contact.asleep):
-        copy_row(columns, source, target)
+    copy_row(world.boxes, source, target)
+    copy_row(judge.visited, source, target)
+    copy_row(contact.solids, source, target)
+    copy_row(contact.pairs, source, target)
+    copy_row(contact.order, source, target)
+    contact.space[target] = contact.space[source]
     for numbers in (world.restless, world.held, world.tick, sight.nearby_count, contact.near, contact.touching):
         numbers[target] = numbers[source]
     for numbers in (run.job, run.ended, run.met, run.faults):

@@ -5,8 +5,7 @@ tick in several **strides**: in each everything moves by at most STRIDE_SHARE of
 
 Chipmunk's solver lets what is pressed between heavy things give way by and by. What a step of it has brought through
 something solid is **held back**: it goes back to where it was, and stands. And what goes round a corner within one tick
-is stopped there: the straight way of a middle from tick to tick never leads through what is solid. `ways` has the
-middle of everything that moves: the robot, what it holds, each loose thing.
+is stopped there: the straight way of a middle from tick to tick never leads through what is solid.
 """
 
 import numpy as np
@@ -33,14 +32,13 @@ from mindrun.numbers.arithmetic import (
     size_of,
 )
 from mindrun.sim.codes import FAR, HALF_DIAGONAL
-from mindrun.sim.state import BEGIN_X, BEGIN_Y, FROM_ANGLE, FROM_X, FROM_Y, HALF, TO_X, TO_Y, WAY, WorldState
+from mindrun.sim.state import FIRST_LOOSE, HELD, ROBOT, WorldState
 from mindrun.sim.tables import Tables
 from mindrun.sim.units import seldom, unit_where
 
 CLOSED_UNITS = 1e-6  # so much larger is everything here: what stands corner to corner leaves no way between
 SWIFT_SHARE, STRIDE_SHARE = 0.75, 0.5  # of a least half side: beyond which there are strides, and how far one may go
 MOST_STRIDES = 100  # in one tick; what time is left then is lost
-HELD, FIRST_LOOSE = WAY, 2 * WAY  # where they stand in `ways`; the robot comes first
 DEEPEST_SHARE = 0.5  # of the smaller's half side: so deep in one another come two that move
 
 
@@ -199,67 +197,72 @@ def room_around(tables, world, x, y, extent, but, lane):
     return room
 
 
-def note_begin(tables, world, ways, lane):
-    """Write the places of everything that moves as a tick begins, and half of its least side, into `ways`."""
-    constants, held = tables.world[0], world.held[lane]
-    ways[BEGIN_X], ways[BEGIN_Y] = world.body[X, lane], world.body[Y, lane]
-    ways[HALF] = min(constants.front, constants.side)
-    if held >= 0:
-        # Not yet in the claw, where it has just been taken.
-        ways[HELD + BEGIN_X], ways[HELD + BEGIN_Y] = place_of(world.things, held, lane)
-        ways[HELD + HALF] = size_of(world.things, held, lane) / 2
+def note_begin(tables, world, solids, lane):
+    """Note where everything that moves is as a tick begins, and half of its least side."""
+    robot, constants = solids[ROBOT], tables.world[0]
+    robot.begin.x, robot.begin.y = world.body[X, lane], world.body[Y, lane]
+    robot.half = min(constants.front, constants.side)
+    if world.held[lane] >= 0:  # not yet in the claw, where it has just been taken
+        note_thing(world, solids[HELD], world.held[lane], lane)
     for i in range(len(tables.loose)):
-        way, thing = FIRST_LOOSE + WAY * i, tables.loose[i].thing
-        ways[way + BEGIN_X], ways[way + BEGIN_Y] = place_of(world.things, thing, lane)
-        ways[way + HALF] = size_of(world.things, thing, lane) / 2
+        note_thing(world, solids[FIRST_LOOSE + i], tables.loose[i].thing, lane)
 
 
-def note_places(tables, world, ways, x, y, lane):
-    """Write the places of everything that moves into columns `x` and `y` of its way; NaN where nothing is held."""
-    ways[x], ways[y] = world.body[X, lane], world.body[Y, lane]
-    ways[HELD + x], ways[HELD + y] = np.nan, np.nan
+def note_thing(world, solid, thing, lane):
+    """Note where a thing is as a tick begins, and half of its size."""
+    solid.begin.x, solid.begin.y = place_of(world.things, thing, lane)
+    solid.half = size_of(world.things, thing, lane) / 2
+
+
+def note_after(tables, world, solids, lane):
+    """Note where everything that moves is after a step; NaN where nothing is held."""
+    robot, held = solids[ROBOT].after, solids[HELD].after
+    robot.x, robot.y, held.x, held.y = world.body[X, lane], world.body[Y, lane], np.nan, np.nan
     if world.held[lane] >= 0:
         hold = tables.things[world.held[lane]].hold
         sine, cosine = sine_cosine(world.body[ANGLE, lane])
-        ways[HELD + x], ways[HELD + y] = ways[x] + cosine * hold, ways[y] + sine * hold
+        held.x, held.y = robot.x + cosine * hold, robot.y + sine * hold
     for i in range(len(tables.loose)):
-        way = FIRST_LOOSE + WAY * i
-        ways[way + x], ways[way + y] = place_of(world.things, tables.loose[i].thing, lane)
+        loose = solids[FIRST_LOOSE + i].after
+        loose.x, loose.y = place_of(world.things, tables.loose[i].thing, lane)
 
 
-def note_before(tables, world, ways, lane):
-    """Write the places of everything that moves before a step, and how it is turned, into `ways`."""
-    note_places(tables, world, ways, FROM_X, FROM_Y, lane)
-    ways[FROM_ANGLE] = world.body[ANGLE, lane]
+def note_before(tables, world, solids, lane):
+    """Note where everything that moves is before a step, and how it is turned."""
+    note_after(tables, world, solids, lane)
+    for a in range(ROBOT, len(solids)):
+        solids[a].before.x, solids[a].before.y = solids[a].after.x, solids[a].after.y
+    solids[ROBOT].before_angle = world.body[ANGLE, lane]
     for i in range(len(tables.loose)):
-        ways[FIRST_LOOSE + WAY * i + FROM_ANGLE] = world.loose[LOOSE_ROWS * i + TURN, lane]
+        solids[FIRST_LOOSE + i].before_angle = world.loose[LOOSE_ROWS * i + TURN, lane]
 
 
-def hold_back(tables, world, ways, lane):
+def hold_back(tables, world, solids, lane):
     """Put back what has passed something since the tick began, and then what passes that."""
-    note_places(tables, world, ways, TO_X, TO_Y, lane)
-    way, last = 0, FIRST_LOOSE + WAY * len(tables.loose)
-    while way < last:
-        if passes(tables, world, ways, way, last, lane):
-            put_back(tables, world, ways, way, lane)
-            way = 0
+    note_after(tables, world, solids, lane)
+    a = ROBOT
+    while a < len(solids):
+        if passes(tables, world, solids, a, lane):
+            put_back(tables, world, solids, a, lane)
+            a = ROBOT
         else:
-            way += WAY
+            a += 1
 
 
-def passes(tables, world, ways, way, last, lane):
+def passes(tables, world, solids, a, lane):
     """True if what this step has moved has passed an obstacle, the border or another mover since the tick began."""
-    x, y, to_x, to_y = ways[way + BEGIN_X], ways[way + BEGIN_Y], ways[way + TO_X], ways[way + TO_Y]
-    if np.isnan(to_x) or (to_x == ways[way + FROM_X] and to_y == ways[way + FROM_Y]):
+    begin, before, after, half = solids[a].begin, solids[a].before, solids[a].after, solids[a].half
+    if np.isnan(after.x) or (after.x == before.x and after.y == before.y):
         return False
-    if is_barred(world.boxes, tables.world[0], x, y, to_x, to_y, CLOSED_UNITS, lane):
+    if is_barred(world.boxes, tables.world[0], begin.x, begin.y, after.x, after.y, CLOSED_UNITS, lane):
         return True
-    for other in range(FIRST_LOOSE if way < FIRST_LOOSE else 0, last, WAY):
-        if other != way and not np.isnan(ways[other + TO_X]):
-            near = ways[way + HALF] + ways[other + HALF] - DEEPEST_SHARE * min(ways[way + HALF], ways[other + HALF])
-            its_dx, its_dy = ways[other + TO_X] - ways[other + BEGIN_X], ways[other + TO_Y] - ways[other + BEGIN_Y]
-            dx, dy = to_x - x - its_dx, to_y - y - its_dy
-            if comes_nearer(ways[other + BEGIN_X] - x, ways[other + BEGIN_Y] - y, dx, dy, near):
+    for b in range(FIRST_LOOSE if a < FIRST_LOOSE else ROBOT, len(solids)):
+        its_begin, its_after, its_half = solids[b].begin, solids[b].after, solids[b].half
+        if b != a and not np.isnan(its_after.x):
+            near = half + its_half - DEEPEST_SHARE * min(half, its_half)
+            dx = after.x - begin.x - (its_after.x - its_begin.x)
+            dy = after.y - begin.y - (its_after.y - its_begin.y)
+            if comes_nearer(its_begin.x - begin.x, its_begin.y - begin.y, dx, dy, near):
                 return True
     return False
 
@@ -274,17 +277,18 @@ def comes_nearer(x, y, dx, dy, near):
     return aside_x * aside_x + aside_y * aside_y < near * near
 
 
-def put_back(tables, world, ways, way, lane):
+def put_back(tables, world, solids, a, lane):
     """Put a mover, the robot with what it holds, back to its place before the step, without any speed."""
-    if way < FIRST_LOOSE:
-        world.body[X, lane], world.body[Y, lane], world.body[ANGLE, lane] = ways[FROM_X], ways[FROM_Y], ways[FROM_ANGLE]
-        world.body[SPEED_X, lane], world.body[SPEED_Y, lane], world.body[SPIN, lane] = 0.0, 0.0, 0.0
-        for each in (0, HELD):
-            ways[each + TO_X], ways[each + TO_Y] = ways[each + FROM_X], ways[each + FROM_Y]
+    solid, body, i = solids[a], world.body, a - FIRST_LOOSE
+    if i < 0:
+        robot, held = solids[ROBOT], solids[HELD]
+        body[X, lane], body[Y, lane], body[ANGLE, lane] = robot.before.x, robot.before.y, robot.before_angle
+        body[SPEED_X, lane], body[SPEED_Y, lane], body[SPIN, lane] = 0.0, 0.0, 0.0
+        robot.after.x, robot.after.y = robot.before.x, robot.before.y
+        held.after.x, held.after.y = held.before.x, held.before.y
         return
-    i = (way - FIRST_LOOSE) // WAY
     row = LOOSE_ROWS * i
-    ways[way + TO_X], ways[way + TO_Y] = ways[way + FROM_X], ways[way + FROM_Y]
-    put_thing(world.things, tables.loose[i].thing, ways[way + FROM_X], ways[way + FROM_Y], lane)
+    solid.after.x, solid.after.y = solid.before.x, solid.before.y
+    put_thing(world.things, tables.loose[i].thing, solid.before.x, solid.before.y, lane)
     world.loose[row : row + LOOSE_ROWS, lane] = 0.0
-    world.loose[row + TURN, lane] = ways[way + FROM_ANGLE]
+    world.loose[row + TURN, lane] = solid.before_angle

@@ -13,7 +13,7 @@ from mindrun.sim.lanes.impulses import COLLISION_BIAS, solve
 from mindrun.sim.lanes.meeting import forget_old, let_go, touch_fixed, touch_movers
 from mindrun.sim.lanes.solid import MOST_STRIDES, hold_back, note_before, note_begin, stride, within
 from mindrun.sim.lanes.solids import gather, move_loose, move_robot, open_space, take_loose, take_robot
-from mindrun.sim.state import IN_CLAW, RUN_INTO, SECONDS, STEPS, TOUCHING, ContactState, WorldState
+from mindrun.sim.state import ROBOT, ContactState, WorldState
 from mindrun.sim.tables import Tables
 from mindrun.sim.units import call_double, unit
 
@@ -24,18 +24,18 @@ def make_tick(tables: Tables, world: WorldState, contact: ContactState, lane: in
     dt, is_swift, touching = tables.world[0].dt, contact.swift[lane] > 0, 0
     contact.swift[lane] = 0
     left = dt
-    note_begin(tables, world, contact.ways[lane], lane)
+    note_begin(tables, world, contact.solids[lane], lane)
     for number in range(MOST_STRIDES):
         most = stride(tables, world, lane) if is_swift else dt
         is_last = most >= left or number == MOST_STRIDES - 1
         seconds = min(most, left) if is_last else min(most, left / 2)
         if is_swift and not glides(world.body, seconds, lane):
             break
-        note_before(tables, world, contact.ways[lane], lane)
+        note_before(tables, world, contact.solids[lane], lane)
         touching += make_step(tables, world, contact, seconds, dt / seconds if is_last else 0.0, lane)
         could_pass = touching > 0 or len(tables.loose) > 0
         if could_pass:
-            hold_back(tables, world, contact.ways[lane], lane)
+            hold_back(tables, world, contact.solids[lane], lane)
         contact.last[lane] = seconds if could_pass else np.inf
         left -= seconds
         if is_last:
@@ -56,12 +56,11 @@ def glides(body, seconds, lane):
 def make_step(tables, world, contact, seconds, share, lane):
     """Move a lane on by some seconds with a share of its force; return how often its robot touches what never moves."""
     space = contact.space[lane]
-    if space[SECONDS] == 0.0 or seconds > contact.last[lane]:
+    if space.seconds == 0.0 or seconds > contact.last[lane]:
         open_space(tables, world, contact, lane)  # what is remembered are impulses, of which more would act
-    space[STEPS] += 1.0
-    space[RUN_INTO] = 0.0
-    space[IN_CLAW] = world.held[lane]
-    forget_old(space, contact.pairs[lane])
+    space.steps += 1
+    space.run_into, space.in_claw = 0, world.held[lane]
+    forget_old(space, contact.pairs[lane], contact.order[lane])
     move_robot(tables, world, contact, seconds, share, lane)
     if len(tables.loose) > 0:
         move_loose(tables, world, contact, seconds, lane)
@@ -70,13 +69,12 @@ def make_step(tables, world, contact, seconds, share, lane):
         touch_movers(tables, world, contact, lane)
     touch_fixed(tables, world, contact, lane)
     let_go(tables, world, contact, lane)
-    if space[TOUCHING] > 0.0:
-        take_back = 1.0 - call_double(tables.library[POWER], COLLISION_BIAS, seconds)
-        before = seconds / space[SECONDS]  # in the first step all pairs are new, and nobody asks
-        solids, pairs, slop = contact.solids[lane], contact.pairs[lane], tables.world[0].slop
-        solve(solids, pairs, int(space[TOUCHING]), slop, take_back, seconds, before)
-    take_robot(world, contact.solids[lane], lane)
+    if seconds != space.seconds:
+        space.take_back = 1.0 - call_double(tables.library[POWER], COLLISION_BIAS, seconds)
+    if space.touching > 0:
+        solve(contact, tables.world[0].slop, seconds, lane)
+    take_robot(world, contact.solids[lane, ROBOT], lane)
     if len(tables.loose) > 0:
         take_loose(tables, world, contact, lane)
-    space[SECONDS] = seconds
-    return int(space[RUN_INTO])
+    space.seconds = seconds
+    return space.run_into
