@@ -1,6 +1,6 @@
 """Learners at the same number of ticks: python benchmarks/learners.py [--skill Avoid] [--ticks 100e6] [--seeds 20].
 
-    --genetic octaves=2,mutation=2,mutated=0.2     `genetic`, other than its defaults; may be repeated
+    --genetic octaves=2,short=0.1,generations=30   `genetic`, other than its defaults; may be repeated
     --restarting generations=50,mutation=2         `restarting`; generations of an attempt, another follows
     --evolution_strategy mutation=0.2              `evolution_strategy`
     --cmaes population_size=32,sigma=1             CMA-ES by the library cmaes (pip install cmaes); may be repeated
@@ -164,7 +164,7 @@ def compare(options: argparse.Namespace, trials: Callable[[Trial], Iterator[Outc
         print(
             LINE.format(
                 name=" ".join([kind, *(f"{key}={value:g}" for key, value in said.items())]),
-                succeeded=int((counts >= SUCCESS[options.skill]).sum()),
+                succeeded=int((counts >= (options.at_least or SUCCESS[options.skill])).sum()),
                 seeds=len(outcomes),
                 score=scores.mean(),
                 error=standard_error(scores),
@@ -203,17 +203,19 @@ def main() -> None:
     parser.add_argument("--skill", default="GoToObject", choices=[*SUCCESS])
     parser.add_argument("--ticks", type=float, default=40e6)
     parser.add_argument("--seeds", type=int, default=20)
+    parser.add_argument("--first", type=int, default=1, metavar="SEED", help="the first seed, others follow")
+    parser.add_argument("--at-least", type=float, metavar="COUNT", help="what counts as a success")
     parser.add_argument("--workers", type=int, default=cores(), help="seeds at a time")
     parser.add_argument("--finishing", default="", metavar="FILE", help="with whose weights it begins")
     for kind in (*KINDS, "cmaes"):
         parser.add_argument(f"--{kind}", action=Learners, dest="learners", default=[], metavar="NAME=NUMBER,…")
     options = parser.parse_args()
     weights = teaching_of(options.skill, options.finishing).rollout.genome_length  # compiled once
-    print(f"{options.skill}, {weights} weights, {options.ticks / 1e6:g} M ticks, seeds 1 to {options.seeds}")
+    print(f"{options.skill}, {weights} weights, {options.ticks / 1e6:g} M ticks, {options.seeds} seeds from {options.first} on")
     with ProcessPoolExecutor(options.workers, get_context("spawn")) as pool:
         compare(
             options,
-            lambda trial: pool.map(tried, [replace(trial, seed=seed) for seed in range(1, options.seeds + 1)]),
+            lambda trial: pool.map(tried, [replace(trial, seed=options.first + i) for i in range(options.seeds)]),
         )
 
 

@@ -12,7 +12,7 @@ OCTAVES = Quantity("a whole number up to 8", {"": 1.0}, low=0, high=8, whole=Tru
 SPREAD = Quantity("a number above zero", {"": 1.0}, low=1e-6, high=1000.0)
 PATIENCE_GENERATIONS = replace(GENERATIONS, low=0)
 RUNGS = Quantity("a whole number up to 16", {"": 1.0}, low=0, high=16, whole=True)
-SHARE = Quantity("a share above 0 up to 1", {"": 1.0}, low=0.001, high=1.0)
+SHARE = Quantity("a share above 0 up to 1", {"": 1.0, "%": 0.01}, low=0.001, high=1.0)
 FOUNDERS = Quantity("a whole number", {"": 1.0}, low=0, high=100_000, whole=True)
 FEW_CHILDREN = 0.1  # of a population that is bred anew
 NEAR_WEIGHT = 0.01  # so near to another a weight does as that does
