@@ -54,14 +54,15 @@ def wake(tables: Tables, state: State, lanes: int, row: int) -> int:
 def awake(influence, active, lanes, own):
     """List the lanes in which a skill has influence; all, if any, where each has its own weights. Return the count."""
     count = 0
-    for lane in range(lanes):
-        active[count] = lane
-        count += 1 if influence[lane] != ZERO else 0  # NaN too, which becomes a fault further down
-    if own and count > 0:
+    if not own:
         for lane in range(lanes):
-            active[lane] = lane
-        return lanes
-    return count
+            active[count] = lane
+            count += 1 if influence[lane] != ZERO else 0  # NaN too, which becomes a fault further down
+        return count
+    for lane in range(lanes):
+        active[lane] = lane
+        count += 1 if influence[lane] != ZERO else 0
+    return lanes if count > 0 else 0
 
 
 def gather(rows, readings, gathered, active, sound, count, everywhere):
