@@ -211,9 +211,7 @@ def main() -> None:
         parser.add_argument(f"--{kind}", action=Learners, dest="learners", default=[], metavar="NAME=NUMBER,…")
     options = parser.parse_args()
     weights = teaching_of(options.skill, options.finishing).rollout.genome_length  # compiled once
-    print(
-        f"{options.skill}, {weights} weights, {options.ticks / 1e6:g} M ticks, {options.seeds} seeds from {options.first} on"
-    )
+    print(f"{options.skill}, {weights} weights, {options.ticks / 1e6:g} M ticks, seeds from {options.first} on")
     with ProcessPoolExecutor(options.workers, get_context("spawn")) as pool:
         compare(
             options,
