@@ -152,9 +152,13 @@ def _lessons(graph: Graph) -> st.SearchStrategy[list[Lesson]]:
 
 @st.composite
 def learner_kinds(draw: st.DrawFn) -> Learner:
-    """A learner some of whose arguments are a little more than by default."""
+    """A learner some of whose arguments are a little more than by default, or less where that is the most."""
     of = draw(st.sampled_from([*kinds("curriculum").values()]))
-    more = {each.field: each.default + (1 if isinstance(each.default, int) else 0.01) for each in arguments(of)}
+    steps = {each.field: 1 if isinstance(each.default, int) else 0.01 for each in arguments(of)}
+    more = {
+        each.field: each.default + steps[each.field] * (-1 if each.default == each.type.high else 1)
+        for each in arguments(of)
+    }
     return of(**{field: more[field] for field in draw(st.sets(st.sampled_from([*more])))})
 
 

@@ -45,9 +45,7 @@ class CommandedLanes:
         self.state: State = self.tile.state
         genome = np.zeros((1, rollout.genome_length), np.float32)
         self.jobs: Jobs = rollout.jobs(genome, np.zeros(lanes, np.uint64))
-        world = rollout.tables.world.copy()
-        world["ticks"] = ENDLESS_TICKS  # a run that has lasted its time stays, and what it reads then can be asked
-        self._endless = replace(rollout.tables, world=world)
+        self.jobs.most[0] = ENDLESS_TICKS  # a run that has lasted its time stays, and what it reads then can be asked
         rollout.compile(*rollout.entries, begin_again)  # now, not in the first ticks
         rollout.fill(self.tile, self.jobs)
         self._lost = np.zeros(lanes, np.bool_)
@@ -86,7 +84,7 @@ class CommandedLanes:
         """Make the rest of the tick. A run that is over goes on in its lane, unseen, until another begins there."""
         # A robot beyond all places leaves its lane at once: another run takes it, or it stays empty where it is alone.
         self.jobs.next[0] = 0 if self.count > 1 else 1
-        after(self._endless, self.state, self.jobs, False)
+        after(self.rollout.tables, self.state, self.jobs, False)
         self._lost |= (self.state.world.tick == 0) | (self.state.run.job < 0)
 
     def sensed_aside(self, lanes: NDArray[np.bool_]) -> State:
