@@ -1,6 +1,7 @@
 """The simulator held against pymunk on this machine: in both a robot pushes boxes about, bit for bit."""
 
 import math
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 import pymunk
@@ -13,6 +14,7 @@ from mindlang.api import loads
 
 HALF_SIDE, RUN_TICKS = 6.0, 1200
 REST_SPEED = 1e-3  # units and radians per second, below which a box stands still
+ROBOT_FRICTION = 0.2
 PUSHING_SEED = 2  # all three boxes are pushed, turned, and pressed against others
 MIND = f"""
 tick 1/60 s
@@ -53,46 +55,69 @@ class PlainSpace:
     """The world of MIND in a Space of pymunk, with pymunk's own classes only."""
 
     def __init__(self, run: Trace) -> None:
-        self.space = pymunk.Space()
-        self.space.iterations = 8
-        self.space.use_spatial_hash(20.0, 20)
-        near, far = HALF_SIDE, HALF_SIDE + 2
-        sides = [(x - wide, y - high, x + wide, y + high) for x, y, wide, high in run.boxes]
-        sides += [(-far, -far, -near, far), (near, -far, far, far), (-far, -far, far, -near), (-far, near, far, far)]
-        for left, low, right, high in sides:
-            corners = [(left, low), (right, low), (right, high), (left, high)]
-            self._add(pymunk.Poly(self.space.static_body, corners), 1.0)
-        self.robot = pymunk.Body(2 * math.pi, math.pi)
-        self.space.add(self.robot)
-        self.robot.position, self.robot.angle = (run.begin[0], run.begin[1]), run.begin[2]
-        self._add(pymunk.Circle(self.robot, 1.0), 0.2)
-        self.boxes = []
+        self.space = arena(run.boxes, HALF_SIDE)
+        self.robot, self.boxes = disc(self.space, run.begin.tolist()), []
         for x, y, size in run.things:
             box, half = pymunk.Body(0.5 * size**2, 0.5 * size**2 * (size**2 + size**2) / 12), size / 2
             box.position = x, y
             self.boxes.append(box)
             self.space.add(box)
-            self._add(pymunk.Poly(box, [(-half, -half), (half, -half), (half, half), (-half, half)]), 0.5)
-
-    def _add(self, shape: pymunk.Shape, friction: float) -> None:
-        shape.friction = friction
-        self.space.add(shape)
+            add(self.space, pymunk.Poly(box, corners(-half, -half, half, half)), 0.5)
 
     def follows(self, moment: Moment) -> bool:
         """Make the tick of a moment; True if all ends where the moment has it."""
-        left, right = ((2.0 * float(command) - 1.0) * 80.0 for command in moment.acting)
-        c, s = cosine(self.robot.angle), sine(self.robot.angle)
-        _slow(self.robot, 1 / (1 + 5 / 60), 1 / (1 + 20 / 60))
+        left, right = moment.acting.tolist()
+        drive(self.robot, left, right, cosine(self.robot.angle), sine(self.robot.angle))
         for box in self.boxes:
             _slow(box, 1 / (1 + 2 / 60), 1 / (1 + 2 / 60))
             _rest(box)
-        self.robot.force, self.robot.torque = ((left + right) * c, (left + right) * s), right - left
         self.space.step(1 / 60)
         for box in self.boxes:
             _rest(box)
         bodies = [self.robot, *self.boxes]
         places = [(*body.position, body.angle) for body in bodies]
         return np.array_equal(places, [moment.body[:3], *np.c_[moment.things[:, :2], moment.turned]])
+
+
+def arena(boxes: Iterable[Sequence[float]], half: float | None) -> pymunk.Space:
+    """A Space as the lanes have it, with boxes (x, y, half of both sides) and, `half` from its middle, four walls."""
+    space = pymunk.Space()
+    space.iterations = 8
+    space.use_spatial_hash(20.0, 20)
+    sides = [(x - wide, y - high, x + wide, y + high) for x, y, wide, high in boxes]
+    if half is not None:
+        far = half + 2
+        sides += [(-far, -far, -half, far), (half, -far, far, far), (-far, -far, far, -half), (-far, half, far, far)]
+    for each in sides:
+        add(space, pymunk.Poly(space.static_body, corners(*each)), 1.0)
+    return space
+
+
+def disc(space: pymunk.Space, begin: Sequence[float]) -> pymunk.Body:
+    """The paper's robot, in a Space at a place with an angle."""
+    body = pymunk.Body(2 * math.pi, math.pi)
+    body.position, body.angle = (begin[0], begin[1]), begin[2]
+    space.add(body)
+    add(space, pymunk.Circle(body, 1.0), ROBOT_FRICTION)
+    return body
+
+
+def add(space: pymunk.Space, shape: pymunk.Shape, friction: float) -> None:
+    """Add a shape of such a friction."""
+    shape.friction = friction
+    space.add(shape)
+
+
+def corners(left: float, low: float, right: float, high: float) -> list[tuple[float, float]]:
+    """The corners of a rectangle."""
+    return [(left, low), (right, low), (right, high), (left, high)]
+
+
+def drive(body: pymunk.Body, left: float, right: float, c: float, s: float) -> None:
+    """Let a robot's wheels act for one tick under two commands, along its heading: a cosine and a sine."""
+    a, b = (2.0 * left - 1.0) * 80.0, (2.0 * right - 1.0) * 80.0
+    _slow(body, 1 / (1 + 5 / 60), 1 / (1 + 20 / 60))
+    body.force, body.torque = ((a + b) * c, (a + b) * s), b - a
 
 
 def _slow(body: pymunk.Body, share: float, turning_share: float) -> None:

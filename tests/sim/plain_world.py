@@ -21,8 +21,8 @@ from mindrun.kinds.things.obstacle import Obstacle
 from mindrun.kinds.things.thing import Ball, Item, LooseBox, Power, Zone
 from mindrun.numbers.trigonometry import cosine, sine
 
+from mindlang.physics_check import ROBOT_FRICTION
 from tests.plain import f, postfix
-from tests.sim.plain import CATCH
 from tests.sim.plain_bodies import front_of, radius_of, rim_of, side_of, sides_of
 from tests.sim.plain_loose import PlainLoose
 from tests.sim.plain_sensors import sensed
@@ -409,7 +409,7 @@ class PlainBody:
         self.body.position, self.body.angle = (of.x, of.y), of.angle
         self.largest = [max(span.first, span.last) for span in spans]
         self.items = {
-            i: self.add(pymunk.Circle(self.body, 1.0, (front_of(kind) + self.largest[i] / 2, 0.0)), CATCH)
+            i: self.add(pymunk.Circle(self.body, 1.0, (front_of(kind) + self.largest[i] / 2, 0.0)), ROBOT_FRICTION)
             for i, thing in enumerate(of.things)
             if isinstance(thing.kind, Item)
         }

@@ -47,3 +47,12 @@ def test_contacts_equal_plain_pymunk(rocks: str, seed: int) -> None:
         touched += moment.touching
         carried += holds
     assert touched > 20
+
+
+def test_a_run_with_more_contacts_than_there_is_room_for_ends_as_a_fault(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("mindrun.sim.state.MOST_PAIRS", 1)
+    scores = Rollout(Policy(drifter("arena", 5_000, THICKET), {}), "Drift", "Drift", interrupt=False).score(
+        np.zeros((1, 0), np.float32), range(8)
+    )
+    assert (scores.ended_by == -2).any()
+    assert ((scores.faults > 0) == (scores.ended_by == -2)).all()

@@ -225,14 +225,9 @@ def splat(value: Any) -> Any:
     return np.full(LANES, value, F)
 
 
-def broadcast(array: Any, index: Any) -> Any:
-    """An element of a flat array in sixteen lanes."""
-    return splat(array[index])
-
-
 def load(array: Any, row: Any, lane: Any) -> Any:
-    """Sixteen lanes of a row of an array [row, lane], from `lane` on."""
-    return array[row, lane : lane + LANES].copy()
+    """Sixteen lanes of a row of an array [row, lane], from `lane` on; of a flat one an element, in all lanes."""
+    return splat(array[row]) if array.ndim == 1 else array[row, lane : lane + LANES].copy()
 
 
 def store(array: Any, row: Any, lane: Any, value: Any) -> None:
@@ -250,9 +245,9 @@ def highest(a: Any, b: Any) -> Any:
     return np.where(a > b, a, b)
 
 
-def where_ordered(low: Any, high: Any, yes: Any, no: Any) -> Any:
-    """`yes` in the lanes where low <= high, `no` in the others and where either is NaN."""
-    return np.where(low <= high, yes, no)
+def nearer(enter: Any, leave: Any, nearest: Any) -> Any:
+    """`enter` in the lanes where 0 <= enter <= leave and enter < nearest; `nearest` elsewhere, and beside a NaN."""
+    return np.where((enter >= ZERO) & (enter <= leave) & (enter < nearest), enter, nearest)
 
 
 def sigmoid(values: NDArray[np.float32]) -> NDArray[np.float32]:
@@ -276,6 +271,6 @@ def sigmoid(values: NDArray[np.float32]) -> NDArray[np.float32]:
     return p
 
 
-def sigmoids(values: Any) -> Any:
-    """The sigmoid in sixteen lanes."""
-    return sigmoid(values)
+def sigmoids(*values: Any) -> Any:
+    """The sigmoid of each of some vectors of sixteen lanes."""
+    return tuple(sigmoid(value) for value in values)

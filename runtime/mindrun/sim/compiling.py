@@ -241,10 +241,9 @@ VECTORS: dict[Callable[..., Any], Any] = {
     units.call_double: _c_function(types.float64, ir.DoubleType()),
     arithmetic.sigmoids: vector.sigmoids,
     arithmetic.splat: vector.splat,
-    arithmetic.broadcast: vector.broadcast,
     arithmetic.load: vector.load,
     arithmetic.store: vector.store,
     arithmetic.highest: vector.highest,
     arithmetic.lowest: vector.lowest,
-    arithmetic.where_ordered: vector.where_ordered,
+    arithmetic.nearer: vector.nearer,
 }

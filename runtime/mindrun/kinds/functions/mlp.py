@@ -11,7 +11,7 @@ from mindrun.kinds.registry import kind
 from mindrun.numbers.quantity import Quantity
 
 if TYPE_CHECKING:  # a lane is given its terms when it is compiled
-    from mindrun.numbers.arithmetic import LANES, ZERO, broadcast, load, sigmoids, splat, store
+    from mindrun.numbers.arithmetic import LANES, ZERO, load, sigmoids, splat, store
     from mindrun.numbers.arrays import Layers
     from mindrun.numbers.network import Terms
 
@@ -71,7 +71,7 @@ def layer(
     The sigmoids of the sums, or the sums where it is the `last` layer. The weights are each lane's own, or all lanes'.
     """
     if skill.own:
-        dense_own(s.genome[place:], source, inputs, target, outputs, last, n)
+        dense(s.genome[place:], source, inputs, target, outputs, last, n)
     else:
         dense(t.weights[place:], source, inputs, target, outputs, last, n)
     return place + inputs * outputs
@@ -80,34 +80,55 @@ def layer(
 def dense(w: Any, source: Any, inputs: int, target: Any, outputs: int, last: bool, n: int) -> None:
     """target[q] = Σ weight · source[j], summed in the order of j; then the sigmoid, but for the last layer.
 
-    Sixteen lanes and four outputs at a time; w is flat, output after output.
+    Sixteen lanes and four outputs at a time, then two and one. The weights stand output after output: w is flat, or
+    [weight, lane].
     """
     for p in range(0, n, LANES):
         for q in range(0, outputs - 3, 4):
-            a, b, c, d = splat(ZERO), splat(ZERO), splat(ZERO), splat(ZERO)
-            first = q * inputs
-            for j in range(inputs):
-                x = load(source, j, p)
-                a = a + broadcast(w, first + j) * x
-                b = b + broadcast(w, first + inputs + j) * x
-                c = c + broadcast(w, first + 2 * inputs + j) * x
-                d = d + broadcast(w, first + 3 * inputs + j) * x
-            store(target, q, p, a if last else sigmoids(a))
-            store(target, q + 1, p, b if last else sigmoids(b))
-            store(target, q + 2, p, c if last else sigmoids(c))
-            store(target, q + 3, p, d if last else sigmoids(d))
-        for q in range(outputs - outputs % 4, outputs):
-            a = splat(ZERO)
-            for j in range(inputs):
-                a = a + broadcast(w, q * inputs + j) * load(source, j, p)
-            store(target, q, p, a if last else sigmoids(a))
+            four(w, source, inputs, target, q, last, p)
+        if outputs & 2:
+            two(w, source, inputs, target, outputs // 4 * 4, last, p)
+        if outputs & 1:
+            one(w, source, inputs, target, outputs - 1, last, p)
 
 
-def dense_own(w: Any, source: Any, inputs: int, target: Any, outputs: int, last: bool, n: int) -> None:
-    """The layer of `dense`, with weights [weight, lane] of each lane's own."""
-    for p in range(0, n, LANES):
-        for q in range(outputs):
-            a = splat(ZERO)
-            for j in range(inputs):
-                a = a + load(w, q * inputs + j, p) * load(source, j, p)
-            store(target, q, p, a if last else sigmoids(a))
+def four(w: Any, source: Any, inputs: int, target: Any, q: int, last: bool, p: int) -> None:
+    """Compute the outputs q to q + 3 in the lanes from p on."""
+    a, b, c, d = splat(ZERO), splat(ZERO), splat(ZERO), splat(ZERO)
+    first = q * inputs
+    for j in range(inputs):
+        x = load(source, j, p)
+        a = a + load(w, first + j, p) * x
+        b = b + load(w, first + inputs + j, p) * x
+        c = c + load(w, first + 2 * inputs + j, p) * x
+        d = d + load(w, first + 3 * inputs + j, p) * x
+    if not last:
+        a, b, c, d = sigmoids(a, b, c, d)
+    store(target, q, p, a)
+    store(target, q + 1, p, b)
+    store(target, q + 2, p, c)
+    store(target, q + 3, p, d)
+
+
+def two(w: Any, source: Any, inputs: int, target: Any, q: int, last: bool, p: int) -> None:
+    """Compute the outputs q and q + 1 in the lanes from p on."""
+    a, b = splat(ZERO), splat(ZERO)
+    first = q * inputs
+    for j in range(inputs):
+        x = load(source, j, p)
+        a = a + load(w, first + j, p) * x
+        b = b + load(w, first + inputs + j, p) * x
+    if not last:
+        a, b = sigmoids(a, b)
+    store(target, q, p, a)
+    store(target, q + 1, p, b)
+
+
+def one(w: Any, source: Any, inputs: int, target: Any, q: int, last: bool, p: int) -> None:
+    """Compute output q in the lanes from p on."""
+    a = splat(ZERO)
+    for j in range(inputs):
+        a = a + load(w, q * inputs + j, p) * load(source, j, p)
+    if not last:
+        (a,) = sigmoids(a)
+    store(target, q, p, a)

@@ -10,7 +10,6 @@ from mindrun.numbers.arithmetic import (
     HALF_Y,
     LANES,
     LOOSE_ROWS,
-    MAX_FLOAT32,
     ONE,
     SINE,
     THING_ROWS,
@@ -24,12 +23,12 @@ from mindrun.numbers.arithmetic import (
     highest,
     load,
     lowest,
+    nearer,
     place_of,
     sine_cosine,
     size_of,
     splat,
     store,
-    where_ordered,
     wrapped,
 )
 from mindrun.sim.codes import AWAY
@@ -160,8 +159,7 @@ def along(sight, cosine, sine, half_x, half_y, sides, count, lane):
         low, high = load(sides, box + LOW, lane) * iy, load(sides, box + HIGH, lane) * iy
         enter = highest(lowest(left, right), lowest(low, high))
         leave = lowest(highest(left, right), highest(low, high))
-        hit = where_ordered(enter, leave, enter, splat(MAX_FLOAT32))
-        nearest = lowest(where_ordered(splat(ZERO), hit, hit, splat(MAX_FLOAT32)), nearest)
+        nearest = nearer(enter, leave, nearest)
     return nearest
 
 

@@ -85,9 +85,9 @@ def gather(rows, readings, gathered, active, sound, count, everywhere):
 def send(tables: Tables, state: State, row: int, out: int, count: int, lanes: int) -> None:
     """Send every edge's value, times the skill's influence, to its target; a value that is not finite is not sent."""
     skill, mind, everywhere = tables.skills[row], state.mind, count == lanes
-    influence, sent = mind.influence[skill.index], mind.sent
+    influence = mind.influence[skill.index]
     for e in range(skill.edge, skill.edge + skill.edges):
-        edge = tables.edges[e]
+        edge, sent = tables.edges[e], mind.sent
         if edge.output >= 0:
             values = mind.hidden[out + edge.output]
         else:
@@ -103,13 +103,24 @@ def send(tables: Tables, state: State, row: int, out: int, count: int, lanes: in
         for k in range(count if edge.cuts > ZERO else 0):
             if sent[k] >= ZERO:  # nothing is sent where the influence that arrives would be smaller than the least
                 sent[k] = NOT_SENT if sent[k] * influence[mind.active[k]] < edge.cuts else sent[k]
+        if not everywhere:
+            sent = widen(sent, mind.gated, mind.active, count, lanes)
         if edge.to_skill:
-            spread(sent, influence, mind.influence[edge.target], mind.active, count, everywhere)
+            spread(sent, influence, mind.influence[edge.target], lanes)
         else:
-            spread(sent, influence, mind.command_sums[edge.target], mind.active, count, everywhere)
-            for k in range(count):  # now the influence behind each command (Eq. 3)
-                sent[k] = ONE if sent[k] >= ZERO else NOT_SENT
-            spread(sent, influence, mind.influence_sums[edge.target], mind.active, count, everywhere)
+            spread(sent, influence, mind.command_sums[edge.target], lanes)
+            for lane in range(lanes):  # now the influence behind each command (Eq. 3)
+                sent[lane] = ONE if sent[lane] >= ZERO else NOT_SENT
+            spread(sent, influence, mind.influence_sums[edge.target], lanes)
+
+
+def widen(sent, wide, active, count, lanes):
+    """Return `wide` with what is sent in each of the lanes."""
+    for lane in range(lanes):
+        wide[lane] = NOT_SENT
+    for k in range(count):
+        wide[active[k]] = sent[k]
+    return wide
 
 
 def value(tables, state, first, length, out, count, everywhere):
@@ -153,12 +164,7 @@ def check(values, sound, sent, active, faults, influence, count):
             faults[active[k]] += 1 if sent[k] < ZERO and influence[active[k]] != ZERO else 0
 
 
-def spread(sent, influence, target, active, count, everywhere):
+def spread(sent, influence, target, lanes):
     """Add value times influence (Eq. 2) where a value is sent."""
-    if everywhere:
-        for lane in range(count):
-            target[lane] += sent[lane] * influence[lane] if sent[lane] >= ZERO else ZERO
-    else:
-        for k in range(count):
-            lane = active[k]
-            target[lane] += sent[k] * influence[lane] if sent[k] >= ZERO else ZERO
+    for lane in range(lanes):
+        target[lane] += sent[lane] * influence[lane] if sent[lane] >= ZERO else ZERO
