@@ -278,7 +278,8 @@ def _said(rng: Random, argument: Argument, is_drawn: bool) -> str:
         return rng.choice(["1.5 1", "2 -0.5"])
     unit, factor = rng.choice([*argument.type.units.items()])
     default = argument.default[0] if argument.shape == "list" else argument.default
-    value = min(default + (5 if argument.type.high > 1 else 0.01), argument.type.high) / factor
+    step = 5 if argument.type.high > 1 else 0.01
+    value = (min(default + step, argument.type.high) if default < argument.type.high else default - step) / factor
     return f"{value:g}{'' if unit == '%' else ' '}{unit}".rstrip()
 
 
