@@ -4,7 +4,7 @@ A run that is over is made again, alone, and its last tick is looked at.
 """
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import asdict, dataclass
 from math import atan2, degrees, hypot, pi
 from typing import Any
@@ -22,15 +22,6 @@ from mindlang.run.setup import RunSetup
 
 ARENA_WALL = "wall"  # what has no name of its own
 SECTOR_DEGREES = 45  # at most, where no ray is between
-
-
-@dataclass(frozen=True, slots=True)
-class Ray:
-    """A ray that sees what is solid: its angle in degrees, −180 to 180, left is positive; how far a reading of 1 is."""
-
-    angle: float
-    place: int  # of its reading
-    reach: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,29 +88,24 @@ def _run_into(run: RecordedRun, touch: Touch) -> RunInto:
     what = next((name for name, boxes in boxes_by_name(run.task).items() if touch.box in boxes), ARENA_WALL)
     by = run.contents[touch.thing].name if touch.thing >= 0 else None
     rays, (dx, dy, turned) = _rays(run, what), (run.body[-1] - run.body[-2]).tolist()
-    rooms = [] if by else [float(run.readings[-1, ray.place]) * ray.reach for ray in _beside(rays, angle)]
+    beside = [min(rays, key=lambda ray: side * (ray - angle) % 360) for side in (1, -1)] if rays and not by else []
+    room = min((rays[ray] for ray in beside), default=None)
     went = hypot(dx, dy) + abs(turned) * hypot(touch.ahead, touch.aside)
-    between = _sector([ray.angle for ray in rays], angle)
-    return RunInto(angle, what, by, between, min(rooms, default=None), min(rooms) > went if rooms else None)
+    return RunInto(angle, what, by, _sector(rays, angle), room, None if room is None else room > went)
 
 
-def _rays(run: RecordedRun, what: str) -> list[Ray]:
-    """The rays that were measured and see a thing of this name."""
-    return [
-        Ray(degrees((angle + pi) % (2 * pi) - pi), sensor.start + i, sensor.kind.reach)
+def _rays(run: RecordedRun, what: str) -> dict[float, float]:
+    """The last readings, in world units, of the rays that see a thing of this name, by their angle in degrees."""
+    return {
+        round(degrees((angle + pi) % (2 * pi) - pi), 3): float(run.readings[-1, place]) * sensor.kind.reach
         for sensor in run.graph.sensors
-        if sensor.kind.thing in ("", what) and np.isfinite(run.readings[-1, sensor.start])
-        for i, angle in enumerate(sensor.kind.rays)
-    ]
+        if sensor.kind.thing in ("", what) and np.isfinite(run.readings[-1, sensor.start])  # else nobody reads it
+        for place, angle in enumerate(sensor.kind.rays, sensor.start)
+    }
 
 
-def _beside(rays: Sequence[Ray], angle: float) -> list[Ray]:
-    """The first ray to the left of an angle, and the first to its right; none where there are none."""
-    return [min(rays, key=lambda ray: side * (ray.angle - angle) % 360) for side in (1, -1)] if rays else []
-
-
-def _sector(rays: Sequence[float], angle: float) -> tuple[float, float]:
+def _sector(rays: Iterable[float], angle: float) -> tuple[float, float]:
     """The degrees between which an angle is: of rays, or multiples of 45; on the right as if it were on the left."""
-    edges = [*range(-180, 181, SECTOR_DEGREES), *(round(ray, 3) * (1 if angle >= 0 else -1) for ray in rays)]
+    edges = [*range(-180, 181, SECTOR_DEGREES), *(ray if angle >= 0 else -ray for ray in rays)]
     low = max(edge for edge in edges if edge <= abs(angle) and edge < 180)
     return low, min(edge for edge in edges if edge > low)
