@@ -115,17 +115,17 @@ class RecordedRun:
         """The skills under the master that move the robot, with their columns in `influence`."""
         return movers(self.graph, self.setup.master)
 
-    def in_control(self) -> NDArray[np.int64]:
-        """Per tick the mover that moves it with the most influence, as a place in `movers`; behind all where none does.
+    def in_control(self, last: int | None = None) -> NDArray[np.int64]:
+        """Per tick, or in so many of the last, the mover that moves it with the most influence, as a place in `movers`.
 
-        A skill that has influence and sends nothing moves nothing.
+        Behind all of these where none does. A skill that has influence and sends nothing moves nothing.
         """
         setup = self.setup
         moving = {("actuator", i) for i, each in enumerate(self.graph.actuators) if each.kind.moves_body}
         sources = procedure_sources(self.graph, setup.folder, setup.master)
         flows = edge_flows(setup.ready.policy, sources, setup.master, self)
-        sent = flows.transmitted(np.arange(self.ticks))
-        nobody = np.full(self.ticks, np.finfo(np.float32).smallest_subnormal)
+        sent = flows.transmitted(np.arange(self.ticks)[-(last or self.ticks) :])
+        nobody = np.full(len(sent), np.finfo(np.float32).smallest_subnormal)
         influence = [nobody]
         for skill in self.movers.values():
             edges = [i for i, link in enumerate(flows.links) if link.source == skill and link.target in moving]

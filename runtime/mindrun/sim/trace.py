@@ -8,12 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.engine.changes import Change, ChangeError
-from mindrun.numbers.arithmetic import ANGLE, BOX_COLUMNS, LOOSE_ROWS, SIZE, THING_ROWS, TURN
+from mindrun.numbers.arithmetic import ANGLE, BOX_COLUMNS, COSINE, LOOSE_ROWS, SINE, SIZE, THING_ROWS, TURN
 from mindrun.numbers.short_repr import ShortRepr
 from mindrun.sim.changed_ticks import Advance, changed
 from mindrun.sim.procedures import Memories
 from mindrun.sim.rollout import Rollout, Tile
-from mindrun.sim.state import Jobs, State, empty_state, recorded
+from mindrun.sim.state import FIRST_LOOSE, FIXED, ROBOT, Jobs, State, empty_state, recorded
 
 Array = NDArray[Any]
 CHUNK_TICKS, CHUNK_BYTES = 256, 1 << 22  # of a run at once, or fewer where a tick is large
@@ -78,7 +78,7 @@ class Trace(ShortRepr):
     """A run that is about to begin: the obstacles [boxes, 4] as x, y and half of both sides, and its ticks.
 
     `drawn` has what each argument that varies is, and from which tick on, counted from 0, what fails is stuck. The run
-    is made while `chunks` is gone through, or `moments`, which takes from the same.
+    is made while `chunks` is gone through, or `moments`, which takes from the same; `state` is its lane's by then.
     """
 
     boxes: NDArray[np.float64]
@@ -89,6 +89,20 @@ class Trace(ShortRepr):
     chunks: Iterator[Ticks]
     moments: Iterator[Moment]
     jobs: Jobs
+    state: State
+
+
+@dataclass(frozen=True, slots=True)
+class Touch:
+    """Where a robot has run into what never moves, in world units: `ahead` of its middle and `aside`, to its left.
+
+    `box` is the number of a box or, behind these, of a wall of the arena; `thing` that in the claw that did it, or −1.
+    """
+
+    ahead: float
+    aside: float
+    box: int
+    thing: int
 
 
 def trace(
@@ -137,6 +151,21 @@ def turned_in(rollout: Rollout, state: State, lane: int) -> NDArray[np.float64]:
     return found
 
 
+def last_touch(rollout: Rollout, state: State) -> Touch | None:
+    """The last touch of the robot in the first lane with what never moves; None where Chipmunk remembers none."""
+    contact, heading = state.contact, state.world.heading[:, 0]
+    pairs = contact.pairs[0, contact.order[0, : contact.space[0]["pairs"]]]
+    pairs = pairs[pairs["own"] + pairs["other"] == ROBOT + FIXED]
+    if not len(pairs):
+        return None
+    pair = pairs[np.argmax(pairs["used"])]
+    points = pair["contacts"][: pair["count"]]
+    x, y = (points[name].mean() for name in (("x", "y") if pair["own"] == ROBOT else ("its_x", "its_y")))
+    ahead, aside = heading[COSINE] * x + heading[SINE] * y, heading[COSINE] * y - heading[SINE] * x
+    box = pair["found"] - FIRST_LOOSE - len(rollout.tables.loose)
+    return Touch(float(ahead), float(aside), int(box), int(pair["thing"]))
+
+
 def _begun(rollout: Rollout, genomes: NDArray[np.float32], seed: int) -> tuple[Tile, Jobs]:
     """A tile of one lane in which a run begins."""
     tile, jobs = rollout.tile(1), rollout.jobs(genomes, np.array([seed], np.uint64))
@@ -161,6 +190,7 @@ def _traced(rollout: Rollout, tile: Tile, jobs: Jobs, changes: Sequence[Change])
         chunks=chunks,
         moments=_moments(chunks, int(world.tick[0])),
         jobs=jobs,
+        state=tile.state,
     )
 
 

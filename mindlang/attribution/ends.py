@@ -1,0 +1,111 @@
+"""Where runs end: by what, under whose control, where on its body the robot ran into something, and what rays had read.
+
+A run that is over is made again, alone, and its last tick is looked at.
+"""
+
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import asdict, dataclass
+from math import atan2, degrees, hypot, pi
+from typing import Any
+
+import numpy as np
+from mindrun.graph.run_scores import Scores
+from mindrun.sim.codes import GOING_ON
+from mindrun.sim.rollout import Rollout
+from mindrun.sim.task_rows import boxes_by_name
+from mindrun.sim.trace import Touch, last_touch, trace
+
+from mindlang.run.outcome import TIME, ended_by
+from mindlang.run.recorded_run import RecordedRun, recorded
+from mindlang.run.setup import RunSetup
+
+ARENA_WALL = "wall"  # what has no name of its own
+SECTOR_DEGREES = 45  # at most, where no ray is between
+
+
+@dataclass(frozen=True, slots=True)
+class RunInto:
+    """A touch in the last tick: its direction in degrees from straight ahead, left is positive, and what was touched.
+
+    `by` is what the claw held, if that touched it. `between` are the rays to both sides, or multiples of 45 degrees if
+    nearer, of a touch on the right as if it were on the left. `room` is the least that these rays had read before that
+    tick, in world units; None without rays, or of what is held. `is_unseen` says whether that is more than what touched
+    went in that tick, and is None, too, where nobody knows the room.
+    """
+
+    angle: float
+    what: str
+    by: str | None
+    between: tuple[float, float]
+    room: float | None
+    is_unseen: bool | None
+
+
+@dataclass(frozen=True, slots=True)
+class RunEnd:
+    """The end of a run: its number, from 1 on, and seed; its last tick; the skill that moved the robot most then."""
+
+    run: int
+    seed: int
+    tick: int
+    ended_by: str
+    in_control: str | None
+    run_into: RunInto | None
+
+
+def run_ends(setup: RunSetup, rollout: Rollout, seeds: Sequence[int], scores: Scores) -> Iterator[RunEnd]:
+    """The end of each run that did not last its time; of an environment nobody knows more than what ended it."""
+    for number in np.flatnonzero(scores.ended_by[0] != GOING_ON).tolist():
+        by = ended_by(setup.task, int(scores.ended_by[0, number])) or TIME
+        in_control, run_into = None, None
+        if not setup.task.scene.environment:
+            made = trace(rollout, seeds[number])
+            run = recorded(setup, made)
+            in_control = [*run.movers, None][run.in_control(last=1)[0]]
+            touch = last_touch(rollout, made.state) if run.ticks in run.collisions else None
+            run_into = _run_into(run, touch) if touch else None
+        yield RunEnd(number + 1, seeds[number], int(scores.ticks[0, number]), by, in_control, run_into)
+
+
+def ends_data(setup: RunSetup, seed: int, scores: Scores, ends: Sequence[RunEnd]) -> dict[str, Any]:
+    """The contents of `--json`: how many of the runs from a seed ended how, and each end."""
+    runs = scores.ticks.shape[1]
+    lasted = [TIME] * (runs - len(ends))
+    return {
+        "task": setup.task.name,
+        "master": setup.master,
+        "seed": seed,
+        "runs": runs,
+        "environment": setup.task.scene.environment,
+        "ended": dict(Counter([*(end.ended_by for end in ends), *lasted]).most_common()),
+        "ends": [asdict(end) for end in ends],
+    }
+
+
+def _run_into(run: RecordedRun, touch: Touch) -> RunInto:
+    angle = degrees(atan2(touch.aside, touch.ahead))
+    what = next((name for name, boxes in boxes_by_name(run.task).items() if touch.box in boxes), ARENA_WALL)
+    by = run.contents[touch.thing].name if touch.thing >= 0 else None
+    rays, (dx, dy, turned) = _rays(run, what), (run.body[-1] - run.body[-2]).tolist()
+    beside = [min(rays, key=lambda ray: side * (ray - angle) % 360) for side in (1, -1)] if rays and not by else []
+    room = min((rays[ray] for ray in beside), default=None)
+    went = hypot(dx, dy) + abs(turned) * hypot(touch.ahead, touch.aside)
+    return RunInto(angle, what, by, _sector(rays, angle), room, None if room is None else room > went)
+
+
+def _rays(run: RecordedRun, what: str) -> dict[float, float]:
+    """The last readings, in world units, of the rays that see a thing of this name, by their angle in degrees."""
+    return {
+        round(degrees((angle + pi) % (2 * pi) - pi), 3): float(run.readings[-1, place]) * sensor.kind.reach
+        for sensor in run.graph.sensors
+        if sensor.kind.thing in ("", what) and np.isfinite(run.readings[-1, sensor.start])  # else nobody reads it
+        for place, angle in enumerate(sensor.kind.rays, sensor.start)
+    }
+
+
+def _sector(rays: Iterable[float], angle: float) -> tuple[float, float]:
+    """The degrees between which an angle is: of rays, or multiples of 45; on the right as if it were on the left."""
+    edges = [*range(-180, 181, SECTOR_DEGREES), *(ray if angle >= 0 else -ray for ray in rays)]
+    low = max(edge for edge in edges if edge <= abs(angle) and edge < 180)
+    return low, min(edge for edge in edges if edge > low)
