@@ -16,11 +16,11 @@ from mindlang.lock.world_facts import argument
 from mindlang.run.comparison import SCORE, SUCCESS
 
 AS_TAUGHT = "as taught"
-SHARES = (0.75, 1.25)  # of what a number is as taught
-WEAKER = 0.9  # the share of one of several actuators, while the others are as taught
-ADDED = {"noise": 0.05, "lost": 0.05, "slip": 0.2}
+SCALED_SHARES = (0.75, 1.25)  # of what a number is as taught
+WEAKER_SHARE = 0.9  # the share of one of several actuators, while the others are as taught
+ADDED_SHARES = {"noise": 0.05, "lost": 0.05, "slip": 0.2}
 LATE_SECONDS = 0.1  # of delay
-DIGITS = 12  # of a number, so that 0.75 × 3.3 is 2.475
+NUMBER_DIGITS = 12  # of a number, so that 0.75 × 3.3 is 2.475
 TOGETHER = ("lost", "delay")  # of all sensors or all actuators at once; other numbers only of those of one kind
 REGISTERED = {"scene": "task", "thing": "content"}  # nouns that the registry has under another name
 
@@ -51,7 +51,7 @@ class Change:
                 return (*map(self, value),)
             case int():
                 return round(value * self.factor + self.plus)
-        return float(f"{value * self.factor + self.plus:.{DIGITS}g}")
+        return float(f"{value * self.factor + self.plus:.{NUMBER_DIGITS}g}")
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,12 +99,12 @@ def _groups(graph: Graph, task: Task, master: str) -> dict[tuple[str, str, Chang
     late = {"delay": round(LATE_SECONDS / graph.tick)}
     for part in _parts(graph, task, master):
         for field in _numbers(part):
-            plus = (ADDED | late).get(field)
-            for change in [Change(share) for share in SHARES] if plus is None else [Change(plus=plus)]:
+            plus = (ADDED_SHARES | late).get(field)
+            for change in [Change(share) for share in SCALED_SHARES] if plus is None else [Change(plus=plus)]:
                 found.setdefault((_who(part, field), field, change), []).append(part)
     for (_, field, change), parts in [*found.items()]:
-        if change == Change(SHARES[0]) and len(parts) > 1 and parts[0].noun == "actuator":
-            found[parts[0].name, field, Change(WEAKER)] = parts[:1]
+        if change == Change(SCALED_SHARES[0]) and len(parts) > 1 and parts[0].noun == "actuator":
+            found[parts[0].name, field, Change(WEAKER_SHARE)] = parts[:1]
     return found
 
 
@@ -128,7 +128,7 @@ def _numbers(part: Part) -> Iterator[str]:
         is_measure = isinstance(each.type, Quantity) and each.type not in (RATIO, TICKS, ANGLE, NUMBER)
         is_said = each.shape in ("one", "span", "extent") and getattr(part.kind, each.field) != UNSAID
         is_late = each.field == "delay" and part.noun == "actuator"
-        if each.field in ADDED or is_late or (is_measure and is_said):
+        if each.field in ADDED_SHARES or is_late or (is_measure and is_said):
             yield each.field
 
 

@@ -11,7 +11,7 @@ from mindrun.kinds.sensors.sensor import Physical
 
 from mindlang.lint.study import Finding, Found, Study
 
-LONG = 300  # generations: what was taught for 100 lost little
+LONG_GENERATIONS = 300  # what was taught for 100 lost little
 ROBOT = """
 unit 8 cm
 sensor eye is range_finder at 0 deg{}
@@ -36,7 +36,7 @@ BAD = ROBOT.format("", "")
 
 def check(study: Study) -> Found:
     for written, lesson in zip(study.mind.lessons, study.graph.lessons, strict=True):
-        if not study.mind.unit_metres or lesson.generations < LONG:
+        if not study.mind.unit_metres or lesson.generations < LONG_GENERATIONS:
             continue
         reads = (name for learner in learners(study.graph, lesson) for name in study.skills[learner].reads)
         read = {root for name in reads for root in study.roots.get(name, ())}
