@@ -3,7 +3,7 @@
 import signal
 import sys
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from types import FrameType
@@ -114,11 +114,9 @@ class RunSession:
     ) -> tuple[Scores, float, float]:
         """All runs, the seconds that they took, and those of processors here; notes say `whose` they are.
 
-        With `ran` whoever calls shows progress, and says the notes.
+        With `ran` whoever calls shows progress.
         """
-        if ran is not None:
-            return run_timed(scorer, seeds, ran)
-        with self.counting(scorer.task.name, len(seeds)) as told:
+        with nullcontext(ran) if ran else self.counting(scorer.task.name, len(seeds)) as told:
             found = run_timed(scorer, seeds, told)
         self.say(*(f"note: {whose}{note}" for note in scorer.notes))
         return found

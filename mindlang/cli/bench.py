@@ -172,25 +172,20 @@ class Bench:
         ready += [self._prepared(each, ready[0].setup.task.name) for each in who[1:]]
         cast = [(each, *there) for each, here in zip(who, ready, strict=True) for there in self._worlds(here)]
         task = ready[0].setup.task.name
-        known = {note for here in ready for note in here.setup.ready.notes}
         found: dict[str, dict[str, Any]] = {}
         tables: dict[str, dict[str, Table]] = {}
-        notes: dict[str, str] = {}
         with self.session.counting(f"{task} in changed worlds", sum(len(seeds) for *_, seeds in cast)) as ran:
             for each, world, prepared, seeds in cast:
-                scores, data = self._score(prepared, seeds, ran=ran)
-                found.setdefault(world.name, {})[each.name] = {"changes": world.data(), **data}
-                for note in data["notes"]:
-                    notes.setdefault(note, f"note: {each.name}, {world.name}: {note}")
+                scores, data = self._score(prepared, seeds, f"{each.name}, {world.name}: ", ran)
+                found.setdefault(world.name, {})[each.name] = {"changes": world.changes, **data}
                 if self.table:
                     tables.setdefault(world.name, {})[each.name] = runs_table(prepared.setup.task, scores, seeds)
         minds = [
             {"name": each.name, "file": each.file, "master": here.setup.master}
             for each, here in zip(who, ready, strict=True)
         ]
-        self.session.say(*(told for note, told in notes.items() if note not in known))
-        data = {"task": task, "seed": self.seed, "runs": self.runs, **self._by(), "minds": minds}
-        data["worlds"] = world_rows(found)
+        data = {"task": task, "seed": self.seed, "runs": self.runs, **self._by()}
+        data |= {"minds": minds, "worlds": world_rows(found)}
         if self.table:
             rows = joined({name: joined(each) for name, each in tables.items()}, "world")
             self._write(self.table, rows, f"{len(cast)} × {self.runs:,} runs")

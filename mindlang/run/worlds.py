@@ -1,9 +1,9 @@
 """Worlds in which a mind was not taught: its task with one number changed, by a quarter or as bad as on a robot."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from math import inf
-from typing import Any, Literal, NamedTuple
+from typing import Any, NamedTuple
 
 from mindrun.graph.codec import encode
 from mindrun.graph.graph import Graph, Task, Variation
@@ -24,57 +24,27 @@ NUMBER_DIGITS = 12  # of a number, so that 0.75 × 3.3 is 2.475
 TOGETHER = ("lost", "delay")  # of all sensors or all actuators at once; other numbers only of those of one kind
 REGISTERED = {"scene": "task", "thing": "content"}  # nouns that the registry has under another name
 
-Noun = Literal["scene", "thing", "body", "actuator", "sensor"]
+Change = tuple[float, float]  # what a number is multiplied by, and what is added to it
 
 
 class Part(NamedTuple):
-    """A part of a world or a robot; a scene and a body have no name."""
+    """A scene, thing, body, actuator or sensor, as its noun says; a scene and a body have no name."""
 
-    noun: Noun
+    noun: str
     name: str
     kind: Any
 
 
 @dataclass(frozen=True, slots=True)
-class Change:
-    """What becomes of a number: it is multiplied, and something is added to it; whole numbers stay whole."""
-
-    factor: float = 1.0
-    plus: float = 0.0
-
-    def __call__(self, value: Any) -> Any:
-        """A number, span or extent as it is then."""
-        match value:
-            case Span(first, last, by):
-                return Span(self(first), self(last), by and self(by))
-            case tuple():
-                return (*map(self, value),)
-            case int():
-                return round(value * self.factor + self.plus)
-        return float(f"{value * self.factor + self.plus:.{NUMBER_DIGITS}g}")
-
-
-@dataclass(frozen=True, slots=True)
-class ChangedNumber:
-    """A number of a part that is another in a world, as a .mind file has it: as taught, and now."""
-
-    noun: Noun
-    name: str
-    was: str
-    now: str
-
-
-@dataclass(frozen=True, slots=True)
 class World:
-    """A world that differs from the one as taught in one number, of one part or of several alike."""
+    """A world that differs from the one as taught in one number, of one part or of several alike.
+
+    Each of the `changes` has the `noun` and `name` of a part, and an argument as a file has it: as it `was`, and `now`.
+    """
 
     name: str
-    changes: tuple[ChangedNumber, ...]
+    changes: tuple[Mapping[str, str], ...]
     graph: Graph
-
-    def data(self) -> list[dict[str, str]]:
-        """The numbers that differ, in `mindc bench --worlds --json`."""
-        return [asdict(each) for each in self.changes]
 
 
 def worlds(graph: Graph, task: Task, master: str) -> list[World]:
@@ -96,15 +66,14 @@ def _is_possible(graph: Graph, name: str) -> bool:
 def _groups(graph: Graph, task: Task, master: str) -> dict[tuple[str, str, Change], list[Part]]:
     """Who changes in one world, in which argument and how: parts of one kind, or all of a noun; and one part alone."""
     found: dict[tuple[str, str, Change], list[Part]] = {}
-    late = {"delay": round(LATE_SECONDS / graph.tick)}
+    added = ADDED_SHARES | {"delay": round(LATE_SECONDS / graph.tick)}
     for part in _parts(graph, task, master):
         for field in _numbers(part):
-            plus = (ADDED_SHARES | late).get(field)
-            for change in [Change(share) for share in SCALED_SHARES] if plus is None else [Change(plus=plus)]:
+            for change in [(1.0, added[field])] if field in added else [(share, 0.0) for share in SCALED_SHARES]:
                 found.setdefault((_who(part, field), field, change), []).append(part)
     for (_, field, change), parts in [*found.items()]:
-        if change == Change(SCALED_SHARES[0]) and len(parts) > 1 and parts[0].noun == "actuator":
-            found[parts[0].name, field, Change(WEAKER_SHARE)] = parts[:1]
+        if change[0] < 1 and len(parts) > 1 and parts[0].noun == "actuator":
+            found[parts[0].name, field, (WEAKER_SHARE, 0.0)] = parts[:1]
     return found
 
 
@@ -139,34 +108,43 @@ def _who(part: Part, field: str) -> str:
     return f"{part.noun}s" if field in TOGETHER else names()[type(part.kind)]
 
 
+def _number(value: Any, factor: float, plus: float) -> Any:
+    """A number, span or extent that is multiplied and added to; whole numbers stay whole."""
+    match value:
+        case Span(first, last, by):
+            return Span(_number(first, factor, plus), _number(last, factor, plus), by and _number(by, factor, plus))
+        case tuple():
+            return tuple(_number(each, factor, plus) for each in value)
+        case int():
+            return round(value * factor + plus)
+    return float(f"{value * factor + plus:.{NUMBER_DIGITS}g}")
+
+
 def _changed(graph: Graph, task: Task, parts: Sequence[Part], field: str, change: Change, who: str) -> World | None:
     """The world in which an argument of some parts is another; None where none is, or one would not be allowed."""
-    kinds, drawn, told = dict[tuple[str, str], Any](), dict[int, Variation](), list[ChangedNumber]()
+    kinds, drawn, told = dict[tuple[str, str], Any](), dict[int, Variation](), list[dict[str, str]]()
     for part in parts:
         number = next(each for each in arguments(type(part.kind)) if each.field == field)
         place = next((i for i, v in enumerate(task.varies) if (v.noun, v.of, v.argument) == (*part[:2], field)), None)
         if place is None:
-            was, now = getattr(part.kind, field), change(getattr(part.kind, field))
+            was = getattr(part.kind, field)
+            now = _number(was, *change)
             kinds[part.noun, part.name] = replace(part.kind, **{field: now})
         else:
             was = Span(task.varies[place].low, task.varies[place].high)
-            now = change(was)
+            now = _number(was, *change)
             drawn[place] = replace(task.varies[place], low=now.first, high=now.last)
         if not fits(number.type, now):
             return None
         if was != now:
-            told.append(ChangedNumber(part.noun, part.name, _written(part, field, was), _written(part, field, now)))
+            of = REGISTERED.get(part.noun, part.noun), names()[type(part.kind)], field
+            texts = {"was": argument(*of, encode(was)), "now": argument(*of, encode(now))}
+            told.append({"noun": part.noun, "name": part.name, **texts})
     varies = tuple(drawn.get(i, variation) for i, variation in enumerate(task.varies))
     if not told:
         return None
-    others = " …" * any(each.now != told[0].now for each in told)
-    return World(f"{who} {told[0].now}{others}", tuple(told), _with(graph, replace(task, varies=varies), kinds))
-
-
-def _written(part: Part, field: str, value: Any) -> str:
-    """An argument as a file has it."""
-    noun = REGISTERED.get(part.noun, part.noun)
-    return argument(noun, names()[type(part.kind)], field, encode(value))
+    others = " …" * any(each["now"] != told[0]["now"] for each in told)
+    return World(f"{who} {told[0]['now']}{others}", tuple(told), _with(graph, replace(task, varies=varies), kinds))
 
 
 def _with(graph: Graph, task: Task, kinds: Mapping[tuple[str, str], Any]) -> Graph:
