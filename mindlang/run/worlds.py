@@ -10,7 +10,7 @@ from mindrun.graph.graph import Graph, Task, Variation
 from mindrun.graph.measured import measured_in_world
 from mindrun.graph.validate import graph_flaw
 from mindrun.kinds.registry import arguments, names
-from mindrun.numbers.quantity import ANGLE, NUMBER, RATIO, TICKS, UNSAID, Quantity, Span, fits
+from mindrun.numbers.quantity import ANGLE, COUNT, NUMBER, RATIO, TICKS, UNSAID, Quantity, Span, fits
 
 from mindlang.lock.world_facts import argument
 from mindlang.run.comparison import SCORE, SUCCESS
@@ -91,10 +91,11 @@ def _parts(graph: Graph, task: Task, master: str) -> Iterator[Part]:
 def _numbers(part: Part) -> Iterator[str]:
     """The arguments of a part that may be others elsewhere: lengths, forces and their like, and imperfections.
 
-    A late sensor is left out: where all are late nothing differs from late actuators.
+    A late sensor is left out: where all are late nothing differs from late actuators. So is how many things there are
+    to be reached: that is another task.
     """
     for each in arguments(type(part.kind)):
-        is_measure = isinstance(each.type, Quantity) and each.type not in (RATIO, TICKS, ANGLE, NUMBER)
+        is_measure = isinstance(each.type, Quantity) and each.type not in (RATIO, TICKS, ANGLE, NUMBER, COUNT)
         is_said = each.shape in ("one", "span", "extent") and getattr(part.kind, each.field) != UNSAID
         is_late = each.field == "delay" and part.noun == "actuator"
         if each.field in ADDED_SHARES or is_late or (is_measure and is_said):
