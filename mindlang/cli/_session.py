@@ -3,7 +3,7 @@
 import signal
 import sys
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from types import FrameType
@@ -30,6 +30,8 @@ from mindlang.limits import refuse_too_large, refuse_too_many
 from mindlang.run.chosen_task import SetupError
 from mindlang.run.recorded_run import RunResult, run_result
 from mindlang.run.setup import NO_GENOME, RunSetup, run_timed, set_up
+
+Ran = Callable[[float], None]  # is told how many more runs have been made, parts of them too
 
 COMPILING_ALL = "compiling all of the simulator (half a minute)…"
 COMPILING = "compiling the simulator once (some ten seconds)…"
@@ -107,11 +109,15 @@ class RunSession:
         return rollout
 
     @terminal.procedures_talk()
-    def score(self, scorer: Rollout | JobScorer, seeds: Sequence[int], whose: str = "") -> tuple[Scores, float, float]:
-        """All runs, the seconds that they took, and those of processors here; notes say `whose` they are."""
-        with self.progress() as progress:
-            bar = progress.add_task(f"{scorer.task.name}", total=len(seeds))
-            found = run_timed(scorer, seeds, lambda runs: progress.advance(bar, runs))
+    def score(
+        self, scorer: Rollout | JobScorer, seeds: Sequence[int], whose: str = "", ran: Ran | None = None
+    ) -> tuple[Scores, float, float]:
+        """All runs, the seconds that they took, and those of processors here; notes say `whose` they are.
+
+        With `ran` whoever calls shows progress.
+        """
+        with nullcontext(ran) if ran else self.counting(scorer.task.name, len(seeds)) as told:
+            found = run_timed(scorer, seeds, told)
         self.say(*(f"note: {whose}{note}" for note in scorer.notes))
         return found
 
@@ -122,6 +128,13 @@ class RunSession:
         made = run_result(setup, rollout, seed)
         self.say(*(f"note: {note}" for note in rollout.notes))
         return made
+
+    @contextmanager
+    def counting(self, what: str, runs: int) -> Iterator[Ran]:
+        """A progress bar of so many runs, and a function that is told how many more have been made."""
+        with self.progress() as progress:
+            bar = progress.add_task(what, total=runs)
+            yield lambda more: progress.advance(bar, more)
 
     def say(self, *lines: str) -> None:
         """Print lines on stderr."""

@@ -1,7 +1,7 @@
 """`mindc bench`: many runs of a task for a figure that can be trusted, of one mind or of two on the same layouts."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -15,9 +15,10 @@ from mindlang.cli._terminal import MISUSE, fail, print_result, refuse_unwritable
 if TYPE_CHECKING:
     from mindrun.graph.run_scores import Scores
 
-    from mindlang.cli._session import Prepared, RunSession
+    from mindlang.cli._session import Prepared, Ran, RunSession
     from mindlang.executors import Where
     from mindlang.run.tables import Table
+    from mindlang.run.worlds import World
 
 MAX_COMPARED = 2  # minds, or masters
 EXAMPLES = """\b
@@ -29,6 +30,7 @@ Examples:
   mindc bench collect.mind --task Collect --csv runs.csv   a row for each run
   mindc bench collect.mind best.mind --task Collect        on the same layouts
   mindc bench collect.mind --task Avoid --master Avoid --master Collect
+  mindc bench collect.mind best.mind --worlds --runs 100   weaker, noisier …
   mindc bench collect.mind --runs 1000000 --on ssh:a,b     by two machines
   mindc bench collect.mind --runs 1000000 --on dask:scheduler.json
 """
@@ -45,10 +47,13 @@ Examples:
 )
 @options.ON(help="Who makes the runs: processes:N, ssh:HOST,HOST …")
 @options.unless("--no-interruption", "interrupt", "Go on to the last tick, whatever would end a run.")
+@click.option("--worlds", is_flag=True, help="Run in changed worlds as well: denser, weaker, noisier, delayed …")
 @options.written("--csv table", "PATH.csv", "Write a row for each run.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON document instead.")
 @click.option("-q", "--quiet", is_flag=True, help="Print nothing but results and errors.")
-def command(files: tuple[str, ...], masters: tuple[str, ...], workers: int | None, quiet: bool, **said: Any) -> None:
+def command(
+    files: tuple[str, ...], masters: tuple[str, ...], workers: int | None, worlds: bool, quiet: bool, **said: Any
+) -> None:
     """Run a task of FILE on many layouts, for figures to trust.
 
     With the weights that its skills were taught. Runs the Python code of the file's procedures. Each run has a seed of
@@ -56,6 +61,10 @@ def command(files: tuple[str, ...], masters: tuple[str, ...], workers: int | Non
 
     With OTHER, or two masters, both run on the same layouts: how much they differ, with a confidence interval, and what
     may be said of it. It is said of the weights that both have, not of how such minds are taught in general.
+
+    With --worlds, on the same layouts again with one number of the world or the robot changed, in a table with the
+    worst first: lengths, forces and their like by a quarter, readings 5 % off or lost, commands 0.1 s late. The share
+    is that of what it is as taught.
     """
     from mindlang.cli._session import RunSession
 
@@ -64,7 +73,9 @@ def command(files: tuple[str, ...], masters: tuple[str, ...], workers: int | Non
     if bench.where is not None:
         options.refuse_ineffective("for the cores of this machine: with --on others make the runs", "workers")
     who = contenders(files, masters)
-    if len(who) > 1:
+    if worlds:
+        bench.in_worlds(who)
+    elif len(who) > 1:
         bench.compare(who)
     else:
         bench.measure(who[0])
@@ -151,12 +162,53 @@ class Bench:
             self._write(self.table, rows, f"2 × {len(seeds):,} runs")
         print_result(self.as_json, found, lambda: comparison_summary(found, compared))
 
+    def in_worlds(self, who: Sequence[Contender]) -> None:
+        """Run each mind as it was taught and in changed worlds, on the same layouts, and print what is left there."""
+        from mindlang.run.summary import worlds_summary
+        from mindlang.run.tables import joined, runs_table
+        from mindlang.run.worlds import world_rows
+
+        ready = [self._prepared(who[0], self.task)]
+        ready += [self._prepared(each, ready[0].setup.task.name) for each in who[1:]]
+        cast = [(each, *there) for each, here in zip(who, ready, strict=True) for there in self._worlds(here)]
+        task = ready[0].setup.task.name
+        found: dict[str, dict[str, Any]] = {}
+        tables: dict[str, dict[str, Table]] = {}
+        with self.session.counting(f"{task} in changed worlds", sum(len(seeds) for *_, seeds in cast)) as ran:
+            for each, world, prepared, seeds in cast:
+                scores, data = self._score(prepared, seeds, f"{each.name}, {world.name}: ", ran)
+                found.setdefault(world.name, {})[each.name] = {"changes": world.changes, **data}
+                if self.table:
+                    tables.setdefault(world.name, {})[each.name] = runs_table(prepared.setup.task, scores, seeds)
+        minds = [
+            {"name": each.name, "file": each.file, "master": here.setup.master}
+            for each, here in zip(who, ready, strict=True)
+        ]
+        data = {"task": task, "seed": self.seed, "runs": self.runs, **self._by()}
+        data |= {"minds": minds, "worlds": world_rows(found)}
+        if self.table:
+            rows = joined({name: joined(each) for name, each in tables.items()}, "world")
+            self._write(self.table, rows, f"{len(cast)} × {self.runs:,} runs")
+        print_result(self.as_json, data, lambda: worlds_summary(data))
+
+    def _worlds(self, here: "Prepared") -> "Iterator[tuple[World, Prepared, list[int]]]":
+        """The worlds for a mind, each with the simulator that makes its runs, and their seeds."""
+        from mindlang.run.worlds import worlds
+
+        setup, quiet = here.setup, replace(self.session, quiet=True)
+        for world in worlds(setup.ready.policy.graph, setup.task, setup.master):
+            there = setup.in_world(world.graph)
+            simulator = quiet.simulator(there, self.interrupt, self.workers, self.runs)
+            yield world, here._replace(setup=there, rollout=simulator), there.layouts(self.seed, self.runs)
+
     def _prepared(self, who: Contender, task: str | None) -> "Prepared":
         chosen = options.RunChoice(task, self.seed, who.master, self.interrupt)
         return self.session.prepare(who.file, chosen, self.workers, self.runs)
 
-    def _score(self, prepared: "Prepared", seeds: Sequence[int], whose: str = "") -> "tuple[Scores, dict[str, Any]]":
-        """The score of each run, and the data of all of them; notes on stderr say `whose` they are."""
+    def _score(
+        self, prepared: "Prepared", seeds: Sequence[int], whose: str = "", ran: "Ran | None" = None
+    ) -> "tuple[Scores, dict[str, Any]]":
+        """The score of each run, and the data of all of them; notes and progress are as in `RunSession.score`."""
         from mindlang.executors import scorer_on
         from mindlang.executors.jobs import assignment_of
         from mindlang.run.outcome import bench_data, over_at_once
@@ -165,7 +217,7 @@ class Bench:
         cast = setup.ready.policy, setup.task.name, setup.master, setup.folder
         assignment = partial(assignment_of, *cast, interrupt=self.interrupt)
         with scorer_on(self.where, rollout, assignment, self.workers, self.session.say) as scorer:
-            scores, seconds, cpu = self.session.score(scorer, seeds, whose)
+            scores, seconds, cpu = self.session.score(scorer, seeds, whose, ran)
         data = bench_data(setup.task, scores, seeds, seconds, None if self.where else cpu)
         return scores, data | {"notes": setup.notes(rollout, *over_at_once(setup.task, scores))}
 

@@ -1,13 +1,13 @@
 """A run of a task set up: who is in charge, with which weights; and many such runs made, a slice after the other."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING
 
 import numpy as np
-from mindrun.graph.graph import Task
+from mindrun.graph.graph import Graph, Task
 from mindrun.graph.run_scores import Scores
 from mindrun.graph.skill_sets import owners, reachable
 from mindrun.graph.tasks import is_one_world
@@ -55,6 +55,11 @@ class RunSetup:
     def notes(self, rollout: "Rollout", *more: str) -> list[str]:
         """Notes for the user on runs that have been made."""
         return [*self.ready.notes, *self.world_notes, *rollout.notes, *more]
+
+    def in_world(self, graph: Graph) -> "RunSetup":
+        """This mind with its weights in the task as another graph has it, of the same skills."""
+        task = next(each for each in graph.tasks if each.name == self.task.name)
+        return replace(self, task=task, ready=replace(self.ready, policy=replace(self.ready.policy, graph=graph)))
 
     def rollout(self, interrupt: bool = True, workers: int = 1) -> "Rollout":
         """The task under the master, in the simulator. Runs the text of the procedures' modules."""

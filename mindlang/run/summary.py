@@ -1,6 +1,7 @@
 """The outcome of a run, of many runs, and of two minds on the same layouts, as text to read."""
 
 from collections.abc import Collection, Iterator, Sequence
+from math import nan
 from typing import Any
 
 from mindrun.sim.outside.making import GAVE_NO_NUMBER
@@ -11,6 +12,9 @@ from mindlang.number_format import duration, finite, score, speed
 from mindlang.run.comparison import PERCENT, SCORE, SUCCESS, MindComparison, amount
 from mindlang.run.outcome import TIME
 from mindlang.run.paired_difference import MAX_RUNS, PairedDifference
+from mindlang.run.worlds import figure
+
+WORLD_COLUMNS = 52  # for the name of a world beside one mind; half of them beside two
 
 
 def run_summary(found: dict[str, Any]) -> RenderableType:
@@ -155,6 +159,42 @@ def _told(name: str, found: PairedDifference) -> Iterator[str]:
             f"{found.runs:,} runs tell a difference of {amount(name, found.detectable, found)} four times in five; "
             f"one of {amount(name, abs(found.mean), found)}, as it was here, would take {needed}"
         )
+
+
+def worlds_summary(found: dict[str, Any]) -> RenderableType:
+    """A row for each world: the figure of each mind, how much that is of the one as taught, and how long runs were."""
+    minds, runs = found["minds"], found["runs"]
+    places = ["A", "B"] if len(minds) > 1 else ["mean"]
+    taught = {each["name"]: figure(each)[0] for each in found["worlds"][0]["minds"]}
+    head = ["", *(cell for place in places for cell in (place, "share", "time"))]
+    rows = [[*_world_row(row, [*taught])] for row in found["worlds"]]
+    return Group(
+        Text.assemble((found["task"], "bold"), f" in changed worlds, {runs:,} run{'s' * (runs != 1)} of each"),
+        *(
+            Text(f"  {place}{mind['file']} with {mind['master']} in charge: {taught[mind['name']]}")
+            for place, mind in zip(("A  ", "B  ") if len(minds) > 1 else ("",), minds, strict=True)
+        ),
+        "",
+        aligned([[Text(each, "dim") for each in head], *rows], left=(0,)),
+        "",
+        Text("share: of the mean as taught; time: of the task's ticks; ± is one standard error", "dim"),
+    )
+
+
+def _world_row(row: dict[str, Any], minds: Sequence[str]) -> Iterator[str | Text]:
+    """The name of a world, and the cells of each mind; – where it has no such world, or no share."""
+    world = Text(row["world"])
+    world.truncate(WORLD_COLUMNS // len(minds), overflow="ellipsis")
+    yield world
+    there = {each["name"]: each for each in row["minds"]}
+    for found in map(there.get, minds):
+        if found is None:
+            yield from "–––"
+            continue
+        name, mean, error = figure(found)
+        share, spread = found["of_as_taught"], f" ± {_figure(name, error)}" if error else ""
+        yield _figure(name, nan if mean is None else mean) + spread
+        yield from ("–" if share is None else f"{share:.0%}", f"{found['runtime_mean']:.0%}")
 
 
 def aligned(rows: Sequence[Sequence[str | Text]], left: Collection[int]) -> Text:

@@ -84,15 +84,15 @@ def runs_table(task: Task, scores: Scores, seeds: Sequence[int]) -> dict[str, Co
     )
 
 
-def joined(tables: Mapping[str, Table]) -> dict[str, Column]:
-    """The rows of several tables of runs, a first column `mind` with the name of each; NaN where one has no column."""
+def joined(tables: Mapping[str, Table], first: str = "mind") -> dict[str, Column]:
+    """The rows of several tables of runs, a first column with the name of each; NaN where one has no column."""
     rows = {name: len(table["seed"]) for name, table in tables.items()}
     names = dict.fromkeys(column for table in tables.values() for column in table)
     whole = {
         name: np.concatenate([table.get(name, np.full(rows[of], np.nan)) for of, table in tables.items()])
         for name in names
     }
-    return {"mind": np.repeat([*rows], [*rows.values()])} | whole
+    return {first: np.repeat([*rows], [*rows.values()])} | whole
 
 
 def _numbered(named: Iterable[tuple[str, Column]]) -> dict[str, Column]:
