@@ -39,7 +39,7 @@ def command(runs: tuple[Path, ...], output: Path, mean: bool, ticks: bool, as_js
     from mindrun.train import NotFoundError
 
     from mindlang.pictures.learning_log import along_ticks, by_lesson, load_curves
-    from mindlang.training.standstill import idle_note, idle_ticks
+    from mindlang.training.standstill import idle_note
 
     if find_spec("matplotlib") is None:
         fail("Curves are drawn with matplotlib, which is not installed.", "pip install 'mindlang[plot]'", MISUSE)
@@ -53,18 +53,7 @@ def command(runs: tuple[Path, ...], output: Path, mean: bool, ticks: bool, as_js
     lessons = by_lesson(curves) if mean else []
     write_file(output, image(mean_figure(lessons) if mean else figure(curves), output.suffix))
     if as_json:
-        data = [each.data() for each in lessons] or [
-            {
-                "name": curve.name,
-                "run": str(curve.path),
-                "attempts": len(curve.attempts),
-                "generations": len(curve.records),
-                "idle_ticks": idle_ticks(curve.records),
-                "failed": curve.failure or None,
-            }
-            for curve in curves
-        ]
-        print_json({"picture": str(output), "curves": data})
+        print_json({"picture": str(output), "curves": [each.data() for each in lessons or curves]})
     if not quiet:
         shown = curves[0].name if len(curves) == 1 else f"{len(curves)} runs"
         for curve in loaded:

@@ -20,13 +20,13 @@ from mindrun.train.progress import COUNT_COLUMNS, LINES, TABLE, read_progress
 from mindrun.train.run_folder import MANIFEST, open_run, read_failure
 from numpy.typing import NDArray
 
+from mindlang.training.standstill import Records, idle_ticks
+
 TABLES = (".csv", ".csv.gz")
 HINT = f"a run is a folder like runs/GoToObject/20260714T120000Z-1, a table ends in {' or '.join(TABLES)}"
 SCORES = ("best", "reevaluated", "verdict")
 MAX_TABLE_BYTES = 64 << 20
 REQUIRED_COLUMNS = ("attempt", "generation", "best")
-
-Records = Sequence[Mapping[str, float | None]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,6 +68,17 @@ class Curve:
             if record["attempt"] == attempt
         ]
         return [(generation, score) for generation, score in scores if score is not None and isfinite(score)]
+
+    def data(self) -> dict[str, Any]:
+        """The figures of the curve by their names, as plain data."""
+        return {
+            "name": self.name,
+            "run": str(self.path),
+            "attempts": len(self.attempts),
+            "generations": len(self.records),
+            "idle_ticks": idle_ticks(self.records),
+            "failed": self.failure or None,
+        }
 
 
 def along_ticks(curve: Curve) -> Curve:

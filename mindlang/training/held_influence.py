@@ -1,9 +1,11 @@
 """What masters that were taught do with their subskills: whom they never influence, or always with the same number."""
 
 from collections import defaultdict
+from itertools import islice
 
 import numpy as np
 from mindrun.engine.engine import procedure_sources
+from mindrun.errors import ProcedureError
 from mindrun.graph.policy import Policy
 from mindrun.graph.weights import parts
 from mindrun.sim.rollouts import rollout_for
@@ -17,29 +19,32 @@ from mindlang.compiler.diagnostic import listed
 from mindlang.run.edge_flow import edge_flows
 from mindlang.training.subject import Subject
 
-RUNS, MOMENTS = 4, 500  # that are looked at, and in each run so many, evenly spaced
-ALIKE = 0.01  # so far apart may be numbers that are the same
+LOOKED_RUNS, MOMENTS_EACH = 4, 500  # that are looked at, and in each run so many, evenly spaced
+MAX_CHUNKS = 400  # of a run: 100,000 ticks, which fit into memory
+ALIKE_INFLUENCE = 0.01  # so far apart may be numbers that are the same
 
 Spans = dict[tuple[int, int], tuple[float, float]]  # the least and the most over each edge, by its skills
 
 
 def held_influence(run: RunFolder, subject: Subject, genome: Genomes) -> list[str]:
-    """A sentence for each master among the learners that lets a subskill never act, or never lets it go."""
+    """A sentence for each master among the learners that lets a subskill never act, or never lets it go.
+
+    None where a procedure beside it can only be run in the simulator.
+    """
     skills, held = subject.graph.skills, defaultdict[str, dict[str, list[str]]](lambda: defaultdict(list))
-    for (master, subskill), (least, most) in _spans(run, subject, genome).items():
-        if most - least < ALIKE:
-            does = "never influences" if most < ALIKE else f"always influences with {most:.2f}"
+    try:
+        spans = _spans(run, subject, genome)
+    except ProcedureError:
+        return []
+    for (master, subskill), (least, most) in spans.items():
+        if most - least < ALIKE_INFLUENCE:
+            does = "never influences {}" if most < ALIKE_INFLUENCE else f"always influences {{}} with {most:.2f}"
             held[skills[master].name][does].append(skills[subskill].name)
     return [
-        f"{master} {listed([_done(does, names) for does, names in of.items()], 'and')}, in {RUNS} runs: more attempts "
-        "may find one that decides; mindc prove says whether this one can"
+        f"{master} {listed([does.format(listed(names, 'and')) for does, names in of.items()], 'and')}, in "
+        f"{LOOKED_RUNS} runs: more attempts may find one that decides; mindc prove says whether this one can"
         for master, of in held.items()
     ]
-
-
-def _done(does: str, subskills: list[str]) -> str:
-    verb, _, rest = does.partition(" with ")
-    return f"{verb} {listed(subskills, 'and')}" + (f" with {rest}" if rest else "")
 
 
 def _spans(run: RunFolder, subject: Subject, genome: Genomes) -> Spans:
@@ -57,10 +62,10 @@ def _spans(run: RunFolder, subject: Subject, genome: Genomes) -> Spans:
     policy = Policy(graph, {**run.weights, **parts(graph, learners, genome)})
     rollout = rollout_for(policy, lesson.task, lesson.master, procedures=subject.folder)
     sources = procedure_sources(graph, subject.folder, lesson.master)
-    for seed in verdict_layouts(run.manifest.seed, lesson.generations)[:RUNS].tolist():
-        ticks = joined(trace(rollout, seed).chunks)
+    for seed in verdict_layouts(run.manifest.seed, lesson.generations)[:LOOKED_RUNS].tolist():
+        ticks = joined(islice(trace(rollout, seed).chunks, MAX_CHUNKS))
         flows = edge_flows(policy, sources, lesson.master, ticks)
-        flow = flows.flow_at(np.unique(np.linspace(0, len(ticks) - 1, MOMENTS).astype(np.int64)))
+        flow = flows.flow_at(np.unique(np.linspace(0, len(ticks) - 1, MOMENTS_EACH).astype(np.int64)))
         value = np.where(flow.carried > 0, flow.value, 0.0)
         for place, link in enumerate(flows.links):
             between = link.source, link.target[1]

@@ -138,7 +138,7 @@ def _refuse_forgotten(run: RunFolder, earlier: Sequence[Retention]) -> None:
         return
     failed = (
         f"{lesson.skill} has failed its lesson, which keeps {100 * share:g}% of what earlier ones scored, and less "
-        f"is left of {listed(lost, 'and')}; the lock stays as it is, and nothing is taught on top of it"
+        f"is left of {listed(lost, 'and')}; the lock stays as it is"
     )
     resume = command_line("mindc", "train", "--resume", run.folder, "--force")
     raise RunError(

@@ -9,7 +9,6 @@ from mindrun.graph.graph import Lesson
 from mindrun.graph.policy import Policy
 from mindrun.graph.weights import learners, owners, parts, reachable
 from mindrun.sim.rollouts import rollout_for
-from mindrun.train.attempt import VERDICT_LAYOUTS
 from mindrun.train.population import Genomes
 from mindrun.train.run_folder import RunFolder
 from mindrun.train.scoring import Purpose, layouts, mark
@@ -18,14 +17,15 @@ from mindlang.lock.status import key_of, key_of_taught, trained_weights
 from mindlang.number_format import short_score
 from mindlang.training.subject import Subject
 
-RETENTION_LAYOUTS = 2 * VERDICT_LAYOUTS  # on which an earlier lesson is tried before and after
+TOLD_LAYOUTS, KEPT_LAYOUTS = 100, 400  # on which an earlier lesson is tried, to tell of it and where it is to be kept
 
 
 @dataclass(frozen=True, slots=True)
 class Retention:
-    """An earlier lesson before and after another: the mean scores of its skill on the same fresh layouts."""
+    """An earlier lesson before and after another: the mean scores of its skill on so many fresh layouts."""
 
     lesson: Lesson
+    layouts: int
     before: float
     after: float
 
@@ -37,11 +37,13 @@ class Retention:
 def retentions(run: RunFolder, subject: Subject, genome: Genomes, workers: int) -> list[Retention]:
     """The earlier lessons of which a run has changed a skill that acts in them, before and after it.
 
-    Where its lesson `keeps` nothing, only those that are simulated fast: in 100 layouts of each a second or so.
+    Where its lesson `keeps` nothing, only those that are simulated fast: a second or so for each.
     """
     lesson, graph = run.manifest.lesson, subject.graph
+    keeps = lesson.learner.keeps > 0
     learnt = parts(graph, run.manifest.learners, genome)
-    seeds = layouts(run.manifest.seed, 0, lesson.generations, RETENTION_LAYOUTS, Purpose.RETENTION)
+    count = KEPT_LAYOUTS if keeps else TOLD_LAYOUTS
+    seeds = layouts(run.manifest.seed, 0, lesson.generations, count, Purpose.RETENTION)
     found = []
     for other in earlier_lessons(subject, lesson):
         known, refusals = trained_weights(graph, subject.lock, owners(reachable(graph, other.master)))
@@ -50,11 +52,11 @@ def retentions(run: RunFolder, subject: Subject, genome: Genomes, workers: int) 
             continue
         here = Policy(graph, known), other.task, other.master, changed
         rollout = rollout_for(*here, procedures=subject.folder, workers=workers)
-        if lesson.learner.keeps or (rollout.simulates and not rollout.procedures.slow):
+        if keeps or (rollout.simulates and not rollout.procedures.slow):
             genomes = np.stack([np.concatenate([of[skill] for skill in changed]) for of in (known, learnt)])
             before, after = mark(rollout, genomes, seeds).scores.tolist()
             if isfinite(before):
-                found.append(Retention(other, before, after))
+                found.append(Retention(other, count, before, after))
     return found
 
 
@@ -77,8 +79,8 @@ def earlier_lessons(subject: Subject, lesson: Lesson) -> Iterator[Lesson]:
 
 
 def retention_table(found: Sequence[Retention]) -> list[str]:
-    """A line for each earlier lesson: its scores before and now, and which share of a score above 0 is left."""
-    rows = [(f"on {RETENTION_LAYOUTS} fresh layouts", "before", "now", "")]
+    """A line for each earlier lesson, one at least: its scores before and now, and which share of them is left."""
+    rows = [(f"on {found[0].layouts} fresh layouts", "before", "now", "")]
     for each in found:
         share = f"{each.after / each.before:.0%}" if each.before > 0 and isfinite(each.after) else ""
         rows.append((each.lesson.name, short_score(each.before), short_score(each.after), share))

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 from mindlang.number_format import tick_count
 
 IDLE_SHARE = 0.5  # of the ticks of a log, from which on it is said that they brought nothing
-FEWEST_SCORES, ENDS = 10, 3  # re-evaluations without which nothing can be said; so many at either end
-SIGMAS = 2.0  # standard errors, beyond which a gain is one
-NORMAL = 1.4826 / 2**0.5  # times the median difference of two scores: their standard deviation
+FEWEST_SCORES, END_SCORES = 10, 3  # re-evaluations without which nothing can be said; so many at either end
+GAIN_SIGMAS = 2.0  # standard errors, beyond which a gain is one
+NOISE_OF_MEDIAN = 1.4826 / 2**0.5  # times the median difference of two scores: their standard deviation
 
 Records = Sequence[Mapping[str, float | None]]  # the generations of a log, attempt by attempt
 
@@ -49,16 +49,16 @@ def standstill(scores: NDArray[np.float64]) -> int | None:
     """
     if len(scores) < FEWEST_SCORES:
         return None
-    noise = NORMAL * float(np.median(np.abs(np.diff(scores))))
-    tails = (begin for begin in range(len(scores) - 2 * ENDS + 1) if not _rises(scores[begin:], noise))
+    noise = NOISE_OF_MEDIAN * float(np.median(np.abs(np.diff(scores))))
+    tails = (begin for begin in range(len(scores) - 2 * END_SCORES + 1) if not _rises(scores[begin:], noise))
     return next(tails, None)
 
 
 def _rises(scores: NDArray[np.float64], noise: float) -> bool:
     count = len(scores)
     return any(
-        scores[cut:].mean() - scores[:cut].mean() > SIGMAS * noise * (1 / cut + 1 / (count - cut)) ** 0.5
-        for cut in (ENDS, count // 2, count - ENDS)
+        scores[cut:].mean() - scores[:cut].mean() > GAIN_SIGMAS * noise * (1 / cut + 1 / (count - cut)) ** 0.5
+        for cut in (END_SCORES, count // 2, count - END_SCORES)
     )
 
 

@@ -16,7 +16,7 @@ from mindrun.train.scoring import Purpose, layouts
 from mindlang.compiler.compile import load
 from mindlang.lock.status import trained_weights
 from mindlang.training.held_influence import held_influence
-from mindlang.training.retention import RETENTION_LAYOUTS, Retention
+from mindlang.training.retention import KEPT_LAYOUTS, TOLD_LAYOUTS, Retention
 from mindlang.training.standstill import idle_ticks, standstill
 from mindlang.training.subject import Subject, begin_run, open_subject
 from tests.calling import Call
@@ -41,7 +41,7 @@ def reached(subject: Subject, seed: int) -> float:
     """The score of Go on Reach, alone, on the layouts on which a lesson of that seed compares."""
     policy = Policy(subject.graph, trained_weights(subject.graph, subject.lock, ["Go"])[0])
     rollout = rollout_for(policy, "Reach", "Go")
-    seeds = layouts(seed, 0, 10, RETENTION_LAYOUTS, Purpose.RETENTION)
+    seeds = layouts(seed, 0, 10, KEPT_LAYOUTS, Purpose.RETENTION)
     return float(rollout.score(np.zeros((1, 0), np.float32), seeds).total.mean())
 
 
@@ -89,7 +89,7 @@ def test_what_keeps_nothing_is_told_what_it_has_cost_and_what_changes_nothing_is
 def test_a_score_below_zero_is_kept_by_its_size(before: float, after: float, kept: bool) -> None:
     graph = load(LOGS.parent / "collect.mind").graph
     assert graph
-    assert Retention(graph.lessons[0], before, after).is_kept(0.95) == kept
+    assert Retention(graph.lessons[0], TOLD_LAYOUTS, before, after).is_kept(0.95) == kept
 
 
 def champions(lesson: str, attempt: int) -> tuple[list[int], np.ndarray]:
