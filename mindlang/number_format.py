@@ -19,6 +19,14 @@ def short_score(value: float | None) -> str:
     return f"{value:.2f}" if value is not None and isfinite(value) else "–"
 
 
+def tick_count(ticks: float) -> str:
+    """A number of ticks for reading: 300, 45.2 k, 44.8 M, 104.4 G."""
+    for size, letter in ((1e9, "G"), (1e6, "M"), (1e3, "k")):
+        if ticks >= size:
+            return f"{ticks / size:.1f} {letter}"
+    return f"{ticks:.0f}"
+
+
 def rate(ticks_per_second: float, of: str = "") -> str:
     """A number of ticks per second for reading, or of what else they are per."""
     per = f" ticks per {of}" if of else " ticks/s"

@@ -159,10 +159,7 @@ def refusing_setups(prefix: str = "") -> Iterator[None]:
     try:
         yield
     except SetupError as error:
-        *first, last = f"{prefix}{error}".split("\n")
-        for line in first:
-            terminal.complain(line)
-        terminal.fail(last, error.hint, terminal.MISUSE if error.misuse else terminal.FINDINGS)
+        terminal.fail(f"{prefix}{error}", error.hint, terminal.MISUSE if error.misuse else terminal.FINDINGS)
     except MindError as error:
         terminal.fail(f"{prefix}{error}", error.hint, terminal.MISUSE)
 

@@ -54,8 +54,11 @@ def complain(message: str, hint: str = "") -> None:
 
 
 def fail(message: str, hint: str = "", code: int = FINDINGS) -> NoReturn:
-    """Print what is wrong and what to do about it on stderr, and end with `code`."""
-    complain(message, hint)
+    """Print what is wrong, in one line or several, and what to do about it on stderr, and end with `code`."""
+    *first, last = message.split("\n")
+    for line in first:
+        complain(line)
+    complain(last, hint)
     sys.exit(code)
 
 

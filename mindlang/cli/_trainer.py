@@ -105,6 +105,7 @@ class Trainer:
             "ticks_per_cpu_second": None if spent is None else round(pace.ticks / max(spent, 1e-3)),
         }
         self._say(*outcome(run, result, kept, subject.keep_path(run.manifest.lesson).name))
+        self._say(*(f"note: {note}" for note in result["notes"] if note not in rollout.notes))
         self._print(result)
         return True
 
@@ -113,7 +114,7 @@ class Trainer:
         self, run: RunFolder, subject: Subject, state: LessonState, scorer: Scorer, force: bool, notes: Sequence[str]
     ) -> tuple[Result, Kept]:
         try:
-            return finish(run, subject, state, scorer, force, notes)
+            return finish(run, subject, state, scorer, force, self.workers or cores(), notes)
         except LockError as error:
             hint = f"what was learnt is safe; mend that, then: {self._command(run)}"
             raise RunError(str(error), hint) from error

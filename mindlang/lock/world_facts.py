@@ -48,7 +48,9 @@ class Worlds:
         """The world that a lesson teaches in now."""
         where = {"task": lesson.task, "master": lesson.master, "with_subskills": lesson.with_subskills}
         origin = {"starts_from": lesson.starts_from} if lesson.starts_from else {}
-        how = {"from_scratch": lesson.from_scratch, **origin, "learner": encode(lesson.learner)}
+        learner = encode(lesson.learner)
+        del learner["keeps"]  # it decides about what was learnt, and changes none of it
+        how = {"from_scratch": lesson.from_scratch, **origin, "learner": learner}
         return self.of_gone(LessonKey(lesson.task, lesson.master, lesson.with_subskills), {**where, **how})
 
     def of_gone(self, lesson: LessonKey, said: Mapping[str, Any]) -> TrainingWorld:

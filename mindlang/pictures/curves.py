@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.legend_handler import HandlerTuple
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
-from matplotlib.ticker import MaxNLocator
+from matplotlib.ticker import EngFormatter, MaxNLocator
 from matplotlib.transforms import offset_copy
 
 from mindlang.pictures.learning_log import Curve, MeanCurve
@@ -102,7 +102,7 @@ def _draw(axes: Axes, curve: Curve) -> None:
             axes.plot(generations, scores, color=colour, label=label, transform=where, zorder=layer, **look)
             axes.update_datalim(points)  # whose own place does not count where it is shifted
     name = f"{curve.name}, failed" if curve.failure else curve.name
-    _frame(axes, name, curve.note, max(map(curve.last, curve.attempts)))
+    _frame(axes, name, curve.note, max(map(curve.last, curve.attempts)), curve.is_along_ticks)
 
 
 def _draw_mean(axes: Axes, curve: MeanCurve) -> None:
@@ -116,15 +116,17 @@ def _draw_mean(axes: Axes, curve: MeanCurve) -> None:
     if verdict := curve.verdict():
         look = CURVE_STYLES["verdict"] | {"color": MEAN_COLOURS["verdict"], "label": "verdict", "zorder": 5}
         axes.errorbar([verdict.generation], [verdict.mean], yerr=verdict.error, elinewidth=1.3, **look)
-    _frame(axes, curve.name, curve.note, curve.generations)
+    _frame(axes, curve.name, curve.note, curve.generations, curve.runs[0].is_along_ticks)
 
 
-def _frame(axes: Axes, name: str, note: str, generations: int) -> None:
-    """Draw the frame of a panel: its name, a note below that, and its axes."""
+def _frame(axes: Axes, name: str, note: str, last: int, is_along_ticks: bool) -> None:
+    """Draw the frame of a panel: its name, a note below that, and its axes, up to the last generation or tick."""
     axes.set_title(name, pad=20.0 if note else 8.0)
     axes.annotate(note, (0, 1), (0, 8), xycoords="axes fraction", textcoords="offset points", size=6.5, color=FAINT)
-    axes.set_xlim(0, generations * 1.07)
-    axes.set_xlabel("generation")
+    axes.set_xlim(0, last * 1.07)
+    axes.set_xlabel("ticks" if is_along_ticks else "generation")
+    if is_along_ticks:
+        axes.xaxis.set_major_formatter(EngFormatter())
     axes.xaxis.set_major_locator(MaxNLocator(6, steps=ROUND, integer=True))
     axes.yaxis.set_major_locator(MaxNLocator(6, steps=ROUND))
 

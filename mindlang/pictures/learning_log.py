@@ -4,6 +4,7 @@ import csv
 import gzip
 import os
 import zlib
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from io import BytesIO, StringIO
@@ -19,13 +20,13 @@ from mindrun.train.progress import COUNT_COLUMNS, LINES, TABLE, read_progress
 from mindrun.train.run_folder import MANIFEST, open_run, read_failure
 from numpy.typing import NDArray
 
+from mindlang.training.standstill import Records, idle_ticks
+
 TABLES = (".csv", ".csv.gz")
 HINT = f"a run is a folder like runs/GoToObject/20260714T120000Z-1, a table ends in {' or '.join(TABLES)}"
 SCORES = ("best", "reevaluated", "verdict")
 MAX_TABLE_BYTES = 64 << 20
 REQUIRED_COLUMNS = ("attempt", "generation", "best")
-
-Records = Sequence[Mapping[str, float | None]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,7 +35,8 @@ class Curve:
 
     `failure` says why nothing came of it; "" where it was learnt, goes on, or nobody knows.
     `lesson` is the same for runs that teach the same lesson of the same mind, whatever their seeds and the weights that
-    they began with; of a table nobody knows it.
+    they began with; of a table nobody knows it. Where it `is_along_ticks`, those of an attempt so far stand in the
+    place of its generations.
     """
 
     name: str
@@ -43,6 +45,7 @@ class Curve:
     note: str = ""
     lesson: str = ""
     failure: str = ""
+    is_along_ticks: bool = False
 
     @property
     def attempts(self) -> list[int]:
@@ -65,6 +68,28 @@ class Curve:
             if record["attempt"] == attempt
         ]
         return [(generation, score) for generation, score in scores if score is not None and isfinite(score)]
+
+    def data(self) -> dict[str, Any]:
+        """The figures of the curve by their names, as plain data."""
+        return {
+            "name": self.name,
+            "run": str(self.path),
+            "attempts": len(self.attempts),
+            "generations": len(self.records),
+            "idle_ticks": idle_ticks(self.records),
+            "failed": self.failure or None,
+        }
+
+
+def along_ticks(curve: Curve) -> Curve:
+    """A curve along ticks; RunError where its log does not say them."""
+    so_far, records = Counter[float | None](), list[Mapping[str, float | None]]()
+    for record in curve.records:
+        if (ticks := record.get("ticks")) is None:
+            raise RunError(f"{curve.path} has no column ticks", "the folder of a run and its progress.csv have them")
+        so_far[record["attempt"]] += int(ticks)
+        records.append({**record, "generation": so_far[record["attempt"]]})
+    return replace(curve, records=records, is_along_ticks=True)
 
 
 def load_curves(paths: Iterable[Path]) -> list[Curve]:
@@ -133,7 +158,7 @@ def _records(path: Path, header: list[str], rows: list[list[str]]) -> Iterator[d
         try:
             cells = dict(zip(header, row, strict=True))
             scores = {name: float(cells[name]) if cells[name] else None for name in SCORES if name in cells}
-            counts = {name: int(cells[name]) for name in COUNT_COLUMNS}
+            counts = {name: int(cells[name]) for name in (*COUNT_COLUMNS, "ticks") if name in cells}
             if not all(map(is_whole, counts.values())):
                 raise ValueError("it has no number")
             yield counts | scores
@@ -197,7 +222,7 @@ class MeanCurve:
             "name": self.name,
             "runs": [str(run.path) for run in self.runs],
             "attempts": self.attempts,
-            "generations": self.generations,
+            "ticks" if self.runs[0].is_along_ticks else "generations": self.generations,
             "verdict_mean": verdict.mean if verdict else None,
             "verdict_standard_error": verdict.error if verdict else None,
         }

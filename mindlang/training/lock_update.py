@@ -1,11 +1,13 @@
 """Weights that a lesson has taught go to the lock, unless those that are there do better."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import isfinite
 
 import numpy as np
 from mindrun.graph.graph import Lesson
 from mindrun.graph.weights import parts
+from mindrun.terminal.command_line import command_line
 from mindrun.train import RunError
 from mindrun.train.attempt import VERDICT_LAYOUTS, has_needed, of_halves, verdict_layouts
 from mindrun.train.lesson_state import LessonState
@@ -19,6 +21,7 @@ from mindlang.lock.blobs import record
 from mindlang.lock.status import Trained, key_of, trained_weights
 from mindlang.lock.world_facts import Worlds
 from mindlang.number_format import short_score
+from mindlang.training.retention import Retention, retention_table, retentions
 from mindlang.training.subject import Subject, origin_of
 
 COMPARED_LAYOUTS = 50  # common to the weights that a lock has and to the new ones, and to nothing else
@@ -46,24 +49,32 @@ class WeightsComparison:
 
 @dataclass(frozen=True, slots=True)
 class Kept:
-    """The end of a lesson: whether the new weights are in the lock, and how those that were there compare, if any."""
+    """The end of a lesson: whether the new weights are in the lock, how those that were there compare, if any, and what
+    became of earlier lessons.
+    """
 
     is_new: bool
     comparison: WeightsComparison | None
+    earlier: Sequence[Retention] = ()
 
 
-def keep(run: RunFolder, subject: Subject, state: LessonState, scorer: Scorer, force: bool) -> Kept:
+def keep(run: RunFolder, subject: Subject, state: LessonState, scorer: Scorer, force: bool, workers: int) -> Kept:
     """Put what was learnt into the lock, or with `force` even where it is worse than what is there.
 
-    RunError where nothing was learnt, or not what the lesson needs: the run's folder says so. LockError where the lock
-    cannot be read or written.
+    RunError where nothing was learnt, not what the lesson needs, or, without `force`, at the cost of what it keeps: the
+    run's folder says so. LockError where the lock cannot be read or written.
     """
     try:
         _refuse_nothing(run, state, scorer)
         _refuse_failed(run, state, scorer)
+        return _put(run, subject, state, scorer, force, workers)
     except RunError as error:
         keep_failure(run.folder, str(error))
         raise
+
+
+def _put(run: RunFolder, subject: Subject, state: LessonState, scorer: Scorer, force: bool, workers: int) -> Kept:
+    """What has been learnt against what is in the lock, and the better of both there."""
     lesson, new, found = run.manifest.lesson, state.kept[0], None
     old = _genome_there(run, subject)
     if old is not None and not np.array_equal(old, new):
@@ -74,8 +85,11 @@ def keep(run: RunFolder, subject: Subject, state: LessonState, scorer: Scorer, f
             if subject.is_due(declared(subject, lesson)):
                 _record(run, subject, state, scorer, old, found.old)
             return Kept(False, found)
+    earlier = retentions(run, subject, new, workers)
+    if not force:
+        _refuse_forgotten(run, earlier)
     _record(run, subject, state, scorer, new, state.reevaluated)
-    return Kept(True, found)
+    return Kept(True, found, earlier)
 
 
 def _refuse_nothing(run: RunFolder, state: LessonState, scorer: Scorer) -> None:
@@ -113,6 +127,24 @@ def _refuse_failed(run: RunFolder, state: LessonState, scorer: Scorer) -> None:
         f"{lesson.skill} has failed its lesson, which needs {needed} on two sets of fresh layouts: {which} "
         f"{reached}; the lock stays as it is, and nothing is taught on top of it",
         f"try more --attempts, more generations or another --seed; what it has learnt is in {run.folder / WEIGHTS}",
+    )
+
+
+def _refuse_forgotten(run: RunFolder, earlier: Sequence[Retention]) -> None:
+    """RunError where less is left of an earlier lesson than the one that has ended keeps."""
+    lesson, share = run.manifest.lesson, run.manifest.lesson.learner.keeps
+    lost = [each.lesson.name for each in earlier if not each.is_kept(share)]
+    if not share or not lost:
+        return
+    failed = (
+        f"{lesson.skill} has failed its lesson, which keeps {100 * share:g}% of what earlier ones scored, and less "
+        f"is left of {listed(lost, 'and')}; the lock stays as it is"
+    )
+    resume = command_line("mindc", "train", "--resume", run.folder, "--force")
+    raise RunError(
+        "\n".join([failed, *retention_table(earlier)]),
+        f"what it has learnt is in {run.folder / WEIGHTS}; to take it: {resume}; else try another --seed, or a smaller "
+        "mutation",
     )
 
 

@@ -15,6 +15,7 @@ from mindrun.train.attempts import StretchThreads
 from mindrun.train.kept_segments import KeptSegments, RememberingExecutor
 from mindrun.train.lesson_state import Course, LessonState, is_over
 from mindrun.train.population import founder_count
+from mindrun.train.progress import read_progress
 from mindrun.train.run_folder import WEIGHTS, RunFolder, keep_result, read_result
 from mindrun.train.scoring import Scorer, breeding_generator, layouts
 from mindrun.train.training import Watch, train
@@ -24,7 +25,10 @@ from mindlang.executors.jobs import JobScorer, StretchExecutor, WorkError, assig
 from mindlang.limits import refuse_too_large, refuse_too_long
 from mindlang.lock.blobs import digest
 from mindlang.number_format import duration, finite, short_score, speed
+from mindlang.training.held_influence import held_influence
 from mindlang.training.lock_update import Kept, keep
+from mindlang.training.retention import retention_table
+from mindlang.training.standstill import idle_note, idle_ticks
 from mindlang.training.subject import Subject
 
 Result = dict[str, Any]
@@ -123,18 +127,27 @@ def teach(run: RunFolder, subject: Subject, workers: int, watch: Watch, where: W
         state = train(run, scorer, watch, executor)
         if not is_over(run.manifest.lesson, state):
             return None
-        return finish(run, subject, state, scorer, False, rollout.notes)[0]
+        return finish(run, subject, state, scorer, False, workers, rollout.notes)[0]
 
 
 def finish(
-    run: RunFolder, subject: Subject, state: LessonState, scorer: Scorer, force: bool, notes: Sequence[str]
+    run: RunFolder,
+    subject: Subject,
+    state: LessonState,
+    scorer: Scorer,
+    force: bool,
+    workers: int,
+    notes: Sequence[str],
 ) -> tuple[Result, Kept]:
     """Put what a run has taught into the lock, unless what is there does better; with `force` even then.
 
-    The result has the `notes`. MindError where nothing was learnt, or the lock is damaged.
+    The result has the `notes`, and more on what was learnt. MindError where nothing was, or the lock is damaged.
     """
-    kept = keep(run, subject, state, scorer, force)
-    result = result_of(run, subject, state, kept) | {"notes": [*notes]}
+    kept = keep(run, subject, state, scorer, force, workers)
+    result = result_of(run, subject, state, kept)
+    more = held_influence(run, subject, state.kept[0]) if kept.is_new else []
+    idle = idle_note(read_progress(run.folder))
+    result |= {"notes": [*notes, *more, *filter(None, [idle])]}
     keep_result(run.folder, result)
     return result, kept
 
@@ -154,7 +167,8 @@ def result_of(run: RunFolder, subject: Subject, state: LessonState, kept: Kept) 
     """A finished run as plain data; `weights` has the SHA-256 of what was learnt of each skill.
 
     `kept` says whether that is in the lock now. Where this had weights before, `compared` are their score and that of
-    the new ones on common fresh layouts.
+    the new ones on common fresh layouts; `earlier` are lessons of which it has changed skills, before and after.
+    `idle_ticks` came after the last gain.
     """
     lesson = run.manifest.lesson
     learnt = parts(subject.graph, run.manifest.learners, state.kept[0])
@@ -172,6 +186,7 @@ def result_of(run: RunFolder, subject: Subject, state: LessonState, kept: Kept) 
         "best": state.best,
         "reevaluated": state.reevaluated,
         "ticks": state.ticks,
+        "idle_ticks": idle_ticks(read_progress(run.folder)),
         "seconds": round(state.seconds, 3),
         "ticks_per_second": round(state.ticks / max(state.seconds, 1e-9)),
         "faults": state.faults,
@@ -181,6 +196,9 @@ def result_of(run: RunFolder, subject: Subject, state: LessonState, kept: Kept) 
         "compared": [finite(score) for score in (kept.comparison.old, kept.comparison.new)]
         if kept.comparison
         else None,
+        "earlier": [
+            {"lesson": each.lesson.name, "before": each.before, "after": finite(each.after)} for each in kept.earlier
+        ],
         "run": str(run.folder),
     }
 
@@ -196,6 +214,10 @@ def outcome(run: RunFolder, result: Result, kept: Kept, lock: str) -> list[str]:
     )
     if kept.is_new:
         worse = kept.comparison is not None and kept.comparison.is_worse
-        return [f"{learnt}; weights in {lock}", *[f"but {kept.comparison}"] * worse]
+        return [
+            f"{learnt}; weights in {lock}",
+            *[f"but {kept.comparison}"] * worse,
+            *(retention_table(kept.earlier) if kept.earlier else []),
+        ]
     stay = f"{kept.comparison}, and stay in {lock}"
     return [learnt, stay, f"the new ones: {run.folder / WEIGHTS}; --force puts them there"]

@@ -175,6 +175,10 @@ PROCEDURE = "def by(a, b, c):\n    return a\n"
 # Of these a lock need not know: they say nothing of the world, or what they say is told otherwise.
 NEED_NOT_BE_NOTICED = {
     ("skill", "procedure", "from_"): "another function is told as another skill, by its text",
+    **dict.fromkeys(
+        [("curriculum", learner, "keeps") for learner in ("genetic", "restarting", "evolution_strategy")],
+        "it decides whether what was learnt is taken, and changes none of it",
+    ),
 }
 
 

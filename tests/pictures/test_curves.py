@@ -3,6 +3,7 @@
 import gzip
 import json
 import sys
+from itertools import accumulate
 from pathlib import Path
 from shutil import copy
 from xml.etree import ElementTree
@@ -14,7 +15,7 @@ from mindrun.train.run_folder import RunFolder, create
 from mindrun.train.training import train
 
 from mindlang.pictures.curves import figure, image
-from mindlang.pictures.learning_log import load_curves
+from mindlang.pictures.learning_log import along_ticks, load_curves
 from tests.calling import Call
 from tests.train.climbing import Sphere, lesson, manifest, unwatched
 
@@ -56,6 +57,17 @@ def test_the_lines_are_what_the_log_says(run: RunFolder) -> None:
     assert [colours[f"best {n}"] for n in (1, 2, 3)] == [colours[f"verdict {n}"] for n in (1, 2, 3)]
     assert len(set(colours.values())) == ATTEMPTS
     assert axes.get_title(loc="left") == "Climb"
+
+
+def test_along_ticks_a_point_stands_where_its_attempt_has_spent_so_many(mindc: Call, run: RunFolder) -> None:
+    train(run, Sphere(), unwatched(RARELY))
+    axes = figure([along_ticks(curve) for curve in load_curves([run.folder / "progress.csv"])]).axes[0]
+    first = [record for record in read_progress(run.folder) if record["attempt"] == 1]
+    spent = accumulate(record["ticks"] or 0 for record in first)
+    assert lines(axes)["best 1"] == [(ticks, record["best"]) for ticks, record in zip(spent, first, strict=True)]
+    told = mindc("plot", run.folder, "--ticks", "--mean", "--json", "-o", run.folder / "mean.svg")
+    spans = [sum(r["ticks"] or 0 for r in read_progress(run.folder) if r["attempt"] == n) for n in (1, 2, 3)]
+    assert json.loads(told.out)["curves"][0]["ticks"] == max(spans)
 
 
 def test_what_is_not_finite_is_left_out(table: Path) -> None:

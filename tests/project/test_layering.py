@@ -99,6 +99,8 @@ def test_weights_are_put_beside_a_graph_in_few_places() -> None:
         "mindlang/editing/verify.py": "arranged there, before and after an edit",
         "mindlang/weights/importing.py": "a lesson of a subject, which is arranged",
         "mindlang/training/teaching.py": "a run has those of its subject, which is arranged",
+        "mindlang/training/retention.py": "a lesson of a subject, which is arranged",
+        "mindlang/training/held_influence.py": "a run has those of its subject, which is arranged",
         "mindlang/view/learning.py": "a run has those of its mind, which is arranged",
         "runtime/mindrun/graph/bundle.py": "a bundle has both, sealed",
         "runtime/mindrun/sim/commanded_lanes.py": "none",

@@ -31,7 +31,9 @@ class Genetic:
     half, a quarter, an eighth … of its generations, so many times, where it is not in the better half of the attempts
     that have come there (successive halving, as it stops trials one by one). With `short` an attempt begins in runs of
     that share of the task's ticks, and comes to whole ones over one length between: each of the three has a third of
-    the ticks, and whatever is compared in the end was tried in whole runs. A lesson may say any of these for itself.
+    the ticks, and whatever is compared in the end was tried in whole runs. A lesson that changes skills of earlier ones
+    and `keeps` a share of what these scored has failed where one of them has less, on the same fresh layouts before and
+    after. A lesson may say any of these for itself.
     """
 
     population: Annotated[int, POPULATION] = 100
@@ -45,6 +47,7 @@ class Genetic:
     founders: Annotated[int, FOUNDERS] = 0
     rungs: Annotated[int, RUNGS] = 0
     short: Annotated[float, SHARE] = 1.0
+    keeps: Annotated[float, RATIO] = 0.0
 
     def standstill(self, weights: int, generations: int) -> str:
         """A sentence on why so many generations find nothing beyond the first genomes; empty if they may.
@@ -85,7 +88,7 @@ class EvolutionStrategy:
     Every generation, `population` genomes are drawn around one, a normal step of spread `mutation` away in all their
     weights, and scored on the same `layouts` worlds. Then that one moves to the mean of the best quarter of them,
     weighted by rank, in which the luck of single runs cancels out. From scratch it begins with the best of `founders`
-    random genomes. `attempts`, `patience`, `rungs` and `short` are those of `genetic`.
+    random genomes. `attempts`, `patience`, `rungs`, `short` and `keeps` are those of `genetic`.
     """
 
     population: Annotated[int, POPULATION] = 50
@@ -96,6 +99,7 @@ class EvolutionStrategy:
     founders: Annotated[int, FOUNDERS] = 0
     rungs: Annotated[int, RUNGS] = 0
     short: Annotated[float, SHARE] = 1.0
+    keeps: Annotated[float, RATIO] = 0.0
 
     def standstill(self, weights: int, generations: int) -> str:
         """A sentence on why so many generations come nowhere; empty if they may."""

@@ -156,8 +156,9 @@ def keep_champions(folder: Path, champions: Genomes) -> None:
 
 
 def keep_result(folder: Path, result: Mapping[str, Any]) -> None:
-    """Write the result of the run, once it has been kept elsewhere too."""
+    """Write the result of the run, once it has been kept elsewhere too; it has failed no more."""
     atomic_write.write(folder / RESULT, json.dumps(result, indent=2, allow_nan=False).encode() + b"\n")
+    (folder / FAILURE).unlink(missing_ok=True)
 
 
 def read_result(folder: Path) -> dict[str, Any] | None:

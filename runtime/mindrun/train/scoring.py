@@ -27,6 +27,7 @@ class Purpose(IntEnum):
     VERDICT = 3
     COMPARISON = 4
     RUNG = 5
+    RETENTION = 6
 
 
 def breeding_generator(seed: int, attempt: int, generation: int) -> np.random.Generator:
