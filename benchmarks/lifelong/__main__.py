@@ -11,6 +11,7 @@ it was. The same numbers come of any number of workers.
 
 import argparse
 import json
+import os
 import sys
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from multiprocessing import get_context
@@ -69,7 +70,8 @@ def main() -> None:
 
         write(options.figure, image(figure(found), options.figure.suffix))
     if options.page:
-        write(options.page, page(options.page.read_text(encoding="utf-8"), found).encode())
+        picture = os.path.relpath(options.figure, options.page.parent) if options.figure else ""
+        write(options.page, page(options.page.read_text(encoding="utf-8"), found, picture).encode())
 
 
 if __name__ == "__main__":

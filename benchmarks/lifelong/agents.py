@@ -3,7 +3,7 @@
 What an agent takes from one lesson to the next is a dictionary of arrays.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any, Protocol
@@ -40,7 +40,7 @@ GOOD_SCORES = {
 DONE_COUNTS = (25.0, 25.0, 100.0, 5.0, 5.0, 4.63, 5.0, 3.99)
 TASKS = tuple(GOOD_SCORES)
 PROBED_RUNS, PROBED_READINGS, PROBE_STEP = 4, 200, np.float32(0.5)  # of a champion's; as far as learning moves a weight
-FREED_SHARE, RETRAINED_SHARE = 0.6, 0.3  # of the weights after a lesson, the smallest; of a lesson's ticks
+FREED_SHARE, RETRAINED_SHARE = 0.6, 0.3  # of the free weights after a lesson; of a lesson's ticks
 
 
 @dataclass(frozen=True, slots=True)
@@ -189,7 +189,7 @@ class Anchoring(Monolith):
         return Anchored(network_on(lesson), anchors, self.strength * GOOD_SCORES[TASKS[lesson]])
 
     def after(self, known: Known, lesson: int, weights: NDArray[np.float32]) -> Known:
-        found = importance(network_on(lesson), weights, range(PROBED_RUNS))
+        found = importance(network_on(lesson), weights, np.full_like(weights, PROBE_STEP)) / PROBE_STEP**2
         return {**known, NET: weights, f"weights {lesson}": weights, f"importance {lesson}": found}
 
 
@@ -197,8 +197,9 @@ class Anchoring(Monolith):
 class Masked:
     """The network of which each task keeps weights for itself (as PackNet): it has to be told the task.
 
-    After most of a lesson the smallest of its free weights become 0 and free for later ones; the others learn a little
-    longer, and stay. Task number k acts with those of the tasks up to it.
+    After most of a lesson those of its free weights without which the outputs change least become 0 and free for later
+    ones; the others learn a little longer, and stay. Task number k acts with those of the tasks up to it. (PackNet asks
+    for the smallest, which says little of networks that no gradient has taught.)
     """
 
     def learn(self, known: Known, lesson: int, seed: int, ticks: float) -> Learnt:
@@ -210,9 +211,10 @@ class Masked:
         first = Effort((1 - RETRAINED_SHARE) * ticks)
         champion, begun = teach(Part(rollout, net, free), start, seed, first)
         net[free] = champion[0]
-        smallest = np.argsort(np.abs(champion[0]), kind="stable")[: round(FREED_SHARE * len(free))]
+        needed = importance(rollout, net, np.where(owner == 0, -net, np.float32(0)))[free]
+        least = free[np.argsort(needed, kind="stable")[: round(FREED_SHARE * len(free))]]
         owner[free] = lesson + 1
-        owner[free[smallest]], net[free[smallest]] = 0, 0.0
+        owner[least], net[least] = 0, 0.0
         own = np.flatnonzero(owner == lesson + 1)
         champion, timed = teach(Part(rollout, net, own), net[own][None], seed, Effort(max(1.0, ticks - begun.ticks)))
         net[own] = champion[0]
@@ -245,25 +247,26 @@ class OnePerTask(Monolith):
         return sum(map(len, known.values()))
 
 
-def importance(rollout: Rollout, weights: NDArray[np.float32], seeds: Iterable[int]) -> NDArray[np.float32]:
-    """The mean squared sensitivity of a network's outputs to each of its weights, over readings of its runs.
+def importance(rollout: Rollout, weights: NDArray[np.float32], steps: NDArray[np.float32]) -> NDArray[np.float32]:
+    """The mean squared change of a network's outputs where each of its weights alone is moved by its step.
 
-    By differences as large as the steps of learning, of all outputs together after the clamp: many are beyond it.
+    Over readings of its runs, of all outputs together after the clamp, which most of them are beyond.
     """
     skill = next(skill for skill in graph().skills if skill.name == NET)
     shapes = skill.function.matrix_shapes(len(skill.inputs), skill.outputs)
-    readings = np.concatenate([chunk.readings for seed in seeds for chunk in trace(rollout, seed, weights).chunks])
+    chunks = [chunk.readings for seed in range(PROBED_RUNS) for chunk in trace(rollout, seed, weights).chunks]
+    readings = np.concatenate(chunks)
     chosen = np.linspace(0, len(readings) - 1, PROBED_READINGS).astype(int)
-    inputs = readings[chosen][:, skill.inputs]
+    inputs = np.ascontiguousarray(readings[chosen][:, skill.inputs])
 
     def outputs(genome: NDArray[np.float32]) -> NDArray[np.float32]:
         return np.clip(skill.function.forward(FLOAT32, matrices(genome, shapes), inputs, NOTHING)[0], 0, 1)
 
-    before, found = outputs(weights), np.empty(len(weights), np.float32)
-    for place in range(len(weights)):
+    before, found = outputs(weights), np.zeros(len(weights), np.float32)
+    for place in np.flatnonzero(steps):
         moved = weights.copy()
-        moved[place] += PROBE_STEP
-        found[place] = (((outputs(moved) - before) / PROBE_STEP) ** 2).sum(axis=1).mean()
+        moved[place] += steps[place]
+        found[place] = ((outputs(moved) - before) ** 2).sum(axis=1).mean()
     return found
 
 

@@ -142,8 +142,8 @@ def _short(count: float) -> str:
     return f"{count:.1f}" if count < 99.95 else f"{count:.0f}"
 
 
-def page(text: str, found: Mapping[str, Any]) -> str:
-    """The text of a page with the tables of these figures between its marks."""
+def page(text: str, found: Mapping[str, Any], picture: str = "") -> str:
+    """The text of a page with the tables of these figures between its marks, and a picture by its path from there."""
     setup = found["setup"]
     rows = [("agent", *MEASURES, "learnt", "unchanged", "weights")]
     for name, of in found["agents"].items():
@@ -156,7 +156,8 @@ def page(text: str, found: Mapping[str, Any]) -> str:
         "after each lesson; ± the standard error over the seeds."
     )
     counted = "What each task counts in a run after its own lesson → after the last one, on the mean over the seeds:"
-    block = "\n\n".join([BEGIN, said, _markdown(rows), counted, _markdown(tasks), END])
+    pictures = [f"![What each agent can do after each lesson]({picture})"] * bool(picture)
+    block = "\n\n".join([BEGIN, said, *pictures, _markdown(rows), counted, _markdown(tasks), END])
     return re.sub(f"{BEGIN}.*{END}", lambda _: block, text, flags=re.DOTALL)
 
 

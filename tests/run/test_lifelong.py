@@ -65,7 +65,7 @@ def test_scorers_that_add_nothing_score_as_the_rollout_does() -> None:
 def test_leaving_a_weight_costs_what_it_changes_in_the_outputs() -> None:
     task = network_on(0)
     genome = task.draw(1, np.random.default_rng(3))
-    found = importance(task, genome[0], [1])
+    found = importance(task, genome[0], np.full(task.genome_length, 0.5, np.float32))
     assert found.min() >= 0
     assert found.max() > 0
     anchored = Anchored(task, [(genome[0], found)], 50.0)
