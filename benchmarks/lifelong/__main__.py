@@ -4,8 +4,9 @@ Every agent learns eight tasks one after the other, with the same ticks for each
 layouts that no training has seen. What comes of a lesson is kept in a folder, so that whoever is stopped goes on where
 it was. The same numbers come of any number of workers.
 
-    python -m benchmarks.lifelong                                  all agents, five seeds: about an hour of two cores
+    python -m benchmarks.lifelong                                  all agents, five seeds: 35 minutes of two cores
     python -m benchmarks.lifelong --ticks 1e6 --seeds 1 --lessons 2    a look at all of it
+    python -m benchmarks.lifelong --first 101 --lessons 2 --agents "anchored 0.01" "anchored 0.1" "anchored 1"
     python -m benchmarks.lifelong --json lifelong.json --figure lifelong.svg --page docs/lifelong.md
 """
 
@@ -20,7 +21,7 @@ from pathlib import Path
 from mindrun.files.atomic_write import write
 from mindrun.processors import cores
 
-from benchmarks.lifelong.agents import AGENTS, TASKS, network_on
+from benchmarks.lifelong.agents import AGENTS, CANDIDATES, TASKS, network_on
 from benchmarks.lifelong.lives import live, read
 from benchmarks.lifelong.report import numbers, page, table
 
@@ -30,7 +31,7 @@ def parsed() -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         allow_abbrev=False, description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("--agents", nargs="+", default=[*AGENTS], choices=[*AGENTS], metavar="AGENT")
+    parser.add_argument("--agents", nargs="+", default=[*AGENTS], choices=[*AGENTS, *CANDIDATES], metavar="AGENT")
     parser.add_argument("--lessons", type=int, default=len(TASKS), choices=range(1, len(TASKS) + 1), metavar="1-8")
     parser.add_argument("--ticks", type=float, default=60e6, help="of a lesson, for every agent")
     parser.add_argument("--layouts", type=int, default=50, help="on which each task runs after each lesson")
@@ -60,7 +61,7 @@ def main() -> None:
         lives = [pool.submit(live, name, seed, *common) for seed in seeds for name in options.agents]
         for done in as_completed(lives):
             print(done.result(), file=sys.stderr, flush=True)
-    found = numbers(read(options.folder, options.agents), options.lessons, setup)
+    found = numbers(read(options.folder, options.agents, seeds), options.lessons, setup)
     print(table(found))
     if options.json:
         write(options.json, (json.dumps(found, indent=1) + "\n").encode())

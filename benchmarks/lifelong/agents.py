@@ -260,7 +260,8 @@ def importance(rollout: Rollout, weights: NDArray[np.float32], steps: NDArray[np
     inputs = np.ascontiguousarray(readings[chosen][:, skill.inputs])
 
     def outputs(genome: NDArray[np.float32]) -> NDArray[np.float32]:
-        return np.clip(skill.function.forward(FLOAT32, matrices(genome, shapes), inputs, NOTHING)[0], 0, 1)
+        sent: NDArray[np.float32] = skill.function.forward(FLOAT32, matrices(genome, shapes), inputs, NOTHING)[0]
+        return np.clip(sent, 0, 1)
 
     before, found = outputs(weights), np.zeros(len(weights), np.float32)
     for place in np.flatnonzero(steps):
@@ -279,3 +280,5 @@ AGENTS: dict[str, Agent] = {
     "monolith, masked": Masked(),
     "one per task": OnePerTask(),
 }
+STRENGTHS = 0.001, 0.01, 0.1, 1.0  # of anchors, to choose one of them with seeds that are not reported
+CANDIDATES: dict[str, Agent] = {f"anchored {each:g}": Anchoring(strength=each) for each in STRENGTHS}

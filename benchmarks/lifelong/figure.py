@@ -69,7 +69,7 @@ def _means(axes: Axes, found: Mapping[str, Any]) -> None:
     for number, (name, of) in enumerate(found["agents"].items()):
         shares = np.array(of["performance_by_task"], float)
         means = [shares[lesson - 1, :lesson].mean() for lesson in lessons]
-        look = {"color": ATTEMPTS[number], "marker": MARKS[number], "markersize": 3.4, "linewidth": 1.2}
+        look: dict[str, Any] = {"color": ATTEMPTS[number], "marker": MARKS[number], "markersize": 3.4, "linewidth": 1.2}
         axes.plot(lessons, means, label=name, zorder=3, clip_on=False, **look)
     axes.set_ylim(0, 1)
     axes.set_xticks(list(lessons))

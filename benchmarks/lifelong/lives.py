@@ -2,14 +2,14 @@
 
 import json
 import time
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from mindrun.files.atomic_write import write
 
-from benchmarks.lifelong.agents import AGENTS, TASKS, Agent, Known
+from benchmarks.lifelong.agents import AGENTS, CANDIDATES, TASKS, Agent, Known
 from benchmarks.lifelong.report import Record
 
 FRESH_LAYOUTS_SEED = 20_211_121
@@ -18,7 +18,7 @@ SEEDS_APART = 100  # between the seeds of two lives, one for each lesson
 
 def live(name: str, seed: int, lessons: int, ticks: float, layouts: int, folder: Path) -> str:
     """Go on with the life of an agent with a seed, lesson after lesson; one line on how long that took."""
-    agent, known, began = AGENTS[name], dict[str, Any](), time.perf_counter()
+    agent, known, began = (AGENTS | CANDIDATES)[name], dict[str, Any](), time.perf_counter()
     folder = folder / name.replace(",", "").replace(" ", "-") / f"seed-{seed}"
     folder.mkdir(parents=True, exist_ok=True)
     for lesson in range(lessons):
@@ -53,8 +53,8 @@ def played(agent: Agent, known: Known, layouts: int) -> dict[str, list[float | N
     return {"counts": counts, "scores": scores}
 
 
-def read(folder: Path, names: Sequence[str]) -> list[Record]:
-    """What has been written down of these agents, in the order of their names, seeds and lessons."""
+def read(folder: Path, names: Sequence[str], seeds: Container[int]) -> list[Record]:
+    """The records of these agents and seeds, in the order of their names, seeds and lessons."""
     records = [json.loads(path.read_text(encoding="utf-8")) for path in folder.glob("*/seed-*/*.json")]
-    chosen = (record for record in records if record["agent"] in names)
+    chosen = (record for record in records if record["agent"] in names and record["seed"] in seeds)
     return sorted(chosen, key=lambda record: (names.index(record["agent"]), record["seed"], record["lesson"]))

@@ -51,7 +51,7 @@ def isolated_forgetting(p: Matrix) -> Matrix:
     """
     taken = np.full(p.shape, np.nan)
     taken[1:] = p[:-1] - p[1:]
-    return np.where(np.tri(*p.shape, -1, dtype=bool), taken, np.nan)
+    return np.where(np.tri(len(p), p.shape[1], -1, dtype=bool), taken, np.nan)
 
 
 def backward_transfer(p: Matrix) -> float:

@@ -145,7 +145,7 @@ def _short(count: float) -> str:
 def page(text: str, found: Mapping[str, Any], picture: str = "") -> str:
     """The text of a page with the tables of these figures between its marks, and a picture by its path from there."""
     setup = found["setup"]
-    rows = [("agent", *MEASURES, "learnt", "unchanged", "weights")]
+    rows: list[tuple[str, ...]] = [("agent", *MEASURES, "learnt", "unchanged", "weights")]
     for name, of in found["agents"].items():
         *most, weights = _line((name, of))
         rows.append((*most, _mean(of["unchanged"], "{:.1f}", False), weights))

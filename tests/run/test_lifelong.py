@@ -24,7 +24,7 @@ def test_what_a_hierarchy_has_learnt_it_scores_for_ever_and_a_life_that_was_stop
     for folder, halts in ((tmp_path / "once", (2,)), (tmp_path / "twice", (1, 2))):
         for lessons in halts:
             live("hierarchy", 7, lessons, TICKS, LAYOUTS, folder)
-    once, twice = (read(tmp_path / name, ["hierarchy"]) for name in ("once", "twice"))
+    once, twice = (read(tmp_path / name, ["hierarchy"], [7]) for name in ("once", "twice"))
     spent = {"seconds": 0, "seconds_played": 0}
     assert [record | spent for record in once] == [record | spent for record in twice]
     assert once[1]["scores"][0] == once[0]["scores"][0] != once[1]["scores"][1]
