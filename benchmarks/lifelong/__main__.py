@@ -6,7 +6,7 @@ it was. The same numbers come of any number of workers.
 
     python -m benchmarks.lifelong                                  all agents, five seeds: 35 minutes of two cores
     python -m benchmarks.lifelong --ticks 1e6 --seeds 1 --lessons 2    a look at all of it
-    python -m benchmarks.lifelong --first 101 --lessons 2 --agents "anchored 0.01" "anchored 0.1" "anchored 1"
+    python -m benchmarks.lifelong --first 101 --seeds 2 --lessons 2 --agents "anchored 0.01" "anchored 0.1"
     python -m benchmarks.lifelong --json lifelong.json --figure lifelong.svg --page docs/lifelong.md
 """
 

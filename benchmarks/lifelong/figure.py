@@ -13,7 +13,7 @@ from matplotlib.patches import Rectangle
 from benchmarks.lifelong.agents import TASKS
 from mindlang.pictures.curves import ATTEMPTS, FAINT, INK, PAGE, STYLE
 
-COLUMNS, PANEL_INCHES = 4, 2.1  # panels in a row; the height of one, and without names its width
+PANEL_COLUMNS, PANEL_INCHES = 4, 2.1  # panels in a row; the height of one, and without names its width
 NAMES_INCHES = 1.4  # for the names of the tasks, and the scale
 SHADES, UNKNOWN = "YlGnBu", "#ececee"  # from nothing to all; of who could not play yet
 MARKS = ("o", "s", "^", "D", "v", "P", "X", "*")
@@ -23,13 +23,13 @@ MARKS = ("o", "s", "^", "D", "v", "P", "X", "*")
 def figure(found: Mapping[str, Any]) -> Figure:
     """A panel for each agent, with a field for each task after each lesson; their means in the last panel."""
     agents = found["agents"]
-    rows = ceil((len(agents) + 1) / COLUMNS)
-    size = COLUMNS * PANEL_INCHES + NAMES_INCHES, rows * PANEL_INCHES + 0.4
+    rows = ceil((len(agents) + 1) / PANEL_COLUMNS)
+    size = PANEL_COLUMNS * PANEL_INCHES + NAMES_INCHES, rows * PANEL_INCHES + 0.4
     drawn = Figure(figsize=size, layout="constrained", facecolor=PAGE)
-    panels = drawn.subplots(rows, COLUMNS, squeeze=False).ravel()
+    panels = drawn.subplots(rows, PANEL_COLUMNS, squeeze=False).ravel()
     for place, (name, of) in enumerate(agents.items()):
         fields = _fields(panels[place], np.array(of["performance_by_task"], float)[:, : found["lessons"]])
-        panels[place].set_yticklabels([] if place % COLUMNS else TASKS[: found["lessons"]])
+        panels[place].set_yticklabels([] if place % PANEL_COLUMNS else TASKS[: found["lessons"]])
         performance, forgetting = (np.mean(of[measure]) + 0.0 for measure in ("performance", "forgetting"))
         _head(panels[place], name, f"performance {performance:.2f}, forgetting {forgetting:.2f}")
     for axes in panels[len(agents) :]:
