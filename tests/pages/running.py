@@ -16,8 +16,8 @@ LONGEST_SECONDS = 1800
 OF_COLLECT = {  # pages whose reader is in the folder of examples/collect
     f"docs/{name}.md"
     for name in (
-        "breakpoints", "edits", "gymnasium", "lint", "locks", "logs", "proofs", "python", "view", "weights", "whatif",
-        "why",
+        "breakpoints", "edits", "gymnasium", "lifelong", "lint", "locks", "logs", "proofs", "python", "view", "weights",
+        "whatif", "why",
     )
 }  # fmt: skip
 
