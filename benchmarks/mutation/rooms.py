@@ -122,6 +122,7 @@ ROOMS = {
             "tests/sim/test_order.py",
             "tests/sim/test_physics.py::test_contacts_equal_plain_pymunk",
             "tests/sim/test_contacts.py",
+            "tests/sim/test_bodies.py::test_every_body_moves_and_touches_as_in_plain_pymunk[0-car]",
             "tests/sim/test_loose.py",
             "tests/sim/test_procedures.py::test_compiled_slow_and_rule_agree",
             "tests/sim/test_full_worlds.py",

@@ -1,5 +1,6 @@
 """Boxes and balls that are pushed: bit for bit what plain pymunk makes of them, whatever Chipmunk is not asked."""
 
+import numpy as np
 import pytest
 from mindrun.engine.engine import Engine
 from mindrun.graph.policy import Policy
@@ -137,3 +138,43 @@ task World in arena size 14
     rollout = Rollout(Policy(compile_text(text), {}), "World", "Go")
     happened = follow(rollout, Engine(Policy(rollout.graph, {})), 59)
     assert happened["Collision"] > 2
+
+
+def test_the_claw_takes_what_nothing_solid_keeps_from_it_as_plain_geometry_says() -> None:
+    """Items wider than the gaps between small rocks."""
+    text = """
+tick 1/60 s
+master Go
+body Robot is disc size 1
+actuator l is wheel side left neutral 0.5 thrust 80
+actuator r is wheel side right neutral 0.5 thrust 80
+actuator claw is gripper neutral 0 reach 2
+sensor a is sine period 0.5 s
+sensor b is sine period 7.3 s
+sensor way is bearing of coin
+skill Go is rule
+  reads a
+  reads b
+  reads way
+  drives l at 1.3 * b + way - 0.4
+  drives r at 1.3 * b + 0.6 - way
+  drives claw at 20 * a - 9
+task World in arena size 30
+  contains rock is obstacle grid 4 size 0.3 to 0.6 jitter 1.5
+  contains coin is item size 2.5 count 9
+  lasts 3000 ticks
+  rewards progress toward coin per tick
+  counts collision
+"""
+    rollout = Rollout(Policy(compile_text(text), {}), "World", "Go")
+    assert follow(rollout, Engine(Policy(rollout.graph, {})), 1)["Collision"] > 2
+
+
+def test_a_robot_begins_beside_a_fixed_box_along_either_axis() -> None:
+    text = MIND.replace("TICKS", "1").replace("crate is box size 3 OUTCOME", "crate is box size 3 at 0 0")
+    rollout = Rollout(Policy(compile_text(text.replace("OUTCOME", "")), {}), "World", "Push")
+    tile = rollout.tile(128)
+    rollout.fill(tile, rollout.jobs(np.zeros((1, 0), np.float32), np.arange(128, dtype=np.uint64)))
+    beside = np.abs(tile.state.world.body[:2]) < 3  # along x, along y: its half, and the robot's own width
+    assert beside.any(axis=1).tolist() == [True, True]
+    assert not beside.all(axis=0).any()
