@@ -1,4 +1,4 @@
-"""What a lesson leaves of earlier ones: their skills before it and after it, on the same fresh layouts."""
+"""Retention: the scores of earlier lessons before and after another one, on the same fresh layouts."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
