@@ -29,7 +29,7 @@ Examples:
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON document instead.")
 @click.option("-q", "--quiet", is_flag=True, help="Print nothing but results and errors.")
 def command(file: str, runs: Path, layouts: int, seed: int, workers: int | None, as_json: bool, quiet: bool) -> None:
-    """Show what FILE could do in each task after each lesson: what a lesson taught, and what it made forgotten.
+    """Show what each lesson of FILE taught, and what was forgotten.
 
     The lessons are those whose runs are kept, and whose weights went to the lock. After each of them every task that
     any of them taught runs on the same fresh layouts. A number is the mean of what a task counts in a run, or of the
