@@ -27,7 +27,7 @@ from mindrun.kinds.functions.procedure import module_source
 from mindrun.numbers.short_repr import full_repr
 from mindrun.train import RunError
 
-MANIFEST_VERSION = 3
+MANIFEST_VERSION = 4
 COMPUTED_WITH = ("numpy", "numba", "pymunk")
 SOURCES = Path(__file__).parents[1]
 SHOWN_CHARACTERS = 12  # of a hash
