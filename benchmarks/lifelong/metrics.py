@@ -34,7 +34,7 @@ def average_performance(p: Matrix) -> float:
 
 
 def forgetting(p: Matrix) -> Matrix:
-    """Of each task what it had after its own lesson, less what it has after the last.
+    """The loss of each task [task]: p after its own lesson less p after the last one.
 
     >>> forgetting(np.array([[1.0, 0.0], [0.25, 1.0]]))
     array([0.75, 0.  ])
@@ -43,7 +43,7 @@ def forgetting(p: Matrix) -> Matrix:
 
 
 def isolated_forgetting(p: Matrix) -> Matrix:
-    """What lesson t took from each earlier task i [t, i]; NaN where i was not taught before t.
+    """The loss of each earlier task i in lesson t alone [t, i]; NaN where i was not taught before t.
 
     >>> isolated_forgetting(np.array([[1.0, 0.0], [0.25, 1.0]]))
     array([[ nan,  nan],

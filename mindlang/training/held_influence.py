@@ -1,4 +1,4 @@
-"""What masters that were taught do with their subskills: whom they never influence, or always with the same number."""
+"""Masters that were taught, and their subskills: whom they never influence, or always with the same number."""
 
 from collections import defaultdict
 from itertools import islice

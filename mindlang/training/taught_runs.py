@@ -78,9 +78,7 @@ def _fits(subject: Subject, run: RunFolder) -> bool:
     return all(then[name] == now.get(name) for name in {*run.weights, *run.manifest.learners})
 
 
-def players(
-    subject: Subject, place: tuple[str, str], taught: Sequence[Taught], workers: int
-) -> Iterator[Rollout | None]:
+def players(subject: Subject, place: Place, taught: Sequence[Taught], workers: int) -> Iterator[Rollout | None]:
     """A rollout of a task under a master after each lesson; None where a skill had yet to be taught."""
     task, master = place
     needed = owners(reachable(subject.graph, master))
