@@ -146,8 +146,7 @@ def finish(
     kept = keep(run, subject, state, scorer, force, workers)
     result = result_of(run, subject, state, kept)
     more = held_influence(run, subject, state.kept[0]) if kept.is_new else []
-    idle = idle_note(read_progress(run.folder))
-    result |= {"notes": [*notes, *more, *filter(None, [idle])]}
+    result["notes"] = [*notes, *more, *result["notes"]]
     keep_result(run.folder, result)
     return result, kept
 
@@ -168,9 +167,9 @@ def result_of(run: RunFolder, subject: Subject, state: LessonState, kept: Kept) 
 
     `kept` says whether that is in the lock now. Where this had weights before, `compared` are their score and that of
     the new ones on common fresh layouts; `earlier` are lessons of which it has changed skills, before and after.
-    `idle_ticks` came after the last gain.
+    `idle_ticks` came after the last gain; `notes` say so where they are many.
     """
-    lesson = run.manifest.lesson
+    lesson, records = run.manifest.lesson, read_progress(run.folder)
     learnt = parts(subject.graph, run.manifest.learners, state.kept[0])
     return {
         "lesson": run.manifest.name,
@@ -186,7 +185,7 @@ def result_of(run: RunFolder, subject: Subject, state: LessonState, kept: Kept) 
         "best": state.best,
         "reevaluated": state.reevaluated,
         "ticks": state.ticks,
-        "idle_ticks": idle_ticks(read_progress(run.folder)),
+        "idle_ticks": idle_ticks(records),
         "seconds": round(state.seconds, 3),
         "ticks_per_second": round(state.ticks / max(state.seconds, 1e-9)),
         "faults": state.faults,
@@ -200,6 +199,7 @@ def result_of(run: RunFolder, subject: Subject, state: LessonState, kept: Kept) 
             {"lesson": each.lesson.name, "before": each.before, "after": finite(each.after)} for each in kept.earlier
         ],
         "run": str(run.folder),
+        "notes": [*filter(None, [idle_note(records)])],
     }
 
 
