@@ -4,9 +4,7 @@ import pytest
 from mindrun.driver import SensorDriver
 from mindrun.graph.wiring import SensorWire, still
 from mindrun.robot.drivers.ball_tracker import BallTracker
-from mindrun.robot.drivers.lsm9ds1_compass import MagneticCompass
-from mindrun.robot.drivers.lsm9ds1_motion import Motion
-from mindrun.robot.drivers.lsm9ds1_turn import Turn
+from mindrun.robot.drivers.lsm9ds1 import MagneticCompass, Motion, Turn
 from mindrun.robot.drivers.mock import MockSensor
 
 

@@ -166,12 +166,6 @@ def open_inputs(what: str, *parts: Part) -> OpenSensor:
     return OpenSensor(read, lambda: close_all(inputs))
 
 
-def digital_inputs(what: str, numbers: tuple[int, ...], **options: Any) -> OpenSensor:
-    """The pins of these numbers as inputs, all with these `options` of gpiozero's DigitalInputDevice."""
-    parts = ((f"{what} on GPIO {number}", "DigitalInputDevice", {"pin": number, **options}) for number in numbers)
-    return open_inputs(what, *parts)
-
-
 @dataclass(frozen=True, slots=True)
 class OutputPin:
     """An actuator that is one output of gpiozero, whose value for a command 0 is `low`, and 1 for 1."""

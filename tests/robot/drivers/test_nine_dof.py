@@ -5,9 +5,7 @@ from mindrun.driver import DeviceError
 from mindrun.graph.wiring import SensorWire, reading
 from mindrun.robot import i2c
 from mindrun.robot.drivers.ads1115 import Ads1115
-from mindrun.robot.drivers.lsm9ds1_compass import MagneticCompass
-from mindrun.robot.drivers.lsm9ds1_motion import Motion
-from mindrun.robot.drivers.lsm9ds1_turn import Turn
+from mindrun.robot.drivers.lsm9ds1 import MagneticCompass, Motion, Turn
 
 from tests.robot.drivers.fakes import FakeAds1115, FakeBus, FakeLsm9ds1
 

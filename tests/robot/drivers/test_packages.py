@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import pytest
 from mindrun.driver import DeviceError
 from mindrun.robot import i2c
-from mindrun.robot.drivers.switch import Switch
+from mindrun.robot.drivers.digital_inputs import Switch
 
 WITHOUT = """
 import sys

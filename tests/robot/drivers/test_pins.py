@@ -5,10 +5,10 @@ from gpiozero.pins.mock import MockFactory, MockPWMPin
 from hypothesis import given
 from hypothesis import strategies as st
 from mindrun.driver import DeviceError
+from mindrun.robot.drivers.digital_inputs import LineSensor
 from mindrun.robot.drivers.encoder import Encoder
 from mindrun.robot.drivers.h_bridge import HBridge
 from mindrun.robot.drivers.lamp import Lamp
-from mindrun.robot.drivers.line_sensor import LineSensor
 from mindrun.robot.drivers.servo import PinServo
 
 from tests.robot.drivers.pins import mock_pins, pulsing_pins, turn_encoder

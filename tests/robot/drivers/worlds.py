@@ -13,16 +13,13 @@ from mindrun.robot.drivers import grove_motor as motors
 from mindrun.robot.drivers.ads1115 import Ads1115
 from mindrun.robot.drivers.ball_eye import BallEye
 from mindrun.robot.drivers.ball_tracker import BallTracker
-from mindrun.robot.drivers.bumper import Bumper
+from mindrun.robot.drivers.digital_inputs import Bumper, LineSensor, Switch
 from mindrun.robot.drivers.encoder import Encoder
 from mindrun.robot.drivers.grove_motor import GroveMotor
 from mindrun.robot.drivers.grove_ultrasonic import GroveUltrasonic
 from mindrun.robot.drivers.h_bridge import HBridge
 from mindrun.robot.drivers.lamp import Lamp
-from mindrun.robot.drivers.line_sensor import LineSensor
-from mindrun.robot.drivers.lsm9ds1_compass import MagneticCompass
-from mindrun.robot.drivers.lsm9ds1_motion import Motion
-from mindrun.robot.drivers.lsm9ds1_turn import Turn
+from mindrun.robot.drivers.lsm9ds1 import MagneticCompass, Motion, Turn
 from mindrun.robot.drivers.mcp3008 import Mcp3008
 from mindrun.robot.drivers.mock import MockActuator, MockSensor
 from mindrun.robot.drivers.mpu6050 import Mpu6050
@@ -30,7 +27,6 @@ from mindrun.robot.drivers.own import KIND as OWN_KIND
 from mindrun.robot.drivers.own import OwnActuator, OwnSensor, of_file
 from mindrun.robot.drivers.pca9685 import Pca9685
 from mindrun.robot.drivers.servo import PinServo
-from mindrun.robot.drivers.switch import Switch
 from mindrun.robot.drivers.ultrasonic import Ultrasonic
 from mindrun.robot.drivers.vl53l0x import Vl53l0x
 
