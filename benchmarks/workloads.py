@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 import mindlang
 from mindlang.compiler.compile import Compiled, compile_source, load
 from mindlang.compiler.source import Source
-from mindlang.lock.ready import ReadyMind, make_ready
+from mindlang.lock.status import ReadyMind, make_ready
 
 Weights = dict[str, NDArray[np.float32]]
 # The first seed of `random_weights` under which all skills of the example are awake and nearly all robots move; and one

@@ -32,7 +32,7 @@ from mindlang.editing.apply import Edited, apply_edit, write
 from mindlang.editing.project import EditError, open_project
 from mindlang.editing.summary import broken_sentences, diff, summarise
 from mindlang.limits import LAYOUT_BOUNDS, WORKER_BOUNDS, bounded_int, refuse_too_large, refuse_too_many
-from mindlang.lock.ready import ReadyMind, make_ready
+from mindlang.lock.status import ReadyMind, make_ready
 from mindlang.run.chosen_task import master_of, skill_of, task_of, unknown
 from mindlang.run.outcome import bench_data, over_at_once
 from mindlang.run.recorded_run import record_run

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from mindrun.graph.wiring import Wiring
 
     from mindlang.compiler.model import Mind
-    from mindlang.lock.ready import ReadyMind
+    from mindlang.lock.status import ReadyMind
 
 EXAMPLES = """\b
 Examples:
@@ -49,7 +49,7 @@ def command(file: str, output: Path, master: str | None, robot: Path | None, as_
     from mindrun.engine.engine import procedure_sources
     from mindrun.graph.bundle import Bundle, write_bundle
 
-    from mindlang.lock.ready import make_ready
+    from mindlang.lock.status import make_ready
 
     compiled = load_compiled(file)
     (mind, graph), folder = compiled.whole, compiled.sources[0].folder

@@ -45,7 +45,7 @@ def command(
     if task is not None and not with_run:
         raise click.UsageError("--task is of the run: say --run, too.")
     from mindlang.lock import lock_sources, read_locks
-    from mindlang.lock.ready import make_ready
+    from mindlang.lock.status import make_ready
     from mindlang.proofs.proof import prove
     from mindlang.proofs.report import proof_data, proof_report
     from mindlang.run.chosen_task import skill_of

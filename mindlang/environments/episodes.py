@@ -22,7 +22,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from mindlang.api import Mind, load
 from mindlang.compiler.diagnostic import listed
-from mindlang.lock.ready import ReadyMind, make_ready
+from mindlang.lock.status import ReadyMind, make_ready
 from mindlang.pictures.canvas import Image
 from mindlang.pictures.film_images import half_window, window
 from mindlang.pictures.robot import draw_robot

@@ -13,7 +13,6 @@ from mindrun.graph.skill_sets import learners, owner_of, owners, reachable
 from mindlang.compiler.diagnostic import listed
 from mindlang.lock import Entry, Lock, LockError, Taught, lock_path, read_lock, read_locks, write_lock
 from mindlang.lock.blobs import FOLDER, exclusive_folder, load_weights
-from mindlang.lock.ready import elsewhere_sentences
 from mindlang.lock.signature import arrange
 from mindlang.lock.status import (
     UNKNOWN,
@@ -22,6 +21,7 @@ from mindlang.lock.status import (
     Status,
     Trained,
     Untaught,
+    elsewhere_sentences,
     in_question,
     is_due,
     key_of,

@@ -1,10 +1,12 @@
-"""The status of skills: weights that fit, what is different about those that do not; and which lesson is due."""
+"""The status of skills: weights that fit, what is different about those that do not; which lesson is due; and a mind
+with the weights that it needs to act, with which `build`, `run` and `bench` begin.
+"""
 
 from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -12,14 +14,17 @@ from typing import TYPE_CHECKING
 from mindrun.graph.graph import Graph, Lesson, Skill
 from mindrun.graph.skill_sets import below, genes, learners, owner_of, owners, reachable
 
-from mindlang.lock import Entry, Lock, Taught
+from mindlang.compiler.diagnostic import listed
+from mindlang.compiler.source import Source
+from mindlang.lock import Entry, Lock, Taught, lock_sources, read_locks
 from mindlang.lock.blobs import load_weights
-from mindlang.lock.signature import differences, reordered, signature
+from mindlang.lock.signature import arrange, differences, reordered, signature
 from mindlang.lock.training_world import LessonKey, TrainingWorld
 from mindlang.lock.world_changes import changes
 from mindlang.lock.world_facts import Worlds
 
 if TYPE_CHECKING:
+    from mindrun.graph.policy import Policy
     from mindrun.numbers.arrays import Weights
 
 UNKNOWN = "in a world that the lock does not know (mindc status --accept says that it is this one)"
@@ -314,3 +319,46 @@ def _is_due(lesson: Lesson, earlier: Iterable[Lesson], state: Status) -> bool:
     if state.last and state.last.curriculum == lesson.curriculum:
         return state.last.number < lesson.number
     return key_of(lesson) != taught and any(key_of(other) == taught for other in earlier)
+
+
+@dataclass(frozen=True, slots=True)
+class ReadyMind:
+    """A policy, with its master and the weights of all skills below it; `refusals` say what is missing.
+
+    `notes` say which of these skills were taught in a world that is not the mind's, or is not known.
+    """
+
+    policy: Policy
+    refusals: tuple[str, ...]
+    notes: tuple[str, ...]
+
+
+def make_ready(graph: Graph, sources: Iterable[Source], master: str | None = None) -> ReadyMind:
+    """The graph of these sources with the weights of their locks; LockError where a lock or weights are damaged."""
+    from mindrun.graph.policy import Policy  # which needs numpy
+
+    sources = tuple(sources)
+    lock = read_locks(lock_sources(sources))
+    graph = replace(arrange(graph, lock), master=master or graph.master)
+    needed = [skill.name for skill in reachable(graph, graph.master)]
+    weights, refusals = trained_weights(graph, lock, frozenset(needed))
+    states = status(graph, lock, sources[0].folder)
+    acting = {name: states[name] for name in needed}
+    notes = [*elsewhere_sentences(acting)]
+    if unknown := [name for name, state in acting.items() if isinstance(state, Trained) and not state.entry.worlds]:
+        notes.append(f"{_were_taught(unknown)} {UNKNOWN}")
+    return ReadyMind(Policy(graph, weights), tuple(refusals), tuple(notes))
+
+
+def elsewhere_sentences(states: Mapping[str, Status]) -> Iterator[str]:
+    """A sentence for all skills that were taught elsewhere in the same way."""
+    ways: dict[tuple[str, ...], list[str]] = {}
+    for name, state in states.items():
+        if isinstance(state, Trained) and state.is_elsewhere:
+            ways.setdefault(state.changes, []).append(name)
+    for said, skills in ways.items():
+        yield f"{_were_taught(skills)} elsewhere: {'; '.join(said)}"
+
+
+def _were_taught(skills: Sequence[str]) -> str:
+    return f"{listed(skills, 'and')} {'was' if len(skills) == 1 else 'were'} taught"

@@ -20,7 +20,7 @@ from mindrun.terminal.command_line import command_line
 from numpy.typing import NDArray
 
 from mindlang.compiler.compile import load
-from mindlang.lock.ready import ReadyMind, make_ready
+from mindlang.lock.status import ReadyMind, make_ready
 from mindlang.run.recorded_run import Floats, RecordedRun
 from mindlang.run.setup import RunSetup
 

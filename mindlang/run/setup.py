@@ -17,7 +17,7 @@ from mindrun.terminal.command_line import command_line
 from mindlang.compiler.compile import Compiled
 from mindlang.executors.jobs import Block, JobScorer, empty_scores, write_scores
 from mindlang.limits import RUN_BOUNDS, SEED_BOUNDS, bounded_int
-from mindlang.lock.ready import ReadyMind, make_ready
+from mindlang.lock.status import ReadyMind, make_ready
 from mindlang.run.chosen_task import SetupError, master_of, task_of
 
 if TYPE_CHECKING:

@@ -18,7 +18,7 @@ from mindrun.train.run_folder import MANIFEST, SOURCES, RunFolder, open_run
 
 from mindlang.compiler.compile import load
 from mindlang.compiler.drawing import text_after_name
-from mindlang.lock.ready import ReadyMind
+from mindlang.lock.status import ReadyMind
 from mindlang.run.setup import RunSetup
 from mindlang.training.subject import Subject, open_subject
 from mindlang.view.about import Texts

@@ -25,8 +25,7 @@ from numpy.typing import NDArray
 from mindlang.compiler.diagnostic import listed
 from mindlang.lock import FILE_ORIGIN, LockError, Taught, read_lock, read_locks
 from mindlang.lock.blobs import digest, record
-from mindlang.lock.ready import elsewhere_sentences
-from mindlang.lock.status import status, trained_weights
+from mindlang.lock.status import elsewhere_sentences, status, trained_weights
 from mindlang.lock.world_facts import Worlds
 from mindlang.training.lesson_choice import chosen_lessons
 from mindlang.training.lock_update import COMPARED_LAYOUTS, WeightsComparison, needed_success

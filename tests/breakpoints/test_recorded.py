@@ -19,7 +19,7 @@ from mindlang.breakpoints.breakpoint import Breakpoint, Fault, Happens, Holds, R
 from mindlang.breakpoints.resolve import breakpoints_of
 from mindlang.breakpoints.watch import RecordingWatcher, recording_subject, watcher
 from mindlang.compiler.source import Source
-from mindlang.lock.ready import ReadyMind
+from mindlang.lock.status import ReadyMind
 from mindlang.run.recorded_run import record_run
 from mindlang.run.recording import run_bytes
 from mindlang.run.setup import RunSetup

@@ -24,9 +24,8 @@ from mindlang.editing.project import EditError, MindChange, open_project
 from mindlang.editing.summary import summarise
 from mindlang.lock import lock_path, read_lock, write_lock
 from mindlang.lock.blobs import FOLDER, blob
-from mindlang.lock.ready import make_ready
 from mindlang.lock.signature import arrange
-from mindlang.lock.status import NotLearning, Stale, Trained, Untaught
+from mindlang.lock.status import NotLearning, Stale, Trained, Untaught, make_ready
 from tests.draws import cases
 from tests.edits.taught import MIND, statuses, teach, write_mind
 from tests.hierarchies import PROCEDURES, random_graph

@@ -4,7 +4,7 @@ import numpy as np
 from mindrun.sim.rollout import Rollout
 
 from mindlang.compiler.compile import load
-from mindlang.lock.ready import make_ready
+from mindlang.lock.status import make_ready
 from tests.examples.test_paper import COLLECT
 
 RUNS = 40

@@ -13,8 +13,8 @@ from mindlang.editing.apply import apply_edit, write
 from mindlang.editing.edits.unshare import unshare
 from mindlang.editing.project import open_project
 from mindlang.lock import read_lock
-from mindlang.lock.ready import make_ready
 from mindlang.lock.report import rows
+from mindlang.lock.status import make_ready
 from mindlang.run.setup import set_up
 from tests.language.examples import COLLECT
 from tests.train.test_train_command import train_apart

@@ -21,8 +21,7 @@ from mindlang.compiler.compile import load
 from mindlang.editing.apply import apply_edit, write
 from mindlang.editing.edits import edit
 from mindlang.editing.project import open_project
-from mindlang.lock.ready import make_ready
-from mindlang.lock.status import Trained
+from mindlang.lock.status import Trained, make_ready
 from tests.draws import cases
 from tests.edits.taught import statuses, teach
 from tests.outside import drawn_worlds

@@ -18,7 +18,7 @@ from mindrun.kinds.functions.mlp import Mlp
 from mindrun.numbers.arithmetic import sigmoid
 
 from mindlang.compiler.compile import load
-from mindlang.lock.ready import make_ready
+from mindlang.lock.status import make_ready
 from mindlang.proofs.interval import SIGMOID_ERROR
 from mindlang.proofs.proof import ActuatorClaims, Proof, prove
 from mindlang.proofs.reach import MIN_INFLUENCE, ProvedReach, prove_reach

@@ -19,7 +19,7 @@ from mindrun.kinds.functions.function import Rule
 from mindrun.kinds.sensors.sensor import Physical
 from mindrun.robot.recording import read
 
-from mindlang.lock.ready import ReadyMind
+from mindlang.lock.status import ReadyMind
 from mindlang.run.recorded_run import RecordedRun, record_run
 from mindlang.run.recording import run_bytes
 from mindlang.run.setup import RunSetup

@@ -18,7 +18,7 @@ from mindrun.robot.recording import read
 from mindrun.robot.replay import replay, replay_recording
 
 from mindlang.compiler.compile import load
-from mindlang.lock.ready import ReadyMind
+from mindlang.lock.status import ReadyMind
 from mindlang.run.recorded_run import RecordedRun, record_run
 from mindlang.run.recording import run_bytes, run_of, running_bundle
 from mindlang.run.setup import RunSetup, set_up

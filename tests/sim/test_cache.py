@@ -249,7 +249,7 @@ DIGEST = """
 from hashlib import sha256
 import numpy as np
 from mindlang.compiler.compile import load
-from mindlang.lock.ready import make_ready
+from mindlang.lock.status import make_ready
 from mindrun.sim.rollout import Rollout
 found = load("examples/collect/collect.mind")
 ready = make_ready(found.graph, found.sources)

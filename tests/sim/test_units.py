@@ -208,7 +208,7 @@ WARM = f"""
 import sys
 import numpy as np
 from mindlang.compiler.compile import load
-from mindlang.lock.ready import make_ready
+from mindlang.lock.status import make_ready
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.warmup import every_unit
 found = load({str(COLLECT)!r})

@@ -16,7 +16,7 @@ from protocol import Case
 
 from mindlang.compiler.compile import Compiled, load
 from mindlang.lock import lock_path, read_lock
-from mindlang.lock.ready import make_ready
+from mindlang.lock.status import make_ready
 from mindlang.run.setup import NO_GENOME, layouts, set_up
 
 

@@ -1,6 +1,6 @@
 """Changes of readings, influence and memory cells, tick by tick, with which a run goes on otherwise than it did.
 
-And the engine that runs with such changes, bit for bit as `mindrun.sim.changed_ticks` makes them in the lanes.
+And the engine that runs with such changes, bit for bit as `mindrun.sim.trace` makes them in the lanes.
 """
 
 from collections.abc import Mapping, Sequence
@@ -111,7 +111,7 @@ def _place(graph: Graph, what: What, name: str) -> tuple[str, int, int]:
 
 
 class ChangedEngine(Engine):
-    """An engine whose `tick_with` makes changes, bit for bit as `mindrun.sim.changed_ticks` makes them in the lanes."""
+    """An engine whose `tick_with` makes changes, bit for bit as `mindrun.sim.trace` makes them in the lanes."""
 
     def reset(self) -> None:
         """Go back to the state before the first tick."""

@@ -6,15 +6,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mindrun.graph.graph import Graph, Task
+from mindrun.engine.engine import scene_of
+from mindrun.graph.graph import Graph, Sensor, Task
 from mindrun.graph.measured import rows_of, used_sensors
 from mindrun.graph.weights import genes, reachable
+from mindrun.kinds.sensors.sensor import Physical
+from mindrun.numbers.expression import placed
 from mindrun.sim import task_rows
-from mindrun.sim.codes import CODE
+from mindrun.sim.codes import CODE, SENSOR, Row, records
+from mindrun.sim.kind_lanes import sensor_unit
 from mindrun.sim.mind_rows import Programs, actuator_rows, memory_rows, skill_rows
 from mindrun.sim.parameter_rows import Parameters
-from mindrun.sim.sensor_rows import sensor_rows
 from mindrun.sim.tables import Tables
+from mindrun.sim.task_rows import NOWHERE, boxes_by_name, rows_by_name
 
 Array = NDArray[Any]
 Floats = NDArray[np.float32]
@@ -61,3 +65,61 @@ def genome_length(graph: Graph, learners: Sequence[str]) -> int:
     """The number of weights of all learners together."""
     learning = {*learners}
     return sum(genes(skill) for skill in graph.skills if skill.name in learning)
+
+
+def sensor_rows(
+    graph: Graph, used: list[Sensor], aside: list[Sensor], task: Task, programs: Programs, parameters: Parameters
+) -> tuple[dict[str, NDArray[Any]], dict[str, int]]:
+    """The tables of the sensors that are used, their rays and numbers, and how many numbers are remembered of what.
+
+    What is measured `aside` draws its noise from a generator of its own: a reward changes nothing in the world.
+    """
+    things, boxes, scene = rows_by_name(task), boxes_by_name(task), scene_of(graph)
+    rows, before, rough, rings = list[Row](), 0, 0, 0
+    rays, ray_row, passes, numbers = list[float](), list[int](), list[tuple[int, int]](), list[float]()
+    for is_aside, sensor in [(False, each) for each in used] + [(True, each) for each in aside]:
+        kind = sensor.kind
+        about, solid = things.get(kind.thing, NOWHERE), boxes.get(kind.thing, NOWHERE)
+        (code, length), roughness = programs.add(placed(kind.formula, scene.starts)), _roughness(sensor, parameters)
+        rows.append({
+            "lane": sensor_unit(kind).place, "start": sensor.start, "width": sensor.width,
+            "thing": about.start, "things": len(about), "box": solid.start, "boxes": len(solid),
+            "turns": not scene.directions.isdisjoint({sensor.name, kind.source}),
+            "is_aside": is_aside, "every": 1, "code": code, "length": length,
+            "ray": len(rays), "number": len(numbers), "before": before, "held": rough, "ring": rings,
+            **roughness, **kind.row(scene),
+        })  # fmt: skip
+        rays += kind.rays
+        ray_row += range(sensor.start, sensor.start + len(kind.rays))
+        passes += [(about.start, about.stop)] * len(kind.rays)
+        numbers += kind.numbers
+        before += sensor.width * kind.remembered
+        if isinstance(kind, Physical):
+            rough += sensor.width
+            rings += sensor.width * int(roughness["delay"])
+    turn = np.array(rays, np.float64)
+    tables = {
+        "sensors": records(rows, SENSOR),
+        "rays": np.array([np.cos(turn), np.sin(turn)], np.float32),
+        "rims": np.array([graph.body.rim(angle) for angle in rays], np.float32),
+        "ray_row": np.array(ray_row, np.int64),
+        "passes": np.array(passes, np.int64).reshape(-1, 2).T.copy(),
+        "numbers": np.array(numbers, np.float64),
+    }
+    return tables, {"before": before, "rough": rough, "rings": rings}
+
+
+def _roughness(sensor: Sensor, parameters: Parameters) -> Row:
+    """The columns of a sensor's imperfections; `blank` is read where a reading is lost, −1 for the one before."""
+    kind, name = sensor.kind, sensor.name
+    if not isinstance(kind, Physical):
+        return {}
+    varying = {
+        "noise": parameters.row("sensor", name, "noise", kind.noise),
+        "lost": parameters.row("sensor", name, "lost", kind.lost),
+        "wait": parameters.row("sensor", name, "delay", kind.delay),
+    }
+    kind = parameters.greatest("sensor", name, kind)
+    is_rough = kind.noise > 0 or kind.lost > 0 or kind.every > 1 or kind.delay > 0
+    blank = -1.0 if kind.keeps_lost else kind.blank
+    return {"is_rough": is_rough, "blank": blank, "every": max(1, kind.every), "delay": kind.delay, **varying}
