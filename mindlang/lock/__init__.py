@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Self
 from urllib.parse import unquote
 
-from mindrun.errors import MindError
+from mindrun.errors import MindError, system_errors_as
 from mindrun.files.atomic_write import write
 from mindrun.files.printable import visible
 from mindrun.files.regular_files import read_regular
@@ -253,10 +253,8 @@ def lock_of(lines: Mapping[str, str], entries: Iterable[Entry]) -> str:
 
 def write_lock(path: Path, entries: Lock) -> None:
     """Write a lock, sorted; the old one stays until the new one is whole. LockError where that fails."""
-    try:
+    with system_errors_as(LockError, f"{path} cannot be written"):
         write(path, lock_text(entries).encode())
-    except OSError as error:
-        raise LockError(f"{path} cannot be written: {error.strerror}") from error
 
 
 @dataclass(frozen=True, slots=True)

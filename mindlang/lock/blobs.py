@@ -11,7 +11,7 @@ from hashlib import sha256
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from mindrun.errors import WeightsError
+from mindrun.errors import WeightsError, system_errors_as
 from mindrun.files import atomic_write
 from mindrun.files.atomic_write import write
 from mindrun.files.npy import to_npy
@@ -87,15 +87,12 @@ def record(
         origin = origins.get(skill, before.origin if before else None)
         entry = _entry(path, graph, skill, weights, taught)
         entries[skill] = replace(entry, worlds=worlds, origin=origin, accepted=accepted)
-    try:
-        with exclusive_folder(path.parent / FOLDER):
-            lock = read_lock(path)
-            for skill, entry in entries.items():
-                write(blob(path.parent, entry.weights), to_npy(learnt[skill]))
-            write_lock(path, lock | entries)
-    except OSError as error:
-        names = listed(entries, "and")
-        raise LockError(f"the weights of {names} cannot be written: {error.strerror}") from error
+    unwritten = f"the weights of {listed(entries, 'and')} cannot be written"
+    with system_errors_as(LockError, unwritten), exclusive_folder(path.parent / FOLDER):
+        lock = read_lock(path)
+        for skill, entry in entries.items():
+            write(blob(path.parent, entry.weights), to_npy(learnt[skill]))
+        write_lock(path, lock | entries)
     return entries
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from mindrun.errors import system_errors_as
 from mindrun.graph.graph import Graph, Lesson
 from mindrun.graph.skill_sets import learners, owner_of, owners, reachable
 
@@ -167,11 +168,8 @@ def accept(graph: Graph, sources: Sequence[Path], skills: Sequence[str]) -> None
     entries = {skill: _accepted(graph, lock, sources[0].parent, lock[skill]) for skill in skills}
     for path in map(lock_path, sources):
         if mine := {skill: entries.pop(skill) for skill in read_lock(path) if skill in entries}:
-            try:
-                with exclusive_folder(path.parent / FOLDER):
-                    write_lock(path, read_lock(path) | mine)
-            except OSError as error:
-                raise LockError(f"{path} cannot be written: {error.strerror}") from error
+            with system_errors_as(LockError, f"{path} cannot be written"), exclusive_folder(path.parent / FOLDER):
+                write_lock(path, read_lock(path) | mine)
 
 
 def _accepted(graph: Graph, lock: Lock, folder: Path, entry: Entry) -> Entry:

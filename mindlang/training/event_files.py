@@ -4,14 +4,13 @@ They are made of the run's log and nothing else: whoever goes on with a run begi
 generation is there twice, whatever had been written when the process was killed.
 """
 
-from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager
 from dataclasses import asdict
 from datetime import datetime
 from math import isfinite
-from pathlib import Path
 from typing import TYPE_CHECKING
 
+from mindrun.errors import system_errors_as
 from mindrun.train import RunError
 from mindrun.train.lesson_state import Record
 from mindrun.train.progress import Logged, read_progress
@@ -40,7 +39,7 @@ class EventFiles:
 
     def report(self, record: Record, now: float) -> None:
         """Write a generation that has ended and is in the log; the first call writes all before it, too."""
-        with _disk(self.folder):
+        with self._disk():
             if self._writer is None:
                 self._write_all()
             else:
@@ -51,17 +50,21 @@ class EventFiles:
 
     def write_all(self) -> None:
         """Write all generations in the log of a run, which need not go on."""
-        with _disk(self.folder):
+        with self._disk():
             self._write_all()
         self.close()
 
     def close(self) -> None:
         """Bring the files to the disk; a generation that is reported after that begins them anew."""
         if self._writer:
-            with _disk(self.folder):
+            with self._disk():
                 self._writer.flush()
                 self._writer.close()
             self._writer = None
+
+    def _disk(self) -> AbstractContextManager[None]:
+        hint = "make room, or go on without --tensorboard"
+        return system_errors_as(RunError, f"cannot write to {self.folder}", hint)
 
     def _write_all(self) -> None:
         self._attempt, self._time = None, datetime.fromisoformat(self._run.manifest.started).timestamp()
@@ -106,12 +109,3 @@ def _summary(record: Logged) -> "Summary":
             if value is not None and isfinite(value)
         ]
     )
-
-
-@contextmanager
-def _disk(folder: Path) -> Iterator[None]:
-    try:
-        yield
-    except OSError as error:
-        hint = "make room, or go on without --tensorboard"
-        raise RunError(f"cannot write to {folder}: {error.strerror}", hint) from error

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
-from mindrun.errors import WeightsError
+from mindrun.errors import WeightsError, system_errors_as
 from mindrun.files.atomic_write import write
 from mindrun.files.printable import visible
 from mindrun.files.regular_files import read_whole
@@ -150,10 +150,8 @@ def trained_network(subject: Subject, skill: str) -> tuple[SkillNetwork, Weights
 
 def save_genome(path: Path, network: SkillNetwork, genome: Weights) -> None:
     """Write a genome as the matrices of its network; WeightsError where that fails."""
-    try:
+    with system_errors_as(WeightsError, f"{path} cannot be written"):
         write(path, to_bytes(network, genome))
-    except OSError as error:
-        raise WeightsError(f"{path} cannot be written: {error.strerror}") from error
 
 
 def to_bytes(network: SkillNetwork, genome: Weights) -> bytes:
@@ -169,10 +167,8 @@ def load_genome(path: Path, network: SkillNetwork) -> Weights:
 
 def read_bytes(path: Path) -> bytes:
     """The bytes of a file; WeightsError where it cannot be read or is too large."""
-    try:
+    with system_errors_as(WeightsError, f"{path} cannot be read"):
         return read_whole(path, MAX_WEIGHTS_BYTES)
-    except OSError as error:
-        raise WeightsError(f"{path} cannot be read: {error.strerror}") from error
 
 
 def genome_in(path: Path, data: bytes, network: SkillNetwork) -> Weights:

@@ -2,7 +2,8 @@
 
 import errno
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 
 OUR_OWN = ("mindlang", "mindrun")
 LEAST_ALIKE = 0.6  # difflib's ratio, below which nothing is looked at closer
@@ -45,6 +46,15 @@ def reason(error: Exception) -> str:
     if isinstance(error, OSError) and error.errno == errno.EBADF:
         return "it is closed"
     return getattr(error, "strerror", None) or str(error)
+
+
+@contextmanager
+def system_errors_as(kind: type[MindError], message: str, hint: str = "") -> Iterator[None]:
+    """Raise an OSError as an error of this kind: the message, and behind it why, in the words of the system."""
+    try:
+        yield
+    except OSError as error:
+        raise kind(f"{message}: {error.strerror}", hint) from error
 
 
 def text_of(error: BaseException) -> str:

@@ -10,7 +10,7 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
-from mindrun.errors import BundleError, WeightsError
+from mindrun.errors import BundleError, WeightsError, system_errors_as
 from mindrun.files.archive import read_archive, write_archive
 from mindrun.files.atomic_write import write_out
 from mindrun.files.npy import to_npy
@@ -70,10 +70,8 @@ def write_bundle(path: Path, bundle: Bundle) -> str:
 
 def read_bundle(path: Path) -> Bundle:
     """Read a mind from a file; BundleError unless it is byte for byte what was written."""
-    try:
+    with system_errors_as(BundleError, f"cannot read {path}"):
         data = read_whole(path, MAX_BUNDLE_BYTES)
-    except OSError as error:
-        raise BundleError(f"cannot read {path}: {error.strerror}") from error
     try:
         return unpack(data)
     except BundleError as error:

@@ -19,6 +19,7 @@ from typing import Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
+from mindrun.errors import system_errors_as
 from mindrun.files.regular_files import open_regular
 from mindrun.graph.recording_header import MAX_HEADER_BYTES, about_of_line, line_of
 from mindrun.graph.recording_header import About as About
@@ -98,7 +99,7 @@ class Recorder(AbstractContextManager["Recorder"]):
         line = line_of(about)
         self._world = world
         self._row = np.zeros(1, about.row)
-        self._path = path
+        self._unwritten = f"{path} cannot be written"
         self._file = BackgroundFile(path.open("xb"))
         try:
             self._file.write(line)
@@ -116,7 +117,7 @@ class Recorder(AbstractContextManager["Recorder"]):
             self._row[name][0] = value
         if self._world:
             self._row["world"] = self._world()
-        with self._told():
+        with system_errors_as(RecordingError, self._unwritten):
             self._file.write(_sealed(self._row).tobytes())
 
     def close(self) -> None:
@@ -124,18 +125,11 @@ class Recorder(AbstractContextManager["Recorder"]):
         self._ending.set()
         self._syncing.join()
         try:
-            with self._told():
+            with system_errors_as(RecordingError, self._unwritten):
                 self._file.flush()
                 os.fsync(self._file.fileno())
         finally:
             self._file.close()
-
-    @contextmanager
-    def _told(self) -> Iterator[None]:
-        try:
-            yield
-        except OSError as error:
-            raise RecordingError(f"{self._path} cannot be written: {error.strerror}") from error
 
     def _sync(self, every: float | None) -> None:
         """Bring to the disk what has been written, beside the loop: a slow card must not hold a tick."""
@@ -195,10 +189,8 @@ def read(path: Path) -> tuple[About, Iterator[NDArray[Any]]]:
 
     The rows raise it, too, where one is damaged, behind all that are before it. A last row that is not whole is no row.
     """
-    try:
+    with system_errors_as(RecordingError, f"cannot read {path}"):
         return read_growing(path, _parts(path))
-    except OSError as error:
-        raise RecordingError(f"cannot read {path}: {error.strerror}") from error
 
 
 def _parts(path: Path) -> Iterator[bytes]:

@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from mindrun.errors import system_errors_as
 from mindrun.files import atomic_write
 from mindrun.files.archive import read_archive, write_archive
 from mindrun.files.npy import from_npy, to_npy
@@ -62,7 +63,7 @@ class RunFolder:
 def create(runs: Path, manifest: Manifest, sources: Mapping[str, str], weights: Mapping[str, Weights]) -> RunFolder:
     """A new run folder under `runs`, with the text of each source by its path; RunError where it cannot be written."""
     stamp = "".join(letter for letter in manifest.started if letter not in "-:")
-    try:
+    with system_errors_as(RunError, f"cannot write a run under {runs}", "choose another folder with --runs"):
         folder = _unused(runs / manifest.name, f"{stamp}-{manifest.seed}")
         for path, text in sources.items():
             (folder / SOURCES / path).parent.mkdir(parents=True, exist_ok=True)
@@ -70,10 +71,6 @@ def create(runs: Path, manifest: Manifest, sources: Mapping[str, str], weights: 
         packed = write_archive((f"{skill}.npy", to_npy(array)) for skill, array in sorted(weights.items()))
         atomic_write.write(folder / START, packed)
         atomic_write.write(folder / MANIFEST, to_json(manifest))  # last: with it the folder is a run
-    except OSError as error:
-        raise RunError(
-            f"cannot write a run under {runs}: {error.strerror}", "choose another folder with --runs"
-        ) from error
     return RunFolder(folder, manifest, dict(weights))
 
 

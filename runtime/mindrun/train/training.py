@@ -1,10 +1,9 @@
 """A run from where it stands to its end: generations, their log, a checkpoint every two seconds."""
 
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass, replace
-from pathlib import Path
 
+from mindrun.errors import system_errors_as
 from mindrun.train import RunError, checkpoint
 from mindrun.train.attempt import Clock
 from mindrun.train.attempts import Ahead, AttemptExecutor, InThisThread, Step, side_by_side
@@ -16,6 +15,7 @@ from mindrun.train.run_folder import RunFolder, claim, keep_champions, keep_weig
 from mindrun.train.scoring import Scorer
 
 CHECKPOINT_SECONDS = 2.0  # between two checkpoints
+NO_ROOM = "what was saved last is intact: make room, then go on with --resume"
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,7 +37,7 @@ def train(run: RunFolder, scorer: Scorer, watch: Watch, executor: AttemptExecuto
     process has the run, its checkpoints are damaged, or the disk takes no more.
     """
     course = run.course(scorer.genome_length)
-    with _disk(run.folder), claim(run.folder):
+    with system_errors_as(RunError, f"cannot write to {run.folder}", NO_ROOM), claim(run.folder):
         now = _standing(run, course, watch)
         with ProgressLog(run.folder, now) as progress, ChampionLog(run.folder, now, watch.warn) as champions:
             saved = watch.clock()
@@ -94,14 +94,3 @@ def _save(run: RunFolder, state: LessonState, *logs: ProgressLog | ChampionLog) 
     for log in logs:
         log.sync()
     checkpoint.save(run.folder, state, run.manifest.identity)
-
-
-@contextmanager
-def _disk(folder: Path) -> Iterator[None]:
-    try:
-        yield
-    except OSError as error:
-        raise RunError(
-            f"cannot write to {folder}: {error.strerror}",
-            "what was saved last is intact: make room, then go on with --resume",
-        ) from error

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from mindrun.driver import ActuatorDriver
-from mindrun.errors import MindError
+from mindrun.errors import MindError, system_errors_as
 from mindrun.files.regular_files import read_regular
 from mindrun.files.strict_json import parsed
 from mindrun.graph.codec import decode, encode
@@ -82,10 +82,8 @@ def from_json(text: str | bytes) -> Plan:
 
 def read_plan(path: Path) -> Plan:
     """The plan in a file, which may be a bundle with a wiring; MindError where there is none."""
-    try:
+    with system_errors_as(MindError, f"cannot read {path}"):
         data = read_regular(path, MAX_PLAN_BYTES)
-    except OSError as error:
-        raise MindError(f"cannot read {path}: {error.strerror}") from error
     if not data.startswith(b"PK"):
         return from_json(data)
     from mindrun.graph.bundle import read_bundle  # which needs numpy
