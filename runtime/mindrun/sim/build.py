@@ -13,11 +13,10 @@ from mindrun.graph.weights import genes, reachable
 from mindrun.kinds.sensors.sensor import Physical
 from mindrun.numbers.expression import placed
 from mindrun.sim import task_rows
-from mindrun.sim.codes import CODE, SENSOR, Row, records
+from mindrun.sim.codes import CODE, SENSOR, Row, Tables, records
 from mindrun.sim.kind_lanes import sensor_unit
 from mindrun.sim.mind_rows import Programs, actuator_rows, memory_rows, skill_rows
 from mindrun.sim.parameter_rows import Parameters
-from mindrun.sim.tables import Tables
 from mindrun.sim.task_rows import NOWHERE, boxes_by_name, rows_by_name
 
 Array = NDArray[Any]

@@ -3,9 +3,8 @@
 from threading import Lock
 from typing import Any
 
-from mindrun.sim.codes import SENSOR, SKILL
+from mindrun.sim.codes import SENSOR, SKILL, Tables
 from mindrun.sim.state import MindState, Senses
-from mindrun.sim.tables import Tables
 from mindrun.sim.units import UNITS, Form, Unit
 
 read = Form((Tables, Senses, int, int, SENSOR), None)

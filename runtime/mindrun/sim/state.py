@@ -14,8 +14,7 @@ from numpy.typing import NDArray
 from mindrun.kinds.sensors.motion import TRAIL_TICKS
 from mindrun.numbers.arithmetic import BOX_COLUMNS, LANES, LOOSE_ROWS, THING_ROWS, X, Y
 from mindrun.sim.arrays import Block, Count, Room
-from mindrun.sim.codes import AWAY, PAIR, PUSH_ROWS, SOLID, SPACE, WALL_COUNT
-from mindrun.sim.tables import Tables
+from mindrun.sim.codes import AWAY, PAIR, PUSH_ROWS, SOLID, SPACE, WALL_COUNT, Tables
 
 Array = NDArray[Any]
 Part = TypeVar("Part")

@@ -16,11 +16,11 @@ from numpy.typing import NDArray
 from mindrun.engine.changes import Change, Changed, ChangeError, calm_ticks, in_tick
 from mindrun.numbers.arithmetic import ANGLE, BOX_COLUMNS, COSINE, LOOSE_ROWS, SINE, SIZE, THING_ROWS, TURN
 from mindrun.numbers.short_repr import ShortRepr
+from mindrun.sim.codes import Tables
 from mindrun.sim.lanes.advance import before
 from mindrun.sim.procedures import Memories
 from mindrun.sim.rollout import Rollout, Tile
 from mindrun.sim.state import FIRST_LOOSE, FIXED, ROBOT, Jobs, State, empty_state, recorded
-from mindrun.sim.tables import Tables
 
 Array = NDArray[Any]
 Advance = Callable[[Tile, Jobs, int], int]

@@ -16,11 +16,10 @@ from mindrun.numbers.arithmetic import (
     put_thing,
     size_of,
 )
-from mindrun.sim.codes import GRIPPER, ITEM
+from mindrun.sim.codes import GRIPPER, ITEM, Tables
 from mindrun.sim.lanes.placement import uniform
 from mindrun.sim.lanes.solid import CLOSED_UNITS, is_barred, is_blocked, is_walled
 from mindrun.sim.state import State
-from mindrun.sim.tables import Tables
 from mindrun.sim.units import unit, unit_where
 
 UNDRIVEN = F(-1)

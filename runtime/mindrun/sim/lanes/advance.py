@@ -1,7 +1,7 @@
 """Ticks of all lanes: the stages in their order, in two halves, between which procedures may run in Python."""
 
 from mindrun.numbers.arithmetic import X, Y
-from mindrun.sim.codes import GOING_ON
+from mindrun.sim.codes import GOING_ON, Tables
 from mindrun.sim.lanes.act import act, recall
 from mindrun.sim.lanes.judge import judge
 from mindrun.sim.lanes.runs import end
@@ -10,7 +10,6 @@ from mindrun.sim.lanes.solid import is_lost
 from mindrun.sim.lanes.step import step
 from mindrun.sim.lanes.think import begin, think
 from mindrun.sim.state import FAILED_SKILL, Jobs, State, recorded
-from mindrun.sim.tables import Tables
 from mindrun.sim.units import seldom, unit, unit_where
 
 

@@ -8,12 +8,11 @@ import numpy as np
 from mindrun.kinds.sensors.motion import TRAIL_TICKS
 from mindrun.numbers.arithmetic import COSINE, SINE, X, Y, distance_of, in_claw, inside, place_of
 from mindrun.sim import codes
-from mindrun.sim.codes import DELIVERY, GOING_ON, MOVES, STAYS, VANISHES, ZONE
+from mindrun.sim.codes import DELIVERY, GOING_ON, MOVES, STAYS, VANISHES, ZONE, Tables
 from mindrun.sim.lanes.loose import SETTLED_TICKS
 from mindrun.sim.lanes.placement import succeed, vanish
 from mindrun.sim.lanes.think import run_program
 from mindrun.sim.state import PLACE_ROWS, State, WorldState
-from mindrun.sim.tables import Tables
 from mindrun.sim.units import unit, unit_where
 
 REACH_BEGUN = 1  # in this tick and not in the one before

@@ -21,10 +21,9 @@ from mindrun.numbers.arithmetic import (
     put_thing,
     size_of,
 )
-from mindrun.sim.codes import HALF_DIAGONAL
+from mindrun.sim.codes import HALF_DIAGONAL, Tables
 from mindrun.sim.lanes.solid import extent_of, is_free, within
 from mindrun.sim.state import FIRST_LOOSE, ContactState, WorldState
-from mindrun.sim.tables import Tables
 from mindrun.sim.units import unit_where
 
 REST_SPEED = 1e-3  # units and radians per second: what is slower stands still

@@ -7,14 +7,13 @@ order of the hash: for each solid that moves what else moves, then for each what
 import numpy as np
 
 from mindrun.numbers.arithmetic import BOX_COLUMNS, box_of
-from mindrun.sim.codes import PERSISTENCE_TICKS, WALL_COUNT
+from mindrun.sim.codes import PERSISTENCE_TICKS, WALL_COUNT, Tables
 from mindrun.sim.lanes.hashed import rank, sides_of, swap, wall_of
 from mindrun.sim.lanes.loose import OF_LOOSE
 from mindrun.sim.lanes.nearest_points import LEAST_NORMAL, farthest, nearest_points
 from mindrun.sim.lanes.placement import ENDLESS_UNITS
 from mindrun.sim.lanes.shapes import overlap, put_corners, put_held
 from mindrun.sim.state import FIRST_LOOSE, FIXED, HELD, ROBOT, ContactState, WorldState
-from mindrun.sim.tables import Tables
 from mindrun.sim.units import unit_where
 
 KEY_RANGE = 1 << 26

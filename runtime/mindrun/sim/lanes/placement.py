@@ -22,11 +22,10 @@ from mindrun.numbers.arithmetic import (
     sine_cosine,
     size_of,
 )
-from mindrun.sim.codes import CONSTANT, DRAWN, DRAWN_WHOLE, FAILING, FAR
+from mindrun.sim.codes import CONSTANT, DRAWN, DRAWN_WHOLE, FAILING, FAR, Tables
 from mindrun.sim.lanes.solid import is_clear, put_box
 from mindrun.sim.parameter_rows import computed
 from mindrun.sim.state import WorldState
-from mindrun.sim.tables import Tables
 from mindrun.sim.units import unit
 
 GOLDEN, MIX_1, MIX_2 = np.uint64(0x9E3779B97F4A7C15), np.uint64(0xBF58476D1CE4E5B9), np.uint64(0x94D049BB133111EB)

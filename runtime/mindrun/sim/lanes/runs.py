@@ -4,12 +4,11 @@ import numpy as np
 
 from mindrun.kinds.sensors.motion import TRAIL_TICKS
 from mindrun.numbers.arithmetic import ANGLE, COSINE, SINE, X, Y, sine_cosine
-from mindrun.sim.codes import GOING_ON, LOST, VISIT
+from mindrun.sim.codes import GOING_ON, LOST, VISIT, Tables
 from mindrun.sim.lanes.judge import patch_of
 from mindrun.sim.lanes.placement import draw, set_numbers
 from mindrun.sim.lanes.solid import is_lost
 from mindrun.sim.state import PLACE_ROWS, Jobs, State
-from mindrun.sim.tables import Tables
 from mindrun.sim.units import unit
 
 MEASURED_ASIDE = np.uint64(0xD1B54A32D192ED03)  # what no skill reads draws from a generator of its own

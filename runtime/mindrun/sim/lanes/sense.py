@@ -31,7 +31,7 @@ from mindrun.numbers.arithmetic import (
     store,
     wrapped,
 )
-from mindrun.sim.codes import AWAY
+from mindrun.sim.codes import AWAY, Tables
 from mindrun.sim.kind_lanes import read
 from mindrun.sim.lanes.placement import uniform
 from mindrun.sim.lanes.solid import put_box
@@ -56,7 +56,6 @@ from mindrun.sim.state import (
     State,
     WorldState,
 )
-from mindrun.sim.tables import Tables
 from mindrun.sim.units import unit, unit_where
 
 CULLING_SLACK_UNITS = 2.0  # how far a robot may move before the boxes near it are chosen anew

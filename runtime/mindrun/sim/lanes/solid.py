@@ -31,9 +31,8 @@ from mindrun.numbers.arithmetic import (
     sine_cosine,
     size_of,
 )
-from mindrun.sim.codes import FAR, HALF_DIAGONAL
+from mindrun.sim.codes import FAR, HALF_DIAGONAL, Tables
 from mindrun.sim.state import FIRST_LOOSE, HELD, ROBOT, WorldState
-from mindrun.sim.tables import Tables
 from mindrun.sim.units import seldom, unit_where
 
 CLOSED_UNITS = 1e-6  # so much larger is everything here: what stands corner to corner leaves no way between

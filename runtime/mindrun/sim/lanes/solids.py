@@ -23,11 +23,10 @@ from mindrun.numbers.arithmetic import (
     put_thing,
     size_of,
 )
-from mindrun.sim.codes import FORCE_X, FORCE_Y, TORQUE
+from mindrun.sim.codes import FORCE_X, FORCE_Y, TORQUE, Tables
 from mindrun.sim.lanes.loose import OF_LOOSE, SETTLED_TICKS, is_at_rest, put_motion
 from mindrun.sim.lanes.shapes import overlap, put_corners, put_held, put_shape, turn
 from mindrun.sim.state import FIRST_LOOSE, FIXED, HELD, ROBOT, ContactState, WorldState
-from mindrun.sim.tables import Tables
 
 
 def open_space(tables, world, contact, lane):

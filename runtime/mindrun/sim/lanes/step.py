@@ -22,7 +22,7 @@ from mindrun.numbers.arithmetic import (
     sine_cosine,
     size_of,
 )
-from mindrun.sim.codes import FORCE, FORCE_ASIDE, FORCE_X, FORCE_Y, PERSISTENCE_TICKS, PUSH, STEERING, TORQUE
+from mindrun.sim.codes import FORCE, FORCE_ASIDE, FORCE_X, FORCE_Y, PERSISTENCE_TICKS, PUSH, STEERING, TORQUE, Tables
 from mindrun.sim.lanes.act import carry
 from mindrun.sim.lanes.loose import approach_loose, could_touch, slide, slow_down
 from mindrun.sim.lanes.placement import uniform
@@ -30,7 +30,6 @@ from mindrun.sim.lanes.sense import CULLING_SLACK_UNITS
 from mindrun.sim.lanes.solid import CLOSED_UNITS, find_swift, is_barred, is_free, within
 from mindrun.sim.lanes.strides import make_tick
 from mindrun.sim.state import MindState, State, WorldState
-from mindrun.sim.tables import Tables
 from mindrun.sim.units import unit, unit_where
 
 CONTACT_MARGIN_UNITS = 0.01  # beyond the rounding of any distance here

@@ -9,12 +9,12 @@ import numpy as np
 
 from mindrun.numbers.arithmetic import ANGLE, SPEED_X, SPEED_Y, SPIN, X, Y
 from mindrun.sim.c_library import POWER
+from mindrun.sim.codes import Tables
 from mindrun.sim.lanes.impulses import COLLISION_BIAS, solve
 from mindrun.sim.lanes.meeting import forget_old, let_go, touch_fixed, touch_movers
 from mindrun.sim.lanes.solid import MOST_STRIDES, hold_back, note_before, note_begin, stride, within
 from mindrun.sim.lanes.solids import gather, move_loose, move_robot, open_space, take_loose, take_robot
 from mindrun.sim.state import ROBOT, ContactState, WorldState
-from mindrun.sim.tables import Tables
 from mindrun.sim.units import call_double, unit
 
 

@@ -2,10 +2,10 @@
 
 from mindrun.numbers.arithmetic import NAN, ONE, ZERO, F, clamp, finite
 from mindrun.numbers.stack_machine import evaluate
+from mindrun.sim.codes import Tables
 from mindrun.sim.kind_lanes import compute
 from mindrun.sim.procedures import call_procedure
 from mindrun.sim.state import FAILED_COLUMN, FAILED_SKILL, State
-from mindrun.sim.tables import Tables
 from mindrun.sim.units import unit, unit_where
 
 NOT_SENT = F(-1)
