@@ -73,8 +73,8 @@ class Worlds:
         ends, successes = (sorted(self._ends(task, succeeds)) for succeeds in (False, True))
         said = {"scene": encode(task.scene), "ticks": task.ticks, "ends": ends}
         yield "task", said | ({"succeeds": successes} if successes else {})
-        if text := self._text_of_environment(task.scene.environment):
-            yield "environment", {"text": text}
+        if path := module_beside(task.scene.environment, self.folder):
+            yield "environment", {"text": sha256(path.read_bytes()).hexdigest()}
         if not task.scene.environment:
             yield "physics", physics()
         if task.start != Start():
@@ -158,11 +158,6 @@ class Worlds:
         except ProcedureError:
             text = ""
         return sha256(text.encode()).hexdigest() if text else ""
-
-    def _text_of_environment(self, name: str) -> str:
-        """A hash of the module beside the mind that an environment comes from; empty where there is none."""
-        path = module_beside(name, self.folder)
-        return sha256(path.read_bytes()).hexdigest() if path else ""
 
     def _ends(self, task: Task, succeeds: bool) -> Iterator[str]:
         """The ends of a run: those that are a success, or those that are none."""

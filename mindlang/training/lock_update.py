@@ -6,7 +6,7 @@ from math import isfinite
 
 import numpy as np
 from mindrun.graph.graph import Lesson
-from mindrun.graph.weights import parts
+from mindrun.graph.weights import owner_of, parts
 from mindrun.terminal.command_line import command_line
 from mindrun.train import RunError
 from mindrun.train.attempt import VERDICT_LAYOUTS, has_needed, of_halves, verdict_layouts
@@ -22,7 +22,7 @@ from mindlang.lock.status import Trained, key_of, trained_weights
 from mindlang.lock.world_facts import Worlds
 from mindlang.number_format import short_score
 from mindlang.training.retention import Retention, retention_table, retentions
-from mindlang.training.subject import Subject, origin_of
+from mindlang.training.subject import Subject
 
 COMPARED_LAYOUTS = 50  # common to the weights that a lock has and to the new ones, and to nothing else
 
@@ -190,7 +190,8 @@ def _record(
     }
     learnt = parts(subject.graph, learners, genome)
     world = Worlds(subject.graph, subject.folder).of(asked)
-    origins = {lesson.skill: origin} if (origin := origin_of(subject.graph, subject.lock, lesson)) else {}
+    begun = subject.lock.get(owner_of(subject.graph, lesson.starts_from))
+    origins = {lesson.skill: (lesson.starts_from, begun.weights)} if begun else {}
     record(subject.keep_path(lesson), subject.graph, learnt, taught, run.weights, world, begun_with, origins)
 
 

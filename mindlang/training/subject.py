@@ -7,7 +7,7 @@ from hashlib import sha256
 from pathlib import Path
 
 from mindrun.graph.graph import Graph, Lesson, Skill
-from mindrun.graph.weights import Weights, learners, owner_of
+from mindrun.graph.weights import Weights, learners
 from mindrun.terminal.command_line import command_line
 from mindrun.train import RunError
 from mindrun.train.manifest import Manifest, fingerprint, hashes, processor, versions
@@ -18,7 +18,6 @@ from mindlang.compiler.diagnostic import listed
 from mindlang.compiler.resolve.curricula import counterparts
 from mindlang.limits import SEED_BOUNDS, bounded_int
 from mindlang.lock import Lock, lock_path, lock_sources, read_lock, read_locks
-from mindlang.lock.blobs import Origin
 from mindlang.lock.signature import arrange, places, signature, width
 from mindlang.lock.status import Status, Trained, is_due, needed_skills, status, subskills, trained_weights
 
@@ -178,12 +177,6 @@ def origin_weights(graph: Graph, lock: Lock, lesson: Lesson, shown: Path) -> dic
             raise RunError(message, f"first: {command_line('mindc', 'train', shown, skills[needed].owner)}")
         known |= weights
     return {lesson.skill: _brought(graph, lesson, origin, known[origin.owner])}
-
-
-def origin_of(graph: Graph, lock: Lock, lesson: Lesson) -> Origin | None:
-    """The skill that a lesson starts from, and the SHA-256 of its weights."""
-    owner = owner_of(graph, lesson.starts_from)
-    return (lesson.starts_from, lock[owner].weights) if owner in lock else None
 
 
 def _brought(graph: Graph, lesson: Lesson, origin: Skill, weights: Weights) -> Weights:

@@ -160,11 +160,6 @@ def to_bytes(network: SkillNetwork, genome: Weights) -> bytes:
     return save(dict(tensors.by_name), dict(tensors.metadata))
 
 
-def load_genome(path: Path, network: SkillNetwork) -> Weights:
-    """The genome in a file of safetensors; WeightsError where it is not that of this network."""
-    return genome_in(path, read_bytes(path), network)
-
-
 def read_bytes(path: Path) -> bytes:
     """The bytes of a file; WeightsError where it cannot be read or is too large."""
     with system_errors_as(WeightsError, f"{path} cannot be read"):
@@ -172,7 +167,7 @@ def read_bytes(path: Path) -> bytes:
 
 
 def genome_in(path: Path, data: bytes, network: SkillNetwork) -> Weights:
-    """The genome in these bytes of a file."""
+    """The genome in these bytes of a file of safetensors; WeightsError where it is not that of this network."""
     try:
         return to_genome(network, from_bytes(data))
     except WeightsError as error:

@@ -18,7 +18,7 @@ from torch.autograd import Function
 from mindlang.lock import lock_sources, read_locks
 from mindlang.lock.signature import arrange
 from mindlang.lock.status import trained_weights
-from mindlang.weights.network import SkillNetwork, load_genome, network_of, save_genome
+from mindlang.weights.network import SkillNetwork, genome_in, network_of, read_bytes, save_genome
 
 if TYPE_CHECKING:
     from mindlang.api import Mind
@@ -195,7 +195,7 @@ class Skill(NetworkModule):
 
     def load(self, path: Path | str) -> None:
         """Load the weights of a file; WeightsError where they are not those of this skill."""
-        self.take(load_genome(Path(path), self.network))
+        self.take(genome_in(Path(path), read_bytes(Path(path)), self.network))
 
 
 def _random(network: SkillNetwork) -> Weights:

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 import mindlang
-from mindlang.weights.network import load_genome, network_of
+from mindlang.weights.network import genome_in, network_of, read_bytes
 from tests.calling import Call
 from tests.outside import minds
 
@@ -25,7 +25,7 @@ def test_what_is_imported_scores_what_its_runs_score(
     assert said.code == 0, said.err
     found = json.loads(said.out)
     graph = mindlang.load("go.mind").graph
-    genome = load_genome(Path("go.safetensors"), network_of(graph, "Go"))
+    genome = genome_in(Path("go.safetensors"), read_bytes(Path("go.safetensors")), network_of(graph, "Go"))
     rollout = mindlang.load("go.mind").rollout("Go", learners=["Go"])
     assert found["ticks"] == rollout.score(genome[None], [1]).ticks[0, 0]
     assert found["score"] != 0

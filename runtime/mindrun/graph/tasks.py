@@ -82,15 +82,12 @@ def is_one_world(graph: Graph, task: Task, master: str) -> bool:
         return False
     if task.scene.is_bounded and task.start.at is None:
         return False
-    if _varies(graph, task, master) or _draws_things(graph, task):
+    measured = {sensor.name for sensor in measured_in_world(graph, master, task)}
+    if any(each.low != each.high and (each.noun != "sensor" or each.of in measured) for each in task.varies):
+        return False
+    if _draws_things(graph, task):
         return False
     return not _draws_in_ticks(graph, task, master)
-
-
-def _varies(graph: Graph, task: Task, master: str) -> bool:
-    """True if an argument of anything in a run is drawn between two numbers; not of a sensor that nobody measures."""
-    measured = {sensor.name for sensor in measured_in_world(graph, master, task)}
-    return any(each.low != each.high and (each.noun != "sensor" or each.of in measured) for each in task.varies)
 
 
 def _draws_things(graph: Graph, task: Task) -> bool:

@@ -11,6 +11,7 @@ from mindrun.graph.graph import Graph, Sensor, Task
 from mindrun.graph.measured import rows_of, used_sensors
 from mindrun.graph.weights import genes, reachable
 from mindrun.kinds.sensors.sensor import Physical
+from mindrun.numbers.arithmetic import BOX_COLUMNS
 from mindrun.numbers.expression import placed
 from mindrun.sim import task_rows
 from mindrun.sim.codes import CODE, SENSOR, Row, Tables, records
@@ -43,12 +44,13 @@ def build(
     driven, delays = actuator_rows(graph, parameters)
     measures, changes = task_rows.measure_rows(task)
     events, patches, arrivals = task_rows.event_rows(task)
+    walls = [wall for thing in task.things for wall in thing.kind.walls]
     tables = Tables(
         **sensors, **skills, **task_rows.walker_rows(task, graph.tick),
         world=task_rows.world_row(graph, task, parameters, len(sensors["ray_row"]), used + aside, master),
         codes=np.array(programs.rows, CODE), actuators=driven, memories=memory_rows(graph),
         things=task_rows.thing_rows(graph, task), loose=task_rows.loose_rows(task, graph.tick, parameters),
-        obstacles=task_rows.obstacle_rows(task), walls=task_rows.wall_rows(task),
+        obstacles=task_rows.obstacle_rows(task), walls=np.array(walls, np.float64).reshape(-1, BOX_COLUMNS),
         measures=measures, events=events, ends=ends, rewards=rewards,
         measured=rows_of(graph, used + aside), library=library,
         parameters=parameters.table(),  # last: all others add to them

@@ -79,7 +79,8 @@ def make_missing(units: Iterable[Unit]) -> None:
 
     Beside other processes that do the same: nobody compiles what another one is at, and all end when all is there.
     """
-    waiting = sorted(missing(units), key=_length, reverse=True)
+    waiting = missing(units)
+    waiting.sort(key=lambda unit: sum(len(each.__code__.co_code) for each in functions(unit.function)), reverse=True)
     for patience in (0.0, WAIT_SECONDS):
         for unit in [*waiting]:
             with exclusive(_kept(unit).with_suffix(".lock"), patience) as is_alone:
@@ -123,11 +124,6 @@ def _make(unit: Unit) -> bytes:
     with suppress(OSError):
         _write(_kept(unit), code)
     return code
-
-
-def _length(unit: Unit) -> int:
-    """A number that is larger for what takes longer to compile."""
-    return sum(len(each.__code__.co_code) for each in functions(unit.function))
 
 
 def fitting() -> list[str]:

@@ -12,7 +12,6 @@ from mindrun.graph.tasks import goals
 from mindrun.kinds.registry import names
 from mindrun.kinds.sensors.battery import Battery
 from mindrun.kinds.things.thing import OUTCOMES, STAYS, ThingKind
-from mindrun.numbers.arithmetic import BOX_COLUMNS
 from mindrun.sim import codes
 from mindrun.sim.codes import DAMPING, HALF_DIAGONAL, INVERSE, OVER, TIMES, WALL_COUNT, Row, records
 from mindrun.sim.mind_rows import Programs
@@ -111,12 +110,6 @@ def obstacle_rows(task: Task) -> Array:
         row = {"first": kind.size.first, "last": kind.size.last, "low": low, "high": high}
         rows.extend({**row, **own} for own in kind.rows(task.scene))
     return records(rows, codes.OBSTACLE)
-
-
-def wall_rows(task: Task) -> Array:
-    """The middle and half of the sides of what is solid in the same places in every run, [walls, BOX_COLUMNS]."""
-    walls = [wall for thing in task.things for wall in thing.kind.walls]
-    return np.array(walls, np.float64).reshape(-1, BOX_COLUMNS)
 
 
 def loose_rows(task: Task, dt: float, parameters: Parameters) -> Array:
