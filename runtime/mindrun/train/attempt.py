@@ -12,22 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.graph.graph import Lesson, Task
+from mindrun.graph.run_scores import Scores as RunScores
 from mindrun.kinds.learners import Learner, run_lengths
 from mindrun.train.ask_and_tell import ask, kept_count, tell
 from mindrun.train.lesson_state import AttemptState, Course, Record, Verdict, rung_at
 from mindrun.train.population import Genomes, Scores, order
-from mindrun.train.scoring import (
-    Marks,
-    Purpose,
-    Results,
-    Scorer,
-    Seeds,
-    breeding_generator,
-    layouts,
-    mark,
-    marks_of,
-    succeeded,
-)
+from mindrun.train.scoring import Marks, Purpose, Scorer, Seeds, breeding_generator, layouts, mark, marks_of, succeeded
 
 SEGMENT_SECONDS = 2.0  # after which a segment ends with the generation at work
 SEGMENT_GENERATIONS = 100  # at most in a segment
@@ -163,7 +153,7 @@ def judge(course: Course, scorer: Scorer, state: AttemptState) -> Verdict:
     return Verdict(of_halves(marks.each), passed, marks.ticks, marks.faults)
 
 
-def has_needed(lesson: Lesson, task: Task, results: Results) -> bool:
+def has_needed(lesson: Lesson, task: Task, results: RunScores) -> bool:
     """True if a genome meets all needs of a lesson, by its results on each half of the layouts of a verdict."""
     scores = of_halves(marks_of(results).each)
     return all(

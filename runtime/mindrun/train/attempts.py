@@ -15,6 +15,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from mindrun.graph.graph import Task
+from mindrun.graph.run_scores import Scores as RunScores
 from mindrun.train.attempt import Clock, JoinedSegments, Segment, Stretch, advance
 from mindrun.train.lesson_state import (
     AttemptState,
@@ -32,7 +33,7 @@ from mindrun.train.lesson_state import (
     rung_at,
 )
 from mindrun.train.population import Genomes
-from mindrun.train.scoring import Results, Scorer, is_one_world
+from mindrun.train.scoring import Scorer, is_one_world
 
 POLL_SECONDS = 0.2  # to wait for a segment before who asks may look at something else
 
@@ -162,9 +163,9 @@ class Stoppable:
         genomes: Genomes = self._scorer.draw(count, rng)
         return genomes
 
-    def score(self, genomes: Any, seeds: Any, *, ticks: int | None = None) -> Results:
+    def score(self, genomes: Any, seeds: Any, *, ticks: int | None = None) -> RunScores:
         """Every genome on every seed."""
-        results: Results = self._scorer.score(genomes, seeds, self._ran, ticks=ticks)
+        results: RunScores = self._scorer.score(genomes, seeds, self._ran, ticks=ticks)
         return results
 
     def _ran(self, runs: float) -> None:

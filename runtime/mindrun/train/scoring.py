@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.graph.graph import Task
+from mindrun.graph.run_scores import Scores as RunScores
 from mindrun.train.population import Genomes, Scores
 
 Seeds = NDArray[np.uint64]
@@ -44,19 +45,6 @@ def _sequence(seed: int, attempt: int, generation: int, purpose: Purpose) -> np.
     return np.random.SeedSequence(seed, spawn_key=(attempt, generation, int(purpose)))
 
 
-class Results(Protocol):
-    """The measurements of a scorer: arrays [genomes, seeds]."""
-
-    @property
-    def total(self) -> NDArray[np.float64]: ...  # the sum of the rewards; -inf where something was not finite
-    @property
-    def ticks(self) -> NDArray[np.int64]: ...  # how long each evaluation lasted
-    @property
-    def faults(self) -> NDArray[np.int64]: ...  # how many numbers were not finite
-    @property
-    def met(self) -> NDArray[np.int64]: ...  # the end of the task that came first; -1 where none did
-
-
 class Scorer(Protocol):
     """A scorer of genomes: `mindrun.sim.rollout.Rollout`, or anything of its shape."""
 
@@ -67,7 +55,7 @@ class Scorer(Protocol):
     def draw(self, count: int, rng: np.random.Generator) -> Genomes:
         """Random genomes [count, genome_length] for learning to begin with."""
 
-    def score(self, genomes: Any, seeds: Any, *, ticks: int | None = None) -> Results:
+    def score(self, genomes: Any, seeds: Any, *, ticks: int | None = None) -> RunScores:
         """Every genome on every seed, with `ticks` no longer than so many; a result depends on nothing else."""
 
 
@@ -97,14 +85,14 @@ def mark(scorer: Scorer, genomes: Genomes, seeds: Seeds | Sequence[int], ticks: 
     return replace(marks, each=np.repeat(marks.each, len(seeds), axis=1))
 
 
-def marks_of(results: Results) -> Marks:
+def marks_of(results: RunScores) -> Marks:
     """The scores in what was measured; a genome with a fault anywhere has -inf."""
     faulty = (results.faults > 0) | ~np.isfinite(results.total)
     each = np.where(faulty, -inf, results.total)
     return Marks(each, each.mean(axis=1), int(results.ticks.sum()), int(faulty.sum()))
 
 
-def succeeded(task: Task, results: Results) -> NDArray[np.bool_]:
+def succeeded(task: Task, results: RunScores) -> NDArray[np.bool_]:
     """A mask [genomes, seeds] of the runs that met a success before any other end, whether or not it ended them."""
     successes = [number for number, end in enumerate(task.ends) if end.succeeds]
     return np.isin(results.met, successes)
