@@ -178,15 +178,6 @@ class CommandedWorld:
         self._lanes = commanded_lanes(graph, task, master)
         self._state = self._lanes.state
         self.task = self._lanes.rollout.task
-        self._begin(seed)
-
-    def begin(self, seed: int) -> None:
-        """Begin the run of a seed; RuntimeError where the last one has not ended."""
-        if self.ended is None:
-            raise RuntimeError("a run begins while another goes on")
-        self._begin(seed)
-
-    def _begin(self, seed: int) -> None:
         self.seed = seed
         self._lanes.begin(ONE_LANE, [seed])
         self._lanes.sense()
