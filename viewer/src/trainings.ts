@@ -7,7 +7,6 @@ export interface Training {
   folder: string;
   generations: Generation[];
   champions: [attempt: number, generation: number][];
-  keepsAll: boolean;
 }
 
 export class Trainings {
@@ -26,7 +25,6 @@ export class Trainings {
       folder: said.folder,
       generations: [...before, ...said.generations],
       champions: said.champions,
-      keepsAll: said.keeps_all,
     };
     this.newest = said.newest;
   }
