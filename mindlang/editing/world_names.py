@@ -113,18 +113,14 @@ class Renaming:
             return self.name(text, "skill", "actuator", "memory") if role[0] == "skill" and role[-1] != "is" else text
         before, after = _AROUND_SENTENCE[role](text)
         source = Source("a fact", f"{before}{text}{after}")
+        as_long = _NUMBER.sub(lambda number: "1" * len(number[0]), source.text)  # and stands in any line
         try:
-            fact = cast(Fact, parse_line(_NUMBER.sub(_whole, source.text), source, 0))
+            fact = cast(Fact, parse_line(as_long, source, 0))
         except UnexpectedInput:
             return text
         mentions = mentions_in(fact, self._declared, None)
         splices = (replace_span(each.name.span, self.name(each.name.text, each.noun)) for each in mentions)
         return spliced(source, splices).removeprefix(before).removesuffix(after)
-
-
-def _whole(number: re.Match[str]) -> str:
-    """A number that is as long, and stands in any line."""
-    return "1" * len(number[0])
 
 
 def _mapped(value: Any, role: Role, text: Callable[[Role, str], str]) -> Any:
