@@ -121,7 +121,6 @@ class Learning:
             "name": shown(learnt.run.manifest.name),
             "folder": shown(learnt.run.folder.name),
             "generations": learnt.generations[heard : heard + MAX_GENERATIONS],
-            "champions": [each.position for each in learnt.champions],
             "newest": self.newest(),
         }
 

@@ -6,7 +6,6 @@ export interface Training {
   name: string;
   folder: string;
   generations: Generation[];
-  champions: [attempt: number, generation: number][];
 }
 
 export class Trainings {
@@ -24,7 +23,6 @@ export class Trainings {
       name: said.name,
       folder: said.folder,
       generations: [...before, ...said.generations],
-      champions: said.champions,
     };
     this.newest = said.newest;
   }
