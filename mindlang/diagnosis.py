@@ -131,7 +131,8 @@ def machine_code() -> Iterator[DoctorFinding]:
 
     folder, units = cache.folder(), warmup.every_unit()
     if cache.lasts():
-        yield DoctorFinding("compiler cache", "ok", f"{_mebibytes(folder)} MiB in {folder}")
+        size = sum(path.stat().st_size for path in folder.glob("*") if path.is_file())
+        yield DoctorFinding("compiler cache", "ok", f"{size >> 20} MiB in {folder}")
     else:
         mend = "let XDG_CACHE_HOME name a folder that can be written"
         yield DoctorFinding("compiler cache", "wrong", "no folder can be written: every start compiles anew", mend)
@@ -161,10 +162,6 @@ def physics() -> Iterator[DoctorFinding]:
         yield DoctorFinding(
             "physics", "ok", f"{check.RUN_TICKS} ticks of boxes that are pushed: as {by} has it, to the bit"
         )
-
-
-def _mebibytes(folder: Path) -> int:
-    return sum(path.stat().st_size for path in folder.glob("*") if path.is_file()) >> 20
 
 
 def viewer() -> Iterator[DoctorFinding]:

@@ -20,6 +20,17 @@ MAX_READ_FILES = 500  # that are read of all those around one
 MAX_READ_CHARACTERS = 8 << 20  # of all of them together
 SKIPPED_FOLDERS = ("node_modules", "build", "dist", "runs", "venv", "site-packages", "__pycache__")
 
+Stamp = tuple[int, int] | None  # when a file was written, and how long it is
+
+
+def stamp(path: Path) -> Stamp:
+    """What has changed when a file has been written; None where there is none."""
+    try:
+        found = path.stat()
+    except OSError:
+        return None
+    return found.st_mtime_ns, found.st_size
+
 
 def files_beside(folder: Path, suffix: str = ".mind") -> list[Path]:
     """The files of a folder with this ending, sorted; none where the folder cannot be read."""

@@ -150,10 +150,8 @@ class Beginning:
         """The first thing that is where the robot starts."""
         robot = self.robot
         bodies = (thing for thing in self.things if thing.kind and role(thing.kind) != "floor")
-        return next((each for each in bodies if robot and self._meets(robot, each.kind)), None)
-
-    def _meets(self, robot: Outline, kind: ThingKind) -> bool:
-        return any(overlap(robot, outline) for outline in self.outlines(kind))
+        met = (each for each in bodies if robot and any(overlap(robot, its) for its in self.outlines(each.kind)))
+        return next(met, None)
 
     def first_tick_count(self, event: EventKind, sensors: Iterable[SensorKind]) -> int:
         """How often an event happens in the first tick of every run, whatever the robot does."""

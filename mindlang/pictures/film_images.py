@@ -7,18 +7,10 @@ from typing import Any
 import numpy as np
 from mindrun.graph.run_scores import score_of
 
+from mindlang.pictures import path
 from mindlang.pictures.canvas import Canvas, Image, Region, Viewport, blank, flow_layout, letterbox, paste, text_width
 from mindlang.pictures.environments import seen_run
 from mindlang.pictures.hierarchy_panel import HierarchyPanel
-from mindlang.pictures.path import (
-    LEAST_WORLD_PIXELS,
-    Path,
-    draw_banner,
-    draw_cross,
-    draw_end_mark,
-    ending_colour,
-    ending_words,
-)
 from mindlang.pictures.readings_panel import COLUMN_PIXELS, ROW_PIXELS, ReadingsPanel, sensors_read
 from mindlang.pictures.robot import draw_robot
 from mindlang.pictures.scene import WALL_UNITS, draw_items, draw_names, draw_zones, each_thing, empty_world, half_sides
@@ -87,7 +79,7 @@ class FilmImages:
     def __init__(self, run: RecordedRun, found: dict[str, Any], speed: float, trail: int, flash: float) -> None:
         self._run, self._found, self._speed = run, found, speed
         self._trail_ticks, self._flash_ticks = trail, flash
-        self._path = Path.of(run, NIGHT)
+        self._path = path.Path.of(run, NIGHT)
         self._seen = seen_run(run, found["seed"]) if run.task.scene.environment else None
         wide, high = self._seen.image(0).shape[1::-1] if self._seen else half_window(run)
         self.layout = FilmLayout.of(float(wide / high))
@@ -112,11 +104,11 @@ class FilmImages:
         run, found = self._run, self._found
         page = self._drawn(run.ticks, self._world(run.ticks, has_ended=True))
         wide, high = self.layout.world
-        if high >= LEAST_WORLD_PIXELS:
-            draw_banner(page, run, found, Region(0.0, 0.0, wide, high), self._occupied())
+        if high >= path.LEAST_WORLD_PIXELS:
+            path.draw_banner(page, run, found, Region(0.0, 0.0, wide, high), self._occupied())
         else:
             place = self.layout.width - 20, self.layout.top + NAME_LINE_PIXELS
-            page.text(*place, ending_words(found), 14, ending_colour(found, NIGHT), bold=True, align="right")
+            page.text(*place, path.ending_words(found), 14, path.ending_colour(found, NIGHT), bold=True, align="right")
         return page.image
 
     def _occupied(self) -> list[Region]:
@@ -156,13 +148,13 @@ class FilmImages:
         draw_zones(canvas, run, NIGHT, tick)
         self._path.draw(canvas, max(0, tick - self._trail_ticks), tick, 2.0)
         if has_ended:
-            draw_end_mark(canvas, run, self._found, NIGHT)
+            path.draw_end_mark(canvas, run, self._found, NIGHT)
         draw_items(canvas, run, NIGHT, tick)
         draw_robot(canvas, run, NIGHT, tick)
         draw_names(canvas, run, NIGHT, tick)
         recent = tick - self._flash_ticks
         for x, y, _ in run.body[run.collisions[(run.collisions > recent) & (run.collisions <= tick)]]:
-            draw_cross(canvas, x, y, 9 / canvas.view.scale, NIGHT)
+            path.draw_cross(canvas, x, y, 9 / canvas.view.scale, NIGHT)
         return canvas.image
 
     def _facts(self, tick: int) -> list[str]:

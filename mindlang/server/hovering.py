@@ -10,24 +10,10 @@ from mindrun.errors import MindError
 from mindrun.kinds.registry import kinds
 from networkx import DiGraph, single_target_shortest_path
 
+from mindlang.compiler import syntax
 from mindlang.compiler.drawing import text_after_name
 from mindlang.compiler.resolve.curricula import USING
 from mindlang.compiler.source import Span, comment_of
-from mindlang.compiler.syntax import (
-    NOUNS,
-    Contains,
-    Declaration,
-    Drives,
-    Fact,
-    File,
-    Influences,
-    Name,
-    Phrase,
-    Reads,
-    Teaches,
-    Varies,
-    of_form,
-)
 from mindlang.explaining import markdown
 from mindlang.explaining.kinds import kind_article
 from mindlang.explaining.parameters import parameter
@@ -39,7 +25,7 @@ from mindlang.server.offers import varied
 from mindlang.server.places import declaration_at, noun_of_kind, path_to, said_argument
 from mindlang.server.workspace import MindView
 
-F = TypeVar("F", bound=Fact)
+F = TypeVar("F", bound=syntax.Fact)
 _WORD = r"[A-Za-z_][\w.]*(?:\+[A-Z]\w*)*|%"
 
 
@@ -62,22 +48,22 @@ def hover(view: MindView, path: Path, offset: int) -> Hover | None:
     return _kind(view, file, offset) or _word(view, file, offset)
 
 
-def _kind(view: MindView, file: File, offset: int) -> Hover | None:
+def _kind(view: MindView, file: syntax.File, offset: int) -> Hover | None:
     """A kind, or an argument of one; those of a lesson are of its own learner or the curriculum's."""
     path = path_to((*file.settings, *file.declarations), offset)
-    if varies := next((node for node in path if isinstance(node, Varies)), None):
+    if varies := next((node for node in path if isinstance(node, syntax.Varies)), None):
         argument = varied(view, declaration_at(file, offset), varies)
         if argument is None or not varies.argument.span.start <= offset <= varies.argument.span.end:
             return None
         return Hover(markdown.parameter_line(parameter(argument)), varies.argument.span)
     match path:
-        case [*_, above, Phrase(kind=kind), Name() as name] if name is kind:
+        case [*_, above, syntax.Phrase(kind=kind), syntax.Name() as name] if name is kind:
             return _kind_itself(noun_of_kind(above), kind)
     said = said_argument(path, declaration_at(file, offset))
     if said is None:
         return None
     value = said.argument.value
-    if isinstance(value, Name) and said.argument.key.text == USING and value.span.start <= offset:
+    if isinstance(value, syntax.Name) and said.argument.key.text == USING and value.span.start <= offset:
         return _kind_itself("curriculum", value)
     if said.meaning is None:
         return None
@@ -87,11 +73,11 @@ def _kind(view: MindView, file: File, offset: int) -> Hover | None:
     return Hover("\n\n".join(parts), said.argument.span)
 
 
-def _kind_itself(noun: str, kind: Name) -> Hover | None:
+def _kind_itself(noun: str, kind: syntax.Name) -> Hover | None:
     return Hover(markdown.article_card(kind_article(noun, kind.text)), kind.span) if kind.text in kinds(noun) else None
 
 
-def _word(view: MindView, file: File, offset: int) -> Hover | None:
+def _word(view: MindView, file: syntax.File, offset: int) -> Hover | None:
     """A word of the language or, in a line that cannot be read, a name that is declared."""
     start = file.source.text.rfind("\n", 0, offset) + 1
     line = file.source.text[start:].partition("\n")[0].partition("#")[0]
@@ -106,7 +92,7 @@ def _word(view: MindView, file: File, offset: int) -> Hover | None:
     if joint := here(rf"\b(?:{'|'.join(word for word in words if ' ' in word)})\b"):
         return Hover(markdown.article_card(words[joint[0]]), joint[1])
     word, span = found
-    if noun := view.names.noun_of(word, NOUNS):
+    if noun := view.names.noun_of(word, syntax.NOUNS):
         return Hover(card(view, noun, word), span)
     return Hover(markdown.article_card(words[word]), span) if word in words else None
 
@@ -114,7 +100,7 @@ def _word(view: MindView, file: File, offset: int) -> Hover | None:
 def card(view: MindView, noun: str, name: str) -> str:
     """The card of a name, with everything about it; "" where no declaration of the noun has it."""
     if noun == "thing":
-        said = _saying(view, Contains, "scene", "task")
+        said = _saying(view, syntax.Contains, "scene", "task")
         lines = [f"- in {world}: `{fact.phrase.span.text}`" for world, fact in said if fact.name.text == name]
         return "\n".join([f"**{name}**, a thing", "", *lines])
     if noun == "number" and name in view.names.numbers:
@@ -139,16 +125,16 @@ def card(view: MindView, noun: str, name: str) -> str:
     return "\n\n".join(filter(None, parts))
 
 
-def _skill(view: MindView, name: str, declaration: Declaration) -> str:
+def _skill(view: MindView, name: str, declaration: syntax.Declaration) -> str:
     lines = []
-    for verb, form in (("reads", Reads), ("drives", Drives), ("influences", Influences)):
+    for verb, form in (("reads", syntax.Reads), ("drives", syntax.Drives), ("influences", syntax.Influences)):
         if said := [_edge(view, fact) for fact in declaration.facts if isinstance(fact, form)]:
             lines.append(f"- {verb} {', '.join(said)}")
-    if by := _users(view, name, Influences):
+    if by := _users(view, name, syntax.Influences):
         lines.append(f"- influenced by {', '.join(by)}")
     if view.compiled.mind and view.compiled.mind.master == name:
         lines.append("- the master")
-    influences = DiGraph((above, fact.name.text) for above, fact in _saying(view, Influences, "skill"))
+    influences = DiGraph((above, fact.name.text) for above, fact in _saying(view, syntax.Influences, "skill"))
     influences.add_node(name)
     ways = single_target_shortest_path(influences, name).items()  # the shortest one from each skill above
     paths = [" → ".join(way) for top, way in ways if top != name and not influences.pred[top]]
@@ -156,7 +142,7 @@ def _skill(view: MindView, name: str, declaration: Declaration) -> str:
 
 
 def _edge(view: MindView, fact: Any) -> str:
-    if not isinstance(fact, Reads):
+    if not isinstance(fact, syntax.Reads):
         return f"{fact.name.text}{text_after_name(fact)}"
     width = _width(view, fact.name.text)
     return f"{fact.name.text} ({width})" if width > 1 else fact.name.text
@@ -189,9 +175,9 @@ def _part(view: MindView, noun: str, name: str) -> str:
     lines = []
     if noun == "sensor" and (width := _width(view, name)) > 1:
         lines.append(f"- {width} readings")
-    if noun != "actuator" and (by := _users(view, name, Reads)):
+    if noun != "actuator" and (by := _users(view, name, syntax.Reads)):
         lines.append(f"- read by {', '.join(by)}")
-    if noun != "sensor" and (by := _users(view, name, Drives)):
+    if noun != "sensor" and (by := _users(view, name, syntax.Drives)):
         lines.append(f"- driven by {', '.join(by)}")
     mentions = (m for m in view.mentions if (m.noun, m.name.text) == (noun, name) and not m.is_own)
     headers = (m.by.header for m in mentions if m.by)  # other sensors, and tasks in their rewards
@@ -203,16 +189,16 @@ def _saying(view: MindView, form: type[F], *nouns: str) -> Iterator[tuple[str, F
     """Each fact of a verb in the declarations of some nouns, with their names."""
     for noun in nouns:
         for name, declaration in view.names.declarations(noun):
-            yield from ((name, fact) for fact in of_form(declaration.facts, form))
+            yield from ((name, fact) for fact in syntax.of_form(declaration.facts, form))
 
 
-def _users(view: MindView, name: str, form: type[Reads | Drives | Influences]) -> list[str]:
+def _users(view: MindView, name: str, form: type[syntax.Reads | syntax.Drives | syntax.Influences]) -> list[str]:
     """The skills that have a fact of this verb about a name."""
     return list(dict.fromkeys(skill for skill, fact in _saying(view, form, "skill") if fact.name.text == name))
 
 
 def _lessons(view: MindView, part: str, name: str) -> str:
     """The lessons that teach a skill, or are on a task."""
-    said = _saying(view, Teaches, "curriculum")
+    said = _saying(view, syntax.Teaches, "curriculum")
     its = ((of, fact.span.text.strip()) for of, fact in said if getattr(fact, part).text == name)
     return "\n".join(f"- `{curriculum}: {line}`" for curriculum, line in its)

@@ -9,31 +9,22 @@ from mindrun.kinds.registry import arguments, kinds
 from msgspec import Struct
 from msgspec.structs import astuple
 
+from mindlang.compiler import syntax
 from mindlang.compiler.resolve.curricula import USING
 from mindlang.compiler.source import Span
-from mindlang.compiler.syntax import (
-    Argument,
-    Contains,
-    Declaration,
-    Expression,
-    Fact,
-    File,
-    Header,
-    Phrase,
-    Setting,
-    Teaches,
-)
 
 
-def declaration_at(file: File, offset: int) -> Declaration | None:
+def declaration_at(file: syntax.File, offset: int) -> syntax.Declaration | None:
     """The declaration to which a line at an offset belongs: the one whose header stands last before it."""
-    lines: list[tuple[int, Setting | Declaration]] = [(setting.span.start, setting) for setting in file.settings]
+    lines: list[tuple[int, syntax.Setting | syntax.Declaration]] = [
+        (setting.span.start, setting) for setting in file.settings
+    ]
     lines += [(declaration.header.span.start, declaration) for declaration in file.declarations]
     above = max((line for line in lines if line[0] <= offset), key=lambda line: line[0], default=(0, None))[1]
-    return above if isinstance(above, Declaration) else None
+    return above if isinstance(above, syntax.Declaration) else None
 
 
-def fact_at(declaration: Declaration, offset: int) -> Fact | None:
+def fact_at(declaration: syntax.Declaration, offset: int) -> syntax.Fact | None:
     """The fact on whose line an offset lies."""
     return next((fact for fact in declaration.facts if on_line(fact.span, offset)), None)
 
@@ -72,11 +63,11 @@ def _holds(node: Any, offset: int) -> bool:
 def noun_of_kind(around: object) -> str:
     """The noun of the kind that a phrase names, told by the node around it."""
     match around:
-        case Header(noun=noun):
+        case syntax.Header(noun=noun):
             return noun.text
-        case Contains():
+        case syntax.Contains():
             return "content"
-        case Expression():
+        case syntax.Expression():
             return "measure"
     return "event"
 
@@ -87,8 +78,8 @@ class SaidArgument:
 
     noun: str
     kind: str
-    argument: Argument
-    beside: Sequence[Argument]
+    argument: syntax.Argument
+    beside: Sequence[syntax.Argument]
 
     @property
     def meaning(self) -> registry.Argument | None:
@@ -97,14 +88,14 @@ class SaidArgument:
         return next((each for each in arguments(cls) if each.key == self.argument.key.text), None) if cls else None
 
 
-def said_argument(path: Sequence[Any], above: Declaration | None) -> SaidArgument | None:
+def said_argument(path: Sequence[Any], above: syntax.Declaration | None) -> SaidArgument | None:
     """The argument among the nodes that hold a place; that of a lesson is of its learner, or of the curriculum's."""
     for around, of, argument in zip([None, *path], path, path[1:], strict=False):
         match of, argument:
-            case Teaches(), Argument():
+            case syntax.Teaches(), syntax.Argument():
                 own = next((each.value for each in of.arguments if each.key.text == USING), None)
                 learner = own or (above.header.phrase.kind if above and above.header.phrase else None)
                 return SaidArgument("curriculum", getattr(learner, "text", ""), argument, of.arguments)
-            case Phrase(), Argument():
+            case syntax.Phrase(), syntax.Argument():
                 return SaidArgument(noun_of_kind(around), of.kind.text, argument, of.arguments)
     return None

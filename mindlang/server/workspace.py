@@ -18,13 +18,12 @@ from mindlang.compiler.references import Mention, mentions
 from mindlang.compiler.resolve.maps import map_paths
 from mindlang.compiler.source import Span, checked_text
 from mindlang.compiler.syntax import File
-from mindlang.files import files_beside, folders_above, readable_text, within_read_limits
+from mindlang.files import Stamp, files_beside, folders_above, readable_text, stamp, within_read_limits
 
 _MASTER = re.compile(r"^[ \t]*master\b", re.MULTILINE)
 _USE = re.compile(r'^[ \t]*use[ \t]+"', re.MULTILINE)
 
 Texts = Mapping[Path, str]
-Stamp = tuple[int, int] | None  # when a file was written, and how long it is
 
 
 def are_breakpoints(path: Path) -> bool:
@@ -127,7 +126,7 @@ class Workspace:
         if known is None or not self._is_now(*known):
             made = view(main, self.texts)
             maps = map_paths(made.files)
-            known = made, {path: _stamp(path) for path in [*made.paths, *maps] if path not in self.texts}
+            known = made, {path: stamp(path) for path in [*made.paths, *maps] if path not in self.texts}
             self._views[main] = known
         return known[0]
 
@@ -172,17 +171,9 @@ class Workspace:
     def _is_now(self, known: MindView, stamps: dict[Path, Stamp]) -> bool:
         """True if a view is of the files as they are."""
         apart = stamps.keys() - {*known.paths}
-        if not known.files or any(stamps[path] != _stamp(path) for path in apart):
+        if not known.files or any(stamps[path] != stamp(path) for path in apart):
             return False
         return all(
-            file.source.text == self.texts[path] if path in self.texts else stamps.get(path, ()) == _stamp(path)
+            file.source.text == self.texts[path] if path in self.texts else stamps.get(path, ()) == stamp(path)
             for path, file in zip(known.paths, known.files, strict=True)
         )
-
-
-def _stamp(path: Path) -> Stamp:
-    try:
-        found = path.stat()
-    except OSError:
-        return None
-    return found.st_mtime_ns, found.st_size

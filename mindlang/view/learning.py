@@ -9,7 +9,7 @@ from mindrun.errors import MindError
 from mindrun.graph.policy import Policy
 from mindrun.graph.weights import learners, parts
 from mindrun.sim.rollout import Rollout
-from mindrun.train import NotFoundError, RunError, checkpoint
+from mindrun.train import NotFoundError, RunError
 from mindrun.train.champion_log import CHAMPION_ROWS, Champion, read_champions, rows_that_fit
 from mindrun.train.manifest import fingerprint
 from mindrun.train.population import Genomes
@@ -18,6 +18,7 @@ from mindrun.train.run_folder import MANIFEST, SOURCES, RunFolder, open_run
 
 from mindlang.compiler.compile import load
 from mindlang.compiler.drawing import text_after_name
+from mindlang.files import Stamp, stamp
 from mindlang.lock.status import ReadyMind
 from mindlang.run.setup import RunSetup
 from mindlang.training.subject import Subject, open_subject
@@ -29,37 +30,33 @@ from mindlang.view.viewed_run import ViewedRun
 WATCH_SECONDS = 0.5  # between two looks at the files
 MAX_GENERATIONS = 10_000  # that are told at once
 RUN_HINT = "a run is a folder like runs/GoToObject/20260714T120000Z-1: mindc train MIND.mind begins one"
-GROWING = LINES, CHAMPION_ROWS, checkpoint.NAME  # files of a run that grow
+GROWING = LINES, CHAMPION_ROWS  # files of a run that grow
 
 Generation = tuple[int, int, float | None, float | None, float | None]  # attempt, generation; the scores of SCORES
 SCORES = "best", "reevaluated", "verdict"
-Stamp = tuple[tuple[int, int] | None, ...]
 
 
 @dataclass(slots=True)
 class LearntRun:
     """A training run as far as it has been read: its generations in order, and the champions that can be played.
 
-    `keeps_all`: if it has the champion of every generation; runs from before the trainer kept them have the last
-    of each attempt. `is_full`: if the last that was kept need not have stayed champion. `version` counts how often
-        something has come.
+    `is_full`: if the last that was kept need not have stayed champion. `version` counts how often something has come.
     """
 
     run: RunFolder
     generations: list[Generation] = field(default_factory=list)
     champions: list[Champion] = field(default_factory=list)
-    keeps_all: bool = True
     is_full: bool = False
     version: int = 0
     _known: set[Position] = field(default_factory=set)
-    _stamp: Stamp = ()
+    _stamps: tuple[Stamp, ...] = ()
 
     def read(self) -> bool:
         """Read what has come since the last time; True if there was something."""
-        stamp = tuple(map(_stamp, (self.run.folder / name for name in GROWING)))
-        if stamp == self._stamp:
+        stamps = tuple(stamp(self.run.folder / name) for name in GROWING)
+        if stamps == self._stamps:
             return False
-        self._stamp = stamp
+        self._stamps = stamps
         for record in read_progress(self.run.folder):
             at = int(record["attempt"] or 0), int(record["generation"] or 0)
             if at not in self._known:  # what is done again after a crash comes to the same
@@ -67,7 +64,7 @@ class LearntRun:
                 best, reevaluated, verdict = (record[name] for name in SCORES)
                 self.generations.append((*at, best, reevaluated, verdict))
         kept = [each for each in read_champions(self.run.folder) if each.position in self._known]
-        self.champions, self.keeps_all = (kept, True) if kept else (_last_champions(self.run), False)
+        self.champions = kept
         self.is_full = bool(kept) and len(kept) >= rows_that_fit(len(kept[0].genome))
         self.version += 1
         return True
@@ -75,24 +72,20 @@ class LearntRun:
     @property
     def grown(self) -> int:
         """When its log grew last, in nanoseconds."""
-        return self._stamp[0][0] if self._stamp and self._stamp[0] else 0
+        return self._stamps[0][0] if self._stamps and self._stamps[0] else 0
 
     def champion(self, attempt: int, generation: int) -> Champion:
         """The champion of an attempt in a generation; RefusedError where that is not known."""
         if (attempt, generation) not in self._known:
             raise RefusedError(f"attempt {attempt} has no generation {generation} yet")
-        of_attempt = [each for each in self.champions if each.attempt == attempt]
-        found = [each for each in of_attempt if each.generation <= generation]
-        stayed = self.keeps_all and not (self.is_full and found[-1:] == self.champions[-1:])
+        found = [each for each in self.champions if each.attempt == attempt and each.generation <= generation]
+        stayed = not (self.is_full and found[-1:] == self.champions[-1:])
         if found and (stayed or found[-1].generation == generation):
             return found[-1]
         if self.is_full and self.champions[-1].position < (attempt, generation):
             raise RefusedError(
                 f"{CHAMPION_ROWS} of this run was full before generation {generation} of attempt {attempt}"
             )
-        if of_attempt:
-            last = of_attempt[-1].generation
-            raise RefusedError(f"this run has kept only the champion of generation {last} of attempt {attempt}")
         raise RefusedError(f"this run has kept no champion of attempt {attempt}")
 
     def score(self, attempt: int, generation: int) -> float | None:
@@ -128,8 +121,6 @@ class Learning:
             "name": shown(learnt.run.manifest.name),
             "folder": shown(learnt.run.folder.name),
             "generations": learnt.generations[heard : heard + MAX_GENERATIONS],
-            "champions": [each.position for each in learnt.champions],
-            "keeps_all": learnt.keeps_all,
             "newest": self.newest(),
         }
 
@@ -198,30 +189,6 @@ def _runs(path: Path, known: set[Path]) -> Iterator[RunFolder]:
             yield open_run(manifest.parent)
         except RunError:
             continue
-
-
-def _last_champions(run: RunFolder) -> list[Champion]:
-    """The champions in a run's checkpoint: of the attempts that have ended, and of the one that goes on."""
-    try:
-        found = checkpoint.load(run.folder, run.manifest.identity)
-    except RunError:
-        return []
-    if found is None:
-        return []
-    state, _ = found
-    ended = zip(state.lengths, state.champions, strict=True)
-    champions = [Champion(number, int(length), genome) for number, (length, genome) in enumerate(ended, 1)]
-    generation = state.now.population.generation
-    now = [Champion(state.attempt + 1, generation, genome) for genome in state.now.champion if generation]
-    return champions + now
-
-
-def _stamp(path: Path) -> tuple[int, int] | None:
-    try:
-        found = path.stat()
-    except OSError:
-        return None
-    return found.st_mtime_ns, found.st_size
 
 
 def trained_mind(run: RunFolder) -> tuple[Subject, Texts]:

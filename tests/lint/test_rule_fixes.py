@@ -8,10 +8,11 @@ from mindlang.compiler.compile import load
 from mindlang.compiler.diagnostic import Diagnostic
 from mindlang.compiler.splice import spliced
 from mindlang.lint.lint import lint
-from mindlang.lint.rules import Rule, all_rules
+from mindlang.lint.rules import Rule
 from tests.lint.examples import whole
+from tests.lint.more_examples import bad_examples
 
-BAD = [(rule, text) for rule in all_rules().values() for text in rule.bad]
+BAD = bad_examples()
 
 
 def found(rule: Rule, main: Path) -> list[Diagnostic]:

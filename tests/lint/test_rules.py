@@ -9,9 +9,10 @@ from mindlang.compiler.source import Source
 from mindlang.lint.lint import lint
 from mindlang.lint.rules import Rule, all_rules
 from tests.lint.examples import whole
+from tests.lint.more_examples import bad_examples, good_examples
 
-GOOD = [(rule, text) for rule in all_rules().values() for text in rule.good]
-BAD = [(rule, text) for rule in all_rules().values() for text in rule.bad]
+GOOD = good_examples()
+BAD = bad_examples()
 
 
 def codes(rule: Rule, text: str, folder: Path) -> list[str]:

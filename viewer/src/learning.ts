@@ -157,8 +157,7 @@ export class Learning {
     const name = shown(this.trainings.runs[run]?.name ?? "", 40);
     const found = since === generation ? "" : `, found in generation ${since}`;
     const scored = score === null ? "" : `: ${digits(score)} on fresh layouts`;
-    const kept = this.trainings.runs[run]?.keepsAll === false ? " This run has kept only the last champion of each attempt." : "";
-    element("learning-now").textContent = `${name}: the champion of attempt ${attempt}, generation ${generation}${found}, plays${scored}.${kept}`;
+    element("learning-now").textContent = `${name}: the champion of attempt ${attempt}, generation ${generation}${found}, plays${scored}.`;
   }
 
   private clicked(event: MouseEvent): void {
@@ -207,12 +206,9 @@ function columnsOf({ generations }: Training, attempt: number, last: number): (n
   return columns;
 }
 
-/** What can be clicked: where the champion was tried, or where there is a champion at all. */
-function pointsOf({ generations, champions, keepsAll }: Training): Point[] {
-  const kept = new Set(champions.map(String));
-  return generations
-    .filter(([attempt, generation]) => keepsAll || kept.has(String([attempt, generation])))
-    .flatMap(([attempt, generation, best, tried]) =>
-      [best, tried].flatMap((score) => (score === null ? [] : [{ attempt, generation, score }])),
-    );
+/** What can be clicked: where the champion was tried. */
+function pointsOf({ generations }: Training): Point[] {
+  return generations.flatMap(([attempt, generation, best, tried]) =>
+    [best, tried].flatMap((score) => (score === null ? [] : [{ attempt, generation, score }])),
+  );
 }

@@ -101,8 +101,6 @@ export interface Learnt {
   name: string;
   folder: string;
   generations: Generation[]; // that have come since the last time
-  champions: [attempt: number, generation: number][];
-  keeps_all: boolean;
   newest: [run: number, attempt: number, generation: number];
 }
 

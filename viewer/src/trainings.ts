@@ -6,8 +6,6 @@ export interface Training {
   name: string;
   folder: string;
   generations: Generation[];
-  champions: [attempt: number, generation: number][];
-  keepsAll: boolean;
 }
 
 export class Trainings {
@@ -25,8 +23,6 @@ export class Trainings {
       name: said.name,
       folder: said.folder,
       generations: [...before, ...said.generations],
-      champions: said.champions,
-      keepsAll: said.keeps_all,
     };
     this.newest = said.newest;
   }

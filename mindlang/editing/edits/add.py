@@ -11,18 +11,7 @@ from mindlang.compiler.parse import parse
 from mindlang.compiler.source import Source, Span
 from mindlang.compiler.splice import Splice
 from mindlang.compiler.syntax import Declaration, Fact, File, Number, Teaches, of_form
-from mindlang.editing.insertion import (
-    FACTS,
-    INDENT,
-    NOUNS,
-    above_fact,
-    below_siblings,
-    commented,
-    declare,
-    number_lines,
-    owners,
-    text_of,
-)
+from mindlang.editing import insertion
 from mindlang.editing.project import EditError, MindChange, Project
 from mindlang.lock.status import needed_skills
 
@@ -44,7 +33,7 @@ def add(
     """
     said = [line.strip() for text in lines for line in text.splitlines()]
     if to:
-        declaration = project.declared(to, noun, among=next(filter(None, map(owners, said)), NOUNS))
+        declaration = project.declared(to, noun, among=next(filter(None, map(insertion.owners, said)), insertion.NOUNS))
         return MindChange(tuple(_facts(project, declaration, _read_facts(declaration, said))))
     return MindChange(tuple(_declarations(project, _read(said))))
 
@@ -59,29 +48,29 @@ def _declarations(project: Project, read: File) -> Iterator[Splice]:
     for number in numbers:
         project.refuse_taken("number", number.name.text)
     if numbers:
-        yield number_lines(project.main, [number.span.text for number in numbers])
+        yield insertion.number_lines(project.main, [number.span.text for number in numbers])
     for declaration in read.declarations:
         project.refuse_taken(declaration.header.noun.text, declaration.header.name.text)
-    for noun in NOUNS:
+    for noun in insertion.NOUNS:
         if texts := [_indented(known) for known in read.declarations if known.header.noun.text == noun]:
-            yield declare(project.main, noun, *texts)
+            yield insertion.declare(project.main, noun, *texts)
 
 
 def _indented(declaration: Declaration) -> list[str]:
     """The lines of a declaration, those below its header indented; comments stay where they are."""
-    lines = text_of([declaration]).splitlines()
+    lines = insertion.text_of([declaration]).splitlines()
     above = next(index for index, line in enumerate(lines, 1) if not line.startswith("#"))
-    return [*lines[:above], *(f"{INDENT}{line}" for line in lines[above:])]
+    return [*lines[:above], *(f"{insertion.INDENT}{line}" for line in lines[above:])]
 
 
 def _facts(project: Project, declaration: Declaration, said: Sequence[Fact]) -> Iterator[Splice]:
     """Each verb's facts below those that there are, but a lesson above the first one that needs its skill."""
     needing = {fact: _first_needing(project, declaration, fact) for fact in said if isinstance(fact, Teaches)}
-    yield from (above_fact(place, commented(fact)) for fact, place in needing.items() if place)
+    yield from (insertion.above_fact(place, insertion.commented(fact)) for fact, place in needing.items() if place)
     said = [fact for fact in said if not (isinstance(fact, Teaches) and needing[fact])]
-    for form in FACTS:
-        if texts := [text for fact in said if isinstance(fact, form) for text in commented(fact)]:
-            yield below_siblings(declaration, form, texts)
+    for form in insertion.FACTS:
+        if texts := [text for fact in said if isinstance(fact, form) for text in insertion.commented(fact)]:
+            yield insertion.below_siblings(declaration, form, texts)
 
 
 def _first_needing(project: Project, curriculum: Declaration, lesson: Teaches) -> Teaches | None:

@@ -2,14 +2,7 @@
 
 from mindlang.compiler.splice import Splice
 from mindlang.compiler.syntax import Declaration, Drives, Influences, Phrase, Reads, expressions_in, of_form
-from mindlang.editing.insertion import (
-    below_siblings,
-    indentation,
-    line_of,
-    replace_line,
-    without_declarations,
-    without_fact,
-)
+from mindlang.editing import insertion
 from mindlang.editing.project import EditError, MindChange, Project
 
 Edge = Drives | Influences
@@ -35,7 +28,7 @@ def inline(project: Project, skill: str) -> MindChange:
         message = f"No skill influences {skill}: nothing can take its place."
         raise EditError(message, "", declaration.header.span)
     splices = (splice for parent in parents for splice in _taken_over(parent, declaration))
-    return MindChange((*without_declarations([declaration]), *splices))
+    return MindChange((*insertion.without_declarations([declaration]), *splices))
 
 
 def _taken_over(parent: Declaration, child: Declaration) -> list[Splice]:
@@ -43,12 +36,12 @@ def _taken_over(parent: Declaration, child: Declaration) -> list[Splice]:
     said = {fact.name.text for fact in parent.facts if isinstance(fact, Edge)}
     edges = [fact for fact in child.facts if isinstance(fact, Edge) and fact.name.text not in said]
     place = next(fact for fact in of_form(parent.facts, Influences) if fact.name.text == child.header.name.text)
-    indent = indentation(parent)
-    lines = [f"{indent}{line_of(fact)}" for fact in edges]
-    splices = [replace_line(place, lines) if lines else without_fact(place)]
+    indent = insertion.indentation(parent)
+    lines = [f"{indent}{insertion.line_of(fact)}" for fact in edges]
+    splices = [insertion.replace_line(place, lines) if lines else insertion.without_fact(place)]
     read = {fact.name.text for fact in of_form(parent.facts, Reads)}
     terms = (term for expression in expressions_in(*edges) for term in expression.terms)
     needed = dict.fromkeys(term.kind.text for term in terms if isinstance(term, Phrase))
     if reads := [f"reads {name}" for name in needed if name not in read]:
-        splices.append(below_siblings(parent, Reads, reads))
+        splices.append(insertion.below_siblings(parent, Reads, reads))
     return splices

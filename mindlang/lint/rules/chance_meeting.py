@@ -32,8 +32,6 @@ BAD = (
     HALL.format("2 to 6"),
     ROCKS.format(4),
     HALL.format(2).replace("  lasts", "  starts at 18.9 0\n  lasts") + "body Robot is box size 3 2\n",
-    HALL.format(2).replace("  lasts", "  starts at 8 2\n  lasts") + "body Robot is box size 4 1\n",
-    HALL.format(2).replace("size 40", "size 40 8") + "body Robot is box size 10 1\n",
 )
 START = "Write another place for the robot, or which way it faces: starts at 0 0 facing 90 deg."
 

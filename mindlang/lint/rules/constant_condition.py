@@ -7,25 +7,20 @@ that never comes for `dead-event`.
 """
 
 from mindlang.compiler.model import Edge, End
+from mindlang.lint.examples import COURSE, EYE, READS
 from mindlang.lint.intervals import why_always, why_never
 from mindlang.lint.study import Finding, Found, Study
 
-READS = """
-sensor eye is range_finder at 0 deg
-skill Go is rule
-  reads eye
-"""
-COURSE = "sensor eye is range_finder at 0 deg\ntask Course in arena\n  lasts 9 s\n"
+BEGIN = EYE + COURSE
 GOOD = (
     f"{READS}  drives left_wheel at 1 when eye > 0.2 and eye < 0.8 otherwise 0.5\n",
-    f"{COURSE}  rewards 1 per tick when eye > 0.5\n  ends when eye <= 0\n",
+    f"{BEGIN}  rewards 1 per tick when eye > 0.5\n  ends when eye <= 0\n",
 )
 BAD = (
     f"{READS}  drives left_wheel at 1 when eye > 20\n",
     f"{READS}  drives left_wheel at 1 when eye < 20% and eye > 80% otherwise 0.5\n",
-    f"{READS}  drives left_wheel at 1 when eye > -1\n",
-    f"{COURSE}  rewards 1 per tick when eye < 2\n",
-    f"{COURSE}  ends when eye < 20 or eye > 80\n",
+    f"{BEGIN}  rewards 1 per tick when eye < 2\n",
+    f"{BEGIN}  ends when eye < 20 or eye > 80\n",
 )
 REMEDY = "Compare with something that is sometimes reached, or leave the condition out."
 AT_ONCE = "A run would end with its first tick: compare with something that is sometimes reached."

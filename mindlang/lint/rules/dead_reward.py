@@ -4,13 +4,10 @@ Its condition cannot hold with readings between 0 and 1, its event cannot happen
 amount is always 0. Learning goes on without it and nobody notices.
 """
 
+from mindlang.lint.examples import COURSE, EYE
 from mindlang.lint.study import Finding, Found, Study, removal
 
-BEGIN = """
-sensor eye is range_finder at 0 deg
-task Course in arena
-  lasts 9 s
-"""
+BEGIN = EYE + COURSE
 GOOD = f"{BEGIN}  rewards 1 per tick when eye > 0.5\n  rewards -9 on collision\n"
 BAD = (
     f"{BEGIN}  rewards 1 per tick when eye > 1.5\n",

@@ -23,21 +23,12 @@ GOOD = (
     f"{SENSORS}sensor behind is latch of off below 70% above 80%\n",
     f"{SENSORS}{SKILL} north > 90% or north < 10%\n",
     f"{SENSORS}{SKILL} north > 0.5\n",
-    f"{SENSORS}{SKILL} north > 90% and north <= 1\n",
-    f"{SENSORS}{SKILL} north > 1\n",
-    f"{SENSORS}{SKILL} 2 * north > 1\n",
     f"{SENSORS}memory seen is cell decay 0\n{SKILL} north > 0.5\n  drives seen at north\n",
 )
 BAD = (
     f"{SENSORS}sensor behind is latch of north below 20% above 80%\n",
-    f"{SENSORS}sensor calm is average of north over 5 ticks\nsensor behind is latch of calm below 20% above 80%\n",
     f"{SENSORS}{SKILL} north > 90%\n",
-    f"{SENSORS}{SKILL} 0.2 > north otherwise 0\n",
-    f"{SENSORS}{SKILL} north <= 0.9\n",
-    f"{SENSORS}{SKILL} 1 - north < 10%\n",
-    f"{SENSORS}{SKILL} 2 * north - 1.8 > 0\n",
     f"{SENSORS}sensor home is compass\n{SKILL} north - home > 0.1\n  reads home\n",
-    f"{SENSORS}sensor turned is computed at north + 0.25\nsensor behind is latch of turned below 20% above 80%\n",
     f"{SENSORS}memory seen is cell decay 0.5\n{SKILL} north > 0.5\n  drives seen at north\n",
     "sensor north is compass\ntask Course in arena\n  lasts 9 s\n  rewards 1 per tick when north >= 3/4\n",
 )

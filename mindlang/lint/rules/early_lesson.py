@@ -10,39 +10,21 @@ from collections.abc import Mapping, Sequence
 from mindlang.compiler.diagnostic import Label
 from mindlang.compiler.hierarchy import with_descendants
 from mindlang.compiler.model import Lesson
+from mindlang.lint.examples import LEARNS, LESSON, REWARDED, TURN
 from mindlang.lint.study import Finding, Found, Study
 from mindlang.lock.status import mismatches
 
-HIERARCHY = """
-master Live
-sensor eye is range_finder at 0 deg
-skill Live is mlp
-  reads eye
-  influences Go
-  drives left_wheel
-skill Go is mlp
-  reads eye
-  drives left_wheel
-task Course in arena
-  lasts 9 s
-  rewards forward per tick
-curriculum School is genetic
-"""
-FIRST_LESSON = "  teaches Go on Course for 10 generations\n"
+LIVE = "master Live\nskill Live is mlp\n  reads eye\n  influences Go\n  drives left_wheel\n"
+HIERARCHY = f"{LIVE}{LEARNS}{REWARDED}curriculum School is genetic\n"
 SECOND_LESSON = "  teaches Live on Course for 10 generations\n"
 GOOD = (
-    HIERARCHY + FIRST_LESSON + SECOND_LESSON,
-    f"{HIERARCHY}  teaches Live on Course for 10 generations with subskills\n{FIRST_LESSON}",
+    HIERARCHY + LESSON + SECOND_LESSON,
+    f"{HIERARCHY}  teaches Live on Course for 10 generations with subskills\n{LESSON}",
 )
-BESIDE_GO = """
-skill Turn is mlp
-  reads eye
-  drives left_wheel
-"""
 LESSON_FROM_GO = "  teaches Turn on Course for 10 generations from Go\n"
 BAD = (
-    HIERARCHY + SECOND_LESSON + FIRST_LESSON,
-    HIERARCHY.replace("task Course", f"{BESIDE_GO}task Course") + LESSON_FROM_GO + FIRST_LESSON,
+    HIERARCHY + SECOND_LESSON + LESSON,
+    HIERARCHY.replace("task Course", f"{TURN}task Course") + LESSON_FROM_GO + LESSON,
 )
 
 

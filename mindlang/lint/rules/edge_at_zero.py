@@ -20,7 +20,6 @@ skill Live is rule
 GOOD = f"{HIERARCHY}  influences Back at 1 - eye\n"
 BAD = (
     f"{HIERARCHY}  influences Back at 0\n",
-    f"{HIERARCHY}  influences Back at 1/2 - 0.5\n",
     f"{HIERARCHY}  influences Back at -eye\n",
 )
 

@@ -5,19 +5,10 @@ learn again, or the lesson if it is not.
 """
 
 from mindlang.compiler.hierarchy import with_descendants
+from mindlang.lint.examples import LEARNS, REWARDED, SCHOOL
 from mindlang.lint.study import Finding, Found, Study, removal
 
-GOOD = """
-sensor eye is range_finder at 0 deg
-skill Go is mlp
-  reads eye
-  drives left_wheel
-task Course in arena
-  lasts 9 s
-  rewards forward per tick
-curriculum School is genetic
-  teaches Go on Course for 10 generations
-"""
+GOOD = LEARNS + REWARDED + SCHOOL
 BAD = GOOD.replace("  reads eye", "  stays frozen\n  reads eye")
 
 

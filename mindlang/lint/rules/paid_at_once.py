@@ -39,17 +39,6 @@ BAD = (
     TASK.replace("-10 0\n", "-10 0\n  ends on reach of coin\n"),
     TASK.replace("-10 0\n", "-10 0\n  ends when charge < 70%\n"),
     TASK.replace("-10 0\n", "9 0\n  succeeds when in_goal > 0.5\n").replace("  rewards 1 on reach of goal\n", ""),
-    *(
-        f"sensor moving is inertial\nsensor {sensor}\n" + TASK.replace("-10 0\n", f"-10 0\n  ends when {when}\n")
-        for sensor, when in (
-            ("pace is speed", "moving < 10%"),
-            ("low is latch of charge below 70% above 80%", "low > 0.5"),
-            ("mean is average of moving over 5 ticks", "mean < 10%"),
-            ("rising is derivative of charge", "rising >= 0.5"),
-            ("sum is computed at charge - moving", "sum > 0.5"),
-            ("beat is clock period 2 s", "beat < 0.5"),
-        )
-    ),
     TASK.replace("  starts at -10 0\n", ""),
 )
 

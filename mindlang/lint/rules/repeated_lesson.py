@@ -8,27 +8,14 @@ from mindrun.kinds.learners import Learner
 
 from mindlang.compiler.diagnostic import Label
 from mindlang.compiler.model import Lesson
+from mindlang.lint.examples import LEARNS, LESSON, REWARDED, TURN
 from mindlang.lint.study import Finding, Found, Study
 
-SCHOOL = """
-sensor eye is range_finder at 0 deg
-skill Go is mlp
-  reads eye
-  influences Turn
-  drives left_wheel
-skill Turn is mlp
-  reads eye
-  drives left_wheel
-task Course in arena
-  lasts 9 s
-  rewards forward per tick
-curriculum School is genetic
-  teaches Turn on Course for 10 generations
-"""
-TURN = "  teaches Turn on Course under Go for 10 generations\n"
-GO = "  teaches Go on Course for 10 generations\n"
-GOOD = SCHOOL + GO + TURN + GO + TURN
-BAD = (SCHOOL + GO + GO, SCHOOL + GO + TURN + GO.replace("\n", " from scratch\n"))
+MIND = f"{LEARNS}  influences Turn\n{TURN}{REWARDED}"
+SCHOOL = f"{MIND}curriculum School is genetic\n  teaches Turn on Course for 10 generations\n"
+UNDER = "  teaches Turn on Course under Go for 10 generations\n"
+GOOD = SCHOOL + LESSON + UNDER + LESSON + UNDER
+BAD = (SCHOOL + LESSON + LESSON, SCHOOL + LESSON + UNDER + LESSON.replace("\n", " from scratch\n"))
 
 Said = tuple[str, str, str, str, bool, Learner]
 

@@ -6,19 +6,10 @@ elite is nearly everybody, no weight is ever mutated, or by next to nothing.
 
 from mindrun.graph.skill_sets import genes, learners
 
+from mindlang.lint.examples import LEARNS, REWARDED
 from mindlang.lint.study import Finding, Found, Study
 
-SCHOOL = """
-sensor eye is range_finder at 0 deg
-skill Go is mlp
-  reads eye
-  drives left_wheel
-task Course in arena
-  lasts 9 s
-  rewards forward per tick
-curriculum School is {}
-  teaches Go on Course for 20 generations{}
-"""
+SCHOOL = LEARNS + REWARDED + "curriculum School is {}\n  teaches Go on Course for 20 generations{}\n"
 GOOD = (
     SCHOOL.format("genetic", ""),
     SCHOOL.format("genetic elite 50% mutated 5%", ""),

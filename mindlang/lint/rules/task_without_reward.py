@@ -5,20 +5,12 @@ benchmark needs no rewards.
 """
 
 from mindlang.compiler.diagnostic import Label
+from mindlang.lint.examples import COURSE, LEARNS, SCHOOL
 from mindlang.lint.study import Finding, Found, Study
 
-COURSE = """
-sensor eye is range_finder at 0 deg
-skill Go is mlp
-  reads eye
-  drives left_wheel
-curriculum School is genetic
-  teaches Go on Course for 10 generations
-task Course in arena
-  lasts 9 s
-"""
-GOOD = (f"{COURSE}  rewards forward per tick\n", "task Show in arena\n  lasts 9 s\n  counts collision\n")
-BAD = (COURSE, f"{COURSE}  rewards 0 per tick\n  rewards 1 per tick when eye > 1.5\n")
+BEGIN = LEARNS + SCHOOL + COURSE
+GOOD = (f"{BEGIN}  rewards forward per tick\n", "task Show in arena\n  lasts 9 s\n  counts collision\n")
+BAD = (BEGIN, f"{BEGIN}  rewards 0 per tick\n  rewards 1 per tick when eye > 1.5\n")
 
 
 def check(study: Study) -> Found:

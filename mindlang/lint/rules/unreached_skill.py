@@ -4,6 +4,7 @@ Influence flows from the master down. A skill that neither the mind's master nor
 straight or through others, never acts and never learns; and whoever reads the file will think that it does.
 """
 
+from mindlang.lint.examples import LEARNS, REWARDED, SCHOOL
 from mindlang.lint.study import Finding, Found, Study, removal
 
 ELSEWHERE = True
@@ -15,19 +16,7 @@ skill Rest is rule
 """
 GOOD = (
     f"master Live\nskill Live is rule\n  influences Go at 1\n  influences Rest at 0.5{BAD}",
-    """
-sensor eye is range_finder at 0 deg
-skill Learn is mlp
-  reads eye
-  drives left_wheel
-skill Go is rule
-  drives left_wheel at 1
-task Course in arena
-  lasts 9 s
-  rewards forward per tick
-curriculum School is genetic
-  teaches Learn on Course for 10 generations
-""",
+    f"master Rest\nskill Rest is rule\n  drives left_wheel at 0.5\n{LEARNS}{REWARDED}{SCHOOL}",
 )
 
 

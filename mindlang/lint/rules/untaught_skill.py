@@ -7,24 +7,16 @@ subskills`; one that has been taught elsewhere and is not to change `stays froze
 from mindlang.compiler.diagnostic import listed
 from mindlang.compiler.hierarchy import with_descendants
 from mindlang.compiler.model import Skill
+from mindlang.lint.examples import LEARNS, REWARDED, SCHOOL
 from mindlang.lint.study import Finding, Found, Study
 
 ELSEWHERE = True
-LEARNS = """
-sensor eye is range_finder at 0 deg
-skill Go is mlp
-  reads eye
-  drives left_wheel
-  drives right_wheel
-task Course in arena
-  lasts 9 s
-  rewards forward per tick
-"""
+UNTAUGHT = f"{LEARNS}  drives right_wheel\n{REWARDED}"
 GOOD = (
-    f"{LEARNS}curriculum School is genetic\n  teaches Go on Course for 10 generations\n",
-    LEARNS.replace("  reads eye", "  stays frozen\n  reads eye"),
+    UNTAUGHT + SCHOOL,
+    UNTAUGHT.replace("  reads eye", "  stays frozen\n  reads eye"),
 )
-BAD = LEARNS
+BAD = UNTAUGHT
 
 
 def check(study: Study) -> Found:

@@ -18,15 +18,6 @@ UNDRIVEN = MOOD.replace("  drives mood at 1\n", "")
 GOOD = (
     MOOD,
     UNDRIVEN.replace("0.9", "0.9 start 1"),
-    """
-memory tired is cell decay 0.99
-skill Go is rule
-  drives left_wheel at 1
-  drives tired at 1
-task Run in arena
-  lasts 9 s
-  ends when tired > 0.5
-""",
 )
 BAD = (MOOD.replace("  reads mood\n", "").replace("at mood", "at 1"), UNDRIVEN, MOOD.replace("decay 0.9", "decay 1"))
 

@@ -4,25 +4,12 @@ Nobody learns there, and it counts nothing: a task that counts is for benchmarks
 runs in its tasks. Both are fine.
 """
 
+from mindlang.lint.examples import LEARNS, REWARDED, SCHOOL
 from mindlang.lint.study import Finding, Found, Study, removal
 
 ELSEWHERE = True
-COURSE = """
-sensor eye is range_finder at 0 deg
-skill Go is mlp
-  reads eye
-  drives left_wheel
-curriculum School is genetic
-  teaches Go on Course for 10 generations
-task Course in arena
-  lasts 9 s
-  rewards forward per tick
-task Other in arena
-  lasts 99 s
-  rewards forward per tick
-"""
-GOOD = (f"{COURSE}  counts collision\n", "task Course in arena\n  lasts 9 s\n  rewards forward per tick\n")
-BAD = COURSE
+BAD = f"{LEARNS}{SCHOOL}{REWARDED}task Other in arena\n  lasts 99 s\n  rewards forward per tick\n"
+GOOD = (f"{BAD}  counts collision\n", REWARDED)
 
 
 def check(study: Study) -> Found:

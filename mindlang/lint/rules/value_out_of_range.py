@@ -6,19 +6,14 @@ Every influence and command is clamped to 0..1. A value that is only sometimes o
 
 from mindlang.compiler.diagnostic import Fix
 from mindlang.editing.insertion import replace_span
+from mindlang.lint.examples import READS
 from mindlang.lint.intervals import interval, is_constant, range_in_words
 from mindlang.lint.study import Finding, Found, Study, is_zero_influence
 
-READS = """
-sensor eye is range_finder at 0 deg
-skill Go is rule
-  reads eye
-"""
 GOOD = (f"{READS}  drives left_wheel at 2 * (1 - eye)\n", f"{READS}  drives left_wheel at 1\n")
 BAD = (
     f"{READS}  drives left_wheel at 1 + eye\n",
     f"{READS}  drives left_wheel at -eye\n",
-    f"{READS}  drives left_wheel at-eye\n",
     f"{READS}  drives left_wheel at 20\n",
 )
 

@@ -12,31 +12,24 @@ from math import inf, nextafter
 from msgspec.structs import replace
 
 from mindlang.compiler.syntax import Comparison, Expression, Term, When
+from mindlang.lint.examples import COURSE, EYE, READS
 from mindlang.lint.intervals import OPPOSITES, UPPER, Interval, bounds, divisors
 from mindlang.lint.study import AnalysedWorld, Conditional, Finding, Found, Study
 
-READS = """
-sensor eye is range_finder at 0 deg
-skill Go is rule
-  reads eye
-"""
-COURSE = "sensor eye is range_finder at 0 deg\ntask Course in arena\n  lasts 9 s\n"
+BEGIN = EYE + COURSE
 RATIO = "sensor near is range_finder at 0 deg\nsensor far is range_finder at 90 deg\n"
 GOOD = (
     f"{READS}  drives left_wheel at 0.1 / (eye + 0.1)\n",
     f"{READS}  drives left_wheel at 0.1 / eye when eye > 0 otherwise 1\n",
     f"{READS}  drives left_wheel at 1 when eye < 0.1 otherwise 0.1 / eye\n",
-    f"{COURSE}  ends when eye > 10% and 0.01 / eye > 9%\n",
-    f"{COURSE}  rewards 1 / eye per tick when eye >= 5%\n",
-    f"{COURSE}  rewards eye / 2 per tick\n",
+    f"{BEGIN}  ends when eye > 10% and 0.01 / eye > 9%\n",
+    f"{BEGIN}  rewards 1 / eye per tick when eye >= 5%\n",
     f"{RATIO}sensor ratio is computed at near / (near + far + 0.01)\n",
 )
 BAD = (
     f"{READS}  drives left_wheel at 0.1 / eye\n",
     f"{READS}  drives left_wheel at 1 when eye > 0.5 otherwise 0.1 / eye\n",
-    f"{COURSE}  rewards 1 / eye per tick\n",
-    f"{COURSE}  rewards 1 / eye per tick when eye >= 0\n",
-    f"{COURSE}  ends when 1 / eye > 9\n",
+    f"{BEGIN}  rewards 1 / eye per tick\n",
     f"{RATIO}sensor ratio is computed at near / (near + far)\n",
 )
 MESSAGE = "What is divided by here can be 0, and then this is not a number."
