@@ -1,12 +1,15 @@
 """A compiled mind with other names, and the facts of a training world after sensors, tasks or skills were renamed.
 
-A kind's arguments say what they name; another fact is read as the line of the language that it is.
+A kind's arguments say what they name. Another fact is renamed as the mind says it now, whatever its sentence looks
+like: the worlds of the mind are made once more with a mark for each renamed name, and say of every text what it was
+and what it becomes. Only what the mind does not say any more is read as a line of the language.
 """
 
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import Field, dataclass, fields, is_dataclass, replace
 from functools import cached_property
+from itertools import count
 from typing import Any, TypeVar, cast
 
 from lark import UnexpectedInput
@@ -35,7 +38,7 @@ from mindlang.compiler.splice import spliced
 from mindlang.compiler.syntax import Fact
 from mindlang.editing.insertion import replace_span
 from mindlang.lock.training_world import TrainingWorld
-from mindlang.lock.world_facts import meaning_of
+from mindlang.lock.world_facts import Worlds, meaning_of
 
 T = TypeVar("T")
 Name = Callable[..., str]  # what a name is called that may be of these nouns
@@ -56,7 +59,7 @@ NAMED: Mapping[type, Mapping[str, str]] = {
 OF_KINDS = "sensor", "memory", "actuator", "thing"  # the nouns of facts that are kinds
 
 Role = tuple[str | int, ...]  # where a text stands: the noun of its fact, and the keys and numbers that lead to it
-_NUMBER = re.compile(r"(?<![\w.])-?[0-9.]+(e[-+][0-9]+)?")  # as a lock says it: with a sign or an exponent, too
+_MARK = re.compile("\0([0-9]+)\0")  # no name has such a character
 _TITLE = re.compile(r"([a-z]\w*\.)?[A-Z]")
 _AROUND_SENTENCE: Mapping[Role, Callable[[str], tuple[str, str]]] = {
     ("skill", "reads"): lambda _: ("reads ", ""),
@@ -71,7 +74,7 @@ _AROUND_SENTENCE: Mapping[Role, Callable[[str], tuple[str, str]]] = {
 
 @dataclass(frozen=True)
 class Renaming:
-    """New names by noun, and the minds that say for which nouns all other names stand."""
+    """New names by noun, and the minds in whose worlds the texts with these names are looked up."""
 
     names: NounNames
     minds: Sequence[Graph]
@@ -82,20 +85,63 @@ class Renaming:
 
     def relabelled(self, world: TrainingWorld) -> TrainingWorld:
         """A training world with these names in its facts."""
-        if not any(self.names.values()):
+        if not self._pairs:
             return world
+        texts = self._texts(world)
+
+        def text(role: Role, old: str) -> str:
+            return texts.get((role, old)) or self._read_again(role, old)
+
         now = {}
         for subject, value in world.facts.items():
             noun, space, own = subject.partition(" ")
             now[f"{noun}{space}{self.name(own, noun)}"] = (
                 {key: _argument(part, meaning_of(noun, value["is"], key), self.name) for key, part in value.items()}
                 if noun in OF_KINDS
-                else _mapped(value, (noun,), self._read_again)
+                else _mapped(value, (noun,), text)
             )
         lesson = world.facts["lesson"]
         nouns = {"task": "task", "master": "skill", "starts_from": "skill"}
         named = {key: self.name(lesson[key], noun) for key, noun in nouns.items() if key in lesson}
         return TrainingWorld({**now, "lesson": {**lesson, **named}})
+
+    def _texts(self, world: TrainingWorld) -> dict[tuple[Role, str], str]:
+        """The new text for each role and old text, from the worlds of the same lesson in the minds."""
+        found: dict[tuple[Role, str], str] = {}
+
+        def noted(role: Role, text: str) -> str:
+            found.setdefault((role, self._unmarked(text, 0)), self._unmarked(text, 1))
+            return text
+
+        lesson = world.lesson
+        for mind in self._marked:
+            task, master = self._mark(lesson.task, "task"), self._mark(lesson.master, "skill")
+            if task in {each.name for each in mind.graph.tasks} and master in mind.graph.skill_numbers:
+                facts = mind.of_gone(type(lesson)(task, master, lesson.jointly), {}).facts
+                for subject, value in facts.items():
+                    _mapped(value, (subject.partition(" ")[0],), noted)
+        return found
+
+    @cached_property
+    def _pairs(self) -> list[tuple[str, str]]:
+        return [pair for named in self.names.values() for pair in named.items()]
+
+    @cached_property
+    def _marks(self) -> NounNames:
+        """The mark of each name, as it was and as it is now."""
+        numbers = count()
+        numbered = {noun: [(pair, next(numbers)) for pair in named.items()] for noun, named in self.names.items()}
+        return {noun: {name: f"\0{i}\0" for pair, i in pairs for name in pair} for noun, pairs in numbered.items()}
+
+    def _mark(self, text: str, *nouns: str) -> str:
+        return now_called(text, self._marks, *nouns)
+
+    @cached_property
+    def _marked(self) -> list[Worlds]:
+        return [Worlds(renamed(mind, self._mark), None) for mind in self.minds]
+
+    def _unmarked(self, text: str, which: int) -> str:
+        return _MARK.sub(lambda found: self._pairs[int(found[1])][which], text)
 
     @cached_property
     def _declared(self) -> Names:
@@ -108,14 +154,13 @@ class Renaming:
         return Names(table)
 
     def _read_again(self, role: Role, text: str) -> str:
-        """A text of a lock, read as the fact that it is, with other names."""
+        """A text that no mind says now, read as the fact that it was once, with other names."""
         if role not in _AROUND_SENTENCE:
             return self.name(text, "skill", "actuator", "memory") if role[0] == "skill" and role[-1] != "is" else text
         before, after = _AROUND_SENTENCE[role](text)
         source = Source("a fact", f"{before}{text}{after}")
-        as_long = _NUMBER.sub(lambda number: "1" * len(number[0]), source.text)  # and stands in any line
         try:
-            fact = cast(Fact, parse_line(as_long, source, 0))
+            fact = cast(Fact, parse_line(source.text, source, 0))
         except UnexpectedInput:
             return text
         mentions = mentions_in(fact, self._declared, None)
