@@ -16,9 +16,9 @@ from mindlang.compiler.source import Source
 
 COLOURS = "red", "green", "blue"
 NOMINAL_COUNTS = {"Seek": 6.0, "Chase": 8.0, "Shun": 15.0, "Fetch": 2.0, "Push": 2.0}  # in a run, of a skill that can
-POINTS, TICKS = 10, 1000  # for what is counted; of a run
-EARLIER = 3  # skills of earlier lessons that a lesson's may influence
-LOOKS_APART = 10  # lessons, after which all tasks are tried; after the last of so many, some learn on the job
+EVENT_POINTS, RUN_TICKS = 10, 1000
+EARLIER_SKILLS = 3  # of earlier lessons, that a lesson's may influence
+LOOKS_APART_LESSONS = 10  # after which all tasks are tried; in the last of so many some learn on the job
 
 
 def hundred(seed: int, lessons: int = 100) -> TaskSequence:
@@ -28,13 +28,13 @@ def hundred(seed: int, lessons: int = 100) -> TaskSequence:
         graph_of(compile_source(Source("hundred.mind", text))),
         net="Net",
         tasks=tuple(tasks),
-        good=tuple(POINTS * NOMINAL_COUNTS[task.rstrip("0123456789")] for task in tasks),
+        good=tuple(EVENT_POINTS * NOMINAL_COUNTS[task.rstrip("0123456789")] for task in tasks),
         done=(1.0,) * lessons,
         stages=tuple((Stage(task, (task, f"Own{number}")),) for number, task in enumerate(tasks, 1)),
         ticks=8e6,
-        earlier=EARLIER,
-        looks_apart=LOOKS_APART,
-        on_the_job=frozenset(range(LOOKS_APART - 1, lessons, LOOKS_APART)),
+        earlier=EARLIER_SKILLS,
+        looks_apart=LOOKS_APART_LESSONS,
+        on_the_job=frozenset(range(LOOKS_APART_LESSONS - 1, lessons, LOOKS_APART_LESSONS)),
         learner=Genetic(octaves=2, short=0.3),
         is_shared_evenly=True,
         is_best_of_all=True,
@@ -47,7 +47,7 @@ def drawn(seed: int, lessons: int) -> tuple[str, list[str]]:
     lines, tasks = [Path(__file__).with_name("hundred.mind").read_text(encoding="utf-8")], list[str]()
     for number in range(1, lessons + 1):
         verb = str(rng.choice([*NOMINAL_COUNTS]))
-        lines += _lesson(f"{verb}{number}", f"Own{number}", tasks[-EARLIER:], rng)
+        lines += _lesson(f"{verb}{number}", f"Own{number}", tasks[-EARLIER_SKILLS:], rng)
         tasks.append(f"{verb}{number}")
     return "\n".join(lines), tasks
 
@@ -64,7 +64,11 @@ def _lesson(name: str, own: str, earlier: list[str], rng: np.random.Generator) -
         *(f"\nskill {own} is mlp hidden 2", *read, "  drives left_wheel", "  drives right_wheel"),
         *(f"\nskill {name} is mlp hidden 1", *read, f"  influences {own}"),
         *(f"  influences {skill}" for skill in earlier),
-        *("  influences Grab at 1", f"\ntask {name} in arena size {rng.integers(30, 46)}", f"  lasts {TICKS} ticks"),
+        *(
+            "  influences Grab at 1",
+            f"\ntask {name} in arena size {rng.integers(30, 46)}",
+            f"  lasts {RUN_TICKS} ticks",
+        ),
         *_things(verb, colour, other, rng),
         *([f"  contains rock is obstacle count {rocks} size 2 to 3"] if rocks else []),
         *_robot(colour, rng),
@@ -108,7 +112,7 @@ def _rewards(verb: str, colour: str, rng: np.random.Generator) -> list[str]:
     """The lines of what is paid and counted."""
     counted = {"Shun": "visit of patch size 4", "Fetch": f"delivery of {colour}", "Push": f"delivery of {colour}"}
     event, near = counted.get(verb, f"reach of {colour}"), rng.uniform(0.1, 0.2)
-    found = [f"  rewards {POINTS} on {event}", f"  counts {event}"]
+    found = [f"  rewards {EVENT_POINTS} on {event}", f"  counts {event}"]
     if rng.integers(2):
         found.append(f"  rewards {rng.uniform(0.001, 0.004):.3f} * forward per tick")
     if verb == "Shun":
