@@ -5,6 +5,7 @@ from functools import cache
 
 from mindrun.kinds.learners import Genetic
 
+from benchmarks.lifelong.cross import cross
 from benchmarks.lifelong.generated import hundred
 from benchmarks.lifelong.sequence import Stage, TaskSequence
 from benchmarks.workloads import COLLECT, graph_of
@@ -46,7 +47,7 @@ def eight(seed: int) -> TaskSequence:
     )
 
 
-SEQUENCES: dict[str, Callable[[int], TaskSequence]] = {"eight": eight, "hundred": hundred}
+SEQUENCES: dict[str, Callable[[int], TaskSequence]] = {"eight": eight, "hundred": hundred, "cross": cross}
 
 
 @cache
