@@ -1,7 +1,7 @@
-"""Twelve lessons after those of CRoSS's wheeled robot (Denker and Gepperth, 2026): lines to follow, boxes to push or not.
+"""Twelve lessons after CRoSS's wheeled robot (Denker and Gepperth, 2026): lines to follow, boxes to push or to leave.
 
-Lines of three shapes and colours, each crossed by one that is not meant; each piece counts once. Boxes of one colour are
-pushed home in one lesson, and too heavy in another. The robot has ground sensors and a lidar, and not CRoSS's camera.
+Lines of three shapes and colours, each crossed by one that is not meant; each piece counts once. Boxes of one colour
+are pushed home in one lesson, and too heavy in another. Ground sensors and a lidar stand for CRoSS's camera.
 """
 
 from math import copysign, cos, pi, sin
