@@ -138,7 +138,7 @@ def _difference(name: str, found: PairedDifference) -> tuple[str, str]:
         return "–", ""
     difference = "+" * (found.mean >= 0) + bound(found.mean)
     if found.low is None or found.high is None:
-        return difference, "no interval"
+        return difference, "no interval" if found.differing else "no run differs"
     return difference, f"{bound(found.low)} to {bound(found.high)}"
 
 
