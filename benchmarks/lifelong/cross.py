@@ -46,10 +46,10 @@ def _follow(number: int, shape: str, colour: int) -> WrittenLesson:
 
 
 def _push(number: int, colour: int) -> WrittenLesson:
-    """A box to push home."""
+    """Boxes to push home."""
     box = f"{COLOURS[colour]}_box"
     task = [
-        *("in arena size 30", f"  lasts {RUN_TICKS} ticks", f"  contains {box} is box size 3"),
+        *("in arena size 36", f"  lasts {RUN_TICKS} ticks", f"  contains {box} is box count 4 size 3 density 0.2"),
         *("  contains home is zone size 16", f"  rewards 0.1 * progress toward {box} per tick"),
         *(f"  rewards {EVENT_POINTS} on delivery of {box}", f"  counts delivery of {box}"),
     ]
@@ -57,7 +57,7 @@ def _push(number: int, colour: int) -> WrittenLesson:
 
 
 def _leave(number: int, colour: int) -> WrittenLesson:
-    """Boxes that are too heavy, to drive around between."""
+    """Boxes that are too heavy, to drive around between them."""
     box = f"{COLOURS[colour]}_box"
     counted = "visit of patch size 4"
     task = [
