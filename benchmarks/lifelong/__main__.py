@@ -23,7 +23,7 @@ from pathlib import Path
 from mindrun.files.atomic_write import write
 from mindrun.processors import cores
 
-from benchmarks.lifelong.agents import AGENTS, CANDIDATES
+from benchmarks.lifelong.agents import AGENTS, ALONE, CANDIDATES
 from benchmarks.lifelong.lives import live, read
 from benchmarks.lifelong.report import numbers, page, tables
 from benchmarks.lifelong.sequence import network_on
@@ -36,7 +36,7 @@ def parsed() -> argparse.Namespace:
         allow_abbrev=False, description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("--sequence", default="eight", choices=SEQUENCES, help="of tasks")
-    parser.add_argument("--agents", nargs="+", default=[*AGENTS], choices=[*AGENTS, *CANDIDATES], metavar="AGENT")
+    parser.add_argument("--agents", nargs="+", choices=[*AGENTS, *CANDIDATES], metavar="AGENT")
     parser.add_argument("--lessons", type=int, help="the first so many of them")
     parser.add_argument("--ticks", type=float, help="of a lesson, for every agent: 60e6 of eight, 8e6 of a hundred")
     parser.add_argument("--layouts", type=int, default=50, help="on which a task runs whenever it is tried")
@@ -58,6 +58,7 @@ def main() -> None:
     ticks, lessons = options.ticks or of.ticks, len(of.tasks)
     if options.lessons:  # and those until all tasks are tried
         lessons = min(-(-options.lessons // of.looks_apart) * of.looks_apart, lessons)
+    agents = options.agents or [name for name in AGENTS if of.earlier or name != ALONE]
     folder = options.folder or Path("runs", "lifelong" if is_default else options.sequence)
     setup = {"ticks": ticks, "layouts": options.layouts, "tasks": of.tasks}
     folder.mkdir(parents=True, exist_ok=True)
@@ -69,10 +70,10 @@ def main() -> None:
     seeds = range(options.first, options.first + options.seeds)
     with ProcessPoolExecutor(options.workers, get_context("spawn")) as pool:
         common = drawn, lessons, ticks, options.layouts, folder
-        lives = [pool.submit(live, name, seed, *common) for seed in seeds for name in options.agents]
+        lives = [pool.submit(live, name, seed, *common) for seed in seeds for name in agents]
         for done in as_completed(lives):
             print(done.result(), file=sys.stderr, flush=True)
-    found = numbers(read(folder, options.agents, seeds), of, lessons, setup)
+    found = numbers(read(folder, agents, seeds), of, lessons, setup)
     print("\n\n".join(tables(found)))
     if options.json:
         write(options.json, (json.dumps(found) + "\n").encode())

@@ -9,7 +9,7 @@ from functools import partial
 from typing import Any, Protocol
 
 import numpy as np
-from mindrun.graph.graph import Graph
+from mindrun.graph.graph import Gate, Graph
 from mindrun.graph.policy import Policy
 from mindrun.graph.weights import owners, parts, reachable
 from mindrun.numbers.network import FLOAT32, NOTHING, matrices
@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from benchmarks.lifelong.sequence import Stage, TaskSequence, network_on
 from benchmarks.lifelong.teaching import FINISH, Anchored, Curve, Effort, Part, Replay, Timed, teach
+from mindlang.run.credit import NEVER
 
 Known = Mapping[str, NDArray[Any]]
 NET, NOBODY = "Monolith", np.empty((1, 0), np.float32)  # the weights of the network; the genome where nobody learns
@@ -53,10 +54,14 @@ class Agent(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Hierarchy:
-    """The paper's agent: new skills in each lesson; those below stay as they are, but where it learns on the job."""
+    """The paper's agent: new skills in each lesson; those below stay as they are, but where it learns on the job.
+
+    With `is_alone` those of a written lesson influence none of earlier ones: what the hierarchy is worth.
+    """
 
     of: TaskSequence
     on_the_job: bool = False
+    is_alone: bool = False
 
     def learn(self, known: Known, lesson: int, seed: int, ticks: float) -> Learnt:
         known, spent = self._with_earlier(known, lesson)
@@ -77,7 +82,8 @@ class Hierarchy:
 
         They are an array `below TASK` of their places in the graph, the best first.
         """
-        if not (many := min(self.of.earlier, lesson)):
+        many = min(self.of.earlier, lesson)
+        if not many or self.is_alone:
             return known, 0
         task, masters = self.of.tasks[lesson], [self.of.master(each) for each in range(lesson)]
         found = [self._rollout(known, task, each).score(NOBODY, CHOOSING_LAYOUTS) for each in masters]
@@ -89,10 +95,13 @@ class Hierarchy:
         """The hierarchy, in which the skill of each lesson influences those that were chosen for it."""
         skills, numbers = [*self.of.graph.skills], self.of.graph.skill_numbers
         for lesson, task in enumerate(self.of.tasks):
-            if (places := known.get(f"below {task}")) is not None:
-                skill = skills[number := numbers[self.of.master(lesson)]]
-                edges = (replace(e, target=int(places[e.output - 1])) if e.output else e for e in skill.edges)
-                skills[number] = replace(skill, edges=tuple(edges))
+            places, number = known.get(f"below {task}"), numbers[self.of.master(lesson)]
+            own, *others = skills[number].edges
+            if self.is_alone:
+                others = [replace(e, target=own.target, gate=Gate(NEVER)) if e.output else e for e in others]
+            elif places is not None:
+                others = [replace(e, target=int(places[e.output - 1])) if e.output else e for e in others]
+            skills[number] = replace(skills[number], edges=(own, *others))
         return replace(self.of.graph, skills=tuple(skills))
 
     def _rollout(self, known: Known, task: str, master: str, learners: tuple[str, ...] = ()) -> Rollout:
@@ -271,6 +280,7 @@ def importance(
     return found
 
 
+ALONE = "skills alone"  # where lessons are written, with skills of their own
 AGENTS: dict[str, Callable[[TaskSequence], Agent]] = {
     "hierarchy": Hierarchy,
     "hierarchy on the job": partial(Hierarchy, on_the_job=True),
@@ -279,6 +289,7 @@ AGENTS: dict[str, Callable[[TaskSequence], Agent]] = {
     "monolith, anchored": Anchoring,
     "monolith, masked": Masked,
     "one per task": OnePerTask,
+    ALONE: partial(Hierarchy, is_alone=True),
 }
 ANCHOR_STRENGTHS = 0.001, 0.01, 0.1, 1.0  # of anchors, to choose one of them with seeds that are not reported
 CANDIDATES = {f"anchored {each:g}": partial(Anchoring, strength=each) for each in ANCHOR_STRENGTHS}

@@ -9,6 +9,7 @@ import numpy as np
 
 from benchmarks.lifelong import metrics
 from benchmarks.lifelong.sequence import TaskSequence
+from benchmarks.lifelong.written import DIGITS
 
 Record = dict[str, Any]  # what came of a lesson
 BASELINE = "one per task"
@@ -112,13 +113,16 @@ def tables(found: Mapping[str, Any]) -> tuple[str, str]:
     return _markdown(rows), _markdown(then)
 
 
-def _groups(found: Mapping[str, Any]) -> dict[str, slice]:
-    """The tasks by their names; where they are many, by the numbers of their lessons."""
+def _groups(found: Mapping[str, Any]) -> dict[str, list[int]]:
+    """The tasks by their names; where they are many, by the numbers of their lessons, and by their verbs."""
     lessons, names = found["lessons"], found["setup"]["tasks"]
     if lessons <= GROUPED_LESSONS:
-        return {names[i]: slice(i, i + 1) for i in range(lessons)}
-    firsts = range(0, lessons, GROUPED_LESSONS)
-    return {f"{first + 1} to {first + GROUPED_LESSONS}": slice(first, first + GROUPED_LESSONS) for first in firsts}
+        return {names[i]: [i] for i in range(lessons)}
+    firsts, verbs = range(0, lessons, GROUPED_LESSONS), [name.rstrip(DIGITS) for name in names]
+    numbered = {
+        f"{first + 1} to {first + GROUPED_LESSONS}": [*range(lessons)][first:][:GROUPED_LESSONS] for first in firsts
+    }
+    return numbered | {verb: [i for i in range(lessons) if verbs[i] == verb] for verb in sorted({*verbs})}
 
 
 def _mean(values: Sequence[float | None], by_task: Sequence[float] | None) -> str:
@@ -131,9 +135,9 @@ def _mean(values: Sequence[float | None], by_task: Sequence[float] | None) -> st
     return f"{round(float(np.mean(there)), 2) + 0.0:.2f}{error}"
 
 
-def _short(values: Sequence[float], tasks: slice) -> str:
-    mean, many = float(np.mean(values[tasks])), tasks.stop - tasks.start > 1
-    return f"{mean:.2f}" if many else f"{mean:.1f}" if mean < 99.95 else f"{mean:.0f}"
+def _short(values: Sequence[float], tasks: Sequence[int]) -> str:
+    mean = float(np.mean([values[task] for task in tasks]))
+    return f"{mean:.2f}" if len(tasks) > 1 else f"{mean:.1f}" if mean < 99.95 else f"{mean:.0f}"
 
 
 def _markdown(rows: Sequence[Sequence[str]]) -> str:
@@ -150,7 +154,11 @@ def page(text: str, found: Mapping[str, Any], of: str = "", picture: str = "") -
         f"{many}, {setup['ticks'] / 1e6:g} M ticks a lesson, {setup['layouts']} fresh layouts for each task whenever "
         f"it is tried; ± the standard error over the {over}."
     )
-    shown = "What each task counts in a run" if found["lessons"] <= GROUPED_LESSONS else "p of the tasks of lessons"
+    shown = (
+        "What each task counts in a run"
+        if found["lessons"] <= GROUPED_LESSONS
+        else "p of the tasks of lessons by number, and by verb,"
+    )
     shown += " after its own lesson → after the last one, on the mean:"
     pictures = [f"![What each agent can do after each lesson]({picture})"] * bool(picture)
     begin, end = BEGIN.format(of), END.format(of)
