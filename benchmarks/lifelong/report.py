@@ -118,11 +118,10 @@ def _groups(found: Mapping[str, Any]) -> dict[str, list[int]]:
     lessons, names = found["lessons"], found["setup"]["tasks"]
     if lessons <= GROUPED_LESSONS:
         return {names[i]: [i] for i in range(lessons)}
-    firsts, verbs = range(0, lessons, GROUPED_LESSONS), [name.rstrip(DIGITS) for name in names]
-    numbered = {
-        f"{first + 1} to {first + GROUPED_LESSONS}": [*range(lessons)][first:][:GROUPED_LESSONS] for first in firsts
-    }
-    return numbered | {verb: [i for i in range(lessons) if verbs[i] == verb] for verb in sorted({*verbs})}
+    verbs = [name.rstrip(DIGITS) for name in names[:lessons]]
+    parts = [[*range(first, min(first + GROUPED_LESSONS, lessons))] for first in range(0, lessons, GROUPED_LESSONS)]
+    of_verbs = {verb: [i for i, each in enumerate(verbs) if each == verb] for verb in sorted({*verbs})}
+    return {f"{part[0] + 1} to {part[-1] + 1}": part for part in parts} | of_verbs
 
 
 def _mean(values: Sequence[float | None], by_task: Sequence[float] | None) -> str:
@@ -154,11 +153,8 @@ def page(text: str, found: Mapping[str, Any], of: str = "", picture: str = "") -
         f"{many}, {setup['ticks'] / 1e6:g} M ticks a lesson, {setup['layouts']} fresh layouts for each task whenever "
         f"it is tried; ± the standard error over the {over}."
     )
-    shown = (
-        "What each task counts in a run"
-        if found["lessons"] <= GROUPED_LESSONS
-        else "p of the tasks of lessons by number, and by verb,"
-    )
+    is_grouped = found["lessons"] > GROUPED_LESSONS
+    shown = "p of the tasks, by their lessons and their verbs," if is_grouped else "What each task counts in a run"
     shown += " after its own lesson → after the last one, on the mean:"
     pictures = [f"![What each agent can do after each lesson]({picture})"] * bool(picture)
     begin, end = BEGIN.format(of), END.format(of)
