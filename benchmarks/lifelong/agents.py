@@ -1,46 +1,33 @@
-"""Agents that learn eight tasks one after the other: what each teaches in a lesson, and who plays a task after it.
+"""Agents that learn tasks one after the other: what each teaches in a lesson, and who plays a task after it.
 
 What an agent takes from one lesson to the next is a dictionary of arrays.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import partial
 from typing import Any, Protocol
 
 import numpy as np
-from mindrun.graph.graph import Graph, Lesson
+from mindrun.graph.graph import Gate, Graph
 from mindrun.graph.policy import Policy
-from mindrun.graph.weights import genes, parts, reachable
-from mindrun.graph.weights import learners as taught_with
+from mindrun.graph.weights import owners, parts, reachable
 from mindrun.numbers.network import FLOAT32, NOTHING, matrices
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import trace
 from mindrun.train.population import Genomes
 from numpy.typing import NDArray
 
+from benchmarks.lifelong.sequence import Stage, TaskSequence, network_on
 from benchmarks.lifelong.teaching import FINISH, Anchored, Curve, Effort, Part, Replay, Timed, teach
-from benchmarks.workloads import COLLECT, graph_of
-from mindlang.compiler.compile import load
+from mindlang.run.credit import NEVER
 
 Known = Mapping[str, NDArray[Any]]
-NET = "Monolith"
-# The tasks in their order; the score that a good skill has, to compare those of several tasks; and what counts as done:
-# what the paper asks of an attempt (examples/collect/paper), for the last the best that it reports (Table 3).
-GOOD_SCORES = {
-    "GoToObject": 350.0,
-    "GoToDropZone": 350.0,
-    "Avoid": 1000.0,
-    "GoToObject+Avoid": 50.0,
-    "GoToDropZone+Avoid": 50.0,
-    "Collect": 150.0,
-    "GoToPower+Avoid": 50.0,
-    "CollectWithPower": 120.0,
-}
-DONE_COUNTS = (25.0, 25.0, 100.0, 5.0, 5.0, 4.63, 5.0, 3.99)
-TASKS = tuple(GOOD_SCORES)
+NET, NOBODY = "Monolith", np.empty((1, 0), np.float32)  # the weights of the network; the genome where nobody learns
 PROBED_RUNS, PROBED_READINGS, PROBE_STEP = 4, 200, np.float32(0.5)  # of a champion's; as far as learning moves a weight
 FREED_SHARE, RETRAINED_SHARE = 0.6, 0.3  # of the free weights after a lesson; of a lesson's ticks
+ON_THE_JOB_SHARE = 0.4  # of the ticks, in which all skills below learn as well
+CHOOSING_LAYOUTS = range(8)  # on which earlier skills try a new task
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,104 +52,110 @@ class Agent(Protocol):
         """The number of weights with which it acts."""
 
 
-@cache
-def graph() -> Graph:
-    """The hierarchy and the network, compiled."""
-    return graph_of(load(COLLECT.with_name("lifelong.mind")))
-
-
-@cache
-def network_on(task: int) -> Rollout:
-    """The network alone on a task."""
-    rollout = Rollout(Policy(graph(), {}), TASKS[task], NET, [NET])
-    rollout.compile()
-    return rollout
-
-
-@dataclass(frozen=True, slots=True)
-class Stage:
-    """A part of a hierarchy's lesson: a skill learns on a task, in a share of the ticks."""
-
-    skill: str
-    task: str
-    share: float = 1.0
-    with_subskills: bool = False
-
-
-STAGES: tuple[tuple[Stage, ...], ...] = tuple((Stage(task, task),) for task in TASKS)
-STAGES = (*STAGES[:6], (Stage("GoToPower", "GoToPower", 0.3), Stage(TASKS[6], TASKS[6], 0.7)), STAGES[7])
-ON_THE_JOB_SHARE = 0.4  # of the ticks, in which all skills below learn as well
-
-
 @dataclass(frozen=True, slots=True)
 class Hierarchy:
-    """The paper's agent: a new skill in each lesson; those below it stay as they are, but `on_the_job` after some."""
+    """The paper's agent: new skills in each lesson; those below stay as they are, but where it learns on the job.
 
-    on_the_job: frozenset[int] = frozenset()
-    attempts: int = 3
+    With `is_alone` those of a written lesson influence none of earlier ones: what the hierarchy is worth.
+    """
+
+    of: TaskSequence
+    on_the_job: bool = False
+    is_alone: bool = False
 
     def learn(self, known: Known, lesson: int, seed: int, ticks: float) -> Learnt:
-        stages = STAGES[lesson]
-        if lesson in self.on_the_job:
-            stages = (
-                *(replace(stage, share=stage.share * (1 - ON_THE_JOB_SHARE)) for stage in stages),
-                Stage(TASKS[lesson], TASKS[lesson], ON_THE_JOB_SHARE, with_subskills=True),
-            )
-        curve, spent = Curve(), 0
+        known, spent = self._with_earlier(known, lesson)
+        curve, stages, left = Curve(), [*self.of.stages[lesson]], ticks - spent
+        if self.on_the_job and lesson in self.of.on_the_job:
+            below = owners(reachable(self._graph(known), self.of.master(lesson)))
+            stages = [replace(stage, share=stage.share * (1 - ON_THE_JOB_SHARE)) for stage in stages]
+            stages.append(Stage(self.of.tasks[lesson], below, ON_THE_JOB_SHARE))
         for stage in stages:
-            known, timed = self._taught(known, stage, seed, stage.share * ticks)
-            if stage.task == TASKS[lesson]:
+            known, timed = self._taught(known, stage, seed, stage.share * left)
+            if stage.task == self.of.tasks[lesson]:
                 curve += [(spent + at, count) for at, count in timed.curve]
             spent += timed.ticks
         return Learnt(known, curve, spent)
 
+    def _with_earlier(self, known: Known, lesson: int) -> tuple[Known, int]:
+        """What is known, with the earlier skills that do best on a new task and so stand below its own; the ticks.
+
+        They are an array `below TASK` of their places in the graph, the best first.
+        """
+        many = min(self.of.earlier, lesson)
+        if not many or self.is_alone:
+            return known, 0
+        task, masters = self.of.tasks[lesson], [self.of.master(each) for each in range(lesson)]
+        found = [self._rollout(known, task, each).score(NOBODY, CHOOSING_LAYOUTS) for each in masters]
+        best = np.argsort([-each.total.mean() for each in found], kind="stable")[:many]
+        places = np.array([self.of.graph.skill_numbers[masters[each]] for each in best])
+        return {**known, f"below {task}": places}, sum(int(each.ticks.sum()) for each in found)
+
+    def _graph(self, known: Known) -> Graph:
+        """The hierarchy, in which the skill of each lesson influences those that were chosen for it."""
+        skills, numbers = [*self.of.graph.skills], self.of.graph.skill_numbers
+        for lesson, task in enumerate(self.of.tasks):
+            places, number = known.get(f"below {task}"), numbers[self.of.master(lesson)]
+            own, *others = skills[number].edges
+            if self.is_alone:
+                others = [replace(e, target=own.target, gate=Gate(NEVER)) if e.output else e for e in others]
+            elif places is not None:
+                others = [replace(e, target=int(places[e.output - 1])) if e.output else e for e in others]
+            skills[number] = replace(skills[number], edges=(own, *others))
+        return replace(self.of.graph, skills=tuple(skills))
+
+    def _rollout(self, known: Known, task: str, master: str, learners: tuple[str, ...] = ()) -> Rollout:
+        graph = self._graph(known)
+        weights = {name: known[name] for name in owners(graph.skills) if name in known}
+        return Rollout(Policy(graph, weights), task, master, learners)
+
     def _taught(self, known: Known, stage: Stage, seed: int, ticks: float) -> tuple[Known, Timed]:
-        lesson = Lesson("", stage.skill, stage.task, stage.skill, 1, False, stage.with_subskills, FINISH)
-        names = taught_with(graph(), lesson)
-        rollout = Rollout(Policy(graph(), known), stage.task, stage.skill, names)
+        """What is known after a stage; learners that all are known are finished together."""
+        rollout = self._rollout(known, stage.task, stage.learners[0], stage.learners)
         rollout.compile()
-        start = np.empty((0, rollout.genome_length), np.float32)
-        effort = Effort(ticks, self.attempts)
-        if stage.with_subskills:
-            start, effort = np.concatenate([known[name] for name in names])[None], Effort(ticks, learner=FINISH)
+        start, effort = (
+            np.empty((0, rollout.genome_length), np.float32),
+            Effort(self.of.learner, ticks, self.of.attempts),
+        )
+        if known.keys() >= {*stage.learners}:
+            start = np.concatenate([known[name] for name in stage.learners])[None]
+            effort = Effort(FINISH, ticks)
         champion, timed = teach(rollout, start, seed, effort)
-        return {**known, **parts(graph(), names, champion[0])}, timed
+        return {**known, **parts(self.of.graph, stage.learners, champion[0])}, timed
 
     def player(self, known: Known, task: int) -> tuple[Rollout, Genomes] | None:
-        needed = {skill.owner for skill in reachable(graph(), TASKS[task]) if genes(skill)}
-        if not needed <= known.keys():
-            return None
-        return Rollout(Policy(graph(), known), TASKS[task], TASKS[task]), np.empty((1, 0), np.float32)
+        master = self.of.master(task)
+        needed = owners(reachable(self._graph(known), master))
+        return (self._rollout(known, self.of.tasks[task], master), NOBODY) if known.keys() >= {*needed} else None
 
     def weights(self, known: Known) -> int:
-        return sum(map(len, known.values()))
+        return sum(len(known[name]) for name in owners(self.of.graph.skills) if name in known)
 
 
 @dataclass(frozen=True, slots=True)
 class Monolith:
     """One network for everything, which goes on from lesson to lesson."""
 
-    attempts: int = 1
+    of: TaskSequence
 
     def learn(self, known: Known, lesson: int, seed: int, ticks: float) -> Learnt:
-        scorer = self.scorer(known, lesson)
-        champion, timed = teach(scorer, self.start(known), seed, Effort(ticks, self.attempts))
+        champion, timed = teach(self.scorer(known, lesson), self.start(known), seed, Effort(self.of.learner, ticks))
         return Learnt(self.after(known, lesson, champion[0]), timed.curve, timed.ticks)
 
     def start(self, known: Known) -> Genomes:
         """The weights [0 or 1, weights] with which a lesson begins."""
-        return known[NET][None] if NET in known else np.empty((0, network_on(0).genome_length), np.float32)
+        return known[NET][None] if NET in known else np.empty((0, network_on(self.of, 0).genome_length), np.float32)
 
     def scorer(self, known: Known, lesson: int) -> Any:
         """What scores the genomes of a lesson."""
-        return network_on(lesson)
+        return network_on(self.of, lesson)
 
     def after(self, known: Known, lesson: int, weights: NDArray[np.float32]) -> Known:
         """What is known after a lesson that ended with these weights."""
         return {**known, NET: weights}
 
     def player(self, known: Known, task: int) -> tuple[Rollout, Genomes] | None:
-        return network_on(task), known[NET][None]
+        return network_on(self.of, task), known[NET][None]
 
     def weights(self, known: Known) -> int:
         return len(known[NET])
@@ -174,23 +167,32 @@ class Replaying(Monolith):
     __slots__ = ()
 
     def scorer(self, known: Known, lesson: int) -> Any:
-        rollouts, good = [network_on(task) for task in range(lesson + 1)], [*GOOD_SCORES.values()]
-        return Replay(rollouts[-1], rollouts[:-1], good[: lesson + 1]) if lesson else rollouts[0]
+        rollouts = [network_on(self.of, task) for task in range(lesson + 1)]
+        return Replay(rollouts[-1], rollouts[:-1], self.of.good[: lesson + 1]) if lesson else rollouts[0]
 
 
 @dataclass(frozen=True, slots=True)
 class Anchoring(Monolith):
-    """The network that pays for each change of weights on which what it did in earlier lessons depended (as EWC)."""
+    """The network that pays for each change of weights on which what it did in earlier lessons depended (as EWC).
+
+    Of all earlier lessons one anchor is kept: their importance added up, and the mean of their weights by it. What is
+    paid differs from a sum over all lessons by what no change of weights changes.
+    """
 
     strength: float = 0.01  # the best of ANCHOR_STRENGTHS after two lessons, with the seeds 101 and 102
 
     def scorer(self, known: Known, lesson: int) -> Any:
-        anchors = [(known[f"weights {number}"], known[f"importance {number}"]) for number in range(lesson)]
-        return Anchored(network_on(lesson), anchors, self.strength * GOOD_SCORES[TASKS[lesson]])
+        network = network_on(self.of, lesson)
+        points = self.strength * self.of.good[lesson]
+        return Anchored(network, known["anchor"], known["importance"], points) if lesson else network
 
     def after(self, known: Known, lesson: int, weights: NDArray[np.float32]) -> Known:
-        found = importance(network_on(lesson), weights, np.full_like(weights, PROBE_STEP)) / PROBE_STEP**2
-        return {**known, NET: weights, f"weights {lesson}": weights, f"importance {lesson}": found}
+        steps = np.full_like(weights, PROBE_STEP)
+        found = importance(self.of, network_on(self.of, lesson), weights, steps) / PROBE_STEP**2
+        whole = known.get("importance", np.float32(0)) + found
+        part = np.divide(found, whole, out=np.zeros_like(found), where=whole > 0)
+        anchor = known.get("anchor", np.zeros_like(weights))
+        return {NET: weights, "anchor": anchor + part * (weights - anchor), "importance": whole}
 
 
 @dataclass(frozen=True, slots=True)
@@ -202,28 +204,32 @@ class Masked:
     for the smallest, which says little of networks that no gradient has taught.)
     """
 
+    of: TaskSequence
+
     def learn(self, known: Known, lesson: int, seed: int, ticks: float) -> Learnt:
-        rollout = network_on(lesson)
+        rollout = network_on(self.of, lesson)
         nothing = np.zeros(rollout.genome_length, np.float32)
         net, owner = known.get(NET, nothing).copy(), known.get("owner", nothing.astype(np.int64)).copy()
         free = np.flatnonzero(owner == 0)
         start = net[free][None] if lesson else np.empty((0, len(free)), np.float32)
-        first = Effort((1 - RETRAINED_SHARE) * ticks)
+        first = Effort(self.of.learner, (1 - RETRAINED_SHARE) * ticks)
         champion, begun = teach(Part(rollout, net, free), start, seed, first)
         net[free] = champion[0]
-        needed = importance(rollout, net, np.where(owner == 0, -net, np.float32(0)))[free]
-        least = free[np.argsort(needed, kind="stable")[: round(FREED_SHARE * len(free))]]
+        needed = importance(self.of, rollout, net, np.where(owner == 0, -net, np.float32(0)))[free]
+        freed = 1 - 1 / (len(self.of.tasks) - lesson) if self.of.is_shared_evenly else FREED_SHARE
+        least = free[np.argsort(needed, kind="stable")[: round(freed * len(free))]]
         owner[free] = lesson + 1
         owner[least], net[least] = 0, 0.0
         own = np.flatnonzero(owner == lesson + 1)
-        champion, timed = teach(Part(rollout, net, own), net[own][None], seed, Effort(max(1.0, ticks - begun.ticks)))
+        rest = Effort(self.of.learner, max(1.0, ticks - begun.ticks))
+        champion, timed = teach(Part(rollout, net, own), net[own][None], seed, rest)
         net[own] = champion[0]
         curve = begun.curve + [(begun.ticks + at, count) for at, count in timed.curve]
         return Learnt({NET: net, "owner": owner}, curve, begun.ticks + timed.ticks)
 
     def player(self, known: Known, task: int) -> tuple[Rollout, Genomes] | None:
         acts = (known["owner"] > 0) & (known["owner"] <= task + 1)
-        return network_on(task), np.where(acts, known[NET], np.float32(0))[None]
+        return network_on(self.of, task), np.where(acts, known[NET], np.float32(0))[None]
 
     def weights(self, known: Known) -> int:
         return int((known["owner"] > 0).sum())
@@ -235,24 +241,27 @@ class OnePerTask(Monolith):
     __slots__ = ()
 
     def start(self, known: Known) -> Genomes:
-        return np.empty((0, network_on(0).genome_length), np.float32)
+        return np.empty((0, network_on(self.of, 0).genome_length), np.float32)
 
     def after(self, known: Known, lesson: int, weights: NDArray[np.float32]) -> Known:
-        return {**known, TASKS[lesson]: weights}
+        return {**known, self.of.tasks[lesson]: weights}
 
     def player(self, known: Known, task: int) -> tuple[Rollout, Genomes] | None:
-        return (network_on(task), known[TASKS[task]][None]) if TASKS[task] in known else None
+        weights = known.get(self.of.tasks[task])
+        return None if weights is None else (network_on(self.of, task), weights[None])
 
     def weights(self, known: Known) -> int:
         return sum(map(len, known.values()))
 
 
-def importance(rollout: Rollout, weights: NDArray[np.float32], steps: NDArray[np.float32]) -> NDArray[np.float32]:
+def importance(
+    of: TaskSequence, rollout: Rollout, weights: NDArray[np.float32], steps: NDArray[np.float32]
+) -> NDArray[np.float32]:
     """The mean squared change of a network's outputs where each of its weights alone is moved by its step.
 
     Over readings of its runs, of all outputs together after the clamp, which most of them are beyond.
     """
-    skill = next(skill for skill in graph().skills if skill.name == NET)
+    skill = next(skill for skill in of.graph.skills if skill.name == of.net)
     shapes = skill.function.matrix_shapes(len(skill.inputs), skill.outputs)
     chunks = [chunk.readings for seed in range(PROBED_RUNS) for chunk in trace(rollout, seed, weights).chunks]
     readings = np.concatenate(chunks)
@@ -271,14 +280,16 @@ def importance(rollout: Rollout, weights: NDArray[np.float32], steps: NDArray[np
     return found
 
 
-AGENTS: dict[str, Agent] = {
-    "hierarchy": Hierarchy(),
-    "hierarchy on the job": Hierarchy(frozenset({5, 7})),
-    "monolith": Monolith(),
-    "monolith, replay": Replaying(),
-    "monolith, anchored": Anchoring(),
-    "monolith, masked": Masked(),
-    "one per task": OnePerTask(),
+ALONE = "skills alone"  # where lessons are written, with skills of their own
+AGENTS: dict[str, Callable[[TaskSequence], Agent]] = {
+    "hierarchy": Hierarchy,
+    "hierarchy on the job": partial(Hierarchy, on_the_job=True),
+    "monolith": Monolith,
+    "monolith, replay": Replaying,
+    "monolith, anchored": Anchoring,
+    "monolith, masked": Masked,
+    "one per task": OnePerTask,
+    ALONE: partial(Hierarchy, is_alone=True),
 }
 ANCHOR_STRENGTHS = 0.001, 0.01, 0.1, 1.0  # of anchors, to choose one of them with seeds that are not reported
-CANDIDATES: dict[str, Agent] = {f"anchored {each:g}": Anchoring(strength=each) for each in ANCHOR_STRENGTHS}
+CANDIDATES = {f"anchored {each:g}": partial(Anchoring, strength=each) for each in ANCHOR_STRENGTHS}

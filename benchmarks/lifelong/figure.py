@@ -10,7 +10,6 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from benchmarks.lifelong.agents import TASKS
 from mindlang.pictures.curves import ATTEMPTS, FAINT, INK, PAGE, STYLE
 
 PANEL_COLUMNS, PANEL_INCHES = 4, 2.1  # panels in a row; the height of one, and without names its width
@@ -28,8 +27,8 @@ def figure(found: Mapping[str, Any]) -> Figure:
     drawn = Figure(figsize=size, layout="constrained", facecolor=PAGE)
     panels = drawn.subplots(rows, PANEL_COLUMNS, squeeze=False).ravel()
     for place, (name, of) in enumerate(agents.items()):
-        fields = _fields(panels[place], np.array(of["performance_by_task"], float)[:, : found["lessons"]])
-        panels[place].set_yticklabels([] if place % PANEL_COLUMNS else TASKS[: found["lessons"]])
+        fields = _fields(panels[place], np.array(of["performance_after"], float)[:, : found["lessons"]])
+        panels[place].set_yticklabels([] if place % PANEL_COLUMNS else found["setup"]["tasks"][: found["lessons"]])
         performance, forgetting = (np.mean(of[measure]) + 0.0 for measure in ("performance", "forgetting"))
         _head(panels[place], name, f"performance {performance:.2f}, forgetting {forgetting:.2f}")
     for axes in panels[len(agents) :]:
@@ -67,7 +66,7 @@ def _means(axes: Axes, found: Mapping[str, Any]) -> None:
     axes.set_axis_on()
     lessons = range(1, found["lessons"] + 1)
     for number, (name, of) in enumerate(found["agents"].items()):
-        shares = np.array(of["performance_by_task"], float)
+        shares = np.array(of["performance_after"], float)
         means = [shares[lesson - 1, :lesson].mean() for lesson in lessons]
         look: dict[str, Any] = {"color": ATTEMPTS[number], "marker": MARKS[number], "markersize": 3.4, "linewidth": 1.2}
         axes.plot(lessons, means, label=name, zorder=3, clip_on=False, **look)

@@ -9,16 +9,22 @@ from typing import Any
 import numpy as np
 from mindrun.files.atomic_write import write
 
-from benchmarks.lifelong.agents import AGENTS, CANDIDATES, TASKS, Agent, Known
+from benchmarks.lifelong.agents import AGENTS, CANDIDATES, Agent, Known
 from benchmarks.lifelong.report import Record
+from benchmarks.lifelong.sequence import TaskSequence
+from benchmarks.lifelong.sequences import sequence
 
 FRESH_LAYOUTS_SEED = 20_211_121
 SEEDS_APART = 100  # between the seeds of two lives, one for each lesson
 
 
-def live(name: str, seed: int, lessons: int, ticks: float, layouts: int, folder: Path) -> str:
-    """Go on with the life of an agent with a seed, lesson after lesson; one line on how long that took."""
-    agent, known, began = (AGENTS | CANDIDATES)[name], dict[str, Any](), time.perf_counter()
+def live(name: str, seed: int, of: tuple[str, int], lessons: int, ticks: float, layouts: int, folder: Path) -> str:
+    """Go on with the life of an agent with a seed, lesson after lesson; one line on how long that took.
+
+    The sequence `of` tasks is that of a name, drawn with a seed.
+    """
+    tasks, known, began = sequence(of), dict[str, Any](), time.perf_counter()
+    agent: Agent = (AGENTS | CANDIDATES)[name](tasks)
     folder = folder / name.replace(",", "").replace(" ", "-") / f"seed-{seed}"
     folder.mkdir(parents=True, exist_ok=True)
     for lesson in range(lessons):
@@ -32,8 +38,8 @@ def live(name: str, seed: int, lessons: int, ticks: float, layouts: int, folder:
         known = {**learnt.known}
         taught = time.process_time() - start
         record: Record = {
-            "agent": name, "seed": seed, "lesson": lesson + 1, "task": TASKS[lesson],
-            **played(agent, known, layouts), "curve": learnt.curve, "ticks": learnt.ticks,
+            "agent": name, "seed": seed, "lesson": lesson + 1, "task": tasks.tasks[lesson],
+            **played(agent, known, tasks, lesson, layouts), "curve": learnt.curve, "ticks": learnt.ticks,
             "weights": agent.weights(known), "seconds": taught, "seconds_played": time.process_time() - start - taught,
         }  # fmt: skip
         np.savez(weights, **known)
@@ -41,12 +47,15 @@ def live(name: str, seed: int, lessons: int, ticks: float, layouts: int, folder:
     return f"{name}, seed {seed}: {lessons} lessons in {time.perf_counter() - began:.0f} s"
 
 
-def played(agent: Agent, known: Known, layouts: int) -> dict[str, list[float | None]]:
-    """The mean count and score of each task on layouts that are always the same; None where nobody could play it."""
+def played(agent: Agent, known: Known, of: TaskSequence, lesson: int, layouts: int) -> dict[str, list[float | None]]:
+    """The mean count and score of each task after a lesson, on layouts that are always the same.
+
+    None where nobody could play it yet, or all tasks but the lesson's own are not looked at.
+    """
     seeds = np.random.SeedSequence(FRESH_LAYOUTS_SEED).generate_state(layouts, np.uint64).tolist()
     counts, scores = list[float | None](), list[float | None]()
-    for task in range(len(TASKS)):
-        player = agent.player(known, task)
+    for task in range(len(of.tasks)):
+        player = agent.player(known, task) if task == lesson or of.is_looked_at(lesson) else None
         found = player[0].score(player[1], seeds) if player else None
         counts.append(float(found.counts.mean()) if found else None)
         scores.append(float(found.total.mean()) if found else None)

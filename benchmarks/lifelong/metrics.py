@@ -2,8 +2,7 @@
 
 `p` [lessons, tasks] is the performance on each task after each lesson, 0 to 1, NaN where nobody could play it yet; task
 number i is that of lesson number i. Average performance, forgetting and forward transfer as in Continual World
-(Wołczyk et al., 2021) and COOM (Tomilin et al., 2023), the matrix of forgetting as in CORA (Powers et al., 2022),
-backward transfer as in GEM (Lopez-Paz and Ranzato, 2017).
+(Wołczyk et al., 2021) and COOM (Tomilin et al., 2023), backward transfer as in GEM (Lopez-Paz and Ranzato, 2017).
 """
 
 from collections.abc import Sequence
@@ -40,18 +39,6 @@ def forgetting(p: Matrix) -> Matrix:
     array([0.75, 0.  ])
     """
     return np.diagonal(p) - p[-1, : len(p)]
-
-
-def isolated_forgetting(p: Matrix) -> Matrix:
-    """The loss of each earlier task i in lesson t alone [t, i]; NaN where i was not taught before t.
-
-    >>> isolated_forgetting(np.array([[1.0, 0.0], [0.25, 1.0]]))
-    array([[ nan,  nan],
-           [0.75,  nan]])
-    """
-    taken = np.full(p.shape, np.nan)
-    taken[1:] = p[:-1] - p[1:]
-    return np.where(np.tri(len(p), p.shape[1], -1, dtype=bool), taken, np.nan)
 
 
 def backward_transfer(p: Matrix) -> float:

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from mindrun.graph.graph import Lesson, Task
 from mindrun.graph.run_scores import Scores
-from mindrun.kinds.learners import EvolutionStrategy, Genetic, Learner, run_lengths
+from mindrun.kinds.learners import EvolutionStrategy, Learner, run_lengths
 from mindrun.sim.rollout import Rollout
 from mindrun.train.attempt import (
     REEVALUATED_CANDIDATES,
@@ -26,7 +26,6 @@ from mindrun.train.population import Draw, Genomes, order
 from mindrun.train.training import best
 from numpy.typing import NDArray
 
-SEARCH = Genetic(octaves=2, short=0.1)
 FINISH = EvolutionStrategy(mutation=0.12)
 FOUNDERS_SHARE, MOST_FOUNDERS = 0.15, 2000  # of an attempt's ticks; genomes
 ENDLESS_ATTEMPTS = 10**6  # attempts
@@ -62,11 +61,11 @@ class Timed:
 
 @dataclass(frozen=True, slots=True)
 class Effort:
-    """The effort of a lesson: its ticks, of which an attempt has a part, and the learner."""
+    """The effort of a lesson: the learner, its ticks, and the attempts, each of which has a part of them."""
 
+    learner: Learner
     ticks: float
     attempts: int = 1
-    learner: Learner = SEARCH
 
 
 def teach(scorer: Any, start: Genomes, seed: int, effort: Effort) -> tuple[Genomes, Timed]:
@@ -148,20 +147,21 @@ class Replay(Front):
 
 @dataclass(frozen=True, slots=True)
 class Anchored(Front):
-    """Scores less points for leaving earlier weights: the more, the more outputs depended on those that change.
+    """Scores less points for leaving `anchor` [weights]: the more, the more outputs depended on those that change.
 
-    `anchors` has the weights after each earlier lesson and their importance; `points` is what a change of 1 in the
-    outputs costs in a whole run.
+    `importance` says how much they did for each weight; `points` is what a change of 1 in the outputs costs in a whole
+    run.
     """
 
-    anchors: Sequence[tuple[NDArray[np.float32], NDArray[np.float32]]]
+    anchor: NDArray[np.float32]
+    importance: NDArray[np.float32]
     points: float
 
     def score(self, genomes: Genomes, seeds: Any, *, ticks: int | None = None) -> Scores:
         """Every genome on every seed."""
         scores = self.rollout.score(genomes, seeds, ticks=ticks)
         cost = self.points * min(ticks or self.task.ticks, self.task.ticks) / self.task.ticks
-        left = sum((importance * (genomes - weights) ** 2).sum(axis=1) for weights, importance in self.anchors)
+        left = (self.importance * (genomes - self.anchor) ** 2).sum(axis=1)
         return replace(scores, total=scores.total - cost * np.reshape(left, (-1, 1)))
 
 

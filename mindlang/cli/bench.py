@@ -1,7 +1,7 @@
 """`mindc bench`: many runs of a task for a figure that can be trusted, of one mind or of two on the same layouts."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,6 +13,7 @@ from mindlang.cli import _options as options
 from mindlang.cli._terminal import MISUSE, fail, print_result, refuse_unwritable, write_file
 
 if TYPE_CHECKING:
+    from mindrun.graph.graph import Graph
     from mindrun.graph.run_scores import Scores
 
     from mindlang.cli._session import Prepared, Ran, RunSession
@@ -31,6 +32,7 @@ Examples:
   mindc bench collect.mind best.mind --task Collect        on the same layouts
   mindc bench collect.mind --task Avoid --master Avoid --master Collect
   mindc bench collect.mind best.mind --worlds --runs 100   weaker, noisier …
+  mindc bench collect.mind --task Collect --credit         of each skill
   mindc bench collect.mind --runs 1000000 --on ssh:a,b     by two machines
   mindc bench collect.mind --runs 1000000 --on dask:scheduler.json
 """
@@ -48,12 +50,11 @@ Examples:
 @options.ON(help="Who makes the runs: processes:N, ssh:HOST,HOST …")
 @options.unless("--no-interruption", "interrupt", "Go on to the last tick, whatever would end a run.")
 @click.option("--worlds", is_flag=True, help="Run in changed worlds as well: denser, weaker, noisier, delayed …")
+@click.option("--credit", is_flag=True, help="Run without each skill as well: what is each worth?")
 @options.written("--csv table", "PATH.csv", "Write a row for each run.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON document instead.")
 @click.option("-q", "--quiet", is_flag=True, help="Print nothing but results and errors.")
-def command(
-    files: tuple[str, ...], masters: tuple[str, ...], workers: int | None, worlds: bool, quiet: bool, **said: Any
-) -> None:
+def command(files: tuple[str, ...], masters: tuple[str, ...], workers: int | None, quiet: bool, **said: Any) -> None:
     """Run a task of FILE on many layouts, for figures to trust.
 
     With the weights that its skills were taught. Runs the Python code of the file's procedures. Each run has a seed of
@@ -65,15 +66,22 @@ def command(
     With --worlds, on the same layouts again with one number of the world or the robot changed, in a table with the
     worst first: lengths, forces and their like by a quarter, readings 5 % off or lost, commands 0.1 s late. The share
     is that of what it is as taught.
+
+    With --credit, on the same layouts again with each skill silent in turn: how much more the whole mind has, with a
+    confidence interval, the greatest credit first.
     """
     from mindlang.cli._session import RunSession
 
+    worlds, credit = said.pop("worlds"), said.pop("credit")
     bench = Bench(RunSession(quiet), workers or cores(), **said)
     refuse_unwritable(bench.table, ".csv")
     if bench.where is not None:
         options.refuse_ineffective("for the cores of this machine: with --on others make the runs", "workers")
     who = contenders(files, masters)
-    if worlds:
+    if credit:
+        options.refuse_ineffective("another table: ask for one after the other", "worlds")
+        bench.credit(who)
+    elif worlds:
         bench.in_worlds(who)
     elif len(who) > 1:
         bench.compare(who)
@@ -191,15 +199,51 @@ class Bench:
             self._write(self.table, rows, f"{len(cast)} × {self.runs:,} runs")
         print_result(self.as_json, data, lambda: worlds_summary(data))
 
+    def credit(self, who: Sequence[Contender]) -> None:
+        """Run a mind whole, then with each of its skills silent on the same layouts, and print what each is worth."""
+        if len(who) > 1:
+            fail("Credit is given to the skills of one mind.", "mindc bench FILE --credit", MISUSE)
+        from mindrun.graph.skill_sets import reachable
+
+        from mindlang.run.credit import WHOLE, credit_of, without
+        from mindlang.run.paired_difference import CONFIDENCE_LEVEL
+        from mindlang.run.summary import credit_summary
+        from mindlang.run.tables import joined, runs_table
+        from mindlang.run.worlds import figure
+
+        whole = self._prepared(who[0], self.task)
+        setup, graph = whole.setup, whole.setup.ready.policy.graph
+        task, seeds = setup.task, setup.layouts(self.seed, self.runs)
+        names = [skill.name for skill in reachable(graph, setup.master)]
+        cast = {WHOLE: whole} | {name: self._elsewhere(whole, without(graph, name)) for name in names}
+        scores: dict[str, Scores] = {}
+        data: dict[str, dict[str, Any]] = {}
+        with self.session.counting(f"{task.name} without each skill", len(seeds) * len(cast)) as ran:
+            for name, each in cast.items():
+                scores[name], data[name] = self._score(each, seeds, f"without {name}: " if name else "", ran)
+        figured = figure(data[WHOLE])[0]
+        credited = credit_of(task, scores, figured)
+        found = {"task": task.name, "master": setup.master, "seed": self.seed, **self._by(), **data[WHOLE]}
+        found |= {"figure": figured, "confidence": CONFIDENCE_LEVEL}
+        found |= {"skills": [{"skill": name, **data[name], "credit": asdict(each)} for name, each in credited.items()]}
+        if self.table:
+            rows = {name: runs_table(task, each, seeds) for name, each in scores.items()}
+            self._write(self.table, joined(rows, "without"), f"{len(cast)} × {len(seeds):,} runs")
+        print_result(self.as_json, found, lambda: credit_summary(found, credited))
+
     def _worlds(self, here: "Prepared") -> "Iterator[tuple[World, Prepared, list[int]]]":
         """The worlds for a mind, each with the simulator that makes its runs, and their seeds."""
         from mindlang.run.worlds import worlds
 
-        setup, quiet = here.setup, replace(self.session, quiet=True)
+        setup = here.setup
         for world in worlds(setup.ready.policy.graph, setup.task, setup.master):
-            there = setup.in_world(world.graph)
-            simulator = quiet.simulator(there, self.interrupt, self.workers, self.runs)
-            yield world, here._replace(setup=there, rollout=simulator), there.layouts(self.seed, self.runs)
+            there = self._elsewhere(here, world.graph)
+            yield world, there, there.setup.layouts(self.seed, self.runs)
+
+    def _elsewhere(self, here: "Prepared", graph: "Graph") -> "Prepared":
+        """The same mind as another graph has it."""
+        setup, quiet = here.setup.in_world(graph), replace(self.session, quiet=True)
+        return here._replace(setup=setup, rollout=quiet.simulator(setup, self.interrupt, self.workers, self.runs))
 
     def _prepared(self, who: Contender, task: str | None) -> "Prepared":
         chosen = options.RunChoice(task, self.seed, who.master, self.interrupt)

@@ -1,7 +1,6 @@
 """The outcome of a run, of many runs, and of two minds on the same layouts, as text to read."""
 
-from collections.abc import Collection, Iterator, Sequence
-from math import nan
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Any
 
 from mindrun.sim.outside.making import GAVE_NO_NUMBER
@@ -123,10 +122,10 @@ def comparison_summary(found: dict[str, Any], comparison: MindComparison) -> Ren
     )
 
 
-def _figure(name: str, value: float) -> str:
-    if name == SUCCESS:
+def _figure(name: str, value: float | None) -> str:
+    if name == SUCCESS and value is not None:
         return f"{100 * value:.1f} %"
-    return score(finite(value))
+    return score(None if value is None else finite(value))
 
 
 def _difference(name: str, found: PairedDifference) -> tuple[str, str]:
@@ -139,7 +138,7 @@ def _difference(name: str, found: PairedDifference) -> tuple[str, str]:
         return "–", ""
     difference = "+" * (found.mean >= 0) + bound(found.mean)
     if found.low is None or found.high is None:
-        return difference, "no interval"
+        return difference, "no interval" if found.differing else "no run differs"
     return difference, f"{bound(found.low)} to {bound(found.high)}"
 
 
@@ -193,8 +192,24 @@ def _world_row(row: dict[str, Any], minds: Sequence[str]) -> Iterator[str | Text
             continue
         name, mean, error = figure(found)
         share, spread = found["of_as_taught"], f" ± {_figure(name, error)}" if error else ""
-        yield _figure(name, nan if mean is None else mean) + spread
+        yield _figure(name, mean) + spread
         yield from ("–" if share is None else f"{share:.0%}", f"{found['runtime_mean']:.0%}")
+
+
+def credit_summary(found: dict[str, Any], credited: Mapping[str, PairedDifference]) -> RenderableType:
+    """A row for each skill: the figure without it, and how much more the whole mind has, with its interval."""
+    name, runs = found["figure"], found["runs"]
+    head = "without", "mean", "credit", f"{PERCENT} confidence"
+    means = {each["skill"]: _figure(*figure(each)[:2]) for each in found["skills"]}
+    rows = [(skill, means[skill], *_difference(name, each)) for skill, each in credited.items()]
+    return Group(
+        _title(found).append(f", {runs:,} run{'s' * (runs != 1)} from seed {found['seed']}"),
+        f"{_figure(*figure(found)[:2])} {name}",
+        "",
+        aligned([[Text(each, "dim") for each in head], *rows], left=(0,)),
+        "",
+        Text("credit: how much more the whole mind has, on the same layouts", "dim"),
+    )
 
 
 def aligned(rows: Sequence[Sequence[str | Text]], left: Collection[int]) -> Text:
