@@ -86,10 +86,9 @@ class EvolutionStrategy:
     """An evolution strategy (Rechenberg, 1973), which finishes in few generations what a skill knows already.
 
     Every generation, `population` genomes are drawn around one, a normal step of spread `mutation` away in all their
-    weights, and scored on the same `layouts` worlds. Then that one moves towards the better half of them and away from
-    the worse, each with a share by its rank (Arnold, 2006), in which the luck of single runs cancels out. From scratch
-    it begins with the best of `founders` random genomes. `attempts`, `patience`, `rungs`, `short` and `keeps` are those
-    of `genetic`.
+    weights, and scored on the same `layouts` worlds. Then that one moves to the mean of the best quarter of them,
+    weighted by rank, in which the luck of single runs cancels out. From scratch it begins with the best of `founders`
+    random genomes. `attempts`, `patience`, `rungs`, `short` and `keeps` are those of `genetic`.
     """
 
     population: Annotated[int, POPULATION] = 50

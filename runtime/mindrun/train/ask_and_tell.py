@@ -1,8 +1,8 @@
 """Ask and tell of every kind of learner: which genomes to score next, and what is learnt from their scores.
 
 Plain arrays, the generator passed in, the state apart from the parameters. The genetic algorithm breeds the next
-population. The evolution strategy has steps of one size and weights for all ranks (Beyer and Schwefel, 2002; Arnold,
-2006): its population is one genome, the centre, and those that were drawn around it are forgotten once it has moved.
+population. The evolution strategy is (μ/μ, λ) with steps of one size (Beyer and Schwefel, 2002): its population is one
+genome, the centre, and those that were drawn around it are forgotten once it has moved.
 """
 
 import numpy as np
@@ -12,6 +12,7 @@ from mindrun.kinds.learners import EvolutionStrategy, Genetic, Learner
 from mindrun.train.population import Draw, Genomes, Population, Scores, bounded, founder_count, order, worst_if_nan
 
 TOURNAMENT_SIZE = 4
+GENOMES_PER_PARENT = 4  # of an evolution strategy: one genome in so many has a say in where the centre goes
 
 
 def ask(population: Population, learner: Learner, start: Genomes, draw: Draw, rng: np.random.Generator) -> Genomes:
@@ -102,24 +103,22 @@ def _ask_strategy(
 
 
 def _tell_strategy(population: Population, genomes: Genomes, scores: Scores, start: Genomes) -> Population:
-    """The next centre: the better half of the genomes draws it on, and the worse half pushes it off, by their ranks.
+    """The next centre: the mean of the best quarter, weighted by rank; the best alone of founders, which lie apart.
 
-    The shares fall evenly from the best to the worst, and those of a half sum to 1. Its score is the mean of the better
-    half's, weighted so. Genomes with a fault have no share: where a single one has none, it is the centre, and where
-    all have, the centre stays. Of founders, which lie apart, the best is the centre.
+    Where no genome was without a fault the centre stays. Its score is the weighted mean of theirs.
     """
     before, ranked, generation = _centre(population, start), order(scores), population.generation + 1
-    sound = ranked[np.isfinite(scores[ranked])]
-    if not len(before) or len(sound) == 1:
+    if not len(before):
         return Population(genomes[ranked[:1]], scores[ranked[:1]], generation)
-    if not len(sound):
+    parents = ranked[: len(genomes) // GENOMES_PER_PARENT]
+    parents = parents[np.isfinite(scores[parents])]
+    if not len(parents):
         return Population(before, np.full(1, -np.inf), generation)
-    shares = np.arange(len(sound) - 1, -len(sound), -2, dtype=float)
-    shares /= shares[shares > 0].sum()
-    centre, score = before[0].astype(float), 0.0
-    for share, genome in zip(shares, sound, strict=True):  # in this order: the same bits on every processor
-        centre += share * (genomes[genome] - before[0])
-        score += float(max(share, 0.0) * scores[genome])
+    shares = np.arange(len(parents), 0, -1) / (len(parents) * (len(parents) + 1) / 2)
+    centre, score = np.zeros(genomes.shape[1]), 0.0
+    for share, parent in zip(shares, parents, strict=True):  # in this order: the same bits on every processor
+        centre += share * genomes[parent]
+        score += float(share * scores[parent])
     return Population(bounded(centre[None].astype(np.float32)), np.full(1, score), generation)
 
 
