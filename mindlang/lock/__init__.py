@@ -16,6 +16,7 @@ from mindrun.errors import MindError, system_errors_as
 from mindrun.files.atomic_write import write
 from mindrun.files.printable import visible
 from mindrun.files.regular_files import read_regular
+from mindrun.terminal.command_line import command_line
 from msgspec import ValidationError, convert
 
 from mindlang.compiler.source import Source
@@ -211,9 +212,10 @@ def read_lock(path: Path) -> dict[str, Entry]:
 
 def _unreleased(path: Path) -> LockError:
     """The error for a lock of before the first release, with the way out that keeps its weights."""
+    anew = command_line("mindc", "status", path.with_suffix(".mind"), "--accept")
     return LockError(
         f"{path} is a lock of before mindlang 0.1.0, and is read no longer; its weights are still in weights/",
-        f"let the mindc of 0.1.0 write it anew: mindc status {path.stem}.mind --accept, and the names of all skills",
+        f"let the mindc of 0.1.0 write it anew: {anew}, and the names of all skills",
     )
 
 
