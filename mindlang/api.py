@@ -103,7 +103,7 @@ class Mind(ShortRepr):
         return self._ready(master).policy
 
     def notes(self, master: str | None = None) -> tuple[str, ...]:
-        """A sentence for the skills that were taught in a world that is not the mind's, or is not known.
+        """A sentence for the skills that were taught in a world that is not the mind's.
 
         >>> mind.notes()
         ()

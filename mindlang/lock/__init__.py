@@ -1,7 +1,7 @@
 """`collect.lock` beside `collect.mind`: one sorted line per trained skill, made for reading in a review.
 
 Each says what the genome belongs to (`reads` and `sends` in its order), the SHA-256 of its file in `weights/`, and how
-it came about. Below the lines stand the worlds in which the skills were taught; those of older versions have none.
+it came about. Below the lines stand the worlds in which the skills were taught.
 """
 
 import re
@@ -16,12 +16,14 @@ from mindrun.errors import MindError, system_errors_as
 from mindrun.files.atomic_write import write
 from mindrun.files.printable import visible
 from mindrun.files.regular_files import read_regular
+from mindrun.terminal.command_line import command_line
 from msgspec import ValidationError, convert
 
 from mindlang.compiler.source import Source
 from mindlang.lock.training_world import HEADING, TrainingWorld, world_of
 
-VERSIONS = ("# mind lock 1:", "# mind lock 2:", "# mind lock 3:", "# mind lock 4:", "# mind lock 5:")
+VERSIONS = ("# mind lock 4:", "# mind lock 5:")
+UNRELEASED = ("# mind lock 1:", "# mind lock 2:", "# mind lock 3:")
 HEADER = (
     f"{VERSIONS[-1]} what has been taught. `mindc train` writes it; it belongs under version control, with weights/."
 )
@@ -64,7 +66,7 @@ class Signature:
 class Taught:
     """The lesson that made a genome: where, `jointly` with its subskills or theirs, and after how many generations.
 
-    It was lesson `number` of a curriculum; 0 and "" where the lock does not say, as those of older versions. `success`
+    It was lesson `number` of a curriculum; 0 and "" where the lock does not say. `success`
     is the share of runs that succeeded, where its lesson needs some.
     """
 
@@ -86,8 +88,8 @@ class Entry:
 
     `origin` is the other skill with whose weights it began, and their SHA-256; or the file that they were brought in,
     as `file:NAME`, and its SHA-256; there may be none.
-    `worlds` are those of its lessons, the last one last; none where the lock does not know them. Where they are
-    `accepted`, they are others than it was taught in, and a person has said that its weights will do in them.
+    `worlds` are those of its lessons, the last one last. Where they are `accepted`, they are others than it was taught
+    in, and a person has said that its weights will do in them.
     """
 
     skill: str
@@ -190,6 +192,8 @@ def read_lock(path: Path) -> dict[str, Entry]:
             f"{path}:{marked} stands where two branches could not be merged: keep one side, without the marks, or let "
             "mindc lock merge do it, and merge again"
         )
+    if header.startswith(UNRELEASED):
+        raise _unreleased(path)
     if not header.startswith(VERSIONS) or rest[-1:] != [""] or len(text) > MAX_LOCK_BYTES:
         raise LockError(f"{path} is damaged: it is not a whole lock of this mindc; get it back, or delete it and train")
     end = next((place for place, (_, line) in enumerate(lines) if HEADING.fullmatch(line)), len(lines))
@@ -200,8 +204,19 @@ def read_lock(path: Path) -> dict[str, Entry]:
         if entry is None or entry.skill in entries:
             why = "this is not what mindc wrote" if entry is None else f"{visible(entry.skill)} has two lines"
             raise LockError(f"{path}:{number} is damaged: {why}; get it back, or delete the line and train")
+        if not entry.worlds:  # 0.1.0 kept such lines of what had been before it
+            raise _unreleased(path)
         entries[entry.skill] = entry
     return entries
+
+
+def _unreleased(path: Path) -> LockError:
+    """The error for a lock of before the first release, with the way out that keeps its weights."""
+    anew = command_line("mindc", "status", path.with_suffix(".mind"), "--accept")
+    return LockError(
+        f"{path} is a lock of before mindlang 0.1.0, and is read no longer; its weights are still in weights/",
+        f"let the mindc of 0.1.0 write it anew: {anew}, and the names of all skills",
+    )
 
 
 def _worlds(path: Path, lines: Sequence[tuple[int, str]]) -> dict[str, TrainingWorld]:

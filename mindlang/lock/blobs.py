@@ -66,7 +66,7 @@ def record(
     learnt: Mapping[str, Weights],
     taught: Taught,
     others: Mapping[str, Weights],
-    world: TrainingWorld | None = None,
+    world: TrainingWorld,
     begun_with: Lock = EMPTY_LOCK,
     origins: Mapping[str, Origin] = NO_ORIGINS,
     accepted: bool = False,
@@ -82,8 +82,8 @@ def record(
     entries = {}
     for skill in learnt:
         before = begun_with.get(skill)
-        earlier = before.worlds if before and world else ()  # of the same lesson only the last counts
-        worlds = (*(each for each in earlier if world and each.lesson != world.lesson), *([world] if world else []))
+        earlier = before.worlds if before else ()  # of the same lesson only the last counts
+        worlds = (*(each for each in earlier if each.lesson != world.lesson), world)
         origin = origins.get(skill, before.origin if before else None)
         entry = _entry(path, graph, skill, weights, taught)
         entries[skill] = replace(entry, worlds=worlds, origin=origin, accepted=accepted)

@@ -16,17 +16,13 @@ from mindlang.lock import Entry, Lock, LockError, Taught, lock_path, read_lock, 
 from mindlang.lock.blobs import FOLDER, exclusive_folder, load_weights
 from mindlang.lock.signature import arrange
 from mindlang.lock.status import (
-    UNKNOWN,
     NotLearning,
     Stale,
     Status,
     Trained,
     Untaught,
     elsewhere_sentences,
-    in_question,
     is_due,
-    key_of,
-    key_of_taught,
     last_lesson,
     lessons_of,
     status,
@@ -71,8 +67,6 @@ class Row:
             case Stale(differences):
                 return differences
             case Trained(entry, changes):
-                if not entry.worlds:
-                    return (*changes, f"taught {UNKNOWN}")
                 due = (f"lesson {each.number} of {each.curriculum} is due, on {each.task}" for each in self.due)
                 return (*changes, *[ACCEPTED] * entry.accepted, *due)
         return ()
@@ -176,10 +170,7 @@ def _accepted(graph: Graph, lock: Lock, folder: Path, entry: Entry) -> Entry:
     taught = entry.taught
     last = last_lesson(graph.lessons, taught)
     teaching = [lesson for lesson in graph.lessons if entry.skill in learners(graph, lesson)]
-    if entry.worlds:
-        known = [lessons_of(graph, world, entry, teaching, last) for world in entry.worlds]
-    else:
-        known = [in_question([each for each in teaching if key_of(each) == key_of_taught(taught)], last)]
+    known = [lessons_of(graph, world, entry, teaching, last) for world in entry.worlds]
     lessons = [found[0] for found in known if found]
     if not lessons:
         raise LockError(

@@ -57,7 +57,7 @@ def _changes(verb: str, old: set[str], new: set[str]) -> Iterator[str]:
 def reordered(entry: Entry, graph: Graph) -> tuple[str, ...]:
     """The sensors that a skill reads whose readings stand in another order than in the world it was last taught in."""
     kinds = {sensor.name: sensor.kind for sensor in graph.sensors}
-    facts = entry.worlds[-1].facts if entry.worlds else {}
+    facts = entry.worlds[-1].facts
     found = []
     for name in (text.partition(":")[0] for text in entry.signature.reads):
         old = facts.get(f"sensor {name}", {}).get("at")

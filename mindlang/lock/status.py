@@ -27,8 +27,6 @@ if TYPE_CHECKING:
     from mindrun.graph.policy import Policy
     from mindrun.numbers.arrays import Weights
 
-UNKNOWN = "in a world that the lock does not know (mindc status --accept says that it is this one)"
-
 
 @dataclass(frozen=True, slots=True)
 class Trained:
@@ -45,7 +43,7 @@ class Trained:
 
     @property
     def is_elsewhere(self) -> bool:
-        """True if the world in which it was taught is known, and is another now."""
+        """True if the world in which it was taught is another now."""
         return bool(self.changes)
 
     @property
@@ -325,7 +323,7 @@ def _is_due(lesson: Lesson, earlier: Iterable[Lesson], state: Status) -> bool:
 class ReadyMind:
     """A policy, with its master and the weights of all skills below it; `refusals` say what is missing.
 
-    `notes` say which of these skills were taught in a world that is not the mind's, or is not known.
+    `notes` say which of these skills were taught in a world that is not the mind's.
     """
 
     policy: Policy
@@ -343,10 +341,7 @@ def make_ready(graph: Graph, sources: Iterable[Source], master: str | None = Non
     needed = [skill.name for skill in reachable(graph, graph.master)]
     weights, refusals = trained_weights(graph, lock, frozenset(needed))
     states = status(graph, lock, sources[0].folder)
-    acting = {name: states[name] for name in needed}
-    notes = [*elsewhere_sentences(acting)]
-    if unknown := [name for name, state in acting.items() if isinstance(state, Trained) and not state.entry.worlds]:
-        notes.append(f"{_were_taught(unknown)} {UNKNOWN}")
+    notes = elsewhere_sentences({name: states[name] for name in needed})
     return ReadyMind(Policy(graph, weights), tuple(refusals), tuple(notes))
 
 
@@ -357,8 +352,4 @@ def elsewhere_sentences(states: Mapping[str, Status]) -> Iterator[str]:
         if isinstance(state, Trained) and state.is_elsewhere:
             ways.setdefault(state.changes, []).append(name)
     for said, skills in ways.items():
-        yield f"{_were_taught(skills)} elsewhere: {'; '.join(said)}"
-
-
-def _were_taught(skills: Sequence[str]) -> str:
-    return f"{listed(skills, 'and')} {'was' if len(skills) == 1 else 'were'} taught"
+        yield f"{listed(skills, 'and')} {'was' if len(skills) == 1 else 'were'} taught elsewhere: {'; '.join(said)}"

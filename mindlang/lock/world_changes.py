@@ -5,7 +5,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from math import degrees, sin
 from typing import Any
 
-from mindrun.kinds.things.thing import MOVES
 from mindrun.numbers.quantity import ANGLE
 
 from mindlang.lock.training_world import TrainingWorld
@@ -14,13 +13,11 @@ from mindlang.lock.world_facts import argument, meaning_of, number
 PARTS = ("sensor", "memory", "actuator", "thing")
 SAME_DIRECTION = 1e-9  # so far apart may be the sines of what is one direction to a reader
 NOUNS = {"thing": "content"}  # of the registry, where it says another
-ONE_ANYWHERE = {"at": [], "count": 1}  # what every thing was before there was a word for it
-EVENTS = {"reached": "reach", "delivered": "delivery"}
 
 
 def changes(old: TrainingWorld, now: TrainingWorld) -> list[str]:
     """Each difference as a sentence. The order of lines is none, nor what a skill reads or sends beside its `at`s."""
-    return [*_changes(migrate_facts(old.facts), now.facts)]
+    return [*_changes(old.facts, now.facts)]
 
 
 def _changes(old: Mapping[str, Any], now: Mapping[str, Any]) -> Iterator[str]:
@@ -173,20 +170,3 @@ def _beginning(lesson: Mapping[str, Any]) -> str:
     if lesson["from_scratch"]:
         return "from scratch"
     return f"from {lesson['starts_from']}" if "starts_from" in lesson else "from its weights"
-
-
-def migrate_facts(facts: Mapping[str, Any]) -> dict[str, Any]:
-    """The facts of a world, also of a lock from before things said what becomes of them, as far as it knows it.
-
-    A thing moved where a reward or an end of its task named it. What was only counted is not known, so nothing is said
-    of that.
-    """
-    named = {*facts.get("task", {}).get("ends", ())}
-    named |= {reason.removeprefix("on ").partition(" when ")[0] for _, reason in facts["rewards"]}
-    found = dict(facts)
-    for subject in facts:
-        noun, _, name = subject.partition(" ")
-        if noun == "thing":
-            outcomes = {field: MOVES for field, event in EVENTS.items() if f"{event} of {name}" in named}
-            found[subject] = ONE_ANYWHERE | outcomes | facts[subject]  # what it says itself counts
-    return found

@@ -15,12 +15,10 @@ from time import sleep
 from typing import TYPE_CHECKING
 
 import numpy as np
-from mindrun.engine.engine import Engine, virtual_sensors
 from mindrun.files.regular_files import open_regular
 from mindrun.graph.bundle import Bundle
 from mindrun.graph.recording_header import MAX_HEADER_BYTES, About
 from mindrun.robot.recording import RecordingError, read, read_growing
-from mindrun.robot.replay import computed_again
 
 from mindlang.run.recording import measured_in, recorded_task, running_bundle
 from mindlang.view.viewed import Viewed
@@ -63,33 +61,22 @@ def _viewed(
 ) -> Viewed:
     found = running_bundle(bundle, of)
     title, source = f"{path.name} with {of.master} in charge", "robot" if of_ticks is None else "recording"
-    rows, watch = _filled(path, of, parts, found), watching(of, found).feed if watching else None
+    rows, watch = _measured(of, parts, found), watching(of, found).feed if watching else None
     return viewed_rows(
         title, source, of, found, recorded_task(of, found), bundle.absolute().parent, rows, of_ticks, watch
     )
 
 
-def _filled(path: Path, of: About, parts: Iterator[Rows], mind: Bundle) -> Iterator[Filled]:
-    """Some rows at a time, with the readings that a robot computes and does not record filled in.
+def _measured(of: About, parts: Iterator[Rows], mind: Bundle) -> Iterator[Filled]:
+    """Some rows at a time, with their readings, of which those that nobody measured are no number.
 
-    RecordingError where a row is damaged, or is not what the mind computes, behind all that are before it. Where there
-    is nothing to fill in nothing is computed again, which would take 30 times as long.
+    RecordingError where a row is damaged, behind all that are before it.
     """
     is_measured = measured_in(of, mind)
-    some = (part[first : first + CHUNK_TICKS] for part in parts for first in range(0, max(1, len(part)), CHUNK_TICKS))
-    if not of.lacks_readings or not (virtual_sensors(mind.graph) or mind.graph.memories):
-        yield from ((rows, np.where(is_measured, rows["readings"], NOTHING)) for rows in some)
-        return
-    engine, number = Engine(mind.policy, mind.procedures, of.master), 1
-    for rows in some:
-        readings, known = rows["readings"].copy(), 0
-        try:
-            for _ in computed_again(path, of, rows, engine, number):
-                readings[known] = engine.readings
-                known += 1
-        finally:
-            yield rows[:known], np.where(is_measured, readings[:known], NOTHING)
-        number += known
+    for part in parts:
+        for first in range(0, max(1, len(part)), CHUNK_TICKS):
+            rows = part[first : first + CHUNK_TICKS]
+            yield rows, np.where(is_measured, rows["readings"], NOTHING)
 
 
 def remote(name: str) -> tuple[str, str] | None:

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from mindlang.breakpoints.watch import Stop
 
 Rows = NDArray[Any]
-Filled = tuple[Rows, Singles]  # rows, and their readings with those that a robot computes
+Filled = tuple[Rows, Singles]  # rows, and their readings: no number where nobody measured
 Watch = Callable[[Rows, Singles], Sequence["Stop"]]  # finds where breakpoints stop the rows that follow
 NOTHING_HELD = -1
 BEGIN_COLUMN = 1  # of the events of a robot: stopped, began anew, and a fault of each sensor

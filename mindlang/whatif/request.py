@@ -8,7 +8,6 @@ import numpy as np
 from mindrun.engine.changes import Change, ChangeError, What, change_of, silenced
 from mindrun.graph.bundle import Bundle
 from mindrun.graph.graph import Graph
-from mindrun.graph.named_readings import physical
 from mindrun.graph.recording_header import About, RecordingError
 from mindrun.graph.weights import reachable
 from mindrun.robot.recording import read
@@ -140,8 +139,7 @@ def recorded_readings(
     about, parts = read(path)
     mind = _bundle(path, about, Path(bundle) if bundle else own, name, bool(bundle))
     sensor = next((sensor for sensor in mind.graph.sensors if sensor.name == name), None)
-    is_there = sensor is not None and measured_in(about, mind)[sensor.start]
-    if sensor is None or not is_there or (about.lacks_readings and name not in physical(mind.graph)):
+    if sensor is None or not measured_in(about, mind)[sensor.start]:
         raise ChangeError(f"{path} has no readings of {name}", f"it has those of {', '.join(about.sensors)}")
     ours = next(each for each in graph.sensors if each.name == name)
     if sensor.width != ours.width:

@@ -3,13 +3,16 @@
 from pathlib import Path
 
 import numpy as np
+from mindrun.graph.graph import Graph
 from mindrun.graph.weights import genes
 
 from mindlang.compiler.compile import load
+from mindlang.lint.examples import WORLD
 from mindlang.lock import Taught, lock_path, read_lock, read_locks
 from mindlang.lock.blobs import record
 from mindlang.lock.signature import arrange
-from mindlang.lock.status import Status, status
+from mindlang.lock.status import Status, key_of_taught, status
+from mindlang.lock.training_world import TrainingWorld
 from mindlang.lock.world_facts import Worlds
 
 MIND = """\
@@ -79,7 +82,16 @@ def teach(path: Path, *skills: str, seed: int = 1, lock: Path | None = None) -> 
             task = tasks.get(skill.name, "Roam")
             taught = Taught(task, skill.name, False, 3, 8, seed, 1.5)
             learnt = {skill.name: weights[skill.name]}
-            record(lock or lock_path(path), graph, learnt, taught, weights, worlds.get(skill.name))
+            world = worlds.get(skill.name) or world_in(graph, taught)
+            record(lock or lock_path(path), graph, learnt, taught, weights, world)
+
+
+def world_in(graph: Graph, taught: Taught) -> TrainingWorld:
+    """The world in which a mind would teach so, whatever its lessons say; some other where it has no such task."""
+    key = key_of_taught(taught)
+    said = {"task": key.task, "master": key.master, "with_subskills": key.jointly, "from_scratch": False}
+    is_known = key.task in {task.name for task in graph.tasks} and key.master in graph.skill_numbers
+    return Worlds(graph, None).of_gone(key, {**said, "learner": {"is": "genetic"}}) if is_known else WORLD
 
 
 def statuses(path: Path) -> dict[str, Status]:

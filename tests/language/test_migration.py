@@ -4,18 +4,13 @@ from io import BytesIO, TextIOWrapper
 from pathlib import Path
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
-from mindrun.graph.bundle import Bundle, pack, unpack
-from mindrun.graph.policy import Policy
 
 from mindlang.compiler.compile import compile_source
 from mindlang.compiler.diagnostic import Findings
 from mindlang.compiler.migration import migrated_text
 from mindlang.compiler.source import Source
 from tests.calling import Call
-from tests.engine.test_older import old
-from tests.sim.minds import DRIFTER, compile_text
+from tests.sim.minds import DRIFTER
 
 OLD = """
 task Fetch in arena  # comments stay
@@ -53,28 +48,6 @@ def source(text: str) -> Source:
 def test_things_say_what_became_of_them() -> None:
     assert migrated_text(source(DRIFTER + OLD), Findings()) == DRIFTER + NEW
     assert migrated_text(source(DRIFTER + NEW), Findings()) == DRIFTER + NEW
-
-
-LINES = st.lists(
-    st.sampled_from(
-        [f"{verb} {kind} of {name}" for verb in ("rewards 2 on", "counts", "ends on") for kind, name in
-         (("reach", "object"), ("reach", "home"), ("reach", "plug"), ("delivery", "object"))]
-    ),
-    unique=True,
-)  # fmt: skip
-
-
-@given(LINES)
-def test_it_says_what_a_bundle_of_before_is_read_as(lines: list[str]) -> None:
-    """Two ways, one meaning: what differs is said of items alone that are never carried to a zone."""
-    things = "  contains object is item\n  contains home is zone\n  contains plug is power\n"
-    text = f"{DRIFTER}task Test in plain\n{things}  lasts 9 ticks\n" + "".join(f"  {line}\n" for line in lines)
-    now = compile_text(migrated_text(source(text), Findings())).tasks[0]
-    before = unpack(old(pack(Bundle(Policy(compile_text(text), {}), {})))).graph.tasks[0]
-    for a, b in zip(now.things, before.things, strict=True):
-        assert a.kind.reached == b.kind.reached  # type: ignore[union-attr]
-        if getattr(a.kind, "reached", "") == "stays":
-            assert getattr(a.kind, "delivered", "") == getattr(b.kind, "delivered", "")
 
 
 @pytest.fixture

@@ -4,19 +4,19 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-import pytest
 from mindrun.engine.engine import Engine
 from mindrun.graph.graph import Graph
 from mindrun.graph.policy import Policy
 from mindrun.graph.weights import genes
 
-from mindlang.lock import Entry, Taught, lock_text, read_lock, write_lock
+from mindlang.lock import Entry, Taught, lock_text, read_lock
 from mindlang.lock.blobs import digest, record
 from mindlang.lock.report import rows, survival
 from mindlang.lock.signature import arrange
 from mindlang.lock.status import Stale, Trained, Untaught, lessons_of, needed_skills, status, trained_weights
 from mindlang.lock.world_changes import changes
 from mindlang.lock.world_facts import Worlds
+from tests.edits.taught import world_in
 from tests.likeness.test_meaning import ALIKE, GO, SCHOOL, TOP, graph, named
 
 TAUGHT = Taught("Roam", "Go", False, 10, 20, 3, 1.5)
@@ -26,7 +26,8 @@ LESSON = "  teaches Go on Roam for 10 generations\n"
 def teach(path: Path, mind: Graph, name: str, seed: int = 1, **said: object) -> np.ndarray:
     """Random weights of a skill, recorded."""
     weights = np.random.default_rng(seed).uniform(-1, 1, genes(named(mind, name))).astype(np.float32)
-    record(path, mind, {name: weights}, replace(TAUGHT, master=name), {}, **said)
+    taught = replace(TAUGHT, master=name)
+    record(path, mind, {name: weights}, taught, {}, world_in(mind, taught), **said)
     return weights
 
 
@@ -127,7 +128,7 @@ def test_a_line_says_with_whose_weights_a_skill_began(tmp_path: Path) -> None:
 def test_an_origin_taught_on_together_with_who_began_as_it_is_the_same(tmp_path: Path) -> None:
     lock = tmp_path / "mind.lock"
     own = GO.replace("Go", "Far")
-    mind = graph(GO, own, ALIKE, f"{TOP}  influences Far at 1\n")
+    mind = graph(GO, own, ALIKE, f"{TOP}  influences Far at 1\n", SCHOOL, LESSON)
     began = digest(teach(lock, mind, "Go"))
     teach(lock, mind, "Far", 2, origins={"Far": ("Go", began)})
     teach(lock, mind, "Go", 3)
@@ -151,14 +152,3 @@ def test_a_lesson_whose_master_has_another_name_is_known_by_its_task() -> None:
     )
     assert lessons_of(renamed, taught, entry, [replace(lesson, master="Boss")], None)
     assert not lessons_of(renamed, taught, entry, [replace(lesson, master="Boss", task="Other")], None)
-
-
-@pytest.mark.parametrize("version", [1, 2, 3])
-def test_older_locks_are_read(tmp_path: Path, version: int) -> None:
-    lock = tmp_path / "mind.lock"
-    teach(lock, graph(GO, ALIKE, TOP), "Go")
-    entries = read_lock(lock)
-    lock.write_text(lock.read_text().replace("# mind lock 5:", f"# mind lock {version}:"))
-    assert read_lock(lock) == entries
-    write_lock(lock, entries)
-    assert lock.read_text().startswith("# mind lock 5:")

@@ -3,7 +3,6 @@
 import json
 from pathlib import Path
 
-from mindlang.lock import lock_path
 from tests.calling import Call
 from tests.edits.taught import recorded, teach
 
@@ -37,19 +36,6 @@ def test_status_shows_the_skills_that_are_named(mindc: Call, drive: Path) -> Non
     rows = json.loads(mindc("status", drive, "Go", "--json").out)["skills"]
     assert [row["skill"] for row in rows] == ["Go"]
     assert mindc("status", drive, "Gone").code == 2
-
-
-def test_an_old_lock_says_that_it_does_not_know(mindc: Call, drive: Path) -> None:
-    teach(drive)
-    text = lock_path(drive).read_text()
-    lines = [line.partition(" | taught in ")[0] for line in text.partition("\n\n")[0].splitlines()]
-    lock_path(drive).write_text("\n".join([lines[0].replace("lock 3", "lock 1"), *lines[1:], ""]))
-    said = mindc("status", drive)
-    assert said.code == 0
-    assert said.out.count("taught in a world that the lock does not know") == 2
-    assert "nothing to do" in mindc("train", drive).err, "what nobody knows is no reason"
-    assert mindc("status", drive, "--accept", "Go", "Drive").code == 0
-    assert "does not know" not in mindc("status", drive).out
 
 
 def test_of_a_lesson_that_is_said_again_the_one_that_was_taught_last_is_accepted(mindc: Call, drive: Path) -> None:

@@ -12,6 +12,7 @@ from mindrun.graph.bundle import read_bundle
 from mindrun.graph.weights import genes
 
 from mindlang.compiler.compile import load
+from mindlang.lint.examples import WORLD
 from mindlang.lock import Taught, read_lock
 from mindlang.lock.blobs import FOLDER, record
 from mindlang.lock.signature import arrange
@@ -56,7 +57,7 @@ def source(tmp_path: Path) -> Path:
     for skill in graph.skills:
         if genes(skill):
             weights = rng.standard_normal(genes(skill)).astype(np.float32)
-            record(path.with_suffix(".lock"), graph, {skill.name: weights}, TAUGHT, {})
+            record(path.with_suffix(".lock"), graph, {skill.name: weights}, TAUGHT, {}, WORLD)
     return path
 
 

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mindlang.lint.rules.taught_elsewhere import WORLD
+from mindlang.lint.examples import WORLD
 from mindlang.lock import HEADER, Entry, LockError, Signature, Taught, read_lock, read_locks, write_lock
 from mindlang.lock.training_world import TrainingWorld
 from tests.draws import cases
@@ -33,11 +33,14 @@ ENTRIES = st.builds(
         st.floats(allow_nan=False, allow_infinity=False),
     ),
     st.lists(st.tuples(NAMES, HASHES), max_size=3).map(tuple),
+    st.just((WORLD,)),
 )
-LINE = (
+BARE = (
     "Avoid is mlp hidden 2 width 14 | reads proximity:10 moving pulse | sends left_wheel right_wheel"
     f" | weights {'ab' * 32} | task Avoid master Avoid generations 1000 population 100 seed 3 score 812.4"
 )
+LINE = f"{BARE} | taught in {WORLD.name}"
+WORLDS = {WORLD.name: WORLD}
 
 
 @given(st.lists(ENTRIES, max_size=5, unique_by=lambda entry: entry.skill))
@@ -53,7 +56,7 @@ def test_there_and_back(tmp_path_factory: pytest.TempPathFactory, entries: list[
 
 
 def test_a_line_reads_like_a_sentence() -> None:
-    entry = Entry.of(LINE, Path())
+    entry = Entry.of(LINE, Path(), WORLDS)
     assert entry is not None
     assert entry.signature == Signature(
         "mlp hidden 2 width 14", ("proximity:10", "moving", "pulse"), ("left_wheel", "right_wheel")
@@ -67,9 +70,9 @@ def test_no_lock_has_no_entries(tmp_path: Path) -> None:
 
 
 def test_a_file_knows_what_the_files_that_it_uses_have_learnt(tmp_path: Path) -> None:
-    own = Entry.of(LINE, tmp_path)
-    used = Entry.of(LINE.replace("ab" * 32, "cd" * 32), tmp_path)
-    other = Entry.of(LINE.replace("Avoid is", "Go is"), tmp_path)
+    own = Entry.of(LINE, tmp_path, WORLDS)
+    used = Entry.of(LINE.replace("ab" * 32, "cd" * 32), tmp_path, WORLDS)
+    other = Entry.of(LINE.replace("Avoid is", "Go is"), tmp_path, WORLDS)
     assert own
     assert used
     assert other
@@ -84,17 +87,19 @@ def test_a_file_knows_what_the_files_that_it_uses_have_learnt(tmp_path: Path) ->
         (lambda text: "", "is damaged: it is not a whole lock"),
         (lambda text: text[:-1], "is damaged: it is not a whole lock"),
         (lambda text: text.replace("lock 5", "lock 6"), "is damaged: it is not a whole lock"),
-        (lambda text: text + "\n\nx\n", "a.lock:5 is damaged: this is not what mindc wrote"),
+        (lambda text: text.replace("\n\n", "\n\nx\n"), "a.lock:4 is damaged: this is not what mindc wrote"),
         (lambda text: text.replace("abab", "abax"), "a.lock:2 is damaged: this is not what mindc wrote"),
-        (lambda text: text + LINE + "\n", "a.lock:3 is damaged: Avoid has two lines"),
+        (lambda text: text.replace("\n\n", f"\n{LINE}\n\n"), "a.lock:3 is damaged: Avoid has two lines"),
         (lambda text: text.replace("Avoid is", "<<<<<<< HEAD\nAvoid is"), "a.lock:2 stands where two branches"),
         (lambda text: "<<<<<<< HEAD\n" + text, "a.lock:1 stands where two branches"),
         (lambda text: text + "x | " * 300_000, "is damaged"),
+        (lambda text: text.replace("lock 5", "lock 3"), "a.lock is a lock of before mindlang 0.1.0"),
+        (lambda text: text.replace(LINE, BARE), "a.lock is a lock of before mindlang 0.1.0"),
     ],
 )
 def test_a_damaged_lock_is_refused(tmp_path: Path, damage, message: str) -> None:
     path = tmp_path / "a.lock"
-    entry = Entry.of(LINE, tmp_path)
+    entry = Entry.of(LINE, tmp_path, WORLDS)
     assert entry
     write_lock(path, {"Avoid": entry})
     path.write_text(damage(path.read_text()))
@@ -104,7 +109,7 @@ def test_a_damaged_lock_is_refused(tmp_path: Path, damage, message: str) -> None
 
 def test_blank_lines_mean_nothing(tmp_path: Path) -> None:
     path = tmp_path / "a.lock"
-    entry = Entry.of(LINE, tmp_path)
+    entry = Entry.of(LINE, tmp_path, WORLDS)
     assert entry
     entry = replace(entry, worlds=(WORLD, TrainingWorld({**WORLD.facts, "tick": 1.0})))
     write_lock(path, {"Avoid": entry})
@@ -130,7 +135,7 @@ def test_other_bytes_are_refused(tmp_path: Path, data: bytes) -> None:
 @given(st.data())
 @settings(max_examples=cases(200))
 def test_no_change_of_a_character_is_a_crash(tmp_path_factory: pytest.TempPathFactory, data: st.DataObject) -> None:
-    place = data.draw(st.integers(0, len(LINE)))
-    changed = LINE[:place] + data.draw(st.text(max_size=3)) + LINE[place + data.draw(st.integers(0, 3)) :]
+    place = data.draw(st.integers(0, len(BARE)))
+    changed = BARE[:place] + data.draw(st.text(max_size=3)) + BARE[place + data.draw(st.integers(0, 3)) :]
     entry = Entry.of(changed, Path())
     assert entry is None or str(entry).split() == changed.split() or float(changed.split()[-1]) == entry.taught.score

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mindlang.lint.rules.taught_elsewhere import WORLD
+from mindlang.lint.examples import WORLD
 from mindlang.lock import Entry, Lock, LockError, lock_text, merge, read_lock, write_lock
 from mindlang.lock.training_world import TrainingWorld
 from tests.draws import cases
@@ -18,7 +18,9 @@ from tests.lock.test_lock import ENTRIES
 
 SKILLS = ("Avoid", "Drive", "Go", "Seek")
 WORLDS = st.integers(1, 4).map(lambda ticks: TrainingWorld({**WORLD.facts, "tick": 1 / ticks}))
-TAUGHT = st.builds(lambda entry, worlds: replace(entry, worlds=tuple(worlds)), ENTRIES, st.lists(WORLDS, max_size=2))
+TAUGHT = st.builds(
+    lambda entry, worlds: replace(entry, worlds=tuple(worlds)), ENTRIES, st.lists(WORLDS, min_size=1, max_size=2)
+)
 MAIN = "from mindlang.cli import main; main()"
 DRIVER = f"{sys.executable} -c '{MAIN}' lock merge %O %A %B --name=%P"
 

@@ -8,11 +8,12 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from mindrun.engine.engine import Engine
-from mindrun.graph.graph import Edge, Graph, Sensor
+from mindrun.graph.graph import Edge, Graph, Sensor, Task
 from mindrun.graph.policy import Policy
 from mindrun.graph.weights import genes
 from mindrun.kinds.functions.mlp import Mlp
 from mindrun.kinds.functions.procedure import Procedure
+from mindrun.kinds.scenes.scene import Plain
 from mindrun.kinds.sensors.rays import RangeFinder
 
 from mindlang.lock import LockError, Taught, read_lock
@@ -20,9 +21,11 @@ from mindlang.lock.blobs import FOLDER, digest, record
 from mindlang.lock.signature import arrange
 from mindlang.lock.status import NotLearning, Stale, Trained, Untaught, status, trained_weights
 from tests.draws import cases
+from tests.edits.taught import world_in
 from tests.hierarchies import PROCEDURES, random_graph
 from tests.minds import CLAW, WHEELS, always, mind, rule, skill
 
+Weights = dict[str, np.ndarray]
 TAUGHT = Taught("Task", "Top", False, 10, 20, 3, 1.5)
 
 
@@ -33,7 +36,8 @@ def example() -> Graph:
     turn = rule("Turn", always("actuator", 0, 1.0))
     graph = mind(top, go, turn, readings=1, actuators=(*WHEELS, CLAW))
     eyes = Sensor("eyes", RangeFinder(at=(0.0, 1.0, 2.0)), 0, 3)
-    return replace(graph, sensors=(eyes, replace(graph.sensors[0], name="battery", start=3)))
+    task = Task("Task", Plain(), (), 60, (), (), (), (), ())
+    return replace(graph, sensors=(eyes, replace(graph.sensors[0], name="battery", start=3)), tasks=(task,))
 
 
 def with_skill(graph: Graph, place: int, **changes: object) -> Graph:
@@ -50,8 +54,13 @@ def teach(path: Path, graph: Graph, seed: int = 1) -> dict[str, np.ndarray]:
     for each in reversed(graph.skills):
         if genes(each) and not each.like:
             weights[each.name] = rng.standard_normal(genes(each)).astype(np.float32)
-            record(path, graph, {each.name: weights[each.name]}, TAUGHT, weights)
+            _record(path, graph, {each.name: weights[each.name]}, others=weights)
     return weights
+
+
+def _record(path: Path, graph: Graph, learnt: Weights, master: str = "Top", others: Weights | None = None) -> None:
+    taught = replace(TAUGHT, master=master)
+    record(path, graph, learnt, taught, others or {}, world_in(graph, taught))
 
 
 def names(graph: Graph) -> list[str]:
@@ -128,7 +137,7 @@ def test_a_retrained_subskill_only_marks_its_parents(tmp_path: Path, master: str
     graph, path = example(), tmp_path / "a.lock"
     old = teach(path, graph)["Go"]
     new = old + np.float32(1)
-    record(path, graph, {"Go": new}, replace(TAUGHT, master=master), {})
+    _record(path, graph, {"Go": new}, master)
     state = status(graph, read_lock(path))["Top"]
     assert isinstance(state, Trained)
     assert state.changes == (f"taught with another Go ({digest(old)[:4]}…, now {digest(new)[:4]}…)",)
@@ -137,7 +146,7 @@ def test_a_retrained_subskill_only_marks_its_parents(tmp_path: Path, master: str
 def test_a_subskill_that_was_taught_on_the_job_marks_no_parent_that_was_there(tmp_path: Path) -> None:
     graph, path = example(), tmp_path / "a.lock"
     old = teach(path, graph)["Go"]
-    record(path, graph, {"Go": old + np.float32(1)}, replace(TAUGHT, master="Top"), {})
+    _record(path, graph, {"Go": old + np.float32(1)})
     state = status(graph, read_lock(path))["Top"]
     assert isinstance(state, Trained)
     assert state.changes == ()
@@ -149,7 +158,7 @@ def test_record_keeps_what_it_does_not_replace(tmp_path: Path) -> None:
     other = replace(graph, skills=tuple(replace(each, name=f"{each.name}2") for each in graph.skills))
     teach(path, other, seed=2)
     assert set(read_lock(path)) == {"Go", "Go2", "Top", "Top2"}
-    record(path, graph, {"Go": old["Go"] * 2}, TAUGHT, {})
+    _record(path, graph, {"Go": old["Go"] * 2})
     blobs = {file.stem for file in (tmp_path / FOLDER).iterdir()}
     named = {entry.weights for entry in read_lock(path).values()}
     assert blobs == named | {digest(old["Go"])}, "the old weights of Go stay, until mindc gc"
@@ -158,8 +167,8 @@ def test_record_keeps_what_it_does_not_replace(tmp_path: Path) -> None:
 def test_weights_that_another_lock_names_stay(tmp_path: Path) -> None:
     graph = example()
     old = teach(tmp_path / "a.lock", graph)["Go"]
-    record(tmp_path / "b.lock", graph, {"Go": old}, TAUGHT, {})
-    record(tmp_path / "b.lock", graph, {"Go": old * 2}, TAUGHT, {})
+    _record(tmp_path / "b.lock", graph, {"Go": old})
+    _record(tmp_path / "b.lock", graph, {"Go": old * 2})
     assert trained_weights(graph, read_lock(tmp_path / "a.lock"), ["Go"])[0]["Go"].tobytes() == old.tobytes()
 
 
@@ -168,7 +177,7 @@ def test_weights_that_cannot_be_written_are_told_by_name(tmp_path: Path) -> None
     (tmp_path / FOLDER).write_text("in the way")
     learnt = {name: weights[name] for name in ("Go", "Top")}
     with pytest.raises(LockError, match="the weights of Go and Top cannot be written: "):
-        record(tmp_path / "a.lock", example(), learnt, TAUGHT, {})
+        _record(tmp_path / "a.lock", example(), learnt)
     assert not (tmp_path / "a.lock").exists()
 
 
@@ -176,7 +185,7 @@ def test_a_damaged_lock_is_not_overwritten(tmp_path: Path) -> None:
     path = tmp_path / "a.lock"
     path.write_text("damaged")
     with pytest.raises(LockError):
-        record(path, example(), {"Go": np.ones(genes(example().skills[1]), np.float32)}, TAUGHT, {})
+        _record(path, example(), {"Go": np.ones(genes(example().skills[1]), np.float32)})
     assert path.read_text() == "damaged"
 
 

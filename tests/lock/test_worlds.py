@@ -450,25 +450,6 @@ def test_what_changes_nothing_is_not_noticed(old: str, new: str) -> None:
     assert state.changes == ()
 
 
-def test_worlds_of_before_things_said_what_becomes_of_them_are_read_as_they_were() -> None:
-    """A thing moved where its reach or delivery was rewarded. The same file means something else now: that is told."""
-    old = {name: replace(entry, worlds=tuple(map(_without_outcomes, entry.worlds))) for name, entry in LOCK.items()}
-    state = status(GRAPH, old)["Top"]
-    assert isinstance(state, Trained)
-    assert state.changes == ("taught with ball reached moves, now stays",)
-    migrated = compiled(MIND.replace("ball is item size 2", "ball is item size 2 reached moves"))
-    state = status(migrated, old)["Top"]
-    assert isinstance(state, Trained)
-    assert state.changes == ()
-
-
-def _without_outcomes(world: TrainingWorld) -> TrainingWorld:
-    words = {"reached", "delivered"}
-    things = {subject: fact for subject, fact in world.facts.items() if subject.startswith("thing ")}
-    plain = {subject: {k: v for k, v in fact.items() if k not in words} for subject, fact in things.items()}
-    return TrainingWorld({**world.facts, **plain})
-
-
 @pytest.mark.parametrize("actuator", ["wheel side left neutral 0.6", "gripper neutral 0.9"])
 def test_what_moves_by_itself_is_noticed(actuator: str) -> None:
     """An actuator that no skill drives, and that does something at its neutral."""
@@ -529,7 +510,7 @@ def test_an_earlier_lesson_is_known_too(tmp_path: Path) -> None:
     weights = {skill.name: np.zeros(genes(skill), np.float32) for skill in graph.skills if genes(skill)}
     path, worlds = tmp_path / "a.lock", Worlds(graph, None)
     below = {name: weights[name] for name in ("Go", "Search", "Sway")}
-    record(path, graph, below, Taught("Fetch", "Go", False, 3, 8, 1, 1.0), {})
+    record(path, graph, below, Taught("Fetch", "Go", False, 3, 8, 1, 1.0), {}, worlds.of(first))
     for lesson in (first, second, first, second):
         made = Taught(lesson.task, lesson.master, False, 3, 8, 1, 1.0)
         record(path, graph, {"Top": weights["Top"]}, made, below, worlds.of(lesson), read_lock(path))

@@ -23,7 +23,7 @@ NEEDED_BY_TESTS = (
     "playground/src/index.html",
     "tests/formats/0.1.0/rover.bundle",
     "examples/collect/collect.lock",
-    "tests/robot/recordings/version3.rec",
+    "tests/robot/recordings/simulated.rec",
 )
 CHASE = RULES.replace("skill Chase is rule", "skill Chase is mlp hidden 1").replace(" at 3 * ball_bearing - 0.7", "")
 LESSON = """

@@ -10,15 +10,22 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from mindrun.graph.bundle import read_bundle
-from mindrun.graph.recording_header import CHECKSUM_FIELD, MAX_HEADER_BYTES, RecordedWorld, about_of_line, line_of
+from mindrun.graph.recording_header import (
+    CHECKSUM_FIELD,
+    MAX_HEADER_BYTES,
+    RecordedWorld,
+    _sealed,
+    about_of_line,
+    line_of,
+)
 from mindrun.robot.recording import About, Recorder, RecordingError, read, recording_bytes
 from mindrun.robot.replay import replay_recording
 
 from mindlang.view.viewed_recording import viewed_recording
 from tests.calling import Call
-from tests.robot.test_recorded_versions import BUNDLE, FOLDER
 
-REC = FOLDER / "version3.rec"
+FOLDER = Path(__file__).parent / "recordings"
+BUNDLE, REC, ROBOT_REC = (FOLDER / name for name in ("ball.bundle", "simulated.rec", "robot.rec"))
 NUMBERS = st.none() | st.floats(-1e9, 1e9, exclude_min=True, exclude_max=True)
 
 
@@ -31,8 +38,7 @@ def resealed(line: bytes, **world: object) -> bytes:
             del said["world"][name]
         else:
             said["world"][name] = value
-    plain = json.dumps(said).encode()[:-1]
-    return plain + CHECKSUM_FIELD + f"{zlib.crc32(plain):08x}".encode() + b'"}\n'
+    return _sealed(json.dumps(said).encode()[:-1] + CHECKSUM_FIELD)
 
 
 @pytest.mark.parametrize(
@@ -146,14 +152,26 @@ def test_a_cut_file_and_a_damaged_row(tmp_path: Path) -> None:
     assert parts == [37]
 
 
-def test_a_robot_without_a_world_writes_what_it_wrote() -> None:
-    """But for the name of the format, and what virtual sensors and memories read."""
-    older, parts = read(FOLDER / "version2.rec")
+def test_what_a_robot_without_a_world_wrote_is_written_and_computed_again() -> None:
+    about, parts = read(ROBOT_REC)
+    assert about.world is None
     graph = read_bundle(BUNDLE).graph
-    about = About.of(graph, older.bundle, graph.master, older.sensors)
-    data = recording_bytes(about, np.concatenate([*parts]))
-    line, _, rows = (FOLDER / "version2.rec").read_bytes().partition(b"\n")
-    assert data.partition(b"\n")[2] == rows
-    said, then = json.loads(data.partition(b"\n")[0]), json.loads(line)
-    assert {*said} == {*then}
-    assert {name for name in said if said[name] != then[name]} == {"format", "check"}
+    again = About.of(graph, about.bundle, graph.master, about.sensors)
+    assert recording_bytes(again, np.concatenate([*parts])) == ROBOT_REC.read_bytes()
+    found = replay_recording(ROBOT_REC, BUNDLE)
+    assert (found.ticks, found.differs) == (24, None)
+
+
+def test_a_recording_is_seen_with_its_world() -> None:
+    about, parts = read(REC)
+    assert about.world
+    assert (about.world.task, about.world.seed, about.world.things) == ("Roam", 3, 1)
+    rows = np.concatenate([*parts])
+    assert rows["world"]["ended"].tolist() == [-3] * 39 + [-1]
+    assert len(set(rows["world"]["pose"][:, 0].tolist())) > 30
+    viewed = viewed_recording(REC, BUNDLE)
+    while not viewed.over:
+        viewed.grow()
+    assert viewed.failed is None
+    assert viewed.group("robot", np.arange(1, 41)).tobytes() == rows["world"]["pose"].tobytes()
+    assert len(viewed.about["world"]["boxes"]) == len(about.world.boxes) == 9

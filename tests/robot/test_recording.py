@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from mindrun.cli.report import report
 from mindrun.engine.engine import Engine
 from mindrun.graph.policy import Policy
-from mindrun.graph.recording_header import by_guardian
+from mindrun.graph.recording_header import CHECKSUM_FIELD, _sealed, by_guardian
 from mindrun.graph.wiring import SensorWire
 from mindrun.robot.drive import _summary
 from mindrun.robot.loop import Loop, Rate
@@ -132,11 +132,11 @@ def resealed(row: np.ndarray) -> bytes:
     return row.tobytes()
 
 
-def unsealed(line: bytes, **said: object) -> bytes:
-    """The first line as the first version wrote it, which says something else."""
-    plain = json.loads(line)
+def saying(line: bytes, **said: object) -> bytes:
+    """The first line where it says something else, with the checksum that fits."""
+    plain = json.loads(line) | said
     del plain["check"]
-    return json.dumps(plain | {"format": "mind recording 1"} | said).encode() + b"\n"
+    return _sealed(json.dumps(plain).encode()[:-1] + CHECKSUM_FIELD)
 
 
 def test_another_bundle_is_refused(day: Path) -> None:
@@ -179,10 +179,12 @@ def test_no_bit_of_the_first_line_can_flip(day: Path) -> None:
             read(day)
 
 
-def test_a_recording_of_an_older_version_is_read(day: Path) -> None:
+@pytest.mark.parametrize("number", [1, 2, 4])
+def test_a_recording_of_another_form_is_refused(day: Path, number: int) -> None:
     line, _, rows = day.read_bytes().partition(b"\n")
-    day.write_bytes(unsealed(line) + rows)
-    assert replay(day, BUNDLE, Engine(Policy(graph("range_finder"), {}))).ticks == TICKS
+    day.write_bytes(saying(line, format=f"mind recording {number}") + rows)
+    with pytest.raises(RecordingError, match=f"it is a 'mind recording {number}', not a .*; record it again, or"):
+        read(day)
 
 
 @pytest.mark.parametrize(
@@ -195,7 +197,7 @@ def test_a_recording_of_an_older_version_is_read(day: Path) -> None:
 )  # fmt: skip
 def test_what_a_first_line_cannot_say(day: Path, name: str, value: object) -> None:
     line, _, rows = day.read_bytes().partition(b"\n")
-    day.write_bytes(unsealed(line, **{name: value}) + rows)
+    day.write_bytes(saying(line, **{name: value}) + rows)
     with pytest.raises(RecordingError, match="is no recording"):
         read(day)
 
@@ -206,7 +208,7 @@ def test_what_a_first_line_cannot_say(day: Path, name: str, value: object) -> No
 )
 def test_other_columns_than_those_of_the_bundle_are_refused(day: Path, name: str, value: object) -> None:
     line, _, rows = day.read_bytes().partition(b"\n")
-    day.write_bytes(unsealed(line, **{name: value}) + rows)
+    day.write_bytes(saying(line, **{name: value}) + rows)
     for refuses in (lambda: replay(day, BUNDLE, Engine(Policy(graph("range_finder"), {}))), lambda: _reported(day)):
         with pytest.raises(RecordingError, match="other columns"):
             refuses()
@@ -333,7 +335,7 @@ def test_what_cannot_be_brought_to_the_disk_in_the_end_is_told(day: Path, monkey
     ],
 )  # fmt: skip
 def test_the_bounds_of_a_first_line(day: Path, name: str, value: object, fine: bool) -> None:
-    day.write_bytes(unsealed(day.read_bytes().partition(b"\n")[0], **{name: value}))
+    day.write_bytes(saying(day.read_bytes().partition(b"\n")[0], **{name: value}))
     if fine:
         assert getattr(read(day)[0], name) == (tuple(value) if isinstance(value, list) else value)
     else:

@@ -12,6 +12,7 @@ from mindlang.lock import Taught, lock_path
 from mindlang.lock.blobs import record
 from mindlang.lock.signature import arrange
 from tests.calling import RULES, Call
+from tests.edits.taught import world_in
 
 LEARNT = (
     RULES.replace("skill Chase is rule", "skill Chase is mlp hidden 1")
@@ -42,7 +43,8 @@ def teach(path: Path, *skills: str) -> None:
     for skill in graph.skills:
         if skill.name in skills:
             weights = rng.standard_normal(genes(skill)).astype(np.float32)
-            record(lock_path(path), graph, {skill.name: weights}, Taught("Chase", "Chase", False, 5, 10, 1, 1.0), {})
+            taught = Taught("Chase", "Chase", False, 5, 10, 1, 1.0)
+            record(lock_path(path), graph, {skill.name: weights}, taught, {}, world_in(graph, taught))
 
 
 def test_what_has_not_been_taught_is_refused(mindc: Call, learnt: Path) -> None:

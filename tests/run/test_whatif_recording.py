@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 
 from mindlang.whatif.request import Request, changes_of
 from tests.calling import Call
-from tests.robot.older import older
 
 TICKS, ANEW = 200, 150  # so many, and the row in which the program was started again
 MIND = """
@@ -196,9 +195,6 @@ def test_a_sensor_reads_nothing_that_a_recording_does_not_have(
     mindc: Call, day: tuple[Path, Path], tmp_path: Path
 ) -> None:
     assert found(mindc, day, "--sensor", f"rate={day[0]}")["differs"] == []
-    older(day[0])
-    answer = mindc("whatif", *day, "--sensor", f"rate={day[0]}")
-    assert answer.err == f"{day[0]} has no readings of rate\n  it has those of eyes, glow\n"
     assert found(mindc, day, "--sensor", f"glow={day[0]}")["differs"] == []
     path, graph = tmp_path / "blind.rec", read_bundle(day[1]).graph
     record(path, day[1], noise(graph), ("eyes",))

@@ -103,7 +103,7 @@ def test_a_damaged_row_is_said_behind_those_before_it(day: Growing, place: float
     "parts",
     [
         [b"{}\n"], [b"x" * MAX_HEADER_BYTES], [b"x" * (1 << 16)] * 40, [b""] * MAX_EMPTY_PARTS, [],
-        ["{\"format\": \"mind recording 1\", \"sensors\": [\"\u202e<img src=x onerror=alert(1)>\"]}\n".encode()],
+        ["{\"format\": \"mind recording \u202e<img src=x onerror=alert(1)>\"}\n".encode()],
     ],
 )  # fmt: skip
 def test_what_is_no_recording_is_refused(parts: list[bytes]) -> None:

@@ -7,7 +7,7 @@ import pytest
 from mindrun.engine.engine import Engine
 from mindrun.graph.bundle import Bundle, digest, write_bundle
 from mindrun.graph.policy import Policy
-from mindrun.robot.recording import About, Recorder, RecordingError, read
+from mindrun.robot.recording import About, Recorder, RecordingError
 
 from mindlang.run.edge_flow import BLOCK_ROWS
 from mindlang.view.messages import AskShares
@@ -15,7 +15,6 @@ from mindlang.view.session import command_shares
 from mindlang.view.viewed import Viewed
 from mindlang.view.viewed_recording import viewed_recording
 from tests.calling import Call
-from tests.robot.older import older
 from tests.sim.minds import compile_text
 from tests.view.serving import served, unpacked
 
@@ -163,25 +162,6 @@ def test_a_damaged_row_ends_it_with_a_sentence(day: tuple[Path, Path, object], t
     viewed = whole(viewed_recording(tmp_path / "day.rec", bundle))
     assert viewed.failed is not None
     assert "damaged at row" in viewed.failed
-
-
-def test_a_row_that_the_mind_does_not_compute_ends_it_with_a_sentence(
-    day: tuple[Path, Path, object], tmp_path: Path
-) -> None:
-    """Of an older version, whose readings have to be computed again."""
-    rec, bundle, _ = day
-    about, parts = read(rec)
-    rows = np.concatenate([*parts])
-    rows["commands"][77, 1] = np.nextafter(rows["commands"][77, 1], np.float32(2))
-    with Recorder(tmp_path / "day.rec", about) as recorder:
-        for row in rows:
-            recorder.write(**{name: row[name] for name in rows.dtype.names or ()})
-    older(tmp_path / "day.rec")
-    viewed = whole(viewed_recording(tmp_path / "day.rec", bundle))
-    assert viewed.failed is not None
-    assert "tick 78 of " in viewed.failed
-    assert "is not what its bundle computes: right_wheel is " in viewed.failed
-    assert viewed.known == 77
 
 
 def test_another_bundle_is_refused(day: tuple[Path, Path, object], tmp_path: Path) -> None:

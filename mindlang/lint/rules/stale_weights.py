@@ -5,13 +5,11 @@ What it reads or sends, or its function, has changed since it was taught, so the
 a skill that only reads or influences more go on as before.
 """
 
-from mindlang.lint.examples import LEARNS
+from mindlang.lint.examples import LEARNS, LOCK
 from mindlang.lint.study import Finding, Found, Study
 from mindlang.lock.status import mismatches
 
-HEADER = "# mind lock 1: what has been taught.\n"
-TAUGHT = f"weights {'0' * 64} | task Course master Go generations 9 population 9 seed 1 score 1.0"
-GOOD = f"{LEARNS}-- mind.lock --\n{HEADER}Go is mlp hidden 2 width 3 | reads eye | sends left_wheel | {TAUGHT}\n"
+GOOD = f"{LEARNS}{LOCK}"
 BAD = GOOD.replace("width 3", "width 4").replace("left_wheel |", "left_wheel right_wheel |")
 
 

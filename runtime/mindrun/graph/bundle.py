@@ -23,14 +23,10 @@ from mindrun.graph.validate import graph_flaw
 from mindrun.graph.weights import genes, read_weights
 from mindrun.graph.wiring import Wiring, flaws
 from mindrun.kinds.registry import kinds
-from mindrun.kinds.things.thing import MOVES, STAYS
 from mindrun.numbers.short_repr import ShortRepr
 
-# A mindrun that knows nothing of wirings refuses a bundle that has one, one that knows nothing of what becomes of
-# things those of which the tasks say it, and one of before the open world those of today.
+# A mindrun that knows nothing of wirings refuses a bundle that has one.
 FORMAT, WIRED = "mind bundle 5", "mind bundle 6"
-WITHOUT_OUTCOMES = {"mind bundle 1": FORMAT, "mind bundle 2": WIRED}
-OLDER_FORMATS = WITHOUT_OUTCOMES | {"mind bundle 3": FORMAT, "mind bundle 4": WIRED}
 MANIFEST, GRAPH, WIRING = "manifest.json", "graph.json", "wiring.json"
 WEIGHTS, MODULES = "weights/", "procedures/"
 MAX_BUNDLE_BYTES = 64 << 20  # nothing is compressed, so this also limits what is read
@@ -133,11 +129,9 @@ def _manifest(
 def _bundle(members: dict[str, bytes]) -> Bundle:
     """The bundle of these files; BundleError or ValueError where they are none."""
     manifest = parsed(members.pop(MANIFEST, b""))
-    if not isinstance(manifest, dict) or manifest.get("format") not in (FORMAT, WIRED, *OLDER_FORMATS):
+    if not isinstance(manifest, dict) or manifest.get("format") not in (FORMAT, WIRED):
         raise BundleError(_foreign(manifest))
-    version = manifest["format"]
-    manifest = manifest | {"format": OLDER_FORMATS.get(version, version)}
-    graph = decode(migrated(_document(members, GRAPH), version), version in OLDER_FORMATS)
+    graph = decode(migrated(_document(members, GRAPH)))
     weights = {name: read_weights(content) for name, content in _below(members, WEIGHTS, ".npy")}
     procedures = {name.replace("/", "."): content.decode() for name, content in _below(members, MODULES, ".py")}
     wiring = decode_wiring(_document(members, WIRING), graph) if manifest["format"] == WIRED else None
@@ -178,7 +172,7 @@ def _foreign(manifest: object) -> str:
     if not isinstance(version, str) or not version.startswith("mind bundle"):
         return "this is not a bundle"
     return (
-        f"this is a {version!r:.40}, this mindrun reads those up to {WIRED!r}: "
+        f"this is a {version!r:.40}, this mindrun reads {FORMAT!r} and {WIRED!r}: "
         "build it again, or install the mindrun of the mindc that built it"
     )
 
@@ -187,12 +181,9 @@ def _json(value: Any) -> bytes:
     return json.dumps(value, ensure_ascii=False, sort_keys=True, separators=(",", ":")).encode()
 
 
-def decode(data: object, is_older: bool = False) -> Graph:
-    """The graph that `encode` made this data of; BundleError where anything is missing, unknown or out of range.
-
-    Data that `is_older` may lack what there was no word for.
-    """
-    graph = decode_part(Graph, data, "graph", is_older)
+def decode(data: object) -> Graph:
+    """The graph that `encode` made this data of; BundleError where anything is missing, unknown or out of range."""
+    graph = decode_part(Graph, data, "graph")
     found = graph_flaw(graph)
     if found:
         raise BundleError(f"this graph is damaged: {found}")
@@ -207,55 +198,22 @@ def decode_wiring(data: object, graph: Graph) -> Wiring:
     return wiring
 
 
-def migrated(graph: Any, version: str) -> Any:
-    """The data of a graph of an older version as that of today: what has got words of its own since is said in them.
+def migrated(graph: Any) -> Any:
+    """The data of a graph of an older version as that of today: what its lessons had no word for has its default.
 
     Data that is no graph stays as it is: decoding it says what is wrong.
     """
     try:
-        tasks = graph["tasks"]
-        if version in WITHOUT_OUTCOMES:
-            tasks = [_with_outcomes(task) for task in tasks]
-        if version in OLDER_FORMATS:
-            tasks = [_with_programs(task) for task in tasks]
-        return graph | {"tasks": tasks, "lessons": [_whole_lesson(lesson) for lesson in graph["lessons"]]}
+        return graph | {"lessons": [_whole_lesson(lesson) for lesson in graph["lessons"]]}
     except (TypeError, LookupError):
         return graph
 
 
 def _whole_lesson(lesson: Any) -> Any:
-    """A lesson from before it had a number, needs, or another skill to start from, and its learner all arguments.
+    """A lesson from before it had needs, and its learner all arguments.
 
     No lesson acts in a bundle, so a new argument makes no new format.
     """
     learner = lesson["learner"]
     usual = {field.name: field.default for field in fields(kinds("curriculum")[learner["is"]])}
-    return {"number": 0, "starts_from": "", "needs": []} | lesson | {"learner": usual | learner}
-
-
-def _with_programs(task: Any) -> Any:
-    """A task from before conditions were programs: each was a comparison, and ends had none."""
-    ends = [{"event": event} for event in task["ends"]]  # the rest has its defaults
-    rewards = []
-    for reward in task["rewards"]:
-        when = reward["when"]
-        program = [*when["left"], *when["right"], [when["compare"], 0]] if when else when
-        rewards.append(reward | {"when": program})
-    return task | {"rewards": rewards, "ends": ends}
-
-
-def _with_outcomes(task: Any) -> Any:
-    """A task from before things said what becomes of them: one moved where a line of its task named it."""
-    named = {(event["is"], event["of"]) for event in task["events"] if event["is"] in ("reach", "delivery")}
-    return task | {"things": [thing | {"kind": thing["kind"] | _outcomes(thing, named)} for thing in task["things"]]}
-
-
-def _outcomes(thing: Any, named: set[Any]) -> dict[str, str]:
-    """The outcomes of a thing from before it said them; `named` has (kind of event, thing) of its task's lines."""
-    name, kind = thing["name"], thing["kind"]["is"]
-    outcomes: dict[str, str] = {}
-    if kind in ("item", "zone", "power"):
-        outcomes["reached"] = MOVES if ("reach", name) in named else STAYS
-    if kind == "item":
-        outcomes["delivered"] = MOVES if ("delivery", name) in named else STAYS
-    return outcomes
+    return {"needs": []} | lesson | {"learner": usual | learner}

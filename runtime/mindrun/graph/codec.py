@@ -1,7 +1,7 @@
 """Dataclasses as plain data for JSON, and back: their annotations say what must stand there, and nothing else may."""
 
 from collections.abc import Mapping
-from dataclasses import MISSING, dataclass, fields, is_dataclass
+from dataclasses import fields, is_dataclass
 from math import isfinite
 from types import NoneType, UnionType
 from typing import Annotated, Any, Literal, TypeVar, Union, get_args, get_origin, get_type_hints
@@ -36,91 +36,78 @@ def encode(value: object) -> Any:
     return data if name is None else {"is": name, **data}
 
 
-def decode(hint: Any, data: Any, where: str, is_older: bool = False) -> Any:
-    """The value of type `hint` of which `encode` made this data; CodecError says `where` there is none.
+def decode(hint: Any, data: Any, where: str) -> Any:
+    """The value of type `hint` of which `encode` made this data; CodecError says `where` there is none."""
+    origin, parts = get_origin(hint), get_args(hint)
+    if origin is Annotated:
+        value = decode(parts[0], data, where)
+        return _one_of(fits(parts[1], value), value, where)
+    if origin in (Union, UnionType):
+        return _union(parts, data, where)
+    if origin is Literal:
+        return _one_of(data in parts, data, where)
+    if origin is tuple:
+        return _tuple(parts, data, where)
+    if hint in bases():
+        return _kind(bases()[hint], data, where)
+    return _plain(hint, data, where) if hint in PLAIN else _fields(hint, data, where)
 
-    A field that data which `is_older` lacks has its default: it is from before there was a word for it.
-    """
-    return _Decoder(is_older).value(hint, data, where)
 
-
-def decode_part(hint: type[T], data: object, where: str, is_older: bool = False) -> T:
+def decode_part(hint: type[T], data: object, where: str) -> T:
     """A part of a graph that `encode` made this data of; BundleError where it is not a `hint`."""
     try:
-        part: T = decode(hint, data, where, is_older=is_older)
+        part: T = decode(hint, data, where)
     except CodecError as error:
         raise BundleError(str(error) if error.unknown else f"this is damaged: {error}") from error
     return part
 
 
-@dataclass(frozen=True, slots=True)
-class _Decoder:
-    is_older: bool
+def _union(hints: tuple[Any, ...], data: Any, where: str) -> Any:
+    if data is None and NoneType in hints:
+        return None
+    hints = tuple(hint for hint in hints if hint is not NoneType)
+    if isinstance(data, Mapping) and "is" in data:
+        hints = tuple(hint for hint in hints if names().get(hint) == data["is"])
+    elif len(hints) > 1:  # a number in an expression, one number or two
+        plain = tuple if isinstance(data, list) else type(data)
+        fitting = tuple(hint for hint in hints if (get_origin(hint) or hint) is plain)
+        hints = fitting or tuple(hint for hint in hints if hint is float and plain is int)
+    if len(hints) != 1:
+        raise CodecError(f"{where} is of an unknown kind")
+    return decode(hints[0], data, where)
 
-    def value(self, hint: Any, data: Any, where: str) -> Any:
-        origin, parts = get_origin(hint), get_args(hint)
-        if origin is Annotated:
-            value = self.value(parts[0], data, where)
-            return _one_of(fits(parts[1], value), value, where)
-        if origin in (Union, UnionType):
-            return self.union(parts, data, where)
-        if origin is Literal:
-            return _one_of(data in parts, data, where)
-        if origin is tuple:
-            return self.tuple(parts, data, where)
-        if hint in bases():
-            return self.kind(bases()[hint], data, where)
-        return _plain(hint, data, where) if hint in PLAIN else self.fields(hint, data, where)
 
-    def union(self, hints: tuple[Any, ...], data: Any, where: str) -> Any:
-        if data is None and NoneType in hints:
-            return None
-        hints = tuple(hint for hint in hints if hint is not NoneType)
-        if isinstance(data, Mapping) and "is" in data:
-            hints = tuple(hint for hint in hints if names().get(hint) == data["is"])
-        elif len(hints) > 1:  # a number in an expression, one number or two
-            plain = tuple if isinstance(data, list) else type(data)
-            fitting = tuple(hint for hint in hints if (get_origin(hint) or hint) is plain)
-            hints = fitting or tuple(hint for hint in hints if hint is float and plain is int)
-        if len(hints) != 1:
-            raise CodecError(f"{where} is of an unknown kind")
-        return self.value(hints[0], data, where)
+def _tuple(hints: tuple[Any, ...], data: Any, where: str) -> tuple[Any, ...]:
+    if not isinstance(data, list):
+        raise CodecError(f"{where} is not a list")
+    if Ellipsis in hints:
+        hints = hints[:1] * len(data)
+    if len(hints) != len(data):
+        raise CodecError(f"{where} has {len(data)} entries")
+    pairs = enumerate(zip(hints, data, strict=True))
+    return tuple(decode(hint, part, f"{where}[{place}]") for place, (hint, part) in pairs)
 
-    def tuple(self, hints: tuple[Any, ...], data: Any, where: str) -> tuple[Any, ...]:
-        if not isinstance(data, list):
-            raise CodecError(f"{where} is not a list")
-        if Ellipsis in hints:
-            hints = hints[:1] * len(data)
-        if len(hints) != len(data):
-            raise CodecError(f"{where} has {len(data)} entries")
-        pairs = enumerate(zip(hints, data, strict=True))
-        return tuple(self.value(hint, part, f"{where}[{place}]") for place, (hint, part) in pairs)
 
-    def kind(self, noun: str, data: Any, where: str) -> Any:
-        """A kind of a noun; another noun may have one of the same name."""
-        name = data.get("is") if isinstance(data, Mapping) else None
-        cls = find_kind(noun, name) if isinstance(name, str) else None
-        if cls is None:
-            raise CodecError(f"{where} is {name!r:.60}, which is no {noun} of this mindrun", unknown=True)
-        try:
-            return self.fields(cls, data, where)
-        except CodecError:
-            raise
-        except (MindError, ValueError) as error:
-            raise CodecError(f"{where} cannot be so: {error}", unknown=True) from error
+def _kind(noun: str, data: Any, where: str) -> Any:
+    """A kind of a noun; another noun may have one of the same name."""
+    name = data.get("is") if isinstance(data, Mapping) else None
+    cls = find_kind(noun, name) if isinstance(name, str) else None
+    if cls is None:
+        raise CodecError(f"{where} is {name!r:.60}, which is no {noun} of this mindrun", unknown=True)
+    try:
+        return _fields(cls, data, where)
+    except CodecError:
+        raise
+    except (MindError, ValueError) as error:
+        raise CodecError(f"{where} cannot be so: {error}", unknown=True) from error
 
-    def fields(self, cls: type[Any], data: Any, where: str) -> Any:
-        hints, name = _hints(cls), names().get(cls)
-        expected = hints.keys() | ({"is"} if name else set())
-        optional = {each.name for each in fields(cls) if each.default is not MISSING} if self.is_older else set()
-        if (
-            not isinstance(data, Mapping)
-            or not expected - optional <= data.keys() <= expected
-            or data.get("is") != name
-        ):
-            raise CodecError(f"{where} is not a {cls.__name__}")
-        said = {name: hint for name, hint in hints.items() if name in data}
-        return cls(**{name: self.value(hint, data[name], f"{where}.{name}") for name, hint in said.items()})
+
+def _fields(cls: type[Any], data: Any, where: str) -> Any:
+    hints, name = _hints(cls), names().get(cls)
+    expected = hints.keys() | ({"is"} if name else set())
+    if not isinstance(data, Mapping) or data.keys() != expected or data.get("is") != name:
+        raise CodecError(f"{where} is not a {cls.__name__}")
+    return cls(**{name: decode(hint, data[name], f"{where}.{name}") for name, hint in hints.items()})
 
 
 def _plain(hint: Any, data: Any, where: str) -> Any:

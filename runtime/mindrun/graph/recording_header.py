@@ -19,7 +19,7 @@ from mindrun.graph.named_readings import physical
 from mindrun.graph.validate import MAX_TICK_SECONDS, MIN_TICK_SECONDS
 from mindrun.numbers.quantity import NUMBER, SECONDS, Quantity
 
-FORMAT, WITHOUT_WORLD, UNSEALED = "mind recording 3", "mind recording 2", "mind recording 1"
+FORMAT = "mind recording 3"
 MAX_HEADER_BYTES = 1 << 20
 MAX_SEED = (1 << 64) - 1
 COLUMNS = Quantity("a number of columns", {"": 1.0}, low=0, high=MAX_HEADER_BYTES, whole=True)
@@ -89,10 +89,7 @@ class RecordedWorld:
 
 @dataclass(frozen=True, slots=True)
 class About:
-    """The header of a recording: the SHA-256 of its bundle, the master, the names of its columns, its world if any.
-
-    A recording of an older version `lacks_readings` of virtual sensors and memories.
-    """
+    """The header of a recording: the SHA-256 of its bundle, the master, the names of its columns, its world if any."""
 
     bundle: str
     master: str
@@ -102,7 +99,6 @@ class About:
     skills: tuple[str, ...]
     readings: Annotated[int, COLUMNS]
     world: RecordedWorld | None = None
-    lacks_readings: bool = False
 
     @classmethod
     def of(cls, graph: Graph, bundle: str, master: str, sensors: Sequence[str]) -> Self:
@@ -119,8 +115,7 @@ class About:
                 "take the bundle that was running",
             )
         worlds = [(task.name, world_row_of(task)) for task in graph.tasks]
-        expected = About.of(graph, bundle, self.master, self.sensors)
-        expected = replace(expected, world=self.world, lacks_readings=self.lacks_readings)
+        expected = replace(About.of(graph, bundle, self.master, self.sensors), world=self.world)
         if (
             self != expected
             or self.master not in self.skills
@@ -159,17 +154,22 @@ def about_of_line(line: bytes, path: Path) -> About:
     """The header in a first line; RecordingError where it is none of a recording, or damaged."""
     try:
         plain = parsed(line, MAX_HEADER_BYTES)
-        if not isinstance(plain, dict) or plain.get("format") not in (FORMAT, WITHOUT_WORLD, UNSEALED):
-            raise ValueError("it is of another form")
-        is_sealed = plain["format"] != UNSEALED or "check" in plain  # a bit is enough to make a 1 of a 3
-        if is_sealed and line != _sealed(line):
+        if not isinstance(plain, dict) or plain.get("format") != FORMAT:
+            raise ValueError(_foreign(plain))
+        if line != _sealed(line):
             raise RecordingError(f"{path} is damaged in its first line")
         found = _typed({name: plain.get(name) for name in SAID_FIELDS})
-        if plain["format"] != FORMAT:
-            return replace(found, lacks_readings=True)
         return replace(found, world=_world(plain["world"])) if "world" in plain else found
     except ValueError as error:
         raise RecordingError(f"{path} is no recording of this mindrun: {error}") from error
+
+
+def _foreign(plain: object) -> str:
+    """Why a recording with such a first line cannot be read."""
+    version = plain.get("format") if isinstance(plain, dict) else None
+    if not isinstance(version, str) or not version.startswith("mind recording"):
+        return "it is of another form"
+    return f"it is a {version!r:.40}, not a {FORMAT!r}; record it again, or take the version that recorded it"
 
 
 def _sealed(line: bytes) -> bytes:
@@ -180,7 +180,7 @@ def _sealed(line: bytes) -> bytes:
 
 def _typed(plain: dict[str, Any]) -> About:
     """A header from plain data; ValueError where that is none."""
-    about: About = decode(About, plain | {"world": None, "lacks_readings": False}, "it")
+    about: About = decode(About, plain | {"world": None}, "it")
     if not SHA256.fullmatch(about.bundle):
         raise ValueError("it does not say of which bundle it is")
     if not all(are_names(plain[name]) for name in NAME_LISTS):
