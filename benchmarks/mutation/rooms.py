@@ -262,7 +262,7 @@ ROOMS = {
             *(f"tests/lock/test_worlds.py::{name}" for name in QUICK_WORLDS),
             *(f"tests/edits/test_{name}.py" for name in ("weights", "neighbours")),
             *(f"tests/lock/test_{name}.py" for name in ("accept", "merging", "status_command")),
-            "tests/edits/test_renames.py::test_a_text_is_read_with_the_new_names",
+            "tests/edits/test_renames.py::test_what_no_mind_says_any_more_is_read_with_the_new_names",
             "tests/edits/test_renames.py::test_a_rename_of_anything_in_any_mind",
         ),
     ),
