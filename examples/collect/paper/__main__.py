@@ -50,7 +50,8 @@ def report(options: argparse.Namespace) -> None:
         "figures": draw(options.folder, options.out, say),
         "runs": f"{options.runs:,}",
         "seed": str(options.seed),
-        "remarks": remarks(options.folder),
+        "summary": written(options.folder, "SUMMARY.md"),
+        "remarks": written(options.folder, "REMARKS.md"),
         "command": f"make paper-train {plan} TO={TO}" if plan else f"make paper-train TO={TO}",
         "plan": plan.text if plan else "How it was taught is not known here; the last table says what is.",
     }
@@ -61,12 +62,12 @@ def report(options: argparse.Namespace) -> None:
     say(f"{options.out / 'RESULTS.md'}: all of it")
 
 
-def remarks(folder: Path) -> str:
-    """What people have written about these weights and logs, beside the plan."""
+def written(folder: Path, name: str) -> str:
+    """The text that people have written about these weights and logs, beside the plan."""
     try:
-        return (folder / PLAN).with_name("REMARKS.md").read_text(encoding="utf-8").rstrip()
+        return (folder / PLAN).with_name(name).read_text(encoding="utf-8").rstrip()
     except FileNotFoundError:
-        return "Nobody has written it down: `logs/REMARKS.md` is the place."
+        return f"Nobody has written it down: `logs/{name}` is the place."
 
 
 def say(text: str) -> None:
