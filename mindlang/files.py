@@ -20,11 +20,11 @@ MAX_READ_FILES = 500  # that are read of all those around one
 MAX_READ_CHARACTERS = 8 << 20  # of all of them together
 SKIPPED_FOLDERS = ("node_modules", "build", "dist", "runs", "venv", "site-packages", "__pycache__")
 
-Stamp = tuple[int, int] | None  # when a file was written, and how long it is
+Stamp = tuple[int, int] | None  # when a file was written, in ns, and how many bytes it has
 
 
 def stamp(path: Path) -> Stamp:
-    """What has changed when a file has been written; None where there is none."""
+    """The time and the length of a file, one of which is another once it has been written; None where there is none."""
     try:
         found = path.stat()
     except OSError:
