@@ -124,7 +124,7 @@ def _followed(noun: str, names: Names, begun: Callable[[Declaration], Declaratio
     found: Declarations = {}
     for name in reverse_topological_order(graph):
         own, other = declared[name], next(iter(graph[name]), None)
-        if other:
+        if other in found:
             found[name] = _like(own, found[other])
         elif not own.header.like:
             found[name] = begun(own)
