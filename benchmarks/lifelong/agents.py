@@ -113,13 +113,11 @@ class Hierarchy:
         """What is known after a stage; learners that all are known are finished together."""
         rollout = self._rollout(known, stage.task, stage.learners[0], stage.learners)
         rollout.compile()
-        start, effort = (
-            np.empty((0, rollout.genome_length), np.float32),
-            Effort(self.of.learner, ticks, self.of.attempts),
-        )
         if known.keys() >= {*stage.learners}:
-            start = np.concatenate([known[name] for name in stage.learners])[None]
-            effort = Effort(FINISH, ticks)
+            start, effort = np.concatenate([known[name] for name in stage.learners])[None], Effort(FINISH, ticks)
+        else:
+            start = np.empty((0, rollout.genome_length), np.float32)
+            effort = Effort(self.of.learner, ticks, self.of.attempts)
         champion, timed = teach(rollout, start, seed, effort)
         return {**known, **parts(self.of.graph, stage.learners, champion[0])}, timed
 

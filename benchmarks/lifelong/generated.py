@@ -20,7 +20,7 @@ def hundred(seed: int) -> TaskSequence:
 
 
 def drawn(seed: int, lessons: int) -> list[WrittenLesson]:
-    """So many lessons, drawn with a seed: the first ones are the same, however many there are."""
+    """Lessons that are drawn with a seed, one after the other: the first are the same, however many there are."""
     rng = np.random.default_rng(seed)
     return [_lesson(str(rng.choice([*NOMINAL_COUNTS])), number, rng) for number in range(1, lessons + 1)]
 

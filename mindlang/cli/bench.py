@@ -241,7 +241,7 @@ class Bench:
             yield world, there, there.setup.layouts(self.seed, self.runs)
 
     def _elsewhere(self, here: "Prepared", graph: "Graph") -> "Prepared":
-        """The same mind as another graph has it."""
+        """A mind that is prepared, with another graph in the place of its own, and the simulator for that."""
         setup, quiet = here.setup.in_world(graph), replace(self.session, quiet=True)
         return here._replace(setup=setup, rollout=quiet.simulator(setup, self.interrupt, self.workers, self.runs))
 
