@@ -17,7 +17,7 @@ from mindlang.lock.status import key_of, key_of_taught, trained_weights
 from mindlang.number_format import short_score
 from mindlang.training.subject import Subject
 
-TOLD_LAYOUTS, KEPT_LAYOUTS = 100, 400  # on which an earlier lesson is tried, to tell of it and where it is to be kept
+TOLD_LAYOUTS, KEPT_LAYOUTS = 50, 400  # on which an earlier lesson is tried, to tell of it and where it is to be kept
 
 
 @dataclass(frozen=True, slots=True)
