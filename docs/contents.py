@@ -4,11 +4,14 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 INDEX, DECISIONS = "docs/index", "docs/decisions/README"
+# In the order in which a newcomer meets what they are about.
+SUBJECTS = ("file", "values", "robot", "skills", "worlds", "tasks", "environments", "curricula")
+LANGUAGE = ("language", *(f"language/{subject}" for subject in SUBJECTS))
 # Under each heading the pages that there are, in this order, as they are seen from the page that leads to them.
 PAGES: Mapping[str, Mapping[str, Sequence[str]]] = {
     INDEX: {
         "Begin": ["../README", "install", "new", "tutorial", "tour", "guides/*"],
-        "Reference": ["language", "kinds", "words", "codes", "commands", "lint", "edits", "python*", "glossary"],
+        "Reference": [*LANGUAGE, "kinds", "words", "codes", "commands", "lint", "edits", "python*", "glossary"],
         "Train and measure": ["learning", "lifelong", "logs", "cluster", "locks", "weights", "gymnasium"],
         "See and ask": ["view", "why", "whatif", "breakpoints", "proofs"],
         "On the robot": ["robot", "robot-yaml", "drivers", "safety", "deploy"],

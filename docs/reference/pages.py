@@ -29,7 +29,7 @@ ultrasonic` prints one of them.
 {MADE}
 """
 WORDS = f"""\
-What each word of the language is for, and a few terms; [language.md](language.md) has all of it together. `mindc
+What each word of the language is for, and a few terms; [language.md](language.md) has the exact meaning. `mindc
 explain teaches` prints one of them.
 {MADE}
 """

@@ -1,4 +1,4 @@
-"""The order of a tick as docs/language.md has it: sense, think, act, step, judge, recall."""
+"""The order of a tick as docs/language/tasks.md has it: sense, think, act, step, judge, recall."""
 
 import numpy as np
 from mindrun.graph.graph import Graph

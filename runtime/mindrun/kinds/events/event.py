@@ -178,7 +178,7 @@ class Success(EventKind):
 class ItsEnd(EventKind):
     """The Gymnasium environment has come to an end of its own (terminated); no further step can be made in it.
 
-    One that breaks a run off (truncated) does not end in this sense, and the run lasted its time.
+    One that breaks a run off (truncated) does not end in this sense: its environment has ended the run.
     """
 
     is_outside = True
