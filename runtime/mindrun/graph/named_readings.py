@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 
 from mindrun.errors import ReadingsError, nearest
 from mindrun.graph.graph import Graph, Sensor
-from mindrun.kinds.sensors.sensor import Physical
 
 if TYPE_CHECKING:
     import numpy as np
@@ -16,7 +15,7 @@ if TYPE_CHECKING:
 
 def physical(graph: Graph) -> dict[str, Sensor]:
     """The sensors that someone has to read; the engine computes the others."""
-    return {sensor.name: sensor for sensor in graph.sensors if isinstance(sensor.kind, Physical)}
+    return {sensor.name: sensor for sensor in graph.sensors if sensor.kind.is_given}
 
 
 def reading_names(graph: Graph) -> list[str]:

@@ -30,10 +30,10 @@ from mindrun.numbers.arithmetic import (
     splat,
     store,
     wrapped,
+    uniform,
 )
 from mindrun.sim.codes import AWAY, Tables
 from mindrun.sim.kind_lanes import read
-from mindrun.sim.lanes.placement import uniform
 from mindrun.sim.lanes.solid import put_box
 from mindrun.sim.state import (
     FIRST_RAY,
