@@ -96,9 +96,11 @@ SENSORS = {
     "first": ["sensor first is reading 1 of eye", "sensor first is reading 2 of camera"],
     "hour": ["sensor hour is clock period 4 s", "sensor hour is clock period 1 s"],
     "line": ["sensor line is floor of nest", "sensor line is floor of ball at 0.5 -0.5 ahead 1"],
+    "asked": ["sensor asked is order 1 to 3", "sensor asked is order 1 to 4 every 2 s lost 10% neutral 2 timeout 3 s"],
+    "pull": ["sensor pull is order -1 to 1", "sensor pull is order 0 to 2 every 1 s lost 5% neutral 1 timeout 1 s"],
     "bumps": ["sensor bumps is bumper at -45 45 deg", "sensor bumps is bumper at 0 180 deg width 90 deg"],
 }
-WIDE = {"eye", "camera", "line", "bumps"}
+WIDE = {"eye", "camera", "line", "bumps", "asked"}
 NARROW = SENSORS.keys() - WIDE  # readings of width 1
 SCENES = ["plain", "arena size 40", "arena", "arena size 60 50"]
 ROCKS = [
