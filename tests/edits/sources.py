@@ -259,6 +259,7 @@ def _more(rng: Random, noun: str, line: str) -> str:
         is_placed = not {"at", "along", "grid"}.isdisjoint(words)
         words += ["away", "count", "size"] * is_placed + ["grid", "at", "along"]  # a place has to be free
     words += ["size"] * (noun == "body")  # and there is as much room for the robot
+    words += ["neutral"] * (kind == "order")  # which has to be one of them
     often = 0.5 if noun in ("curriculum", "body", "actuator") else 0.2
     for argument in arguments(kinds(noun)[kind]):
         if not argument.required and argument.key not in words and rng.random() < often:

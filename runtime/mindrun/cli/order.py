@@ -19,7 +19,11 @@ def options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("name", metavar="NAME", help="the sensor that is the order")
     parser.add_argument("value", metavar="VALUE", help="which of several, or 0 for none of them; or a number")
     parser.add_argument(
-        "--process", type=whole(1, MAX_PROCESS), default=0, metavar="N", help="which one drives, where there are several"
+        "--process",
+        type=whole(1, MAX_PROCESS),
+        default=0,
+        metavar="N",
+        help="which one drives, where there are several",
     )
 
 

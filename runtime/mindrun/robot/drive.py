@@ -18,6 +18,7 @@ from mindrun.engine.engine import Engine
 from mindrun.errors import MindError
 from mindrun.graph.bundle import Bundle, digest, read_bundle
 from mindrun.graph.graph import Graph, Task
+from mindrun.graph.measured import measured_in_world
 from mindrun.graph.tasks import default_task
 from mindrun.graph.wiring import Wiring, read_by, still
 from mindrun.robot.drivers.mock import MockActuator
@@ -81,7 +82,8 @@ def _wired(options: argparse.Namespace, bundle: Bundle, line: StatusLine, orders
     if not options.arm:
         wiring = replace(wiring, sensors=tuple(map(still, wiring.sensors)))
     with hold_devices(wiring) as held:
-        return drive(bundle, with_orders(wiring, bundle.graph, orders), options, line.tell, held)
+        wiring = with_orders(wiring, bundle.graph, bundle.graph.sensors, orders)
+        return drive(bundle, wiring, options, line.tell, held)
 
 
 def _dry(options: argparse.Namespace, bundle: Bundle, line: StatusLine, orders: Orders) -> Loop:
@@ -93,7 +95,8 @@ def _dry(options: argparse.Namespace, bundle: Bundle, line: StatusLine, orders: 
     with simulated(options.bundle, task.name, options.seed, options.master or "") as socket:
         seen = SeenWorld(task, options.seed, socket) if options.record or options.view else None
         run = DryRun(bundle.graph, task, master, socket, line, seen)
-        wiring = with_orders(simulated_wiring(bundle.graph, socket, task, master), bundle.graph, orders, socket)
+        measured, wiring = measured_in_world(bundle.graph, master, task), simulated_wiring(bundle.graph, socket, master)
+        wiring = with_orders(wiring, bundle.graph, measured, orders, socket)
         with run.shown(), seen.watched() if seen else nullcontext():
             loop = drive(bundle, wiring, options, line.tell, watch=run.watch, world=seen)
         with suppress(DeviceError):  # the run was as good without it

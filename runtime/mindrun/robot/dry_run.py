@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from mindrun.driver import DeviceError
 from mindrun.errors import MindError
 from mindrun.graph.graph import Graph, Task
-from mindrun.graph.measured import measured_in_world
 from mindrun.graph.named_readings import physical
 from mindrun.graph.recording_header import BOX_COLUMNS, GOES_ON, RecordedWorld, world_row_of
 from mindrun.graph.skill_sets import driving, movers
@@ -30,14 +29,13 @@ MAX_END_TICKS = 20  # in which a recording gets the end of its run; one that can
 MAX_ACTING_NAMED, LEAST_ACTING_INFLUENCE = 2, 0.01
 
 
-def simulated_wiring(graph: Graph, path: str, task: Task, master: str) -> Wiring:
+def simulated_wiring(graph: Graph, path: str, master: str) -> Wiring:
     """A robot whose actuators, and the sensors that are read below the master, are those of the world at a socket.
 
-    Orders are, too, that the task alone reads.     Each sensor is read twice a tick, so that what the loop sees is never much more than half a tick older than in
+    Each sensor is read twice a tick, so that what the loop sees is never much more than half a tick older than in
     training.
     """
-    orders = {sensor.name for sensor in measured_in_world(graph, master, task) if sensor.kind.is_order}
-    read = read_by(graph, master) | orders
+    read = read_by(graph, master)
     rate = min(max(2 / graph.tick, 0.01), 1000.0)
     max_age = min(max(0.25, 5 * graph.tick), 3600.0)  # a computer that simulates has other things to do, too
     return Wiring(

@@ -9,7 +9,7 @@ import os
 import signal
 import socket
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass, replace
 from math import isfinite
@@ -22,7 +22,7 @@ from typing import Any
 from mindrun.driver import DeviceError
 from mindrun.errors import MindError, nearest, reason
 from mindrun.files.printable import visible
-from mindrun.graph.graph import Graph
+from mindrun.graph.graph import Graph, Sensor
 from mindrun.graph.wiring import SensorWire, Wiring
 from mindrun.robot.drivers.simulated import VALUE
 from mindrun.robot.processes import keep_from_children, keep_no_longer
@@ -72,13 +72,15 @@ class Orders:
         if not known and not self._wired:
             raise MindError("this mind takes no orders", "in the mind: sensor wanted is order 1 to 7")
         if len(words) != 2:
-            raise MindError(f"{shortened(line.strip())} is no order", f"an order is a name and a number: {known[0]} 1")
+            example = f"an order is a name and a number: {[*known, *self._wired][0]} 1"
+            raise MindError(f"{shortened(line.strip())} is no order", example)
         name, said = words
         if name in self._wired:
             raise MindError(f"{name} is wired in robot.yaml: what its device says counts")
         if name not in self.kinds:
             near = nearest(name, known)
-            raise MindError(f"there is no order {shortened(name)}", f"did you mean {near}?" if near else f"there is {', '.join(known)}")
+            hint = f"did you mean {near}?" if near else f"there is {', '.join(known)}"
+            raise MindError(f"there is no order {shortened(name)}", hint)
         try:
             value = float(said)
         except ValueError:
@@ -222,15 +224,13 @@ class OrderDevice:
             self.link.close()
 
 
-def with_orders(wiring: Wiring, graph: Graph, orders: Orders, world: str = "") -> Wiring:
-    """A wiring in which what is not wired and is an order is what is said; in a world, where it is wired to that."""
+def with_orders(wiring: Wiring, graph: Graph, measured: Iterable[Sensor], orders: Orders, world: str = "") -> Wiring:
+    """A wiring in which those of the `measured` sensors that are orders read what is said, here or in a world."""
     rate = min(max(2 / graph.tick, 0.01), 1000.0)
     known = {wire.sensor: wire for wire in wiring.sensors}
-    for sensor in graph.sensors:
-        if sensor.name in orders.kinds and (sensor.name in known or not world):
-            driver = OrderDriver(orders, sensor.name, sensor.width, world)
-            wire = SensorWire(sensor.name, driver, 0.0, 1.0, rate=rate, max_age=MAX_AGE_SECONDS)
-            known[sensor.name] = wire
+    for sensor in (sensor for sensor in measured if sensor.name in orders.kinds):
+        driver = OrderDriver(orders, sensor.name, sensor.width, world)
+        known[sensor.name] = SensorWire(sensor.name, driver, 0.0, 1.0, rate=rate, max_age=MAX_AGE_SECONDS)
     return replace(wiring, sensors=tuple(known[each.name] for each in graph.sensors if each.name in known))
 
 
@@ -259,7 +259,8 @@ def say_order(name: str, value: float | str, process: int = 0) -> str:
         if not found:
             raise MindError("no robot that takes orders is driven here by you", "start it: mindrun NAME.bundle")
         if len(found) > 1:
-            raise MindError(f"several robots are driven here, by the processes {', '.join(map(str, found))}", "say which: --process N")
+            numbers = ", ".join(map(str, found))
+            raise MindError(f"several robots are driven here, by the processes {numbers}", "say which: --process N")
         [process] = found
     try:
         with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as caller:

@@ -23,9 +23,9 @@ class Order(SensorKind):
     """An order from outside: `order 1 to 7` is one of seven, with a reading for each; `order 0 to 1` is a number.
 
     Of one of several, the reading of what is ordered is 1, all others are 0. A number reads 0 at the low end and 1 at
-    the high end. On a robot it is what was said last (`mindrun order`), and `neutral` before anything was said, or after
-    a silence of more than `timeout` (0: it stays). A neutral of 0 is none of several. In a task it is drawn when a run
-    begins, and anew `every` so long (0: never); the share `lost` of them reads `neutral`.
+    the high end. On a robot it is what was said last (`mindrun order`), and `neutral` before anything was said, or
+    after a silence of more than `timeout` (0: it stays). A neutral of 0 is none of several. In a task it is drawn when
+    a run begins, and anew `every` so long (0: never); the share `lost` of them reads `neutral`.
     """
 
     order: Annotated[Span, NUMBER]

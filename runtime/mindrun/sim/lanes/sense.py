@@ -29,8 +29,8 @@ from mindrun.numbers.arithmetic import (
     size_of,
     splat,
     store,
-    wrapped,
     uniform,
+    wrapped,
 )
 from mindrun.sim.codes import AWAY, Tables
 from mindrun.sim.kind_lanes import read
