@@ -76,8 +76,7 @@ def sensor_rows(
     What is measured `aside` draws its noise from a generator of its own: a reward changes nothing in the world.
     """
     things, boxes, scene = rows_by_name(task), boxes_by_name(task), scene_of(graph)
-    rows, before, rough, rings = list[Row](), 0, 0, 0
-    orders = [sensor.name for sensor in graph.sensors if sensor.kind.is_order]
+    rows, before, rough, rings, orders = list[Row](), 0, 0, 0, [s.name for s in graph.sensors if s.kind.is_order]
     rays, ray_row, passes, numbers = list[float](), list[int](), list[tuple[int, int]](), list[float]()
     for is_aside, sensor in [(False, each) for each in used] + [(True, each) for each in aside]:
         kind = sensor.kind
