@@ -8,7 +8,7 @@ from concurrent.futures import ThreadPoolExecutor
 from math import isfinite
 from typing import TYPE_CHECKING, Any
 
-from mindrun.robot.orders import drivers, say_order
+from mindrun.robot.order_client import drivers, say_order
 
 from mindlang.attribution.shares import shares
 from mindlang.view import messages

@@ -3,6 +3,7 @@
 import os
 from collections.abc import Iterator
 from pathlib import Path
+from socket import AF_UNIX, SOCK_DGRAM, socket
 
 import pytest
 from mindrun.driver import DeviceError
@@ -14,7 +15,8 @@ from mindrun.graph.named_readings import vector
 from mindrun.graph.policy import Policy
 from mindrun.graph.wiring import SensorWire, Wiring, flaws
 from mindrun.robot.drivers.mock import MockSensor
-from mindrun.robot.orders import OrderDriver, Orders, say_order, with_orders
+from mindrun.robot.order_client import ADDRESS, say_order
+from mindrun.robot.orders import OrderDriver, Orders, with_orders
 from mindrun.robot.simulated_world import simulated
 from mindrun.sim.commanded_lanes import CommandedWorld
 
@@ -150,6 +152,13 @@ def test_orders_come_to_the_process_that_drives(heard: Orders) -> None:
     assert refused.value.hint == ""
 
 
+def test_nonsense_ends_nothing(heard: Orders) -> None:
+    with socket(AF_UNIX, SOCK_DGRAM) as nobody:  # at no address
+        for data in (b"", b"\xff\0", b"wanted " * 99):
+            nobody.sendto(data, f"{ADDRESS}{os.getpid()}")
+    assert say_order("wanted", 1, os.getpid()) == "wanted is 1"
+
+
 def test_a_thousand_orders_leave_the_last(heard: Orders) -> None:
     for number in range(1000):
         say_order("pace", number / 1000, os.getpid())
@@ -186,8 +195,8 @@ def test_in_a_world_it_is_what_the_task_draws_until_somebody_says_one(graph: Gra
 def test_the_world_of_a_dry_run_is_told(graph: Graph, tmp_path: Path) -> None:
     path, orders = tmp_path / "go.bundle", Orders(graph)
     write_bundle(path, Bundle(Policy(graph, {}), {}))
-    with simulated(path, "Go", 1) as socket:
-        device = OrderDriver(orders, "wanted", 3, socket).open()
+    with simulated(path, "Go", 1) as world:
+        device = OrderDriver(orders, "wanted", 3, world).open()
         drawn = device.read()
         assert sum(drawn) == 1
         said = 1 + (drawn.index(1.0) + 1) % 3

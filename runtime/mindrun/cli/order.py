@@ -9,7 +9,7 @@ examples:
 
 import argparse
 
-from mindrun.robot.orders import say_order
+from mindrun.robot.order_client import say_order
 from mindrun.terminal.arguments import whole
 
 MAX_PROCESS = 2**31 - 1

@@ -13,7 +13,6 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass, replace
 from math import isfinite
-from pathlib import Path
 from struct import Struct
 from threading import Thread, current_thread, main_thread
 from time import monotonic, sleep
@@ -25,18 +24,14 @@ from mindrun.files.printable import visible
 from mindrun.graph.graph import Graph, Sensor
 from mindrun.graph.wiring import SensorWire, Wiring
 from mindrun.robot.drivers.simulated import VALUE
+from mindrun.robot.order_client import ADDRESS, DONE, MAX_ORDER_BYTES, REFUSED
 from mindrun.robot.processes import keep_from_children, keep_no_longer
 from mindrun.robot.simulated_world import READ, WRITE, WorldConnection
 from mindrun.terminal.arguments import shortened
 
-ADDRESS = "\0mind orders "  # and the number of the process
-SOCKETS = Path("/proc/net/unix")  # the addresses that are taken, where those that begin with a zero have an @
-MAX_ORDER_BYTES = 256
 PEER = Struct("3i")  # process, user, group
 PASS_CREDENTIALS, CREDENTIALS = getattr(socket, "SO_PASSCRED", 16), getattr(socket, "SCM_CREDENTIALS", 2)
-DONE, REFUSED = b"+", b"-"  # with which an answer begins
 PAUSE_SECONDS = 0.0005  # after each order: whoever sends too many waits, and not the loop
-ANSWER_SECONDS = 1.0
 BACKGROUND_SECONDS = 1.0  # after which a program in the background of its terminal looks whether it may read
 MAX_AGE_SECONDS = 3600.0  # of a sample: an order that was said stays
 
@@ -101,6 +96,8 @@ class Orders:
                     tell(f"orders are heard on the standard input alone: {reason(error)}")
                 else:
                     Thread(target=self._answer, args=(listener,), name="orders", daemon=True).start()
+                if current_thread() is main_thread():  # who reads in the background of a terminal would be stopped
+                    signal.signal(signal.SIGTTIN, signal.SIG_IGN)
                 Thread(target=self._read, args=(tell,), name="typed orders", daemon=True).start()
             yield
 
@@ -113,11 +110,12 @@ class Orders:
                 data, said, _, sender = listener.recvmsg(MAX_ORDER_BYTES, room)
             except OSError:
                 return
-            if not data and not sender:  # it is closed
+            if not data and not said:  # it is closed: all that is sent has credentials
                 return
             users = [PEER.unpack(held[: PEER.size])[1] for _, sort, held in said if sort == CREDENTIALS]
-            with suppress(OSError):  # who does not listen is not answered
-                listener.sendto(self._answered(data, users), socket.MSG_DONTWAIT, sender)
+            answer = self._answered(data, users)
+            with suppress(OSError):  # who does not listen is not answered, nor who has no address
+                listener.sendto(answer, socket.MSG_DONTWAIT, sender or b"")
             sleep(PAUSE_SECONDS)
 
     def _answered(self, data: bytes, users: Sequence[int]) -> bytes:
@@ -137,8 +135,9 @@ class Orders:
             for line in (line[:MAX_ORDER_BYTES].decode(errors="replace") for line in lines if line.strip()):
                 try:
                     now = self.say(line)
-                    tell(now) if is_person else None
                     refused = ""
+                    if is_person:
+                        tell(now)
                 except MindError as error:
                     why = visible("; ".join(filter(None, (str(error), error.hint))))
                     if why != refused:  # once: a program may go on and on
@@ -161,9 +160,7 @@ def _typed() -> bytes:
 
 @contextmanager
 def _listening() -> Iterator[socket.socket]:
-    """A socket at the address of this process. A program in the background of its terminal is not stopped meanwhile."""
-    if current_thread() is main_thread():
-        signal.signal(signal.SIGTTIN, signal.SIG_IGN)
+    """A socket at the address of this process, which says who sends."""
     with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as listener:
         listener.setsockopt(socket.SOL_SOCKET, PASS_CREDENTIALS, 1)
         listener.bind(f"{ADDRESS}{os.getpid()}")
@@ -232,49 +229,3 @@ def with_orders(wiring: Wiring, graph: Graph, measured: Iterable[Sensor], orders
         driver = OrderDriver(orders, sensor.name, sensor.width, world)
         known[sensor.name] = SensorWire(sensor.name, driver, 0.0, 1.0, rate=rate, max_age=MAX_AGE_SECONDS)
     return replace(wiring, sensors=tuple(known[each.name] for each in graph.sensors if each.name in known))
-
-
-def drivers() -> list[int]:
-    """The processes of this user that drive a robot here and take orders."""
-    with suppress(OSError):
-        sign = f"@{ADDRESS[1:]}"
-        taken = {line.rpartition(sign)[2] for line in SOCKETS.read_text().splitlines() if sign in line}
-        return sorted(int(number) for number in taken if number.isdigit() and _is_own(number))
-    return []
-
-
-def _is_own(process: str) -> bool:
-    with suppress(OSError):
-        return Path("/proc", process).stat().st_uid in {os.getuid()} or os.getuid() == 0
-    return False
-
-
-def say_order(name: str, value: float | str, process: int = 0) -> str:
-    """Say an order to the robot that a `process` of this machine drives, or the only one; what it is now, in words.
-
-    MindError where there is none or there are several, or where it refuses, with its reason.
-    """
-    if not process:
-        found = drivers()
-        if not found:
-            raise MindError("no robot that takes orders is driven here by you", "start it: mindrun NAME.bundle")
-        if len(found) > 1:
-            numbers = ", ".join(map(str, found))
-            raise MindError(f"several robots are driven here, by the processes {numbers}", "say which: --process N")
-        [process] = found
-    try:
-        with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as caller:
-            caller.bind("")  # at any address, for the answer
-            caller.settimeout(ANSWER_SECONDS)
-            caller.connect(f"{ADDRESS}{process}")
-            caller.send(f"{name} {value}".encode()[:MAX_ORDER_BYTES])
-            answer = caller.recv(1 << 12)
-    except TimeoutError:
-        raise MindError(f"process {process} has not answered within {ANSWER_SECONDS:g} s") from None
-    except OSError as error:
-        raise MindError(f"process {process} takes no orders: {reason(error)}") from error
-    said = answer[1:].decode(errors="replace")
-    if answer[:1] != DONE:
-        why, _, hint = said.partition("\n")
-        raise MindError(why, hint)
-    return said
