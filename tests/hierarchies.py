@@ -24,9 +24,11 @@ from mindrun.kinds.sensors.derived import Average, Derivative, Latch, Reading
 from mindrun.kinds.sensors.floor import Floor, Inside
 from mindrun.kinds.sensors.motion import Inertial, Odometer, Position, Speed, TurnRate
 from mindrun.kinds.sensors.nearest import Bearing, Distance, Light
+from mindrun.kinds.sensors.order import Order
 from mindrun.kinds.sensors.rays import Eye, RangeFinder
 from mindrun.kinds.sensors.sensor import Physical, SensorKind, directions
 from mindrun.kinds.sensors.waves import Clock, Sine
+from mindrun.numbers.quantity import Span
 from numpy.typing import NDArray
 
 SHARES = st.floats(0, 1, width=32)
@@ -77,6 +79,10 @@ WORLDLY = [
     Floor("coin", at=(0.0, 0.7, -3.0), ahead=1.5),
     Bumper(),
     Bumper(at=EYES[:6], width_=1.2),
+    Order(Span(1.0, 3.0)),
+    Order(Span(1.0, 4.0), 2.0, every=0.1, lost=0.4, timeout=2.0),
+    Order(Span(-1.0, 1.0), every=0.05),
+    Order(Span(0.0, 1.0), 0.25, lost=0.5),
 ]
 ROUGH = st.fixed_dictionaries(
     {},
@@ -193,10 +199,10 @@ def random_case(draw: st.DrawFn, ticks: int = 6) -> Case:
 
 
 @st.composite
-def physical_kinds(draw: st.DrawFn) -> Physical:
-    """A kind of sensor that measures something, perfectly or not."""
+def physical_kinds(draw: st.DrawFn) -> SensorKind:
+    """A kind of sensor that measures something, perfectly or not, or that somebody says."""
     kind = draw(st.sampled_from(WORLDLY))
-    return replace(kind, **draw(ROUGH)) if draw(st.booleans()) else kind
+    return replace(kind, **draw(ROUGH)) if isinstance(kind, Physical) and draw(st.booleans()) else kind
 
 
 @st.composite

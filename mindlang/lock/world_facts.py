@@ -105,7 +105,7 @@ class Worlds:
         )
         for sensor in self.graph.sensors:
             if sensor.name in sources:
-                yield f"sensor {sensor.name}", encode(sensor.kind)
+                yield f"sensor {sensor.name}", encode(sensor.kind.taught)
         for memory in self.graph.memories:
             if memory.name in sources | driven:
                 yield f"memory {memory.name}", encode(memory.kind)

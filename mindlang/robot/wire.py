@@ -92,7 +92,8 @@ def _wiring(node: Node, graph: Graph, unit_metres: float | None, findings: Findi
         return None
     said = top.entries
     check_keys(top, top.span, "The file", KEYS, KEYS, findings)
-    own, needed = physical(graph), read_by(graph, graph.master)
+    own = physical(graph)
+    needed = {name for name in read_by(graph, graph.master) if not own[name].kind.is_order}
     moved = {actuator.name: actuator for actuator in graph.actuators}  # all of them, since each has a neutral
     wire_of = partial(sensor_wire, unit_metres=unit_metres, findings=findings)
     sensing = list(_section("sensor", said.get("sensors"), own, needed, graph, wire_of, findings))

@@ -99,6 +99,16 @@ def _hierarchy(graph: Graph, master: str, skills: Sequence[Skill], columns: Colu
     }
 
 
+def order_data(graph: Graph) -> list[Data]:
+    """The orders that the mind takes: the name of each, its node, and of what it is one."""
+    found = [(node, each.name, each.kind) for node, each in enumerate(graph.sensors) if each.kind.is_order]
+    kinds: list[tuple[int, str, Any]] = [*found]
+    return [
+        {"name": name, "node": node, "choices": kind.choices, "low": kind.order.first, "high": kind.order.last}
+        for node, name, kind in kinds
+    ]
+
+
 def _curves(
     graph: Graph, skills: Sequence[Skill], columns: Columns, rewards: Sequence[str], has_robot: bool
 ) -> list[Data]:

@@ -102,7 +102,16 @@ class PlayChampion(_PageMessage, tag="champion", frozen=True):
             raise ValueError(f"seed is a whole number from 0 to {MAX_SEED}, as text")
 
 
-Message = AskRows | AskColumns | AskImage | AskRun | AskShares | AskChange | PlayChampion
+class SayOrder(_PageMessage, tag="order", frozen=True):
+    """Says an order to the robot that drives."""
+
+    name: Annotated[str, Meta(max_length=SHOWN_CHARACTERS)]
+    value: float
+
+    fork: ClassVar[int] = 0
+
+
+Message = AskRows | AskColumns | AskImage | AskRun | AskShares | AskChange | PlayChampion | SayOrder
 _DECODER: msgspec.json.Decoder[Message] = msgspec.json.Decoder(Message)
 
 

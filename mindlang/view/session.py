@@ -1,14 +1,18 @@
 """A session of several viewers: a run and its forks, who may change them, and answers to what is asked."""
 
 import asyncio
+import os
 import sys
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from math import isfinite
 from typing import TYPE_CHECKING, Any
 
+from mindrun.robot.order_client import drivers, say_order
+
 from mindlang.attribution.shares import shares
 from mindlang.view import messages
+from mindlang.view.about import order_data
 from mindlang.view.learning import WATCH_SECONDS
 from mindlang.view.messages import Message, RefusedError, shown
 from mindlang.view.rows import DOUBLE_BLOCK, SINGLE_BLOCK
@@ -69,11 +73,17 @@ class ViewSession:
         return {
             "say": "about",
             "edits": edits,
+            "orders": order_data(viewed.flows.graph) if edits and self._takes_orders(viewed) else [],
             "doubles": columns.width(DOUBLE_BLOCK),
             "singles": columns.width(SINGLE_BLOCK),
             "columns": {name: [g.block, g.first, g.count] for name, g in columns.items()},
             **viewed.about,
         }
+
+    @staticmethod
+    def _takes_orders(viewed: Viewed) -> bool:
+        """True if it is what a robot drives, which began this process and takes orders."""
+        return bool(viewed.about["source"] == "robot" and os.getppid() in drivers())
 
     def ticks(self, fork: int, happened: int = 0, stops: int = 0) -> dict[str, Any]:
         """The message on how far a fork has come, with its events and stops from those numbers on."""
@@ -98,13 +108,16 @@ class ViewSession:
                 self._run(fork, to)
                 self.changed()  # said also where the run is there already
                 return None
-            case messages.AskChange() | messages.PlayChampion() if not edits:
+            case messages.AskChange() | messages.PlayChampion() | messages.SayOrder() if not edits:
                 raise RefusedError("somebody else may change this run: the first who opened it")
             case messages.PlayChampion():
                 await self._play(message)
                 return None
             case messages.AskChange():
                 await self._fork(message)
+                return None
+            case messages.SayOrder(name=name, value=value):
+                await asyncio.to_thread(say_order, name, value, os.getppid())
                 return None
         viewed = self.forks[message.fork]  # another run may be seen when it is this question's turn
         return await asyncio.get_running_loop().run_in_executor(self._answerer, _computed, viewed, message)

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from mindrun.graph.graph import Graph as Graph
     from mindrun.graph.policy import Policy as Policy
     from mindrun.graph.run_scores import Scores as Scores
+    from mindrun.robot.order_client import say_order as say_order
     from mindrun.robot.replay import Replayed as Replayed
     from mindrun.robot.replay import replay_recording as replay_recording
     from mindrun.sim.rollout import Rollout as Rollout
@@ -33,6 +34,7 @@ HOMES = {  # where the public names stand
     "mindrun.errors": ("MindError",),
     "mindrun.graph.graph": ("Graph",),
     "mindrun.graph.policy": ("Policy",),
+    "mindrun.robot.order_client": ("say_order",),
     "mindrun.robot.replay": ("Replayed", "replay_recording"),
     "mindrun.graph.run_scores": ("Scores",),
     "mindrun.sim.rollout": ("Rollout",),

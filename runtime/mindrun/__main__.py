@@ -1,6 +1,7 @@
 """`mindrun FILE.bundle`: drive the robot to which it is wired; without wiring say what it holds, or run it on readings.
 
-Needs numpy alone. `mindrun replay`, `report`, `calibrate`, `adopt` and `doctor` are in `cli/`.
+Needs numpy alone. `mindrun replay`, `report`, `calibrate`, `adopt`,
+`order` and `doctor` are in `cli/`.
 """
 
 import argparse
@@ -82,6 +83,8 @@ def run(options: argparse.Namespace) -> int:
     if options.breaks and not options.view:
         raise MindError("--break pauses the page of --view, which was not asked for; nothing pauses the robot")
     bundle = read_bundle(options.bundle)
+    if options.order and (options.readings or options.describe or options.json):
+        raise MindError("--order is for a robot that drives: with --readings, --describe or --json none does")
     if options.readings:
         with redirect_stdout(sys.stderr):  # what a procedure prints is no command
             engine = Engine(bundle.policy, bundle.procedures, options.master)

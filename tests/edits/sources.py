@@ -96,9 +96,11 @@ SENSORS = {
     "first": ["sensor first is reading 1 of eye", "sensor first is reading 2 of camera"],
     "hour": ["sensor hour is clock period 4 s", "sensor hour is clock period 1 s"],
     "line": ["sensor line is floor of nest", "sensor line is floor of ball at 0.5 -0.5 ahead 1"],
+    "asked": ["sensor asked is order 1 to 3", "sensor asked is order 1 to 4 every 2 s lost 10% neutral 2 timeout 3 s"],
+    "pull": ["sensor pull is order -1 to 1", "sensor pull is order 0 to 2 every 1 s lost 5% neutral 1 timeout 1 s"],
     "bumps": ["sensor bumps is bumper at -45 45 deg", "sensor bumps is bumper at 0 180 deg width 90 deg"],
 }
-WIDE = {"eye", "camera", "line", "bumps"}
+WIDE = {"eye", "camera", "line", "bumps", "asked"}
 NARROW = SENSORS.keys() - WIDE  # readings of width 1
 SCENES = ["plain", "arena size 40", "arena", "arena size 60 50"]
 ROCKS = [
@@ -257,6 +259,7 @@ def _more(rng: Random, noun: str, line: str) -> str:
         is_placed = not {"at", "along", "grid"}.isdisjoint(words)
         words += ["away", "count", "size"] * is_placed + ["grid", "at", "along"]  # a place has to be free
     words += ["size"] * (noun == "body")  # and there is as much room for the robot
+    words += ["neutral"] * (kind == "order")  # which has to be one of them
     often = 0.5 if noun in ("curriculum", "body", "actuator") else 0.2
     for argument in arguments(kinds(noun)[kind]):
         if not argument.required and argument.key not in words and rng.random() < often:

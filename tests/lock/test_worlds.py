@@ -60,6 +60,7 @@ sensor tilt is computed at 1/2 + north - pulse
 sensor hungry is latch of charge below 20% above 80%
 sensor calm is average of moving over 30 ticks
 sensor ahead is reading 1 of eye
+sensor wish is order 0 to 2
 sensor fear is range_finder at 0 deg range 3
 memory mood is cell decay 0.9
 
@@ -96,6 +97,7 @@ skill Watch is rule
   reads hungry
   reads calm
   reads ahead
+  reads wish
   drives mast at way * glow
 
 skill Turn is procedure from turn.by
@@ -175,6 +177,7 @@ PROCEDURE = "def by(a, b, c):\n    return a\n"
 # Of these a lock need not know: they say nothing of the world, or what they say is told otherwise.
 NEED_NOT_BE_NOTICED = {
     ("skill", "procedure", "from_"): "another function is told as another skill, by its text",
+    ("sensor", "order", "timeout"): "nobody is silent where a skill is taught",
     **dict.fromkeys(
         [("curriculum", learner, "keeps") for learner in ("genetic", "restarting", "evolution_strategy")],
         "it decides whether what was learnt is taken, and changes none of it",

@@ -29,6 +29,7 @@ COMMANDS = {  # of the runtime, and why each may speak
     "cli/adopt.py": "mindrun adopt",
     "cli/calibrate.py": "mindrun calibrate",
     "cli/doctor.py": "mindrun doctor",
+    "cli/order.py": "mindrun order",
     "cli/replay.py": "mindrun replay",
     "cli/report.py": "mindrun report",
 }

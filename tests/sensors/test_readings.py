@@ -255,6 +255,7 @@ def test_compiled_lanes_read_the_bits_of_plain_python(
             **before, readings=plain, nearest=np.zeros((THING_ROWS, 1)), sight=state.sight.sight,
             nearest_of=np.array([-1]), frame=np.zeros((FRAME_ROWS, 1), F),
             boxes=state.world.boxes, nearby=state.sight.nearby, nearby_count=state.sight.nearby_count,
+            seed=state.world.seed, active=np.zeros(1, np.uint64),
         )  # fmt: skip
         with np.errstate(all="ignore"):
             for row, kind in zip(rows["sensors"], chosen, strict=True):

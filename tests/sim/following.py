@@ -11,6 +11,7 @@ from mindrun.numbers.quantity import Span
 from mindrun.sim.rollout import Rollout
 from mindrun.sim.trace import Moment, trace
 
+from tests.sim.plain_sensors import ordered
 from tests.sim.plain_world import PlainWorld
 from tests.sim.varied import as_drawn, stuck
 
@@ -28,6 +29,7 @@ def follow(rollout: Rollout, engine: Engine, seed: int) -> Counter[str]:
         assert ended < 0
         assert moment.tick == plain.t + 1
         hold_readings(plain, used, moment)
+        hold_orders(graph, used, moment, seed)
         commands = plain.act(engine.tick(moment.readings))
         hold_mind(engine, used, moment)
         assert np.array_equal(commands, moment.commands)
@@ -61,6 +63,14 @@ def hold_readings(plain: PlainWorld, used: set[int], moment: Moment) -> None:
                 value = moment.readings[sensor.start + k]
                 assert 0 <= value <= 1
                 assert any(low - 3e-6 <= value <= high + 3e-6 for low, high in spans), (sensor, k, value, spans)
+
+
+def hold_orders(graph: Graph, used: set[int], moment: Moment, seed: int) -> None:
+    """Every order that somebody reads is that of its turn."""
+    for number, sensor in enumerate(sensor for sensor in graph.sensors if sensor.kind.is_order):
+        if sensor.start in used:
+            found = moment.readings[sensor.start : sensor.start + sensor.width].tolist()
+            assert found == ordered(sensor.kind, graph.tick, seed, number, moment.tick - 1)
 
 
 def hold_mind(engine: Engine, used: set[int], moment: Moment) -> None:

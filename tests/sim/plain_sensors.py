@@ -11,6 +11,7 @@ from mindrun.kinds.sensors.rays import Eye
 
 from tests.sim.plain_bodies import rim_of, side_of
 
+WORD = (1 << 64) - 1  # the largest number of 64 bits
 HAIR = 1e-6  # by which something may be met or missed
 
 
@@ -39,6 +40,25 @@ def sensed(world, kind, all_of, boxes):
         case Bumper():
             return [bumper(world, at, kind.width_ / 2) for at in kind.at], 0.0
     raise TypeError(kind)
+
+
+def ordered(kind, tick_seconds, seed, number, tick):
+    """The readings of the order with a number among orders, in a tick of a run of that seed."""
+    turn = tick // max(1, round(kind.every / tick_seconds)) if kind.every else 0
+    drawn, heard = (splitmix(seed ^ 0xA24BAED4963EE407 * (2 * number + 1) & WORD, 2 * turn + k) for k in (1, 2))
+    low, high = kind.order.first, kind.order.last
+    if high.is_integer() and low == 1:
+        value = kind.neutral if heard < kind.lost else 1 + math.floor(drawn * high)
+        return [float(value == each) for each in range(1, int(high) + 1)]
+    return [float(np.float32((kind.neutral - low) / (high - low) if heard < kind.lost else drawn))]
+
+
+def splitmix(seed, number):
+    """Number `number` that SplitMix64 draws of a seed, from 1 on, in 0..1."""
+    z = (seed + number * 0x9E3779B97F4A7C15) & WORD
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9 & WORD
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EB & WORD
+    return ((z ^ (z >> 31)) >> 11) / 2**53
 
 
 def signed(share, dead_zone=0.0):

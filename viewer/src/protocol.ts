@@ -12,6 +12,15 @@ export interface Node {
   master: boolean;
 }
 
+/** A sensor that is what somebody says: one of so many choices, or a number where there are none. */
+export interface Order {
+  name: string;
+  node: number;
+  choices: number;
+  low: number;
+  high: number;
+}
+
 /** From a node to a node; what edge number i transmits is the i-th column of the group `flow`. */
 export interface Edge {
   from: number;
@@ -68,6 +77,7 @@ export interface About {
   training?: Playing;
   seed: string | null;
   edits: boolean;
+  orders: Order[]; // that whoever sees this may say
   tick: number; // seconds
   of_ticks: number | null;
   doubles: number;

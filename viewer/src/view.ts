@@ -14,6 +14,7 @@ import { keysOf } from "./key_table";
 import { Learning } from "./learning";
 import { shown } from "./names";
 import { refusal } from "./notice";
+import { Orders } from "./orders";
 import { Playback } from "./playback";
 import type { About, Frame, Refused, Said, Send, Ticks } from "./protocol";
 import { Rows } from "./rows";
@@ -46,6 +47,7 @@ export class View {
   private readonly forks: Forks;
   private readonly edit: Edit;
   private readonly selection: Selection;
+  private readonly orders: Orders;
   private readonly happened = new Events();
   private readonly collisions = new Events();
   private readonly stops = new Stops();
@@ -79,6 +81,7 @@ export class View {
     this.why = new Why(element("why"), about, send);
     this.edit = new Edit(element("edit"), about, send, () => this.playback.tick);
     this.selection = new Selection(about, this.why, this.edit, () => this.row);
+    this.orders = new Orders(element("orders"), about, send);
     this.forks = new Forks(element<HTMLSelectElement>("forks"), about, send, () => this.beside());
     const followed = (newest: boolean) => (follows.newest = newest);
     this.learning = about.training ? new Learning(about, trainings, send, theme(), follows.newest, followed) : null;
@@ -227,6 +230,7 @@ export class View {
     this.seen.at(tick, this.forks.chosen);
     this.edit.show(this.playback.playing, tick);
     this.selection.show();
+    this.orders.show(row);
     document.body.dataset.tick = String(tick); // the tick whose row is seen
   }
 

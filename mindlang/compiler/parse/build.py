@@ -70,7 +70,7 @@ class Builder(Transformer_NonRecursive[Token, Any]):
         """A word."""
         return Name(str(token), self._span(token))
 
-    TITLE = PART = WHOLE = TASK = COMPUTED = NUMBERED = GYMNASIUM = ENVIRONMENT = FROM = TO = FACING = NAME
+    TITLE = PART = WHOLE = TASK = COMPUTED = NUMBERED = ORDERED = GYMNASIUM = ENVIRONMENT = FROM = TO = FACING = NAME
 
     def COMPARE(self, token: Token) -> str:  # noqa: N802
         """A sign between two values."""
@@ -110,6 +110,12 @@ class Builder(Transformer_NonRecursive[Token, Any]):
         first = Argument(kind, Numbers(which, span), Span(self.source, kind.span.start, span.end))
         named = [Argument(Name("part", name.span), name, name.span) for name in part]
         return Phrase(kind, (first, *named, *rest[len(which) :]), self._span(meta))
+
+    def ordered(self, meta: Any, parts: list[Any]) -> Phrase:
+        """The ends of its range go as an argument that is called as its kind."""
+        kind, ends, *rest = parts
+        first = Argument(kind, ends, Span(self.source, kind.span.start, ends.span.end))
+        return Phrase(kind, (first, *rest), self._span(meta))
 
     def outside(self, meta: Any, parts: list[Any]) -> Phrase:
         """The environment goes as an argument that is called as its kind."""

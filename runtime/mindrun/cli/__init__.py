@@ -20,6 +20,7 @@ DRIVING_EXAMPLES = """examples:
   mindrun ball.bundle --arm --view                 seen in a browser meanwhile
   mindrun ball.bundle --arm --view --break day.break   a page that pauses there
   mindrun ball.bundle --dry --arm                  in a simulated world
+  mindrun fetch.bundle --arm --order wanted=3      and what is typed meanwhile
   mindrun ball.bundle --describe                   what it holds
   mindrun collect.bundle --json                    the same as JSON
   mindrun collect.bundle --readings log.jsonl      a line of commands for each
@@ -32,7 +33,7 @@ A line of readings, in which NaN is one that failed:
 
 A line of commands: {"commands": {"left_wheel": 0.7, "right_wheel": 0.5}}
 
-tools: mindrun adopt | calibrate | doctor | replay | report,
+tools: mindrun adopt | calibrate | doctor | order | replay | report,
 each with --help"""
 
 
@@ -63,6 +64,9 @@ def driving_parser() -> ArgumentParser:
     )
     robot.add_argument(
         "--dry", action="store_true", help="no hardware: a run in a simulated world (needs the simulator)"
+    )
+    robot.add_argument(
+        "--order", action="append", default=[], metavar="NAME=X", help="what a sensor that is an order reads at first"
     )
     robot.add_argument("--task", metavar="TASK", help="with --dry: the task of that world (default: the master's)")
     robot.add_argument("--seed", type=whole(0, MAX_SEED), default=1, help="with --dry: the layout of that world")

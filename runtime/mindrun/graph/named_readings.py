@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 
 from mindrun.errors import ReadingsError, nearest
 from mindrun.graph.graph import Graph, Sensor
-from mindrun.kinds.sensors.sensor import Physical
 
 if TYPE_CHECKING:
     import numpy as np
@@ -16,7 +15,7 @@ if TYPE_CHECKING:
 
 def physical(graph: Graph) -> dict[str, Sensor]:
     """The sensors that someone has to read; the engine computes the others."""
-    return {sensor.name: sensor for sensor in graph.sensors if isinstance(sensor.kind, Physical)}
+    return {sensor.name: sensor for sensor in graph.sensors if sensor.kind.is_given}
 
 
 def reading_names(graph: Graph) -> list[str]:
@@ -34,7 +33,8 @@ def vector(
 ) -> NDArray[np.float32]:
     """Readings [graph.width] from `{"proximity": [1, 0.5], "battery": 0.4}`; a missing sensor reads `fill`.
 
-    One that is not `needed`, since nobody reads it, may be missing anyway: it is NaN, as a reading that failed. Raises
+    One that is not `needed`, since nobody reads it, may be missing anyway: it is NaN, as a reading that failed. So may
+    an order: it is neutral. Raises
     ReadingsError for anything else that is not a number in 0..1.
     """
     import numpy as np
@@ -47,6 +47,10 @@ def vector(
     for name, sensor in sensors.items():
         if name not in given and needed is not None and name not in needed:
             readings[sensor.start : sensor.start + sensor.width] = np.nan
+            continue
+        if name not in given and fill is None and sensor.kind.is_order:
+            kind: Any = sensor.kind
+            readings[sensor.start : sensor.start + sensor.width] = kind.readings(kind.neutral)
             continue
         if name not in given and fill is None:
             raise ReadingsError(f"there is no reading of sensor {name} (--fill 0.5 would set it)")

@@ -113,6 +113,9 @@ def _draws_in_ticks(graph: Graph, task: Task, master: str) -> bool:
     """True if a tick draws anything: noise of sensors or actuators, or something in a procedure, as far as is known."""
     if any(skill.function.calls for skill in reachable(graph, master)):
         return True
-    kinds: list[object] = [sensor.kind for sensor in measured_in_world(graph, master, task)]
+    measured = [sensor.kind for sensor in measured_in_world(graph, master, task)]
+    if any(kind.is_order for kind in measured):
+        return True
+    kinds: list[object] = [*measured]
     kinds += [actuator.kind for actuator in graph.actuators]
     return any(getattr(kind, argument, 0.0) for kind in kinds for argument in ROUGH)

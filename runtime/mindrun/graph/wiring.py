@@ -122,7 +122,8 @@ def flaws(wiring: Wiring, graph: Graph) -> Iterator[str]:
     known = set(wired)
     if not wiring.robot or not wiring.robot.isprintable():
         yield "its robot has no name that can be printed"
-    if wired != [name for name in sensors if name in known] or not read_by(graph, graph.master) <= known:
+    orders = {name for name, sensor in sensors.items() if sensor.kind.is_order}
+    if wired != [name for name in sensors if name in known] or not read_by(graph, graph.master) <= known | orders:
         yield "its sensors are not those of the mind"
     if [wire.actuator for wire in wiring.actuators] != list(actuators):
         yield "its actuators are not those of the mind"

@@ -23,6 +23,10 @@ BOX_COLUMNS, HALF_X, HALF_Y = 4, 2, 3  # of a box: how many, and half of its sid
 TURN, PUSHED_X, PUSHED_Y, PUSHED_SPIN, LOOSE_ROWS = range(5)  # rows of a loose thing beside those, and how many
 ZERO, HALF, ONE, NAN = F(0), F(0.5), F(1), F(np.nan)
 MIN_DENOMINATOR = F(1e-7)
+GOLDEN, MIX_1, MIX_2 = np.uint64(0x9E3779B97F4A7C15), np.uint64(0xBF58476D1CE4E5B9), np.uint64(0x94D049BB133111EB)
+STREAM = np.uint64(0xA24BAED4963EE407)  # what is drawn by its place and not in turn has a stream of its own
+S30, S27, S31, S11 = np.uint64(30), np.uint64(27), np.uint64(31), np.uint64(11)
+UNIFORM_STEP = 2.0**-53
 # 1/(1 + e^−x) = ½ + ½ tanh(x/2), with tanh as a quotient of two polynomials in float32, within 1e-6 of the true value:
 # + − × ÷ alone, and so the same bits on every processor, which `exp` does not give.
 # a1, a3, … a13 of the numerator x·(a1 + a3·x² + …), b0, b2, b4, b6 of the denominator; lowest power first.
@@ -215,6 +219,22 @@ def find_nearest_point(s: Any, sensor: Any, n: Any) -> None:
             to_x, to_y = near_x if closer else to_x, near_y if closer else to_y
             least = square if closer else least
         found[X, p], found[Y, p], found[SIZE, p], found[DISTANCE, p] = to_x, to_y, 0.0, np.sqrt(least)
+
+
+def uniform(random: Any, lane: Any, low: Any, high: Any) -> Any:
+    """The next number of a lane's generator, between low and high."""
+    random[lane] += GOLDEN
+    z = random[lane]
+    z = (z ^ (z >> S30)) * MIX_1
+    z = (z ^ (z >> S27)) * MIX_2
+    z = z ^ (z >> S31)
+    return low + (high - low) * (np.float64(z >> S11) * UNIFORM_STEP)
+
+
+def seek(random: Any, lane: Any, seed: Any, stream: Any, place: Any) -> None:
+    """Set a lane's generator to a place of one of a seed's streams; the next numbers are those that stand there."""
+    random[lane] = seed ^ (STREAM * np.uint64(2 * stream + 1))
+    random[lane] += GOLDEN * np.uint64(place)
 
 
 LANES = 16  # side by side, as one value

@@ -18,6 +18,7 @@ from mindrun.engine.engine import Engine
 from mindrun.errors import MindError
 from mindrun.graph.bundle import Bundle, digest, read_bundle
 from mindrun.graph.graph import Graph, Task
+from mindrun.graph.measured import measured_in_world
 from mindrun.graph.tasks import default_task
 from mindrun.graph.wiring import Wiring, read_by, still
 from mindrun.robot.drivers.mock import MockActuator
@@ -26,6 +27,7 @@ from mindrun.robot.guardian.client import Guardian
 from mindrun.robot.guardian.plan import plan_of
 from mindrun.robot.live_view import breakpoint_mistakes, live_view
 from mindrun.robot.loop import Loop, Rate, TickResult
+from mindrun.robot.orders import Orders, with_orders
 from mindrun.robot.ownership import hold_devices, is_adopted
 from mindrun.robot.processes import StopSignals, refuse_success, stopping
 from mindrun.robot.recording import About, Recorder, TemporaryRecorder, temporary_recording
@@ -44,9 +46,14 @@ def run(options: argparse.Namespace) -> int:
     bundle = read_bundle(options.bundle)
     line = StatusLine(lambda sentence: None, columns=lambda: None) if options.quiet else StatusLine(_print_error)
     _refuse_wrong_breakpoints(options, bundle.graph)
+    wired = bundle.wiring.sensors if bundle.wiring and not options.dry else ()
+    orders = Orders(bundle.graph, [wire.sensor for wire in wired])
+    for said in options.order:
+        orders.say(said)
     if not options.arm:
         line.tell("nothing will move: --arm lets it")
-    loop = (_dry if options.dry else _wired)(options, bundle, line)
+    with orders.heard(line.tell):
+        loop = (_dry if options.dry else _wired)(options, bundle, line, orders)
     line.tell(_summary(loop))
     return 0
 
@@ -62,7 +69,7 @@ def _refuse_wrong_breakpoints(options: argparse.Namespace, graph: Graph) -> None
         raise MindError("nothing moves: the page cannot pause where that file says", "mend it, or leave --break out")
 
 
-def _wired(options: argparse.Namespace, bundle: Bundle, line: StatusLine) -> Loop:
+def _wired(options: argparse.Namespace, bundle: Bundle, line: StatusLine, orders: Orders) -> Loop:
     if bundle.wiring is None:
         raise MindError("this bundle is wired to no robot", "mindc build … --robot robot.yaml, or try it with --dry")
     wiring = bundle.wiring
@@ -75,10 +82,11 @@ def _wired(options: argparse.Namespace, bundle: Bundle, line: StatusLine) -> Loo
     if not options.arm:
         wiring = replace(wiring, sensors=tuple(map(still, wiring.sensors)))
     with hold_devices(wiring) as held:
+        wiring = with_orders(wiring, bundle.graph, bundle.graph.sensors, orders)
         return drive(bundle, wiring, options, line.tell, held)
 
 
-def _dry(options: argparse.Namespace, bundle: Bundle, line: StatusLine) -> Loop:
+def _dry(options: argparse.Namespace, bundle: Bundle, line: StatusLine, orders: Orders) -> Loop:
     task, why = _task(bundle.graph, options.task)
     refuse_environment(task)
     master = options.master or bundle.graph.master
@@ -87,7 +95,8 @@ def _dry(options: argparse.Namespace, bundle: Bundle, line: StatusLine) -> Loop:
     with simulated(options.bundle, task.name, options.seed, options.master or "") as socket:
         seen = SeenWorld(task, options.seed, socket) if options.record or options.view else None
         run = DryRun(bundle.graph, task, master, socket, line, seen)
-        wiring = simulated_wiring(bundle.graph, socket, master)
+        measured, wiring = measured_in_world(bundle.graph, master, task), simulated_wiring(bundle.graph, socket, master)
+        wiring = with_orders(wiring, bundle.graph, measured, orders, socket)
         with run.shown(), seen.watched() if seen else nullcontext():
             loop = drive(bundle, wiring, options, line.tell, watch=run.watch, world=seen)
         with suppress(DeviceError):  # the run was as good without it

@@ -105,6 +105,8 @@ class SimulatedScene:
             if name not in self._places:
                 raise LookupError(f"there is no sensor {name}")
             return bytes(self._readings[self._places[name]].tobytes())
+        if name in self._places and self.world.order(name, value):
+            return b""
         if name not in self.commands:
             raise LookupError(f"there is no actuator {name}")
         if not 0.0 <= value <= 1.0:

@@ -76,7 +76,7 @@ def sensor_rows(
     What is measured `aside` draws its noise from a generator of its own: a reward changes nothing in the world.
     """
     things, boxes, scene = rows_by_name(task), boxes_by_name(task), scene_of(graph)
-    rows, before, rough, rings = list[Row](), 0, 0, 0
+    rows, before, rough, rings, orders = list[Row](), 0, 0, 0, [s.name for s in graph.sensors if s.kind.is_order]
     rays, ray_row, passes, numbers = list[float](), list[int](), list[tuple[int, int]](), list[float]()
     for is_aside, sensor in [(False, each) for each in used] + [(True, each) for each in aside]:
         kind = sensor.kind
@@ -88,7 +88,7 @@ def sensor_rows(
             "turns": not scene.directions.isdisjoint({sensor.name, kind.source}),
             "is_aside": is_aside, "every": 1, "code": code, "length": length,
             "ray": len(rays), "number": len(numbers), "before": before, "held": rough, "ring": rings,
-            **roughness, **kind.row(scene),
+            "part": orders.index(sensor.name) if kind.is_order else 0, **roughness, **kind.row(scene),
         })  # fmt: skip
         rays += kind.rays
         ray_row += range(sensor.start, sensor.start + len(kind.rays))

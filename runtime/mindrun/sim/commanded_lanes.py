@@ -189,6 +189,18 @@ class CommandedWorld:
         """
         return self._state.mind.readings[: self.graph.width, 0].copy()
 
+    def order(self, name: str, value: float) -> bool:
+        """Let an order be this from the next tick on, whatever the task draws; False where this is no order."""
+        kinds: dict[int, Any] = {s.start: s.kind for s in self.graph.sensors if s.name == name and s.kind.is_order}
+        tables = self._lanes.rollout.tables
+        rows = [row for row in tables.sensors if row["start"] in kinds]
+        for row in rows:  # all that is drawn is lost, and reads what stands there for it
+            kind, first = kinds[row["start"]], row["number"]
+            if kind.refusal(value):
+                return False
+            tables.numbers[first : first + 1 + row["width"]] = 1.0, *kind.readings(value)
+        return bool(rows)
+
     def step(self, commands: ArrayLike) -> None:
         """Make a tick under commands [actuators]; one that is not finite is neutral. Nothing once it has ended."""
         if self.ended is not None:

@@ -75,6 +75,7 @@ class WorldState(Block):
     reached: Annotated[Array, rows("things", kind=U1)]  # bit 0 while it is in reach, bit 1 if it was in the tick before
     delivered: Annotated[Array, rows("things", kind=U1)]  # the same of items that lie in a zone
     battery: Annotated[Array, each(F8)]
+    seed: Annotated[Array, each(U8)]  # of the run
     random: Annotated[Array, each(U8)]  # the generator
     random_aside: Annotated[Array, each(U8)]  # the generator of what no skill reads: a reward changes nothing
     tick: Annotated[Array, each()]  # how many the run has lasted
@@ -180,7 +181,7 @@ class RunState(Block):
 
 SENSED = (
     "readings", "before", "body", "heading", "things", "held", "battery", "tick", "trail", "loose", "nearest",
-    "nearest_of", "frame", "sight", "boxes", "nearby", "nearby_count", "stack", "active",
+    "nearest_of", "frame", "sight", "boxes", "nearby", "nearby_count", "stack", "active", "seed",
 )  # fmt: skip
 SENSED_PARTS = {"mind": MindState, "world": WorldState, "sight": SightState}
 

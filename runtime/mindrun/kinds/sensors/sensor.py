@@ -75,6 +75,8 @@ class SensorKind(AboutThing):
     scaled = False  # whether its values mean something by themselves, so that they need no calibration
     near: int | None = None  # the reading of what is near
     unit = ""  # of a driver that measures the same: m for a length, m/s for a speed
+    is_given = False  # whether somebody has to read it: the engine does not compute it
+    is_order = False  # whether it is what somebody says
     keeps_lost = False  # whether a reading that fails is the one before, and not `blank`
     remembered = 0  # how many numbers the lanes keep of each of its readings
     blank, rest = 0.0, 0.0  # what it reads where there is nothing to measure, and in its dead zone
@@ -159,6 +161,11 @@ class SensorKind(AboutThing):
         return 0.0
 
     @property
+    def taught(self) -> SensorKind:
+        """The kind without what only a robot asks for."""
+        return self
+
+    @property
     def numbers(self) -> tuple[float, ...]:
         """The numbers that its lane function reads beside its row: `t.numbers`, from `sensor.number` on."""
         return ()
@@ -213,6 +220,7 @@ class Physical(SensorKind):
     every: Annotated[int, TICKS] = 1
     delay: Annotated[int, TICKS] = 0
 
+    is_given = True
     varying = ("noise", "lost", "delay")
 
     def first(self, begin: Begin) -> Bounds | None:

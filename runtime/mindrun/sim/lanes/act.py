@@ -15,9 +15,9 @@ from mindrun.numbers.arithmetic import (
     place_of,
     put_thing,
     size_of,
+    uniform,
 )
 from mindrun.sim.codes import GRIPPER, ITEM, Tables
-from mindrun.sim.lanes.placement import uniform
 from mindrun.sim.lanes.solid import CLOSED_UNITS, is_barred, is_blocked, is_walled
 from mindrun.sim.state import State
 from mindrun.sim.units import unit, unit_where

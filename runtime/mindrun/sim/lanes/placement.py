@@ -21,6 +21,7 @@ from mindrun.numbers.arithmetic import (
     resize_thing,
     sine_cosine,
     size_of,
+    uniform,
 )
 from mindrun.sim.codes import CONSTANT, DRAWN, DRAWN_WHOLE, FAILING, FAR, Tables
 from mindrun.sim.lanes.solid import is_clear, put_box
@@ -28,21 +29,8 @@ from mindrun.sim.parameter_rows import computed
 from mindrun.sim.state import WorldState
 from mindrun.sim.units import unit
 
-GOLDEN, MIX_1, MIX_2 = np.uint64(0x9E3779B97F4A7C15), np.uint64(0xBF58476D1CE4E5B9), np.uint64(0x94D049BB133111EB)
-S30, S27, S31, S11 = np.uint64(30), np.uint64(27), np.uint64(31), np.uint64(11)
-UNIFORM_STEP = 2.0**-53
 MAX_TRIES = 1000
 ENDLESS_UNITS = 1e300  # half the side of what is no arena is infinite, above this
-
-
-def uniform(random, lane, low, high):
-    """The next number of a lane's generator, between low and high."""
-    random[lane] += GOLDEN
-    z = random[lane]
-    z = (z ^ (z >> S30)) * MIX_1
-    z = (z ^ (z >> S27)) * MIX_2
-    z = z ^ (z >> S31)
-    return low + (high - low) * (np.float64(z >> S11) * UNIFORM_STEP)
 
 
 @unit

@@ -47,7 +47,7 @@ def begin_job(tables: Tables, state: State, jobs: Jobs, lane: int) -> int:
         return False
     jobs.next[0] = job + 1
     state.run.job[lane] = job
-    world.random[lane] = jobs.seeds[jobs.seed[job]]
+    world.seed[lane] = world.random[lane] = jobs.seeds[jobs.seed[job]]
     world.random_aside[lane] = world.random[lane] ^ MEASURED_ASIDE
     draw(tables, world, lane)
     set_numbers(tables, world, lane)
@@ -129,6 +129,7 @@ def move(state, source, target):
         numbers[target] = numbers[source]
     world.battery[target], contact.last[target] = world.battery[source], contact.last[source]
     world.random[target], world.random_aside[target] = world.random[source], world.random_aside[source]
+    world.seed[target] = world.seed[source]
 
 
 def copy_lane(rows, source, target):
