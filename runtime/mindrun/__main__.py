@@ -91,7 +91,7 @@ def run(options: argparse.Namespace) -> int:
         _run(engine, options)
     elif options.dry or (bundle.wiring and not options.describe and not options.json):
         return drive(options)
-    elif options.arm or options.record or options.ticks or options.view:
+    elif options.arm or options.record or options.ticks or options.view or options.order:
         raise MindError("this bundle is wired to no robot", "mindc build … --robot robot.yaml, or try it with --dry")
     elif options.json:
         standard_streams.document(_json(contents(bundle), indent=2))
