@@ -81,7 +81,14 @@ class Text(Struct, frozen=True):
     span: Span
 
 
-Value = Numbers | Range | Points | Name | Text
+class Either(Struct, frozen=True):
+    """`or 10 0 or 0 10`: what may stand instead of the value before it; a range has one number on each side."""
+
+    options: tuple[Numbers | Range | Points, ...]
+    span: Span
+
+
+Value = Numbers | Range | Points | Name | Text | Either
 
 
 class Argument(Struct, frozen=True):

@@ -214,7 +214,7 @@ def _value(node: Any, field: Field[Any], name: Name) -> Any:
 def _argument(value: Any, meaning: Quantity | Reference | None, name: Name) -> Any:
     """An argument of a kind, of a graph or a fact, with other names."""
     if meaning == THING:
-        return name(value, "thing")
+        return name(value, "thing") if isinstance(value, str) else value
     if meaning == SENSOR:
         return name(value, *READABLE_NOUNS)
     if meaning == EXPRESSION:

@@ -155,6 +155,11 @@ class Builder(Transformer_NonRecursive[Token, Any]):
             return syntax.Range(first, last, by, self._span(meta))
         return syntax.Points(tuple(sides), by, self._span(meta))
 
+    def instead(self, meta: Any, parts: list[Any]) -> Argument:
+        """The alternatives go as one argument, which is called as the word before each."""
+        key, span = parts[0], self._span(meta)
+        return Argument(Name(str(key), self._span(key)), syntax.Either(tuple(parts[1::2]), span), span)
+
     def text(self, meta: Any, parts: list[Any]) -> syntax.Text:
         return syntax.Text(str(parts[0])[1:-1], self._span(meta))
 

@@ -2,13 +2,13 @@
 
 from collections import defaultdict
 from collections.abc import Callable, Mapping
-from dataclasses import MISSING, dataclass, fields
+from dataclasses import MISSING, dataclass, field, fields
 from functools import cache
 from importlib import import_module
 from pkgutil import iter_modules
 from typing import Annotated, Any, Literal, TypeVar, dataclass_transform, get_args, get_origin, get_type_hints
 
-from mindrun.numbers.quantity import SLOT, Extent, Place, Quantity, Reference, Span
+from mindrun.numbers.quantity import SLOT, Extent, Place, Quantity, Reference, Region, Span
 
 T = TypeVar("T")
 
@@ -19,16 +19,19 @@ ROOMS = {  # where the kinds of a noun stand: a module for each, of its name, or
     "memory": "mindrun.kinds.memory", "curriculum": "mindrun.kinds.learners",
     "sensor driver": "mindrun.robot.drivers", "actuator driver": "mindrun.robot.drivers",
 }  # fmt: skip
+LATER = "later"  # among the metadata of a field
 SHARED_NOUNS = {"scene": "task"}  # a scene is one of those that a task can be in
 _kinds: dict[str, dict[str, type[Any]]] = defaultdict(dict)
 _names: dict[type[Any], str] = {}
 _bases: dict[type[Any], str] = {}
 _arguments: dict[Any, tuple["Argument", ...]] = {}  # of each kind that was asked for
 
-Shape = Literal["one", "list", "span", "name", "extent", "place", "places", "lines"]
-"""Of an argument: a number, several, a `Span`, a word, an `Extent`, a place, several, the lines of a text file."""
+Shape = Literal["one", "list", "span", "name", "extent", "place", "places", "alternatives", "region", "lines"]
+"""Of an argument: a number, several, a `Span`, a word, an `Extent`, a place, several, lists of places of which one is
+drawn, a `Region`, the lines of a text file."""
 SHAPES: Mapping[Any, Shape] = {
     Span: "span", Extent: "extent", Place: "place", tuple[Place, ...]: "places", tuple[str, ...]: "lines",
+    tuple[tuple[Place, ...], ...]: "alternatives", Region: "region",
 }  # fmt: skip
 
 
@@ -86,6 +89,11 @@ def _modules(room: str) -> list[str]:
 def _import_all(room: str) -> None:
     for module in _modules(room):
         import_module(f"{room}.{module}")
+
+
+def later(default: Any) -> Any:
+    """The default of an argument that came later: the plain data of a kind in which it is the default lack it."""
+    return field(default=default, metadata={LATER: True})
 
 
 def base(noun: str) -> Callable[[type[T]], type[T]]:

@@ -50,7 +50,7 @@ def build(
         world=task_rows.world_row(graph, task, parameters, len(sensors["ray_row"]), used + aside, master),
         codes=np.array(programs.rows, CODE), actuators=driven, memories=memory_rows(graph),
         things=task_rows.thing_rows(graph, task), loose=task_rows.loose_rows(task, graph.tick, parameters),
-        obstacles=task_rows.obstacle_rows(task), walls=np.array(walls, np.float64).reshape(-1, BOX_COLUMNS),
+        obstacles=task_rows.obstacle_rows(task), options=task_rows.option_rows(task), walls=np.array(walls, np.float64).reshape(-1, BOX_COLUMNS),
         measures=measures, events=events, ends=ends, rewards=rewards,
         measured=rows_of(graph, used + aside), library=library,
         parameters=parameters.table(),  # last: all others add to them

@@ -83,12 +83,13 @@ PARAMETER = _columns(i8="form of", f8="low high")
 MEMORY = _columns(i8="row", f4="decay rest start")
 THING = _columns(
     i8="kind drawn is_round is_fixed reached delivered is_reached is_delivered is_area loose settles walker is_goal "
-    "turn",
-    f8="first last by low high hold x y",
+    "turn copy copies option options is_within inside insides",
+    f8="first last by low high hold x y left right below above",
 )
 LOOSE = _columns(i8="thing is_round density friction slower number turn")
-WALKING = _columns(i8="thing first places begins", f8="step turn")
-OBSTACLE = _columns(i8="columns rows count", f8="first last grid jitter x y low high")
+WALKING = _columns(i8="thing way ways copy is_anywhere is_drawn", f8="step turn")
+WAY = _columns(i8="first places")
+OBSTACLE = _columns(i8="columns rows count option options", f8="first last grid jitter x y low high")
 MEASURES = _columns(i8="kind thing things over ring", f8="beyond")
 EVENT = _columns(i8="kind thing things to tos arrival columns rows board", f8="patch")
 END = _columns(i8="event times when whens succeeds")
@@ -163,7 +164,9 @@ class Tables(Block):
     things: Annotated[Array, table(THING)]
     loose: Annotated[Array, table(LOOSE)]
     walkers: Annotated[Array, table(WALKING)]
-    ways: Annotated[Array, table(F8, 2)]  # [places, 2]: those that walkers go along, way after way
+    ways: Annotated[Array, table(WAY)]  # that walkers go along
+    corners: Annotated[Array, table(F8, 2)]  # [places, 3]: the places of ways, and the number of the one after each
+    options: Annotated[Array, table(F8, 2)]  # [places, 2]: those of which one is drawn
     obstacles: Annotated[Array, table(OBSTACLE)]
     walls: Annotated[Array, table(F8, 2)]  # [walls, BOX_COLUMNS]: the boxes that stand in the same places in every run
     measures: Annotated[Array, table(MEASURES)]

@@ -64,8 +64,6 @@ def reset(tables, state, lane):
     world.held[lane], world.tick[lane], world.battery[lane] = -1, 0, tables.world[0].start
     world.heading[SINE, lane], world.heading[COSINE, lane] = sine_cosine(world.body[ANGLE, lane])
     world.reached[:, lane], world.delivered[:, lane] = 0, 0
-    for i in range(len(tables.walkers)):
-        world.goal[i, lane] = tables.walkers[i].begins
     for place in range(0, PLACE_ROWS * TRAIL_TICKS, PLACE_ROWS):
         world.trail[place + X, lane], world.trail[place + Y, lane] = world.body[X, lane], world.body[Y, lane]
     mind.recurrent[:, lane] = 0.0
