@@ -57,6 +57,7 @@ NAMED: Mapping[type, Mapping[str, str]] = {
 }  # the nouns of the fields that are names
 
 OF_KINDS = "sensor", "memory", "actuator", "thing"  # the nouns of facts that are kinds
+REGISTERED = {"thing": "content"}  # nouns that the registry has under another name
 
 Role = tuple[str | int, ...]  # where a text stands: the noun of its fact, and the keys and numbers that lead to it
 _MARK = re.compile("\0([0-9]+)\0")  # no name has such a character
@@ -96,7 +97,7 @@ class Renaming:
         for subject, value in world.facts.items():
             noun, space, own = subject.partition(" ")
             now[f"{noun}{space}{self.name(own, noun)}"] = (
-                {key: _argument(part, meaning_of(noun, value["is"], key), self.name) for key, part in value.items()}
+                {key: _argument(part, meaning_of(REGISTERED.get(noun, noun), value["is"], key), self.name) for key, part in value.items()}
                 if noun in OF_KINDS
                 else _mapped(value, (noun,), text)
             )

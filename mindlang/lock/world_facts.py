@@ -6,7 +6,7 @@ since those may be taught again when it has learnt.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cached_property
 from hashlib import sha256
 from pathlib import Path
@@ -19,7 +19,7 @@ from mindrun.graph.skill_sets import genes, reachable
 from mindrun.graph.tasks import physics
 from mindrun.kinds.environment import module_beside
 from mindrun.kinds.functions.procedure import module_source
-from mindrun.kinds.registry import arguments, kinds, names
+from mindrun.kinds.registry import LATER, arguments, kinds, names
 from mindrun.numbers.expression import TRUTHS, fold, leaves
 from mindrun.numbers.quantity import EXPRESSION, UNSAID, Quantity, Reference
 
@@ -233,13 +233,24 @@ def argument(noun: str, kind: str, field: str, value: Any) -> str:
     if meaning == EXPRESSION:
         return f"{field} {infix(tuple((word, x) for word, x in value), lambda _, name: str(name))}"
     if isinstance(value, list) and value and isinstance(value[0], list):
-        words = " to ".join(" ".join(_converted(each, meaning) for each in place) for place in value)
+        words = " or ".join(_places(each, meaning) for each in (value if isinstance(value[0][0], list) else [value]))
     else:
         words = " ".join(_converted(each, meaning) for each in (value if isinstance(value, list) else [value]))
     if not words:
         return f"{field.removesuffix('_')} none"
     unit = next(iter(meaning.units), "") if isinstance(meaning, Quantity) else ""
     return f"{field.removesuffix('_')} {words} {unit}".rstrip()
+
+
+def _places(places: Sequence[Sequence[float]], meaning: Quantity | Reference | None) -> str:
+    return " to ".join(" ".join(_converted(each, meaning) for each in place) for place in places)
+
+
+def completed(noun: str, kind: Mapping[str, Any]) -> Mapping[str, Any]:
+    """A kind as plain data, with the arguments that are left out of it where they are as by default."""
+    cls = kinds(noun).get(kind["is"])
+    came_later = [each for each in fields(cls) if LATER in each.metadata] if cls else []
+    return {**kind, **{each.name: encode(each.default) for each in came_later if each.name not in kind}}
 
 
 def meaning_of(noun: str, kind: str, field: str) -> Quantity | Reference | None:

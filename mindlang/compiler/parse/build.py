@@ -120,6 +120,10 @@ class Builder(Transformer_NonRecursive[Token, Any]):
         """A phrase of the environment's own (its reward): both words are the name of its kind."""
         return Phrase(Name(f"{parts[0]} {parts[1].text}", self._span(meta)), (), self._span(meta))
 
+    def draws(self, meta: Any, parts: list[Any]) -> syntax.Draws:
+        name, _, of = parts
+        return syntax.Draws(name, of, self._span(meta))
+
     def place(self, meta: Any, parts: list[Any]) -> tuple[Amount, ...]:
         return tuple(parts)
 

@@ -17,6 +17,8 @@ def convert(amount: Amount, quantity: Quantity, findings: Findings, unit: str = 
     if amount.name:
         if amount.name not in findings.numbers:  # one that is declared wrongly has been reported there
             hint = findings.suggest(amount.name, findings.numbers) or f"Declare it: number {amount.name} is 12."
+            if amount.name in findings.draws:
+                hint = f"{amount.name} is drawn for each run: it is a place, at +{amount.name} 5, or stands after when."
             message = f"There is no number called {amount.name}."
             findings.error("unknown-number", amount.constant.span, message, hint)
         return None

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from itertools import accumulate, count
+from math import copysign
 from typing import Any
 
 import numpy as np
@@ -16,7 +17,7 @@ from mindrun.kinds.things.walker import ANYWHERE
 from mindrun.sim import codes
 from mindrun.sim.codes import DAMPING, HALF_DIAGONAL, INVERSE, OVER, TIMES, WALL_COUNT, Row, records
 from mindrun.sim.mind_rows import Programs
-from mindrun.sim.parameter_rows import Parameters, Step
+from mindrun.sim.parameter_rows import SAME_IN_EVERY_RUN, Parameters, Step
 
 Array = NDArray[Any]
 MIN_CELL_UNITS = 20.0  # the side of a cell of Chipmunk's hash, in which what is large takes only so many
@@ -71,7 +72,7 @@ def hash_numbers(task: Task) -> tuple[int, list[int], list[int]]:
     return robot, numbers, [number % size for number in (robot, *numbers)]
 
 
-def thing_rows(graph: Graph, task: Task) -> Array:
+def thing_rows(graph: Graph, task: Task, parameters: Parameters) -> Array:
     """Rows of THING: all things of the task but obstacles, as in `things_of`."""
     rows: list[Row] = []
     asked = {(event.outcome, event.thing) for event in task.events if event.outcome}
@@ -86,6 +87,7 @@ def thing_rows(graph: Graph, task: Task) -> Array:
         low, high = kind.distances(task.scene)
         x, y = kind.places[copy] if kind.places else (0.0, 0.0)
         is_drawn = bool(kind.options) or (kind.walks and not kind.wanders)
+        own = _drawn_place(thing, parameters) if any(thing.by) else {}
         if kind.is_loose:  # not in the robot
             low = max(low, graph.body.radius + kind.largest * HALF_DIAGONAL)
         row: dict[str, float] = {
@@ -96,7 +98,7 @@ def thing_rows(graph: Graph, task: Task) -> Array:
             "loose": next(loose) if kind.is_loose else -1, "settles": kind.is_loose and zones_stay,
             "walker": next(walkers) if kind.walks else -1, "turn": turns[1 + number],
             "copy": copy, "copies": kind.copies, "option": options, "options": len(kind.options),
-            **_region(kind, rows_by_name(task)),
+            "x_row": SAME_IN_EVERY_RUN, "y_row": SAME_IN_EVERY_RUN, **_region(kind, rows_by_name(task)), **own,
         }  # fmt: skip
         options += len(kind.options) if copy + 1 == kind.copies else 0
         for what in ("reached", "delivered"):
@@ -117,21 +119,41 @@ def _region(kind: ThingKind, places: Mapping[str, range]) -> Row:
     return {"is_within": True, "left": left, "right": right, "below": below, "above": above}
 
 
+def _drawn_place(thing: Thing, parameters: Parameters) -> Row:
+    """The columns of a thing at numbers that the task draws: x and y are their signs where these are rows."""
+    place = thing.kind.spots[0]
+    x, y = (copysign(1.0, number) if number else at for number, at in zip(thing.by, place, strict=True))
+    rows = dict(zip(("x_row", "y_row"), map(parameters.given, thing.by), strict=True))
+    return {**rows, "x": x, "y": y, "options": 0}
+
+
+def presence_rows(task: Task, programs: Programs) -> Array:
+    """Rows of PRESENCE, one for each copy; their conditions go to `programs`."""
+    rows: list[Row] = []
+    for row, thing in enumerate(things_of(task)):
+        if thing.when:
+            when, whens = programs.add(thing.when)
+            rows.append({"thing": row, "when": when, "whens": whens})
+    return records(rows, codes.PRESENCE)
+
+
 def option_rows(task: Task) -> Array:
     """The places of which one is drawn: those of each name among `things_of`, then those of obstacles."""
     apart = sorted(task.things, key=lambda thing: thing.kind.is_obstacle)
     return np.array([place for thing in apart for place in thing.kind.options], np.float64).reshape(-1, 2)
 
 
-def obstacle_rows(task: Task) -> Array:
+def obstacle_rows(task: Task, parameters: Parameters) -> Array:
     """Rows of OBSTACLE."""
     rows: list[Row] = []
     option = sum(len(thing.kind.options) for thing in task.things if not thing.kind.is_obstacle)
-    for kind in (thing.kind for thing in task.things if thing.kind.is_obstacle):
+    for thing in (thing for thing in task.things if thing.kind.is_obstacle):
+        kind, own = thing.kind, _drawn_place(thing, parameters) if any(thing.by) else {}
         low, high = kind.distances(task.scene)
         row = {"first": kind.size.first, "last": kind.size.last, "low": low, "high": high, "option": option}
+        row |= {"x_row": SAME_IN_EVERY_RUN, "y_row": SAME_IN_EVERY_RUN}
         option += len(kind.options)
-        rows.extend({**row, **own} for own in kind.rows(task.scene))
+        rows.extend({**row, **each, **own} for each in kind.rows(task.scene))
     return records(rows, codes.OBSTACLE)
 
 
@@ -177,8 +199,8 @@ def walker_rows(task: Task, dt: float) -> dict[str, Array]:
     }
 
 
-def measure_rows(task: Task) -> tuple[Array, int]:
-    """Rows of MEASURES, and how many changes of thrust are remembered."""
+def measure_rows(task: Task, parameters: Parameters) -> tuple[Array, int]:
+    """Rows of MEASURES, then of what the task draws, and how many changes of thrust are remembered."""
     places = rows_by_name(task)
     rows: list[Row] = []
     ring = 0
@@ -189,6 +211,8 @@ def measure_rows(task: Task) -> tuple[Array, int]:
             "over": measure.over, "ring": ring if measure.over else 0, "beyond": measure.beyond,
         })  # fmt: skip
         ring += measure.over
+    drawn = range(1, len(task.draws) + 1)
+    rows += [{"kind": codes.DRAWN_NUMBER, "row": parameters.given(number)} for number in drawn]
     return records(rows, codes.MEASURES), ring
 
 

@@ -6,6 +6,7 @@ the same world. Everything is placed clear of everything else, with room for the
 
 import numpy as np
 
+from mindrun.graph import draws
 from mindrun.graph.beginning import meets_robot
 from mindrun.numbers.arithmetic import (
     ANGLE,
@@ -22,13 +23,14 @@ from mindrun.numbers.arithmetic import (
     sine_cosine,
     size_of,
 )
-from mindrun.sim.codes import CONSTANT, DRAWN, DRAWN_WHOLE, FAILING, FAR, Tables
+from mindrun.sim.codes import BETWEEN, CHOSEN, CONSTANT, DRAWN, DRAWN_WHOLE, FAILING, FAR, Tables
 from mindrun.sim.lanes.solid import is_clear, put_box
 from mindrun.sim.parameter_rows import computed
 from mindrun.sim.state import WorldState
 from mindrun.sim.units import unit
 
 GOLDEN, MIX_1, MIX_2 = np.uint64(0x9E3779B97F4A7C15), np.uint64(0xBF58476D1CE4E5B9), np.uint64(0x94D049BB133111EB)
+BEFORE_THE_WORLD = np.uint64(draws.BEFORE_THE_WORLD)
 S30, S27, S31, S11 = np.uint64(30), np.uint64(27), np.uint64(31), np.uint64(11)
 UNIFORM_STEP = 2.0**-53
 NEXT = 2  # the column of a corner that says which one comes after it
@@ -89,7 +91,17 @@ def place_for(tables, world, i, is_begun, lane):
         return set_out(tables, world, thing.walker, lane)
     if thing.options > 0:
         return choose(tables, world, i, is_begun, lane)
-    return thing.x, thing.y
+    return at_drawn(world, thing, lane)
+
+
+def at_drawn(world, placed, lane):
+    """The place of something, whose x and y may be numbers that the task draws, or these negated."""
+    x, y = placed.x, placed.y
+    if placed.x_row >= 0:
+        x *= world.numbers[placed.x_row, lane]
+    if placed.y_row >= 0:
+        y *= world.numbers[placed.y_row, lane]
+    return x, y
 
 
 def choose(tables, world, i, is_begun, lane):
@@ -169,7 +181,7 @@ def draw_grid(tables, world, obstacle, box, lane):
     """Put an obstacle at each crossing of the grid, a little off it; return the number of the next box."""
     random, jitter = world.random, obstacle.jitter
     middle_x, middle_y = (obstacle.columns - 1) / 2, (obstacle.rows - 1) / 2
-    from_x, from_y = obstacle.x, obstacle.y
+    from_x, from_y = at_drawn(world, obstacle, lane)
     if obstacle.options > 0:
         option = obstacle.option + min(int(uniform(random, lane, 0.0, obstacle.options)), obstacle.options - 1)
         from_x, from_y = tables.options[option, X], tables.options[option, Y]
@@ -368,6 +380,18 @@ def stands_on(tables, i, size, dx, dy):
     return meets_robot(is_area, is_round, is_goal, size, dx, dy, constants.radius, constants.front + constants.claw)
 
 
+def draw_numbers(tables, world, seed, lane):
+    """Draw the numbers of a lane that its task draws, before its world, and from the seed alone: they move nothing."""
+    world.random_aside[lane] = seed ^ BEFORE_THE_WORLD
+    for i in range(len(tables.parameters)):
+        row = tables.parameters[i]
+        if row.form == BETWEEN:
+            world.numbers[i, lane] = uniform(world.random_aside, lane, row.low, row.high)
+        elif row.form == CHOSEN:
+            chosen = min(int(uniform(world.random_aside, lane, 0.0, row.high)), int(row.high) - 1)
+            world.numbers[i, lane] = tables.choices[row.of + chosen]
+
+
 def set_numbers(tables, world, lane):
     """Draw the numbers of a lane that vary, after its world: it is the same world whatever varies in it."""
     numbers, random = world.numbers, world.random
@@ -381,7 +405,7 @@ def set_numbers(tables, world, lane):
             numbers[i, lane] = min(np.floor(uniform(random, lane, row.low, row.high + 1.0)), row.high)
         elif row.form == FAILING:
             numbers[i, lane] = fails_at(uniform(random, lane, 0.0, 1.0), row.low, tables.world[0].ticks)
-        else:
+        elif row.form != CHOSEN and row.form != BETWEEN:  # which are drawn already
             numbers[i, lane] = computed(row.form, numbers[row.of, lane], row.low)
 
 
