@@ -15,12 +15,13 @@ from mindlang.compiler.source import Span
 from mindlang.compiler.syntax import Contains, Declaration, Draws, File, Name, Number, of_form
 
 # A memory is read like a sensor and driven like an actuator, so its name must be neither's.
-# In an expression, a number's name stands where a reading's may, and in rewards a command's.
+# In an expression, a number's name stands where a reading's may, in rewards a command's, and in tasks that of a draw.
 SHARED = {
     "sensor": ("memory", "number"),
     "actuator": ("memory", "number"),
     "memory": ("sensor", "actuator", "number"),
     "number": ("sensor", "memory", "actuator"),
+    "draw": ("sensor", "memory", "actuator", "number"),
 }
 _WORD = re.compile(r"\w[\w.+-]*")
 NOUN_USES = {

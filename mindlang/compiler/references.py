@@ -58,7 +58,7 @@ def mentions_in(line: Setting | Header | Fact, names: Names, by: Declaration | N
 def _amounts(line: Any, names: Names, by: Declaration | None) -> Iterator[Mention]:
     """The numbers that are named in a line in the place of an amount, also those that a task draws."""
     for node in syntax.walk_tree(line) if names.numbers or names.draws else ():
-        if isinstance(node, syntax.Amount) and node.name in names.numbers | names.draws:
+        if isinstance(node, syntax.Amount) and (node.name in names.numbers or node.name in names.draws):
             yield Mention("number" if node.name in names.numbers else "draw", node.constant, by)
 
 

@@ -13,8 +13,8 @@ PARTS = ("sensor", "actuator", "memory")
 WHOLES = ("body", "skill", "curriculum", "scene")
 NOUNS = (*PARTS, *WHOLES, "task")
 VERBS = (
-    "reads", "drives", "influences", "stays", "contains", "starts", "draws", "varies", "fails", "lasts", "ends", "succeeds",
-    "rewards", "counts", "teaches",
+    "reads", "drives", "influences", "stays", "contains", "starts", "draws", "varies", "fails", "lasts", "ends",
+    "succeeds", "rewards", "counts", "teaches",
 )  # fmt: skip
 SETTINGS = ("use", "master", "tick", "mind", "unit", "number")
 

@@ -13,6 +13,7 @@ from itertools import count
 from typing import Any, TypeVar, cast
 
 from lark import UnexpectedInput
+from mindrun.graph.draws import Draw
 from mindrun.graph.graph import (
     Actuator,
     End,
@@ -53,6 +54,7 @@ NAMED: Mapping[type, Mapping[str, str]] = {
     Thing: {"name": "thing"},
     Task: {"name": "task"},
     Failure: {"actuator": "actuator"},
+    Draw: {"name": "draw"},
     Lesson: {"curriculum": "curriculum", "skill": "skill", "task": "task", "master": "skill", "starts_from": "skill"},
 }  # the nouns of the fields that are names
 
@@ -97,7 +99,10 @@ class Renaming:
         for subject, value in world.facts.items():
             noun, space, own = subject.partition(" ")
             now[f"{noun}{space}{self.name(own, noun)}"] = (
-                {key: _argument(part, meaning_of(REGISTERED.get(noun, noun), value["is"], key), self.name) for key, part in value.items()}
+                {
+                    key: _argument(part, meaning_of(REGISTERED.get(noun, noun), value["is"], key), self.name)
+                    for key, part in value.items()
+                }
                 if noun in OF_KINDS
                 else _mapped(value, (noun,), text)
             )

@@ -6,7 +6,7 @@ since those may be taught again when it has learnt.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from functools import cached_property
 from hashlib import sha256
 from pathlib import Path
@@ -19,7 +19,7 @@ from mindrun.graph.skill_sets import genes, reachable
 from mindrun.graph.tasks import physics
 from mindrun.kinds.environment import module_beside
 from mindrun.kinds.functions.procedure import module_source
-from mindrun.kinds.registry import LATER, arguments, kinds, names
+from mindrun.kinds.registry import arguments, came_later, kinds, names
 from mindrun.numbers.expression import TRUTHS, fold, leaves
 from mindrun.numbers.quantity import EXPRESSION, UNSAID, Quantity, Reference
 
@@ -83,6 +83,7 @@ class Worlds:
             f"varies {each.argument} of {each.of or each.noun} {number(each.low)} to {number(each.high)}"
             for each in task.varies  # the body is called body
         ]
+        varying += self._drawn(task)
         varying += [f"fails {each.actuator} {number(each.rate)} per tick" for each in task.fails]
         if varying:
             yield "varying", sorted(varying)
@@ -167,6 +168,19 @@ class Worlds:
                 event = "" if end.event is None else phrase(task.events[end.event])
                 yield f"{times}{event}" if event else f"when {infix(end.when or (), self._leaf_of(task))}"
 
+    def _drawn(self, task: Task) -> Iterator[str]:
+        """The numbers that a task draws, and the things that these place or that they let be there, as lines of it."""
+        for draw in task.draws:
+            yield f"draws {draw.name} from {(' to ' if draw.is_range else ' ').join(map(number, draw.values))}"
+        for thing in task.things:
+            if thing.when or any(thing.by):
+                signed = ("" if not by else f"{'-' if by < 0 else '+'}{task.draws[abs(by) - 1].name}" for by in thing.by)
+                place = [name or number(at) for name, at in zip(signed, (*thing.kind.spots, (0.0, 0.0))[0], strict=True)]
+                words = [f"contains {thing.name} is {names()[type(thing.kind)]}"]
+                words += [f"at {' '.join(place)}"] if any(thing.by) else []
+                words += [f"when {infix(thing.when, self._leaf_of(task))}"] if thing.when else []
+                yield " ".join(words)
+
     def _leaf_of(self, task: Task) -> Leaf:
         """The function that writes the leaves of a task's expressions."""
 
@@ -174,6 +188,8 @@ class Worlds:
             match word:
                 case "measure":
                     return phrase(task.measures[int(operand)])
+                case "drawn":
+                    return task.draws[int(operand)].name
                 case "command":
                     return self.graph.actuators[int(operand)].name
             return "p" if word == "each" else self._leaf(word, operand)
@@ -249,8 +265,8 @@ def _places(places: Sequence[Sequence[float]], meaning: Quantity | Reference | N
 def completed(noun: str, kind: Mapping[str, Any]) -> Mapping[str, Any]:
     """A kind as plain data, with the arguments that are left out of it where they are as by default."""
     cls = kinds(noun).get(kind["is"])
-    came_later = [each for each in fields(cls) if LATER in each.metadata] if cls else []
-    return {**kind, **{each.name: encode(each.default) for each in came_later if each.name not in kind}}
+    left_out = came_later(cls) if cls else ()
+    return {**kind, **{each.name: encode(each.default) for each in left_out if each.name not in kind}}
 
 
 def meaning_of(noun: str, kind: str, field: str) -> Quantity | Reference | None:

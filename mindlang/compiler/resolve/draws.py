@@ -8,7 +8,7 @@ from mindrun.numbers.quantity import NUMBER
 from msgspec.structs import replace
 
 from mindlang.compiler.diagnostic import Findings, Label, a
-from mindlang.compiler.names import Names
+from mindlang.compiler.names import SHARED, Names
 from mindlang.compiler.resolve.parts import said_once
 from mindlang.compiler.resolve.quantities import span, value_list
 from mindlang.compiler.syntax import Amount, Argument, Declaration, Draws, Either, Name, Numbers, Phrase, Range, of_form
@@ -23,7 +23,7 @@ def resolve_draws(declaration: Declaration, names: Names, findings: Findings) ->
     facts = of_form(declaration.facts, Draws)
     for fact in said_once(facts, lambda fact: f"The task already draws {fact.name.text}.", findings):
         name = fact.name
-        if noun := names.noun_of(name.text, ("sensor", "memory", "actuator", "number")):
+        if noun := names.noun_of(name.text, SHARED["draw"]):
             first = Label(names.place_of(noun, name.text), "first declared here")
             message, hint = f"There is already {a(noun)} called {name.text}.", "Give one of the two another name."
             findings.error("duplicate-name", name.span, message, hint, first)

@@ -24,8 +24,8 @@ T = TypeVar("T")
 class Visible:
     """The names that an expression can use: readings with their widths, that of `for each`, in a task measures.
 
-    `draws` are the numbers that a task draws. `elsewhere` are the readings that exist but are no inputs of the skill, `unread` the words of lines that could not
-    be read, `commands` the actuators whose commands can be seen.
+    `elsewhere` are the readings that exist but are no inputs of the skill, `unread` the words of lines that could not
+    be read, `commands` the actuators whose commands can be seen, `draws` the numbers that a task draws.
     """
 
     readings: Mapping[str, int]

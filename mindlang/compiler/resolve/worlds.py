@@ -129,7 +129,8 @@ def _things(
     for thing in (each for each in found.values() if each.kind and isinstance(each.kind.within, str)):
         zone = found.get(thing.kind.within)
         if zone and zone.kind and zone.kind.within:
-            message, hint = f"{zone.name} is itself within something.", f"Write another zone, or a place for {zone.name}."
+            message = f"{zone.name} is itself within something."
+            hint = f"Write another zone, or a place for {zone.name}."
             findings.error("unfit-thing", thing.span, message, hint, Label(zone.span, "this one"))
     is_task = declaration.header.noun.text == "task"  # which has all that a scene lacks
     things = with_places(tuple(found.values()), scene, is_task, findings)

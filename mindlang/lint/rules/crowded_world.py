@@ -110,9 +110,10 @@ class DrawnWorld:
         """The obstacles of a kind that stand at places, each off by its jitter."""
         for row in kind.rows(self.scene):
             columns, rows, spacing = int(row["columns"]), int(row["rows"]), row["grid"]
+            from_x, from_y = self.random.choice(kind.options) if kind.options else (row["x"], row["y"])
             for line, column in product(range(rows), range(columns)) if not row["count"] else ():
-                x = row["x"] + (column - (columns - 1) / 2) * spacing + row["jitter"] * self.random.uniform(-1, 1)
-                y = row["y"] + (line - (rows - 1) / 2) * spacing + row["jitter"] * self.random.uniform(-1, 1)
+                x = from_x + (column - (columns - 1) / 2) * spacing + row["jitter"] * self.random.uniform(-1, 1)
+                y = from_y + (line - (rows - 1) / 2) * spacing + row["jitter"] * self.random.uniform(-1, 1)
                 yield _square((x, y), self._size(kind.size) / 2)
 
     def _start(self, task: Task) -> bool:

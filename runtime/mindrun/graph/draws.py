@@ -42,3 +42,8 @@ def drawn_numbers(draws: Sequence[Draw], seed: int) -> Mapping[str, float]:
         number = low + (high - low) * share
         found[draw.name] = number if draw.is_range else draw.values[min(int(number), len(draw.values) - 1)]
     return found
+
+
+def drawn_in_words(drawn: Mapping[str, float]) -> str:
+    """The numbers that were drawn for a run, behind its seed: `, side 1, speed 3.5`; empty where there is none."""
+    return "".join(f", {name} {number:.6g}" for name, number in drawn.items())

@@ -1,6 +1,6 @@
 """The compiled hierarchy as plain data: names as indices, units converted, skills in the order of influence."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Annotated, Any, Literal
 
 from mindrun.graph.draws import Draw
@@ -11,7 +11,7 @@ from mindrun.kinds.functions.function import Function
 from mindrun.kinds.learners import Learner
 from mindrun.kinds.measures.measure import MeasureKind
 from mindrun.kinds.memory import Cell
-from mindrun.kinds.registry import arguments, later
+from mindrun.kinds.registry import LATER, arguments
 from mindrun.kinds.scenes.scene import SceneKind
 from mindrun.kinds.sensors.sensor import SensorKind
 from mindrun.kinds.things.thing import ThingKind
@@ -121,8 +121,8 @@ class Thing:
 
     name: str
     kind: ThingKind
-    when: Program = later(())
-    by: tuple[int, int] = later((0, 0))
+    when: Program = field(default=(), metadata=LATER)
+    by: tuple[int, int] = field(default=(0, 0), metadata=LATER)
 
 
 @dataclass(frozen=True, slots=True)
@@ -215,7 +215,7 @@ class Task:
     start: Start = Start()
     varies: tuple[Variation, ...] = ()
     fails: tuple[Failure, ...] = ()
-    draws: tuple[Draw, ...] = later(())
+    draws: tuple[Draw, ...] = field(default=(), metadata=LATER)
 
     @property
     def programs(self) -> tuple[Program, ...]:

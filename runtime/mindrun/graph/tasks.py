@@ -98,7 +98,9 @@ def _draws_things(graph: Graph, task: Task) -> bool:
         is_drawn = kind.begins[0] != kind.begins[1]
         if kind.is_obstacle:
             rows = [*kind.rows(task.scene)]
-            if kind.options or any(row["count"] or (row["columns"] * row["rows"] and (row["jitter"] or is_drawn)) for row in rows):
+            if kind.options or any(
+                row["count"] or (row["columns"] * row["rows"] and (row["jitter"] or is_drawn)) for row in rows
+            ):
                 return True
             continue
         delivers = can_deliver and (kind.is_loose or can_hold)

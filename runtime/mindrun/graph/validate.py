@@ -161,7 +161,8 @@ def _end_flaws(task: Task, width: int, actuators: int) -> Iterator[str]:
         if (end.event is None) == (end.when is None) or end.times < 1:
             yield "has an end that never comes"
         if end.when is not None and not (
-            is_condition(end.when) and _computes(end.when, range(width), len(task.measures), False, actuators, len(task.draws))
+            is_condition(end.when)
+            and _computes(end.when, range(width), len(task.measures), False, actuators, len(task.draws))
         ):
             yield "has an end that cannot be computed"
         event = next((event for index, event in enumerate(task.events) if index == end.event), None)

@@ -2,7 +2,7 @@
 
 from collections import defaultdict
 from collections.abc import Callable, Mapping
-from dataclasses import MISSING, dataclass, field, fields
+from dataclasses import MISSING, Field, dataclass, field, fields
 from functools import cache
 from importlib import import_module
 from pkgutil import iter_modules
@@ -19,7 +19,7 @@ ROOMS = {  # where the kinds of a noun stand: a module for each, of its name, or
     "memory": "mindrun.kinds.memory", "curriculum": "mindrun.kinds.learners",
     "sensor driver": "mindrun.robot.drivers", "actuator driver": "mindrun.robot.drivers",
 }  # fmt: skip
-LATER = "later"  # among the metadata of a field
+LATER = {"later": True}  # metadata of a field that came later: plain data in which it is as by default lack it
 SHARED_NOUNS = {"scene": "task"}  # a scene is one of those that a task can be in
 _kinds: dict[str, dict[str, type[Any]]] = defaultdict(dict)
 _names: dict[type[Any], str] = {}
@@ -51,7 +51,7 @@ class Argument:
         return self.default is MISSING
 
 
-@dataclass_transform(frozen_default=True)
+@dataclass_transform(frozen_default=True, field_specifiers=(field,))
 def kind(noun: str, name: str) -> Callable[[type[T]], type[T]]:
     """Make a class a frozen dataclass with slots, if it is none yet, and register it as the kind `name` of `noun`."""
 
@@ -91,9 +91,9 @@ def _import_all(room: str) -> None:
         import_module(f"{room}.{module}")
 
 
-def later(default: Any) -> Any:
-    """The default of an argument that came later: the plain data of a kind in which it is the default lack it."""
-    return field(default=default, metadata={LATER: True})
+def came_later(cls: type[Any]) -> tuple[Field[Any], ...]:
+    """The fields of a dataclass that are left out of its plain data where they are as by default."""
+    return tuple(each for each in fields(cls) if each.metadata == LATER)
 
 
 def base(noun: str) -> Callable[[type[T]], type[T]]:

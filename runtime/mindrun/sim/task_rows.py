@@ -187,7 +187,9 @@ def walker_rows(task: Task, dt: float) -> dict[str, Array]:
         if kind.walks:
             row = {"thing": i, "step": kind.speed * dt, "turn": kind.turning * np.sqrt(3 * dt)}
             way = {"way": len(ways), "ways": len(kind.ways), "copy": i - places[thing.name].start}
-            rows.append({**row, **way, "is_anywhere": kind.from_ == ANYWHERE, "is_drawn": bool(kind.ways) and not kind.places})
+            rows.append(
+                {**row, **way, "is_anywhere": kind.from_ == ANYWHERE, "is_drawn": bool(kind.ways) and not kind.places}
+            )
             for along in kind.ways if i + 1 == places[thing.name].stop else ():
                 first, count = len(corners), len(along)
                 ways.append({"first": first, "places": count})

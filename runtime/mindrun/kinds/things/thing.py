@@ -1,12 +1,12 @@
 """What the rest of the program asks of a thing, of which it knows no kind by name; and the kinds that are short."""
 
 from collections.abc import Iterable, Mapping, Set
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from math import hypot, inf
 from typing import Annotated, Literal, NamedTuple, Protocol, get_args
 
 from mindrun.kinds.bodies.body import DAMPING, DENSITY
-from mindrun.kinds.registry import arguments, base, kind, later
+from mindrun.kinds.registry import LATER, arguments, base, kind
 from mindrun.kinds.scenes.scene import SceneKind
 from mindrun.numbers.quantity import (
     COORDINATE,
@@ -271,8 +271,8 @@ class Placed(ThingKind):
     size: Annotated[Span, LENGTH] = DEFAULT_SIZE
     away: Annotated[Span, LENGTH] = DEFAULT_DISTANCE
     at: Annotated[tuple[Place, ...], COORDINATE] = ()
-    or_: Annotated[Alternatives, COORDINATE] = later(())
-    within: Annotated[Region, THING] = later("")
+    or_: Annotated[Alternatives, COORDINATE] = field(default=(), metadata=LATER)
+    within: Annotated[Region, THING] = field(default="", metadata=LATER)
     count: Annotated[int, COUNT] = 1
     reached: Annotated[Outcome, OUTCOME] = STAYS
 
@@ -291,8 +291,8 @@ class Loose(ThingKind):
     damping: Annotated[float, DAMPING] = 5.0
     away: Annotated[Span, LENGTH] = DEFAULT_DISTANCE
     at: Annotated[tuple[Place, ...], COORDINATE] = ()
-    or_: Annotated[Alternatives, COORDINATE] = later(())
-    within: Annotated[Region, THING] = later("")
+    or_: Annotated[Alternatives, COORDINATE] = field(default=(), metadata=LATER)
+    within: Annotated[Region, THING] = field(default="", metadata=LATER)
     count: Annotated[int, COUNT] = 1
     reached: Annotated[Outcome, OUTCOME] = STAYS
     delivered: Annotated[Outcome, OUTCOME] = MOVES

@@ -1,11 +1,11 @@
 """A thing that moves by itself."""
 
-from dataclasses import replace
+from dataclasses import field, replace
 from itertools import pairwise
 from math import pi
 from typing import Annotated, Literal, get_args
 
-from mindrun.kinds.registry import kind, later
+from mindrun.kinds.registry import LATER, kind
 from mindrun.kinds.scenes.scene import SceneKind
 from mindrun.kinds.things.thing import (
     DEFAULT_DISTANCE,
@@ -55,9 +55,9 @@ class Walker(ThingKind):
     along: Annotated[tuple[Place, ...], COORDINATE] = ()
     away: Annotated[Span, LENGTH] = DEFAULT_DISTANCE
     at: Annotated[tuple[Place, ...], COORDINATE] = ()
-    or_: Annotated[Alternatives, COORDINATE] = later(())
-    from_: Annotated[Begin, BEGIN] = later(START)
-    within: Annotated[Region, THING] = later("")
+    or_: Annotated[Alternatives, COORDINATE] = field(default=(), metadata=LATER)
+    from_: Annotated[Begin, BEGIN] = field(default=START, metadata=LATER)
+    within: Annotated[Region, THING] = field(default="", metadata=LATER)
     count: Annotated[int, COUNT] = 1
     reached: Annotated[Outcome, OUTCOME] = STAYS
 

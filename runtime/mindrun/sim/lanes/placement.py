@@ -353,7 +353,7 @@ def clear_of_all(tables, world, x, y, margin, lane):
 
 
 def clear_of_things(things, x, y, extent, but, zone, lane):
-    """True if something of half size `extent` at a place would cover no thing, those numbered `but` and `zone` aside."""
+    """True if something of half size `extent` at a place would cover no thing, numbers `but` and `zone` aside."""
     for i in range(things.shape[0] // THING_ROWS):
         its_x, its_y = place_of(things, i, lane)
         gap = extent + size_of(things, i, lane) / 2
