@@ -64,6 +64,8 @@ WORDS: Mapping[str, Mapping[str, str]] = {
     "to": {"varies": "to"},
     "tick": {"rewards": "tick", "fails": "tick", "stop": "tick"},
     "facing": {"starts": "facing"},
+    "at": {"drives": "at", "influences": "at", "starts": "at", "sensor": "at"},
+    "or": {verb: "or" for verb in ("drives", "influences", "contains", "ends", "succeeds", "rewards", "stop")},
     "cuts": {"influences": "cuts below"},
     "by": {},
     "from": {},

@@ -70,7 +70,7 @@ class Builder(Transformer_NonRecursive[Token, Any]):
         """A word."""
         return Name(str(token), self._span(token))
 
-    TITLE = PART = WHOLE = TASK = COMPUTED = NUMBERED = GYMNASIUM = ENVIRONMENT = FROM = TO = FACING = NAME
+    TITLE = PART = WHOLE = TASK = COMPUTED = NUMBERED = GYMNASIUM = ENVIRONMENT = FROM = TO = FACING = AT = NAME
 
     def COMPARE(self, token: Token) -> str:  # noqa: N802
         """A sign between two values."""
@@ -148,7 +148,7 @@ class Builder(Transformer_NonRecursive[Token, Any]):
     def numbers(self, meta: Any, parts: list[Any]) -> Numbers:
         return Numbers(tuple(parts), self._span(meta))
 
-    amounts = numbers
+    amounts = from_name = numbers
 
     def stretch(self, meta: Any, parts: list[Any]) -> syntax.Range | syntax.Points:
         """A range where one number stands on each side of `to`, or else places."""

@@ -10,7 +10,7 @@ from msgspec.structs import replace
 from mindlang.compiler.diagnostic import Findings, Label, a
 from mindlang.compiler.names import SHARED, Names
 from mindlang.compiler.resolve.parts import said_once
-from mindlang.compiler.resolve.quantities import span, value_list
+from mindlang.compiler.resolve.quantities import convert, value_list
 from mindlang.compiler.syntax import Amount, Argument, Declaration, Draws, Either, Name, Numbers, Phrase, Range, of_form
 
 AXES = 2
@@ -39,8 +39,15 @@ def _draw(fact: Draws, findings: Findings) -> Draw | None:
                 hint = "Write each of its numbers, with spaces between, or leave by out."
                 findings.error("no-range", several.span, "A range that is drawn from has no steps.", hint)
                 return None
-            ends = span(several, NUMBER, findings)
-            return ends and Draw(fact.name.text, (float(ends.first), float(ends.last)), is_range=True)
+            ends = [convert(each, NUMBER, findings) for each in (several.first, several.last)]
+            low, high = (None if each is None else float(each) for each in ends)
+            if low is None or high is None:
+                return None
+            if low > high:
+                hint = "Write the smaller number first."
+                findings.error("range-backwards", several.span, "This range ends below its beginning.", hint)
+                return None
+            return Draw(fact.name.text, (low, high), is_range=True)
         case several:
             values = value_list(several, NUMBER, findings)
             if values and len(values) > MAX_VALUES:

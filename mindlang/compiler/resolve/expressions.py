@@ -101,7 +101,7 @@ def _refuse_unknown(term: Phrase, visible: Visible, findings: Findings) -> None:
         message = f"{name} is drawn for each run of a task, and is nothing that is sensed."
         hint = f"Let the task contain something at +{name} 5, or when {name} > 0.5, and sense that."
         if visible.measures:
-            hint = f"Add the line draws {name} to this task: what another task draws is not known here."
+            hint = f"Write draws {name} from 0 1 below this task, too: what another task draws is not known here."
         findings.error("unknown-reading", here, message, hint)
     elif visible.measures:
         said = term.span.text

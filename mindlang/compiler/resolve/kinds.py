@@ -168,5 +168,6 @@ def _check_thing(name: Name, noun: str, kind: str, key: str, scope: Scope, findi
     cls, there = find_kind(noun, kind) or AboutThing, [find_kind("content", each) for each in scope.things[name.text]]
     if all(there) and not any(cls.accepts(key, thing) for thing in there if thing):
         is_ = listed(a(kind) for kind in sorted(scope.things[name.text]))
-        hint = f"{name.text} is {is_}; {kind} is about {listed(a(each) for each in sorted(about(noun, kind, key)))}."
-        findings.error("unfit-thing", name.span, f"{kind} cannot be about {name.text}.", hint)
+        about_ = "within" if noun == "content" else "about"
+        hint = f"{name.text} is {is_}; {kind} is {about_} {listed(a(each) for each in sorted(about(noun, kind, key)))}."
+        findings.error("unfit-thing", name.span, f"{kind} cannot be {about_} {name.text}.", hint)
