@@ -174,8 +174,12 @@ class Worlds:
             yield f"draws {draw.name} from {(' to ' if draw.is_range else ' ').join(map(number, draw.values))}"
         for thing in task.things:
             if thing.when or any(thing.by):
-                signed = ("" if not by else f"{'-' if by < 0 else '+'}{task.draws[abs(by) - 1].name}" for by in thing.by)
-                place = [name or number(at) for name, at in zip(signed, (*thing.kind.spots, (0.0, 0.0))[0], strict=True)]
+                signed = (
+                    "" if not by else f"{'-' if by < 0 else '+'}{task.draws[abs(by) - 1].name}" for by in thing.by
+                )
+                place = [
+                    name or number(at) for name, at in zip(signed, (*thing.kind.spots, (0.0, 0.0))[0], strict=True)
+                ]
                 words = [f"contains {thing.name} is {names()[type(thing.kind)]}"]
                 words += [f"at {' '.join(place)}"] if any(thing.by) else []
                 words += [f"when {infix(thing.when, self._leaf_of(task))}"] if thing.when else []

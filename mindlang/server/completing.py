@@ -65,7 +65,7 @@ WORDS: Mapping[str, Mapping[str, str]] = {
     "tick": {"rewards": "tick", "fails": "tick", "stop": "tick"},
     "facing": {"starts": "facing"},
     "at": {"drives": "at", "influences": "at", "starts": "at", "sensor": "at"},
-    "or": {verb: "or" for verb in ("drives", "influences", "contains", "ends", "succeeds", "rewards", "stop")},
+    "or": dict.fromkeys(("drives", "influences", "contains", "ends", "succeeds", "rewards", "stop"), "or"),
     "cuts": {"influences": "cuts below"},
     "by": {},
     "from": {},

@@ -143,7 +143,9 @@ def _presence(fact: Contains, draws: Mapping[str, Draw], scope: Scope, findings:
     cls = find_kind("content", fact.phrase.kind.text)
     if fact.when and cls and cls.is_obstacle:
         hint = "Let a number be its place instead: obstacle at +side 0, or write obstacle at 5 0 or 0 5."
-        findings.error("always-there", fact.when.span, f"{a(fact.phrase.kind.text).capitalize()} is there in every run.", hint)
+        findings.error(
+            "always-there", fact.when.span, f"{a(fact.phrase.kind.text).capitalize()} is there in every run.", hint
+        )
         return None
     made_of = "numbers, and of what the task draws"
     visible = Visible({}, unread=scope.names.unread, draws=draws, made_of=made_of, where="A condition of a thing")

@@ -240,9 +240,12 @@ class ThingKind:
         if len(self.within) != 2:
             hint = "Write two corners, or the name of a zone: within -10 -10 to 10 10."
             return ThingMistake("not-a-place", "A rectangle has two corners.", hint)
-        if scene is None or all(scene.has_room(corner, 0.0) for corner in self.within):
+        (left, below), (right, above) = self.within
+        middle = min(max(0.0, left), right), min(max(0.0, below), above)  # of the arena, or as near as it may be
+        corners = all(scene is None or scene.has_room(corner, 0.0) for corner in self.within)
+        if scene is None or (corners and scene.has_room(middle, self.largest / 2)):
             return None
-        hint = "Write corners that are in it, or on its border; 0 0 is the middle."
+        hint = "Write corners that are in it, or on its border, so that the thing has room; 0 0 is the middle."
         return ThingMistake("outside-arena", "That is not inside the arena.", hint)
 
     @staticmethod
