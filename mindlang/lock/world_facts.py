@@ -253,7 +253,9 @@ def argument(noun: str, kind: str, field: str, value: Any) -> str:
     if meaning == EXPRESSION:
         return f"{field} {infix(tuple((word, x) for word, x in value), lambda _, name: str(name))}"
     if isinstance(value, list) and value and isinstance(value[0], list):
-        words = " or ".join(_places(each, meaning) for each in (value if isinstance(value[0][0], list) else [value]))
+        words = " or ".join(
+            _places(each, meaning) for each in (value if isinstance(next(iter(value[0]), 0), list) else [value])
+        )
     else:
         words = " ".join(_converted(each, meaning) for each in (value if isinstance(value, list) else [value]))
     if not words:

@@ -267,7 +267,8 @@ def _more(rng: Random, noun: str, line: str) -> str:
     kind, *words = re.split(" is | in ", line)[1].split()
     if noun == "content":
         is_placed = not {"at", "along", "grid", "within"}.isdisjoint(words)
-        words += ["away", "count", "size"] * is_placed + ["grid", "at", "along", "or", "within", "from"]  # has to be free
+        words += ["away", "count", "size"] * is_placed  # a place has to be free
+        words += ["grid", "at", "along", "or", "within", "from"]
     words += ["size"] * (noun == "body")  # and there is as much room for the robot
     often = 0.5 if noun in ("curriculum", "body", "actuator") else 0.2
     for argument in arguments(kinds(noun)[kind]):
