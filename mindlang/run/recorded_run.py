@@ -99,7 +99,7 @@ class RecordedRun:
     def placements(self, thing: int) -> Floats:
         """Every place and size [n, 3] where a thing appeared; neither a claw nor its own speed makes a new place."""
         placed: Floats = self.things[np.concatenate([[0], self._jumps(thing)]), thing]
-        return placed
+        return placed[np.isfinite(placed[:, 0])]  # of what is not there in this run none
 
     def stretches(self, thing: int) -> list[Floats]:
         """The places [n, 2] that a thing came through, apart where it was moved elsewhere, and until it vanished."""

@@ -61,7 +61,7 @@ WORDS: Mapping[str, Mapping[str, str]] = {
     "per": {"rewards": "per tick", "fails": "per"},
     "for": {"rewards": "for each", "teaches": "for", "reads": "for"},
     "like": {"skill": "like", "task": "like", "scene": "like"},
-    "to": {"varies": "to"},
+    "to": {"draws": "to", "varies": "to"},
     "tick": {"rewards": "tick", "fails": "tick", "stop": "tick"},
     "facing": {"starts": "facing"},
     "cuts": {"influences": "cuts below"},
