@@ -294,12 +294,14 @@ def refuse_lines(text: str) -> None:
 
 def _is_name(noun: str, name: str) -> bool:
     """True if a line that gives this name can be read, and gives this and no other."""
-    local = {"thing": f"contains {name} is item", "draw": f"draws {name} from 0 1"}
-    line = local.get(noun) or f"{noun} {name} {'in' if noun == 'task' else 'is'} kind"
+    facts = {"thing": f"contains {name} is item", "draw": f"draws {name} from 0 1"}
+    line = facts.get(noun) or f"{noun} {name} {'in' if noun == 'task' else 'is'} kind"
     findings = Findings()
     if noun == "number":
         read = parse(Source("name", f"number {name} is 1"), findings).settings
         return not findings.diagnostics and [each.name.text for each in read if isinstance(each, Number)] == [name]
     task, *others = parse(Source("name", f"task Task in plain\n{line}"), findings).declarations
-    names = [other.header.name for other in others] or [fact.name for fact in of_form(task.facts, Contains | Draws)]
+    names = [other.header.name for other in others] or [
+        fact.name for fact in task.facts if isinstance(fact, Contains | Draws)
+    ]
     return not findings.diagnostics and [known.text for known in names] == [name]

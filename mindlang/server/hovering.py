@@ -104,8 +104,8 @@ def card(view: MindView, noun: str, name: str) -> str:
         lines = [f"- in {world}: `{fact.phrase.span.text}`" for world, fact in said if fact.name.text == name]
         return "\n".join([f"**{name}**, a thing", "", *lines])
     if noun == "draw":
-        said = _saying(view, syntax.Draws, "scene", "task")
-        return "\n\n".join(f"```mind\n{fact.span.text.strip()}\n```" for _, fact in said if fact.name.text == name)
+        drawn = (fact for _, fact in _saying(view, syntax.Draws, "scene", "task") if fact.name.text == name)
+        return "\n\n".join(f"```mind\n{fact.span.text.strip()}\n```" for fact in drawn)
     if noun == "number" and name in view.names.numbers:
         number = view.names.numbers[name]
         return f"```mind\n{number.span.text.strip()}\n```\n\n{comment_of(number.span)}".strip()

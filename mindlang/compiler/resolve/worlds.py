@@ -59,7 +59,7 @@ class ResolvedWorld:
     """A scene, None where it is not well said, and its things; how runs in it begin, and what differs between them."""
 
     scene: Any
-    things: tuple[Part[Any], ...]
+    things: tuple[Thing, ...]
     scope: Scope
     has_battery: bool
     can_succeed: bool
@@ -106,8 +106,8 @@ def resolve_world(declaration: Declaration, robot: RobotFacts, findings: Finding
 
 def _things(
     declaration: Declaration, scene: Any, scope: Scope, draws: Mapping[str, Draw], findings: Findings
-) -> tuple[Part[Any], ...]:
-    found: dict[str, Part[Any]] = {}
+) -> tuple[Thing, ...]:
+    found: dict[str, Thing] = {}
     obstacles = 0
     for fact in of_form(declaration.facts, Contains):
         name = fact.name.text
@@ -152,7 +152,7 @@ def _presence(fact: Contains, draws: Mapping[str, Draw], scope: Scope, findings:
     return resolve_expressions(fact.when, visible, findings)
 
 
-def _check_places(things: Sequence[Part[Any]], scene: SceneKind | None, findings: Findings) -> None:
+def _check_places(things: Sequence[Thing], scene: SceneKind | None, findings: Findings) -> None:
     """Report one thing too many, or else what stands where something else stands in every run."""
     apart = [
         thing.span
@@ -164,7 +164,7 @@ def _check_places(things: Sequence[Part[Any]], scene: SceneKind | None, findings
         hint = f"A world takes {MAX_THINGS} beside its obstacles: leave some out."
         findings.error("too-many-things", apart[MAX_THINGS], f"That is thing number {MAX_THINGS + 1}.", hint)
         return
-    met: dict[str, tuple[Part[Any], Part[Any]]] = {}
+    met: dict[str, tuple[Thing, Thing]] = {}
     for thing, other in Beginning(scene, things, None, None, None, 0.0).overlapping():
         met.setdefault(thing.name, (thing, other))
     for thing, other in met.values():
@@ -179,7 +179,7 @@ def _check_places(things: Sequence[Part[Any]], scene: SceneKind | None, findings
 
 
 def _start(
-    declaration: Declaration, scene: SceneKind | None, things: Sequence[Part[Any]], body: Any, findings: Findings
+    declaration: Declaration, scene: SceneKind | None, things: Sequence[Thing], body: Any, findings: Findings
 ) -> Start:
     """Where the robot starts, as the last line of a task or scene that says so has it; `body` is None if not known."""
     start, said = Start(), of_form(declaration.facts, Starts)

@@ -183,8 +183,8 @@ def _draw_flaws(task: Task) -> Iterator[str]:
     for thing in task.things:
         if thing.when and not (is_condition(thing.when) and _computes(thing.when, (), draws=len(drawn))):
             yield "has a thing of which nobody knows whether it is there"
-        is_one = thing.kind.copies == 1 and thing.kind.spots
-        if any(thing.by) and not (is_one and all(not number or abs(number) - 1 in drawn for number in thing.by)):
+        is_single = thing.kind.copies == 1 and bool(thing.kind.spots)
+        if any(thing.by) and not (is_single and all(not number or abs(number) - 1 in drawn for number in thing.by)):
             yield "has a thing of which nobody knows where it is"
 
 

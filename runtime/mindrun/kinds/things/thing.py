@@ -111,6 +111,7 @@ class ThingKind:
     is_loose = False  # whether it gives way when it is pushed
     walks = False  # whether it moves by itself
     wanders = False  # whether it goes another way in each run
+    ways: Alternatives = ()  # of which one is drawn for each of it
     speed = 0.0  # at which it does, in units per second
     can_be_held = False  # whether a claw can take it
     can_be_delivered = False  # whether it counts as delivered when it comes into a zone

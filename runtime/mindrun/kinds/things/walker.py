@@ -80,7 +80,7 @@ class Walker(ThingKind):
         return self.spots if self.or_ and not self.along else ()
 
     @property
-    def ways(self) -> Alternatives:
+    def ways(self) -> Alternatives:  # type: ignore[override]
         """The ways of which one is drawn for each; none where it wanders."""
         return (self.along, *self.or_) if self.along else ()
 

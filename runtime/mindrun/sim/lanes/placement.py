@@ -280,8 +280,9 @@ def bounds(tables, world, extent, i, lane):
             zone += min(int(uniform(world.random, lane, 0.0, thing.insides)), thing.insides - 1)
         x, y = place_of(world.things, zone, lane)
         half = size_of(world.things, zone, lane) / 2
-        if np.isnan(x):
-            return 1.0, 0.0, 1.0, 0.0, -1
+        if np.isnan(x):  # it stays where it is
+            x, y = place_of(world.things, i, lane)
+            return x, x, y, y, -1
         left, right, below, above = x - half, x + half, y - half, y + half
     room_x, room_y = max(constants.half_x - extent, 0.0), max(constants.half_y - extent, 0.0)
     left, right = min(max(left, -room_x), room_x), max(min(right, room_x), -room_x)
