@@ -19,7 +19,7 @@ from mindlang.attribution.shares import NAMED_PATHS, Contribution, shares
 from mindlang.compiler.diagnostic import did_you_mean, listed
 from mindlang.run.chosen_task import SetupError
 from mindlang.run.edge_flow import EdgeFlows, Singles, Sink, edge_flows, sink_named
-from mindlang.run.outcome import events, rewards_data
+from mindlang.run.outcome import events, rewards_data, run_names
 from mindlang.run.recorded_run import RecordedRun
 from mindlang.run.recording import run_of, running_bundle
 
@@ -52,7 +52,7 @@ def attributed_run(run: RecordedRun, seed: int) -> AttributedRun:
     setup = run.setup
     sources = procedure_sources(run.graph, setup.folder, setup.master)
     flows = edge_flows(setup.ready.policy, sources, setup.master, run)
-    about = {"task": run.task.name, "master": setup.master, "seed": seed}
+    about = run_names(setup.task, setup.master, seed)
     return AttributedRun(about, flows, run.commands, np.zeros(len(run.commands), bool), run)
 
 

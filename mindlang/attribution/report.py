@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Sequence
 from typing import Any
 
+from mindrun.graph.draws import drawn_in_words
 from rich.console import Group, RenderableType
 from rich.text import Text
 
@@ -36,6 +37,7 @@ def _heading(found: dict[str, Any]) -> Text:
         f"{found['recording']}, {found['master']} in charge"
         if "recording" in found
         else f"{found['task']} with {found['master']} in charge, seed {found['seed']}"
+        + drawn_in_words(found.get("drawn", {}))
     )
     return Text.assemble((found["of"], "bold"), f" {when}\n", (whose, "dim"))
 

@@ -77,7 +77,7 @@ class BreakpointSubject:
         things: dict[str, set[str]] = {}
         for thing in self.task.things:
             things.setdefault(thing.name, set()).add(kind_names()[type(thing.kind)])
-        parts = tuple(model.Part(thing.name, thing.kind, NOWHERE) for thing in self.task.things)
+        parts = tuple(model.Thing(thing.name, thing.kind, NOWHERE) for thing in self.task.things)
         battery = any(sensor.kind.battery for sensor in self.graph.sensors)
         scope = Scope(self.names, things, f"task {self.task.name}")
         return ResolvedWorld(self.task.scene, parts, scope, battery, self.task.can_succeed)

@@ -82,7 +82,7 @@ def _run(file: str, chosen: options.RunChoice, breaks: Path | None, files: RunFi
     from rich.console import Group
 
     from mindlang.breakpoints.watch import watcher
-    from mindlang.run.outcome import data_so_far, run_data
+    from mindlang.run.outcome import data_so_far, run_data, run_names
     from mindlang.run.summary import run_summary
 
     seed = secrets.randbits(31) if chosen.seed is None else chosen.seed
@@ -100,8 +100,7 @@ def _run(file: str, chosen: options.RunChoice, breaks: Path | None, files: RunFi
             run = run.until(stop["tick"])
             came = data_so_far(run.task, run.lines[-1], run.events[-1], run.ticks, "a breakpoint")
         came = came | {"stopped": stop}
-    found = {"task": setup.task.name, "master": setup.master, "seed": seed}
-    found |= {"notes": [*setup.ready.notes, *rollout.notes], **came}
+    found = run_names(setup.task, setup.master, seed) | {"notes": [*setup.ready.notes, *rollout.notes], **came}
     where = [stop_summary(stop)] if breaks else []
     terminal.print_result(as_json, found, lambda: Group(*where, run_summary(found)))
     if run:

@@ -9,7 +9,7 @@ be: walls cross, a zone lies under a box.
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from math import cos, hypot, inf, sin
-from typing import Any, Literal, NamedTuple
+from typing import Literal, NamedTuple
 
 from mindrun.graph.graph import Start
 from mindrun.kinds.bodies.body import BodyKind
@@ -19,7 +19,7 @@ from mindrun.kinds.sensors.sensor import SensorKind
 from mindrun.kinds.things.thing import Rectangle, ThingKind
 from mindrun.numbers.quantity import Place
 
-from mindlang.compiler.model import Part
+from mindlang.compiler.model import Thing
 
 Role = Literal["body", "fixed", "floor"]
 APART: frozenset[frozenset[Role]] = frozenset({
@@ -91,7 +91,7 @@ class Beginning:
     """
 
     scene: SceneKind | None
-    things: Sequence[Part[Any]]
+    things: Sequence[Thing]
     at: Place | None
     facing: float | None
     body: BodyKind | None
@@ -102,7 +102,10 @@ class Beginning:
         """The outline of each copy of a thing that has a place; of one that lies on the floor its middle alone."""
         if kind.is_obstacle:
             return [rectangle_outline(each) for each in kind.standing(self.scene, self.may)]
-        half, places = self.half(kind), kind.places[: kind.copies]
+        return self._outlines_at(kind, kind.places[: kind.copies])
+
+    def _outlines_at(self, kind: ThingKind, places: Iterable[Place]) -> list[Outline]:
+        half = self.half(kind)
         if kind.is_round or kind.is_area:
             return [Outline((place,), 0.0 if kind.is_area else half) for place in places]
         return [rectangle_outline(Rectangle(*place, half, half)) for place in places]
@@ -133,25 +136,35 @@ class Beginning:
         ends = zip((robot.span(axis) for axis in UNIT_AXES), self.scene.sides, strict=True)
         return all(max(-low, high) <= side / 2 + TOUCHING_UNITS for (low, high), side in ends)
 
-    def overlapping(self) -> Iterator[tuple[Part[Any], Part[Any]]]:
-        """Pairs of things that overlap, a fixed one as the second; one that walks is tried at all places of its way."""
+    def overlapping(self) -> Iterator[tuple[Thing, Thing]]:
+        """Pairs of things that overlap, a fixed one as the second; one that is not always there only with fixed ones.
+
+        Against what is fixed one is tried at each place that is drawn, and one that walks at all of its way.
+        """
         parts = [(each, role(each.kind), self.outlines(each.kind)) for each in self.things if each.kind]
-        placed = sorted((part for part in parts if part[2]), key=lambda part: part[1] != "fixed")
+        placed = sorted((part for part in parts if part[2] or part[0].kind.spots), key=lambda part: part[1] != "fixed")
         for number, (thing, its, outlines) in enumerate(placed):
             if its == "body" and any(overlap(a, b) for i, a in enumerate(outlines) for b in outlines[:i]):
                 yield thing, thing
-            spots = [*outlines, *(Outline((place,)) for place in thing.kind.places)]
+            spots = [*outlines, *self._drawn(thing.kind)]
+            spots += [Outline((place,)) for place in thing.kind.spots]
             for other, other_role, others in () if its == "fixed" else placed[:number]:
                 mine = spots if other_role == "fixed" else outlines
-                if {its, other_role} in APART and any(overlap(a, b) for a in mine for b in others):
+                may_be_apart = other_role != "fixed" and bool(thing.when or other.when)
+                if {its, other_role} in APART and not may_be_apart and any(overlap(a, b) for a in mine for b in others):
                     yield thing, other
 
-    def on_robot(self) -> Part[Any] | None:
+    def on_robot(self) -> Thing | None:
         """The first thing that is where the robot starts."""
         robot = self.robot
         bodies = (thing for thing in self.things if thing.kind and role(thing.kind) != "floor")
-        met = (each for each in bodies if robot and any(overlap(robot, its) for its in self.outlines(each.kind)))
-        return next(met, None)
+        begins = ((each, [*self.outlines(each.kind), *self._drawn(each.kind)]) for each in bodies)
+        return next((each for each, its in begins if robot and any(overlap(robot, one) for one in its)), None)
+
+    def _drawn(self, kind: ThingKind) -> list[Outline]:
+        """The outlines of a thing at each place of which one is drawn."""
+        standing = kind.standing(self.scene, True) if kind.is_obstacle and kind.options else ()
+        return [*map(rectangle_outline, standing)] or self._outlines_at(kind, kind.options)
 
     def first_tick_count(self, event: EventKind, sensors: Iterable[SensorKind]) -> int:
         """How often an event happens in the first tick of every run, whatever the robot does."""
@@ -178,8 +191,13 @@ class Beginning:
         return sum(any(self._is_inside(zone, middle, place) for zone, middle in inside) for place in placed)
 
     def _placed(self, name: str) -> Iterable[tuple[ThingKind, Place]]:
-        kinds = (each.kind for each in self.things if each.kind and each.name == name)
-        return ((kind, place) for kind in kinds for place in kind.places[: kind.copies])
+        there = (each for each in self.things if self.may or not each.when)
+        kinds = (each.kind for each in there if each.kind and each.name == name)
+        return ((kind, place) for kind in kinds for place in self._begins(kind))
+
+    def _begins(self, kind: ThingKind) -> Iterable[Place]:
+        """The places at which a thing begins in every run, or with `may` in some."""
+        return kind.options if self.may and kind.options else kind.places[: kind.copies]
 
     def _is_inside(self, area: ThingKind, middle: Place, place: Place) -> bool:
         return max(abs(middle[0] - place[0]), abs(middle[1] - place[1])) <= self.half(area)
@@ -200,7 +218,7 @@ class Beginning:
 
 
 def task_beginning(
-    scene: SceneKind | None, things: Sequence[Part[Any]], start: Start, body: BodyKind | None, claw: float
+    scene: SceneKind | None, things: Sequence[Thing], start: Start, body: BodyKind | None, claw: float
 ) -> Beginning:
     """The beginning of a task's runs."""
     is_in_middle = scene is not None and not scene.is_bounded

@@ -216,7 +216,7 @@ def under_alias(file: File) -> File:
     if not file.source.alias:
         return file
     names = declared_names([file], Findings())
-    own = {mention.name.span for mention in mentions([file], names) if mention.noun != "thing"}
+    own = {mention.name.span for mention in mentions([file], names) if mention.noun not in ("thing", "draw")}
 
     def renamed(node: Any) -> Any:
         match node:

@@ -59,11 +59,15 @@ class Diagnostic(ShortRepr):
 
 @dataclass(slots=True)
 class Findings:
-    """The diagnostics that stages of the compiler collect; `numbers` are names of numbers that hints may suggest."""
+    """The diagnostics that stages of the compiler collect; `numbers` are names of numbers that hints may suggest.
+
+    `draws` are the names of the numbers that tasks draw.
+    """
 
     diagnostics: list[Diagnostic] = field(default_factory=list)
     comparisons: int = MAX_COMPARED_NAMES  # of names, which are left
     numbers: Collection[str] = ()
+    draws: Collection[str] = ()
 
     def error(self, code: str, span: Span, message: str, hint: str = "", *labels: Label) -> None:
         """Collect an error."""

@@ -153,7 +153,7 @@ def _with_more(first: Sequence[Fact], more: Sequence[Fact]) -> tuple[Fact, ...]:
 def _subject(fact: Fact) -> Hashable:
     """The key of a fact's subject; of two facts with one subject the later one counts."""
     match fact:
-        case syntax.Contains(name) | syntax.Fails(name):
+        case syntax.Contains(name) | syntax.Draws(name) | syntax.Fails(name):
             about: tuple[Hashable, ...] = (name.text,)
         case syntax.Varies(argument, of):
             about = argument.text, of.text

@@ -17,11 +17,15 @@ T = TypeVar("T")
 
 @dataclass(frozen=True, slots=True)
 class Places:
-    """Indices of the names in expressions: readings as (start, width), actuators, and measures, which are added to."""
+    """Indices of the names in expressions: readings as (start, width), actuators, what a task draws, and measures.
+
+    Measures are added to.
+    """
 
     readings: Mapping[str, tuple[int, int]]
     actuators: Mapping[str, int] = field(default_factory=dict)
     measures: dict[Any, int] = field(default_factory=dict)
+    draws: Mapping[Any, int] = field(default_factory=dict)
 
 
 def lower(mind: model.Mind) -> graph.Graph:
@@ -41,12 +45,12 @@ def lower(mind: model.Mind) -> graph.Graph:
         tuple(memories),
         tuple(graph.Actuator(actuator.name, actuator.kind) for actuator in mind.actuators),
         tuple(_skills(mind, readings)),
-        tuple(_task(task, Places(readings, commands, {})) for task in mind.tasks),
+        tuple(_task(task, Places(readings, commands, {}, _numbered(task.draws))) for task in mind.tasks),
         tuple(graph.Lesson(*(getattr(each, of.name) for of in fields(graph.Lesson))) for each in mind.lessons),
     )
 
 
-def _numbered(names: Iterable[str]) -> dict[str, int]:
+def _numbered(names: Iterable[T]) -> dict[T, int]:
     return {name: number for number, name in enumerate(names)}
 
 
@@ -79,10 +83,11 @@ def _task(task: model.Task, places: Places) -> graph.Task:
     ends = tuple(dict.fromkeys(_end(end, events, places) for end in task.ends))
     rewards = tuple(_reward(reward, events, places) for reward in task.rewards)
     counts = tuple(dict.fromkeys(_index(event, events) for event in task.counts))
-    things = tuple(graph.Thing(thing.name, thing.kind) for thing in task.things)
+    whens = ((each, lower_condition(each.when, places) if each.when else ()) for each in task.things)
+    things = tuple(graph.Thing(each.name, each.kind, when, each.by) for each, when in whens)
     return graph.Task(
         task.name, task.scene, things, task.ticks, tuple(places.measures), tuple(events), ends, rewards, counts
-    , task.start, task.varies, task.fails)  # fmt: skip
+    , task.start, task.varies, task.fails, task.draws)  # fmt: skip
 
 
 def _end(end: model.End, events: dict[Any, int], places: Places) -> graph.End:
@@ -126,6 +131,8 @@ def _program(expression: Expression, places: Places) -> graph.Program:
                 return word, places.readings[operand][0]
             case "command":
                 return word, places.actuators[operand]
+            case "drawn":
+                return word, places.draws[operand]
             case "measure":
                 return word, _index(operand, places.measures)
         return word, operand

@@ -6,6 +6,7 @@ from functools import cached_property
 from typing import Any, Generic, NamedTuple, TypeVar
 
 from mindrun.graph import graph
+from mindrun.graph.draws import Draw
 from mindrun.graph.graph import Failure, Receiver, Sensor, Start, Variation
 from mindrun.kinds.actuators.actuator import ActuatorKind
 from mindrun.kinds.bodies.body import BodyKind
@@ -36,6 +37,16 @@ class Part(Struct, Generic[K], frozen=True):
     kind: K
     span: Span
     width: int = 1
+
+
+class Thing(Part[ThingKind], frozen=True):
+    """A thing of a task. It is there in the runs in which the condition `when` holds, or in all.
+
+    `by` says which numbers that the task draws are its x and its y, as in `graph.Thing`.
+    """
+
+    when: syntax.When | None = None
+    by: tuple[int, int] = (0, 0)
 
 
 class Edge(Struct, frozen=True):
@@ -114,10 +125,11 @@ class Task(Struct, frozen=True):
 
     name: str
     scene: SceneKind
-    things: tuple[Part[ThingKind], ...]
+    things: tuple[Thing, ...]
     start: Start
     varies: tuple[Variation, ...]
     fails: tuple[Failure, ...]
+    draws: tuple[Draw, ...]
     ticks: int
     ends: tuple[End, ...]
     rewards: tuple[Reward, ...]

@@ -12,15 +12,16 @@ from msgspec.structs import replace
 
 from mindlang.compiler.diagnostic import Findings, a, listed
 from mindlang.compiler.source import Span
-from mindlang.compiler.syntax import Contains, Declaration, File, Name, Number, of_form
+from mindlang.compiler.syntax import Contains, Declaration, Draws, File, Name, Number, of_form
 
 # A memory is read like a sensor and driven like an actuator, so its name must be neither's.
-# In an expression, a number's name stands where a reading's may, and in rewards a command's.
+# In an expression, a number's name stands where a reading's may, in rewards a command's, and in tasks that of a draw.
 SHARED = {
     "sensor": ("memory", "number"),
     "actuator": ("memory", "number"),
     "memory": ("sensor", "actuator", "number"),
     "number": ("sensor", "memory", "actuator"),
+    "draw": ("sensor", "memory", "actuator", "number"),
 }
 _WORD = re.compile(r"\w[\w.+-]*")
 NOUN_USES = {
@@ -99,6 +100,12 @@ class Names:
         return self._all_things if tasks and all(task.whole for task in tasks) else None
 
     @cached_property
+    def draws(self) -> frozenset[str]:
+        """The names of the numbers that tasks and scenes draw."""
+        worlds = (each for noun in ("task", "scene") for each in self.table.get(noun, {}).values())
+        return frozenset(fact.name.text for each in worlds for fact in of_form(each.facts, Draws))
+
+    @cached_property
     def _all_things(self) -> dict[str, set[str]]:
         return declared_things(*self.table.get("task", {}).values())
 
@@ -139,7 +146,7 @@ def declared_names(files: Iterable[File], findings: Findings) -> Names:
             _refuse_again(names, other, number.name, findings)
         else:
             names.numbers[number.name.text] = number
-    findings.numbers = names.numbers.keys() | names.unread
+    findings.numbers, findings.draws = names.numbers.keys() | names.unread, names.draws
     return names
 
 

@@ -14,7 +14,7 @@ from mindlang.compiler.names import Names
 from mindlang.compiler.syntax import Declaration, Fact, File, Header, Name, Phrase, Setting, of_form
 
 READABLE_NOUNS = ("sensor", "memory")
-VALUE_NOUNS = (*READABLE_NOUNS, "number", "actuator")  # an actuator is its command, in a task
+VALUE_NOUNS = (*READABLE_NOUNS, "number", "actuator", "draw")  # an actuator is its command, in a task
 DRIVABLE_NOUNS = ("actuator", "memory")
 
 
@@ -50,15 +50,16 @@ def mentions_in(line: Setting | Header | Fact, names: Names, by: Declaration | N
     if isinstance(line, Header):
         yield Mention(line.noun.text, line.name, by, is_own=True)
     for name, nouns in names_in(line):
-        if noun := names.noun_of(name.text, nouns) or ("thing" if "thing" in nouns else ""):
+        local = "thing" if "thing" in nouns else "draw" if "draw" in nouns and name.text in names.draws else ""
+        if noun := names.noun_of(name.text, nouns) or local:
             yield Mention(noun, name, by)
 
 
 def _amounts(line: Any, names: Names, by: Declaration | None) -> Iterator[Mention]:
-    """The numbers that are named in a line in the place of an amount."""
-    for node in syntax.walk_tree(line) if names.numbers else ():
-        if isinstance(node, syntax.Amount) and node.name in names.numbers:
-            yield Mention("number", node.constant, by)
+    """The numbers that are named in a line in the place of an amount, also those that a task draws."""
+    for node in syntax.walk_tree(line) if names.numbers or names.draws else ():
+        if isinstance(node, syntax.Amount) and (node.name in names.numbers or node.name in names.draws):
+            yield Mention("number" if node.name in names.numbers else "draw", node.constant, by)
 
 
 def introductions(files: Collection[File]) -> Iterator[Mention]:
@@ -69,6 +70,8 @@ def introductions(files: Collection[File]) -> Iterator[Mention]:
         yield Mention(declaration.header.noun.text, declaration.header.name, declaration, is_own=True)
         contained = of_form(declaration.facts, syntax.Contains)
         yield from (Mention("thing", fact.name, declaration) for fact in contained)
+        drawn = of_form(declaration.facts, syntax.Draws)
+        yield from (Mention("draw", fact.name, declaration) for fact in drawn)
 
 
 Named = tuple[Name, Sequence[str]]  # with the nouns that it may be of: the first that declares it counts
@@ -94,6 +97,9 @@ def names_in(line: Setting | Header | Fact | syntax.Stop) -> Iterator[Named]:
         case syntax.Contains(name, phrase):
             yield name, ("thing",)
             yield from _in_phrase("content", phrase)
+            yield from _in_expressions(*syntax.expressions_in(line))
+        case syntax.Draws(name):
+            yield name, ("draw",)
         case syntax.Varies(of=of):
             yield of, (*VARIED_NOUNS, "thing")
         case syntax.Fails(name):

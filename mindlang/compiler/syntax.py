@@ -13,8 +13,8 @@ PARTS = ("sensor", "actuator", "memory")
 WHOLES = ("body", "skill", "curriculum", "scene")
 NOUNS = (*PARTS, *WHOLES, "task")
 VERBS = (
-    "reads", "drives", "influences", "stays", "contains", "starts", "varies", "fails", "lasts", "ends", "succeeds",
-    "rewards", "counts", "teaches",
+    "reads", "drives", "influences", "stays", "contains", "starts", "draws", "varies", "fails", "lasts", "ends",
+    "succeeds", "rewards", "counts", "teaches",
 )  # fmt: skip
 SETTINGS = ("use", "master", "tick", "mind", "unit", "number")
 
@@ -81,7 +81,14 @@ class Text(Struct, frozen=True):
     span: Span
 
 
-Value = Numbers | Range | Points | Name | Text
+class Either(Struct, frozen=True):
+    """`or 10 0 or 0 10`: what may stand instead of the value before it; a range has one number on each side."""
+
+    options: tuple[Numbers | Range | Points, ...]
+    span: Span
+
+
+Value = Numbers | Range | Points | Name | Text | Either
 
 
 class Argument(Struct, frozen=True):
@@ -196,10 +203,11 @@ class Stays(Struct, frozen=True):
 
 
 class Contains(Struct, frozen=True):
-    """`contains NAME is PHRASE`"""
+    """`contains NAME is PHRASE [when CONDITION]`"""
 
     name: Name
     phrase: Phrase
+    when: When | None
     span: Span
 
 
@@ -208,6 +216,14 @@ class Starts(Struct, frozen=True):
 
     place: tuple[Amount, Amount] | None
     facing: Amount | None
+    span: Span
+
+
+class Draws(Struct, frozen=True):
+    """`draws NAME from NUMBERS`, or from a range"""
+
+    name: Name
+    of: Numbers | Range | Points
     span: Span
 
 
@@ -300,7 +316,7 @@ class Teaches(Struct, frozen=True):
 
 
 Fact = (
-    Reads | Drives | Influences | Stays | Contains | Starts | Varies | Fails | Lasts | Ends | Succeeds | Rewards
+    Reads | Drives | Influences | Stays | Contains | Starts | Draws | Varies | Fails | Lasts | Ends | Succeeds | Rewards
     | Counts | Teaches
 )  # fmt: skip
 
@@ -429,6 +445,8 @@ def expressions_in(*nodes: Any) -> Iterator[Expression]:
                 yield node
             case Header(at=at):
                 yield from expressions_in(at)
+            case Contains(when=when):
+                yield from expressions_in(when)
             case Sends() | Gate() | Outcome() | When() | Comparison() | Rewards():
                 yield from expressions_in(*astuple(node))
             case tuple():

@@ -11,14 +11,15 @@ from mindlang.compiler.syntax import PARTS, Declaration, Fact, File, Number, Use
 INDENT = "  "
 NOUNS = ("body", "actuator", "sensor", "memory", "skill", "scene", "task", "curriculum")  # in the order of a file
 FACTS: tuple[type[Fact], ...] = (
-    *(syntax.Contains, syntax.Starts, syntax.Varies, syntax.Fails, syntax.Lasts, syntax.Ends, syntax.Succeeds),
-    *(syntax.Reads, syntax.Drives, syntax.Influences, syntax.Stays, syntax.Rewards, syntax.Counts, syntax.Teaches),
+    *(syntax.Draws, syntax.Contains, syntax.Starts, syntax.Varies, syntax.Fails, syntax.Lasts, syntax.Ends),
+    *(syntax.Succeeds, syntax.Reads, syntax.Drives, syntax.Influences, syntax.Stays, syntax.Rewards, syntax.Counts),
+    syntax.Teaches,
 )  # in the order of a declaration
 
 OWNERS = {  # below which declarations the facts of each verb stand
     "skill": ("reads", "drives", "influences", "stays"),
-    "task": ("lasts", "ends", "succeeds", "rewards", "counts", "contains", "starts", "varies", "fails"),
-    "scene": ("contains", "starts", "varies", "fails"),
+    "task": ("lasts", "ends", "succeeds", "rewards", "counts", "contains", "starts", "draws", "varies", "fails"),
+    "scene": ("contains", "starts", "draws", "varies", "fails"),
     "curriculum": ("teaches",),
 }
 

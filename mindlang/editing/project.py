@@ -23,6 +23,7 @@ from mindlang.compiler.syntax import (
     PARTS,
     Contains,
     Declaration,
+    Draws,
     Drives,
     File,
     Influences,
@@ -35,7 +36,7 @@ from mindlang.editing.neighbours import neighbours
 from mindlang.lock import lock_sources
 
 MAX_SUGGESTED_NAMES = 8  # names in a message
-EXAMPLES = dict.fromkeys((*PARTS, "thing", "number"), "left_wheel")  # of the other nouns it is GoThere
+EXAMPLES = dict.fromkeys((*PARTS, "thing", "draw", "number"), "left_wheel")  # of the other nouns it is GoThere
 
 
 class EditError(MindError):
@@ -280,7 +281,7 @@ def refuse_no_noun(word: str, nouns: Sequence[str]) -> None:
 def refuse_misnamed(noun: str, name: str) -> None:
     """EditError where the grammar takes a text for no name of a noun."""
     if not _is_name(noun, name):
-        better = proper("sensor" if noun in ("thing", "number") else noun, name)
+        better = proper("sensor" if noun in ("thing", "draw", "number") else noun, name)
         hint = f"Write {better}." if _is_name(noun, better) else f"Write for example {EXAMPLES.get(noun, 'GoThere')}."
         raise EditError(f"{name} cannot be the name of {a(noun)}.", hint)
 
@@ -293,11 +294,14 @@ def refuse_lines(text: str) -> None:
 
 def _is_name(noun: str, name: str) -> bool:
     """True if a line that gives this name can be read, and gives this and no other."""
-    line = f"contains {name} is item" if noun == "thing" else f"{noun} {name} {'in' if noun == 'task' else 'is'} kind"
+    facts = {"thing": f"contains {name} is item", "draw": f"draws {name} from 0 1"}
+    line = facts.get(noun) or f"{noun} {name} {'in' if noun == 'task' else 'is'} kind"
     findings = Findings()
     if noun == "number":
         read = parse(Source("name", f"number {name} is 1"), findings).settings
         return not findings.diagnostics and [each.name.text for each in read if isinstance(each, Number)] == [name]
     task, *others = parse(Source("name", f"task Task in plain\n{line}"), findings).declarations
-    names = [other.header.name for other in others] or [fact.name for fact in of_form(task.facts, Contains)]
+    names = [other.header.name for other in others] or [
+        fact.name for fact in task.facts if isinstance(fact, Contains | Draws)
+    ]
     return not findings.diagnostics and [known.text for known in names] == [name]

@@ -13,6 +13,7 @@ from itertools import count
 from typing import Any, TypeVar, cast
 
 from lark import UnexpectedInput
+from mindrun.graph.draws import Draw
 from mindrun.graph.graph import (
     Actuator,
     End,
@@ -53,10 +54,12 @@ NAMED: Mapping[type, Mapping[str, str]] = {
     Thing: {"name": "thing"},
     Task: {"name": "task"},
     Failure: {"actuator": "actuator"},
+    Draw: {"name": "draw"},
     Lesson: {"curriculum": "curriculum", "skill": "skill", "task": "task", "master": "skill", "starts_from": "skill"},
 }  # the nouns of the fields that are names
 
 OF_KINDS = "sensor", "memory", "actuator", "thing"  # the nouns of facts that are kinds
+REGISTERED = {"thing": "content"}  # nouns that the registry has under another name
 
 Role = tuple[str | int, ...]  # where a text stands: the noun of its fact, and the keys and numbers that lead to it
 _MARK = re.compile("\0([0-9]+)\0")  # no name has such a character
@@ -96,7 +99,10 @@ class Renaming:
         for subject, value in world.facts.items():
             noun, space, own = subject.partition(" ")
             now[f"{noun}{space}{self.name(own, noun)}"] = (
-                {key: _argument(part, meaning_of(noun, value["is"], key), self.name) for key, part in value.items()}
+                {
+                    key: _argument(part, meaning_of(REGISTERED.get(noun, noun), value["is"], key), self.name)
+                    for key, part in value.items()
+                }
                 if noun in OF_KINDS
                 else _mapped(value, (noun,), text)
             )
@@ -214,7 +220,7 @@ def _value(node: Any, field: Field[Any], name: Name) -> Any:
 def _argument(value: Any, meaning: Quantity | Reference | None, name: Name) -> Any:
     """An argument of a kind, of a graph or a fact, with other names."""
     if meaning == THING:
-        return name(value, "thing")
+        return name(value, "thing") if isinstance(value, str) else value
     if meaning == SENSOR:
         return name(value, *READABLE_NOUNS)
     if meaning == EXPRESSION:

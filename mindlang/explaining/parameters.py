@@ -18,6 +18,8 @@ SHAPES = {
     "texts": "a list, each {}",
     "place": "two numbers, each {}",
     "places": "places, each number {}",
+    "alternatives": "places, each number {}",
+    "region": "{}, or two corners of a rectangle",
     "span": "{}, or a range of it",
     "extent": "{}, or two",
 }

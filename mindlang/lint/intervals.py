@@ -57,7 +57,7 @@ def _folded(
                 return operand, operand
             case "reading":
                 return reading(operand)
-            case "measure":
+            case "measure" | "drawn":
                 interval: Interval = operand.interval
                 return interval
         return each if word == "each" else UNIT_INTERVAL

@@ -41,6 +41,7 @@ ARGUMENTS: tuple[Any, ...] = (
     list[Number],
     list[str],
     list[tuple[Number, Number]],
+    list[list[tuple[Number, Number]]],
     list[tuple[str, str | Number]],  # an expression over readings, of words with a number or a name each
 )
 NAMED = {**dict.fromkeys(("actuator", "memory", "sensor", "thing"), KindForm), "skill": dict[str, str | list[str]]}

@@ -8,7 +8,7 @@ from typing import Any
 from mindrun.numbers.quantity import ANGLE
 
 from mindlang.lock.training_world import TrainingWorld
-from mindlang.lock.world_facts import argument, meaning_of, number
+from mindlang.lock.world_facts import argument, completed, meaning_of, number
 
 PARTS = ("sensor", "memory", "actuator", "thing")
 SAME_DIRECTION = 1e-9  # so far apart may be the sines of what is one direction to a reader
@@ -59,6 +59,7 @@ def _kind_changes(noun: str, name: str, old: Mapping[str, Any], now: Mapping[str
     if old["is"] != now["is"]:
         yield f"taught with {name} as {old['is']}, now {now['is']}"
         return
+    old, now = completed(noun, old), completed(noun, now)
     for field in [field for field in now if field != "is" and field in old and old[field] != now[field]]:
         if isinstance(now[field], list) and any(isinstance(each, str) for each in now[field]):
             yield f"the text of {name} has changed"

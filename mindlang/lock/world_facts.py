@@ -19,7 +19,7 @@ from mindrun.graph.skill_sets import genes, reachable
 from mindrun.graph.tasks import physics
 from mindrun.kinds.environment import module_beside
 from mindrun.kinds.functions.procedure import module_source
-from mindrun.kinds.registry import arguments, kinds, names
+from mindrun.kinds.registry import arguments, came_later, kinds, names
 from mindrun.numbers.expression import TRUTHS, fold, leaves
 from mindrun.numbers.quantity import EXPRESSION, UNSAID, Quantity, Reference
 
@@ -83,6 +83,7 @@ class Worlds:
             f"varies {each.argument} of {each.of or each.noun} {number(each.low)} to {number(each.high)}"
             for each in task.varies  # the body is called body
         ]
+        varying += self._drawn(task)
         varying += [f"fails {each.actuator} {number(each.rate)} per tick" for each in task.fails]
         if varying:
             yield "varying", sorted(varying)
@@ -167,6 +168,23 @@ class Worlds:
                 event = "" if end.event is None else phrase(task.events[end.event])
                 yield f"{times}{event}" if event else f"when {infix(end.when or (), self._leaf_of(task))}"
 
+    def _drawn(self, task: Task) -> Iterator[str]:
+        """The numbers that a task draws, and the things that these place or that they let be there, as lines of it."""
+        for draw in task.draws:
+            yield f"draws {draw.name} from {(' to ' if draw.is_range else ' ').join(map(number, draw.values))}"
+        for thing in task.things:
+            if thing.when or any(thing.by):
+                signed = (
+                    "" if not by else f"{'-' if by < 0 else '+'}{task.draws[abs(by) - 1].name}" for by in thing.by
+                )
+                place = [
+                    name or number(at) for name, at in zip(signed, (*thing.kind.spots, (0.0, 0.0))[0], strict=True)
+                ]
+                words = [f"contains {thing.name} is {names()[type(thing.kind)]}"]
+                words += [f"at {' '.join(place)}"] if any(thing.by) else []
+                words += [f"when {infix(thing.when, self._leaf_of(task))}"] if thing.when else []
+                yield " ".join(words)
+
     def _leaf_of(self, task: Task) -> Leaf:
         """The function that writes the leaves of a task's expressions."""
 
@@ -174,6 +192,8 @@ class Worlds:
             match word:
                 case "measure":
                     return phrase(task.measures[int(operand)])
+                case "drawn":
+                    return task.draws[int(operand)].name
                 case "command":
                     return self.graph.actuators[int(operand)].name
             return "p" if word == "each" else self._leaf(word, operand)
@@ -233,13 +253,26 @@ def argument(noun: str, kind: str, field: str, value: Any) -> str:
     if meaning == EXPRESSION:
         return f"{field} {infix(tuple((word, x) for word, x in value), lambda _, name: str(name))}"
     if isinstance(value, list) and value and isinstance(value[0], list):
-        words = " to ".join(" ".join(_converted(each, meaning) for each in place) for place in value)
+        words = " or ".join(
+            _places(each, meaning) for each in (value if isinstance(next(iter(value[0]), 0), list) else [value])
+        )
     else:
         words = " ".join(_converted(each, meaning) for each in (value if isinstance(value, list) else [value]))
     if not words:
         return f"{field.removesuffix('_')} none"
     unit = next(iter(meaning.units), "") if isinstance(meaning, Quantity) else ""
     return f"{field.removesuffix('_')} {words} {unit}".rstrip()
+
+
+def _places(places: Sequence[Sequence[float]], meaning: Quantity | Reference | None) -> str:
+    return " to ".join(" ".join(_converted(each, meaning) for each in place) for place in places)
+
+
+def completed(noun: str, kind: Mapping[str, Any]) -> Mapping[str, Any]:
+    """A kind as plain data, with the arguments that are left out of it where they are as by default."""
+    cls = kinds(noun).get(kind["is"])
+    left_out = came_later(cls) if cls else ()
+    return {**kind, **{each.name: encode(each.default) for each in left_out if each.name not in kind}}
 
 
 def meaning_of(noun: str, kind: str, field: str) -> Quantity | Reference | None:

@@ -119,7 +119,9 @@ def draw_title(canvas: Canvas, run: RecordedRun, found: dict[str, Any], x: float
     """Draw the task, and the facts of the run side by side up to `right`, each below its name."""
     canvas.text(x, y, run.task.name, 24, PAPER.ink, bold=True)
     facts = [
-        *(("in charge", found["master"]), ("seed", str(found["seed"])), ("score", score(found["score"]))),
+        *(("in charge", found["master"]), ("seed", str(found["seed"]))),
+        *((name, f"{number:.6g}") for name, number in run.drawn.items()),
+        ("score", score(found["score"])),
         *((event, str(times)) for event, times in found["by_event"].items()),
         ("ticks", f"{found['ticks']:,} of {found['of_ticks']:,} ({found['ticks'] * run.graph.tick:,.1f} s)"),
         ("success" if found.get("succeeded") else "ended by", found["ended_by"] or "time"),

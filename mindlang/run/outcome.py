@@ -6,6 +6,7 @@ from math import sqrt
 from typing import Any
 
 import numpy as np
+from mindrun.graph.draws import drawn_numbers
 from mindrun.graph.graph import Task
 from mindrun.graph.run_scores import Scores, paid_by_text, score_of
 from mindrun.sim.codes import BROKEN_OFF, GOING_ON, LOST
@@ -87,6 +88,12 @@ def rewards_data(task: Task, paid: NDArray[np.float64]) -> dict[str, Any]:
     return {"score": finite(score_of(paid)), "by_line": {text: finite(value) for text, value in by_line.items()}}
 
 
+def run_names(task: Task, master: str, seed: int) -> dict[str, Any]:
+    """The task, the master and the seed of a run, and the numbers that the task has drawn for it, if it draws any."""
+    drawn = {"drawn": dict(drawn_numbers(task.draws, seed))} if task.draws else {}
+    return {"task": task.name, "master": master, "seed": seed, **drawn}
+
+
 def bench_data(
     task: Task, scores: Scores, seeds: Sequence[int], seconds: float, cpu_seconds: float | None = None
 ) -> dict[str, Any]:
@@ -117,6 +124,7 @@ def bench_data(
         "worst_run": None if worst is None else worst + 1,
         "best_seed": None if best is None else int(seeds[best]),
         "worst_seed": None if worst is None else int(seeds[worst]),
+        **(_drawn_in(task, seeds, best=best, worst=worst) if task.draws else {}),
         "faults": int(scores.faults.sum()),
         "ticks": ticks,
         "seconds": round(seconds, 3),
@@ -124,6 +132,12 @@ def bench_data(
         "cpu_seconds": None if cpu_seconds is None else round(cpu_seconds, 3),
         "ticks_per_cpu_second": None if cpu_seconds is None else round(ticks / max(cpu_seconds, 1e-3)),
     }
+
+
+def _drawn_in(task: Task, seeds: Sequence[int], **runs: int | None) -> dict[str, Any]:
+    """The numbers that were drawn for the best and the worst run; None where there is none."""
+    drawn = {name: None if run is None else dict(drawn_numbers(task.draws, seeds[run])) for name, run in runs.items()}
+    return {f"{name}_drawn": numbers for name, numbers in drawn.items()}
 
 
 def _success(runs: NDArray[np.float64]) -> dict[str, float | None]:

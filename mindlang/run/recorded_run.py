@@ -1,12 +1,13 @@
 """A run written down tick by tick, as arrays: what pictures, films, traces and answers are made from."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 from mindrun.engine.changes import Change
 from mindrun.engine.engine import procedure_sources
+from mindrun.graph.draws import drawn_numbers
 from mindrun.graph.graph import Graph, Task, Thing
 from mindrun.graph.recording_header import GOES_ON
 from mindrun.graph.skill_sets import movers
@@ -16,7 +17,7 @@ from mindrun.sim.trace import Trace, joined, trace
 from numpy.typing import NDArray
 
 from mindlang.run.edge_flow import edge_flows
-from mindlang.run.outcome import run_data
+from mindlang.run.outcome import run_data, run_names
 from mindlang.run.setup import RunSetup
 
 Floats = NDArray[np.float64]
@@ -33,7 +34,8 @@ class RecordedRun:
     `readings` as its skills read them, `influence`, `commands` before the noise of their actuators, `lines` (the sum of
     each reward line so far), `touching`, `battery`, `events` (how often each has happened so far) and `counts` (of the
     counted ones) have a row per tick. `ended` is what ended it, as in a recording; `acting` are the commands with the
-    noise of their actuators and what has failed, None where nobody knows them. In environments `body` is NaN.
+    noise of their actuators and what has failed, None where nobody knows them, as `seed` can be. In environments `body`
+    is NaN.
     """
 
     setup: RunSetup
@@ -51,6 +53,7 @@ class RecordedRun:
     events: NDArray[np.int64]
     ended: int
     acting: NDArray[np.float32] | None = None
+    seed: int | None = None
 
     @property
     def graph(self) -> Graph:
@@ -66,6 +69,11 @@ class RecordedRun:
     def ticks(self) -> int:
         """The number of ticks of the run."""
         return len(self.body) - 1
+
+    @property
+    def drawn(self) -> Mapping[str, float]:
+        """The numbers that the task has drawn for the run, by their names."""
+        return {} if self.seed is None else drawn_numbers(self.task.draws, self.seed)
 
     @property
     def counts(self) -> NDArray[np.int64]:
@@ -91,7 +99,7 @@ class RecordedRun:
     def placements(self, thing: int) -> Floats:
         """Every place and size [n, 3] where a thing appeared; neither a claw nor its own speed makes a new place."""
         placed: Floats = self.things[np.concatenate([[0], self._jumps(thing)]), thing]
-        return placed
+        return placed[np.isfinite(placed[:, 0])]  # of what is not there in this run none
 
     def stretches(self, thing: int) -> list[Floats]:
         """The places [n, 2] that a thing came through, apart where it was moved elsewhere, and until it vanished."""
@@ -151,7 +159,7 @@ def result_of_trace(setup: RunSetup, run: Trace, seed: int) -> RunResult:
     """Make a run of that seed that is about to begin, write it down, and return it with its outcome."""
     written = recorded(setup, run)
     found = run_data(setup.task, scores_of(run.jobs, setup.task))
-    return RunResult(written, {"task": setup.task.name, "master": setup.master, "seed": seed} | found)
+    return RunResult(written, run_names(setup.task, setup.master, seed) | found)
 
 
 def record_run(setup: RunSetup, rollout: Rollout, seed: int) -> RecordedRun:
@@ -179,4 +187,5 @@ def recorded(setup: RunSetup, run: Trace) -> RecordedRun:
         np.cumsum(ticks.events, axis=0),
         int(run.jobs.ended[0]),
         ticks.acting,
+        int(run.jobs.seeds[0]),
     )

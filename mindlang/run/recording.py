@@ -153,4 +153,5 @@ def run_of(about: About, rows: Rows, mind: Bundle, folder: Path) -> RecordedRun:
         world["battery"],
         world["events"].astype(np.int64),
         int(world["ended"][-1]) if len(rows) else GOES_ON,
+        seed=said.seed,
     )

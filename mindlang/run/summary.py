@@ -3,6 +3,7 @@
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Any
 
+from mindrun.graph.draws import drawn_in_words
 from mindrun.sim.outside.making import GAVE_NO_NUMBER
 from rich.console import Group, RenderableType
 from rich.text import Text
@@ -21,7 +22,7 @@ def run_summary(found: dict[str, Any]) -> RenderableType:
     ended = f"ended by {found['ended_by']}" if found["ended_by"] else "lasted its time"
     ended += ", a success" * found.get("succeeded", False)
     facts = _facts(
-        ("seed", str(found["seed"])),
+        ("seed", f"{found['seed']}{drawn_in_words(found.get('drawn', {}))}"),
         *_counted({event: f"{times} × " for event, times in found["by_event"].items()}),
         ("ticks", f"{found['ticks']:,} of {found['of_ticks']:,}, {ended}"),
         ("faults", _faults(found)),
@@ -41,6 +42,7 @@ def bench_summary(found: dict[str, Any]) -> RenderableType:
         f"{'lasted its time' if name == TIME else name}: {n / runs:.0%}" for name, n in found["ended"].items()
     )
     best, worst = (f"{found['seed']}/{found[run]}" if found[run] else "" for run in ("best_run", "worst_run"))
+    best_drawn, worst_drawn = (drawn_in_words(found.get(f"{run}_drawn") or {}) for run in ("best", "worst"))
     facts = _facts(
         ("runs", f"{runs} from seed {found['seed']}{error}"),
         *_counted({event: f"{_mean(spread, '')}   " for event, spread in found["by_event"].items()}),
@@ -48,8 +50,8 @@ def bench_summary(found: dict[str, Any]) -> RenderableType:
         ("score", _mean(found, "score_")),
         ("run time", f"{found['runtime_mean']:.1%} of the task's ticks"),
         ("ended by", ended),
-        ("best run", best and f"seed {best}: mindc run --seed {best} repeats it"),
-        ("worst run", worst and f"seed {worst}"),
+        ("best run", best and f"seed {best}{best_drawn}: mindc run --seed {best} repeats it"),
+        ("worst run", worst and f"seed {worst}{worst_drawn}"),
         ("speed", f"{speed(found)} {who}, in {duration(found['seconds'])}"),
         ("faults", _faults(found)),
     )

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from mindrun.errors import MindError
+from mindrun.graph.draws import drawn_numbers
 from mindrun.graph.graph import Task
 from mindrun.graph.named_readings import reading_names
 from mindrun.graph.run_scores import Scores, score_of
@@ -26,9 +27,10 @@ SLICE_ROWS = 10_000  # rows whose texts are in memory at a time
 def trace_table(run: "RecordedRun") -> dict[str, Column]:
     """The columns of a run by name, each with a row for each tick.
 
-    `tick` from 1 and `time` in seconds; where the robot is (`x`, `y` in units, `angle` in radians), each thing
-    (`ball x`, NaN while it is nowhere), what the claw holds and the `battery`, as they are after the step of the tick,
-    all of it but in environments; `reading`, `influence` and `command` of each name, 0 to 1, from before the step;
+    `tick` from 1 and `time` in seconds; what the task has `drawn` for the run; where the robot is (`x`, `y` in units,
+    `angle` in radians), each thing (`ball x`, NaN while it is nowhere), what the claw holds and the `battery`, as they
+    are after the step of the tick, all of it but in environments;
+    `reading`, `influence` and `command` of each name, 0 to 1, from before the step;
     `event`, how often it happened in this tick; `total`, the sum of each reward line so far, and of them all. What was
     not measured is NaN: a sensor that neither a skill below the master nor a reward reads, the influence of a skill
     that is not below it, a battery that nobody asks for. A name that several have is numbered, from 1 on.
@@ -40,6 +42,7 @@ def trace_table(run: "RecordedRun") -> dict[str, Column]:
         [
             ("tick", ticks),
             ("time", ticks * graph.tick),
+            *((f"drawn {name}", np.full(run.ticks, number)) for name, number in run.drawn.items()),
             *(() if run.task.scene.environment else _world(run)),
             *((f"reading {name}", column) for name, column in zip(reading_names(graph), readings, strict=True)),
             *((f"influence {skill.name}", influence[i]) for i, skill in enumerate(graph.skills)),
@@ -65,14 +68,17 @@ def _world(run: "RecordedRun") -> Iterator[tuple[str, Column]]:
 def runs_table(task: Task, scores: Scores, seeds: Sequence[int]) -> dict[str, Column]:
     """The columns of the runs of one genome by name, named as those of a trace: what `mindc bench --csv` writes.
 
-    `seed`, with which `mindc run --seed` repeats the run; `score`; `total`, what each reward line has paid; `event`,
-    how often each event has happened; `ticks`; `ended by`, which is `time` where the run lasted its time; `succeeded`,
-    1 or 0, where the task can succeed; `faults`, values that were not finite numbers.
+    `seed`, with which `mindc run --seed` repeats the run; what the task has `drawn` for it; `score`; `total`, what
+    each reward line has paid; `event`, how often each event has happened; `ticks`; `ended by`, which is `time` where
+    the run lasted its time; `succeeded`, 1 or 0, where the task can succeed; `faults`, values that were not finite
+    numbers.
     """
+    drawn = [drawn_numbers(task.draws, seed) for seed in seeds]
     ended = [ended_by(task, number) or TIME for number in scores.ended_by[0].tolist()]
     return _numbered(
         [
             ("seed", np.array(seeds, np.uint64)),
+            *((f"drawn {draw.name}", np.array([each[draw.name] for each in drawn])) for draw in task.draws),
             ("score", scores.total[0]),
             *((f"total {reward.text}", scores.by_line[0, :, i]) for i, reward in enumerate(task.rewards)),
             *((f"event {event}", scores.by_event[0, :, i]) for i, event in enumerate(events(task))),

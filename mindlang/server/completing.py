@@ -61,7 +61,7 @@ WORDS: Mapping[str, Mapping[str, str]] = {
     "per": {"rewards": "per tick", "fails": "per"},
     "for": {"rewards": "for each", "teaches": "for", "reads": "for"},
     "like": {"skill": "like", "task": "like", "scene": "like"},
-    "to": {"varies": "to"},
+    "to": {"draws": "to", "varies": "to"},
     "tick": {"rewards": "tick", "fails": "tick", "stop": "tick"},
     "facing": {"starts": "facing"},
     "cuts": {"influences": "cuts below"},
@@ -280,7 +280,7 @@ def _names(line: CursorLine, nodes: Sequence[Any]) -> Iterator[Offer]:
     nouns: Sequence[str] = ()
     match nodes:
         case [*_, Amount()]:
-            nouns = ("number",)
+            nouns = ("number", *(["draw"] if isinstance(nodes[0], syntax.Contains) else []))
         case [syntax.Stays(), _]:
             yield from words("frozen")
         case [*_, syntax.Needs(), _]:
@@ -304,7 +304,9 @@ def _sayable(line: CursorLine, nodes: Sequence[Any], known: list[Offer]) -> list
     own = line.above.header if line.above else None
     match nodes[0] if nodes else None:
         case Header(name=name):
-            return [each for each in known if each.sort != "actuator" and each.label != name.text]
+            return [each for each in known if each.sort not in ("actuator", "draw") and each.label != name.text]
+        case syntax.Contains():
+            return [each for each in known if each.sort in ("number", "draw")]
         case syntax.Reads(_, Name()):
             inputs = inputs_of(line.view, own.like.text) if own and own.like else ()
             return [each for each in known if each.label in inputs]
@@ -322,8 +324,9 @@ def _sayable(line: CursorLine, nodes: Sequence[Any], known: list[Offer]) -> list
 def _words(line: CursorLine, accepted: set[str]) -> Iterator[Offer]:
     """The words of the language that mean something there."""
     is_like = bool(line.above and line.above.header.like)
+    keys_too = {"AT", "OR"} if "NAME" in accepted else set[str]()  # arguments there, which their kinds offer
     for sort, said in _literals().items():
-        for word in said if sort in accepted else ():
+        for word in said if sort in accepted - keys_too else ():
             label = WORDS.get(word, {line.first: word}).get(line.first, "")
             if label and (is_like or (line.first, word) != ("reads", "for")):
                 yield from words(label)

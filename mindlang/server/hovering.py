@@ -103,6 +103,9 @@ def card(view: MindView, noun: str, name: str) -> str:
         said = _saying(view, syntax.Contains, "scene", "task")
         lines = [f"- in {world}: `{fact.phrase.span.text}`" for world, fact in said if fact.name.text == name]
         return "\n".join([f"**{name}**, a thing", "", *lines])
+    if noun == "draw":
+        drawn = (fact for _, fact in _saying(view, syntax.Draws, "scene", "task") if fact.name.text == name)
+        return "\n\n".join(f"```mind\n{fact.span.text.strip()}\n```" for fact in drawn)
     if noun == "number" and name in view.names.numbers:
         number = view.names.numbers[name]
         return f"```mind\n{number.span.text.strip()}\n```\n\n{comment_of(number.span)}".strip()

@@ -11,7 +11,7 @@ from mindrun.numbers.quantity import Quantity
 
 from mindlang.compiler.names import declared_things
 from mindlang.compiler.source import comment_of
-from mindlang.compiler.syntax import Declaration, Reads, Varies
+from mindlang.compiler.syntax import Declaration, Draws, Reads, Varies, of_form
 from mindlang.explaining import markdown
 from mindlang.explaining.kinds import kind_article
 from mindlang.explaining.parameters import meaning, parameter
@@ -52,6 +52,8 @@ def names(view: MindView, *nouns: str) -> list[Offer]:
     """Offers of the names that are declared with one of these nouns."""
     said = [(name, noun, each.header.span) for noun in nouns for name, each in view.names.declarations(noun)]
     said += [(name, "number", each.span) for name, each in view.names.numbers.items() if "number" in nouns]
+    worlds = (each for noun in ("task", "scene") for _, each in view.names.declarations(noun) if "draw" in nouns)
+    said += [(fact.name.text, "draw", fact.span) for each in worlds for fact in of_form(each.facts, Draws)]
     return [Offer(name, noun, span.text.strip(), comment_of(span)) for name, noun, span in said]
 
 

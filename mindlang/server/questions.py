@@ -29,6 +29,7 @@ SORTS = {  # what is declared as an editor shows it, in an outline and among off
     "task": (SYMBOL.Event, ITEM.Event),
     "curriculum": (SYMBOL.Module, ITEM.Text),
     "thing": (SYMBOL.Constant, ITEM.Constant),
+    "draw": (SYMBOL.Number, ITEM.Value),
 }
 OFFERS = {
     **{noun: item for noun, (_, item) in SORTS.items()},

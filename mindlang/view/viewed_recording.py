@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from mindrun.files.regular_files import open_regular
 from mindrun.graph.bundle import Bundle
+from mindrun.graph.draws import drawn_in_words, drawn_numbers
 from mindrun.graph.recording_header import MAX_HEADER_BYTES, About
 from mindrun.robot.recording import RecordingError, read, read_growing
 
@@ -61,10 +62,10 @@ def _viewed(
 ) -> Viewed:
     found = running_bundle(bundle, of)
     title, source = f"{path.name} with {of.master} in charge", "robot" if of_ticks is None else "recording"
+    if (task := recorded_task(of, found)) and of.world:
+        title += drawn_in_words(drawn_numbers(task.draws, of.world.seed))
     rows, watch = _measured(of, parts, found), watching(of, found).feed if watching else None
-    return viewed_rows(
-        title, source, of, found, recorded_task(of, found), bundle.absolute().parent, rows, of_ticks, watch
-    )
+    return viewed_rows(title, source, of, found, task, bundle.absolute().parent, rows, of_ticks, watch)
 
 
 def _measured(of: About, parts: Iterator[Rows], mind: Bundle) -> Iterator[Filled]:

@@ -8,6 +8,7 @@ import numpy as np
 from mindrun.engine.changes import Change, What
 from mindrun.engine.engine import procedure_sources
 from mindrun.graph.bundle import Bundle
+from mindrun.graph.draws import drawn_in_words, drawn_numbers
 from mindrun.graph.graph import Graph, Task
 from mindrun.graph.named_readings import reading_names
 from mindrun.graph.recording_header import About
@@ -46,7 +47,8 @@ class ViewedRun:
         world = world_of(task, self.seed, run.boxes, run.begin, run.things, run.turned)
         of = replace(About.of(policy.graph, "", setup.master, ()), world=world)
         mind = Bundle(policy, procedure_sources(policy.graph, setup.folder, setup.master))
-        title = f"{task.name} with {setup.master} in charge, seed {self.seed}"
+        drawn = drawn_in_words(drawn_numbers(task.draws, self.seed))
+        title = f"{task.name} with {setup.master} in charge, seed {self.seed}{drawn}"
         rows, watch = _rows(run, of, len(task.events)), self._watch()
         viewed = viewed_rows(title, RUN, of, mind, task, setup.folder, rows, task.ticks, watch, self.texts)
         viewed.forked = partial(self._forked, viewed.columns)

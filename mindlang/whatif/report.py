@@ -4,6 +4,7 @@ from collections.abc import Iterator, Sequence
 from itertools import groupby
 from typing import Any
 
+from mindrun.graph.draws import drawn_in_words
 from mindrun.terminal.tick_count import ticks as in_words
 from rich.console import Group, RenderableType
 from rich.text import Text
@@ -38,7 +39,10 @@ def comparison_summary(request: Request, compared: Compared) -> RenderableType:
     was, now = compared.was.found, compared.now.found
     columns = zip(*(_column(found, was, now) for found in (was, now)), strict=True)
     return Group(
-        Text.assemble((was["task"], "bold"), f" with {was['master']} in charge, seed {was['seed']}"),
+        Text.assemble(
+            (was["task"], "bold"),
+            f" with {was['master']} in charge, seed {was['seed']}{drawn_in_words(was.get('drawn', {}))}",
+        ),
         Text(request.words),
         "",
         differences_text(compared.differences),

@@ -107,17 +107,29 @@ ROCKS = [
     "rock is obstacle grid 10 size 2 to 3",
     "rock is obstacle count 3",
     "rock is obstacle size 2 at 15 -15",
+    "rock is obstacle size 2 at 15 -15 or 15 15",
     "fence is wall from -14 -18 to 3 -18 to 3 -19",
     "fence is wall from 4 -16 to 4 -18",
 ]
 THINGS = [
-    ["ball is item size 2 reached moves", "ball is item size 2 at 2.5 7.5"],
-    ["coin is item", "coin is item at 7.5 12.5"],
-    ["nest is zone size 8", "nest is zone at -12.5 7.5"],
-    ["dock is power size 4", "dock is power at -2.5 -7.5"],
-    ["crate is box size 2", "crate is box at 12.5 -2.5", "crate is ball", "crate is ball at -7.5 -12.5"],
-    ["cat is walker size 2", "cat is walker at 2.5 2.5", "cat is walker along 2.5 -2.5 to 7.5 -2.5"],
+    ["ball is item size 2 reached moves", "ball is item size 2 at 2.5 7.5", "ball is item at 2.5 7.5 or -2.5 12.5"],
+    ["coin is item", "coin is item at 7.5 12.5", "coin is item within nest"],
+    ["nest is zone size 8", "nest is zone at -12.5 7.5", "nest is zone at -12.5 7.5 or -12.5 2.5"],
+    ["dock is power size 4", "dock is power at -2.5 -7.5 or -7.5 -7.5", "dock is power within -9 -9 to 0 -3"],
+    [
+        *("crate is box size 2", "crate is box at 12.5 -2.5 or 12.5 2.5", "crate is box within nest"),
+        *("crate is ball", "crate is ball at -7.5 -12.5 or -2.5 -12.5", "crate is ball within 9 -9 to 14 9"),
+    ],
+    [
+        *("cat is walker size 2", "cat is walker at 2.5 2.5 or 7.5 2.5", "cat is walker within nest"),
+        "cat is walker along 2.5 -2.5 to 7.5 -2.5",
+        "cat is walker along 2.5 -2.5 to 7.5 -2.5 or 2.5 2.5 to 7.5 2.5 from anywhere",
+    ],
 ]
+DRAWN = [
+    ["draws side from -5 5", "contains pit is zone size 2 at side 17 when side > 0", "rewards 0.1 * side per tick"],
+    ["draws far from 1 to 4.5", "contains pit is zone within -9 15 to 9 17", "ends when far > 4"],
+]  # what is drawn, and what depends on it
 STARTS = ["starts at 2.5 12.5", "starts facing -45 deg", "starts at 2.5 12.5 facing 1/2 deg"]
 SPREADS = [
     ["varies noise of eye 0 to 10%", "varies lost of ball_bearing 0 to 5%", "varies delay of moving 0 to 2 ticks"],
@@ -256,8 +268,9 @@ def _more(rng: Random, noun: str, line: str) -> str:
     """A line that says what kind something is, with some of the arguments that it does not say."""
     kind, *words = re.split(" is | in ", line)[1].split()
     if noun == "content":
-        is_placed = not {"at", "along", "grid"}.isdisjoint(words)
-        words += ["away", "count", "size"] * is_placed + ["grid", "at", "along"]  # a place has to be free
+        is_placed = not {"at", "along", "grid", "within"}.isdisjoint(words)
+        words += ["away", "count", "size"] * is_placed  # a place has to be free
+        words += ["grid", "at", "along", "or", "within", "from"]
     words += ["size"] * (noun == "body")  # and there is as much room for the robot
     words += ["neutral"] * (kind == "order")  # which has to be one of them
     often = 0.5 if noun in ("curriculum", "body", "actuator") else 0.2
@@ -329,7 +342,8 @@ def _in_scene(rng: Random, task: list[str]) -> list[list[str]]:
     (header, phrase), facts = task[0].split(" in "), task[1:]
     name = f"{header.split()[1].replace('+', '')}World"
     of_world = [fact for fact in facts if fact.startswith(("contains", "starts", "varies", "fails"))]
-    things = [fact for fact in of_world if " of crate" not in fact and rng.random() < 0.7]
+    own = (" of crate", " within nest", " pit ")  # of what is said elsewhere
+    things = [fact for fact in of_world if not any(word in fact for word in own) and rng.random() < 0.7]
     scene = [f"scene {name} is {phrase}", *things]
     other = [f"scene {name}More is like {name}", *(thing for thing in things if rng.random() < 0.2)]
     is_like = rng.random() < 0.3
@@ -346,6 +360,7 @@ def _task(rng: Random, name: str) -> list[str]:
         *(f"contains {_more(rng, 'content', thing)}" for thing in things),
         *([rng.choice(STARTS)] if rng.random() < 0.3 else []),
         *(rng.choice(lines) for lines in rng.sample(SPREADS, rng.choice([0, 0, 1, 3]))),
+        *rng.choice([[], [], [], *DRAWN]),
         "lasts 600 ticks",
         rng.choice(["ends on collision", "ends on exhaustion", "ends on 2 collision", "ends when charge < 5%"]),
         *rewards,

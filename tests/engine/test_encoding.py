@@ -268,5 +268,6 @@ def _shaped(shape: str, value: float) -> Any:
         "list": [value],
         "place": [value, value],
         "places": [[value, value]],
+        "alternatives": [[[value, value]]],
         "span": span,
     }[shape]

@@ -53,6 +53,8 @@ ONE: dict[str, tuple[tuple[str, str], ...]] = {
     "nobody carries what would move": (*NO_CLAW, ("item size 1", "item size 1 delivered moves"), ("  lasts", ZONE)),
     "whoever goes a way": (CAT,),
     "a grid of one size": (("size 2 at 0 10", "grid 20 size 2"),),
+    "a number that nothing depends on": (("  lasts", "  draws side from 0 1\n  lasts"),),
+    "a number that is always the same": (("  lasts", "  draws side from 5 5\n  lasts"), ("at 5 5", "at side 5")),
     "a grid without any": (("size 2 at 0 10", "grid 90 size 2 to 3 jitter 1"),),
 }
 DRAWN: dict[str, tuple[tuple[str, str], ...]] = {
@@ -69,6 +71,14 @@ DRAWN: dict[str, tuple[tuple[str, str], ...]] = {
     "how far off one is": (("obstacle size 2", "obstacle jitter 1 size 2"),),
     "where obstacles are": (("size 2 at 0 10", "count 2 size 2"),),
     "where somebody goes": (("item size 1 at", "walker size 1 at"),),
+    "which of its places it is at": (("item size 1 at 5 5", "item size 1 at 5 5 or 5 9"),),
+    "which of its places an obstacle is at": (("at 0 10", "at 0 10 or 9 10"),),
+    "where in a region it is": (("item size 1 at 5 5", "item size 1 within 5 5 to 9 9"),),
+    "where on its way it begins": (("item size 1 at 5 5", "walker along 5 5 to 5 9 from anywhere"),),
+    "which way it is on": (("item size 1 at 5 5", "walker along 5 5 to 5 9 or 5 9 to 5 5"),),
+    "a number that is a place": (("  lasts", "  draws side from 3 5\n  lasts"), ("at 5 5", "at side 5")),
+    "a number that is paid": (("  lasts", "  draws side from 3 5\n  rewards side per tick\n  lasts"),),
+    "whether a thing is there": (("  lasts", "  draws side from 3 5\n  lasts"), ("at 5 5", "at 5 5 when side > 4")),
     "what varies": (("  lasts", "  varies thrust of left_wheel 60 to 80\n  lasts"),),
     "what varies of a sensor": (("  lasts", "  varies noise of eye 0 to 5%\n  lasts"),),
     "what fails": (("  lasts", "  fails left_wheel 1% per s\n  lasts"),),

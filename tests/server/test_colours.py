@@ -28,7 +28,7 @@ TOKENS = {
     "ITS": FUNCTION,
     "ENVIRONMENT": "string.unquoted",
     **dict.fromkeys(("COMPUTED", "NUMBERED", "ORDERED", "GYMNASIUM"), KIND),
-    **dict.fromkeys(("FROM", "TO", "FACING"), KEY),
+    **dict.fromkeys(("FROM", "TO", "FACING", "AT"), KEY),
     **dict.fromkeys(("EXTREME", "AND", "OR", "TICK", "LEVEL"), WORD),
     **dict.fromkeys(("SIGN", "MINUS", "SCALE", "COMPARE", "PLUS"), "keyword.operator"),
 }
@@ -46,6 +46,7 @@ NAMES = {  # by the rule in which they stand, and there by their place among the
     "varies": [KEY],
     "stays": [VALUE],
     "contains": [DECLARED],
+    "draws": [DECLARED],
     "each": [DECLARED, PART],
     "needs": [FUNCTION],
 }
@@ -145,6 +146,13 @@ contains wall is wall from -20 10 to 5 10 thickness 1
 contains m is map from "maze.txt" cell 4
 contains w is walker along 0 0 to 10 0 to 10 10 speed low
 contains i is item size low to high by step count n
+contains i is item at side 4 when -side > 0 and far < 2 or far > b
+contains i is item size 2 at 5 -4 or -5 +far or +side 0 count 2
+contains w is walker along 0 0 to 10 0 or 0 5 to 10 5 from anywhere
+contains w is walker within ring when far > 1/2
+contains w is walker within -5 -4 to 5 0 speed low
+draws side from -14 14
+draws far from 2 to low
 teaches A on B for few from C population 3
 lasts long"""
 

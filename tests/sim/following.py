@@ -1,16 +1,20 @@
 """A run followed tick by tick: what plain Python, the engine and pymunk say of it."""
 
+import math
 from collections import Counter
 from collections.abc import Mapping
+from itertools import islice
 
 import numpy as np
 from mindrun.engine.engine import Engine
-from mindrun.graph.graph import Graph
+from mindrun.graph.draws import drawn_numbers
+from mindrun.graph.graph import Graph, Task
 from mindrun.kinds.sensors.sensor import Physical
-from mindrun.numbers.quantity import Span
+from mindrun.numbers.quantity import Region, Span
 from mindrun.sim.rollout import Rollout
-from mindrun.sim.trace import Moment, trace
+from mindrun.sim.trace import Moment, Trace, trace
 
+from tests.plain import postfix
 from tests.sim.plain_sensors import ordered
 from tests.sim.plain_world import PlainWorld
 from tests.sim.varied import as_drawn, stuck
@@ -22,6 +26,7 @@ def follow(rollout: Rollout, engine: Engine, seed: int) -> Counter[str]:
     graph, task = as_drawn(rollout.graph, rollout.task, run.drawn)
     failing = stuck(rollout.task, run.drawn)
     plain = PlainWorld(graph, task, run, bool(rollout.tables.world[0]["battery"]))
+    hold_draws(task, run, seed)
     used = {int(row["start"]) for row in rollout.tables.sensors}
     counts = np.zeros(len(task.events), np.int64)
     ended = -1
@@ -53,6 +58,43 @@ def follow(rollout: Rollout, engine: Engine, seed: int) -> Counter[str]:
     for happening, count in zip(task.events, counts.tolist(), strict=True):
         total[type(happening).__name__] += count
     return +total
+
+
+def hold_draws(task: Task, run: Trace, seed: int) -> None:
+    """The numbers of a run follow from its seed alone; things are there, and where, as these and their kinds say."""
+    drawn = run.drawn[len(run.drawn) - len(task.draws) :].tolist()
+    assert drawn == [*drawn_numbers(task.draws, seed).values()]
+    things = [thing for thing in task.things if not thing.kind.is_obstacle]
+    rows = iter(run.things.tolist())
+    standing = {thing.name: [*islice(rows, thing.kind.copies)] for thing in things}
+    for thing in things:
+        kind, its = thing.kind, standing[thing.name]
+        when = [("number", drawn[int(x)]) if word == "drawn" else (word, x) for word, x in thing.when]
+        with np.errstate(all="ignore"):
+            is_there = not when or postfix(when, ()) > 0
+        assert [math.isnan(x) for x, *_ in its] == [not is_there] * len(its)
+        there = {(x, y) for x, y, _ in its if is_there}
+        if any(thing.by):
+            signed = zip(thing.by, kind.at[0], strict=True)
+            assert there <= {tuple(math.copysign(1, n) * drawn[abs(n) - 1] if n else at for n, at in signed)}
+        elif kind.options:
+            assert there <= set(kind.options)
+            assert not is_there or len(there) == min(len(its), len(set(kind.options)))
+        elif kind.within:
+            assert all(any(inside(*place, *zone) for zone in zones_of(kind.within, standing)) for place in there)
+
+
+def zones_of(within: Region, standing: Mapping[str, list[list[float]]]) -> list[tuple[float, ...]]:
+    """The sides of what something is within, left, low, right and high; all the world where no zone is left."""
+    if not isinstance(within, str):
+        return [(*within[0], *within[1])]
+    squares = [(x - size / 2, y - size / 2, x + size / 2, y + size / 2) for x, y, size in standing[within]]
+    return [square for square in squares if not math.isnan(square[0])] or [(-math.inf, -math.inf, math.inf, math.inf)]
+
+
+def inside(x: float, y: float, left: float, low: float, right: float, high: float) -> bool:
+    """Whether a place is in a rectangle, but for rounding."""
+    return left - 1e-9 <= x <= right + 1e-9 and low - 1e-9 <= y <= high + 1e-9
 
 
 def hold_readings(plain: PlainWorld, used: set[int], moment: Moment) -> None:

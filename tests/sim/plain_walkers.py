@@ -9,12 +9,32 @@ from mindrun.numbers.trigonometry import cosine, sine
 class PlainWalkers:
     """The walkers of a world, by their place among its things."""
 
-    def __init__(self, of, directions):
+    def __init__(self, of, directions, corners):
         self.of, self.directions = of, directions.copy()
         self.kinds = {i: thing.kind for i, thing in enumerate(of.things) if isinstance(thing.kind, Walker)}
         names = [thing.name for thing in of.things]
-        self.goals = {i: i - names.index(names[i]) + 1 for i in self.kinds}
+        self.ways, self.goals, first = {}, {}, {}
+        for i, kind in self.kinds.items():
+            before = sum(len(way) for name, ways in first.items() if name != names[i] for way in ways)
+            first.setdefault(names[i], kind.ways)
+            self.begin(i, kind, i - names.index(names[i]), corners[[*self.kinds].index(i)] - before)
         self.turned = {}
+
+    def begin(self, i, kind, copy, corner):
+        """Which way it is on, and to which place; what of it is drawn is taken from the lanes."""
+        for way in kind.ways:
+            if 0 <= corner < len(way):
+                self.ways[i], self.goals[i] = way, corner
+                if kind.from_ == "start":
+                    assert corner == (copy + 1) % len(way)
+                    assert tuple(self.of.places[i][:2]) == way[corner - 1] or math.isnan(self.of.places[i][0])
+                elif not math.isnan(self.of.places[i][0]):
+                    there = math.dist(way[corner - 1], self.of.places[i][:2])
+                    assert (
+                        there + math.dist(self.of.places[i][:2], way[corner])
+                        < math.dist(way[corner - 1], way[corner]) + 1e-9
+                    )
+            corner -= len(way)
 
     def walk(self):
         """A step of each; `turned` is how far those that wander may turn now, None for anywhere."""
@@ -24,7 +44,7 @@ class PlainWalkers:
             if math.isnan(place[0]):
                 continue
             if kind.along:
-                self.go(i, kind.along[self.goals[i] % len(kind.along)], step)
+                self.go(i, self.ways[i][self.goals[i] % len(self.ways[i])], step)
                 continue
             x, y = place[0] + cosine(self.directions[i]) * step, place[1] + sine(self.directions[i]) * step
             half = place[2] / 2

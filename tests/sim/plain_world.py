@@ -59,7 +59,8 @@ class PlainWorld:
         self.lines = [np.float64(0)] * len(task.rewards)
         self.history = {}
         self.body = PlainBody(self)
-        self.walkers = PlainWalkers(self, run.turned)
+        self.drawn = run.drawn[len(run.drawn) - len(task.draws) :].tolist()
+        self.walkers = PlainWalkers(self, run.turned, run.state.world.goal[:, 0].tolist())
 
     def patch(self, event):
         """Where the robot is on an event's board, if it has one."""
@@ -370,6 +371,7 @@ class PlainWorld:
             "measure": lambda i: ("number", found[i]),
             "each": lambda i: ("reading", row),
             "command": lambda i: ("number", self.commands[i]),
+            "drawn": lambda i: ("number", self.drawn[i]),
         }
         return postfix([words.get(word, lambda i, word=word: (word, i))(i) for word, i in program], readings)
 

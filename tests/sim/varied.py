@@ -23,7 +23,7 @@ def as_drawn(graph: Graph, task: Task, drawn: Sequence[float]) -> tuple[Graph, T
 
 def stuck(task: Task, drawn: Sequence[float]) -> dict[str, int]:
     """The tick, counted from 0, from which on each actuator that fails is neutral."""
-    return {each.actuator: int(tick) for each, tick in zip(task.fails, drawn[len(task.varies) :], strict=True)}
+    return {each.actuator: int(tick) for each, tick in zip(task.fails, drawn[len(task.varies) :], strict=False)}
 
 
 def _parts(parts: tuple[Any, ...], variation: Variation, value: float) -> tuple[Any, ...]:

@@ -1,9 +1,12 @@
 """Hypothesis strategies for whole worlds: any hierarchy in any body, among anything, judged in any way."""
 
 from dataclasses import fields, replace
+from itertools import product
 from math import pi
+from typing import Any, get_args
 
 from hypothesis import strategies as st
+from mindrun.graph.draws import Draw
 from mindrun.graph.graph import Actuator, End, Failure, Graph, Lesson, Program, Reward, Start, Task, Thing, Variation
 from mindrun.graph.weights import genes
 from mindrun.kinds.actuators.actuator import Gripper, Lamp, Motor, Servo, Steering, Thruster, Wheel
@@ -16,7 +19,7 @@ from mindrun.kinds.scenes.scene import Arena, Plain, SceneKind
 from mindrun.kinds.things.map import Map
 from mindrun.kinds.things.obstacle import Obstacle
 from mindrun.kinds.things.thing import Ball, Item, LooseBox, Power, Zone
-from mindrun.kinds.things.walker import Walker
+from mindrun.kinds.things.walker import Begin, Walker
 from mindrun.kinds.things.wall import Wall
 from mindrun.numbers.quantity import UNSAID, Span
 
@@ -28,6 +31,9 @@ AWAY = st.sampled_from([Span(-1.0, -1.0), Span(0.0, 3.0), Span(0.0, 6.0), Span(2
 PLACES = st.tuples(st.sampled_from([-6.0, 0.0, 4.5]), st.sampled_from([-4.0, 0.5, 3.0]))
 WAYS = [((-9.0, -5.0), (-2.0, -5.0)), ((6.0, 6.0), (6.0, -3.0), (9.5, -3.0)), ((3.0, 7.0), (-3.0, 7.0))]
 PATHS = [((-5.0, 0.0), (5.0, 2.0)), ((0.0, 0.0), (3.0, 0.0), (3.0, -6.0))]
+DRAWS = st.sampled_from([
+    Draw("side", (-4.0, 3.0)), Draw("side", (1.0, 5.0, -2.5)), Draw("far", (-6.0, 6.0), True), Draw("far", (2.0,)),
+])  # fmt: skip
 SPEEDS, TURNINGS = st.sampled_from([0.5, 3.0, 20.0, 300.0]), st.sampled_from([0.0, 1.5, 10.0])
 MAZES = [("#..#", "....", "##.."), ("#.#", "...", "###", "..#")]
 NEUTRAL = st.sampled_from([0.0, 0.4, 0.5, 0.9, 1.0])
@@ -99,12 +105,15 @@ def random_world(draw: st.DrawFn, most: int = 40) -> Graph:
     graph = draw(random_graph())
     graph = replace(draw(_robots(graph)), tick=draw(st.sampled_from([1 / 60, 1 / 30, 0.1])))
     scene: SceneKind = draw(st.sampled_from([Plain(), Arena(20.0), Arena(33.0), Arena((26.0, 15.0))]))
-    things = draw(_things(scene))
+    draws = tuple(draw(st.lists(DRAWS, max_size=2, unique_by=lambda drawn: drawn.name)))
+    things = draw(_things(scene, draws))
     measures, events = draw(_measures(things)), draw(_events(scene, things))
-    rewards = tuple(draw(_rewards(graph, len(measures), len(events))) for _ in range(draw(st.integers(1, 4))))
+    rewards = tuple(
+        draw(_rewards(graph, len(measures), len(events), len(draws))) for _ in range(draw(st.integers(1, 4)))
+    )
     some = st.lists(st.sampled_from(range(len(events))), unique=True, max_size=3) if events else st.just([])
     ticks = draw(st.integers(1, most))
-    ends = tuple(draw(st.lists(_ends(graph, measures, events), max_size=3)))
+    ends = tuple(draw(st.lists(_ends(graph, measures, events, len(draws)), max_size=3)))
     task = Task(
         "World",
         scene,
@@ -116,6 +125,7 @@ def random_world(draw: st.DrawFn, most: int = 40) -> Graph:
         rewards,
         tuple(draw(some)),
         draw(st.sampled_from([Start(), Start(), Start((2.0, -1.0)), Start(None, 1.0), Start((0.0, 0.5), -3.0)])),
+        draws=draws,
     )
     task = replace(task, varies=draw(_variations(graph, task)), fails=draw(_failures(graph)))
     return replace(graph, tasks=(task,), lessons=tuple(draw(_lessons(graph))))
@@ -163,9 +173,9 @@ def learner_kinds(draw: st.DrawFn) -> Learner:
 
 
 @st.composite
-def _things(draw: st.DrawFn, scene: SceneKind) -> tuple[Thing, ...]:
+def _things(draw: st.DrawFn, scene: SceneKind, draws: tuple[Draw, ...]) -> tuple[Thing, ...]:
     """Items, zones and powers, some of them not there; obstacles on a grid or loose."""
-    things = []
+    things: list[Thing] = []
     for name, kind, size in (
         ("object", Item, SIZES),
         ("home", Zone, WIDE),
@@ -187,7 +197,20 @@ def _things(draw: st.DrawFn, scene: SceneKind) -> tuple[Thing, ...]:
             placed = {"away": UNSAID if at else draw(AWAY), "at": at, "count": count}
             if kind is Walker and draw(st.booleans()):
                 placed = {"along": draw(st.sampled_from(PATHS)), "count": draw(st.sampled_from([1, 2]))}
-            things.append(Thing(name, kind(size=draw(size), **placed, **outcomes, **drawn)))
+                if draw(st.booleans()):  # which way it is on, nobody else knows when it has moved
+                    ways = ((PATHS[0],), (), (WAYS[1], PATHS[1]))
+                    placed |= {"or_": draw(st.sampled_from(ways)), "from_": draw(st.sampled_from(get_args(Begin)))}
+                    outcomes["reached"] = "stays" if outcomes["reached"] == "moves" else outcomes["reached"]
+            elif draw(st.integers(0, 3)) == 0:
+                zones = [each.name for each in things if each.kind.is_area and not each.kind.within]
+                regions = st.sampled_from([*zones, ((-5.0, -4.0), (4.0, 4.0)), ((-6.0, 2.0), (6.0, 2.0))])
+                placed = {"within": draw(regions), "away": draw(AWAY), "count": count}
+            elif at and draw(st.booleans()):
+                others = draw(st.lists(PLACES, min_size=1, max_size=3))
+                placed |= {"or_": tuple((place,) for place in others), "count": draw(st.sampled_from([1, 2]))}
+            made = kind(size=draw(size), **placed, **outcomes, **drawn)
+            has_room = not made.within or made.mistake(scene) is None
+            things.append(Thing(name, made if has_room else replace(made, within=""), draw(_presence(draws))))
     grid = isinstance(scene, Arena) and draw(st.booleans())
     sizes = draw(st.sampled_from([Span(1.0, 1.0), Span(1.0, 3.0)]))
     if grid:
@@ -197,12 +220,37 @@ def _things(draw: st.DrawFn, scene: SceneKind) -> tuple[Thing, ...]:
     if draw(st.booleans()):
         things.append(Thing("stone", Obstacle(sizes, count=draw(st.integers(0, 5)), away=draw(AWAY))))
     if draw(st.booleans()):
-        things.append(Thing("block", Obstacle(sizes, at=(draw(PLACES),), jitter=draw(st.sampled_from([0.0, 1.5])))))
+        others = tuple((place,) for place in draw(st.lists(PLACES, max_size=2)))
+        jitter = draw(st.sampled_from([0.0, 1.5]))
+        things.append(Thing("block", Obstacle(sizes, at=(draw(PLACES),), or_=others, jitter=jitter)))
     if draw(st.integers(0, 3)) == 0:
         things.append(Thing("maze", Map(draw(st.sampled_from(MAZES)), draw(st.sampled_from([2.0, 3.5])))))
     if draw(st.booleans()):
         things.append(Thing("fence", Wall(draw(st.sampled_from(WAYS)), draw(st.sampled_from([1.0, 0.5, 2.5, 0.05])))))
-    return tuple(draw(st.permutations(things)))
+    return tuple(draw(_drawn_places(each, draws)) for each in draw(st.permutations(things)))
+
+
+def _presence(draws: tuple[Draw, ...]) -> st.SearchStrategy[Program]:
+    """A condition of what is drawn under which a thing is there; most often none."""
+    leaves = [st.sampled_from([0.0, 3.0]).map(lambda x: (("number", x),))]
+    leaves += [st.integers(0, len(draws) - 1).map(lambda i: (("drawn", i),))]
+    return st.just(()) | st.just(()) | conditions(combined(st.one_of(leaves), 2)) if draws else st.just(())
+
+
+@st.composite
+def _drawn_places(draw: st.DrawFn, thing: Thing, draws: tuple[Draw, ...]) -> Thing:
+    """A thing, now and then one that stands at a single place at what is drawn."""
+    kind: Any = thing.kind
+    if not draws or len(kind.at) != 1 or kind.or_ or draw(st.booleans()):
+        return thing
+    signed = st.integers(-len(draws), len(draws))
+    by = draw(st.tuples(signed, signed))
+    ends = (
+        [end if n > 0 else -end for end in draws[abs(n) - 1].ends] if n else [at]
+        for n, at in zip(by, kind.at[0], strict=True)
+    )
+    first, *others = product(*ends)
+    return replace(thing, kind=replace(kind, at=(first,), or_=tuple((place,) for place in others)), by=by)
 
 
 @st.composite
@@ -229,35 +277,39 @@ def _events(draw: st.DrawFn, scene: SceneKind, things: tuple[Thing, ...]) -> tup
 
 
 @st.composite
-def _ends(draw: st.DrawFn, graph: Graph, measures: tuple[MeasureKind, ...], events: tuple[EventKind, ...]) -> End:
+def _ends(
+    draw: st.DrawFn, graph: Graph, measures: tuple[MeasureKind, ...], events: tuple[EventKind, ...], draws: int
+) -> End:
     """An event, the first time or later, or a condition; a success or not."""
     happening = [number for number, event in enumerate(events) if not event.is_of_success]
     succeeds = draw(st.booleans())
     if happening and draw(st.booleans()):
         return End(draw(st.sampled_from(happening)), draw(st.integers(1, 3)), None, succeeds)
-    programs = _programs(graph.width, len(measures), len(graph.actuators), in_loop=False)
+    programs = _programs(graph.width, len(measures), len(graph.actuators), False, draws)
     return End(None, 1, draw(conditions(programs)), succeeds, "it is so")
 
 
 @st.composite
-def _rewards(draw: st.DrawFn, graph: Graph, measures: int, events: int) -> Reward:
+def _rewards(draw: st.DrawFn, graph: Graph, measures: int, events: int, draws: int) -> Reward:
     """An amount per tick or on an event, for each reading of a sensor or once, always or when a condition holds."""
     each = None
     if graph.sensors and draw(st.integers(0, 3)) == 0:
         sensor = draw(st.sampled_from(graph.sensors))
         each = sensor.start, sensor.width
-    programs = _programs(graph.width, measures, len(graph.actuators), each is not None)
+    programs = _programs(graph.width, measures, len(graph.actuators), each is not None, draws)
     on = draw(st.integers(0, events - 1)) if events and draw(st.booleans()) else None
     when = draw(conditions(programs)) if draw(st.booleans()) else None
     return Reward("", draw(programs), on, each, when)
 
 
-def _programs(readings: int, measures: int, commands: int, in_loop: bool) -> st.SearchStrategy[Program]:
+def _programs(readings: int, measures: int, commands: int, in_loop: bool, draws: int) -> st.SearchStrategy[Program]:
     leaves = [st.sampled_from([0.0, 0.5, 1.0, -2.0]).map(lambda x: (("number", x),))]
     leaves.append(st.integers(0, measures - 1).map(lambda i: (("measure", i),)))
     leaves.append(st.integers(0, commands - 1).map(lambda i: (("command", i),)))
     if readings:
         leaves.append(st.integers(0, readings - 1).map(lambda i: (("reading", i),)))
+    if draws:
+        leaves.append(st.integers(0, draws - 1).map(lambda i: (("drawn", i),)))
     if in_loop:
         leaves.append(st.just((("each", 0),)))
     return combined(st.one_of(leaves), 4)

@@ -70,7 +70,8 @@ class Builder(Transformer_NonRecursive[Token, Any]):
         """A word."""
         return Name(str(token), self._span(token))
 
-    TITLE = PART = WHOLE = TASK = COMPUTED = NUMBERED = ORDERED = GYMNASIUM = ENVIRONMENT = FROM = TO = FACING = NAME
+    TITLE = PART = WHOLE = TASK = COMPUTED = NUMBERED = ORDERED = GYMNASIUM = ENVIRONMENT = NAME
+    FROM = TO = FACING = AT = NAME
 
     def COMPARE(self, token: Token) -> str:  # noqa: N802
         """A sign between two values."""
@@ -126,6 +127,10 @@ class Builder(Transformer_NonRecursive[Token, Any]):
         """A phrase of the environment's own (its reward): both words are the name of its kind."""
         return Phrase(Name(f"{parts[0]} {parts[1].text}", self._span(meta)), (), self._span(meta))
 
+    def draws(self, meta: Any, parts: list[Any]) -> syntax.Draws:
+        name, _, of = parts
+        return syntax.Draws(name, of, self._span(meta))
+
     def place(self, meta: Any, parts: list[Any]) -> tuple[Amount, ...]:
         return tuple(parts)
 
@@ -150,7 +155,7 @@ class Builder(Transformer_NonRecursive[Token, Any]):
     def numbers(self, meta: Any, parts: list[Any]) -> Numbers:
         return Numbers(tuple(parts), self._span(meta))
 
-    amounts = numbers
+    amounts = from_name = numbers
 
     def stretch(self, meta: Any, parts: list[Any]) -> syntax.Range | syntax.Points:
         """A range where one number stands on each side of `to`, or else places."""
@@ -160,6 +165,11 @@ class Builder(Transformer_NonRecursive[Token, Any]):
             first, last = (side.amounts[0] for side in sides)
             return syntax.Range(first, last, by, self._span(meta))
         return syntax.Points(tuple(sides), by, self._span(meta))
+
+    def instead(self, meta: Any, parts: list[Any]) -> Argument:
+        """The alternatives go as one argument, which is called as the word before each."""
+        key, span = parts[0], self._span(meta)
+        return Argument(Name(str(key), self._span(key)), syntax.Either(tuple(parts[1::2]), span), span)
 
     def text(self, meta: Any, parts: list[Any]) -> syntax.Text:
         return syntax.Text(str(parts[0])[1:-1], self._span(meta))

@@ -42,6 +42,7 @@ LINES = {
     "scene": "scene Rocks is arena size 100",
     "contains": "contains rock is obstacle count 10",
     "starts": "starts at 0 0 facing 90 deg",
+    "draws": "draws side from 0 1, or draws speed from 2 to 6",
     "varies": "varies thrust of left_wheel 60 to 90",
     "fails": "fails left_wheel 1% per s",
     "lasts": "lasts 10000 ticks",

@@ -1,10 +1,11 @@
 """Expressions: their readings and measures found, their numbers converted."""
 
 from collections.abc import Mapping, Set
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import Any, TypeVar
 
+from mindrun.graph.draws import Draw
 from mindrun.kinds.registry import find_kind, kinds
 from mindrun.numbers.quantity import Quantity
 
@@ -24,7 +25,7 @@ class Visible:
     """The names that an expression can use: readings with their widths, that of `for each`, in a task measures.
 
     `elsewhere` are the readings that exist but are no inputs of the skill, `unread` the words of lines that could not
-    be read, `commands` the actuators whose commands can be seen.
+    be read, `commands` the actuators whose commands can be seen, `draws` the numbers that a task draws.
     """
 
     readings: Mapping[str, int]
@@ -33,6 +34,7 @@ class Visible:
     elsewhere: Mapping[str, int] | None = None
     unread: Set[str] = frozenset()
     commands: Set[str] = frozenset()
+    draws: Mapping[str, Draw] = field(default_factory=dict)
     made_of: str = "numbers and the inputs of its skill"
     where: str = "An expression after at"
 
@@ -74,6 +76,8 @@ def _term(term: Amount | Phrase | Term, visible: Visible, findings: Findings) ->
             hint = f"Write p instead and add for each p in {kind.text}." if visible.measures else hint
             message = f"{kind.text} has {width} readings; an expression takes one number."
             findings.error("wide-reading", term.span, message, hint)
+        case Phrase(kind, ()) if kind.text in visible.draws:
+            return Term("drawn", visible.draws[kind.text], term.span)
         case Phrase(kind, ()) if kind.text in visible.commands:
             return Term("command", kind.text, term.span)
         case Phrase(kind) if visible.measures and find_kind("measure", kind.text):
@@ -93,6 +97,12 @@ def _refuse_unknown(term: Phrase, visible: Visible, findings: Findings) -> None:
     elif visible.elsewhere and name in visible.elsewhere:
         hint = f"Add the line reads {name}; an expression after at sees the inputs of its own skill."
         findings.error("not-an-input", term.span, f"The skill does not read {name}.", hint)
+    elif name in findings.draws:
+        message = f"{name} is drawn for each run of a task, and is nothing that is sensed."
+        hint = f"Let the task contain something at +{name} 5, or when {name} > 0.5, and sense that."
+        if visible.measures:
+            hint = f"Write draws {name} from 0 1 below this task, too: what another task draws is not known here."
+        findings.error("unknown-reading", here, message, hint)
     elif visible.measures:
         said = term.span.text
         hint = findings.suggest(name, visible.readings, kinds("measure"))

@@ -8,12 +8,12 @@ from typing import Any
 from mindrun.kinds.registry import Argument as Parameter
 from mindrun.kinds.registry import arguments, find_kind, kinds
 from mindrun.kinds.things.thing import AboutThing
-from mindrun.numbers.quantity import SLOT, Quantity, Reference
+from mindrun.numbers.quantity import COORDINATE, SLOT, Quantity, Reference
 
 from mindlang.compiler.diagnostic import Findings, Label, a, did_you_mean, listed
 from mindlang.compiler.names import Names
 from mindlang.compiler.resolve.maps import text_lines
-from mindlang.compiler.resolve.quantities import SHAPES
+from mindlang.compiler.resolve.quantities import SHAPES, place_list
 from mindlang.compiler.syntax import VERBS, Argument, Name, Phrase
 
 USER_NOUNS = {"content": "thing", "task": "scene"}  # nouns of the registry in the user's words
@@ -121,6 +121,9 @@ def _value(
 ) -> Any:
     if parameter.shape == "lines":
         return text_lines(argument.value, scope.root, findings)
+    if parameter.shape == "region" and not isinstance(argument.value, Name):
+        corners = place_list(argument.value, COORDINATE, findings)
+        return corners and tuple(zip(*(sorted(along) for along in zip(*corners, strict=True)), strict=True))
     if not isinstance(parameter.type, Reference):
         return _number(parameter, argument, findings)
     name = a_name(argument, f"Here stands the name of a {parameter.type.noun}.", findings)
@@ -165,5 +168,6 @@ def _check_thing(name: Name, noun: str, kind: str, key: str, scope: Scope, findi
     cls, there = find_kind(noun, kind) or AboutThing, [find_kind("content", each) for each in scope.things[name.text]]
     if all(there) and not any(cls.accepts(key, thing) for thing in there if thing):
         is_ = listed(a(kind) for kind in sorted(scope.things[name.text]))
-        hint = f"{name.text} is {is_}; {kind} is about {listed(a(each) for each in sorted(about(noun, kind, key)))}."
-        findings.error("unfit-thing", name.span, f"{kind} cannot be about {name.text}.", hint)
+        about_ = "within" if noun == "content" else "about"
+        hint = f"{name.text} is {is_}; {kind} is {about_} {listed(a(each) for each in sorted(about(noun, kind, key)))}."
+        findings.error("unfit-thing", name.span, f"{kind} cannot be {about_} {name.text}.", hint)

@@ -3,7 +3,6 @@
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import Any
 
 from mindrun.errors import reason
 from mindrun.files.regular_files import read_regular
@@ -13,7 +12,7 @@ from mindrun.numbers.quantity import Place
 from msgspec.structs import replace
 
 from mindlang.compiler.diagnostic import Findings, listed
-from mindlang.compiler.model import Part
+from mindlang.compiler.model import Thing
 from mindlang.compiler.source import MAX_SOURCE_BYTES, decode_source
 from mindlang.compiler.syntax import Contains, File, Text, Value
 
@@ -23,7 +22,7 @@ ROS = re.compile(r"^\s*(image|resolution|occupied_thresh)\s*:", re.M)
 DRAWING = re.compile(r"[+o]-{2,}[+o]")  # two posts and the wall between them, as those of micromouse contests have
 SQUARES = f"A map is a text: a line for each row of squares, {WALL} where one is wall and {FLOOR} where it is floor"
 
-Parts = Sequence[Part[Any]]
+Things = Sequence[Thing]
 
 
 def text_lines(value: Value, root: Path | None, findings: Findings) -> tuple[str, ...] | None:
@@ -77,7 +76,7 @@ def map_paths(files: Iterable[File]) -> list[Path]:
     return [path for value in values if isinstance(value, Text) and (path := path_of(value))]
 
 
-def with_places(things: Parts, scene: SceneKind | None, are_all: bool, findings: Findings) -> tuple[Part[Any], ...]:
+def with_places(things: Things, scene: SceneKind | None, are_all: bool, findings: Findings) -> tuple[Thing, ...]:
     """The things of a task, those at a place of which a map has their letter; `are_all` where no others follow."""
     placed: dict[str, tuple[Place, ...]] = {}
     for drawn in things:
@@ -87,9 +86,7 @@ def with_places(things: Parts, scene: SceneKind | None, are_all: bool, findings:
     return tuple(_placed(thing, placed.get(thing.name), scene, findings) for thing in things)
 
 
-def _named(
-    drawn: Part[Any], things: Parts, are_all: bool, findings: Findings
-) -> Iterator[tuple[str, tuple[Place, ...]]]:
+def _named(drawn: Thing, things: Things, are_all: bool, findings: Findings) -> Iterator[tuple[str, tuple[Place, ...]]]:
     """The things that the letters of a map stand for, and their places; other letters are reported."""
     unknown = []
     for letter, places in drawn.kind.letters.items():
@@ -111,9 +108,7 @@ def _named(
         findings.error("unknown-letter", drawn.span, message, f"{add} {FLOOR} for floor and {WALL} for wall.")
 
 
-def _placed(
-    thing: Part[Any], places: tuple[Place, ...] | None, scene: SceneKind | None, findings: Findings
-) -> Part[Any]:
+def _placed(thing: Thing, places: tuple[Place, ...] | None, scene: SceneKind | None, findings: Findings) -> Thing:
     """A thing at the places that a map has for it, None where it has none."""
     if not thing.kind or not places or thing.kind.mistake(None):
         return thing

@@ -8,7 +8,7 @@ from mindrun.kinds.registry import Shape
 from mindrun.numbers.quantity import LEAST_STEP, Extent, Place, Quantity, Span
 
 from mindlang.compiler.diagnostic import Findings, Label, listed
-from mindlang.compiler.syntax import Amount, Name, Numbers, Points, Range, Value
+from mindlang.compiler.syntax import Amount, Either, Name, Numbers, Points, Range, Value
 
 
 def convert(amount: Amount, quantity: Quantity, findings: Findings, unit: str = "") -> float | int | None:
@@ -17,6 +17,8 @@ def convert(amount: Amount, quantity: Quantity, findings: Findings, unit: str = 
     if amount.name:
         if amount.name not in findings.numbers:  # one that is declared wrongly has been reported there
             hint = findings.suggest(amount.name, findings.numbers) or f"Declare it: number {amount.name} is 12."
+            if amount.name in findings.draws:
+                hint = f"{amount.name} is drawn for each run: it is a place, at +{amount.name} 5, or stands after when."
             message = f"There is no number called {amount.name}."
             findings.error("unknown-number", amount.constant.span, message, hint)
         return None
@@ -137,6 +139,13 @@ def place_list(value: Value, quantity: Quantity, findings: Findings) -> tuple[Pl
     return None if None in found else tuple(each for each in found if each)
 
 
+def alternatives(value: Value, quantity: Quantity, findings: Findings) -> tuple[tuple[Place, ...], ...] | None:
+    """The value of an argument that says what may stand instead of another: places, or lists of them."""
+    options = value.options if isinstance(value, Either) else (value,)
+    found = [place_list(each, quantity, findings) for each in options]
+    return None if None in found else tuple(each for each in found if each)
+
+
 def single_place(value: Value, quantity: Quantity, findings: Findings) -> Place | None:
     """The value of two numbers."""
     match value:
@@ -171,5 +180,5 @@ def span(value: Value, quantity: Quantity, findings: Findings) -> Span | None:
 
 SHAPES: Mapping[Shape, Callable[[Value, Quantity, Findings], Any]] = {  # of the values of arguments
     "one": single_value, "list": value_list, "extent": extent, "place": single_place,
-    "places": place_list, "span": span,
+    "places": place_list, "span": span, "alternatives": alternatives,
 }  # fmt: skip

@@ -20,7 +20,7 @@ MAX_RUN_TICKS = 10_000_000  # of a run
 TIMES = Quantity("how many times", {"": 1.0}, low=1, high=MAX_RUN_TICKS, whole=True)
 LASTS = replace(TICKS, low=1.0, high=MAX_RUN_TICKS)
 
-SCENE_FACTS = ("contains", "starts", "varies", "fails")  # what the world is, not what is to be done in it
+SCENE_FACTS = ("contains", "starts", "draws", "varies", "fails")  # what the world is, not what is to be done in it
 TASK_FACTS = (*SCENE_FACTS, "lasts", "ends", "succeeds", "rewards", "counts")
 
 
@@ -41,7 +41,7 @@ def _task(declaration: Declaration, robot: RobotFacts, findings: Findings) -> mo
     refuse_facts(declaration, TASK_FACTS, findings)
     world = resolve_world(declaration, robot, findings)
     commands = frozenset(robot.names.of("actuator"))
-    visible = Visible(robot.widths, world.scope, unread=robot.names.unread, commands=commands)
+    visible = Visible(robot.widths, world.scope, unread=robot.names.unread, commands=commands, draws=world.drawn)
     ends = _ends(declaration, world, visible, findings)
     _check_decided(ends, world, robot, findings)
     return model.Task(
@@ -51,6 +51,7 @@ def _task(declaration: Declaration, robot: RobotFacts, findings: Findings) -> mo
         world.start,
         world.varies,
         world.fails,
+        world.draws,
         _ticks(declaration, robot.tick, findings),
         ends,
         tuple(_reward(fact, world, visible, robot, findings) for fact in of_form(declaration.facts, Rewards)),

@@ -5,25 +5,28 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from mindrun.graph.draws import Draw
 from mindrun.graph.graph import VARIED_NOUNS, Failure, Start, Variation, Varying, varied_quantity
 from mindrun.kinds.actuators.actuator import REACH_UNITS
 from mindrun.kinds.bodies.body import BodyKind
-from mindrun.kinds.registry import arguments
+from mindrun.kinds.registry import arguments, find_kind
 from mindrun.kinds.registry import names as kind_names
 from mindrun.kinds.scenes.scene import SceneKind
 from mindrun.kinds.things.thing import MAX_OBSTACLES, MAX_THINGS, ThingKind
 from mindrun.numbers.quantity import ANGLE, COORDINATE, RATE
 
 from mindlang.compiler.beginning import Beginning, task_beginning
-from mindlang.compiler.diagnostic import Findings, Label, did_you_mean, listed
-from mindlang.compiler.model import Part
+from mindlang.compiler.diagnostic import Findings, Label, a, did_you_mean, listed
+from mindlang.compiler.model import Part, Thing
 from mindlang.compiler.names import Names, declared_things
+from mindlang.compiler.resolve.draws import at_drawn, resolve_draws
+from mindlang.compiler.resolve.expressions import Visible, resolve_expressions
 from mindlang.compiler.resolve.kinds import Scope, make_kind
 from mindlang.compiler.resolve.maps import with_places
 from mindlang.compiler.resolve.parts import said_once
 from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.source import Span
-from mindlang.compiler.syntax import Contains, Declaration, Fails, Name, Starts, Succeeds, Varies, of_form
+from mindlang.compiler.syntax import Contains, Declaration, Fails, Name, Starts, Succeeds, Varies, When, of_form
 
 NAMES = "Name the body, an actuator, a sensor or a thing of the task."
 
@@ -56,13 +59,19 @@ class ResolvedWorld:
     """A scene, None where it is not well said, and its things; how runs in it begin, and what differs between them."""
 
     scene: Any
-    things: tuple[Part[Any], ...]
+    things: tuple[Thing, ...]
     scope: Scope
     has_battery: bool
     can_succeed: bool
     start: Start = field(default_factory=Start)
     varies: tuple[Variation, ...] = ()
     fails: tuple[Failure, ...] = ()
+    draws: tuple[Draw, ...] = ()
+
+    @property
+    def drawn(self) -> dict[str, Draw]:
+        """The numbers that it draws, by their names."""
+        return {draw.name: draw for draw in self.draws}
 
     @property
     def kinds(self) -> list[ThingKind]:
@@ -78,7 +87,8 @@ def resolve_world(declaration: Declaration, robot: RobotFacts, findings: Finding
     )
     phrase = declaration.header.phrase
     scene = make_kind("task", phrase, scope, findings) if phrase else None
-    things = _things(declaration, scene, scope, findings)
+    draws = resolve_draws(declaration, robot.names, findings)
+    things = _things(declaration, scene, scope, {draw.name: draw for draw in draws}, findings)
     parts = {"body": (robot.body,) if robot.body else (), "actuator": robot.actuators, "sensor": robot.sensors}
     variable = _Variable(robot.names, {**parts, "thing": things}, scope.place, findings)
     return ResolvedWorld(
@@ -90,15 +100,19 @@ def resolve_world(declaration: Declaration, robot: RobotFacts, findings: Finding
         _start(declaration, scene, things, robot.body_kind, findings),
         tuple(variable.variations(declaration)),
         tuple(variable.failures(declaration)),
+        draws,
     )
 
 
-def _things(declaration: Declaration, scene: Any, scope: Scope, findings: Findings) -> tuple[Part[Any], ...]:
-    found: dict[str, Part[Any]] = {}
+def _things(
+    declaration: Declaration, scene: Any, scope: Scope, draws: Mapping[str, Draw], findings: Findings
+) -> tuple[Thing, ...]:
+    found: dict[str, Thing] = {}
     obstacles = 0
     for fact in of_form(declaration.facts, Contains):
         name = fact.name.text
-        kind = make_kind("content", fact.phrase, scope, findings)
+        phrase, by = at_drawn(fact.phrase, draws, findings)
+        kind = make_kind("content", phrase, scope, findings)
         if name in found:
             places, hint = (found[name].span, fact.name.span), "Give one of the two another name."
             message = f"The {declaration.header.noun.text} already contains something called {name}."
@@ -111,14 +125,34 @@ def _things(declaration: Declaration, scene: Any, scope: Scope, findings: Findin
                 hint = f"A world takes {MAX_OBSTACLES} in all."
                 findings.error("too-many-obstacles", fact.phrase.span, message, hint)
             obstacles += min(kind.obstacles(scene), MAX_OBSTACLES)  # as if there were few where there are too many
-        found.setdefault(name, Part(name, kind, fact.name.span))
+        found.setdefault(name, Thing(name, kind, fact.name.span, when=_presence(fact, draws, scope, findings), by=by))
+    for thing in (each for each in found.values() if each.kind and isinstance(each.kind.within, str)):
+        zone = found.get(thing.kind.within)
+        if zone and zone.kind and zone.kind.within:
+            message = f"{zone.name} is itself within something."
+            hint = f"Write another zone, or a place for {zone.name}."
+            findings.error("unfit-thing", thing.span, message, hint, Label(zone.span, "this one"))
     is_task = declaration.header.noun.text == "task"  # which has all that a scene lacks
     things = with_places(tuple(found.values()), scene, is_task, findings)
     _check_places(things, scene, findings)
     return things
 
 
-def _check_places(things: Sequence[Part[Any]], scene: SceneKind | None, findings: Findings) -> None:
+def _presence(fact: Contains, draws: Mapping[str, Draw], scope: Scope, findings: Findings) -> When | None:
+    """The condition under which a thing is there; None where it always is, or has a kind that always is."""
+    cls = find_kind("content", fact.phrase.kind.text)
+    if fact.when and cls and cls.is_obstacle:
+        hint = "Let a number be its place instead: obstacle at +side 0, or write obstacle at 5 0 or 0 5."
+        findings.error(
+            "always-there", fact.when.span, f"{a(fact.phrase.kind.text).capitalize()} is there in every run.", hint
+        )
+        return None
+    made_of = "numbers, and of what the task draws"
+    visible = Visible({}, unread=scope.names.unread, draws=draws, made_of=made_of, where="A condition of a thing")
+    return resolve_expressions(fact.when, visible, findings)
+
+
+def _check_places(things: Sequence[Thing], scene: SceneKind | None, findings: Findings) -> None:
     """Report one thing too many, or else what stands where something else stands in every run."""
     apart = [
         thing.span
@@ -130,7 +164,7 @@ def _check_places(things: Sequence[Part[Any]], scene: SceneKind | None, findings
         hint = f"A world takes {MAX_THINGS} beside its obstacles: leave some out."
         findings.error("too-many-things", apart[MAX_THINGS], f"That is thing number {MAX_THINGS + 1}.", hint)
         return
-    met: dict[str, tuple[Part[Any], Part[Any]]] = {}
+    met: dict[str, tuple[Thing, Thing]] = {}
     for thing, other in Beginning(scene, things, None, None, None, 0.0).overlapping():
         met.setdefault(thing.name, (thing, other))
     for thing, other in met.values():
@@ -145,7 +179,7 @@ def _check_places(things: Sequence[Part[Any]], scene: SceneKind | None, findings
 
 
 def _start(
-    declaration: Declaration, scene: SceneKind | None, things: Sequence[Part[Any]], body: Any, findings: Findings
+    declaration: Declaration, scene: SceneKind | None, things: Sequence[Thing], body: Any, findings: Findings
 ) -> Start:
     """Where the robot starts, as the last line of a task or scene that says so has it; `body` is None if not known."""
     start, said = Start(), of_form(declaration.facts, Starts)

@@ -43,7 +43,8 @@ def rename(
     places = (mention.name.span for mention in project.everywhere(of, old))
     path = declared.name.span.source.path
     used = ((other.paths[path].source.alias, other) for other in project.neighbours if path in other.paths)
-    aliases = {alias: other for alias, other in used if alias and of != "thing"}  # the others' names for its file
+    is_local = of in ("thing", "draw")
+    aliases = {alias: other for alias, other in used if alias and not is_local}  # the others' names for its file
     others = (
         replace_span(mention.name.span, f"{alias}.{new}")
         for alias, other in aliases.items()
@@ -75,7 +76,7 @@ def _refuse_under_alias(declared: Mention, new: str, noun: str) -> None:
 def _declared(project: Project, name: str, noun: str) -> Mention:
     """The declaration of a name with a noun, or with the only one that has it."""
     if noun:
-        refuse_no_noun(noun, (*NOUNS, "thing", "number"))
+        refuse_no_noun(noun, (*NOUNS, "thing", "draw", "number"))
     known = [mention for mention in introductions(project.files) if noun in ("", mention.noun)]
     found = {mention.noun: mention for mention in known if mention.name.text == name}
     if not found:
@@ -97,9 +98,10 @@ def _refuse_taken(project: Project, noun: str, name: str) -> None:
     """
     if noun != "thing":
         project.refuse_taken(noun, name)
-    for mention in introductions(project.files) if noun == "thing" else ():
-        if (mention.noun, mention.name.text) == ("thing", name):
-            raise EditError(f"There is already a thing called {name}.", "Choose another name.", mention.name.span)
+    for mention in introductions(project.files) if noun in ("thing", "draw") else ():
+        if (mention.noun, mention.name.text) == (noun, name):
+            message = f"There is already {a(noun)} called {name}."
+            raise EditError(message, "Choose another name.", mention.name.span)
     tasks = (declaration for _, declaration in project.names.declarations("task"))
     for reward in (reward for task in tasks for reward in of_form(task.facts, Rewards)):
         if noun in VALUE_NOUNS and reward.each and reward.each.name.text == name:

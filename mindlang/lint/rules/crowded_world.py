@@ -93,21 +93,27 @@ class DrawnWorld:
             return ROBOT
         obstacles, others = ([each for each in task.things if each.kind.is_obstacle is one] for one in (True, False))
         for kind in (each.kind for each in others):
-            self.things += [_square(place, kind.largest / 2) for place in kind.places[: kind.copies]]
+            self.things += [_square(place, kind.largest / 2) for place in self._placed(kind)]
         loose = [(each, sum(int(row["count"]) for row in each.kind.rows(self.scene))) for each in obstacles]
-        loose += [(each, each.kind.copies) for each in others if not each.kind.places]
+        loose += [(each, each.kind.copies) for each in others if not (each.kind.spots or each.kind.within)]
         for thing, count in loose:
             if not all(self._put(thing.name, thing.kind) for _ in range(count)):
                 return thing.name
         return ""
 
+    def _placed(self, kind: ThingKind) -> Sequence[Place]:
+        """Places of a thing that has some, drawn where one of several is."""
+        several = self.random.sample(kind.options, kind.copies if kind.options else 0)
+        return several or kind.places[: kind.copies] or kind.spots[: kind.copies]
+
     def _grid(self, kind: ThingKind) -> Iterator[Rectangle]:
         """The obstacles of a kind that stand at places, each off by its jitter."""
         for row in kind.rows(self.scene):
             columns, rows, spacing = int(row["columns"]), int(row["rows"]), row["grid"]
+            from_x, from_y = self.random.choice(kind.options) if kind.options else (row["x"], row["y"])
             for line, column in product(range(rows), range(columns)) if not row["count"] else ():
-                x = row["x"] + (column - (columns - 1) / 2) * spacing + row["jitter"] * self.random.uniform(-1, 1)
-                y = row["y"] + (line - (rows - 1) / 2) * spacing + row["jitter"] * self.random.uniform(-1, 1)
+                x = from_x + (column - (columns - 1) / 2) * spacing + row["jitter"] * self.random.uniform(-1, 1)
+                y = from_y + (line - (rows - 1) / 2) * spacing + row["jitter"] * self.random.uniform(-1, 1)
                 yield _square((x, y), self._size(kind.size) / 2)
 
     def _start(self, task: Task) -> bool:

@@ -20,6 +20,7 @@ GOOD = (
     COURSE.format(""),
     COURSE.format(" facing 0 deg").replace(" at 10 0", ""),
     COURSE.format(" facing 0 deg\n  varies thrust of left_wheel 60 to 80"),
+    COURSE.format(" facing 0 deg").replace("at 10 0", "at 10 0 or 0 10"),
     COURSE.format(" facing 0 deg").replace("reach of goal\n", "reach of goal\n  contains cat is walker at 5 5\n"),
     COURSE.format(" facing 0 deg") + "actuator left_wheel is wheel side left neutral 0.5 noise 1%\n"
     "actuator right_wheel is wheel side right neutral 0.5\n",
@@ -29,7 +30,7 @@ BAD = (
     COURSE.format(" facing 0 deg").replace("arena size 40", "plain"),
     COURSE.format(" facing 0 deg\n  contains cat is walker along 0 5 to 5 5"),
 )
-HINT = "Let something be drawn: leave out facing or a place, or write varies thrust of left_wheel 70 to 90."
+HINT = "Let something be drawn: leave facing out, or write at 10 0 or 0 10, or varies thrust of left_wheel 70 to 90."
 
 
 def check(study: Study) -> Found:

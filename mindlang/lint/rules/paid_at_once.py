@@ -87,7 +87,7 @@ class _FirstTick:
         radius = self.study.mind.body.kind.radius
         width, depth = (max(side - 6 * radius, radius) for side in self.task.scene.sides)
         kinds = [each.kind for each in self.task.things if each.name == event.thing]
-        share = sum(self._size(kind.begins[1], kind.is_area) * len(kind.places[: kind.copies]) for kind in kinds)
+        share = sum(self._size(kind.begins[1], kind.is_area) * kind.copies for kind in kinds if kind.spots)
         share = min(1.0, share / (width * depth))
         return f"about {share:.0%} of the runs" if share >= LEAST_SHARE else ""
 

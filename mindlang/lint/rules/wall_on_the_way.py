@@ -18,7 +18,7 @@ task Hall in arena size 40
   counts reach of cat
 """
 GOOD = (HALL.format("-12 -5 to 12 -5"), HALL.format("0 -5 to 15 -5 to 15 5 to 15 -5"))
-BAD = (HALL.format("0 -5 to 0 5"), HALL.format("0 -5 to 15 -5 to 15 5"), HALL.format("-12 0.9 to 12 0.9"))
+BAD = (HALL.format("0 -5 to 0 5"), HALL.format("0 -5 to 15 -5 to 15 5"), HALL.format("-12 5 to 12 5 or 0 -5 to 0 5"))
 
 
 @once_a_line
@@ -27,8 +27,9 @@ def check(study: Study) -> Found:
     for task in study.mind.tasks:
         fixed = [(each, [rectangle_outline(wall) for wall in each.kind.standing(task.scene)]) for each in task.things]
         for thing in (each for each in task.things if each.kind.walks and not each.kind.wanders):
-            places, radius = thing.kind.places, thing.kind.begins[0] / 2
-            way = [Outline(stretch, radius) for stretch in zip(places, (*places[1:], *places[:1]), strict=True)]
+            radius = thing.kind.begins[0] / 2
+            stretches = (pair for way in thing.kind.ways for pair in zip(way, (*way[1:], *way[:1]), strict=True))
+            way = [Outline(stretch, radius) for stretch in stretches]
             wall = next((each for each, its in fixed if any(overlap(*both) for both in product(way, its))), None)
             if wall:
                 message = f"The way of {thing.name} leads through {wall.name}."

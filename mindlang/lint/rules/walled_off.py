@@ -72,7 +72,7 @@ def _sides(task: Task, walls: Sequence[Rectangle], beyond: float) -> tuple[float
     """The sides of an arena, or, in a plain scene, of what has a place, and so far beyond."""
     if task.scene.is_bounded:
         return task.scene.sides
-    places = [task.start.at or PLAIN_START, *(place for thing in task.things for place in thing.kind.places)]
+    places = [task.start.at or PLAIN_START, *(place for thing in task.things for place in thing.kind.spots)]
     x = max(*(abs(x) for x, _ in places), *(abs(wall.x) + wall.half_x for wall in walls))
     y = max(*(abs(y) for _, y in places), *(abs(wall.y) + wall.half_y for wall in walls))
     return 2 * (x + beyond), 2 * (y + beyond)
@@ -86,9 +86,10 @@ def _findings(study: Study, task: Task, whole: "Floor", no_way: str) -> Iterator
     reach = study.mind.body.kind.front + study.graph.claw_reach
     for thing in (each for each in task.things if not each.kind.is_obstacle and not each.kind.walks):
         half = thing.kind.begins[1] / 2 + (0.0 if thing.kind.is_area else reach)
-        if any(not whole.parts_near(place, half) & there for place in thing.kind.places):
+        if any(not whole.parts_near(place, half) & there for place in thing.kind.spots):
             yield Finding(thing.span, f"{no_way} leads{origin} to {thing.name}.", HINT)
-    is_drawn = at is None or any(not each.kind.places for each in task.things if not each.kind.is_obstacle)
+    apart = [each.kind for each in task.things if not each.kind.is_obstacle]
+    is_drawn = at is None or any(not (kind.spots or kind.within) for kind in apart)
     if is_drawn and (part := _part_without_way(task, whole, there if at else None)):
         message = f"{no_way} leads{origin or ' from the rest'} to {part}, where something may be drawn."
         yield Finding(task.span, message, HINT)

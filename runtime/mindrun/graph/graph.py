@@ -1,8 +1,9 @@
 """The compiled hierarchy as plain data: names as indices, units converted, skills in the order of influence."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Annotated, Any, Literal
 
+from mindrun.graph.draws import Draw
 from mindrun.kinds.actuators.actuator import REACH_UNITS, ActuatorKind
 from mindrun.kinds.bodies.body import BodyKind
 from mindrun.kinds.events.event import EventKind
@@ -10,7 +11,7 @@ from mindrun.kinds.functions.function import Function
 from mindrun.kinds.learners import Learner
 from mindrun.kinds.measures.measure import MeasureKind
 from mindrun.kinds.memory import Cell
-from mindrun.kinds.registry import arguments
+from mindrun.kinds.registry import LATER, arguments
 from mindrun.kinds.scenes.scene import SceneKind
 from mindrun.kinds.sensors.sensor import SensorKind
 from mindrun.kinds.things.thing import ThingKind
@@ -112,10 +113,16 @@ class Skill:
 
 @dataclass(frozen=True, slots=True)
 class Thing:
-    """Something that a task's world contains."""
+    """Something that a task's world contains, in the runs in which `when` holds, or in all where that is empty.
+
+    `by` says which numbers that the task draws are its x and its y: their places in its `draws`, from 1 on, below 0
+    where a number is negated, and 0 where `at` says it. Its kind is then at every place that this may be.
+    """
 
     name: str
     kind: ThingKind
+    when: Program = field(default=(), metadata=LATER)
+    by: tuple[int, int] = field(default=(0, 0), metadata=LATER)
 
 
 @dataclass(frozen=True, slots=True)
@@ -192,7 +199,8 @@ def varied_quantity(kind: Any, argument: str) -> Quantity | None:
 class Task:
     """A task: its world, its ends, its rewards. `counts` are indices into `events`.
 
-    What of the world and the robot `varies` is drawn for each run, and so is when what `fails` does.
+    What of the world and the robot `varies` is drawn for each run, and so is when what `fails` does, and what it
+    `draws`: programs have it as ("drawn", index).
     """
 
     name: str
@@ -207,6 +215,7 @@ class Task:
     start: Start = Start()
     varies: tuple[Variation, ...] = ()
     fails: tuple[Failure, ...] = ()
+    draws: tuple[Draw, ...] = field(default=(), metadata=LATER)
 
     @property
     def programs(self) -> tuple[Program, ...]:

@@ -85,7 +85,7 @@ def is_one_world(graph: Graph, task: Task, master: str) -> bool:
     measured = {sensor.name for sensor in measured_in_world(graph, master, task)}
     if any(each.low != each.high and (each.noun != "sensor" or each.of in measured) for each in task.varies):
         return False
-    if _draws_things(graph, task):
+    if _draws_things(graph, task) or _draws_numbers(task):
         return False
     return not _draws_in_ticks(graph, task, master)
 
@@ -98,7 +98,9 @@ def _draws_things(graph: Graph, task: Task) -> bool:
         is_drawn = kind.begins[0] != kind.begins[1]
         if kind.is_obstacle:
             rows = [*kind.rows(task.scene)]
-            if any(row["count"] or (row["columns"] * row["rows"] and (row["jitter"] or is_drawn)) for row in rows):
+            if kind.options or any(
+                row["count"] or (row["columns"] * row["rows"] and (row["jitter"] or is_drawn)) for row in rows
+            ):
                 return True
             continue
         delivers = can_deliver and (kind.is_loose or can_hold)
@@ -107,6 +109,14 @@ def _draws_things(graph: Graph, task: Task) -> bool:
         if kind.outcomes.get("reached") == MOVES or (delivers and kind.outcomes.get("delivered") == MOVES):
             return True
     return False
+
+
+def _draws_numbers(task: Task) -> bool:
+    """True if a number is drawn that a thing, a reward or an end depends on."""
+    read = {index for program in task.programs for index in leaves(program, "drawn")}
+    read |= {index for thing in task.things for index in leaves(thing.when, "drawn")}
+    read |= {abs(number) - 1 for thing in task.things for number in thing.by if number}
+    return any(len({*task.draws[index].values}) > 1 for index in read)
 
 
 def _draws_in_ticks(graph: Graph, task: Task, master: str) -> bool:

@@ -5,12 +5,13 @@ from collections.abc import Container, Iterator
 from graphlib import CycleError, TopologicalSorter
 from math import prod
 
+from mindrun.graph.draws import MAX_VALUES
 from mindrun.graph.graph import Graph, Lesson, Program, Skill, Task, varied_quantity
 from mindrun.graph.tasks import varied_kind
 from mindrun.kinds.registry import arguments
 from mindrun.kinds.things.thing import MAX_OBSTACLES, MAX_THINGS
 from mindrun.numbers.expression import OPERATORS, is_condition, is_valid_program, leaves
-from mindrun.numbers.quantity import THING, UNSAID
+from mindrun.numbers.quantity import COORDINATE, NUMBER, THING, UNSAID, fits
 
 NAME = re.compile(r"[^\W\d_]\w*([+.]\w+)*")
 MIN_TICK_SECONDS, MAX_TICK_SECONDS = 1e-9, 1e9  # seconds of a tick
@@ -137,6 +138,7 @@ def _task_flaws(task: Task, width: int, actuators: int) -> Iterator[str]:
     if not named - {""} <= {thing.name for thing in task.things if not thing.kind.is_obstacle}:
         yield "names a thing that is not there"
     yield from _world_flaws(task)
+    yield from _draw_flaws(task)
     events, readings = range(len(task.events)), range(width)
     rewarded = [reward.on for reward in task.rewards if reward.on is not None]
     ending = [end.event for end in task.ends if end.event is not None]
@@ -144,7 +146,7 @@ def _task_flaws(task: Task, width: int, actuators: int) -> Iterator[str]:
         yield "names an event that is not there"
     yield from _end_flaws(task, width, actuators)
     for reward in task.rewards:
-        known = readings, len(task.measures), reward.each is not None, actuators
+        known = readings, len(task.measures), reward.each is not None, actuators, len(task.draws)
         if not all(_computes(program, *known) for program in reward.programs):
             yield "has a reward that cannot be computed"
         if reward.when is not None and not is_condition(reward.when):
@@ -159,12 +161,31 @@ def _end_flaws(task: Task, width: int, actuators: int) -> Iterator[str]:
         if (end.event is None) == (end.when is None) or end.times < 1:
             yield "has an end that never comes"
         if end.when is not None and not (
-            is_condition(end.when) and _computes(end.when, range(width), len(task.measures), commands=actuators)
+            is_condition(end.when)
+            and _computes(end.when, range(width), len(task.measures), False, actuators, len(task.draws))
         ):
             yield "has an end that cannot be computed"
         event = next((event for index, event in enumerate(task.events) if index == end.event), None)
         if event is not None and event.is_of_success:
             yield "ends on its own success"
+
+
+def _draw_flaws(task: Task) -> Iterator[str]:
+    """What is drawn has a name of its own and numbers; a thing is there when these say so, and where they say."""
+    drawn = range(len(task.draws))
+    names = [draw.name for draw in task.draws]
+    if len({*names}) < len(names) or not all(map(NAME.fullmatch, names)):
+        yield "draws what has no name of its own"
+    for draw in task.draws:
+        is_one = not draw.is_range or (len(draw.values) == 2 and draw.values[0] <= draw.values[1])
+        if not (is_one and 0 < len(draw.values) <= MAX_VALUES and fits(NUMBER, draw.values)):
+            yield f"draws {draw.name} from nothing"
+    for thing in task.things:
+        if thing.when and not (is_condition(thing.when) and _computes(thing.when, (), draws=len(drawn))):
+            yield "has a thing of which nobody knows whether it is there"
+        is_single = thing.kind.copies == 1 and bool(thing.kind.spots)
+        if any(thing.by) and not (is_single and all(not number or abs(number) - 1 in drawn for number in thing.by)):
+            yield "has a thing of which nobody knows where it is"
 
 
 def _world_flaws(task: Task) -> Iterator[str]:
@@ -173,6 +194,12 @@ def _world_flaws(task: Task) -> Iterator[str]:
         yield f"contains more than {MAX_THINGS} things"
     if sum(thing.kind.obstacles(task.scene) for thing in task.things) > MAX_OBSTACLES:
         yield f"contains more than {MAX_OBSTACLES} obstacles"
+    zones = {thing.name for thing in task.things if thing.kind.is_area and not thing.kind.within}
+    for kind in (thing.kind for thing in task.things if thing.kind.within):
+        if kind.within not in zones and not (len(kind.within) == 2 and fits(COORDINATE, kind.within)):
+            yield "has a thing within what is not there"
+    if any(kind.or_ and kind.mistake(None) for kind in (thing.kind for thing in task.things)):
+        yield "has a thing that cannot be at one of its places"
     if not task.scene.is_bounded and any(event.needs_walls for event in task.events):
         yield "has patches without an arena"
 
@@ -192,10 +219,10 @@ def _variation_flaws(graph: Graph, task: Task) -> Iterator[str]:
 
 
 def _computes(
-    program: Program, readings: Container[int], measures: int = 0, each: bool = False, commands: int = 0
+    program: Program, readings: Container[int], measures: int = 0, each: bool = False, commands: int = 0, draws: int = 0
 ) -> bool:
     """True if a program has a value, and uses only these readings, measures, commands and, in a loop, the reading."""
-    words = {*OPERATORS, "negate", "number", "reading", "measure", "command"} | ({"each"} if each else set())
+    words = {*OPERATORS, "negate", "number", "reading", "measure", "command", "drawn"} | ({"each"} if each else set())
     return (
         is_valid_program(program)
         and {word for word, _ in program} <= words
@@ -203,4 +230,5 @@ def _computes(
         and all(index in readings for index in leaves(program, "reading"))
         and all(index in range(measures) for index in leaves(program, "measure"))
         and all(index in range(commands) for index in leaves(program, "command"))
+        and all(index in range(draws) for index in leaves(program, "drawn"))
     )

@@ -2,13 +2,13 @@
 
 from collections import defaultdict
 from collections.abc import Callable, Mapping
-from dataclasses import MISSING, dataclass, fields
+from dataclasses import MISSING, Field, dataclass, field, fields
 from functools import cache
 from importlib import import_module
 from pkgutil import iter_modules
 from typing import Annotated, Any, Literal, TypeVar, dataclass_transform, get_args, get_origin, get_type_hints
 
-from mindrun.numbers.quantity import SLOT, Extent, Place, Quantity, Reference, Span
+from mindrun.numbers.quantity import SLOT, Extent, Place, Quantity, Reference, Region, Span
 
 T = TypeVar("T")
 
@@ -19,16 +19,19 @@ ROOMS = {  # where the kinds of a noun stand: a module for each, of its name, or
     "memory": "mindrun.kinds.memory", "curriculum": "mindrun.kinds.learners",
     "sensor driver": "mindrun.robot.drivers", "actuator driver": "mindrun.robot.drivers",
 }  # fmt: skip
+LATER = {"later": True}  # metadata of a field that came later: plain data in which it is as by default lack it
 SHARED_NOUNS = {"scene": "task"}  # a scene is one of those that a task can be in
 _kinds: dict[str, dict[str, type[Any]]] = defaultdict(dict)
 _names: dict[type[Any], str] = {}
 _bases: dict[type[Any], str] = {}
 _arguments: dict[Any, tuple["Argument", ...]] = {}  # of each kind that was asked for
 
-Shape = Literal["one", "list", "span", "name", "extent", "place", "places", "lines"]
-"""Of an argument: a number, several, a `Span`, a word, an `Extent`, a place, several, the lines of a text file."""
+Shape = Literal["one", "list", "span", "name", "extent", "place", "places", "alternatives", "region", "lines"]
+"""Of an argument: a number, several, a `Span`, a word, an `Extent`, a place, several, lists of places of which one is
+drawn, a `Region`, the lines of a text file."""
 SHAPES: Mapping[Any, Shape] = {
     Span: "span", Extent: "extent", Place: "place", tuple[Place, ...]: "places", tuple[str, ...]: "lines",
+    tuple[tuple[Place, ...], ...]: "alternatives", Region: "region",
 }  # fmt: skip
 
 
@@ -48,7 +51,7 @@ class Argument:
         return self.default is MISSING
 
 
-@dataclass_transform(frozen_default=True)
+@dataclass_transform(frozen_default=True, field_specifiers=(field,))
 def kind(noun: str, name: str) -> Callable[[type[T]], type[T]]:
     """Make a class a frozen dataclass with slots, if it is none yet, and register it as the kind `name` of `noun`."""
 
@@ -86,6 +89,11 @@ def _modules(room: str) -> list[str]:
 def _import_all(room: str) -> None:
     for module in _modules(room):
         import_module(f"{room}.{module}")
+
+
+def came_later(cls: type[Any]) -> tuple[Field[Any], ...]:
+    """The fields of a dataclass that are left out of its plain data where they are as by default."""
+    return tuple(each for each in fields(cls) if each.metadata == LATER)
 
 
 def base(noun: str) -> Callable[[type[T]], type[T]]:

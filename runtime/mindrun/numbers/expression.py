@@ -9,8 +9,9 @@ from typing import Any, TypeVar
 T = TypeVar("T")
 
 # An expression in postfix order: ("number", x), ("reading", index), ("each", 0), ("measure", index into the task's
-# measures), ("command", index of an actuator), or (operator, 0) with one of OPERATORS or negate. A condition is one
-# that ends in one of TRUTHS: 1 where it holds, 0 where not, NaN where nobody can know.
+# measures), ("command", index of an actuator), ("drawn", index of a number that the task draws), or (operator, 0) with
+# one of OPERATORS or negate. A condition is one that ends in one of TRUTHS: 1 where it holds, 0 where not, NaN where
+# nobody can know.
 Program = tuple[tuple[str, float | int], ...]
 
 Formula = tuple[tuple[str, float | int | str], ...]  # a program in which readings stand by their names

@@ -49,6 +49,7 @@ class Span:
 
 Extent = float | tuple[float, float]  # `100`: both ways alike; `60 40`: along x and along y
 Place = tuple[float, float]  # `30 -20`
+Region = str | tuple[Place, ...]  # the name of a thing, or `-10 -10 to 10 10`: two corners; empty where none is said
 
 UNSAID = Span(-1.0, -1.0)  # in place of lengths that nobody has given
 LEAST_STEP = 1e-9  # of a schedule

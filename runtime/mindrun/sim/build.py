@@ -35,23 +35,26 @@ def build(
     library: Array,
 ) -> tuple[Tables, Sizes]:
     """The tables of a task under a master; `addresses` are those of the compiled procedures, by skill."""
-    programs, parameters = Programs(), Parameters(graph, task)
+    programs, parameters = Programs(first_draw=len(task.measures)), Parameters(graph, task)
     reached = reachable(graph, master)
     skills, most = skill_rows(graph, reached, weights, learners, addresses, programs)
     rewards, ends = task_rows.reward_rows(task, programs), task_rows.end_rows(task, programs)
+    presences = task_rows.presence_rows(task, programs)
     used, aside = used_sensors(graph, reached, task)
     sensors, remembered = sensor_rows(graph, used, aside, task, programs, parameters)
     driven, delays = actuator_rows(graph, parameters)
-    measures, changes = task_rows.measure_rows(task)
+    measures, changes = task_rows.measure_rows(task, parameters)
     events, patches, arrivals = task_rows.event_rows(task)
     walls = [wall for thing in task.things for wall in thing.kind.walls]
     tables = Tables(
         **sensors, **skills, **task_rows.walker_rows(task, graph.tick),
         world=task_rows.world_row(graph, task, parameters, len(sensors["ray_row"]), used + aside, master),
         codes=np.array(programs.rows, CODE), actuators=driven, memories=memory_rows(graph),
-        things=task_rows.thing_rows(graph, task), loose=task_rows.loose_rows(task, graph.tick, parameters),
-        obstacles=task_rows.obstacle_rows(task), walls=np.array(walls, np.float64).reshape(-1, BOX_COLUMNS),
+        things=task_rows.thing_rows(graph, task, parameters), loose=task_rows.loose_rows(task, graph.tick, parameters),
+        obstacles=task_rows.obstacle_rows(task, parameters), options=task_rows.option_rows(task),
+        walls=np.array(walls, np.float64).reshape(-1, BOX_COLUMNS),
         measures=measures, events=events, ends=ends, rewards=rewards,
+        presences=presences, choices=np.array(parameters.choices, np.float64),
         measured=rows_of(graph, used + aside), library=library,
         parameters=parameters.table(),  # last: all others add to them
     )  # fmt: skip

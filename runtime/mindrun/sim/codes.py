@@ -15,9 +15,10 @@ from mindrun.sim.arrays import Block, Room
 PUSH, STEERING, GRIPPER, IDLE = range(4)
 ITEM, ZONE, POWER, BOX, BALL, WALKER = range(6)
 STAYS, MOVES, VANISHES = range(3)
-PROGRESS, ADVANCE, RETREAT, FORWARD, CHANGE, ITS_REWARD = range(6)
+PROGRESS, ADVANCE, RETREAT, FORWARD, CHANGE, ITS_REWARD, DRAWN_NUMBER = range(7)
 REACH, DELIVERY, VISIT, COLLISION, EXHAUSTION, SUCCESS, ITS_END = range(7)
-CONSTANT, DRAWN, DRAWN_WHOLE, FAILING, TIMES, OVER, INVERSE, DAMPING = range(8)  # how a number of a run comes about
+# How a number of a run comes about; before the world: CHOSEN and BETWEEN.
+CONSTANT, DRAWN, DRAWN_WHOLE, FAILING, TIMES, OVER, INVERSE, DAMPING, CHOSEN, BETWEEN = range(10)
 
 GOING_ON, LOST, BROKEN_OFF = -1, -2, -4  # no event has ended a run: out of time, beyond FAR, its environment has
 AWAY = 1e30  # units: where a box is that is none
@@ -83,13 +84,15 @@ PARAMETER = _columns(i8="form of", f8="low high")
 MEMORY = _columns(i8="row", f4="decay rest start")
 THING = _columns(
     i8="kind drawn is_round is_fixed reached delivered is_reached is_delivered is_area loose settles walker is_goal "
-    "turn",
-    f8="first last by low high hold x y",
+    "turn copy copies option options is_within inside insides x_row y_row",
+    f8="first last by low high hold x y left right below above",
 )
 LOOSE = _columns(i8="thing is_round density friction slower number turn")
-WALKING = _columns(i8="thing first places begins", f8="step turn")
-OBSTACLE = _columns(i8="columns rows count", f8="first last grid jitter x y low high")
-MEASURES = _columns(i8="kind thing things over ring", f8="beyond")
+WALKING = _columns(i8="thing way ways copy is_anywhere is_drawn", f8="step turn")
+WAY = _columns(i8="first places")
+OBSTACLE = _columns(i8="columns rows count option options x_row y_row", f8="first last grid jitter x y low high")
+MEASURES = _columns(i8="kind thing things over ring row", f8="beyond")
+PRESENCE = _columns(i8="thing when whens")
 EVENT = _columns(i8="kind thing things to tos arrival columns rows board", f8="patch")
 END = _columns(i8="event times when whens succeeds")
 REWARD = _columns(i8="code length on each eachs when whens")
@@ -163,7 +166,11 @@ class Tables(Block):
     things: Annotated[Array, table(THING)]
     loose: Annotated[Array, table(LOOSE)]
     walkers: Annotated[Array, table(WALKING)]
-    ways: Annotated[Array, table(F8, 2)]  # [places, 2]: those that walkers go along, way after way
+    ways: Annotated[Array, table(WAY)]  # that walkers go along
+    corners: Annotated[Array, table(F8, 2)]  # [places, 3]: the places of ways, and the number of the one after each
+    options: Annotated[Array, table(F8, 2)]  # [places, 2]: those of which one is drawn
+    presences: Annotated[Array, table(PRESENCE)]  # of things that are not there in every run
+    choices: Annotated[Array, table(F8)]  # the values of numbers that the task draws
     obstacles: Annotated[Array, table(OBSTACLE)]
     walls: Annotated[Array, table(F8, 2)]  # [walls, BOX_COLUMNS]: the boxes that stand in the same places in every run
     measures: Annotated[Array, table(MEASURES)]

@@ -8,9 +8,23 @@ from typing import Any, TypeVar
 
 from numpy.typing import NDArray
 
+from mindrun.graph.draws import Draw
 from mindrun.graph.graph import Graph, Task, Variation, Varying, varied_quantity
 from mindrun.graph.tasks import varied_kind
-from mindrun.sim.codes import CONSTANT, DAMPING, DRAWN, DRAWN_WHOLE, FAILING, INVERSE, OVER, PARAMETER, Row, records
+from mindrun.sim.codes import (
+    BETWEEN,
+    CHOSEN,
+    CONSTANT,
+    DAMPING,
+    DRAWN,
+    DRAWN_WHOLE,
+    FAILING,
+    INVERSE,
+    OVER,
+    PARAMETER,
+    Row,
+    records,
+)
 
 K = TypeVar("K")
 
@@ -28,7 +42,10 @@ def computed(form: int, x: float, by: float) -> float:
 
 
 class Parameters:
-    """The rows of a task, first of all those that are drawn: what varies and what fails, in the order of the source."""
+    """The rows of a task, first of all those that are drawn: what varies, what fails, and what the task draws itself.
+
+    Each in the order of the source.
+    """
 
     def __init__(self, graph: Graph, task: Task) -> None:
         self._rows: list[Row] = []
@@ -39,6 +56,18 @@ class Parameters:
             row = self._add(form, low=each.low, high=each.high)
             self._drawn[each.noun, each.of, each.argument] = row, each
         self._failing = {each.actuator: self._add(FAILING, low=1.0 - each.rate) for each in task.fails}
+        self.choices: list[float] = []
+        self._given = [self._draw(each) for each in task.draws]
+
+    def given(self, number: int) -> int:
+        """The row of a number that the task draws, by its place from 1 on or below 0; SAME_IN_EVERY_RUN for 0."""
+        return self._given[abs(number) - 1] if number else SAME_IN_EVERY_RUN
+
+    def _draw(self, draw: Draw) -> int:
+        if draw.is_range:
+            return self._add(BETWEEN, low=draw.values[0], high=draw.values[1])
+        self.choices += draw.values
+        return self._add(CHOSEN, of=len(self.choices) - len(draw.values), high=len(draw.values))
 
     def row(self, noun: Varying, of: str, argument: str, value: float, *steps: Step) -> int:
         """The row of an argument, or of what `steps` make of it; it is `value` where it does not vary."""

@@ -70,7 +70,7 @@ class WorldState(Block):
     still: Annotated[Array, rows("loose", kind=I8)]  # for how many ticks each has not moved, up to SETTLED_TICKS
     restless: Annotated[Array, each()]  # how many have not settled
     direction: Annotated[Array, rows("walkers")]  # of each that wanders, an angle
-    goal: Annotated[Array, rows("walkers", kind=I8)]  # the place of its way that each goes to
+    goal: Annotated[Array, rows("walkers", kind=I8)]  # the corner of its way that each goes to
     held: Annotated[Array, each()]  # the thing that the claw holds, or −1
     reached: Annotated[Array, rows("things", kind=U1)]  # bit 0 while it is in reach, bit 1 if it was in the tick before
     delivered: Annotated[Array, rows("things", kind=U1)]  # the same of items that lie in a zone

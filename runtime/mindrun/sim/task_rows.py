@@ -1,7 +1,8 @@
 """The task's rows of the tables: its world, what it contains, its measures, events and rewards."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from itertools import accumulate, count
+from math import copysign
 from typing import Any
 
 import numpy as np
@@ -12,10 +13,11 @@ from mindrun.graph.tasks import goals
 from mindrun.kinds.registry import names
 from mindrun.kinds.sensors.battery import Battery
 from mindrun.kinds.things.thing import OUTCOMES, STAYS, ThingKind
+from mindrun.kinds.things.walker import ANYWHERE
 from mindrun.sim import codes
 from mindrun.sim.codes import DAMPING, HALF_DIAGONAL, INVERSE, OVER, TIMES, WALL_COUNT, Row, records
 from mindrun.sim.mind_rows import Programs
-from mindrun.sim.parameter_rows import Parameters, Step
+from mindrun.sim.parameter_rows import SAME_IN_EVERY_RUN, Parameters, Step
 
 Array = NDArray[Any]
 MIN_CELL_UNITS = 20.0  # the side of a cell of Chipmunk's hash, in which what is large takes only so many
@@ -70,11 +72,12 @@ def hash_numbers(task: Task) -> tuple[int, list[int], list[int]]:
     return robot, numbers, [number % size for number in (robot, *numbers)]
 
 
-def thing_rows(graph: Graph, task: Task) -> Array:
+def thing_rows(graph: Graph, task: Task, parameters: Parameters) -> Array:
     """Rows of THING: all things of the task but obstacles, as in `things_of`."""
     rows: list[Row] = []
     asked = {(event.outcome, event.thing) for event in task.events if event.outcome}
     never = goals(graph, task)
+    options = 0
     loose, walkers, zones = count(), count(), [thing.kind for thing in task.things if thing.kind.takes_items]
     zones_stay = all(outcome == STAYS for zone in zones for outcome in zone.outcomes.values())
     first = {name: found.start for name, found in rows_by_name(task).items()}
@@ -83,16 +86,21 @@ def thing_rows(graph: Graph, task: Task) -> Array:
         kind, size, copy = thing.kind, thing.kind.size, number - first[thing.name]
         low, high = kind.distances(task.scene)
         x, y = kind.places[copy] if kind.places else (0.0, 0.0)
+        is_drawn = bool(kind.options) or (kind.walks and not kind.wanders)
+        own = _drawn_place(thing, parameters) if any(thing.by) else {}
         if kind.is_loose:  # not in the robot
             low = max(low, graph.body.radius + kind.largest * HALF_DIAGONAL)
         row: dict[str, float] = {
             "kind": codes.THING_CODES[names()[type(kind)]], "first": size.first, "last": size.last,
             "by": size.by or 0.0, "drawn": size.by is None and size.first != size.last, "low": low, "high": high,
-            "hold": graph.body.front + kind.largest / 2, "is_fixed": bool(kind.places), "x": x, "y": y,
+            "hold": graph.body.front + kind.largest / 2, "is_fixed": bool(kind.places) or is_drawn, "x": x, "y": y,
             "is_round": kind.is_round, "is_area": kind.is_area, "is_goal": thing.name in never,
             "loose": next(loose) if kind.is_loose else -1, "settles": kind.is_loose and zones_stay,
             "walker": next(walkers) if kind.walks else -1, "turn": turns[1 + number],
+            "copy": copy, "copies": kind.copies, "option": options, "options": len(kind.options),
+            "x_row": SAME_IN_EVERY_RUN, "y_row": SAME_IN_EVERY_RUN, **_region(kind, rows_by_name(task)), **own,
         }  # fmt: skip
+        options += len(kind.options) if copy + 1 == kind.copies else 0
         for what in ("reached", "delivered"):
             outcome = kind.outcomes.get(what, STAYS)
             row[what] = OUTCOMES.index(outcome)
@@ -102,13 +110,50 @@ def thing_rows(graph: Graph, task: Task) -> Array:
     return records(rows, codes.THING)
 
 
-def obstacle_rows(task: Task) -> Array:
+def _region(kind: ThingKind, places: Mapping[str, range]) -> Row:
+    """The columns of what a thing is placed within: the rows of a zone's copies, or two corners."""
+    if isinstance(kind.within, str):
+        zone = places[kind.within]
+        return {"is_within": bool(kind.within), "inside": zone.start, "insides": len(zone)}
+    (left, below), (right, above) = kind.within
+    return {"is_within": True, "left": left, "right": right, "below": below, "above": above}
+
+
+def _drawn_place(thing: Thing, parameters: Parameters) -> Row:
+    """The columns of a thing at numbers that the task draws: x and y are their signs where these are rows."""
+    place = thing.kind.spots[0]
+    x, y = (copysign(1.0, number) if number else at for number, at in zip(thing.by, place, strict=True))
+    rows = dict(zip(("x_row", "y_row"), map(parameters.given, thing.by), strict=True))
+    return {**rows, "x": x, "y": y, "options": 0}
+
+
+def presence_rows(task: Task, programs: Programs) -> Array:
+    """Rows of PRESENCE, one for each copy; their conditions go to `programs`."""
+    rows: list[Row] = []
+    for row, thing in enumerate(things_of(task)):
+        if thing.when:
+            when, whens = programs.add(thing.when)
+            rows.append({"thing": row, "when": when, "whens": whens})
+    return records(rows, codes.PRESENCE)
+
+
+def option_rows(task: Task) -> Array:
+    """The places of which one is drawn: those of each name among `things_of`, then those of obstacles."""
+    apart = sorted(task.things, key=lambda thing: thing.kind.is_obstacle)
+    return np.array([place for thing in apart for place in thing.kind.options], np.float64).reshape(-1, 2)
+
+
+def obstacle_rows(task: Task, parameters: Parameters) -> Array:
     """Rows of OBSTACLE."""
     rows: list[Row] = []
-    for kind in (thing.kind for thing in task.things if thing.kind.is_obstacle):
+    option = sum(len(thing.kind.options) for thing in task.things if not thing.kind.is_obstacle)
+    for thing in (thing for thing in task.things if thing.kind.is_obstacle):
+        kind, own = thing.kind, _drawn_place(thing, parameters) if any(thing.by) else {}
         low, high = kind.distances(task.scene)
-        row = {"first": kind.size.first, "last": kind.size.last, "low": low, "high": high}
-        rows.extend({**row, **own} for own in kind.rows(task.scene))
+        row = {"first": kind.size.first, "last": kind.size.last, "low": low, "high": high, "option": option}
+        row |= {"x_row": SAME_IN_EVERY_RUN, "y_row": SAME_IN_EVERY_RUN}
+        option += len(kind.options)
+        rows.extend({**row, **each, **own} for each in kind.rows(task.scene))
     return records(rows, codes.OBSTACLE)
 
 
@@ -129,26 +174,35 @@ def loose_rows(task: Task, dt: float, parameters: Parameters) -> Array:
 
 
 def walker_rows(task: Task, dt: float) -> dict[str, Array]:
-    """Rows of WALKING, in the order of the things that they are rows of, and the places of their ways, one by one.
+    """Rows of WALKING, in the order of the things that they are rows of, and their ways with their corners.
 
     A direction that drifts by up to √(3·dt)·turning either way in each tick has drifted by `turning` in a second, in
     the root of the mean square. The second of several on one way begins at its second place.
     """
-    rows: list[Row] = []
-    ways: list[tuple[float, float]] = []
+    rows, ways = list[Row](), list[Row]()
+    corners: list[tuple[float, float, int]] = []
     places = rows_by_name(task)
     for i, thing in enumerate(things_of(task)):
         kind: Any = thing.kind
         if kind.walks:
-            count, copy = len(kind.along), i - places[thing.name].start
             row = {"thing": i, "step": kind.speed * dt, "turn": kind.turning * np.sqrt(3 * dt)}
-            rows.append({**row, "first": len(ways), "places": count, "begins": (copy + 1) % max(1, count)})
-            ways += kind.along if i + 1 == places[thing.name].stop else ()
-    return {"walkers": records(rows, codes.WALKING), "ways": np.array(ways, np.float64).reshape(-1, 2)}
+            way = {"way": len(ways), "ways": len(kind.ways), "copy": i - places[thing.name].start}
+            rows.append(
+                {**row, **way, "is_anywhere": kind.from_ == ANYWHERE, "is_drawn": bool(kind.ways) and not kind.places}
+            )
+            for along in kind.ways if i + 1 == places[thing.name].stop else ():
+                first, count = len(corners), len(along)
+                ways.append({"first": first, "places": count})
+                corners += [(*place, first + (number + 1) % count) for number, place in enumerate(along)]
+    return {
+        "walkers": records(rows, codes.WALKING),
+        "ways": records(ways, codes.WAY),
+        "corners": np.array(corners, np.float64).reshape(-1, 3),
+    }
 
 
-def measure_rows(task: Task) -> tuple[Array, int]:
-    """Rows of MEASURES, and how many changes of thrust are remembered."""
+def measure_rows(task: Task, parameters: Parameters) -> tuple[Array, int]:
+    """Rows of MEASURES, then of what the task draws, and how many changes of thrust are remembered."""
     places = rows_by_name(task)
     rows: list[Row] = []
     ring = 0
@@ -159,6 +213,8 @@ def measure_rows(task: Task) -> tuple[Array, int]:
             "over": measure.over, "ring": ring if measure.over else 0, "beyond": measure.beyond,
         })  # fmt: skip
         ring += measure.over
+    drawn = range(1, len(task.draws) + 1)
+    rows += [{"kind": codes.DRAWN_NUMBER, "row": parameters.given(number)} for number in drawn]
     return records(rows, codes.MEASURES), ring
 
 

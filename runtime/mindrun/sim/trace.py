@@ -85,8 +85,9 @@ class Moment(ShortRepr):
 class Trace(ShortRepr):
     """A run that is about to begin: the obstacles [boxes, 4] as x, y and half of both sides, and its ticks.
 
-    `drawn` has what each argument that varies is, and from which tick on, counted from 0, what fails is stuck. The run
-    is made while `chunks` is gone through, or `moments`, which takes from the same; `state` is its lane's by then.
+    `drawn` has what each argument that varies is, from which tick on, counted from 0, what fails is stuck, and what the
+    task draws. The run is made while `chunks` is gone through, or `moments`, which takes from the same; `state` is its
+    lane's by then.
     """
 
     boxes: NDArray[np.float64]
@@ -183,7 +184,7 @@ def _begun(rollout: Rollout, genomes: NDArray[np.float32], seed: int) -> tuple[T
 
 def _traced(rollout: Rollout, tile: Tile, jobs: Jobs, changes: Sequence[Change]) -> Trace:
     """The run of a tile of one lane from where it is, written down from now on."""
-    world = tile.state.world
+    world, task = tile.state.world, rollout.task
     wide, narrow = (sum(map(len, arrays)) for arrays in recorded(tile.state))
     wide += SCALAR_COLUMNS
     ticks = max(1, min(CHUNK_TICKS, CHUNK_BYTES // (8 * wide + 4 * narrow)))
@@ -194,7 +195,7 @@ def _traced(rollout: Rollout, tile: Tile, jobs: Jobs, changes: Sequence[Change])
         begin=world.body[: ANGLE + 1, 0].copy(),
         things=things_in(rollout, tile.state, 0),
         turned=turned_in(rollout, tile.state, 0),
-        drawn=world.numbers[: len(rollout.task.varies) + len(rollout.task.fails), 0].copy(),
+        drawn=world.numbers[: sum(map(len, (task.varies, task.fails, task.draws))), 0].copy(),
         chunks=chunks,
         moments=_moments(chunks, int(world.tick[0])),
         jobs=jobs,

@@ -1,16 +1,17 @@
 """Solid squares that stand in the way."""
 
 from collections.abc import Iterable
-from dataclasses import replace
+from dataclasses import field, replace
 from itertools import product
 from typing import Annotated
 
-from mindrun.kinds.registry import kind
+from mindrun.kinds.registry import LATER, kind
 from mindrun.kinds.scenes.scene import SceneKind
 from mindrun.kinds.things.thing import (
     DEFAULT_DISTANCE,
     DEFAULT_SIZE,
     MAX_OBSTACLES,
+    Alternatives,
     Rectangle,
     Row,
     ThingKind,
@@ -36,6 +37,7 @@ class Obstacle(ThingKind):
     count: Annotated[int, COUNT] = 0
     away: Annotated[Span, LENGTH] = DEFAULT_DISTANCE
     at: Annotated[tuple[Place, ...], COORDINATE] = ()
+    or_: Annotated[Alternatives, COORDINATE] = field(default=(), metadata=LATER)
 
     unplaceable = "Write a count of as many as the map draws, and neither a place nor a grid."
     is_obstacle = True
@@ -61,25 +63,28 @@ class Obstacle(ThingKind):
         columns, rows = self.grid_lines(scene) if self.grid else (1, 1)
         if half <= 0 or not (self.grid or self.at) or columns * rows > MAX_OBSTACLES:
             return
-        for (x, y), column, row in product(self.at or MIDDLE_UNITS, range(columns), range(rows)):
+        places = (self.spots if may else self.places) if self.at else MIDDLE_UNITS
+        for (x, y), column, row in product(places, range(columns), range(rows)):
             yield Rectangle(
                 x + (column - (columns - 1) / 2) * self.grid, y + (row - (rows - 1) / 2) * self.grid, half, half
             )
 
     def at_places(self, places: tuple[Place, ...]) -> "Obstacle | None":
         """The obstacles at the places that a map draws; None where it says where it is, or has another count."""
-        return None if self.at or self.grid or self.count != len(places) else replace(self, at=places, count=0)
+        return None if self.spots or self.grid or self.count != len(places) else replace(self, at=places, count=0)
 
     def rows(self, scene: SceneKind) -> Iterable[Row]:
         """A grid, which has a single point where it stands at a place, or a count."""
         columns, rows = (1, 1) if self.at else self.grid_lines(scene)
         count = 0 if self.grid or self.at else self.count
         grid = {"grid": self.grid, "jitter": self.jitter, "columns": columns, "rows": rows, "count": count}
+        if self.or_:
+            return [{**grid, "options": len(self.options)}]
         return [{**grid, "x": x, "y": y} for x, y in self.at or MIDDLE_UNITS]
 
     def mistake(self, scene: SceneKind | None) -> ThingMistake | None:
         """An error where it is not one of a count, a place or a grid in an arena, or makes too many."""
-        if self.at and (self.grid or self.count):
+        if self.spots and (self.grid or self.count):
             hint = "Write at and its place, or a count, or a grid."
             return ThingMistake("place-for-many", "Several things cannot stand at one place.", hint)
         if self.size.by is not None:

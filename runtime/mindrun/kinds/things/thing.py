@@ -1,14 +1,26 @@
 """What the rest of the program asks of a thing, of which it knows no kind by name; and the kinds that are short."""
 
 from collections.abc import Iterable, Mapping, Set
-from dataclasses import dataclass, replace
-from math import hypot
+from dataclasses import dataclass, field, replace
+from math import hypot, inf
 from typing import Annotated, Literal, NamedTuple, Protocol, get_args
 
 from mindrun.kinds.bodies.body import DAMPING, DENSITY
-from mindrun.kinds.registry import arguments, base, kind
+from mindrun.kinds.registry import LATER, arguments, base, kind
 from mindrun.kinds.scenes.scene import SceneKind
-from mindrun.numbers.quantity import COORDINATE, COUNT, LENGTH, RATIO, THING, UNSAID, Place, Quantity, Reference, Span
+from mindrun.numbers.quantity import (
+    COORDINATE,
+    COUNT,
+    LENGTH,
+    RATIO,
+    THING,
+    UNSAID,
+    Place,
+    Quantity,
+    Reference,
+    Region,
+    Span,
+)
 
 DEFAULT_SIZE = Span(1.0, 1.0)
 DEFAULT_DISTANCE = UNSAID  # as far away as its scene says
@@ -23,6 +35,7 @@ VANISHES: Outcome = "vanishes"
 MAX_OBSTACLES, MAX_THINGS = 2500, 100  # in one world, which looks at all of its things in every tick
 
 Row = Mapping[str, float]  # columns of the lanes' table of obstacles
+Alternatives = tuple[tuple[Place, ...], ...]  # each a place, or the places of a way
 
 LOOSE_SIZE = Quantity("a length in world units", {"": 1.0}, low=0.01, high=1000.0)
 DEFAULT_FRICTION = 0.5
@@ -79,7 +92,8 @@ class WorldFacts(Protocol):
 class ThingKind:
     """A thing with a place, which touches nothing; a kind says what is different about it.
 
-    Every kind has the arguments `size`, and `away`, the distance from the robot at which it is placed, or `at`, where.
+    Every kind has the arguments `size`, and `away`, the distance from the robot at which it is placed, or `at`, where,
+    or one of several places with `or`, or anywhere `within` a zone or a rectangle.
     """
 
     __slots__ = ()
@@ -87,6 +101,8 @@ class ThingKind:
     size = DEFAULT_SIZE
     away = DEFAULT_DISTANCE
     at: tuple[Place, ...] = ()
+    or_: Alternatives = ()
+    within: Region = ""
     count = 1
 
     varying: tuple[str, ...] = ()  # the arguments that can differ from run to run
@@ -95,6 +111,7 @@ class ThingKind:
     is_loose = False  # whether it gives way when it is pushed
     walks = False  # whether it moves by itself
     wanders = False  # whether it goes another way in each run
+    ways: Alternatives = ()  # of which one is drawn for each of it
     speed = 0.0  # at which it does, in units per second
     can_be_held = False  # whether a claw can take it
     can_be_delivered = False  # whether it counts as delivered when it comes into a zone
@@ -107,13 +124,23 @@ class ThingKind:
 
     @property
     def places(self) -> tuple[Place, ...]:
-        """Every place that it names; its copies stand at the first of them when a run begins."""
-        return self.at
+        """Every place at which it is in all runs; its copies stand at the first of them when a run begins."""
+        return () if self.or_ else self.at
+
+    @property
+    def options(self) -> tuple[Place, ...]:
+        """The places of which each copy is drawn another one when a run begins; none where nothing is drawn of them."""
+        return self.spots if self.or_ else ()
+
+    @property
+    def spots(self) -> tuple[Place, ...]:
+        """Every place that it names, in whichever runs it is there."""
+        return (*self.at, *(place for each in self.or_ for place in each))
 
     @property
     def copies(self) -> int:
         """The number of things of its name: each has a row of its own, one after the other."""
-        return len(self.at) or self.count
+        return self.count if self.or_ else len(self.at) or self.count
 
     @property
     def largest(self) -> float:
@@ -135,6 +162,8 @@ class ThingKind:
         """The least and the greatest distance from the robot at which it is placed."""
         if self.away != DEFAULT_DISTANCE:
             return self.away.first, self.away.last
+        if self.within:
+            return 0.0, inf
         return scene.distances(self.least_distance)
 
     def obstacles(self, scene: SceneKind | None) -> int:
@@ -162,7 +191,7 @@ class ThingKind:
 
     def at_places(self, places: tuple[Place, ...]) -> "ThingKind | None":
         """The thing at the places that a map draws; None where its own line or its kind says otherwise."""
-        is_free = not (self.is_obstacle or self.places) and self.count in (1, len(places))
+        is_free = not (self.is_obstacle or self.spots or self.within) and self.count in (1, len(places))
         return replace(self, at=places) if is_free else None  # type: ignore[type-var]
 
     def rows(self, scene: SceneKind) -> Iterable[Row]:
@@ -174,18 +203,56 @@ class ThingKind:
 
     def mistake(self, scene: SceneKind | None) -> ThingMistake | None:
         """The error that keeps it out of a scene, or None; `scene` is None where that is not known."""
-        if not self.at:
-            return self._distance_mistake(scene)
+        if not self.spots:
+            return self._distance_mistake(scene) or self._region_mistake(scene)
         if self.away != DEFAULT_DISTANCE:
             hint = "Leave away out: what stands at a place is as far away as that is."
             return ThingMistake("place-and-distance", "It says where it is, and how far away.", hint)
-        if self.count > 1 and self.count != len(self.at):
+        if self.within:
+            hint = "Leave within out, or the place."
+            return ThingMistake("place-and-distance", "It says where it is, and within what.", hint)
+        if self.or_:
+            if mistake := self._choice_mistake():
+                return mistake
+        elif self.count > 1 and self.count != len(self.at):
             hint = "Leave the count out, or the place."
             return ThingMistake("place-for-many", "Several things cannot stand at one place.", hint)
-        if scene is None or all(scene.has_room(place, self.largest / 2) for place in self.at):
+        if scene is None or all(scene.has_room(place, self.largest / 2) for place in self.spots):
             return None
         hint = "Write a place that is in it with all of the thing; 0 0 is the middle."
         return ThingMistake("outside-arena", "That is not inside the arena.", hint)
+
+    def _choice_mistake(self) -> ThingMistake | None:
+        """An error where the first of its alternatives is missing, one is several places, or all are too few."""
+        if not self.at:
+            return ThingMistake("missing-argument", "Nothing stands before or.", "Write at 5 0 or 0 5.")
+        if len(self.at) > 1 or any(len(each) > 1 for each in self.or_):
+            hint = "Write one place on each side of or; with count 2 it is at two of them."
+            return ThingMistake("place-for-many", "Several things cannot stand at one place.", hint)
+        if self.count > len(self.spots):
+            hint = f"Each is at another of the places: name {self.count} of them, or write a smaller count."
+            return ThingMistake("place-for-many", "Several things cannot stand at one place.", hint)
+        return None
+
+    def _region_mistake(self, scene: SceneKind | None) -> ThingMistake | None:
+        """An error where it is within what is no rectangle, or not inside the scene."""
+        if isinstance(self.within, str):
+            return None
+        if len(self.within) != 2:
+            hint = "Write two corners, or the name of a zone: within -10 -10 to 10 10."
+            return ThingMistake("not-a-place", "A rectangle has two corners.", hint)
+        (left, below), (right, above) = self.within
+        middle = min(max(0.0, left), right), min(max(0.0, below), above)  # of the arena, or as near as it may be
+        corners = all(scene is None or scene.has_room(corner, 0.0) for corner in self.within)
+        if scene is None or (corners and scene.has_room(middle, self.largest / 2)):
+            return None
+        hint = "Write corners that are in it, or on its border, so that the thing has room; 0 0 is the middle."
+        return ThingMistake("outside-arena", "That is not inside the arena.", hint)
+
+    @staticmethod
+    def accepts(argument: str, kind: "type[ThingKind]") -> bool:
+        """True if an argument of it can name things of a kind: it can be within what lies on the floor."""
+        return kind.is_area
 
     def _distance_mistake(self, scene: SceneKind | None) -> ThingMistake | None:
         """An error where a distance has a schedule, or no two places of the scene are so far apart."""
@@ -208,6 +275,8 @@ class Placed(ThingKind):
     size: Annotated[Span, LENGTH] = DEFAULT_SIZE
     away: Annotated[Span, LENGTH] = DEFAULT_DISTANCE
     at: Annotated[tuple[Place, ...], COORDINATE] = ()
+    or_: Annotated[Alternatives, COORDINATE] = field(default=(), metadata=LATER)
+    within: Annotated[Region, THING] = field(default="", metadata=LATER)
     count: Annotated[int, COUNT] = 1
     reached: Annotated[Outcome, OUTCOME] = STAYS
 
@@ -226,6 +295,8 @@ class Loose(ThingKind):
     damping: Annotated[float, DAMPING] = 5.0
     away: Annotated[Span, LENGTH] = DEFAULT_DISTANCE
     at: Annotated[tuple[Place, ...], COORDINATE] = ()
+    or_: Annotated[Alternatives, COORDINATE] = field(default=(), metadata=LATER)
+    within: Annotated[Region, THING] = field(default="", metadata=LATER)
     count: Annotated[int, COUNT] = 1
     reached: Annotated[Outcome, OUTCOME] = STAYS
     delivered: Annotated[Outcome, OUTCOME] = MOVES

@@ -1,17 +1,42 @@
 """A thing that moves by itself."""
 
-from dataclasses import replace
+from dataclasses import field, replace
 from itertools import pairwise
 from math import pi
-from typing import Annotated
+from typing import Annotated, Literal, get_args
 
-from mindrun.kinds.registry import kind
+from mindrun.kinds.registry import LATER, kind
 from mindrun.kinds.scenes.scene import SceneKind
-from mindrun.kinds.things.thing import DEFAULT_DISTANCE, DEFAULT_SIZE, OUTCOME, STAYS, Outcome, ThingKind, ThingMistake
-from mindrun.numbers.quantity import ANGLE, COORDINATE, COUNT, LENGTH, POSITIVE, Place, Span
+from mindrun.kinds.things.thing import (
+    DEFAULT_DISTANCE,
+    DEFAULT_SIZE,
+    OUTCOME,
+    STAYS,
+    Alternatives,
+    Outcome,
+    ThingKind,
+    ThingMistake,
+)
+from mindrun.numbers.quantity import (
+    ANGLE,
+    COORDINATE,
+    COUNT,
+    LENGTH,
+    POSITIVE,
+    THING,
+    Place,
+    Reference,
+    Region,
+    Span,
+)
 
 SPEED = replace(POSITIVE, name="a speed in world units per second", high=1e4)
 TURNING = replace(ANGLE, low=0.0)
+
+Begin = Literal["start", "anywhere"]  # where on its way
+START: Begin = "start"
+ANYWHERE: Begin = "anywhere"
+BEGIN = Reference("beginning", get_args(Begin))
 
 
 @kind("content", "walker")
@@ -20,7 +45,8 @@ class Walker(ThingKind):
 
     It wanders: its direction drifts by about `turning` in a second, and where its next step would meet a wall or an
     obstacle it stands for that tick and faces anywhere. Or it goes `along` places, from the last of them to the first
-    again, in straight lines through whatever is there. It is reached when it is caught: in the claw's reach.
+    again, in straight lines through whatever is there; with `or` on one of several ways, which is drawn for each, and
+    `from anywhere` on its way instead of its first place. It is reached when it is caught: in the claw's reach.
     """
 
     size: Annotated[Span, LENGTH] = DEFAULT_SIZE
@@ -29,6 +55,9 @@ class Walker(ThingKind):
     along: Annotated[tuple[Place, ...], COORDINATE] = ()
     away: Annotated[Span, LENGTH] = DEFAULT_DISTANCE
     at: Annotated[tuple[Place, ...], COORDINATE] = ()
+    or_: Annotated[Alternatives, COORDINATE] = field(default=(), metadata=LATER)
+    from_: Annotated[Begin, BEGIN] = field(default=START, metadata=LATER)
+    within: Annotated[Region, THING] = field(default="", metadata=LATER)
     count: Annotated[int, COUNT] = 1
     reached: Annotated[Outcome, OUTCOME] = STAYS
 
@@ -37,8 +66,23 @@ class Walker(ThingKind):
 
     @property
     def places(self) -> tuple[Place, ...]:
-        """The places of its way, or where it has none, those at which it begins."""
-        return self.along or self.at
+        """The places of its only way, or where it has none, those at which it begins."""
+        return () if self.or_ or self.from_ == ANYWHERE else self.along or self.at
+
+    @property
+    def spots(self) -> tuple[Place, ...]:
+        """Every place of its ways, or where it has none, all at which it may begin."""
+        return (*(self.along or self.at), *(place for each in self.or_ for place in each))
+
+    @property
+    def options(self) -> tuple[Place, ...]:
+        """The places of which one is drawn, where it has no ways."""
+        return self.spots if self.or_ and not self.along else ()
+
+    @property
+    def ways(self) -> Alternatives:  # type: ignore[override]
+        """The ways of which one is drawn for each; none where it wanders."""
+        return (self.along, *self.or_) if self.along else ()
 
     @property
     def wanders(self) -> bool:  # type: ignore[override]
@@ -48,17 +92,19 @@ class Walker(ThingKind):
     def mistake(self, scene: SceneKind | None) -> ThingMistake | None:
         """An error where its way goes nowhere or leaves the arena, or has too few places for all to begin at."""
         if not self.along:
-            return ThingKind.mistake(self, scene)
-        if self.at or self.away != DEFAULT_DISTANCE:
-            hint = "Leave at and away out: it begins where its way does."
+            hint = "Write the places of its way: along 0 0 to 10 0 from anywhere."
+            lost = ThingMistake("missing-argument", "What has no way begins nowhere on it.", hint)
+            return lost if self.from_ == ANYWHERE else ThingKind.mistake(self, scene)
+        if self.at or self.within or self.away != DEFAULT_DISTANCE:
+            hint = "Leave at, within and away out: it begins where its way does."
             return ThingMistake("place-and-way", "It says where it goes, and where it stands.", hint)
-        if len(self.along) < 2 or any(place == next_ for place, next_ in pairwise((*self.along, self.along[0]))):
+        if any(len(way) < 2 or any(a == b for a, b in pairwise((*way, way[0]))) for way in self.ways):
             hint = "Write places of which none is the next, nor the last the first: along 0 0 to 10 0 to 10 10."
             return ThingMistake("endless-way", "This way does not go anywhere.", hint)
-        if self.count > len(self.along):
+        if self.from_ == START and self.count > min(map(len, self.ways)):
             hint = f"Each begins at another place of the way: name {self.count} places, or write a smaller count."
             return ThingMistake("place-for-many", "Several things cannot stand at one place.", hint)
-        if scene is None or all(scene.has_room(place, self.largest / 2) for place in self.along):
+        if scene is None or all(scene.has_room(place, self.largest / 2) for place in self.spots):
             return None
         hint = "Write places that are in it with all of the thing; 0 0 is the middle."
         return ThingMistake("outside-arena", "That is not inside the arena.", hint)

@@ -176,6 +176,9 @@ def take_measures(tables, state, lanes, clock):
             change(tables, state, i, lanes, clock)
         elif measure.kind == codes.FORWARD:
             forward(out, world.body, world.heading, world.begun_at, lanes)
+        elif measure.kind == codes.DRAWN_NUMBER:
+            for lane in range(lanes):
+                out[lane] = world.numbers[measure.row, lane]
         elif measure.kind != codes.ITS_REWARD:  # which stands there already
             progress(out, judged.paid, world.body, world.things, measure, lanes)
 

@@ -6,6 +6,7 @@ the same world. Everything is placed clear of everything else, with room for the
 
 import numpy as np
 
+from mindrun.graph import draws
 from mindrun.graph.beginning import meets_robot
 from mindrun.numbers.arithmetic import (
     ANGLE,
@@ -23,12 +24,14 @@ from mindrun.numbers.arithmetic import (
     size_of,
     uniform,
 )
-from mindrun.sim.codes import CONSTANT, DRAWN, DRAWN_WHOLE, FAILING, FAR, Tables
+from mindrun.sim.codes import BETWEEN, CHOSEN, CONSTANT, DRAWN, DRAWN_WHOLE, FAILING, FAR, Tables
 from mindrun.sim.lanes.solid import is_clear, put_box
 from mindrun.sim.parameter_rows import computed
 from mindrun.sim.state import WorldState
 from mindrun.sim.units import unit
 
+BEFORE_THE_WORLD = np.uint64(draws.BEFORE_THE_WORLD)
+NEXT = 2  # the column of a corner that says which one comes after it
 MAX_TRIES = 1000
 ENDLESS_UNITS = 1e300  # half the side of what is no arena is infinite, above this
 
@@ -46,7 +49,11 @@ def draw(tables: Tables, world: WorldState, lane: int) -> None:
         put_box(boxes, b, walls[b, X], walls[b, Y], walls[b, HALF_X], walls[b, HALF_Y])
     world.things[:, lane] = FAR
     for i in range(len(tables.obstacles)):
-        box = draw_grid(world, tables.obstacles[i], box, lane)
+        box = draw_grid(tables, world, tables.obstacles[i], box, lane)
+    for i in range(len(tables.things)):
+        if tables.things[i].is_fixed:  # of what is within another thing nobody knows yet
+            x, y = place_for(tables, world, i, False, lane)
+            put_thing(world.things, i, x, y, lane)
     start(tables, world, lane)
     for i in range(len(tables.things)):
         if tables.things[i].is_fixed:
@@ -59,9 +66,91 @@ def draw(tables: Tables, world: WorldState, lane: int) -> None:
             x, y = find(tables, world, obstacle.low, obstacle.high, room, size / 2, -1, lane)
             put_box(boxes, box, x, y, size / 2, size / 2)
             box += 1
-    for i in range(len(tables.things)):
-        if not tables.things[i].is_fixed:
-            appear(tables, world, i, lane)
+    for is_within in range(2):
+        for i in range(len(tables.things)):
+            if not tables.things[i].is_fixed and tables.things[i].is_within == is_within:
+                appear(tables, world, i, lane)
+
+
+def place_for(tables, world, i, is_begun, lane):
+    """A place for a thing with a place, or with several or a way that is drawn; the robot `is_begun` when it moves."""
+    thing = tables.things[i]
+    if thing.walker >= 0 and tables.walkers[thing.walker].ways > 0:
+        return set_out(tables, world, thing.walker, lane)
+    if thing.options > 0:
+        return choose(tables, world, i, is_begun, lane)
+    return at_drawn(world, thing, lane)
+
+
+def at_drawn(world, placed, lane):
+    """The place of something, whose x and y may be numbers that the task draws, or these negated."""
+    x, y = placed.x, placed.y
+    if placed.x_row >= 0:
+        x *= world.numbers[placed.x_row, lane]
+    if placed.y_row >= 0:
+        y *= world.numbers[placed.y_row, lane]
+    return x, y
+
+
+def choose(tables, world, i, is_begun, lane):
+    """Draw one of a thing's places, alike probable among those that fit it best."""
+    thing, best, count = tables.things[i], 0, 0
+    for option in range(thing.option, thing.option + thing.options):
+        fits = fit(tables, world, i, option, is_begun, lane)
+        count = count + 1 if fits == best else 1 if fits > best else count
+        best = max(best, fits)
+    left = min(int(uniform(world.random, lane, 0.0, count)), count - 1)
+    for option in range(thing.option, thing.option + thing.options):
+        if fit(tables, world, i, option, is_begun, lane) == best:
+            if left == 0:
+                return tables.options[option, X], tables.options[option, Y]
+            left -= 1
+    return np.nan, np.nan  # never: one of them fits best
+
+
+def fit(tables, world, i, option, is_begun, lane):
+    """How well a place fits a thing: 0 where another of its name is, 1 where it is itself, 2 on the robot, else 3."""
+    thing, x, y = tables.things[i], tables.options[option, X], tables.options[option, Y]
+    for k in range(i - thing.copy, i - thing.copy + thing.copies):
+        its_x, its_y = place_of(world.things, k, lane)
+        if its_x == x and its_y == y:
+            return 1 if k == i else 0
+    if is_begun:
+        dx, dy = x - world.body[X, lane], y - world.body[Y, lane]
+        if stands_on(tables, i, size_of(world.things, i, lane), dx, dy):
+            return 2
+    return 3
+
+
+def set_out(tables, world, i, lane):
+    """Send a walker on its way, or on one that is drawn; return where it begins: at one of its corners, or anywhere."""
+    walker = tables.walkers[i]
+    way = walker.way
+    if walker.ways > 1:
+        way += min(int(uniform(world.random, lane, 0.0, walker.ways)), walker.ways - 1)
+    first, places = tables.ways[way].first, tables.ways[way].places
+    corner, far = first + walker.copy % places, 0.0
+    if walker.is_anywhere:
+        for k in range(first, first + places):
+            far += stretch(tables.corners, k)
+        far, corner = uniform(world.random, lane, 0.0, far), first
+        while corner < first + places - 1 and far > stretch(tables.corners, corner):
+            far -= stretch(tables.corners, corner)
+            corner += 1
+    goal = int(tables.corners[corner, NEXT])
+    world.goal[i, lane] = goal
+    x, y = tables.corners[corner, X], tables.corners[corner, Y]
+    if far > 0.0:
+        share = min(1.0, far / stretch(tables.corners, corner))
+        x, y = x + (tables.corners[goal, X] - x) * share, y + (tables.corners[goal, Y] - y) * share
+    return x, y
+
+
+def stretch(corners, corner):
+    """The length of a way from a corner to the next one."""
+    goal = int(corners[corner, NEXT])
+    dx, dy = corners[goal, X] - corners[corner, X], corners[goal, Y] - corners[corner, Y]
+    return np.sqrt(dx * dx + dy * dy)
 
 
 def appear(tables, world, i, lane):
@@ -70,19 +159,24 @@ def appear(tables, world, i, lane):
     size = uniform(world.random, lane, thing.first, thing.last) if thing.drawn else thing.first
     resize_thing(world.things, i, size, lane)
     if thing.is_fixed:
-        put_at(tables, world, i, thing.x, thing.y, lane)
+        x, y = place_of(world.things, i, lane)
+        put_at(tables, world, i, x, y, lane)
     else:
         put(tables, world, i, lane)
 
 
-def draw_grid(world, obstacle, box, lane):
+def draw_grid(tables, world, obstacle, box, lane):
     """Put an obstacle at each crossing of the grid, a little off it; return the number of the next box."""
     random, jitter = world.random, obstacle.jitter
     middle_x, middle_y = (obstacle.columns - 1) / 2, (obstacle.rows - 1) / 2
+    from_x, from_y = at_drawn(world, obstacle, lane)
+    if obstacle.options > 0:
+        option = obstacle.option + min(int(uniform(random, lane, 0.0, obstacle.options)), obstacle.options - 1)
+        from_x, from_y = tables.options[option, X], tables.options[option, Y]
     for row in range(obstacle.rows):
         for column in range(obstacle.columns):
-            x = obstacle.x + (column - middle_x) * obstacle.grid + uniform(random, lane, -jitter, jitter)
-            y = obstacle.y + (row - middle_y) * obstacle.grid + uniform(random, lane, -jitter, jitter)
+            x = from_x + (column - middle_x) * obstacle.grid + uniform(random, lane, -jitter, jitter)
+            y = from_y + (row - middle_y) * obstacle.grid + uniform(random, lane, -jitter, jitter)
             size = uniform(random, lane, obstacle.first, obstacle.last)
             put_box(world.boxes[lane], box, x, y, size / 2, size / 2)
             box += 1
@@ -107,7 +201,7 @@ def start(tables, world, lane):
             fits = 0
             if clear_of_all(tables, world, x, y, radius, lane):
                 fits = 1
-                if is_open(tables, x, y):
+                if is_open(tables, world, x, y, lane):
                     fits = 3 if clear_of_all(tables, world, x, y, 3 * radius, lane) else 2
             if fits >= best:
                 best, body[X, lane], body[Y, lane] = fits, x, y
@@ -130,9 +224,12 @@ def find(tables, world, low, high, room, extent, but, lane):
     that is worse than what stands in an obstacle, and that is worse than what covers a thing.
     """
     constants, margin, body = tables.world[0], extent + 2 * tables.world[0].radius, world.body
+    left, right, below, above, zone = bounds(tables, world, extent, but, lane)
     best, best_x, best_y = 0, 0.0, 0.0
     for _ in range(MAX_TRIES):
-        if constants.half_x < ENDLESS_UNITS:
+        if left <= right:
+            x, y = uniform(world.random, lane, left, right), uniform(world.random, lane, below, above)
+        elif constants.half_x < ENDLESS_UNITS:
             room_x = max(constants.half_x - extent - 2 * constants.radius, 0.0)
             room_y = max(constants.half_y - extent - 2 * constants.radius, 0.0)
             x, y = uniform(world.random, lane, -room_x, room_x), uniform(world.random, lane, -room_y, room_y)
@@ -146,7 +243,7 @@ def find(tables, world, low, high, room, extent, but, lane):
         if far > low - 1e-9 and far < high + 1e-9 and max(abs(dx), abs(dy)) >= room:
             fits = 1
             if is_clear(world.boxes, x, y, margin, lane):
-                fits = 3 if clear_of_things(world.things, x, y, extent, but, lane) else 2
+                fits = 3 if clear_of_things(world.things, x, y, extent, but, zone, lane) else 2
             if but < 0 or not stands_on(tables, but, 2 * extent, dx, dy):
                 fits += 3
         if fits >= best:
@@ -156,10 +253,39 @@ def find(tables, world, low, high, room, extent, but, lane):
     return best_x, best_y
 
 
+def bounds(tables, world, extent, i, lane):
+    """The rectangle in which thing i is placed, from side to side, within the arena; and the zone that it is, or −1.
+
+    The sides are 1 and 0 where it is placed anywhere, or `i` is none.
+    """
+    if i < 0 or not tables.things[i].is_within:
+        return 1.0, 0.0, 1.0, 0.0, -1
+    thing, constants, zone = tables.things[i], tables.world[0], -1
+    left, right, below, above = thing.left, thing.right, thing.below, thing.above
+    if thing.insides > 0:
+        zone = thing.inside
+        if thing.insides > 1:
+            zone += min(int(uniform(world.random, lane, 0.0, thing.insides)), thing.insides - 1)
+        x, y = place_of(world.things, zone, lane)
+        half = size_of(world.things, zone, lane) / 2
+        if np.isnan(x):  # it stays where it is
+            x, y = place_of(world.things, i, lane)
+            return x, x, y, y, -1
+        left, right, below, above = x - half, x + half, y - half, y + half
+    room_x, room_y = max(constants.half_x - extent, 0.0), max(constants.half_y - extent, 0.0)
+    left, right = min(max(left, -room_x), room_x), max(min(right, room_x), -room_x)
+    below, above = min(max(below, -room_y), room_y), max(min(above, room_y), -room_y)
+    return left, right, below, above, zone
+
+
 @unit
 def put(tables: Tables, world: WorldState, i: int, lane: int) -> None:
-    """Put thing i somewhere else."""
+    """Put thing i somewhere else: at another of its places, on a way that is drawn, or where there is room."""
     thing = tables.things[i]
+    if thing.options > 0 or (thing.walker >= 0 and tables.walkers[thing.walker].is_drawn):
+        x, y = place_for(tables, world, i, True, lane)
+        put_at(tables, world, i, x, y, lane)
+        return
     x, y = find(tables, world, thing.low, thing.high, 0.0, size_of(world.things, i, lane) / 2, i, lane)
     put_at(tables, world, i, x, y, lane)
 
@@ -209,27 +335,29 @@ def clear_of_all(tables, world, x, y, margin, lane):
     for i in range(len(tables.loose)):
         thing = tables.things[tables.loose[i].thing]
         gap = max(thing.first, thing.last) / 2 + margin
-        if thing.is_fixed and abs(thing.x - x) < gap and abs(thing.y - y) < gap:
+        its_x, its_y = place_of(world.things, tables.loose[i].thing, lane)
+        if thing.is_fixed and abs(its_x - x) < gap and abs(its_y - y) < gap:
             return False
     return True
 
 
-def clear_of_things(things, x, y, extent, but, lane):
-    """True if something of half size `extent` at a place would cover no thing, thing number `but` aside."""
+def clear_of_things(things, x, y, extent, but, zone, lane):
+    """True if something of half size `extent` at a place would cover no thing, numbers `but` and `zone` aside."""
     for i in range(things.shape[0] // THING_ROWS):
         its_x, its_y = place_of(things, i, lane)
         gap = extent + size_of(things, i, lane) / 2
-        if i != but and abs(its_x - x) < gap and abs(its_y - y) < gap:
+        if i != but and i != zone and abs(its_x - x) < gap and abs(its_y - y) < gap:
             return False
     return True
 
 
-def is_open(tables, x, y):
+def is_open(tables, world, x, y, lane):
     """True if nothing with a place of its own keeps a robot from beginning at a point."""
     for i in range(len(tables.things)):
         thing = tables.things[i]
         size = max(thing.first, thing.last) if thing.drawn else thing.first
-        if thing.is_fixed and stands_on(tables, i, size, thing.x - x, thing.y - y):
+        its_x, its_y = place_of(world.things, i, lane)
+        if thing.is_fixed and stands_on(tables, i, size, its_x - x, its_y - y):
             return False
     return True
 
@@ -239,6 +367,18 @@ def stands_on(tables, i, size, dx, dy):
     thing, constants = tables.things[i], tables.world[0]
     is_area, is_round, is_goal = thing.is_area == 1, thing.is_round == 1, thing.is_goal == 1
     return meets_robot(is_area, is_round, is_goal, size, dx, dy, constants.radius, constants.front + constants.claw)
+
+
+def draw_numbers(tables, world, seed, lane):
+    """Draw the numbers of a lane that its task draws, before its world, and from the seed alone: they move nothing."""
+    world.random_aside[lane] = seed ^ BEFORE_THE_WORLD
+    for i in range(len(tables.parameters)):
+        row = tables.parameters[i]
+        if row.form == BETWEEN:
+            world.numbers[i, lane] = uniform(world.random_aside, lane, row.low, row.high)
+        elif row.form == CHOSEN:
+            chosen = min(int(uniform(world.random_aside, lane, 0.0, row.high)), int(row.high) - 1)
+            world.numbers[i, lane] = tables.choices[row.of + chosen]
 
 
 def set_numbers(tables, world, lane):
@@ -254,7 +394,7 @@ def set_numbers(tables, world, lane):
             numbers[i, lane] = min(np.floor(uniform(random, lane, row.low, row.high + 1.0)), row.high)
         elif row.form == FAILING:
             numbers[i, lane] = fails_at(uniform(random, lane, 0.0, 1.0), row.low, tables.world[0].ticks)
-        else:
+        elif row.form != CHOSEN and row.form != BETWEEN:  # which are drawn already
             numbers[i, lane] = computed(row.form, numbers[row.of, lane], row.low)
 
 

@@ -4,12 +4,13 @@ import numpy as np
 
 from mindrun.kinds.sensors.motion import TRAIL_TICKS
 from mindrun.numbers.arithmetic import ANGLE, COSINE, SINE, X, Y, sine_cosine
-from mindrun.sim.codes import GOING_ON, LOST, VISIT, Tables
+from mindrun.sim.codes import DRAWN_NUMBER, GOING_ON, LOST, VISIT, Tables
 from mindrun.sim.lanes.judge import patch_of
-from mindrun.sim.lanes.placement import draw, set_numbers
+from mindrun.sim.lanes.placement import draw, draw_numbers, set_numbers, vanish
 from mindrun.sim.lanes.solid import is_lost
+from mindrun.sim.lanes.think import run_program
 from mindrun.sim.state import PLACE_ROWS, Jobs, State
-from mindrun.sim.units import unit
+from mindrun.sim.units import unit, unit_where
 
 MEASURED_ASIDE = np.uint64(0xD1B54A32D192ED03)  # what no skill reads draws from a generator of its own
 
@@ -48,14 +49,32 @@ def begin_job(tables: Tables, state: State, jobs: Jobs, lane: int) -> int:
     jobs.next[0] = job + 1
     state.run.job[lane] = job
     world.seed[lane] = world.random[lane] = jobs.seeds[jobs.seed[job]]
+    draw_numbers(tables, world, world.random[lane], lane)
     world.random_aside[lane] = world.random[lane] ^ MEASURED_ASIDE
     draw(tables, world, lane)
     set_numbers(tables, world, lane)
+    if len(tables.presences) > 0:
+        leave_out(tables, state, lane)
     genome = jobs.genomes[jobs.genome[job]]
     for i in range(len(genome)):
         mind.genome[i, lane] = genome[i]
     reset(tables, state, lane)
     return True
+
+
+@unit_where(lambda tables: len(tables.presences) > 0)
+def leave_out(tables: Tables, state: State, lane: int) -> None:
+    """Remove the things of a lane that are not there in its run."""
+    mind, judged = state.mind, state.judge
+    for i in range(len(tables.measures)):
+        if tables.measures[i].kind == DRAWN_NUMBER:
+            judged.measures[i, lane] = state.world.numbers[tables.measures[i].row, lane]
+    for i in range(len(tables.presences)):
+        presence = tables.presences[i]
+        mind.active[0] = lane
+        run_program(tables, state, presence.when, presence.whens, 0, 1, False)
+        if not mind.stack[0, 0] > 0.0:
+            vanish(tables, state.world, presence.thing, lane)
 
 
 def reset(tables, state, lane):
@@ -64,8 +83,6 @@ def reset(tables, state, lane):
     world.held[lane], world.tick[lane], world.battery[lane] = -1, 0, tables.world[0].start
     world.heading[SINE, lane], world.heading[COSINE, lane] = sine_cosine(world.body[ANGLE, lane])
     world.reached[:, lane], world.delivered[:, lane] = 0, 0
-    for i in range(len(tables.walkers)):
-        world.goal[i, lane] = tables.walkers[i].begins
     for place in range(0, PLACE_ROWS * TRAIL_TICKS, PLACE_ROWS):
         world.trail[place + X, lane], world.trail[place + Y, lane] = world.body[X, lane], world.body[Y, lane]
     mind.recurrent[:, lane] = 0.0

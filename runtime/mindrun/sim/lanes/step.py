@@ -26,6 +26,7 @@ from mindrun.numbers.arithmetic import (
 from mindrun.sim.codes import FORCE, FORCE_ASIDE, FORCE_X, FORCE_Y, PERSISTENCE_TICKS, PUSH, STEERING, TORQUE, Tables
 from mindrun.sim.lanes.act import carry
 from mindrun.sim.lanes.loose import approach_loose, could_touch, slide, slow_down
+from mindrun.sim.lanes.placement import NEXT
 from mindrun.sim.lanes.sense import CULLING_SLACK_UNITS
 from mindrun.sim.lanes.solid import CLOSED_UNITS, find_swift, is_barred, is_free, within
 from mindrun.sim.lanes.strides import make_tick
@@ -207,7 +208,7 @@ def walk(tables: Tables, world: WorldState, lanes: int) -> None:
             x, y = place_of(world.things, tables.walkers[i].thing, lane)
             if np.isnan(x):
                 continue
-            if tables.walkers[i].places > 0:
+            if tables.walkers[i].ways > 0:
                 go_along(tables, world, i, x, y, lane)
             else:
                 wander(tables, world, i, x, y, lane)
@@ -241,14 +242,13 @@ def may_step(tables, world, step, x, y, to_x, to_y, half, lane):
 
 def go_along(tables, world, i, x, y, lane):
     """Step towards the next place of its way; where it would come past that, stop there for this tick."""
-    walker = tables.walkers[i]
-    goal = walker.first + world.goal[i, lane]
-    to_x, to_y = tables.ways[goal, X], tables.ways[goal, Y]
+    walker, goal = tables.walkers[i], world.goal[i, lane]
+    to_x, to_y = tables.corners[goal, X], tables.corners[goal, Y]
     dx, dy = to_x - x, to_y - y
     far = np.sqrt(dx * dx + dy * dy)
     if far <= walker.step:
         put_thing(world.things, walker.thing, to_x, to_y, lane)
-        world.goal[i, lane] = (world.goal[i, lane] + 1) % walker.places
+        world.goal[i, lane] = int(tables.corners[goal, NEXT])
     else:
         share = walker.step / far
         put_thing(world.things, walker.thing, x + dx * share, y + dy * share, lane)
