@@ -39,7 +39,10 @@ class Part(Struct, Generic[K], frozen=True):
 
 
 class Edge(Struct, frozen=True):
-    """An edge of a skill: it sends an output of its function, or the value of `at`; an influence below `cuts` is 0."""
+    """An edge of a skill: it sends an output of its function, or the value of `at`; an influence below `cuts` is 0.
+
+    One that is `over` some actuators and memories, by name, counts for these alone.
+    """
 
     to: Receiver
     target: str
@@ -47,6 +50,7 @@ class Edge(Struct, frozen=True):
     fact: syntax.Drives | syntax.Influences
     gate: syntax.Gate | None = None
     cuts: float = 0.0
+    over: tuple[str, ...] = ()
 
     @property
     def values(self) -> tuple[syntax.Expression, ...]:
@@ -56,7 +60,7 @@ class Edge(Struct, frozen=True):
 
 
 class Skill(Struct, frozen=True):
-    """A skill; `reads` are names of sensors and memories; one that is `frozen` is not taught.
+    """A skill; `reads` are names of sensors and memories; one that is `frozen` is not taught, one may `chooses` one.
 
     One that is `like` another has that one's function and weights; what it reads stands in that one's order, and its
     edges are said there.
@@ -69,6 +73,7 @@ class Skill(Struct, frozen=True):
     frozen: bool
     declaration: syntax.Declaration
     like: str = ""
+    chooses: bool = False
 
     @property
     def span(self) -> Span:

@@ -90,6 +90,8 @@ def names_in(line: Setting | Header | Fact | syntax.Stop) -> Iterator[Named]:
             yield from _if_any(stands_for, *READABLE_NOUNS)
         case syntax.Sends(name):
             yield name, DRIVABLE_NOUNS if isinstance(line, syntax.Drives) else ("skill",)
+            over = line.over or () if isinstance(line, syntax.Influences) else ()
+            yield from ((each, DRIVABLE_NOUNS) for each in over)
             yield from _in_expressions(*syntax.expressions_in(line))
         case syntax.Contains(name, phrase):
             yield name, ("thing",)

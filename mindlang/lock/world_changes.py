@@ -2,9 +2,11 @@
 
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import fields
 from math import degrees, sin
 from typing import Any
 
+from mindrun.kinds.registry import is_left_out, kinds
 from mindrun.numbers.quantity import ANGLE
 
 from mindlang.lock.training_world import TrainingWorld
@@ -55,10 +57,16 @@ def _tick(seconds: float) -> str:
 
 
 def _kind_changes(noun: str, name: str, old: Mapping[str, Any], now: Mapping[str, Any]) -> Iterator[str]:
-    """The differences of a part, in sentences. An argument that only one version of mindc knows is none."""
+    """The differences of a part, in sentences. An argument that only one version of mindc knows is none.
+
+    One that is left out where it is the default is that.
+    """
     if old["is"] != now["is"]:
         yield f"taught with {name} as {old['is']}, now {now['is']}"
         return
+    cls = kinds(noun).get(now["is"])
+    defaults = {each.name: each.default for each in fields(cls) if is_left_out(each)} if cls else {}
+    old, now = {**defaults, **old}, {**defaults, **now}
     for field in [field for field in now if field != "is" and field in old and old[field] != now[field]]:
         if isinstance(now[field], list) and any(isinstance(each, str) for each in now[field]):
             yield f"the text of {name} has changed"

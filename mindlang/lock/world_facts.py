@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from hashlib import sha256
+from math import inf
 from pathlib import Path
 from typing import Any
 
@@ -31,7 +32,7 @@ from mindlang.lock.training_world import LessonKey, TrainingWorld
 PRECEDENCE = {"or": -2, "and": -1, **dict.fromkeys(TRUTHS[:4], 0), "+": 1, "-": 1, "*": 2, "/": 2}
 NEGATION_PRECEDENCE, EXTREME_PRECEDENCE, ATOM_PRECEDENCE = 3, 4, 5
 
-UNSAID_VALUES: tuple[Any, ...] = ([], "", None, {"by": None, "first": UNSAID.first, "last": UNSAID.last})
+UNSAID_VALUES: tuple[Any, ...] = ([], "", None, inf, {"by": None, "first": UNSAID.first, "last": UNSAID.last})
 
 Leaf = Callable[[str, float], str]
 ExpressionPart = tuple[str, int]  # of an expression: its text, and how tightly it binds
@@ -122,8 +123,8 @@ class Worlds:
 
     def _skill(self, skill: Skill) -> dict[str, Any]:
         """The facts of a skill that its weights do not say: all of it where it does not learn."""
-        fixed = [edge for edge in skill.edges if edge.programs or edge.cuts]
-        sends = [self._sends(edge) for edge in fixed]
+        fixed = [edge for edge in skill.edges if edge.programs or edge.cuts or edge.over]
+        sends = [*map(self._sends, fixed), *["chooses one"] * skill.chooses]
         if skill.like:
             return {"like": skill.like, "reads": self._read_instead(skill), "sends": sorted(sends)}
         if genes(skill):
@@ -138,6 +139,7 @@ class Worlds:
     def _sends(self, edge: Edge) -> str:
         """The target, value, gate and cut of an edge, as they are written."""
         words = [self.graph.named(edge.to, edge.target)]
+        words += [f"over {' and '.join(self.graph.named(*sink) for sink in edge.over)}"] * bool(edge.over)
         words += [f"at {infix(edge.value, self._leaf)}"] if edge.output is None else []
         if edge.gate:
             words.append(f"when {infix(edge.gate.when, self._leaf)}")

@@ -104,7 +104,7 @@ def influence_bounds(graph: Graph, boxes: int, sends: Callable[[Skill], SentBoun
             found, place = sends(skill), places[skill.name]
             for number, edge in enumerate(skill.edges):
                 drives = edge.to == "actuator"
-                if edge.to == "memory":
+                if edge.to == "memory" or edge.cuts == np.inf:
                     continue
                 least = low[:, place] * (1 if drives else found.low[:, number])
                 most = high[:, place] * (1 if drives else found.high[:, number])

@@ -2,7 +2,7 @@
 
 from collections import defaultdict
 from collections.abc import Callable, Mapping
-from dataclasses import MISSING, dataclass, fields
+from dataclasses import MISSING, Field, dataclass, field, fields
 from functools import cache
 from importlib import import_module
 from pkgutil import iter_modules
@@ -30,6 +30,16 @@ Shape = Literal["one", "list", "span", "name", "extent", "place", "places", "lin
 SHAPES: Mapping[Any, Shape] = {
     Span: "span", Extent: "extent", Place: "place", tuple[Place, ...]: "places", tuple[str, ...]: "lines",
 }  # fmt: skip
+
+
+def left_out(default: Any) -> Any:
+    """A dataclass's field that is left out of plain data where it has this value: what came later than the files."""
+    return field(default=default, metadata={"left out": True})
+
+
+def is_left_out(of: Field[Any]) -> bool:
+    """True if plain data has a field only where its value is not the default."""
+    return "left out" in of.metadata
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mindrun.graph.graph import Edge, Graph, Program, Skill
+from mindrun.graph.scopes import Scopes, influence_scopes
 from mindrun.graph.weights import NO_WEIGHTS, genes, weights_of
 from mindrun.kinds.registry import names
 from mindrun.numbers.stack_machine import COMMAND, NEGATE, NUMBER, OPERATIONS
@@ -57,7 +58,7 @@ def skill_rows(
     """
     lengths = {skill.owner: genes(skill) for skill in reached}
     starts = dict(zip(learners, np.cumsum([0, *(lengths.get(name, 0) for name in learners)]), strict=False))
-    numbers = graph.skill_numbers
+    numbers, scopes = graph.skill_numbers, influence_scopes(graph)
     rows, edges, inputs = list[Row](), list[Row](), list[int]()
     shared, places = _shared_weights([skill for skill in reached if skill.owner not in starts], weights)
     most_inputs = scratch = 1
@@ -70,11 +71,16 @@ def skill_rows(
             "input": len(inputs), "inputs": count, "outputs": outputs,
             "weights": int(starts[skill.owner]) if own else places[skill.owner], "own": own,
             "edge": len(edges), "edges": len(skill.edges), "address": addresses.get(skill.name, 0), "state": state,
-            **function.row(count, outputs),
+            "chooses": skill.chooses, **function.row(count, outputs),
         }  # fmt: skip
         rows.append(row)
         inputs.extend(skill.inputs)
-        edges.extend(_edge(graph, edge, codes) for edge in skill.edges)
+        for edge in skill.edges:
+            scoped = [(number - 1) * len(numbers) for number in scopes.counting(edge) if number and edge.to == "skill"]
+            scope = (scopes.of.get((edge.to, edge.target), 0) - 1) * len(numbers)
+            within = {"scope": max(-1, scope), "scoped": len(inputs), "scopes": len(scoped)}
+            edges.append({**_edge(graph, edge, codes), **within})
+            inputs.extend(scoped)
         most_inputs = max(most_inputs, count + remembered)
         scratch = max(scratch, function.scratch(count, outputs))
         state += remembered

@@ -128,11 +128,12 @@ def loose_rows(task: Task, dt: float, parameters: Parameters) -> Array:
     return records(rows, codes.LOOSE)
 
 
-def walker_rows(task: Task, dt: float) -> dict[str, Array]:
+def walker_rows(task: Task, dt: float, parameters: Parameters) -> dict[str, Array]:
     """Rows of WALKING, in the order of the things that they are rows of, and the places of their ways, one by one.
 
     A direction that drifts by up to √(3·dt)·turning either way in each tick has drifted by `turning` in a second, in
-    the root of the mean square. The second of several on one way begins at its second place.
+    the root of the mean square. The second of several on one way begins at its second place. The `aim` is 1 of what
+    seeks and −1 of what flees the nearest of `afters` things, from the thing `after` on, or with none of them the robot.
     """
     rows: list[Row] = []
     ways: list[tuple[float, float]] = []
@@ -141,7 +142,13 @@ def walker_rows(task: Task, dt: float) -> dict[str, Array]:
         kind: Any = thing.kind
         if kind.walks:
             count, copy = len(kind.along), i - places[thing.name].start
-            row = {"thing": i, "step": kind.speed * dt, "turn": kind.turning * np.sqrt(3 * dt)}
+            after = places.get(kind.thing, NOWHERE)
+            row = {
+                "thing": i, "aim": bool(kind.seeks) - bool(kind.flees), "within": kind.within,
+                "after": after.start, "afters": len(after),
+                "step": parameters.row("thing", thing.name, "speed", kind.speed, (TIMES, dt)),
+                "turn": parameters.row("thing", thing.name, "turning", kind.turning, (TIMES, float(np.sqrt(3 * dt)))),
+            }  # fmt: skip
             rows.append({**row, "first": len(ways), "places": count, "begins": (copy + 1) % max(1, count)})
             ways += kind.along if i + 1 == places[thing.name].stop else ()
     return {"walkers": records(rows, codes.WALKING), "ways": np.array(ways, np.float64).reshape(-1, 2)}

@@ -10,6 +10,7 @@ from mindrun.kinds.registry import arguments, base, kind
 from mindrun.kinds.scenes.scene import SceneKind
 from mindrun.numbers.quantity import COORDINATE, COUNT, LENGTH, RATIO, THING, UNSAID, Place, Quantity, Reference, Span
 
+ROBOT = "robot"  # the name by which a thing means the robot
 DEFAULT_SIZE = Span(1.0, 1.0)
 DEFAULT_DISTANCE = UNSAID  # as far away as its scene says
 

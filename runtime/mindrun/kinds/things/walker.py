@@ -2,25 +2,30 @@
 
 from dataclasses import replace
 from itertools import pairwise
-from math import pi
+from math import inf, pi
 from typing import Annotated
 
-from mindrun.kinds.registry import kind
+from mindrun.kinds.registry import kind, left_out
 from mindrun.kinds.scenes.scene import SceneKind
-from mindrun.kinds.things.thing import DEFAULT_DISTANCE, DEFAULT_SIZE, OUTCOME, STAYS, Outcome, ThingKind, ThingMistake
-from mindrun.numbers.quantity import ANGLE, COORDINATE, COUNT, LENGTH, POSITIVE, Place, Span
+from mindrun.kinds.things.thing import (
+    DEFAULT_DISTANCE, DEFAULT_SIZE, OUTCOME, STAYS, AboutThing, Outcome, ThingKind, ThingMistake,
+)  # fmt: skip
+from mindrun.numbers.quantity import ANGLE, COORDINATE, COUNT, LENGTH, POSITIVE, THING, Place, Span
 
 SPEED = replace(POSITIVE, name="a speed in world units per second", high=1e4)
 TURNING = replace(ANGLE, low=0.0)
 
 
 @kind("content", "walker")
-class Walker(ThingKind):
+class Walker(ThingKind, AboutThing):
     """A disc of diameter `size` on the floor that moves at `speed`, in units per second, and touches nothing.
 
     It wanders: its direction drifts by about `turning` in a second, and where its next step would meet a wall or an
     obstacle it stands for that tick and faces anywhere. Or it goes `along` places, from the last of them to the first
     again, in straight lines through whatever is there. It is reached when it is caught: in the claw's reach.
+
+    One that `seeks` or `flees` the robot, or the nearest thing of a name, goes straight towards it or away from it,
+    from middle to middle. Where none is `within` that distance, or something is in its way, it wanders.
     """
 
     size: Annotated[Span, LENGTH] = DEFAULT_SIZE
@@ -31,9 +36,18 @@ class Walker(ThingKind):
     at: Annotated[tuple[Place, ...], COORDINATE] = ()
     count: Annotated[int, COUNT] = 1
     reached: Annotated[Outcome, OUTCOME] = STAYS
+    seeks: Annotated[str, THING] = left_out("")
+    flees: Annotated[str, THING] = left_out("")
+    within: Annotated[float, LENGTH] = left_out(inf)
 
+    varying = ("speed", "turning")
     is_round = True
     walks = True
+
+    @property
+    def thing(self) -> str:
+        """The name of what it seeks or flees; empty where it does neither."""
+        return self.seeks or self.flees
 
     @property
     def places(self) -> tuple[Place, ...]:
@@ -46,7 +60,16 @@ class Walker(ThingKind):
         return not self.along
 
     def mistake(self, scene: SceneKind | None) -> ThingMistake | None:
-        """An error where its way goes nowhere or leaves the arena, or has too few places for all to begin at."""
+        """An error where its way goes nowhere or leaves the arena, or has too few places for all to begin at.
+
+        Or where it has two aims, or a distance without one.
+        """
+        if len([each for each in (self.along, self.seeks, self.flees) if each]) > 1:
+            hint = "Leave all but one of along, seeks and flees out."
+            return ThingMistake("two-aims", "It can go one way at a time.", hint)
+        if self.within != inf and not self.thing:
+            hint = "Write seeks or flees, and of what: flees robot within 10."
+            return ThingMistake("aimless-distance", "A distance says when it seeks or flees, and it does neither.", hint)
         if not self.along:
             return ThingKind.mistake(self, scene)
         if self.at or self.away != DEFAULT_DISTANCE:
