@@ -38,6 +38,7 @@ from mindlang.compiler.splice import spliced
 from mindlang.compiler.syntax import Fact
 from mindlang.editing.insertion import replace_span
 from mindlang.lock.training_world import TrainingWorld
+from mindlang.lock.world_changes import NOUNS
 from mindlang.lock.world_facts import Worlds, meaning_of
 
 T = TypeVar("T")
@@ -96,7 +97,7 @@ class Renaming:
         for subject, value in world.facts.items():
             noun, space, own = subject.partition(" ")
             now[f"{noun}{space}{self.name(own, noun)}"] = (
-                {key: _argument(part, meaning_of(noun, value["is"], key), self.name) for key, part in value.items()}
+                {key: _argument(part, meaning_of(NOUNS.get(noun, noun), value["is"], key), self.name) for key, part in value.items()}
                 if noun in OF_KINDS
                 else _mapped(value, (noun,), text)
             )

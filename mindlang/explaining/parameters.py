@@ -1,5 +1,6 @@
 """Arguments of kinds and options of drivers in words: what each takes, and its default."""
 
+from math import inf
 from typing import Any
 
 from mindrun.kinds.registry import Argument
@@ -71,6 +72,8 @@ def _default(asked: Asked) -> str:
             return str(flag).lower()
         case None | () | "":
             return "none"
+        case float(number) if number == inf:
+            return "however far"
         case Span() as span if span == UNSAID:
             return "as the scene says"
         case Span(first, last, by):

@@ -114,13 +114,17 @@ THINGS = [
     ["nest is zone size 8", "nest is zone at -12.5 7.5"],
     ["dock is power size 4", "dock is power at -2.5 -7.5"],
     ["crate is box size 2", "crate is box at 12.5 -2.5", "crate is ball", "crate is ball at -7.5 -12.5"],
-    ["cat is walker size 2", "cat is walker at 2.5 2.5", "cat is walker along 2.5 -2.5 to 7.5 -2.5"],
+    [
+        *("cat is walker size 2", "cat is walker at 2.5 2.5", "cat is walker along 2.5 -2.5 to 7.5 -2.5"),
+        *("cat is walker seeks robot", "cat is walker flees robot within 9", "cat is walker seeks cat within 20"),
+        "cat is walker flees cat",
+    ],
 ]
 STARTS = ["starts at 2.5 12.5", "starts facing -45 deg", "starts at 2.5 12.5 facing 1/2 deg"]
 SPREADS = [
     ["varies noise of eye 0 to 10%", "varies lost of ball_bearing 0 to 5%", "varies delay of moving 0 to 2 ticks"],
     ["varies density of Robot 1 to 3", "varies noise of left_wheel 0 to 1/4"],
-    ["varies density of crate 0.5 to 1", "varies delay of right_wheel 1 to 3 ticks"],
+    ["varies density of crate 0.5 to 1", "varies speed of cat 1 to 3", "varies delay of right_wheel 1 to 3 ticks"],
     ["fails left_wheel 1% per s", "fails claw 0.1% per tick"],
     ["fails mast 0.01"],
 ]
@@ -256,6 +260,7 @@ def _more(rng: Random, noun: str, line: str) -> str:
     if noun == "content":
         is_placed = not {"at", "along", "grid"}.isdisjoint(words)
         words += ["away", "count", "size"] * is_placed + ["grid", "at", "along"]  # a place has to be free
+        words += ["seeks", "flees", "within"]  # of what there is
     words += ["size"] * (noun == "body")  # and there is as much room for the robot
     often = 0.5 if noun in ("curriculum", "body", "actuator") else 0.2
     for argument in arguments(kinds(noun)[kind]):
@@ -295,9 +300,15 @@ def _skill(rng: Random, name: str, function: str, below: list[str]) -> list[str]
         for i, edge in enumerate(edges)
     ]
     said = [edge + rng.choice(GATES).format(_value(rng, reads)) if rng.random() < 0.2 else edge for edge in said]
+    over = [f" over {' and '.join(rng.sample(sorted(ACTUATORS), rng.randint(1, 2)))}" for _ in said]
+    said = [
+        re.sub(r"^influences \S+", rf"\g<0>{each}", edge) if rng.random() < 0.2 else edge
+        for edge, each in zip(said, over, strict=True)
+    ]
     said = [f"{edge} cuts below 5%" if edge.startswith("inf") and rng.random() < 0.2 else edge for edge in said]
     frozen = ["stays frozen"] * (rng.random() < 0.2)
-    return [f"skill {name} is {function}", *(f"reads {reading}" for reading in reads), *said, *frozen]
+    chooses = ["chooses one"] * (bool(targets) and rng.random() < 0.3)
+    return [f"skill {name} is {function}", *(f"reads {reading}" for reading in reads), *said, *chooses, *frozen]
 
 
 def _like(rng: Random, owner: list[str]) -> list[str]:
@@ -326,7 +337,7 @@ def _in_scene(rng: Random, task: list[str]) -> list[list[str]]:
     (header, phrase), facts = task[0].split(" in "), task[1:]
     name = f"{header.split()[1].replace('+', '')}World"
     of_world = [fact for fact in facts if fact.startswith(("contains", "starts", "varies", "fails"))]
-    things = [fact for fact in of_world if " of crate" not in fact and rng.random() < 0.7]
+    things = [fact for fact in of_world if not re.search(" of (crate|cat)", fact) and rng.random() < 0.7]
     scene = [f"scene {name} is {phrase}", *things]
     other = [f"scene {name}More is like {name}", *(thing for thing in things if rng.random() < 0.2)]
     is_like = rng.random() < 0.3

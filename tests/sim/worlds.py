@@ -1,7 +1,7 @@
 """Hypothesis strategies for whole worlds: any hierarchy in any body, among anything, judged in any way."""
 
 from dataclasses import fields, replace
-from math import pi
+from math import inf, pi
 
 from hypothesis import strategies as st
 from mindrun.graph.graph import Actuator, End, Failure, Graph, Lesson, Program, Reward, Start, Task, Thing, Variation
@@ -29,6 +29,7 @@ PLACES = st.tuples(st.sampled_from([-6.0, 0.0, 4.5]), st.sampled_from([-4.0, 0.5
 WAYS = [((-9.0, -5.0), (-2.0, -5.0)), ((6.0, 6.0), (6.0, -3.0), (9.5, -3.0)), ((3.0, 7.0), (-3.0, 7.0))]
 PATHS = [((-5.0, 0.0), (5.0, 2.0)), ((0.0, 0.0), (3.0, 0.0), (3.0, -6.0))]
 SPEEDS, TURNINGS = st.sampled_from([0.5, 3.0, 20.0, 300.0]), st.sampled_from([0.0, 1.5, 10.0])
+WITHIN = st.sampled_from([inf, inf, 0.5, 6.0])  # from how far away a walker seeks or flees
 MAZES = [("#..#", "....", "##.."), ("#.#", "...", "###", "..#")]
 NEUTRAL = st.sampled_from([0.0, 0.4, 0.5, 0.9, 1.0])
 OUTCOMES = st.sampled_from(["stays", "moves", "moves", "vanishes"])
@@ -61,6 +62,8 @@ RANGES = {  # of what varies
     "density": st.sampled_from([(0.1, 3.0), (1.0, 1.5)]),
     "friction": st.sampled_from([(0.0, 1.0), (0.3, 0.3)]),
     "damping": st.just((0.0, 9.0)),
+    "speed": st.sampled_from([(0.5, 20.0), (3.0, 3.0)]),
+    "turning": st.just((0.0, 10.0)),
     "linear_damping": st.just((0.0, 9.0)),
     "angular_damping": st.just((1.0, 30.0)),
 }
@@ -185,7 +188,10 @@ def _things(draw: st.DrawFn, scene: SceneKind) -> tuple[Thing, ...]:
             at = (at,) if at else ()
             count = 1 if at else draw(st.sampled_from([1, 1, 2, 3]))
             placed = {"away": UNSAID if at else draw(AWAY), "at": at, "count": count}
-            if kind is Walker and draw(st.booleans()):
+            if kind is Walker and draw(st.integers(0, 2)) == 0:
+                aims = st.sampled_from(["robot", *(thing.name for thing in things), "cat"])
+                drawn |= {draw(st.sampled_from(["seeks", "flees"])): draw(aims), "within": draw(WITHIN)}
+            elif kind is Walker and draw(st.booleans()):
                 placed = {"along": draw(st.sampled_from(PATHS)), "count": draw(st.sampled_from([1, 2]))}
             things.append(Thing(name, kind(size=draw(size), **placed, **outcomes, **drawn)))
     grid = isinstance(scene, Arena) and draw(st.booleans())

@@ -124,7 +124,7 @@ def _is_so(declaration: Declaration, form: type[Stays] | type[Chooses], findings
     is_idle = form is Chooses and declaration.whole and not of_form(declaration.facts, Influences)
     for fact in right if is_idle else ():
         hint = "Add influences and a skill, twice or more, or leave the line out."
-        findings.error("idle-skill", fact.span, f"{declaration.header.name.text} has no influence to choose.", hint)
+        findings.error("nothing-to-choose", fact.span, f"{declaration.header.name.text} has no influence to choose.", hint)
     return bool(said_once(right, lambda _: f"The skill already {verb}s {word}.", findings, ONE)) and not is_idle
 
 

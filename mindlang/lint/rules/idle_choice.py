@@ -1,4 +1,4 @@
-"""A choice that is none: of one subskill alone, or of one that another always beats.
+"""A choice that is none: of one subskill alone, or of one that never is greatest.
 
 A skill that `chooses one` sends 1 over the greatest of its influences and 0 over all others. Where it has one line that
 is always the greatest, and where a value never is, the skill behind it never acts, or always.
