@@ -1,10 +1,9 @@
 """Arguments of kinds and options of drivers in words: what each takes, and its default."""
 
-from math import inf
 from typing import Any
 
 from mindrun.kinds.registry import Argument
-from mindrun.numbers.quantity import UNSAID, Quantity, Reference, Span
+from mindrun.numbers.quantity import FAR, UNSAID, Quantity, Reference, Span
 from mindrun.robot.driver_support import ADDRESS
 
 from mindlang.compiler.diagnostic import a, listed
@@ -72,7 +71,7 @@ def _default(asked: Asked) -> str:
             return str(flag).lower()
         case None | () | "":
             return "none"
-        case float(number) if number == inf:
+        case float(number) if number == FAR:
             return "however far"
         case Span() as span if span == UNSAID:
             return "as the scene says"

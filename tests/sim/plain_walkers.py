@@ -44,7 +44,7 @@ class PlainWalkers:
         ways = [(x - place[0], y - place[1]) for x, y in others]
         ways = [(math.sqrt(dx * dx + dy * dy), dx, dy) for dx, dy in ways]
         far, dx, dy = min(ways, key=lambda way: way[0], default=(math.inf, 0.0, 0.0))
-        if far > kind.within or far == math.inf:
+        if far > kind.within:
             return False
         if far == 0:
             return bool(kind.seeks)

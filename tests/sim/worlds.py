@@ -1,7 +1,7 @@
 """Hypothesis strategies for whole worlds: any hierarchy in any body, among anything, judged in any way."""
 
 from dataclasses import fields, replace
-from math import inf, pi
+from math import pi
 
 from hypothesis import strategies as st
 from mindrun.graph.graph import Actuator, End, Failure, Graph, Lesson, Program, Reward, Start, Task, Thing, Variation
@@ -18,7 +18,7 @@ from mindrun.kinds.things.obstacle import Obstacle
 from mindrun.kinds.things.thing import Ball, Item, LooseBox, Power, Zone
 from mindrun.kinds.things.walker import Walker
 from mindrun.kinds.things.wall import Wall
-from mindrun.numbers.quantity import UNSAID, Span
+from mindrun.numbers.quantity import FAR, UNSAID, Span
 
 from tests.hierarchies import combined, conditions, random_graph
 
@@ -29,7 +29,7 @@ PLACES = st.tuples(st.sampled_from([-6.0, 0.0, 4.5]), st.sampled_from([-4.0, 0.5
 WAYS = [((-9.0, -5.0), (-2.0, -5.0)), ((6.0, 6.0), (6.0, -3.0), (9.5, -3.0)), ((3.0, 7.0), (-3.0, 7.0))]
 PATHS = [((-5.0, 0.0), (5.0, 2.0)), ((0.0, 0.0), (3.0, 0.0), (3.0, -6.0))]
 SPEEDS, TURNINGS = st.sampled_from([0.5, 3.0, 20.0, 300.0]), st.sampled_from([0.0, 1.5, 10.0])
-WITHIN = st.sampled_from([inf, inf, 0.5, 6.0])  # from how far away a walker seeks or flees
+WITHIN = st.sampled_from([FAR, FAR, 0.5, 6.0])  # from how far away a walker seeks or flees
 MAZES = [("#..#", "....", "##.."), ("#.#", "...", "###", "..#")]
 NEUTRAL = st.sampled_from([0.0, 0.4, 0.5, 0.9, 1.0])
 OUTCOMES = st.sampled_from(["stays", "moves", "moves", "vanishes"])

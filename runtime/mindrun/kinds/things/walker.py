@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 from itertools import pairwise
-from math import inf, pi
+from math import pi
 from typing import Annotated
 
 from mindrun.kinds.registry import kind, left_out
@@ -10,7 +10,7 @@ from mindrun.kinds.scenes.scene import SceneKind
 from mindrun.kinds.things.thing import (
     DEFAULT_DISTANCE, DEFAULT_SIZE, OUTCOME, STAYS, AboutThing, Outcome, ThingKind, ThingMistake,
 )  # fmt: skip
-from mindrun.numbers.quantity import ANGLE, COORDINATE, COUNT, LENGTH, POSITIVE, THING, Place, Span
+from mindrun.numbers.quantity import ANGLE, COORDINATE, COUNT, DISTANCE, FAR, LENGTH, POSITIVE, THING, Place, Span
 
 SPEED = replace(POSITIVE, name="a speed in world units per second", high=1e4)
 TURNING = replace(ANGLE, low=0.0)
@@ -38,7 +38,7 @@ class Walker(ThingKind, AboutThing):
     reached: Annotated[Outcome, OUTCOME] = STAYS
     seeks: Annotated[str, THING] = left_out("")
     flees: Annotated[str, THING] = left_out("")
-    within: Annotated[float, LENGTH] = left_out(inf)
+    within: Annotated[float, DISTANCE] = left_out(FAR)
 
     varying = ("speed", "turning")
     is_round = True
@@ -67,7 +67,7 @@ class Walker(ThingKind, AboutThing):
         if len([each for each in (self.along, self.seeks, self.flees) if each]) > 1:
             hint = "Leave all but one of along, seeks and flees out."
             return ThingMistake("two-aims", "It can go one way at a time.", hint)
-        if self.within != inf and not self.thing:
+        if self.within != FAR and not self.thing:
             hint = "Write seeks or flees, and of what: flees robot within 10."
             return ThingMistake("aimless-distance", "A distance says when it seeks or flees, and it does neither.", hint)
         if not self.along:

@@ -228,7 +228,7 @@ def chase(tables, world, i, x, y, lane):
         away = np.sqrt((its_x - x) * (its_x - x) + (its_y - y) * (its_y - y))
         if other != walker.thing and away < far:  # one that has vanished is no number away
             dx, dy, far = its_x - x, its_y - y, away
-    if not far <= walker.within or not far < np.inf:
+    if not far <= walker.within:
         return False
     if far == 0.0:
         return walker.aim > 0  # there already, or away from it in no direction
