@@ -283,7 +283,9 @@ def _skills(draw: st.DrawFn, name: str, width: int, targets: list[tuple[str, int
         gate = draw(_gates(inputs)) if draw(st.integers(0, 3)) == 0 else None
         cuts = draw(st.sampled_from([0.0, 0.05, 0.5])) if to == "skill" else 0.0
         sinks = [target for target in targets if target[0] != "skill"]
-        over = draw(st.sets(st.sampled_from(sinks), max_size=2)) if to == "skill" and draw(st.integers(0, 4)) == 0 else ()
+        over = (
+            draw(st.sets(st.sampled_from(sinks), max_size=2)) if to == "skill" and draw(st.integers(0, 4)) == 0 else ()
+        )
         edges.append(replace(edge, gate=gate, cuts=cuts, over=tuple(sorted(over))))
     called = Procedure(f"own.send{outputs}") if function is CALLED else function
     chooses = any(edge.to == "skill" for edge in edges) and draw(st.integers(0, 3)) == 0

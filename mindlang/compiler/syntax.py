@@ -13,8 +13,8 @@ PARTS = ("sensor", "actuator", "memory")
 WHOLES = ("body", "skill", "curriculum", "scene")
 NOUNS = (*PARTS, *WHOLES, "task")
 VERBS = (
-    "reads", "drives", "influences", "chooses", "stays", "contains", "starts", "varies", "fails", "lasts", "ends", "succeeds",
-    "rewards", "counts", "teaches",
+    "reads", "drives", "influences", "chooses", "stays", "contains", "starts", "varies", "fails", "lasts", "ends",
+    "succeeds", "rewards", "counts", "teaches",
 )  # fmt: skip
 SETTINGS = ("use", "master", "tick", "mind", "unit", "number")
 
@@ -308,8 +308,8 @@ class Teaches(Struct, frozen=True):
 
 
 Fact = (
-    Reads | Drives | Influences | Chooses | Stays | Contains | Starts | Varies | Fails | Lasts | Ends | Succeeds | Rewards
-    | Counts | Teaches
+    Reads | Drives | Influences | Chooses | Stays | Contains | Starts | Varies | Fails | Lasts | Ends | Succeeds
+    | Rewards | Counts | Teaches
 )  # fmt: skip
 
 

@@ -97,7 +97,10 @@ class Renaming:
         for subject, value in world.facts.items():
             noun, space, own = subject.partition(" ")
             now[f"{noun}{space}{self.name(own, noun)}"] = (
-                {key: _argument(part, meaning_of(NOUNS.get(noun, noun), value["is"], key), self.name) for key, part in value.items()}
+                {
+                    key: _argument(part, meaning_of(NOUNS.get(noun, noun), value["is"], key), self.name)
+                    for key, part in value.items()
+                }
                 if noun in OF_KINDS
                 else _mapped(value, (noun,), text)
             )

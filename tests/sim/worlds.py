@@ -2,6 +2,7 @@
 
 from dataclasses import fields, replace
 from math import pi
+from typing import Any
 
 from hypothesis import strategies as st
 from mindrun.graph.graph import Actuator, End, Failure, Graph, Lesson, Program, Reward, Start, Task, Thing, Variation
@@ -166,6 +167,18 @@ def learner_kinds(draw: st.DrawFn) -> Learner:
 
 
 @st.composite
+def _goings(draw: st.DrawFn, placed: dict[str, Any], names: list[str]) -> dict[str, Any]:
+    """How a walker goes: along a way, after one of these names or away from it, or anywhere from where it is placed."""
+    match draw(st.sampled_from(["along", "seeks", "flees", ""])):
+        case "along":
+            return {"along": draw(st.sampled_from(PATHS)), "count": draw(st.sampled_from([1, 2]))}
+        case "":
+            return placed
+        case aim:
+            return {**placed, aim: draw(st.sampled_from(names)), "within": draw(WITHIN)}
+
+
+@st.composite
 def _things(draw: st.DrawFn, scene: SceneKind) -> tuple[Thing, ...]:
     """Items, zones and powers, some of them not there; obstacles on a grid or loose."""
     things = []
@@ -188,11 +201,8 @@ def _things(draw: st.DrawFn, scene: SceneKind) -> tuple[Thing, ...]:
             at = (at,) if at else ()
             count = 1 if at else draw(st.sampled_from([1, 1, 2, 3]))
             placed = {"away": UNSAID if at else draw(AWAY), "at": at, "count": count}
-            if kind is Walker and draw(st.integers(0, 2)) == 0:
-                aims = st.sampled_from(["robot", *(thing.name for thing in things), "cat"])
-                drawn |= {draw(st.sampled_from(["seeks", "flees"])): draw(aims), "within": draw(WITHIN)}
-            elif kind is Walker and draw(st.booleans()):
-                placed = {"along": draw(st.sampled_from(PATHS)), "count": draw(st.sampled_from([1, 2]))}
+            if kind is Walker:
+                placed = draw(_goings(placed, ["robot", "cat", *(thing.name for thing in things)]))
             things.append(Thing(name, kind(size=draw(size), **placed, **outcomes, **drawn)))
     grid = isinstance(scene, Arena) and draw(st.booleans())
     sizes = draw(st.sampled_from([Span(1.0, 1.0), Span(1.0, 3.0)]))

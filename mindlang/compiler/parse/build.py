@@ -18,10 +18,10 @@ _NUMBER = re.compile(r"([+-]?)[ \t]*([0-9./]+)")
 # Rules whose parts are the fields of a struct in their order, but for the span; the last may be missing.
 _FORMS: Mapping[str, type[Struct]] = {
     "master": syntax.Master, "tick": syntax.Tick, "mind": syntax.Version, "unit": syntax.Unit, "number": syntax.Number,
-    "reads": syntax.Reads, "gate": syntax.Gate, "chooses": syntax.Chooses, "stays": syntax.Stays, "contains": syntax.Contains,
-    "varies": syntax.Varies, "fails": syntax.Fails, "lasts": syntax.Lasts, "counts": syntax.Counts,
-    "transmission": syntax.Transmits, "needs": syntax.Needs, "each": syntax.Each, "when": syntax.When,
-    "comparison": syntax.Comparison, "argument": Argument, "setting": Argument, "origin": Argument,
+    "reads": syntax.Reads, "gate": syntax.Gate, "chooses": syntax.Chooses, "stays": syntax.Stays,
+    "contains": syntax.Contains, "varies": syntax.Varies, "fails": syntax.Fails, "lasts": syntax.Lasts,
+    "counts": syntax.Counts, "transmission": syntax.Transmits, "needs": syntax.Needs, "each": syntax.Each,
+    "when": syntax.When, "comparison": syntax.Comparison, "argument": Argument, "setting": Argument, "origin": Argument,
 }  # fmt: skip
 _OUTCOME = {"times": Amount, "event": Phrase, "when": syntax.When}
 # Rules any of whose parts may be missing: which field a part is, its type says.

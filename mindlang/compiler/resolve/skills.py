@@ -19,7 +19,16 @@ from mindlang.compiler.resolve.kinds import Scope, make_kind
 from mindlang.compiler.resolve.parts import refuse_facts, said_once
 from mindlang.compiler.resolve.quantities import convert
 from mindlang.compiler.syntax import (
-    Chooses, Declaration, Drives, Influences, Name, Reads, Sends, Stays, Term, of_form, rebuilt,
+    Chooses,
+    Declaration,
+    Drives,
+    Influences,
+    Reads,
+    Sends,
+    Stays,
+    Term,
+    of_form,
+    rebuilt,
 )  # fmt: skip
 
 ONE = "Leave one of the two lines out."
@@ -124,7 +133,9 @@ def _is_so(declaration: Declaration, form: type[Stays] | type[Chooses], findings
     is_idle = form is Chooses and declaration.whole and not of_form(declaration.facts, Influences)
     for fact in right if is_idle else ():
         hint = "Add influences and a skill, twice or more, or leave the line out."
-        findings.error("nothing-to-choose", fact.span, f"{declaration.header.name.text} has no influence to choose.", hint)
+        findings.error(
+            "nothing-to-choose", fact.span, f"{declaration.header.name.text} has no influence to choose.", hint
+        )
     return bool(said_once(right, lambda _: f"The skill already {verb}s {word}.", findings, ONE)) and not is_idle
 
 

@@ -46,7 +46,6 @@ def build(
     measures, changes = task_rows.measure_rows(task)
     events, patches, arrivals = task_rows.event_rows(task)
     walls = [wall for thing in task.things for wall in thing.kind.walls]
-    scopes = len(influence_scopes(graph).without)
     tables = Tables(
         **sensors, **skills, **task_rows.walker_rows(task, graph.tick, parameters),
         world=task_rows.world_row(graph, task, parameters, len(sensors["ray_row"]), used + aside, master),
@@ -59,7 +58,8 @@ def build(
     )  # fmt: skip
     return tables, {
         **remembered, **most, "readings": max(1, graph.width), "genome": genome_length(graph, learners),
-        "skills": len(graph.skills), "scoped": (scopes - 1) * len(graph.skills), "depth": programs.depth, "delays": delays, "changes": changes,
+        "skills": len(graph.skills), "scoped": (len(influence_scopes(graph).without) - 1) * len(graph.skills),
+        "depth": programs.depth, "delays": delays, "changes": changes,
         "patches": patches, "arrivals": arrivals, "boxes": sum(each.kind.obstacles(task.scene) for each in task.things),
     }  # fmt: skip
 

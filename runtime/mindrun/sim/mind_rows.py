@@ -61,8 +61,7 @@ def skill_rows(
     numbers, scopes = graph.skill_numbers, influence_scopes(graph)
     rows, edges, inputs = list[Row](), list[Row](), list[int]()
     shared, places = _shared_weights([skill for skill in reached if skill.owner not in starts], weights)
-    most_inputs = scratch = 1
-    state = 0
+    most_inputs, scratch, state = 1, 1, 0
     for skill in reached:
         function, count, outputs = skill.function, len(skill.inputs), skill.outputs
         own, remembered = skill.owner in starts, function.state_length(count, outputs)
@@ -76,17 +75,14 @@ def skill_rows(
         rows.append(row)
         inputs.extend(skill.inputs)
         for edge in skill.edges:
-            scoped = [(number - 1) * len(numbers) for number in scopes.counting(edge) if number and edge.to == "skill"]
-            scope = (scopes.of.get((edge.to, edge.target), 0) - 1) * len(numbers)
-            within = {"scope": max(-1, scope), "scoped": len(inputs), "scopes": len(scoped)}
-            edges.append({**_edge(graph, edge, codes), **within})
-            inputs.extend(scoped)
+            row, further = _scopes(edge, scopes, len(numbers))
+            edges.append({**_edge(graph, edge, codes), **row, "scoped": len(inputs)})
+            inputs.extend(further)
         most_inputs = max(most_inputs, count + remembered)
         scratch = max(scratch, function.scratch(count, outputs))
         state += remembered
-    all_inputs = np.array(inputs, np.int64)
-    tables = {"skills": records(rows, SKILL), "edges": records(edges, EDGE), "inputs": all_inputs, "weights": shared}
-    return tables, {"inputs": most_inputs, "scratch": scratch, "recurrent": state}
+    tables = {"skills": records(rows, SKILL), "edges": records(edges, EDGE), "inputs": np.array(inputs, np.int64)}
+    return {**tables, "weights": shared}, {"inputs": most_inputs, "scratch": scratch, "recurrent": state}
 
 
 def _shared_weights(skills: Sequence[Skill], weights: Mapping[str, Floats]) -> tuple[Floats, dict[str, int]]:
@@ -97,6 +93,13 @@ def _shared_weights(skills: Sequence[Skill], weights: Mapping[str, Floats]) -> t
     each = [weights_of(skill, weights) for skill in first.values()]
     begins = np.cumsum([0, *map(len, each)]).tolist()
     return np.concatenate([NO_WEIGHTS, *each]), dict(zip(first, begins, strict=False))
+
+
+def _scopes(edge: Edge, scopes: Scopes, skills: int) -> tuple[Row, list[int]]:
+    """The scope that weighs a command, and those in which influence counts, too, all as rows of `mind.scoped`."""
+    further = [(number - 1) * skills for number in scopes.counting(edge) if number and edge.to == "skill"]
+    scope = max(-1, (scopes.of.get((edge.to, edge.target), 0) - 1) * skills)
+    return {"scope": scope, "scopes": len(further)}, further
 
 
 def _edge(graph: Graph, edge: Edge, codes: Programs) -> Row:

@@ -133,7 +133,7 @@ def walker_rows(task: Task, dt: float, parameters: Parameters) -> dict[str, Arra
 
     A direction that drifts by up to √(3·dt)·turning either way in each tick has drifted by `turning` in a second, in
     the root of the mean square. The second of several on one way begins at its second place. The `aim` is 1 of what
-    seeks and −1 of what flees the nearest of `afters` things, from the thing `after` on, or with none of them the robot.
+    seeks, −1 of what flees: the nearest of `afters` things from the thing `after` on, or the robot with none of them.
     """
     rows: list[Row] = []
     ways: list[tuple[float, float]] = []

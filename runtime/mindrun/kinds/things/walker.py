@@ -8,7 +8,14 @@ from typing import Annotated
 from mindrun.kinds.registry import kind, left_out
 from mindrun.kinds.scenes.scene import SceneKind
 from mindrun.kinds.things.thing import (
-    DEFAULT_DISTANCE, DEFAULT_SIZE, OUTCOME, STAYS, AboutThing, Outcome, ThingKind, ThingMistake,
+    DEFAULT_DISTANCE,
+    DEFAULT_SIZE,
+    OUTCOME,
+    STAYS,
+    AboutThing,
+    Outcome,
+    ThingKind,
+    ThingMistake,
 )  # fmt: skip
 from mindrun.numbers.quantity import ANGLE, COORDINATE, COUNT, DISTANCE, FAR, LENGTH, POSITIVE, THING, Place, Span
 
@@ -69,7 +76,9 @@ class Walker(ThingKind, AboutThing):
             return ThingMistake("two-aims", "It can go one way at a time.", hint)
         if self.within != FAR and not self.thing:
             hint = "Write seeks or flees, and of what: flees robot within 10."
-            return ThingMistake("aimless-distance", "A distance says when it seeks or flees, and it does neither.", hint)
+            return ThingMistake(
+                "aimless-distance", "A distance says when it seeks or flees, and it does neither.", hint
+            )
         if not self.along:
             return ThingKind.mistake(self, scene)
         if self.at or self.away != DEFAULT_DISTANCE:
