@@ -72,7 +72,9 @@ def _edges(skill: model.Skill, numbers: Mapping[str, Mapping[str, int]], places:
             otherwise = _program(edge.gate.otherwise, places) if edge.gate.otherwise else None
             gate = graph.Gate(lower_condition(edge.gate.when, places), otherwise)
         output, value = (None, _program(edge.at, places)) if edge.at else (next(outputs), ())
-        over = [(noun, numbers[noun][name]) for name in edge.over for noun in DRIVABLE_NOUNS if name in numbers[noun]]
+        over: list[graph.Sink] = [
+            (noun, numbers[noun][name]) for name in edge.over for noun in DRIVABLE_NOUNS if name in numbers[noun]
+        ]
         yield graph.Edge(edge.to, numbers[edge.to][edge.target], output, value, gate, edge.cuts, tuple(sorted(over)))
 
 

@@ -102,7 +102,8 @@ class _Rests:
 
     def narrows(self, skill: Skill, edge: Edge, sends: EdgeRange) -> bool:
         """True if an edge is learnt, and its weights narrow what it sends, or ensure that a command is a number."""
-        narrows = sends.low > 0 or sends.high < 1 or (edge.to == "actuator" and sends.sure)
+        is_number = sends.sure and (edge.to == "actuator" or skill.chooses)
+        narrows = sends.low > 0 or sends.high < 1 or is_number
         return edge.output is not None and skill.owner in self._weights and narrows
 
     def of_actuator(self, actuator: int, is_joint: bool) -> tuple[str, ...]:

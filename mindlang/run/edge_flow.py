@@ -8,7 +8,8 @@ from typing import Protocol
 
 import numpy as np
 from mindrun.engine.think import Hierarchy, ReadySkill, hierarchy, values
-from mindrun.graph.graph import Graph, Sink
+from mindrun.graph.graph import Graph
+from mindrun.graph.graph import Sink as Sink
 from mindrun.graph.policy import Policy
 from mindrun.graph.scopes import influence_scopes
 from mindrun.kinds.functions.function import Stateful

@@ -100,6 +100,7 @@ def _repeated(fact: Reads | Drives | Influences) -> str:
 def _edges(declaration: Declaration, names: Names, visible: Visible, findings: Findings) -> tuple[model.Edge, ...]:
     edges: list[model.Edge] = []
     to: Receiver | None
+    over: tuple[str, ...]
     for fact in (fact for fact in declaration.facts if isinstance(fact, Drives | Influences)):
         cuts, over = None, ()
         if isinstance(fact, Drives):

@@ -3,7 +3,17 @@
 from collections.abc import Iterable, Iterator
 
 from mindlang.compiler.splice import Splice
-from mindlang.compiler.syntax import Chooses, Declaration, Drives, Influences, Phrase, Reads, expressions_in, of_form
+from mindlang.compiler.syntax import (
+    Chooses,
+    Declaration,
+    Drives,
+    Fact,
+    Influences,
+    Phrase,
+    Reads,
+    expressions_in,
+    of_form,
+)
 from mindlang.editing import insertion
 from mindlang.editing.project import EditError, MindChange, Project
 
@@ -29,7 +39,8 @@ def inline(project: Project, skill: str) -> MindChange:
     if not parents:
         message = f"No skill influences {skill}: nothing can take its place."
         raise EditError(message, "", declaration.header.span)
-    for line in (*of_form(declaration.facts, Chooses), *_scoped(parents, skill)):
+    lines: list[Fact] = [*of_form(declaration.facts, Chooses), *_scoped(parents, skill)]
+    for line in lines:
         message = f"{skill} says more of its influence than lines of others could."
         raise EditError(message, "Take this out first.", line.span)
     splices = (splice for parent in parents for splice in _taken_over(parent, declaration))
