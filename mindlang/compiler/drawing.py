@@ -71,7 +71,7 @@ def dot(mind: Mind) -> str:
         here = _id("skill", skill.name)
         lines += [f"  {_id('input', name)} -> {here} [style=dotted]" for name in skill.reads]
         for edge in skill.edges:
-            said = text_after_name(edge.fact).removeprefix(" at ")
+            said = text_after_name(edge.fact).removeprefix(" at ").strip()
             label = f" [label={_quoted(said)}]" if said else ""
             lines.append(f"  {here} -> {_id('input' if edge.to == 'memory' else edge.to, edge.target)}{label}")
     return "\n".join([*lines, "}"])

@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 from mindlang.proofs.branch_and_bound import EdgeRange, by_itself, halves, ranges, sway_of
 from mindlang.proofs.interval import Boxes, SentBounds, Singles, join_boxes, select_boxes, sent_bounds, whole_box
 
+Bools = NDArray[np.bool_]
 MAX_SKILL_BOXES, MAX_TOTAL_BOXES = 20_000, 500_000  # for one skill, for all of them
 ROUNDING_MARGIN = 2.0**-22
 MAX_BOXES, MIN_BOXES, MAX_BOX_SKILLS = 8192, 16, 100_000  # of all readings: boxes, and boxes times skills
@@ -123,13 +124,13 @@ def influence_bounds(graph: Graph, boxes: int, sends: Callable[[Skill], SentBoun
     return found
 
 
-def _choices(skill: Skill, sent: SentBounds) -> list[tuple[NDArray[np.bool_], SentBounds]]:
+def _choices(skill: Skill, sent: SentBounds) -> list[tuple[Bools, SentBounds]]:
     """The choices of a skill: the boxes in which it can make each, and what it sends then. One is to choose nothing."""
     influences = [number for number, edge in enumerate(skill.edges) if edge.to == "skill"]
-    nothing = ~sent.sure[:, influences].any(axis=1)
-    found = []
+    nothing: Bools = ~sent.sure[:, influences].any(axis=1)
+    found: list[tuple[Bools, SentBounds]] = []
     for chosen in [*influences, None]:
-        low, high, sure = (bound.copy() for bound in sent)
+        low, high, sure = sent.low.copy(), sent.high.copy(), sent.sure.copy()
         low[:, influences] = high[:, influences] = 0
         if chosen is not None:
             low[:, chosen], high[:, chosen], sure[:, chosen] = 1, 1, True
