@@ -21,7 +21,7 @@ from mindrun.kinds.environment import module_beside
 from mindrun.kinds.functions.procedure import module_source
 from mindrun.kinds.registry import arguments, kinds, names
 from mindrun.numbers.expression import TRUTHS, fold, leaves
-from mindrun.numbers.quantity import EXPRESSION, FAR, UNSAID, Quantity, Reference
+from mindrun.numbers.quantity import EXPRESSION, FARTHEST_UNITS, UNSAID, Quantity, Reference
 
 from mindlang.compiler.drawing import phrase
 from mindlang.compiler.hierarchy import with_descendants
@@ -31,7 +31,13 @@ from mindlang.lock.training_world import LessonKey, TrainingWorld
 PRECEDENCE = {"or": -2, "and": -1, **dict.fromkeys(TRUTHS[:4], 0), "+": 1, "-": 1, "*": 2, "/": 2}
 NEGATION_PRECEDENCE, EXTREME_PRECEDENCE, ATOM_PRECEDENCE = 3, 4, 5
 
-UNSAID_VALUES: tuple[Any, ...] = ([], "", None, FAR, {"by": None, "first": UNSAID.first, "last": UNSAID.last})
+UNSAID_VALUES: tuple[Any, ...] = (
+    [],
+    "",
+    None,
+    FARTHEST_UNITS,
+    {"by": None, "first": UNSAID.first, "last": UNSAID.last},
+)
 
 Leaf = Callable[[str, float], str]
 ExpressionPart = tuple[str, int]  # of an expression: its text, and how tightly it binds

@@ -127,7 +127,7 @@ def influence_bounds(graph: Graph, boxes: int, sends: Callable[[Skill], SentBoun
 def _choices(skill: Skill, sent: SentBounds) -> list[tuple[Bools, SentBounds]]:
     """The choices of a skill: the boxes in which it can make each, and what it sends then. One is to choose nothing."""
     influences = [number for number, edge in enumerate(skill.edges) if edge.to == "skill"]
-    nothing: Bools = ~sent.sure[:, influences].any(axis=1)
+    nothing: Bools = ~np.any(sent.sure[:, influences], axis=1)
     found: list[tuple[Bools, SentBounds]] = []
     for chosen in [*influences, None]:
         low, high, sure = sent.low.copy(), sent.high.copy(), sent.sure.copy()

@@ -19,7 +19,7 @@ from mindrun.kinds.things.obstacle import Obstacle
 from mindrun.kinds.things.thing import Ball, Item, LooseBox, Power, Zone
 from mindrun.kinds.things.walker import Walker
 from mindrun.kinds.things.wall import Wall
-from mindrun.numbers.quantity import FAR, UNSAID, Span
+from mindrun.numbers.quantity import FARTHEST_UNITS, UNSAID, Span
 
 from tests.hierarchies import combined, conditions, random_graph
 
@@ -30,7 +30,7 @@ PLACES = st.tuples(st.sampled_from([-6.0, 0.0, 4.5]), st.sampled_from([-4.0, 0.5
 WAYS = [((-9.0, -5.0), (-2.0, -5.0)), ((6.0, 6.0), (6.0, -3.0), (9.5, -3.0)), ((3.0, 7.0), (-3.0, 7.0))]
 PATHS = [((-5.0, 0.0), (5.0, 2.0)), ((0.0, 0.0), (3.0, 0.0), (3.0, -6.0))]
 SPEEDS, TURNINGS = st.sampled_from([0.5, 3.0, 20.0, 300.0]), st.sampled_from([0.0, 1.5, 10.0])
-WITHIN = st.sampled_from([FAR, FAR, 0.5, 6.0])  # from how far away a walker seeks or flees
+WITHIN = st.sampled_from([FARTHEST_UNITS, FARTHEST_UNITS, 0.5, 6.0])  # from how far away a walker seeks or flees
 MAZES = [("#..#", "....", "##.."), ("#.#", "...", "###", "..#")]
 NEUTRAL = st.sampled_from([0.0, 0.4, 0.5, 0.9, 1.0])
 OUTCOMES = st.sampled_from(["stays", "moves", "moves", "vanishes"])

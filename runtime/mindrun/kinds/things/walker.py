@@ -17,7 +17,18 @@ from mindrun.kinds.things.thing import (
     ThingKind,
     ThingMistake,
 )  # fmt: skip
-from mindrun.numbers.quantity import ANGLE, COORDINATE, COUNT, DISTANCE, FAR, LENGTH, POSITIVE, THING, Place, Span
+from mindrun.numbers.quantity import (
+    ANGLE,
+    COORDINATE,
+    COUNT,
+    DISTANCE,
+    FARTHEST_UNITS,
+    LENGTH,
+    POSITIVE,
+    THING,
+    Place,
+    Span,
+)
 
 SPEED = replace(POSITIVE, name="a speed in world units per second", high=1e4)
 TURNING = replace(ANGLE, low=0.0)
@@ -45,7 +56,7 @@ class Walker(ThingKind, AboutThing):
     reached: Annotated[Outcome, OUTCOME] = STAYS
     seeks: Annotated[str, THING] = left_out("")
     flees: Annotated[str, THING] = left_out("")
-    within: Annotated[float, DISTANCE] = left_out(FAR)
+    within: Annotated[float, DISTANCE] = left_out(FARTHEST_UNITS)
 
     varying = ("speed", "turning")
     is_round = True
@@ -74,7 +85,7 @@ class Walker(ThingKind, AboutThing):
         if len([each for each in (self.along, self.seeks, self.flees) if each]) > 1:
             hint = "Leave all but one of along, seeks and flees out."
             return ThingMistake("two-aims", "It can go one way at a time.", hint)
-        if self.within != FAR and not self.thing:
+        if self.within != FARTHEST_UNITS and not self.thing:
             hint = "Write seeks or flees, and of what: flees robot within 10."
             return ThingMistake(
                 "aimless-distance", "A distance says when it seeks or flees, and it does neither.", hint
